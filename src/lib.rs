@@ -33,61 +33,17 @@
 //! `examples/02_planar_leg.rs`.
 #![cfg_attr(test, allow(missing_docs))]
 
-pub mod error;
-pub mod escape;
-pub mod files;
-pub mod limits;
-pub mod watch;
+pub use groebot_algebra::{Error, ErrorKind, Result, Watch};
+pub use groebot_algebra::{error, escape, groebner, limits, number, poly, real, roots, watch};
+pub use groebot_humanoid::{gait, nav, sim, task, view};
+pub use groebot_ik::{codegen, derive, folder, reach, solver, witness};
+pub use groebot_robot::{control, document, dynamics, files, kinematics, model, motion, spatial};
 
-pub mod number;
-pub mod poly;
-
-pub mod groebner;
-pub mod roots;
-
-pub mod real;
-
-pub mod document;
-
-pub mod spatial;
-
-pub mod model;
-
-pub mod kinematics;
-
-pub mod dynamics;
-
-pub mod control;
-
-mod drawing;
-
-pub mod solver;
-
-pub mod reach;
-
-pub mod motion;
-
-pub mod gait;
-
-pub mod nav;
-
-pub mod task;
-
-pub mod view;
-
-pub mod robots;
-
-pub mod derive;
-
-pub mod codegen;
-
-pub mod sim;
-pub mod witness;
-
-pub mod folder;
+/// Robots by name: chains and descriptions, and humanoids with their walks.
+pub mod robots {
+    pub use groebot_humanoid::walkers::*;
+    pub use groebot_robot::robots::*;
+}
 
 #[cfg(feature = "cli")]
 pub mod cli;
-
-pub use error::{Error, ErrorKind, Result};
-pub use watch::Watch;

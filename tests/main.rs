@@ -3,38 +3,11 @@
 mod architecture;
 #[cfg(feature = "cli")]
 mod cli;
+#[cfg(feature = "cli")]
 mod codegen;
-mod control;
-mod corpus;
-mod derive;
-mod document;
-mod dynamics;
-mod eigenvalue;
-mod escape;
-mod files;
-mod folder;
 #[cfg(feature = "cli")]
 mod fuzz;
-mod gait;
-mod groebner;
-mod kinematics;
-mod limits;
-mod model;
-mod motion;
-mod nav;
-mod number;
-mod poly;
-mod reach;
-mod real;
-mod robots;
-mod roots;
-mod sim;
-mod solver;
-mod spatial;
-mod task;
-mod view;
-mod watch;
-mod witness;
+mod polar;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 

@@ -3,9 +3,9 @@
 use num_bigint::BigInt;
 use num_traits::{One, Pow, Signed};
 
-use crate::derive::setting::{ParameterPoly, Poly, Unknowns};
-use crate::number::{BigRational, Rationals};
-use crate::poly::{Expression, PolynomialRing};
+use groebot_algebra::number::{BigRational, Rationals};
+use groebot_algebra::poly::{Expression, PolynomialRing};
+use groebot_ik::derive::setting::{ParameterPoly, Poly, Unknowns};
 
 /// The largest power of ten that is tried.
 const MAX_POWER: u32 = 24;

@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::columns::heading;
 use super::following::{followers, leaders};
 use super::json::FORMAT;
-use crate::kinematics::{Placed, Solution};
-use crate::solver::{Joint, Program, Unit};
+use groebot_ik::solver::{Joint, Program, Unit};
+use groebot_robot::kinematics::{Placed, Solution};
 
 /// The unit of angles at the edge of the tool.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -11,10 +11,10 @@ use super::console;
 use super::output::{Force, Kind, Output};
 use super::progress::{Budget, Session};
 use super::{Outcome, basis_cover};
-use crate::document::read_bytes;
-use crate::poly::Order;
-use crate::poly::system::{Format, MAX_SYSTEM_LENGTH, PolynomialSystem, parse_order};
 use crate::{Error, ErrorKind, Result};
+use groebot_algebra::poly::Order;
+use groebot_algebra::poly::system::{Format, MAX_SYSTEM_LENGTH, PolynomialSystem, parse_order};
+use groebot_robot::document::read_bytes;
 
 const EXAMPLES: &str = "Examples:
   groebot basis cyclic5.txt                                  the reduced basis, in the order of the file

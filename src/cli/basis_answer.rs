@@ -4,13 +4,13 @@ use std::fmt;
 
 use super::basis_certificate::prove;
 use super::basis_question::Question;
-use crate::groebner::f4::MODULUS_LIMIT;
-use crate::groebner::modular::{self, Status};
-use crate::groebner::{Basis, Options, Settings, basis, basis_modulo_prime, f4_with, parametric};
-use crate::number::{BigRational, Field, Rationals, Zp};
-use crate::poly::system::Heading;
-use crate::poly::{Fraction, Fractions, Polynomial, PolynomialRing};
 use crate::{Result, Watch};
+use groebot_algebra::groebner::f4::MODULUS_LIMIT;
+use groebot_algebra::groebner::modular::{self, Status};
+use groebot_algebra::groebner::{Basis, Options, Settings, basis, basis_modulo_prime, f4_with, parametric};
+use groebot_algebra::number::{BigRational, Field, Rationals, Zp};
+use groebot_algebra::poly::system::Heading;
+use groebot_algebra::poly::{Fraction, Fractions, Polynomial, PolynomialRing};
 
 /// The most standard monomials that are counted.
 const MAX_DEGREE: usize = 1_000_000;
@@ -55,7 +55,8 @@ struct Rigour {
 }
 
 /// An engine over the field `F`.
-type Engine<F> = fn(&PolynomialRing<F>, &[Polynomial<<F as crate::number::Ring>::Element>], Rigour, &Watch) -> Found<F>;
+type Engine<F> =
+    fn(&PolynomialRing<F>, &[Polynomial<<F as groebot_algebra::number::Ring>::Element>], Rigour, &Watch) -> Found<F>;
 
 /// Computes with the engine of the system's field.
 fn compute(question: &Question, watch: &Watch) -> Result<Answer> {
@@ -137,7 +138,7 @@ impl Question {
     /// Computes the basis.
     ///
     /// # Errors
-    /// Those of [`PolynomialSystem::expand`](crate::poly::system::PolynomialSystem::expand) and of the engine; what `watch` stops with.
+    /// Those of [`PolynomialSystem::expand`](groebot_algebra::poly::system::PolynomialSystem::expand) and of the engine; what `watch` stops with.
     pub fn answer(&self, watch: &Watch) -> Result<Answer> {
         compute(self, watch)
     }

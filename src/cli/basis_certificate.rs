@@ -3,11 +3,11 @@
 use serde::Serialize;
 
 use super::basis_question::Question;
-use crate::groebner::Basis;
-use crate::groebner::verify::{Claim, verify};
-use crate::number::{Field, Ring, Style};
-use crate::poly::{Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_algebra::groebner::Basis;
+use groebot_algebra::groebner::verify::{Claim, verify};
+use groebot_algebra::number::{Field, Ring, Style};
+use groebot_algebra::poly::{Polynomial, PolynomialRing};
 
 /// The form of the file; the first had a text in place of a number.
 const FORMAT: u32 = 2;

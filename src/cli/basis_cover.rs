@@ -1,10 +1,10 @@
 //! `groebot basis --cover`: a basis at every value of the parameters, told in words.
 
-use crate::groebner::cover::{Cover, Space, check, cover};
-use crate::number::{Field, Rationals, Zp};
-use crate::poly::Fractions;
-use crate::poly::system::{Heading, PolynomialSystem};
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_algebra::groebner::cover::{Cover, Space, check, cover};
+use groebot_algebra::number::{Field, Rationals, Zp};
+use groebot_algebra::poly::Fractions;
+use groebot_algebra::poly::system::{Heading, PolynomialSystem};
 
 /// The strata of the parameter space with a basis each, proved, and a line that sums it up.
 ///

@@ -1,9 +1,9 @@
 //! What is asked of a system of polynomials ([`Question`]): which basis, in which ring, and how sure it must be.
 
-use crate::number::Rationals;
-use crate::poly::system::{Format, Heading, PolynomialSystem};
-use crate::poly::{Block, Order};
 use crate::{Error, ErrorKind, Result};
+use groebot_algebra::number::Rationals;
+use groebot_algebra::poly::system::{Format, Heading, PolynomialSystem};
+use groebot_algebra::poly::{Block, Order};
 
 /// What is asked.
 pub struct Question {

@@ -1,9 +1,9 @@
 //! What the derivation of a chain, or of chains that share actuators, found, for a person to read.
 
 use super::page::Page;
-use crate::derive::coupled::DerivedCoupled;
-use crate::derive::eigenvalue::DerivedSixAxes;
-use crate::derive::sequential::{Derived, Form};
+use groebot_ik::derive::coupled::DerivedCoupled;
+use groebot_ik::derive::eigenvalue::DerivedSixAxes;
+use groebot_ik::derive::sequential::{Derived, Form};
 
 /// Tells about each chain in the order in which they are solved.
 pub fn describe_coupled(page: &mut Page, derived: &DerivedCoupled) {

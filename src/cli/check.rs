@@ -6,13 +6,13 @@ use super::console::{self, Paint};
 use super::derive::refuse_failures;
 use super::ends::EndArguments;
 use super::{Halt, Outcome, json};
-use crate::derive::{Proved, Source};
-use crate::document::{read_text, shown};
-use crate::folder::{self, CERTIFICATE, CHECKS, Checked, Finding, Stored, Verdict};
 use crate::{Result, Watch};
+use groebot_ik::derive::{Proved, Source};
+use groebot_ik::folder::{self, CERTIFICATE, CHECKS, Checked, Finding, Stored, Verdict};
+use groebot_robot::document::{read_text, shown};
 
 /// The longest certificate that is read, in bytes.
-const LIMIT: u64 = crate::limits::STAGE_BYTES;
+const LIMIT: u64 = groebot_algebra::limits::STAGE_BYTES;
 
 /// Proves a stored derivation again, without the Groebner engine, and compares every file of its folder with what is proved
 ///

@@ -7,12 +7,12 @@ use clap::ValueEnum;
 use super::output::{Force, Kind, Output};
 use super::solve::{PROGRAM_NAME, read_program};
 use super::{Outcome, console, explain};
-use crate::codegen::c99::Pair;
-use crate::codegen::{ikfast, is_run_time, is_word, rust, single_file};
-use crate::document::shown;
-use crate::files::{MARK, write_folder_atomically};
-use crate::solver::Program;
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_ik::codegen::c99::Pair;
+use groebot_ik::codegen::{ikfast, is_run_time, is_word, rust, single_file};
+use groebot_ik::solver::Program;
+use groebot_robot::document::shown;
+use groebot_robot::files::{MARK, write_folder_atomically};
 
 const EXAMPLES: &str = "Examples:
   groebot codegen derivations/puma --lang c -o puma.c

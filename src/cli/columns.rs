@@ -6,9 +6,9 @@
 
 use csv::StringRecord;
 
-use crate::document::shown;
-use crate::kinematics::{Joint, JointKind};
 use crate::{Error, ErrorKind, Result};
+use groebot_robot::document::shown;
+use groebot_robot::kinematics::{Joint, JointKind};
 
 /// Units that the name of a column may end in.
 const UNITS: [&str; 4] = ["_mm", "_m", "_rad", "_deg"];

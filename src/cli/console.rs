@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::progress::begin_output;
 use super::{Halt, Outcome};
-use crate::{Error, escape};
+use crate::Error;
+use groebot_algebra::escape;
 
 /// Whether text is painted.
 #[derive(Clone, Copy)]

@@ -13,12 +13,12 @@ use super::output::Force;
 use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
 use super::{Halt, Outcome};
-use crate::derive::ends::solver_name;
-use crate::derive::planner::{Choice, fitting_task};
-use crate::derive::{Ends, Proved, Source};
-use crate::document::shown;
-use crate::witness;
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_ik::derive::ends::solver_name;
+use groebot_ik::derive::planner::{Choice, fitting_task};
+use groebot_ik::derive::{Ends, Proved, Source};
+use groebot_ik::witness;
+use groebot_robot::document::shown;
 
 /// A robot that is farther from the base frame, in its reaches, is called far.
 const FAR: f64 = 5.0;

@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use crate::derive::explain::{Line, Part};
-use crate::derive::{Ends, Source};
-use crate::document::shown;
-use crate::kinematics::{BaseAxis, Chain, ExactVector, LinkPath, Plane, Task, TipChoice};
-use crate::number::{BigRational, parse_rational};
 use crate::{Error, ErrorKind, Result};
+use groebot_algebra::number::{BigRational, parse_rational};
+use groebot_ik::derive::explain::{Line, Part};
+use groebot_ik::derive::{Ends, Source};
+use groebot_robot::document::shown;
+use groebot_robot::kinematics::{BaseAxis, Chain, ExactVector, LinkPath, Plane, Task, TipChoice};
 
 /// The tasks that need no plane and no axis.
 const TASKS: [Task; 6] =

@@ -7,8 +7,8 @@ use super::files::is_derived;
 use super::output::{Force, Kind};
 use super::{Outcome, check, console};
 use crate::Watch;
-use crate::derive::explain::{Document, explain};
-use crate::derive::{Ends, Proved, Source};
+use groebot_ik::derive::explain::{Document, explain};
+use groebot_ik::derive::{Ends, Proved, Source};
 
 const EXAMPLES: &str = "Examples:
   groebot explain derivations/puma

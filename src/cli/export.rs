@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use super::output::{Force, Kind};
 use super::{Outcome, console, moving};
-use crate::document::{TEXT_LIMIT, read_text, shown};
-use crate::model::Robot;
-use crate::sim::export::Scene;
 use crate::{Error, ErrorKind, Result};
+use groebot_humanoid::sim::export::Scene;
+use groebot_robot::document::{TEXT_LIMIT, read_text, shown};
+use groebot_robot::model::Robot;
 
 const EXAMPLES: &str = "Examples:
   groebot export walk.csv --to glb -o walk.glb

@@ -5,16 +5,16 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use super::output::{Force, is_same_file};
-use crate::codegen;
-use crate::derive::ends::TASK_NAME;
-use crate::derive::input::INPUT_NAMES;
-use crate::derive::{Ends, Proved, Source, stages};
-use crate::document::{TEXT_LIMIT, is_stdin, read_text};
-use crate::files::{StagedFolder, refuse_foreign, refuse_unfinished};
-use crate::folder::{CERTIFICATE, DYNAMICS, Written, derived};
-use crate::solver::Program;
-use crate::witness::Report;
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_ik::codegen;
+use groebot_ik::derive::ends::TASK_NAME;
+use groebot_ik::derive::input::INPUT_NAMES;
+use groebot_ik::derive::{Ends, Proved, Source, stages};
+use groebot_ik::folder::{CERTIFICATE, DYNAMICS, Written, derived};
+use groebot_ik::solver::Program;
+use groebot_ik::witness::Report;
+use groebot_robot::document::{TEXT_LIMIT, is_stdin, read_text};
+use groebot_robot::files::{StagedFolder, refuse_foreign, refuse_unfinished};
 
 /// So many bytes of a certificate tell that it is one of ours.
 const HEAD: usize = 200;

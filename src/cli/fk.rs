@@ -10,10 +10,10 @@ use super::ends::{EndArguments, TipLink};
 use super::json::FORMAT;
 use super::targets::{self, Row};
 use super::{Outcome, console};
-use crate::derive::{Description, InputFile};
-use crate::kinematics::{Chain, Joint, JointKind, LengthUnit, Target};
-use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
+use groebot_ik::derive::{Description, InputFile};
+use groebot_robot::kinematics::{Chain, Joint, JointKind, LengthUnit, Target};
+use groebot_robot::spatial::Pose;
 
 const EXAMPLES: &str = "Examples:
   groebot fk derivations/nao_leg_sagittal --q 0.3,0.6

@@ -6,12 +6,13 @@ use nalgebra::Point2;
 use serde_json::{Value, json};
 
 use super::moving::ends;
-use crate::document::{TEXT_LIMIT, read_text};
-use crate::gait::Footprint;
-use crate::nav::{Enclosure, Map, Room, Way};
-use crate::sim;
-use crate::task::Goal;
-use crate::{Error, ErrorKind, Result, limits};
+use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits;
+use groebot_humanoid::gait::Footprint;
+use groebot_humanoid::nav::{Enclosure, Map, Room, Way};
+use groebot_humanoid::sim;
+use groebot_humanoid::task::Goal;
+use groebot_robot::document::{TEXT_LIMIT, read_text};
 
 /// How a map is read, and what of its furniture is moved.
 #[derive(clap::Args)]

@@ -9,16 +9,16 @@ use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
 use super::targets::Reader;
 use super::{Outcome, console};
-use crate::derive::{Description, InputFile, Proved};
-use crate::document::{is_stdin, open};
-use crate::dynamics::{Clearance, Model};
-use crate::kinematics::{Chain, LengthUnit};
-use crate::limits;
-use crate::model::Robot;
-use crate::motion::table::pose_of;
-use crate::motion::{Followed, Pace, follow};
-use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits;
+use groebot_ik::derive::{Description, InputFile, Proved};
+use groebot_robot::document::{is_stdin, open};
+use groebot_robot::dynamics::{Clearance, Model};
+use groebot_robot::kinematics::{Chain, LengthUnit};
+use groebot_robot::model::Robot;
+use groebot_robot::motion::table::pose_of;
+use groebot_robot::motion::{Followed, Pace, follow};
+use groebot_robot::spatial::Pose;
 
 /// How far from one the length of a quaternion may be: such as 0.707.
 const ROUNDED: f64 = 1e-3;
@@ -202,7 +202,7 @@ fn touching(robot: &Robot, followed: &Followed) -> Result<String> {
 
 /// The path in a few lines.
 fn summary(chain: &Chain, followed: &Followed) -> String {
-    let Followed { trajectory, jumps } = followed;
+    let Followed { trajectory, jumps, .. } = followed;
     let count = trajectory.times.len();
     let plural = if count == 1 { "pose" } else { "poses" };
     let mut text = match jumps.len() {

@@ -1,7 +1,7 @@
 //! Joints that follow others by `mimic`, in the answers of `solve`, `ik` and `derive`.
 
-use crate::document::shown;
-use crate::kinematics::Mimic;
+use groebot_robot::document::shown;
+use groebot_robot::kinematics::Mimic;
 
 /// A line for each joint that follows another one: `finger_2 follows 2 * finger_1`.
 pub fn followers<'a>(joints: impl Iterator<Item = (&'a str, Option<&'a Mimic>)>) -> String {

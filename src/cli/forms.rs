@@ -1,9 +1,9 @@
 //! In which forms a program's target may be written: its inputs, or each rotation among them as a quaternion.
 
 use super::columns::{Columns, Field, Measure};
-use crate::solver::{Condition, Program, Unit};
-use crate::spatial::rotation::{UNIT, rows_of_quaternion};
 use crate::{Error, ErrorKind, Result};
+use groebot_ik::solver::{Condition, Program, Unit};
+use groebot_robot::spatial::rotation::{UNIT, rows_of_quaternion};
 
 /// The forms of a program's targets.
 pub struct Forms {

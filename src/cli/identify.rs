@@ -8,10 +8,11 @@ use super::moving::described;
 use super::output::{Force, Kind};
 use super::part::PartArguments;
 use super::{Halt, Outcome, console};
-use crate::document::shown;
-use crate::dynamics::{Base, Consistency, Equations, Estimate, Finding, Identification, Logged};
-use crate::motion::StateTable;
-use crate::{Error, ErrorKind, Result, limits};
+use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits;
+use groebot_robot::document::shown;
+use groebot_robot::dynamics::{Base, Consistency, Equations, Estimate, Finding, Identification, Logged};
+use groebot_robot::motion::StateTable;
 
 const EXAMPLES: &str = "Examples:
   groebot identify ur5.urdf log.csv

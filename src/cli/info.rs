@@ -7,11 +7,11 @@ use std::path::PathBuf;
 use super::console::{self, Paint};
 use super::ends::{IdealEndArguments, TipLink};
 use super::{Halt, Outcome, json};
-use crate::derive::coupled::{Actuator, CoupledChains};
-use crate::derive::{Description, Ends, InputFile, formulate};
-use crate::kinematics::{Chain, DhTable, ExactVector, Geometry, Joint, JointKind};
-use crate::model::Robot;
 use crate::{Error, ErrorKind, Result};
+use groebot_ik::derive::coupled::{Actuator, CoupledChains};
+use groebot_ik::derive::{Description, Ends, InputFile, formulate};
+use groebot_robot::kinematics::{Chain, DhTable, ExactVector, Geometry, Joint, JointKind};
+use groebot_robot::model::Robot;
 use num_traits::ToPrimitive;
 
 const EXAMPLES: &str = "Examples:

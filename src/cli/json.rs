@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 
 use super::ends::TipLink;
 use super::following::leaders;
-use crate::derive::coupled::CoupledChains;
-use crate::derive::planner::{Candidate, Choice};
-use crate::derive::{Proved, Source, System};
-use crate::kinematics::ideal::{RelationKind, Report};
-use crate::kinematics::screw::Plan;
-use crate::kinematics::{Chain, ExactVector, Geometry, JointKind};
-use crate::witness;
+use groebot_ik::derive::coupled::CoupledChains;
+use groebot_ik::derive::planner::{Candidate, Choice};
+use groebot_ik::derive::{Proved, Source, System};
+use groebot_ik::witness;
+use groebot_robot::kinematics::ideal::{RelationKind, Report};
+use groebot_robot::kinematics::screw::Plan;
+use groebot_robot::kinematics::{Chain, ExactVector, Geometry, JointKind};
 
 /// The version of all forms that the commands print.
 pub const FORMAT: u32 = 1;

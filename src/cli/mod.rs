@@ -58,8 +58,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::{Error, ErrorKind, escape};
+use crate::{Error, ErrorKind};
 use console::Paint;
+use groebot_algebra::escape;
 
 const EXAMPLES: &str = "Examples:
   groebot derive derivations/nao_leg_sagittal

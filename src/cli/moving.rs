@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use crate::derive::{Description, InputFile};
-use crate::document::{is_stdin, read_text, shown};
-use crate::model::{Meshes, Robot};
-use crate::motion::Trajectory;
-use crate::motion::table::TABLE_LIMIT;
-use crate::robots;
-use crate::sim::TaskRecord;
-use crate::view::WalkRecord;
 use crate::{Error, ErrorKind, Result};
+use groebot_humanoid::sim::TaskRecord;
+use groebot_humanoid::view::WalkRecord;
+use groebot_ik::derive::{Description, InputFile};
+use groebot_robot::document::{is_stdin, read_text, shown};
+use groebot_robot::model::{Meshes, Robot};
+use groebot_robot::motion::Trajectory;
+use groebot_robot::motion::table::TABLE_LIMIT;
+use groebot_robot::robots;
 
 /// Whether the name of a file ends so.
 pub fn ends(file: &Path, end: &str) -> bool {

@@ -13,10 +13,10 @@ use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
 use super::walker::{self, GaitName, Named, SoleArguments};
 use super::{Halt, Outcome, console};
-use crate::gait::{Footstep, Summary, Usual};
-use crate::robots::Outline;
-use crate::task::{Blocked, Body, Floor, Method, Pilot, Plan, Refusal};
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_humanoid::gait::{Footstep, Summary, Usual};
+use groebot_humanoid::task::{Blocked, Body, Floor, Method, Pilot, Plan, Refusal};
+use groebot_humanoid::walkers::Outline;
 
 const EXAMPLES: &str = "Examples:
   groebot navigate rh0 --map room.yaml --goal 3.2,1.5 -o walk.csv --plot plan.svg

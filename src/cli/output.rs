@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use super::moving::ends;
 use super::progress::begin_output;
 use super::{Halt, Outcome};
-use crate::derive::stages::STAGES;
-use crate::document::is_stdin;
-use crate::files::{MARK, Target, is_marked, refuse_foreign, write_atomically, write_into};
 use crate::{Error, ErrorKind, Result};
+use groebot_ik::derive::stages::STAGES;
+use groebot_robot::document::is_stdin;
+use groebot_robot::files::{MARK, Target, is_marked, refuse_foreign, write_atomically, write_into};
 
 /// Whether files of others may be replaced.
 #[derive(Clone, Copy, clap::Args)]

@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 use num_traits::ToPrimitive;
 
-use crate::model::{JointType, Robot};
-use crate::number::parse_rational;
-use crate::spatial::exact::ExactVector;
 use crate::{Error, ErrorKind, Result};
+use groebot_algebra::number::parse_rational;
+use groebot_robot::model::{JointType, Robot};
+use groebot_robot::spatial::exact::ExactVector;
 
 /// The links between which joints move, and gravity.
 #[derive(clap::Args)]
@@ -56,7 +56,7 @@ impl PartArguments {
         }
         parts.actuators.retain(|actuator| !actuator.joints.is_empty());
         let robot = Robot::new(parts)?;
-        let model = crate::dynamics::Model::new(&robot)?;
+        let model = groebot_robot::dynamics::Model::new(&robot)?;
         let turn = base.map_or_else(nalgebra::UnitQuaternion::identity, |base| model.link(base).1.rotation);
         Ok((robot, turn * self.gravity.in_doubles()))
     }

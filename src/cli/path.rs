@@ -12,8 +12,8 @@ use super::json::FORMAT;
 use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
 use super::{Halt, Outcome, console};
-use crate::nav::{Enclosure, Field, Forces, Guide, Map, Method, Potential, Way};
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_humanoid::nav::{Enclosure, Field, Forces, Guide, Map, Method, Potential, Way};
 
 const EXAMPLES: &str = "Examples:
   groebot path map.pgm --start 1,1 --goal 8,5

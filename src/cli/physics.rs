@@ -9,10 +9,10 @@ use std::time::Duration;
 use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
-use crate::document::read_text;
-use crate::motion::Trajectory;
-use crate::motion::table::TABLE_LIMIT;
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_robot::document::read_text;
+use groebot_robot::motion::Trajectory;
+use groebot_robot::motion::table::TABLE_LIMIT;
 
 /// What plays.
 const SCRIPT: &str = include_str!("../../scripts/physics/play.py");
@@ -24,7 +24,7 @@ const NO_MUJOCO: i32 = 7;
 /// How often the script is looked at.
 const PAUSE: Duration = Duration::from_millis(10);
 /// What is read of what the script tells, in bytes.
-const TOLD_LIMIT: u64 = crate::limits::DESCRIPTION_BYTES;
+const TOLD_LIMIT: u64 = groebot_algebra::limits::DESCRIPTION_BYTES;
 
 /// What the world and the motors are in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 use super::derive::told_choice;
 use super::ends::{IdealEndArguments, TipLink};
 use super::{Outcome, console, json};
-use crate::derive::planner::Choice;
-use crate::derive::{InputFile, Source};
-use crate::document::is_stdin;
-use crate::kinematics::Chain;
-use crate::kinematics::screw::ScrewSolver;
-use crate::{Error, ErrorKind, Result, Watch, robots};
+use crate::{Error, ErrorKind, Result, Watch};
+use groebot_ik::derive::planner::Choice;
+use groebot_ik::derive::{InputFile, Source};
+use groebot_robot::document::is_stdin;
+use groebot_robot::kinematics::Chain;
+use groebot_robot::kinematics::screw::ScrewSolver;
+use groebot_robot::robots;
 
 const EXAMPLES: &str = "Examples:
   groebot plan puma                              a robot that comes with groebot

@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::files::stop_writers;
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_robot::files::stop_writers;
 
 /// The longest time budget.
-const MAX_SECONDS: f64 = crate::limits::BUDGET_SECONDS;
+const MAX_SECONDS: f64 = groebot_algebra::limits::BUDGET_SECONDS;
 
 /// How much may be spent, and whether to show it.
 #[derive(Clone, Copy, Default)]

@@ -10,12 +10,12 @@ use super::output::{Force, Kind};
 use super::progress::{Budget, Session};
 use super::solve::read_program;
 use super::{Outcome, console};
-use crate::derive::{Ends, InputFile};
-use crate::document::shown;
-use crate::kinematics::{Chain, Joint, JointKind};
-use crate::reach::{Ask, Axis, Grid, Measure, ReachMap, Survey};
-use crate::solver::Program;
 use crate::{Error, ErrorKind, Result};
+use groebot_ik::derive::{Ends, InputFile};
+use groebot_ik::reach::{Ask, Axis, Grid, Measure, ReachMap, Survey};
+use groebot_ik::solver::Program;
+use groebot_robot::document::shown;
+use groebot_robot::kinematics::{Chain, Joint, JointKind};
 
 /// How many places an axis has that is not told.
 const USUAL: usize = 21;

@@ -13,13 +13,13 @@ use super::forms::Forms;
 use super::targets::{Reader, STDIN};
 use super::{Cli, fk, floor, follow, identify, ik};
 use crate::Result;
-use crate::dynamics::{Equations, Logged};
-use crate::escape;
-use crate::gait::Footprint;
-use crate::kinematics::{Chain, Target};
-use crate::motion::StateTable;
-use crate::solver::Program;
-use crate::spatial::Pose;
+use groebot_algebra::escape;
+use groebot_humanoid::gait::Footprint;
+use groebot_ik::solver::Program;
+use groebot_robot::dynamics::{Equations, Logged};
+use groebot_robot::kinematics::{Chain, Target};
+use groebot_robot::motion::StateTable;
+use groebot_robot::spatial::Pose;
 
 /// Parses a command line, of which the first argument is the program's name. Nothing is run.
 ///

@@ -11,11 +11,11 @@ use super::files::without_ikfast;
 use super::page::Page;
 use super::strata;
 use crate::Result;
-use crate::derive::planner::fitting_task;
-use crate::derive::setting::{Poly, Unknowns};
-use crate::derive::triangular::{Stair, Triangular};
-use crate::derive::{Derivation, JointKindUnknown, ParameterSource, Proved, Quantity, Root, Source, System};
-use crate::witness;
+use groebot_ik::derive::planner::fitting_task;
+use groebot_ik::derive::setting::{Poly, Unknowns};
+use groebot_ik::derive::triangular::{Stair, Triangular};
+use groebot_ik::derive::{Derivation, JointKindUnknown, ParameterSource, Proved, Quantity, Root, Source, System};
+use groebot_ik::witness;
 
 /// What there is to tell.
 pub struct Report<'a> {
@@ -263,7 +263,7 @@ fn proofs(page: &mut Page, derivation: &Derivation) {
     let trees = derivation.trees();
     let nodes = trees.iter().flat_map(|(_, node)| node.walk());
     let proofs: Vec<_> = nodes.flat_map(|node| node.proofs()).map(|(_, certified)| certified.proof).collect();
-    let sum = |part: fn(&crate::groebner::verify::Proof) -> usize| proofs.iter().map(part).sum::<usize>();
+    let sum = |part: fn(&groebot_algebra::groebner::verify::Proof) -> usize| proofs.iter().map(part).sum::<usize>();
     page.heading("Proved, exactly and without trusting the engine");
     page.entries(&[
         (proofs.len().to_string(), "Groebner bases, one a stratum and order".to_owned()),

@@ -11,11 +11,11 @@ use super::output::{Force, Kind, Output};
 use super::physics::{Case, Stage, Told, whole};
 use super::progress::{Limits, Session, seconds};
 use super::{Halt, Outcome, console};
-use crate::document::shown;
-use crate::model::Robot;
-use crate::motion::Trajectory;
-use crate::sim::{Comparison, Quantity, soles};
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_humanoid::sim::{Comparison, Quantity, soles};
+use groebot_robot::document::shown;
+use groebot_robot::model::Robot;
+use groebot_robot::motion::Trajectory;
 
 const EXAMPLES: &str = "Examples:
   groebot walk rh0 --plan \"out right, stride left, stride right, in left\" --torques -o walk.csv
@@ -132,7 +132,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 impl Arguments {
     /// The walk, and who walks.
-    fn read(&self) -> Result<(Trajectory, Robot, crate::model::Meshes)> {
+    fn read(&self) -> Result<(Trajectory, Robot, groebot_robot::model::Meshes)> {
         let file = &self.walk;
         let Some(Motion { trajectory: plan, .. }) = moving::motion(file)? else {
             let text = "this is no walk by its name; give one of `groebot walk` or `groebot navigate`, .csv or .json";
@@ -140,7 +140,7 @@ impl Arguments {
         };
         soles(&plan).map_err(|error| error.in_file(file))?;
         let model = self.model.clone().unwrap_or_else(|| PathBuf::from(&plan.robot));
-        if !model.exists() && model.to_str().and_then(crate::robots::robot).is_none() {
+        if !model.exists() && model.to_str().and_then(groebot_robot::robots::robot).is_none() {
             let text = format!(
                 "`{}` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo by --model",
                 shown(&model.to_string_lossy())

@@ -9,12 +9,12 @@ use super::files::is_derived;
 use super::forms::Forms;
 use super::targets::{self, Row};
 use super::{Outcome, console};
-use crate::derive::input::COUPLED_NAME;
-use crate::derive::{Proved, Source};
-use crate::document::read_text;
-use crate::limits;
-use crate::solver::{Program, Solver};
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_algebra::limits;
+use groebot_ik::derive::input::COUPLED_NAME;
+use groebot_ik::derive::{Proved, Source};
+use groebot_ik::solver::{Program, Solver};
+use groebot_robot::document::read_text;
 
 /// The longest program that is read, in bytes.
 pub(super) const PROGRAM_LIMIT: u64 = limits::PROGRAM_BYTES;

@@ -2,10 +2,10 @@
 
 use super::page::Page;
 use crate::Result;
-use crate::derive::plan::{self, Score};
-use crate::derive::tree::{Node, Outcome};
-use crate::derive::{Derivation, System};
-use crate::groebner::Basis;
+use groebot_algebra::groebner::Basis;
+use groebot_ik::derive::plan::{self, Score};
+use groebot_ik::derive::tree::{Node, Outcome};
+use groebot_ik::derive::{Derivation, System};
 
 /// Tells about every stratum of both trees.
 pub fn describe(page: &mut Page, derivation: &Derivation) {
@@ -73,7 +73,7 @@ fn solutions(bound: usize) -> String {
 pub fn score(root: &Node) -> Result<Score> {
     let (ring, polynomials) = match root.solved() {
         Some(solved) => (solved.triangular.ring.clone(), solved.certified.basis.clone()),
-        None => (root.setting.ring(&root.setting.unknowns, crate::poly::Order::Lex)?, Vec::new()),
+        None => (root.setting.ring(&root.setting.unknowns, groebot_algebra::poly::Order::Lex)?, Vec::new()),
     };
     plan::score(&root.setting, &Basis { ring, polynomials, cofactors: Vec::new() })
 }

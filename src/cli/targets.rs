@@ -6,9 +6,9 @@ use std::path::Path;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::columns::{Columns, Found};
-use crate::document::is_stdin;
-use crate::limits;
 use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits;
+use groebot_robot::document::is_stdin;
 
 /// How errors call standard input.
 pub const STDIN: &str = "<stdin>";

@@ -13,15 +13,15 @@ use super::progress::{Limits, Session};
 use super::view::soles;
 use super::walker::{self, Named, SoleArguments};
 use super::{Halt, Outcome, console};
-use crate::document::{one_among, shown};
-use crate::gait::{Footprint, Summary};
-use crate::nav::Room;
-use crate::robots::Outline;
-use crate::sim::{Change, Checks, Destination, Performed, Run, Start, Thing, What, perform};
-use crate::spatial::angle::RPM;
-use crate::task::{Blocked, Body, Floor, Plan};
-use crate::view::{Page, WalkRecord};
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_humanoid::gait::{Footprint, Summary};
+use groebot_humanoid::nav::Room;
+use groebot_humanoid::sim::{Change, Checks, Destination, Performed, Run, Start, Thing, What, perform};
+use groebot_humanoid::task::{Blocked, Body, Floor, Plan};
+use groebot_humanoid::view::{Page, WalkRecord};
+use groebot_humanoid::walkers::Outline;
+use groebot_robot::document::{one_among, shown};
+use groebot_robot::spatial::angle::RPM;
 
 const EXAMPLES: &str = "Examples:
   groebot task rh0 --room living-room --goal sofa -o task.json --view task.html
@@ -214,7 +214,7 @@ fn destination(told: &str, room: &Room) -> Result<Destination> {
 /// Room, ways and checks.
 fn told(performed: &Performed, checks: &Checks) -> Value {
     let time = |sample: usize| performed.walk.time(sample);
-    let clearance = |own: &crate::sim::Clearance| json!({ "link": own.link, "thing": own.thing.to_string(), "distance": own.distance, "time": time(own.sample) });
+    let clearance = |own: &groebot_humanoid::sim::Clearance| json!({ "link": own.link, "thing": own.thing.to_string(), "distance": own.distance, "time": time(own.sample) });
     let mut told = serde_json::to_value(performed.record()).expect("a record holds nothing that JSON cannot say");
     told["checks"] = json!({
         "hold": checks.hold(),
@@ -230,13 +230,13 @@ fn told(performed: &Performed, checks: &Checks) -> Value {
 }
 
 fn summary(performed: &Performed, checks: &Checks) -> String {
-    let stage = |own: &crate::sim::Stage| {
+    let stage = |own: &groebot_humanoid::sim::Stage| {
         let length = own.course.way.length();
         format!("  path            {length:.3} m after step {}, found in {:.1} ms\n", own.steps, own.milliseconds)
     };
     let ways: String = performed.stages.iter().map(stage).collect();
     let beside = |is_floor: bool| checks.clearances.iter().find(move |own| (own.thing == Thing::Floor) == is_floor);
-    let near = |own: &crate::sim::Clearance| {
+    let near = |own: &groebot_humanoid::sim::Clearance| {
         let (distance, time) = (100.0 * own.distance, performed.walk.time(own.sample));
         format!("  nearest         {} to {}, {distance:.1} cm at {time:.2} s\n", own.link, own.thing)
     };

@@ -8,15 +8,15 @@ use super::moving::described;
 use super::output::{Force, Kind};
 use super::part::PartArguments;
 use super::{Outcome, console};
-use crate::control::{
+use crate::{Error, ErrorKind, Result, Watch};
+use groebot_algebra::number::{BigRational, parse_rational};
+use groebot_robot::control::{
     ClosedLoop, ComputedTorque, Desired, Disturbance, Gains, GravityCompensation, Inversion, Law, Limited, OpenLoop,
     Sample, Trajectory, WorkSpace, errors_and_torques,
 };
-use crate::dynamics::{Base, Equations, State, Workspace};
-use crate::model::Robot;
-use crate::motion::StateTable;
-use crate::number::{BigRational, parse_rational};
-use crate::{Error, ErrorKind, Result, Watch};
+use groebot_robot::dynamics::{Base, Equations, State, Workspace};
+use groebot_robot::model::Robot;
+use groebot_robot::motion::StateTable;
 
 const EXAMPLES: &str = "Examples:
   groebot track ur5.urdf --law computed-torque --trajectory t.csv --plot p.svg
@@ -274,7 +274,7 @@ fn table(samples: &[Sample], begin: f64) -> String {
     let lists = ["q", "v", "tau", "d"].into_iter().flat_map(|head| (0..count).map(move |i| format!("{head}{i}")));
     let mut text = std::iter::once("t".to_owned()).chain(lists).collect::<Vec<_>>().join(",") + "\n";
     for sample in samples {
-        let Sample { time, q, velocity, torques, desired } = sample;
+        let Sample { time, q, velocity, torques, desired, .. } = sample;
         let numbers = [q, velocity, torques, desired].into_iter().flatten();
         let words: Vec<String> =
             std::iter::once(&(begin + time)).chain(numbers).map(|number| format!("{number:?}")).collect();

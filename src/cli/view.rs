@@ -8,17 +8,17 @@ use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
 use super::solve::{PROGRAM_LIMIT, PROGRAM_NAME, read_program};
 use super::{Outcome, console};
-use crate::derive::{Ends, InputFile, Proved};
-use crate::document::{read_text, shown};
-use crate::folder::CERTIFICATE;
-use crate::gait::{Footprint, Side};
-use crate::model::Robot;
-use crate::motion::table::TABLE_LIMIT;
-use crate::nav::Room;
-use crate::reach::ReachMap;
-use crate::robots::{self, Outline};
-use crate::view::{Asked, Page, Sole};
 use crate::{Error, ErrorKind, Result};
+use groebot_humanoid::gait::{Footprint, Side};
+use groebot_humanoid::nav::Room;
+use groebot_humanoid::view::{Asked, Page, Sole};
+use groebot_humanoid::walkers::{self, Outline};
+use groebot_ik::derive::{Ends, InputFile, Proved};
+use groebot_ik::folder::CERTIFICATE;
+use groebot_ik::reach::ReachMap;
+use groebot_robot::document::{read_text, shown};
+use groebot_robot::model::Robot;
+use groebot_robot::motion::table::TABLE_LIMIT;
 
 const EXAMPLES: &str = "Examples:
   groebot view walk.csv -o walk.html
@@ -181,7 +181,7 @@ fn derivation(folder: &Path) -> Result<Page> {
 
 /// The soles of a robot of this crate, as they were measured.
 pub(super) fn soles(robot: &str) -> Result<Vec<Sole>> {
-    let Some(walker) = robots::walker(robot, Outline::Measured) else { return Ok(Vec::new()) };
+    let Some(walker) = walkers::walker(robot, Outline::Measured) else { return Ok(Vec::new()) };
     let feet = walker?.biped.feet;
     let sole = |side: Side| Sole { contact: side.name().to_owned(), corners: feet[side as usize].corners.clone() };
     Ok(vec![sole(Side::Left), sole(Side::Right)])

@@ -9,14 +9,14 @@ use super::output::{Force, Kind, Output};
 use super::progress::{Limits, Session};
 use super::walker::{self, GaitName, SoleArguments};
 use super::{Outcome, console};
-use crate::document::read_text;
-use crate::gait::{
+use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits;
+use groebot_humanoid::gait::{
     Biped, Chains, Difference, Forces, Gait, Laws, Measures, Regular, Request, Route, Side, Summary, Usual, Walk,
     Walker, plan_at, words,
 };
-use crate::limits;
-use crate::robots::Outline;
-use crate::{Error, ErrorKind, Result};
+use groebot_humanoid::walkers::Outline;
+use groebot_robot::document::read_text;
 
 /// The longest file of footsteps, in bytes.
 const FOOTSTEPS_LIMIT: u64 = limits::FOOTSTEPS_BYTES;

@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use nalgebra::Point2;
 
-use crate::derive::{Description, InputFile, Proved};
-use crate::document::{is_stdin, shown};
-use crate::gait::{Biped, LegSolver, Usual, Walker};
-use crate::model::{Meshes, Robot};
-use crate::robots::{self, Outline};
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_humanoid::gait::{Biped, LegSolver, Usual, Walker};
+use groebot_humanoid::walkers::{self, Outline};
+use groebot_ik::derive::{Description, InputFile, Proved};
+use groebot_robot::document::{is_stdin, shown};
+use groebot_robot::model::{Meshes, Robot};
+use groebot_robot::robots;
 
 /// How the centre of mass is moved.
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -73,7 +74,7 @@ pub struct Named {
 /// [`ErrorKind::UnknownName`] for what is neither a robot of this crate nor a file; [`ErrorKind::MissingKey`] without the soles' links; those of
 /// the readers, of [`Biped::new`], of [`Proved::of_chain`] and of [`Walker::new`].
 pub fn named(name: &str, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
-    match (robots::walker(name, outline), robots::robot(name)) {
+    match (walkers::walker(name, outline), robots::robot(name)) {
         (Some(walker), Some(robot)) => Ok(Named { robot, meshes: Meshes::default(), walker: walker? }),
         _ => described(Path::new(name), soles, watch),
     }

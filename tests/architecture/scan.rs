@@ -18,7 +18,7 @@ pub struct Function {
     pub lines: usize,
 }
 
-/// Every path of `tokens` that leads into this crate: from `use` items and inline, through `crate`, `groebot`, `self`
+/// Every path of `tokens` that leads into the crates of this repository: from `use` items and inline, through `crate`, a crate's name, `self`
 /// and `super`. `module` is the path of the file's module.
 pub fn references(tokens: &[Token], module: &[String]) -> Vec<Reference> {
     let mut scan = Scan { tokens, module, inner: Vec::new(), found: Vec::new() };
@@ -53,7 +53,8 @@ impl Scan<'_> {
             "}" => drop(self.inner.pop()),
             // `use<'a>` in a type captures lifetimes; it imports nothing.
             "use" if self.text(at + 1) != "<" => return self.use_item(at + 1),
-            "crate" | "groebot" | "self" | "super" if self.starts_path(at) => return self.inline_path(at),
+            "self" | "super" if self.starts_path(at) => return self.inline_path(at),
+            name if is_crate(name) && self.starts_path(at) => return self.inline_path(at),
             _ => {}
         }
         at + 1
@@ -140,17 +141,22 @@ pub fn lent(tokens: &[Token], module: &[String]) -> Vec<(String, Vec<String>)> {
     leaves.map(|leaf| (leaf.name, resolve(&leaf.path, module.to_vec()).unwrap_or_else(|| local(&leaf.path)))).collect()
 }
 
+/// Whether a path that starts with `name` starts at the root of a crate of this repository. No two of them have a module of the same name.
+fn is_crate(name: &str) -> bool {
+    matches!(name, "crate" | "groebot" | "groebot_algebra" | "groebot_robot" | "groebot_ik" | "groebot_humanoid")
+}
+
 /// `path` from the crate root, seen from the module `here`; `None` for what another crate or a local name starts.
 fn resolve(path: &[String], here: Vec<String>) -> Option<Vec<String>> {
     let mut base = match path.first()?.as_str() {
-        "crate" | "groebot" => Vec::new(),
+        name if is_crate(name) => Vec::new(),
         "self" | "super" => here,
         _ => return None,
     };
     for (i, segment) in path.iter().enumerate() {
         match segment.as_str() {
             "super" => drop(base.pop()),
-            "crate" | "groebot" if i == 0 => {}
+            name if i == 0 && is_crate(name) => {}
             "self" => {}
             _ => base.push(segment.clone()),
         }

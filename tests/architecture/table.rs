@@ -1,13 +1,13 @@
 //! Who may use whom.
 
-/// Modules at the root of the crate that every module may use. They use only one another.
+/// Modules at the root of a crate that every module may use. They use only one another.
 const ROOT: [&str; 5] = ["error", "escape", "limits", "watch", "files"];
 
 /// The reader of input files: every module below it may use it.
 const DOCUMENT: &str = "document";
 
 /// Every other module with the modules that it may use, each of which stands above it.
-const TABLE: [(&str, Uses); 27] = [
+const TABLE: [(&str, Uses); 28] = [
     ("drawing", Uses::Only(&[])),
     ("number", Uses::Only(&[])),
     (DOCUMENT, Uses::Only(&["number"])),
@@ -18,6 +18,7 @@ const TABLE: [(&str, Uses); 27] = [
     ("spatial", Uses::Only(&["number"])),
     ("model", Uses::Only(&["number", "spatial"])),
     ("kinematics", Uses::Only(&["number", "roots", "spatial", "model"])),
+    ("robots", Uses::Only(&["model", "kinematics"])),
     ("dynamics", Uses::Only(&["number", "poly", "spatial", "model", "kinematics"])),
     ("control", Uses::Only(&["drawing", "spatial", "model", "dynamics"])),
     ("solver", Uses::Only(&["number", "poly", "roots", "kinematics"])),
@@ -30,7 +31,7 @@ const TABLE: [(&str, Uses); 27] = [
     ("codegen", Uses::Only(&["number", "dynamics", "solver"])),
     ("motion", Uses::Only(&["spatial", "model", "kinematics"])),
     ("gait", Uses::Only(&["drawing", "spatial", "model", "kinematics", "dynamics", "motion"])),
-    ("robots", Uses::Only(&["spatial", "model", "kinematics", "gait"])),
+    ("walkers", Uses::Only(&["spatial", "model", "kinematics", "robots", "gait"])),
     ("nav", Uses::Only(&["spatial"])),
     ("task", Uses::Only(&["drawing", "spatial", "model", "dynamics", "motion", "gait", "nav"])),
     ("sim", Uses::AllAbove),
@@ -45,6 +46,7 @@ const TABLE: [(&str, Uses); 27] = [
             "motion",
             "gait",
             "robots",
+            "walkers",
             "nav",
             "task",
             "sim",

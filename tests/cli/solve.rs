@@ -6,7 +6,7 @@ use std::io::{BufRead, BufReader, Write};
 use serde_json::Value;
 
 use super::{Ran, groebot, leg, root, run_on, succeed, text};
-use crate::codegen::samples::wrist;
+use crate::codegen::wrist;
 
 /// Forward kinematics of the NAO leg, written down here from its drawing: thigh 100 mm, tibia 102.9 mm.
 fn ankle(q: &[f64]) -> [f64; 2] {

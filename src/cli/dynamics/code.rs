@@ -8,10 +8,11 @@ use crate::cli::codegen::{refuse_run_time, write_pair};
 use crate::cli::moving::described;
 use crate::cli::output::{Kind, Output};
 use crate::cli::{Outcome, console};
-use crate::codegen::dynamics::{Form, Function, Printed};
-use crate::dynamics::Base;
-use crate::model::Robot;
-use crate::{Error, ErrorKind, Result, limits};
+use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits;
+use groebot_ik::codegen::dynamics::{Form, Function, Printed};
+use groebot_robot::dynamics::Base;
+use groebot_robot::model::Robot;
 
 /// What is printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -10,10 +10,10 @@ use std::path::{Path, PathBuf};
 use super::Outcome;
 use super::output::{Force, Output};
 use super::part::PartArguments;
-use crate::codegen::dynamics::Function;
-use crate::dynamics::{Base, Equations};
-use crate::model::Robot;
 use crate::{ErrorKind, Result};
+use groebot_ik::codegen::dynamics::Function;
+use groebot_robot::dynamics::{Base, Equations};
+use groebot_robot::model::Robot;
 
 const EXAMPLES: &str = "Examples:
   groebot dynamics ur5.urdf --states states.csv -o out.csv

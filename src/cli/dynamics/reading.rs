@@ -1,10 +1,10 @@
 //! Which joints the columns of a table of states are about. Main type: [`Reading`].
 
-use crate::document::shown;
-use crate::dynamics::Base;
-use crate::model::Robot;
-use crate::motion::{StateRow, StateTable};
 use crate::{Error, ErrorKind, Result};
+use groebot_robot::document::shown;
+use groebot_robot::dynamics::Base;
+use groebot_robot::model::Robot;
+use groebot_robot::motion::{StateRow, StateTable};
 
 /// How many numbers place a root that moves freely, and how many move it.
 const ROOT: (usize, usize) = (7, 6);

@@ -10,10 +10,10 @@ use super::reading::Reading;
 use crate::cli::moving::described;
 use crate::cli::output::Kind;
 use crate::cli::{Outcome, console};
-use crate::dynamics::{Base, Equations, State, Workspace};
-use crate::model::Robot;
-use crate::motion::{StateRow, StateTable};
 use crate::{Error, Result};
+use groebot_robot::dynamics::{Base, Equations, State, Workspace};
+use groebot_robot::model::Robot;
+use groebot_robot::motion::{StateRow, StateTable};
 
 /// What is told of all states.
 #[derive(Serialize)]

@@ -6,17 +6,17 @@ use super::Arguments;
 use crate::cli::ends::TipLink;
 use crate::cli::files::{refuse_input, source_files, write_set};
 use crate::cli::{Outcome, console};
-use crate::derive::explain::{Document, Line, Part};
-use crate::derive::input::InputFile;
-use crate::derive::{Ends, Source};
-use crate::dynamics::exact::{ExactModel, MOST_TERMS, Masses, Symbolic};
-use crate::folder::motion::{self, Moving};
-use crate::kinematics::Chain;
-use crate::robots;
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_ik::derive::explain::{Document, Line, Part};
+use groebot_ik::derive::input::InputFile;
+use groebot_ik::derive::{Ends, Source};
+use groebot_ik::folder::motion::{self, Moving};
+use groebot_robot::dynamics::exact::{ExactModel, MOST_TERMS, Masses, Symbolic};
+use groebot_robot::kinematics::Chain;
+use groebot_robot::robots;
 
 /// The most joints of equations as polynomials.
-const MOST_JOINTS: usize = crate::limits::SYMBOLIC_JOINTS;
+const MOST_JOINTS: usize = groebot_algebra::limits::SYMBOLIC_JOINTS;
 
 /// Tells the polynomials, or writes them to a folder.
 pub fn run(arguments: &Arguments) -> Outcome {

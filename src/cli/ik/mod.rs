@@ -11,10 +11,10 @@ use super::ends::TipLink;
 use super::plan::Mechanism;
 use super::targets::{self, Row};
 use super::{Outcome, console};
-use crate::kinematics::numeric::NumericSolver;
-use crate::kinematics::screw::ScrewSolver;
-use crate::kinematics::{Chain, InverseKinematics, Solution};
 use crate::{Error, ErrorKind, Result};
+use groebot_robot::kinematics::numeric::NumericSolver;
+use groebot_robot::kinematics::screw::ScrewSolver;
+use groebot_robot::kinematics::{Chain, InverseKinematics, Solution};
 use page::{Page, Question, turned};
 
 const EXAMPLES: &str = "Examples:

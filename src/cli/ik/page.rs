@@ -10,8 +10,8 @@ use crate::cli::ends::TipLink;
 use crate::cli::following::{followers, leaders};
 use crate::cli::json::{FORMAT, given};
 use crate::cli::targets;
-use crate::derive::planner::Choice;
-use crate::kinematics::{Chain, Joint, JointKind, Mimic, Placed, Solution, Target};
+use groebot_ik::derive::planner::Choice;
+use groebot_robot::kinematics::{Chain, Joint, JointKind, Mimic, Placed, Solution, Target};
 
 /// What all targets have in common.
 pub struct Question<'a> {

@@ -3,10 +3,10 @@
 use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use crate::cli::columns::{Columns, Field, of_joints};
-use crate::kinematics::{Chain, JointKind, LengthUnit, Target, Task};
-use crate::limits;
-use crate::spatial::{Pose, rotation};
 use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits;
+use groebot_robot::kinematics::{Chain, JointKind, LengthUnit, Target, Task};
+use groebot_robot::spatial::{Pose, rotation};
 
 /// The numbers of `text`, angles still in the unit that they were given in.
 fn numbers(text: &str) -> Result<Vec<f64>> {

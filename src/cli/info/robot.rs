@@ -7,9 +7,9 @@ use super::super::ends::TipLink;
 use super::super::json::FORMAT;
 use super::{Paint, joints};
 use crate::Result;
-use crate::dynamics::Model;
-use crate::model::{JointType, Robot};
-use crate::spatial::Pose;
+use groebot_robot::dynamics::Model;
+use groebot_robot::model::{JointType, Robot};
+use groebot_robot::spatial::Pose;
 
 /// How many doubts a page lists.
 const LISTED: usize = 8;
@@ -106,7 +106,8 @@ impl<'r> Body<'r> {
         let (Some(mass), Some(centre)) = (self.mass, self.centre) else {
             return "  not computed: see the faults\n".to_owned();
         };
-        let shapes = |count: fn(&crate::model::Link) -> usize| self.robot.links().iter().map(count).sum::<usize>();
+        let shapes =
+            |count: fn(&groebot_robot::model::Link) -> usize| self.robot.links().iter().map(count).sum::<usize>();
         let (seen, hard) = (shapes(|link| link.visuals.len()), shapes(|link| link.collisions.len()));
         let at = centre.coords.map(|x| format!("{x:.4}"));
         let mut text = format!(

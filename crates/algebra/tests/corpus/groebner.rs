@@ -1,0 +1,116 @@
+//! The files of `tests/corpus/groebner`; its README explains their keys.
+
+use std::path::Path;
+
+use groebot_algebra::Result;
+use groebot_algebra::number::{Field, Ring};
+use groebot_algebra::poly::{Order, Polynomial, PolynomialRing};
+use groebot_robot::document::Table;
+
+use super::{load, read_all, tables, text, texts};
+
+/// One system in one field and order, with its reduced basis.
+#[derive(Debug)]
+pub struct Case {
+    /// The file's name without `.toml`.
+    pub file: String,
+    pub field: String,
+    pub order: Order,
+    pub variables: Vec<String>,
+    pub parameters: Vec<String>,
+    pub generators: Vec<String>,
+    pub basis: Vec<String>,
+    /// -1 for the unit ideal.
+    pub dimension: i64,
+    pub quotient_dimension: Option<usize>,
+    pub standard_monomials: Option<Vec<String>>,
+    pub eliminations: Vec<Elimination>,
+    pub memberships: Vec<Membership>,
+}
+
+#[derive(Debug)]
+pub struct Elimination {
+    pub eliminate: Vec<String>,
+    pub basis: Vec<String>,
+}
+
+#[derive(Debug)]
+pub struct Membership {
+    pub polynomial: String,
+    pub member: bool,
+    pub normal_form: String,
+}
+
+/// The case of this file, named without `.toml`.
+pub fn case(file: &str) -> Case {
+    load(&format!("groebner/{file}.toml"), |root| case_of(file, root))
+}
+
+fn case_of(file: &str, root: Table<'_>) -> Result<Case> {
+    let facts = root.required("facts")?.table()?;
+    let whole = |node: groebot_robot::document::Node<'_>| Ok(i64::try_from(node.exact()?.to_integer()).expect("small"));
+    Ok(Case {
+        file: file.to_owned(),
+        field: text(root, "field")?,
+        order: root.required("order")?.one_of(&[("lex", Order::Lex), ("grevlex", Order::GrevLex)])?,
+        variables: texts(root, "variables")?,
+        parameters: texts(root, "parameters")?,
+        generators: texts(root, "generators")?,
+        basis: texts(root, "basis")?,
+        dimension: whole(facts.required("dimension")?)?,
+        quotient_dimension: facts.optional("quotient_dimension").map(|node| node.count()).transpose()?,
+        standard_monomials: facts
+            .optional("standard_monomials")
+            .map(|_| texts(facts, "standard_monomials"))
+            .transpose()?,
+        eliminations: tables(root, "elimination")?.into_iter().map(elimination_of).collect::<Result<_>>()?,
+        memberships: tables(root, "membership")?.into_iter().map(membership_of).collect::<Result<_>>()?,
+    })
+}
+
+fn elimination_of(table: Table<'_>) -> Result<Elimination> {
+    Ok(Elimination { eliminate: texts(table, "eliminate")?, basis: texts(table, "basis")? })
+}
+
+fn membership_of(table: Table<'_>) -> Result<Membership> {
+    Ok(Membership {
+        polynomial: text(table, "polynomial")?,
+        member: table.required("member")?.boolean()?,
+        normal_form: text(table, "normal_form")?,
+    })
+}
+
+/// All cases, by file name.
+pub fn all() -> Vec<Case> {
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("tests/corpus/groebner");
+    let entries = std::fs::read_dir(folder).expect("the corpus is there");
+    let names = entries.map(|entry| entry.expect("a readable folder").file_name().into_string().expect("plain names"));
+    let mut names: Vec<String> = names.filter_map(|name| Some(name.strip_suffix(".toml")?.to_owned())).collect();
+    names.sort();
+    assert!(names.len() >= 80, "the corpus has shrunk to {} files", names.len());
+    names.iter().map(|name| case(name)).collect()
+}
+
+impl Case {
+    /// The ring of the file over `field`, which is the one that it names.
+    pub fn ring<F: Field>(&self, field: &F) -> PolynomialRing<F> {
+        self.ring_in(field, self.order.clone())
+    }
+
+    /// The same in another order.
+    pub fn ring_in<F: Field>(&self, field: &F, order: Order) -> PolynomialRing<F> {
+        PolynomialRing::new(field.clone(), &self.variables, order).expect("distinct variables")
+    }
+
+    /// The generators in `ring`.
+    pub fn generators<F: Field>(&self, ring: &PolynomialRing<F>) -> Vec<Polynomial<F::Element>> {
+        read_all(ring, &self.generators)
+    }
+}
+
+/// A known basis as the engine gives it: monic, smallest leading monomial first.
+pub fn read_basis<F: Field>(ring: &PolynomialRing<F>, texts: &[String]) -> Vec<Polynomial<F::Element>> {
+    let basis: Vec<_> = read_all(ring, texts).iter().map(|f| ring.monic(f)).collect();
+    assert!(basis.iter().all(|f| !ring.is_zero(f)), "a known basis has no zero");
+    basis
+}

@@ -1,0 +1,68 @@
+//! The known answers of this folder, which an independent computer algebra system gave.
+
+pub mod cover;
+pub mod groebner;
+pub mod poly;
+pub mod systems;
+
+use std::path::Path;
+
+use groebot_algebra::number::{Field, Rationals, Zp};
+use groebot_algebra::poly::{Fractions, Polynomial, PolynomialRing, parse};
+use groebot_robot::document::{Document, Table};
+
+/// Something to do over whatever field a file names.
+pub trait Check {
+    fn run<F: Field>(&self, field: F);
+}
+
+/// Runs `check` over `field`: `Q`, `GF(32003)`, or rational functions of `parameters` over one of these.
+pub fn over(field: &str, parameters: &[String], check: &impl Check) {
+    let base = field.split_once(")(").map_or(field, |(base, _)| base);
+    let prime = base.strip_prefix("GF(").map(|rest| rest.trim_end_matches(')').parse().expect("a modulus"));
+    match prime {
+        Some(p) => with_parameters(Zp::new(p).expect("a prime"), parameters, check),
+        None if base.starts_with('Q') => with_parameters(Rationals, parameters, check),
+        None => panic!("field {field}"),
+    }
+}
+
+fn with_parameters<F: Field>(field: F, parameters: &[String], check: &impl Check) {
+    if parameters.is_empty() {
+        check.run(field);
+    } else {
+        check.run(Fractions::new(field, parameters).expect("distinct parameters"));
+    }
+}
+
+/// The polynomial that `text` stands for.
+pub fn read<F: Field>(ring: &PolynomialRing<F>, text: &str) -> Polynomial<F::Element> {
+    let value = parse(text).and_then(|expression| expression.evaluate(ring));
+    value.unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+/// The polynomials that `texts` stand for.
+pub fn read_all<F: Field>(ring: &PolynomialRing<F>, texts: &[String]) -> Vec<Polynomial<F::Element>> {
+    texts.iter().map(|text| read(ring, text)).collect()
+}
+
+/// Parses the file at `path` of this folder and hands its root to `reader`.
+fn load<T>(path: &str, reader: impl Fn(Table<'_>) -> groebot_algebra::Result<T>) -> T {
+    let full = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("tests/corpus").join(path);
+    let text = std::fs::read_to_string(&full).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let document = Document::parse(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
+    reader(document.root()).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+fn text(table: Table<'_>, key: &str) -> groebot_algebra::Result<String> {
+    Ok(table.required(key)?.text()?.to_owned())
+}
+
+fn texts(table: Table<'_>, key: &str) -> groebot_algebra::Result<Vec<String>> {
+    Ok(table.required(key)?.texts()?.into_iter().map(str::to_owned).collect())
+}
+
+/// The tables of an array of tables; none when the key is absent.
+fn tables<'d>(table: Table<'d>, key: &str) -> groebot_algebra::Result<Vec<Table<'d>>> {
+    table.optional(key).map_or(Ok(Vec::new()), |node| node.tables())
+}

@@ -1,0 +1,236 @@
+//! What a gait needs to know of a robot on two legs. Main type: [`Biped`].
+
+use nalgebra::{Point2, Point3};
+
+use super::footprint::{Footprint, Side};
+use super::polygon::Polygon;
+use crate::{Error, ErrorKind, Result};
+use groebot_robot::dynamics::{Clearance, Model};
+use groebot_robot::model::{Meshes, Robot};
+use groebot_robot::spatial::Pose;
+
+/// What is this far above a sole's lowest point still touches a floor that gives a little \[m\].
+const FLAT: f64 = 2e-3;
+
+/// A joint as a gait sees it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointRange {
+    /// Its name in the robot's own documents.
+    pub name: String,
+    /// Its symbol in the source's formulas: `q3` there is `3` here; its name where it has none.
+    pub symbol: String,
+    /// Least and greatest value \[rad\].
+    pub limits: (f64, f64),
+    /// The greatest rate \[rad/s\]; infinite where it is not told.
+    pub speed: f64,
+    /// The greatest torque or force of its motor \[N m or N\], where that is told.
+    pub effort: Option<f64>,
+}
+
+/// A foot: where its sole is and what of it touches the floor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Foot {
+    /// The link that the sole is fixed to, by its place in the robot.
+    pub link: usize,
+    /// The body of the model that it belongs to.
+    pub body: usize,
+    /// The frame of the sole in the torso frame at the zero configuration: x ahead, y left, z up; its origin is in the plane of the sole.
+    pub torso_from_sole: Pose,
+    /// The height of the ankle's last axis over the sole \[m\].
+    pub ankle_height: f64,
+    /// The corners of what touches the floor, in the frame of the sole \[m\].
+    pub corners: Vec<Point2<f64>>,
+    /// The joints from the torso to the sole, as places in a configuration.
+    pub joints: Vec<usize>,
+}
+
+/// A robot on two legs: its joints, masses and soles. The torso is the root link, with x ahead, y left, z up; the feet are level at the zero
+/// configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Biped {
+    /// Its name.
+    pub name: String,
+    /// The joints in the order of a configuration and of the output.
+    pub joints: Vec<JointRange>,
+    /// Pairs of joints of the left and the right leg that one actuator turns by the same angle.
+    pub shared: Vec<(usize, usize)>,
+    /// Masses and joints; its base is the torso.
+    pub model: Model,
+    /// The feet, left and right.
+    pub feet: [Foot; 2],
+    /// Where the third joints of the legs are, left and right, in the torso frame \[m\].
+    pub hips: [Point3<f64>; 2],
+    /// Which links may touch one another.
+    pub clearance: Clearance,
+    /// The names of the links, by their places in the robot.
+    pub links: Vec<String>,
+    /// Whether the torso carries the whole mass as a point at its centre of mass, for want of the links' own masses.
+    pub is_point_mass: bool,
+}
+
+impl Biped {
+    /// The biped that stands on the links `soles` of `robot`, left and right. What touches the floor are the lowest points of all that collides
+    /// with it and is fixed to these links; triangles are looked for in `meshes`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for links that are not there; [`ErrorKind::BadValue`] for legs that share a joint or have fewer than three, a sole
+    /// without shape, a robot without mass, a joint without limits; those of [`Meshes::points`].
+    pub fn new(robot: &Robot, soles: [&str; 2], meshes: &Meshes) -> Result<Self> {
+        let links = [robot.link(soles[0])?, robot.link(soles[1])?];
+        let model = Model::new(robot)?;
+        let outlines = [touching(robot, &model, links[0], meshes)?, touching(robot, &model, links[1], meshes)?];
+        Biped::with_outlines(robot, model, links, outlines)
+    }
+
+    /// The same on soles that cover the given points, in planes `height` over their links' origins \[m\].
+    ///
+    /// # Errors
+    /// As [`Biped::new`], but for shapes.
+    pub fn on_outlines(robot: &Robot, soles: [&str; 2], height: f64, outlines: [Vec<Point2<f64>>; 2]) -> Result<Self> {
+        let links = [robot.link(soles[0])?, robot.link(soles[1])?];
+        Biped::with_outlines(robot, Model::new(robot)?, links, outlines.map(|outline| (height, outline)))
+    }
+
+    /// `outlines` are the height of each sole's plane over its link's origin, and the points in it that touch the floor.
+    fn with_outlines(
+        robot: &Robot,
+        model: Model,
+        links: [usize; 2],
+        outlines: [(f64, Vec<Point2<f64>>); 2],
+    ) -> Result<Self> {
+        let bad = |text: String| Err(Error::new(ErrorKind::BadValue, format!("{}: {text}", robot.name())));
+        if model.mass().is_nan() || model.mass() <= 0.0 {
+            return bad("it has no mass; a walk needs the masses of its links".to_owned());
+        }
+        let [left, right] = [0, 1].map(|side| foot(&model, links[side], &outlines[side]));
+        for (foot, link) in [&left, &right].into_iter().zip(links) {
+            let name = &robot.links()[link].name;
+            if foot.joints.len() < 3 {
+                return bad(format!("{} joints lead to `{name}`; a leg has more", foot.joints.len()));
+            }
+            if foot.corners.len() < 3 {
+                return bad(format!("`{name}` has no shape that could touch the floor; give the outline of the soles"));
+            }
+        }
+        if let Some(joint) = left.joints.iter().find(|joint| right.joints.contains(joint)) {
+            let name = &model.joints()[*joint].name;
+            return bad(format!(
+                "joint `{name}` moves both feet; the root link must be the torso that both legs hang on"
+            ));
+        }
+        let hip =
+            |foot: &Foot| model.joints()[foot.joints[2]].screw.axis().map_or(Point3::origin(), |axis| axis.point());
+        let shared = |actuator: &groebot_robot::model::Actuator| {
+            let places: Vec<usize> = actuator.joints.iter().filter_map(|(name, _)| model.joint(name).ok()).collect();
+            let of = |foot: &Foot| places.iter().copied().find(|joint| foot.joints.contains(joint));
+            Some((of(&left)?, of(&right)?))
+        };
+        let moving = robot.moving();
+        let law = |joint: usize| robot.law(&robot.joints()[moving[joint]]);
+        let pairs = left.joints.iter().flat_map(|&one| right.joints.iter().map(move |&other| (one, other)));
+        let follow = |(one, other): &(usize, usize)| law(*one) == law(*other);
+        Ok(Biped {
+            name: robot.name().to_owned(),
+            joints: ranges(robot, &model)?,
+            shared: robot.actuators().iter().filter_map(shared).chain(pairs.filter(follow)).collect(),
+            hips: [hip(&left), hip(&right)],
+            is_point_mass: (1..=model.joints().len()).all(|body| model.inertia_of(body).mass() == 0.0),
+            feet: [left, right],
+            clearance: Clearance::new(robot, &model),
+            links: robot.links().iter().map(|link| link.name.clone()).collect(),
+            model,
+        })
+    }
+
+    /// The place of the joint `name`.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::UnknownName`] when no joint has that name.
+    pub fn joint(&self, name: &str) -> Result<usize> {
+        self.model.joint(name)
+    }
+
+    /// The unit of what moves a joint.
+    pub(super) fn torque_unit(&self, joint: usize) -> &'static str {
+        if self.model.joints()[joint].screw.axis().is_none() { "N" } else { "N m" }
+    }
+
+    /// Half of the way from foot to foot, sideways, when the legs hang straight \[m\]: `W_p` of RH0, HipOffsetY of NAO Table 6.1.
+    pub fn half_width(&self) -> f64 {
+        self.feet[0].torso_from_sole.translation.y
+    }
+
+    /// From the axes of the hip up to the origin of the torso \[m\]: HipOffsetZ of NAO Table 6.1.
+    pub fn hip_to_torso(&self) -> f64 {
+        -self.hips[0].z
+    }
+
+    /// What the foot of `side` covers when its sole stands flat on `print`.
+    pub fn sole_at(&self, side: Side, print: &Footprint) -> Polygon {
+        Polygon::hull(&print.carry_all(&self.feet[side as usize].corners))
+    }
+
+    /// The support polygon: the hull of the contact points of the feet that stand, each at the pose world_from_sole \[m\]; the floor is
+    /// flat, and a sole at any pose touches it with those of its corners that are lowest, within `depth` \[m\].
+    pub fn support(&self, soles: &[(Side, Pose)], depth: f64) -> Polygon {
+        let points = |(side, pose): &(Side, Pose)| {
+            let at = |corner: &Point2<f64>| pose * Point3::new(corner.x, corner.y, 0.0);
+            self.feet[*side as usize].corners.iter().map(at).collect::<Vec<_>>()
+        };
+        let points: Vec<Point3<f64>> = soles.iter().flat_map(points).collect();
+        let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
+        let touching = points.iter().filter(|point| point.z <= lowest + depth);
+        Polygon::hull(&touching.map(Point3::xy).collect::<Vec<_>>())
+    }
+}
+
+/// Limits and speeds of all joints that turn or slide.
+fn ranges(robot: &Robot, model: &Model) -> Result<Vec<JointRange>> {
+    let range = |(place, name): (usize, &String)| {
+        let joint = &robot.joints()[place];
+        let missing =
+            |what: &str| Error::new(ErrorKind::BadValue, format!("joint `{name}` has no {what}; a walk needs it"));
+        let turns_freely =
+            (joint.kind == groebot_robot::model::JointType::Continuous).then_some((f64::NEG_INFINITY, f64::INFINITY));
+        Ok(JointRange {
+            name: name.clone(),
+            symbol: joint.symbol.clone().unwrap_or_else(|| name.clone()),
+            limits: joint.limits.or(turns_freely).ok_or_else(|| missing("limits"))?,
+            speed: joint.speed.filter(|speed| *speed > 0.0).unwrap_or(f64::INFINITY),
+            effort: joint.effort.filter(|effort| *effort > 0.0),
+        })
+    };
+    robot.moving().into_iter().zip(model.joints().iter().map(|joint| &joint.name)).map(range).collect()
+}
+
+fn foot(model: &Model, link: usize, (height, corners): &(f64, Vec<Point2<f64>>)) -> Foot {
+    let (body, torso_from_link) = model.link(link);
+    let joints = model.path(body);
+    let at = torso_from_link.translation.vector;
+    let torso_from_sole = Pose::translation(at.x, at.y, at.z + height);
+    let ankle = joints.last().and_then(|joint| model.joints()[*joint].screw.axis()).map_or(at.z, |axis| axis.point().z);
+    let ankle_height = ankle - torso_from_sole.translation.z;
+    Foot { link, body, torso_from_sole, ankle_height, corners: corners.clone(), joints }
+}
+
+/// The height of the lowest points of what is fixed to a link over the link's origin, and these points from above, with the torso's axes.
+fn touching(robot: &Robot, model: &Model, link: usize, meshes: &Meshes) -> Result<(f64, Vec<Point2<f64>>)> {
+    let (body, torso_from_sole) = model.link(link);
+    let at = torso_from_sole.translation.vector;
+    let mut points: Vec<Point3<f64>> = Vec::new();
+    for (place, other) in robot.links().iter().enumerate() {
+        let (own, torso_from_link) = model.link(place);
+        for shape in other.collisions.iter().filter(|_| own == body) {
+            let torso_from_shape = torso_from_link * shape.pose();
+            let read = meshes.points(&shape.solid).map_err(|error| {
+                let text = format!("{error}; or give the outline of the soles (--outline)");
+                Error::new(error.kind(), text)
+            });
+            points.extend(read?.into_iter().map(|point| torso_from_shape * point - at));
+        }
+    }
+    let lowest = points.iter().map(|point| point.z).fold(f64::INFINITY, f64::min);
+    let touching: Vec<Point2<f64>> = points.iter().filter(|point| point.z <= lowest + FLAT).map(Point3::xy).collect();
+    let height = if lowest.is_finite() { lowest } else { 0.0 };
+    Ok((height, Polygon::hull(&touching).corners().to_vec()))
+}

@@ -1,0 +1,125 @@
+//! What keeps a motion from being walked: margins, joint limits, speeds, feet that meet. Main type: [`Fault`].
+
+use super::balance::Balance;
+use super::biped::Biped;
+use super::footprint::{Footprint, Side};
+use super::motion::Motion;
+use super::polygon::Polygon;
+use super::reference::Reference;
+use super::schedule::{Action, Schedule};
+use groebot_robot::motion::{beyond_limit, too_fast};
+
+/// Two feet must stay this far apart, seen from above \[m\].
+pub const FEET_APART: f64 = 0.004;
+
+/// What is wrong at a sample.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// The projection of the centre of mass is too near to the border of the support polygon: no slower walk helps.
+    Static {
+        /// Its distance \[m\], negative outside.
+        margin: f64,
+    },
+    /// The zero moment point is too near to the border: a slower walk may help.
+    Dynamic {
+        /// Its distance \[m\], negative outside.
+        margin: f64,
+    },
+    /// A joint is beyond its limits.
+    Limit {
+        /// The joint.
+        joint: usize,
+        /// Its value \[rad\].
+        value: f64,
+    },
+    /// A joint turns too fast.
+    Speed {
+        /// The joint.
+        joint: usize,
+        /// Its rate \[rad/s\].
+        rate: f64,
+    },
+    /// The feet meet, seen from above.
+    Feet {
+        /// How far apart they are \[m\].
+        apart: f64,
+    },
+}
+
+/// A fault with its place.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Found {
+    /// The sample.
+    pub sample: usize,
+    /// The phase.
+    pub phase: usize,
+    /// What is wrong.
+    pub fault: Fault,
+}
+
+/// What is asked of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Demand {
+    /// The least margin of the zero moment point \[m\].
+    pub margin: f64,
+    /// Whether the centre of mass must keep that margin too, as in a walk that can stop at any time.
+    pub statically: bool,
+    /// Whether the centre of mass keeps its way however slow the walk is, so that where it is too near to the border no slower walk helps.
+    pub keeps_way: bool,
+    /// The greatest share of its own speed that a joint may have.
+    pub speed_share: f64,
+}
+
+/// All faults of a motion in the order of time, at most one of each kind for a sample.
+pub fn faults(
+    biped: &Biped,
+    references: &[Reference],
+    motion: &Motion,
+    balances: &[Balance],
+    demand: &Demand,
+    tick: f64,
+) -> Vec<Found> {
+    let mut found = Vec::new();
+    for (sample, (reference, balance)) in references.iter().zip(balances).enumerate() {
+        let mut add = |fault: Fault| found.push(Found { sample, phase: reference.phase, fault });
+        let limits = biped.joints.iter().map(|range| Some(range.limits));
+        if let Some((joint, value)) = beyond_limit(limits, &motion.postures[sample].q) {
+            add(Fault::Limit { joint, value });
+        }
+        let (falls, tilts) = (balance.margin < demand.margin, balance.static_margin < demand.margin);
+        if tilts && (demand.statically || demand.keeps_way && falls) {
+            add(Fault::Static { margin: balance.static_margin });
+        } else if falls {
+            add(Fault::Dynamic { margin: balance.margin });
+        }
+        if sample > 0 {
+            let [before, now] = [sample - 1, sample].map(|sample| &motion.postures[sample].q);
+            let speeds = biped.joints.iter().map(|range| Some(range.speed * demand.speed_share));
+            if let Some((joint, rate)) = too_fast(speeds, before, now, tick) {
+                add(Fault::Speed { joint, rate });
+            }
+        }
+    }
+    found
+}
+
+/// The first step of a schedule, with the time in samples, on which the feet come too near to one another, seen from above.
+pub fn feet_meet(biped: &Biped, schedule: &Schedule, references: &[Reference]) -> Option<Found> {
+    references.iter().enumerate().find_map(|(sample, reference)| {
+        let swings = matches!(schedule.phases[reference.phase].action, Action::Swing(_));
+        if sample > 0 && !swings {
+            return None;
+        }
+        let [left, right] = [Side::Left, Side::Right].map(|side| outline(biped, side, reference));
+        let apart = left.distance_to(&right);
+        (apart < FEET_APART).then_some(Found { sample, phase: reference.phase, fault: Fault::Feet { apart } })
+    })
+}
+
+fn outline(biped: &Biped, side: Side, reference: &Reference) -> Polygon {
+    let pose = reference.world_from_soles[side as usize];
+    let (at, turn) = (pose.translation.vector, pose.rotation.euler_angles().2);
+    biped.sole_at(side, &Footprint { x: at.x, y: at.y, yaw: turn })
+}

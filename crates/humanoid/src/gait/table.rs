@@ -1,0 +1,142 @@
+//! A walk as a trajectory, and so as CSV or JSON.
+
+use nalgebra::{Point2, Point3};
+use serde_json::{Value, json};
+
+use super::balance::Balance;
+use super::biped::Biped;
+use super::footprint::{Footprint, Side};
+use super::plan::Walk;
+use super::request::Gait;
+use super::schedule::Action;
+use super::summary::Summary;
+use groebot_robot::motion::{Contact, Figure, JointTrack, Track, Trajectory};
+
+impl Walk {
+    /// The walk as a trajectory: its base is the torso, its contacts are the soles `left` and `right`, its points the centre of mass `com` and the zero
+    /// moment points of the multibody, `zmp`, and of the pendulum, `pendulum`; its figures `static_margin` and `margin` \[m\].
+    pub fn trajectory(&self, biped: &Biped) -> Trajectory {
+        let joint = |range: &super::JointRange| JointTrack {
+            name: range.name.clone(),
+            slides: false,
+            limits: Some(range.limits).filter(|(low, high)| low.is_finite() && high.is_finite()),
+            speed: Some(range.speed).filter(|speed| speed.is_finite()),
+        };
+        let contact = |side: Side| Contact {
+            name: side.name().to_owned(),
+            poses: self.references.iter().map(|reference| reference.world_from_soles[side as usize]).collect(),
+            stands: self.references.iter().map(|reference| reference.stands[side as usize]).collect(),
+        };
+        let floor = |name: &str, point: fn(&Balance) -> Point2<f64>| Track {
+            name: name.to_owned(),
+            at: self.balances.iter().map(point).map(|point| Point3::new(point.x, point.y, 0.0)).collect(),
+        };
+        let figure = |name: &str, value: fn(&Balance) -> f64| Figure {
+            name: name.to_owned(),
+            unit: "m".to_owned(),
+            values: self.balances.iter().map(value).collect(),
+        };
+        let postures = &self.motion.postures;
+        Trajectory {
+            robot: biped.name.clone(),
+            joints: biped.joints.iter().map(joint).collect(),
+            times: (0..self.balances.len()).map(|sample| self.time(sample)).collect(),
+            q: postures.iter().map(|posture| posture.q.clone()).collect(),
+            base: postures.iter().map(|posture| posture.world_from_torso).collect(),
+            contacts: vec![contact(Side::Left), contact(Side::Right)],
+            points: vec![
+                Track { name: "com".to_owned(), at: self.motion.centres.clone() },
+                floor("zmp", |balance| balance.zmp),
+                floor("pendulum", |balance| balance.pendulum),
+            ],
+            figures: vec![
+                figure("static_margin", |balance| balance.static_margin),
+                figure("margin", |balance| balance.margin),
+            ],
+        }
+    }
+
+    /// The walk's trajectory as CSV: [`groebot_robot::motion::table`].
+    pub fn to_csv(&self, biped: &Biped) -> String {
+        self.trajectory(biped).to_csv()
+    }
+
+    /// The walk's trajectory as JSON, and beside it under `walk` the time between two samples, footsteps, phases, summary, and the support polygons.
+    pub fn to_json(&self, biped: &Biped) -> String {
+        self.json_of(biped, &self.trajectory(biped))
+    }
+
+    /// The same with another trajectory of this walk: [`Walk::trajectory_with_forces`].
+    pub fn json_of(&self, biped: &Biped, trajectory: &Trajectory) -> String {
+        self.json_value(biped, trajectory).to_string() + "\n"
+    }
+
+    /// What [`Walk::json_of`] writes.
+    pub fn json_value(&self, biped: &Biped, trajectory: &Trajectory) -> Value {
+        let route = &self.schedule.route;
+        let steps = route.steps.iter().map(|step| {
+            let mut value = print(&step.print);
+            value["foot"] = step.side.name().into();
+            value
+        });
+        let support = |balance: &Balance| -> Value {
+            balance.support.corners().iter().map(|corner| json!([corner.x, corner.y])).collect()
+        };
+        let mut value = trajectory.to_json();
+        value["walk"] = json!({
+            "tick": self.schedule.tick,
+            "start": { "left": print(&route.start[0]), "right": print(&route.start[1]) },
+            "steps": steps.collect::<Vec<_>>(),
+            "phases": self.phases(),
+            "summary": summary(&Summary::of(biped, self)),
+            "support": self.balances.iter().map(support).collect::<Vec<_>>(),
+        });
+        value
+    }
+
+    fn phases(&self) -> Vec<Value> {
+        let mut start = 0;
+        let phase = |phase: &super::Phase| {
+            let (action, step) = match phase.action {
+                Action::Rest => ("rest", None),
+                Action::Shift(step) => ("shift", Some(step + 1)),
+                Action::Swing(step) => ("swing", Some(step + 1)),
+                Action::Balance(step) => ("balance", Some(step + 1)),
+                Action::Lower => ("lower", None),
+                Action::Rise => ("rise", None),
+            };
+            let from = self.time(start);
+            start += phase.samples;
+            json!({ "action": action, "step": step, "from": from, "to": self.time(start), "slowed": phase.slowed })
+        };
+        self.schedule.phases.iter().map(phase).collect()
+    }
+}
+
+fn print(print: &Footprint) -> Value {
+    json!({ "x": print.x, "y": print.y, "yaw": print.yaw })
+}
+
+fn summary(summary: &Summary) -> Value {
+    let extreme = |extreme: &super::Extreme| json!({ "value": extreme.value, "time": extreme.time });
+    let joint = |(name, figure): &(String, super::Extreme)| json!({ "joint": name, "value": figure.value, "time": figure.time });
+    json!({
+        "gait": match summary.gait { Gait::Seed => "seed", Gait::Preview => "preview", Gait::OneStep(_) => "osg" },
+        "steps": summary.steps,
+        "duration": summary.duration,
+        "stepping": summary.stepping,
+        "point_mass": summary.is_point_mass,
+        "distance": summary.distance,
+        "turn": summary.turn,
+        "torso_height": summary.torso_height,
+        "speed": summary.speed,
+        "margin": extreme(&summary.margin),
+        "static_margin": extreme(&summary.static_margin),
+        "pendulum_error": extreme(&summary.pendulum_error),
+        "nearest_limit": joint(&summary.nearest_limit),
+        "fastest": joint(&summary.fastest),
+        "touching": summary.touching.iter().map(|(links, depth)| json!({ "links": links, "depth": depth.value, "time": depth.time })).collect::<Vec<_>>(),
+        "slowed_phases": summary.slowed.0,
+        "slowest_factor": summary.slowed.1,
+    })
+}

@@ -1,0 +1,151 @@
+//! Robots that walk: NAO, RH0 and TEO of [`groebot_robot::robots`], or any other with two legs. Main type: [`Walker`].
+
+use std::borrow::Cow;
+
+use nalgebra::{Point2, Vector2};
+
+use super::biped::{Biped, Foot};
+use super::footprint::Side;
+use super::legs::{LegSolver, Legs};
+use super::one_step::{Laws, OneStep};
+use super::plan::TICK;
+use super::polygon::Polygon;
+use super::request::Gait;
+use super::usual::Usual;
+use super::zmp::GRAVITY;
+use crate::{Error, ErrorKind, Result};
+use groebot_robot::kinematics::Target;
+use groebot_robot::model::Robot;
+
+/// A robot that can walk, with the gaits that it walks by name, its own first, each with its usual figures.
+#[derive(Clone, Debug)]
+pub struct Walker {
+    /// The robot.
+    pub biped: Biped,
+    /// The solvers of its legs.
+    pub legs: Legs,
+    /// Its gaits.
+    pub gaits: Vec<(&'static str, Usual)>,
+}
+
+/// Heights of the hip that are tried in turn, as shares of the leg's length over the ankle.
+const HEIGHTS: [f64; 8] = [0.965, 0.955, 0.94, 0.925, 0.91, 0.89, 0.87, 0.84];
+/// The height of the hip before the trunk is lowered, as such a share.
+const UPRIGHT: f64 = 0.985;
+/// How far a joint that does not walk is kept from a limit \[rad or m\].
+const ASIDE: f64 = 1e-3;
+/// The time of a step in the square root of the leg's length by gravity: a pendulum's unit of time.
+const PERIOD: f64 = 19.0;
+
+impl Walker {
+    /// `robot` on the soles of `biped`, with a solver for each leg: it brings the sole's link to a pose in the torso frame. The figures of its gaits
+    /// follow from the lengths of its legs and the size of its soles; joints that do not walk stand at zero, or at the limit next to it.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when no posture with bent knees within the limits brings the soles below the hips; [`ErrorKind::Unsupported`] for legs
+    /// that do not have six joints.
+    pub fn new(robot: &Robot, biped: Biped, solvers: [LegSolver; 2]) -> Result<Self> {
+        if let Some(foot) = biped.feet.iter().find(|foot| foot.joints.len() != 6) {
+            let text = format!("{}: a leg has {} joints; legs of six are walked", biped.name, foot.joints.len());
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+        let mut crouch = at_rest(robot, &biped);
+        for (foot, solver) in biped.feet.iter().zip(&solvers) {
+            let answer = crouched(&biped, foot, solver)?;
+            foot.joints.iter().zip(answer).for_each(|(joint, value)| crouch[*joint] = value);
+        }
+        let legs = Legs::new(&biped, solvers, crouch)?;
+        let gaits = vec![("osg", one_step(&biped)), ("preview", preview(&biped))];
+        Ok(Walker { biped, legs, gaits })
+    }
+}
+
+/// All joints at zero, or at the limit next to it, those that follow others where these bring them.
+fn at_rest(robot: &Robot, biped: &Biped) -> Vec<f64> {
+    let rest = |range: &super::JointRange| match range.limits {
+        (low, high) if low < 0.0 && high > 0.0 => 0.0,
+        (low, high) if high - low > 2.0 * ASIDE => 0f64.clamp(low + ASIDE, high - ASIDE),
+        (low, high) => (low + high) / 2.0,
+    };
+    let mut q: Vec<f64> = biped.joints.iter().map(rest).collect();
+    robot.follow(&mut q);
+    q
+}
+
+/// The first posture of a leg within its limits that brings the sole below the hip with a bent knee.
+fn crouched(biped: &Biped, foot: &Foot, solver: &LegSolver) -> Result<Vec<f64>> {
+    let (_, torso_from_link) = biped.model.link(foot.link);
+    let sole_from_link = foot.torso_from_sole.inv_mul(&torso_from_link);
+    let within = |answer: &Vec<f64>| {
+        let ranges = foot.joints.iter().map(|joint| biped.joints[*joint].limits);
+        answer.iter().zip(ranges).all(|(value, (low, high))| low <= *value && *value <= high)
+    };
+    let size = |answer: &Vec<f64>| answer.iter().map(|value| value.abs()).fold(0.0, f64::max);
+    let (hip, length) = (biped.hips[0].z, leg(biped));
+    for share in HEIGHTS.into_iter().rev() {
+        let mut torso_from_sole = foot.torso_from_sole;
+        torso_from_sole.translation.z = hip - share * length - foot.ankle_height;
+        let mut found = Vec::new();
+        solver.solve(&Target::Pose(torso_from_sole * sole_from_link), &[], &mut found)?;
+        let best = found.into_iter().map(|answer| answer.q).filter(within).min_by(|a, b| size(a).total_cmp(&size(b)));
+        if let Some(answer) = best {
+            return Ok(answer);
+        }
+    }
+    let text = format!("{}: no posture within the limits of a leg brings its sole below the hip", biped.name);
+    Err(Error::new(ErrorKind::BadValue, text))
+}
+
+/// The length of the stretched left leg, from the third joint over the knee to the last one \[m\].
+fn leg(biped: &Biped) -> f64 {
+    let at = |place: usize| biped.model.joints()[biped.feet[0].joints[place]].screw.axis().map(|axis| axis.point());
+    match (at(2), at(3), at(5)) {
+        (Some(hip), Some(knee), Some(ankle)) => (knee - hip).norm() + (ankle - knee).norm(),
+        _ => 0.0,
+    }
+}
+
+/// Where the middle of the sole is ahead of its frame, and how far the border is from there \[m\].
+fn sole(biped: &Biped) -> (f64, f64) {
+    let corners = &biped.feet[Side::Left as usize].corners;
+    let ends = corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.x), high.max(p.x)));
+    let ahead = (ends.0 + ends.1) / 2.0;
+    (ahead, Polygon::hull(corners).signed_distance(&Point2::from(Vector2::new(ahead, 0.0))).max(0.0))
+}
+
+/// One step goal by the generic laws of RH0 3.3: all figures are shares of the leg's length and of the sole's half width.
+fn one_step(biped: &Biped) -> Usual {
+    let (length, (ahead, room)) = (leg(biped), sole(biped));
+    let ankle_height = biped.feet[0].ankle_height;
+    let height = |share: f64| share * length + ankle_height;
+    Usual {
+        gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.006 * length, pitch: 0.0, upright: None }),
+        length: 0.16 * length,
+        lift: 0.07 * length,
+        half_width: None,
+        amplitude: biped.half_width() - 0.17 * room,
+        ahead,
+        hip_heights: Cow::Owned(HEIGHTS.map(height).to_vec()),
+        upright_hip: height(UPRIGHT),
+        period: PERIOD * (length / GRAVITY).sqrt(),
+        double_support: 0.66,
+        rest: 0.0,
+        margin: 0.25 * room,
+        speed_share: 0.9,
+        most_turn: 0.15,
+        tick: TICK,
+    }
+}
+
+/// Preview control, with a step in a third of the time.
+fn preview(biped: &Biped) -> Usual {
+    let usual = one_step(biped);
+    Usual {
+        gait: Gait::Preview,
+        amplitude: biped.half_width(),
+        period: usual.period / 3.0,
+        double_support: 0.3,
+        rest: 1.5,
+        ..usual
+    }
+}

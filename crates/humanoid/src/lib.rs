@@ -1,0 +1,15 @@
+//! Humanoids that walk.
+
+pub mod gait;
+
+pub mod walkers;
+
+pub mod nav;
+
+pub mod task;
+
+pub mod sim;
+
+pub mod view;
+
+pub use groebot_algebra::{Error, ErrorKind, Result, Watch};

@@ -1,0 +1,217 @@
+//! A run of the simulator. Main type: [`Run`].
+
+use std::ops::Range;
+
+use nalgebra::Point2;
+
+use super::destination::Destination;
+use super::figures::Figures;
+use crate::gait::{Footprint, Side, Usual, Walk, Walker};
+use crate::nav::Room;
+use crate::task::{Blocked, Body, Course, Floor, Journey, Method, Pilot};
+use crate::walkers::{self, Outline};
+use crate::{Error, ErrorKind, Result, Watch};
+use groebot_robot::document::shown;
+use groebot_robot::model::Meshes;
+use groebot_robot::robots;
+
+/// How a run begins.
+#[derive(Clone, Debug)]
+pub struct Start {
+    /// Who walks, by one step goal.
+    pub walker: Walker,
+    /// What it covers of the floor.
+    pub body: Body,
+    /// Where.
+    pub room: Room,
+    /// How far the body keeps away from what stands there \[m\].
+    pub apart: f64,
+    /// Where the middle of the feet is at first, and where the robot looks.
+    pub middle: Footprint,
+    /// Where it is to get.
+    pub goal: Destination,
+    /// How its ways are found.
+    pub method: Method,
+}
+
+/// What came of going on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Next {
+    /// A step: the samples of the walk that are new.
+    Step(Range<usize>),
+    /// It stands at the goal.
+    Arrived,
+}
+
+/// A robot on its way through a room.
+#[derive(Clone, Debug)]
+pub struct Run {
+    start: Start,
+    /// The gait before any figure was changed.
+    usual: Usual,
+    figures: Figures,
+    floor: Floor,
+    course: std::result::Result<Course, Blocked>,
+    journey: Journey<'static>,
+}
+
+impl Start {
+    /// That of a robot of this crate, by its name, on shortest ways.
+    ///
+    /// # Errors
+    /// [`ErrorKind::UnknownName`] for another name; as [`Body::new`].
+    pub fn of_robot(name: &str, room: Room, middle: Footprint, goal: Destination, apart: f64) -> Result<Self> {
+        let unknown = || {
+            let text = format!("no robot `{}` walks here; give nao, rh0 or teo", shown(name));
+            Error::new(ErrorKind::UnknownName, text)
+        };
+        let (walker, robot) = (walkers::walker(name, Outline::Measured), robots::robot(name));
+        let (walker, robot) = (walker.ok_or_else(unknown)??, robot.ok_or_else(unknown)?);
+        let body = Body::new(&robot, &walker.biped, &Meshes::default())?;
+        Ok(Start { walker, body, room, apart, middle, goal, method: Method::Exact })
+    }
+
+    /// The way from a place.
+    fn course(
+        &self,
+        pilot: &Pilot,
+        floor: &Floor,
+        from: &Footprint,
+        watch: &Watch,
+    ) -> Result<std::result::Result<Course, Blocked>> {
+        let goal = self.goal.goal(&self.room, pilot, floor, &from.point(), watch)?;
+        Course::find(pilot, floor, from, goal, self.method, watch)
+    }
+}
+
+impl Run {
+    /// Stands ready, its trunk lowered, its way found.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a walker without a gait by one step goal; as [`Pilot::new`], [`Room::map`], [`Floor::new`], [`Destination::goal`], [`Course::find`] and [`Journey::new`].
+    pub fn new(start: Start, watch: &Watch) -> Result<Self> {
+        let usual = start.walker.gaits.iter().find(|(_, usual)| usual.gait.is_one_step());
+        let usual = usual.map(|(_, usual)| usual.clone()).ok_or_else(|| {
+            let text = format!("{} has no gait by one step goal", start.walker.biped.name);
+            Error::new(ErrorKind::Unsupported, text)
+        })?;
+        let pilot = Pilot::new(start.walker.clone(), usual.clone(), start.body.clone(), true, watch)?;
+        let pilot = pilot.at_most(usual.length, usual.most_turn);
+        let figures = Figures::of(&start.walker.biped, &usual, pilot.reach().hip_height);
+        let floor = Floor::new(&start.room.map()?, start.apart)?;
+        let course = start.course(&pilot, &floor, &start.middle, watch)?;
+        let journey = Journey::new(&pilot, &floor, start.middle.feet(pilot.half_width()), watch)?.into_owned();
+        Ok(Run { start, usual, figures, floor, course, journey })
+    }
+
+    /// The figures that the next step obeys.
+    pub fn figures(&self) -> &Figures {
+        &self.figures
+    }
+
+    /// The room as it is now.
+    pub fn room(&self) -> &Room {
+        &self.start.room
+    }
+
+    /// The way from where it was found, or why there is none.
+    pub fn course(&self) -> &std::result::Result<Course, Blocked> {
+        &self.course
+    }
+
+    /// The walk up to now.
+    pub fn walk(&self) -> &Walk {
+        self.journey.walk()
+    }
+
+    /// How it steps now.
+    pub fn pilot(&self) -> &Pilot {
+        self.journey.pilot()
+    }
+
+    /// Takes the next step.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] where there is no way; as [`Journey::step`].
+    pub fn step(&mut self, watch: &Watch) -> Result<Next> {
+        let course = self.course.as_ref().map_err(|blocked| Error::new(ErrorKind::BadValue, blocked.to_string()))?;
+        let before = self.journey.walk().references.len();
+        let has_stepped = self.journey.step(&self.floor, course, watch)?;
+        Ok(if has_stepped { Next::Step(before..self.journey.walk().references.len()) } else { Next::Arrived })
+    }
+
+    /// Another goal from now on.
+    ///
+    /// # Errors
+    /// As [`Destination::goal`] and [`Course::find`]; then all stays as it was.
+    pub fn go_to(&mut self, goal: Destination, watch: &Watch) -> Result<()> {
+        self.change(self.start.room.clone(), goal, watch)
+    }
+
+    /// Another room from now on: furniture that was moved.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] where it would stand on the robot; as [`Room::map`], [`Destination::goal`] and [`Course::find`]; then all stays as it was.
+    pub fn refurnish(&mut self, room: Room, watch: &Watch) -> Result<()> {
+        self.change(room, self.start.goal.clone(), watch)
+    }
+
+    /// Another room and another goal at once.
+    ///
+    /// # Errors
+    /// As [`Run::refurnish`] and [`Run::go_to`]; then all stays as it was.
+    pub fn change(&mut self, room: Room, goal: Destination, watch: &Watch) -> Result<()> {
+        let floor =
+            if room == self.start.room { self.floor.clone() } else { Floor::new(&room.map()?, self.start.apart)? };
+        if let Some(at) = self.meets(&floor)? {
+            let text = format!("furniture would stand on the robot, at ({:.3}, {:.3})", at.x, at.y);
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let start = Start { room, goal, ..self.start.clone() };
+        self.course = start.course(self.pilot(), &floor, &self.journey.middle(), watch)?;
+        (self.start, self.floor) = (start, floor);
+        self.journey.turn_to_new_course();
+        Ok(())
+    }
+
+    /// Where the robot as it stands meets an obstacle.
+    fn meets(&self, floor: &Floor) -> Result<Option<Point2<f64>>> {
+        let (biped, feet) = (&self.pilot().walker().biped, self.journey.feet());
+        let on_sole = |side: Side| floor.under_sole(&biped.sole_at(side, &feet[side as usize]));
+        if let Some(at) = [Side::Left, Side::Right].into_iter().find_map(on_sole) {
+            return Ok(Some(at));
+        }
+        let Some(posture) = self.walk().motion.postures.last() else { return Ok(None) };
+        Ok(floor.beside_body(&self.pilot().body().outline(biped, posture)?))
+    }
+
+    /// Where it is to get.
+    pub fn goal(&self) -> &Destination {
+        &self.start.goal
+    }
+
+    /// Another value of a figure of the gait from the next step on; the samples that the robot takes for a new height, none where it stays.
+    ///
+    /// # Errors
+    /// As [`Figures::with`]; what keeps the robot from walking so, as [`Pilot::new`] and [`Pilot::within`]; then all stays as it was.
+    pub fn set(&mut self, name: &str, value: f64, watch: &Watch) -> Result<Range<usize>> {
+        let figures = self.figures.with(name, value)?;
+        let Start { walker, body, .. } = &self.start;
+        let usual = figures.put(&walker.biped, &self.usual);
+        let (length, turn) = (usual.length, usual.most_turn);
+        let pilot = Pilot::new(walker.clone(), usual, body.clone(), true, watch)?.within(length, turn, watch)?;
+        let (before, mut journey) = (self.walk().references.len(), self.journey.clone());
+        journey.walk_as(pilot, watch)?;
+        let course = self.start.course(journey.pilot(), &self.floor, &journey.middle(), watch)?;
+        (self.figures, self.course, self.journey) = (figures, course, journey);
+        Ok(before..self.walk().references.len())
+    }
+
+    /// Stands where it is; a walker that is upright rises.
+    ///
+    /// # Errors
+    /// As [`Journey::finish`].
+    pub fn finish(self, watch: &Watch) -> Result<Walk> {
+        self.journey.finish(watch)
+    }
+}

@@ -1,0 +1,121 @@
+//! The printed solvers of the humanoids' legs, those of `derivations/`: bit for bit what `Program::solve` answers. Main type: [`Printed`].
+
+use groebot_runtime::Solve;
+use nalgebra::{Rotation3, UnitQuaternion, Vector3};
+
+use crate::{Error, ErrorKind, Result};
+use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
+use groebot_robot::spatial::Pose;
+
+#[rustfmt::skip]
+#[path = "legs/nao_left_leg.rs"]
+mod nao_left_leg;
+#[rustfmt::skip]
+#[path = "legs/nao_right_leg.rs"]
+mod nao_right_leg;
+#[rustfmt::skip]
+#[path = "legs/rh0_left_leg.rs"]
+mod rh0_left_leg;
+#[rustfmt::skip]
+#[path = "legs/rh0_right_leg.rs"]
+mod rh0_right_leg;
+#[rustfmt::skip]
+#[path = "legs/teo_leg.rs"]
+mod teo_leg;
+
+/// A printed solver of a leg with six joints, for the pose of its tip in its base.
+#[derive(Clone, Copy, Debug)]
+pub struct Printed {
+    /// Puts all solutions in place of what is there; `None` when a number is not finite.
+    solve: fn(&[f64; 12], &mut Vec<Solution>) -> Option<()>,
+}
+
+macro_rules! printed {
+    ($($name:ident: $solver:ident;)+) => {
+        $(pub const $name: Printed = Printed {
+            solve: |target, out| {
+                let mut answers = [$solver::EMPTY; $solver::CAPACITY];
+                let count = $solver::Solver.solve(target, &mut answers).ok()?;
+                out.resize(count, Solution::default());
+                for (out, answer) in out.iter_mut().zip(&answers) {
+                    out.q.clear();
+                    out.q.extend_from_slice(&answer.q);
+                    (out.residual, out.branch) = (answer.residual, answer.branch);
+                    (out.chosen, out.settled) = (answer.chosen, answer.settled);
+                    out.free.clear();
+                    out.free.extend((0..$solver::JOINTS).filter(|joint| answer.is_free(*joint)));
+                }
+                Some(())
+            },
+        };)+
+    };
+}
+
+printed! {
+    NAO_LEFT_LEG: nao_left_leg;
+    NAO_RIGHT_LEG: nao_right_leg;
+    RH0_LEFT_LEG: rh0_left_leg;
+    RH0_RIGHT_LEG: rh0_right_leg;
+    TEO_LEFT_LEG: teo_leg;
+}
+
+impl InverseKinematics for Printed {
+    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
+        let numbers = Target::numbers(target).try_into().ok().filter(|_| given.is_empty());
+        let wrong = || Error::new(ErrorKind::BadValue, "a leg is asked for the pose of its tip; give finite numbers");
+        numbers.and_then(|numbers| (self.solve)(&numbers, out)).ok_or_else(wrong)
+    }
+}
+
+/// A leg that is the mirror image in y = 0 of the one that is solved: pitches keep their sense, yaw and rolls turn round.
+#[derive(Clone, Copy, Debug)]
+pub struct Mirrored {
+    /// The solver of the image.
+    pub image: Printed,
+    /// The value of each joint for the value 1 of its image.
+    pub senses: [f64; 6],
+}
+
+impl InverseKinematics for Mirrored {
+    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
+        let image = if let Target::Pose(pose) = target { Target::Pose(reflected(pose)) } else { *target };
+        self.image.solve(&image, given, out)?;
+        for answer in out {
+            answer.q.iter_mut().zip(self.senses).for_each(|(q, sense)| *q *= sense);
+        }
+        Ok(())
+    }
+}
+
+/// The mirror image of a pose in y = 0.
+fn reflected(pose: &Pose) -> Pose {
+    let mirror = nalgebra::Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 1.0));
+    let turn = mirror * pose.rotation.to_rotation_matrix().matrix() * mirror;
+    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
+    Pose::from_parts((mirror * pose.translation.vector).into(), rotation)
+}
+
+/// A leg that is solved from the foot up: its solver's base moves with the sole, its tip is fixed to the torso.
+#[derive(Clone, Copy, Debug)]
+pub struct FromTheFoot {
+    /// The solver of the chain from the foot to the torso.
+    pub upwards: Printed,
+    /// The frame of the solver's base in the frame of the sole.
+    pub sole_from_base: Pose,
+    /// The frame of the solver's tip in the frame of the torso.
+    pub torso_from_tip: Pose,
+}
+
+impl InverseKinematics for FromTheFoot {
+    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
+        let target = match target {
+            Target::Pose(torso_from_sole) => {
+                Target::Pose((torso_from_sole * self.sole_from_base).inv_mul(&self.torso_from_tip))
+            }
+            other => *other,
+        };
+        self.upwards.solve(&target, given, out)?;
+        out.iter_mut().for_each(|answer| answer.q.reverse());
+        Ok(())
+    }
+}

@@ -1,0 +1,48 @@
+//! TEO: the posture that its walks start from, and their figures.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use super::posture;
+use super::printed::{Mirrored, TEO_LEFT_LEG};
+use crate::Result;
+use crate::gait::{Biped, Gait, Laws, Legs, OneStep, Usual, Walker};
+use groebot_robot::model::Meshes;
+use groebot_robot::robots::teo;
+
+/// Bent knees \[rad\].
+const CROUCH: [(&str, f64); 3] = [("HipPitch", -0.3), ("KneePitch", 0.6), ("AnklePitch", -0.3)];
+
+/// What the right leg's joints do for the value 1 of the left one's: yaw and rolls turn the other way.
+const SENSES: [f64; 6] = [-1.0, -1.0, 1.0, 1.0, 1.0, -1.0];
+
+/// TEO with the derived solver of its left leg, of which the right one is the mirror image.
+///
+/// # Errors
+/// None with the crate's own data; those of [`Biped::new`] and [`Legs::new`] otherwise.
+pub fn teo_walker() -> Result<Walker> {
+    let biped = Biped::new(&teo(), ["l_sole", "r_sole"], &Meshes::default())?;
+    let crouch = posture(&biped, |_| CROUCH)?;
+    let right = Mirrored { image: TEO_LEFT_LEG, senses: SENSES };
+    let legs = Legs::new(&biped, [Arc::new(TEO_LEFT_LEG), Arc::new(right)], crouch)?;
+    Ok(Walker { biped, legs, gaits: vec![("osg", TEO_ONE_STEP)] })
+}
+
+/// One step goal by the generic laws of RH0 3.3, on a circle of 30 mm about the point below the ankle; all figures are ours.
+pub const TEO_ONE_STEP: Usual = Usual {
+    gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.004, pitch: 0.0, upright: None }),
+    length: 0.1,
+    lift: 0.04,
+    half_width: None,
+    amplitude: 0.0985,
+    ahead: 0.0,
+    hip_heights: Cow::Borrowed(&[0.735, 0.73, 0.725, 0.72, 0.71, 0.7]),
+    upright_hip: 0.745,
+    period: 4.0,
+    double_support: 0.5,
+    rest: 0.0,
+    margin: 0.02,
+    speed_share: 0.9,
+    most_turn: 0.15,
+    tick: 0.02,
+};

@@ -1,0 +1,18 @@
+//! Tests of groebot-humanoid in one binary; the modules mirror `src/`.
+
+#[path = "../../robot/tests/dynamics/parts.rs"]
+mod dynamics_parts;
+mod gait;
+mod nav;
+mod sim;
+mod task;
+mod view;
+mod walkers;
+
+use proptest::test_runner::{Config, FileFailurePersistence};
+
+/// So many cases of a property; inputs that fail are kept in `tests/regressions/` and come first from then on.
+fn cases(count: u32) -> Config {
+    let kept = FileFailurePersistence::SourceParallel("tests/regressions");
+    Config { cases: count, failure_persistence: Some(Box::new(kept)), ..Config::default() }
+}

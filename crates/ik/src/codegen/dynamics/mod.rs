@@ -1,0 +1,266 @@
+//! Printing equations of motion: Rust ([`Printed::rust`]) and C99 ([`Printed::c99`]).
+//!
+//! The recursions of [`groebot_robot::dynamics`] run over numbers that write down how they are computed; what is known beforehand is computed at once, and nothing twice. Where
+//! such straight-line code would be long, a step of the recursion is written down alone, in a loop over the bodies.
+
+mod function;
+mod language;
+mod languages;
+mod loops;
+mod recursive;
+mod tape;
+
+use serde::Serialize;
+
+pub use self::function::Function;
+use self::language::{Language, results};
+use self::languages::{C, Rust};
+use self::recursive::Recursive;
+use self::tape::{Recorded, Tape};
+use super::names::remark;
+use super::printer::Printer;
+use super::reserved::prefix;
+use crate::solver::{Demand, Instruction, Operand};
+use crate::{Error, ErrorKind, Result};
+use groebot_robot::dynamics::{Equations, FormalState, Freedom, Place, Value};
+
+const RUST: &str = include_str!("../skeleton/dynamics.rs.txt");
+const HEADER: &str = include_str!("../skeleton/dynamics.h.txt");
+const SOURCE: &str = include_str!("../skeleton/dynamics.c.txt");
+
+/// How a function is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Form {
+    /// As straight-line code where that has at most [`LONGEST`] characters in Rust, otherwise recursive.
+    #[default]
+    Shorter,
+    /// As straight-line code, which is fastest.
+    Straight,
+    /// As loops over the bodies, whose figures stand in tables; forward dynamics with joints that follow others is straight-line code all the same.
+    Recursive,
+}
+
+/// The most characters of a function's straight-line code, unless it is asked for.
+pub const LONGEST: usize = 100_000;
+
+/// What is printed of a robot.
+#[derive(Clone, Debug)]
+pub struct Printed<'a> {
+    /// The robot's name.
+    pub name: &'a str,
+    /// Its equations of motion; friction is left out.
+    pub equations: &'a Equations,
+    /// Lines for the head of the file.
+    pub remarks: Vec<String>,
+    /// The functions, in order.
+    pub functions: Vec<Function>,
+    /// How they are printed.
+    pub form: Form,
+}
+
+/// The code of one function.
+struct Body {
+    code: Vec<Instruction>,
+    results: Vec<Operand>,
+}
+
+impl Printed<'_> {
+    /// A Rust file on the crate `groebot-runtime` (edition 2024).
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for forward dynamics where bodies without mass would move.
+    pub fn rust(&self) -> Result<String> {
+        Ok(super::fill(RUST, &self.outline(&Rust, "")?))
+    }
+
+    /// A header and a source file in C99 on `groebot_dynamics.h`, of files `stem.h` and `stem.c`; names begin with the robot's.
+    ///
+    /// # Errors
+    /// As [`Printed::rust`].
+    pub fn c99(&self, stem: &str) -> Result<[String; 2]> {
+        let outline = self.outline(&C, stem)?;
+        Ok([HEADER, SOURCE].map(|skeleton| super::fill(skeleton, &outline)))
+    }
+
+    /// How many operations a function takes.
+    ///
+    /// # Errors
+    /// As [`Printed::rust`].
+    pub fn operations(&self, function: Function) -> Result<usize> {
+        Ok(self.record(function)?.code.len())
+    }
+
+    fn outline(&self, language: &dyn Language, stem: &str) -> Result<Outline> {
+        let values = self.equations.values();
+        let angles = values.iter().filter(|value| value.freedom == Freedom::Turn);
+        let recursive = Recursive::new(self.equations.formal(|x| x));
+        let functions = self.functions.iter().map(|function| self.function(*function, &recursive, language));
+        let functions: Vec<FunctionText> = functions.collect::<Result<_>>()?;
+        let loops = functions.iter().any(|function| function.is_recursive);
+        let ways = values.iter().filter(|value| value.freedom == Freedom::Slide);
+        let joints = self.equations.joints().iter().map(|name| format!("`{}`", remark(name)));
+        let base = |coordinates: &str| -> Vec<String> {
+            if self.equations.is_floating() { coordinates.split(' ').map(str::to_owned).collect() } else { Vec::new() }
+        };
+        let prefix = prefix(self.name);
+        Ok(Outline {
+            version: env!("CARGO_PKG_VERSION"),
+            name: remark(self.name),
+            guard: prefix.to_ascii_uppercase() + "_DYNAMICS",
+            prefix,
+            stem: stem.to_owned(),
+            configuration: base("x y z qx qy qz qw").into_iter().chain(joints.clone()).collect(),
+            freedoms: base("vx vy vz wx wy wz").into_iter().chain(joints).collect(),
+            remarks: self.remarks.iter().map(|line| remark(line)).collect(),
+            angles: angles.map(|value| joint_value(value, language)).collect(),
+            ways: ways.map(|value| joint_value(value, language)).collect(),
+            bodies: values.len() + 1,
+            tables: if loops { language.tables(&recursive.tables()) } else { Vec::new() },
+            functions,
+        })
+    }
+
+    fn function(&self, function: Function, recursive: &Recursive, language: &dyn Language) -> Result<FunctionText> {
+        let body = self.record(function)?;
+        // One language decides for both, so that they round alike.
+        let is_long = || self.straight(function, &body, &Rust).0.iter().map(String::len).sum::<usize>() > LONGEST;
+        let has_loops = function != Function::Forward || recursive.is_plain();
+        let is_recursive = has_loops && (self.form == Form::Recursive || self.form == Form::Shorter && is_long());
+        let (code, answer) = if is_recursive {
+            ([language.start(function), recursive.code(function, language)].concat(), language.finish(function))
+        } else {
+            self.straight(function, &body, language)
+        };
+        Ok(self.text(function, language, code, answer, is_recursive))
+    }
+
+    /// Straight-line code, and its answer.
+    fn straight(&self, function: Function, body: &Body, language: &dyn Language) -> (Vec<String>, String) {
+        let names = self.names(function, language);
+        let demand = Demand::of_code(&body.code, &body.results);
+        let mut printer = Printer::of(language.expressions(), &names, demand);
+        let mut lines = printer.code(&body.code);
+        let results: Vec<String> = body.results.iter().map(|result| printer.operand(*result)).collect();
+        let (more, answer) = language.answer(function, self.equations.freedoms(), results);
+        lines.extend(more);
+        (lines, answer)
+    }
+
+    fn text(
+        &self,
+        function: Function,
+        language: &dyn Language,
+        code: Vec<String>,
+        answer: String,
+        is_recursive: bool,
+    ) -> FunctionText {
+        FunctionText {
+            name: function.name(),
+            about: function.about(),
+            inputs: std::iter::once("q").chain(function.inputs().iter().copied()).collect(),
+            parameters: language.parameters(function, self.equations),
+            result: match results(function) {
+                (_, false) => "Row",
+                ([_], true) => "Matrix",
+                (_, true) => "[Matrix; 2]",
+            },
+            reads_ways: code.iter().any(|line| line.contains("way[")),
+            code,
+            answer,
+            is_recursive,
+        }
+    }
+
+    /// The inputs of the recorded code, in order: cosines, sines, ways, the root's quaternion, and what else is read.
+    fn names(&self, function: Function, language: &dyn Language) -> Vec<String> {
+        let values = self.equations.values();
+        let turning = values.iter().filter(|value| value.freedom == Freedom::Turn).count();
+        let pairs = ["c", "s"].into_iter().flat_map(|name| (0..turning).map(move |i| format!("{name}[{i}]")));
+        let ways = values.iter().filter(|value| value.freedom == Freedom::Slide);
+        let ways = ways.map(|value| format!("({})", joint_value(value, language)));
+        let turn = (3..7).map(|i| format!("q[{i}]"));
+        let lists = function.inputs().iter();
+        let lists = lists.flat_map(|list| (0..self.equations.freedoms()).map(move |i| format!("{list}[{i}]")));
+        pairs.chain(ways).chain(turn).chain(lists).collect()
+    }
+
+    /// Runs the recursion and writes it down.
+    fn record(&self, function: Function) -> Result<Body> {
+        let (tape, formal) = (Tape::default(), self.equations.formal(Recorded::constant));
+        let values = self.equations.values();
+        let turning = values.iter().filter(|value| value.freedom == Freedom::Turn).count();
+        let sliding = values.len() - turning;
+        let (mut turns, mut slides) = (0, 0);
+        let place = |value: &Value| match value.freedom {
+            Freedom::Turn => {
+                turns += 1;
+                Place::Turn([tape.input(turns - 1), tape.input(turning + turns - 1)])
+            }
+            Freedom::Slide => {
+                slides += 1;
+                Place::Slide(tape.input(2 * turning + slides - 1))
+            }
+        };
+        let places = values.iter().map(place).collect();
+        let first = 2 * turning + sliding;
+        let turn = self.equations.is_floating().then(|| std::array::from_fn(|i| tape.input(first + i)));
+        let count = self.equations.freedoms();
+        let list = |number: usize| (0..count).map(|i| tape.input(first + 4 + number * count + i)).collect::<Vec<_>>();
+        let state = FormalState { places, turn, velocity: list(0) };
+        let results = match function {
+            Function::Inverse => formal.inverse(&state, &list(1)),
+            Function::Gravity => formal.gravity(&state),
+            Function::Inertia => formal.inertia(&state),
+            Function::Coriolis => formal.coriolis(&state),
+            Function::Forward => formal.forward(&state, &list(1))?,
+            Function::Derivatives => formal.derivatives(&state, &list(1)).concat(),
+        };
+        if results.iter().any(|result| !result.is_finite()) {
+            let text = "a number beyond doubles comes up; are there bodies without mass that would have to move?";
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let (code, results) = tape.code(&results);
+        Ok(Body { code, results })
+    }
+}
+
+/// The value of a joint by the configuration.
+fn joint_value(value: &Value, language: &dyn Language) -> String {
+    let Value { place, factor, offset, .. } = *value;
+    let mut text = format!("q[{place}]");
+    if factor != 1.0 {
+        text = format!("{} * {text}", language.expressions().literal(factor));
+    }
+    if offset != 0.0 { format!("{text} + {}", language.expressions().literal(offset)) } else { text }
+}
+
+/// What a skeleton is filled with.
+#[derive(Serialize)]
+struct Outline {
+    version: &'static str,
+    name: String,
+    prefix: String,
+    guard: String,
+    stem: String,
+    configuration: Vec<String>,
+    freedoms: Vec<String>,
+    remarks: Vec<String>,
+    angles: Vec<String>,
+    ways: Vec<String>,
+    bodies: usize,
+    tables: Vec<String>,
+    functions: Vec<FunctionText>,
+}
+
+#[derive(Serialize)]
+struct FunctionText {
+    name: &'static str,
+    about: &'static str,
+    inputs: Vec<&'static str>,
+    parameters: String,
+    result: &'static str,
+    code: Vec<String>,
+    answer: String,
+    reads_ways: bool,
+    is_recursive: bool,
+}

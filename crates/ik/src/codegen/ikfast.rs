@@ -1,0 +1,347 @@
+//! C++ in the interface of IKFast, which MoveIt's plugin template and OpenRAVE include: `docs/ikfast.md`.
+//!
+//! The solver is the one of [`super::c99`].
+
+use serde::Serialize;
+
+use super::c99::WORDS;
+use super::language::{Expressions, number};
+use super::names::is_word;
+use super::outline::Outline;
+use super::reserved::prefix;
+use super::single_file;
+use crate::solver::{Condition, Forward, JointValue, Program, Reached, Unit};
+use crate::{Error, ErrorKind, Result};
+use groebot_robot::document::shown;
+
+const SKELETON: &str = include_str!("skeleton/ikfast.cpp.txt");
+
+/// Targets in single precision are rounded by up to this, as shares of the sizes of the equations: several units in the last place of a number.
+const SINGLE: f64 = 1e-6;
+/// A digit of a branch number is below this: a solution's indices are bytes, and the greatest byte stands for none.
+const MOST_DIGITS: usize = 250;
+
+/// What is asked of the file.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// The namespace of its functions, a word; none for the namespace that includes it.
+    pub namespace: Option<String>,
+    /// Whether callers speak in single precision; the solver computes in double precision.
+    pub single: bool,
+    /// The name of the file, by which it includes itself; the mechanism's name and `_ikfast.cpp` unless it is told.
+    pub file: Option<String>,
+}
+
+/// The solver of a valid program ([`Program::validate`]) as one C++11 file for `ikfast.h`, which needs nothing else.
+///
+/// # Errors
+/// As [`emit_beside`].
+pub fn emit(program: &Program, options: &Options) -> Result<String> {
+    file(program, options, None)
+}
+
+/// The interface alone, for `ikfast.h` and the solver in C whose files are called `stem` but for their ends ([`super::c99::Pair`]).
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for a program without forward kinematics, with more than one given joint, with a task that IKFast has no
+/// type for, or in single precision with one whose equations accept no rounded target; [`ErrorKind::BadValue`] for a namespace that is no word.
+pub fn emit_beside(program: &Program, options: &Options, stem: &str) -> Result<String> {
+    file(program, options, Some(stem))
+}
+
+/// The file: beside a solver with this stem, or with it.
+fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<String> {
+    let refuse = |text: String| Error::new(ErrorKind::Unsupported, format!("`{}`: {text}", program.name));
+    let forward = program.forward().filter(|_| program.cases().any(|case| !case.open)).ok_or_else(|| {
+        refuse(
+            "this solver has no forward kinematics, which IKFast's ComputeFk needs; derive it from a chain".to_owned(),
+        )
+    })?;
+    let kind = Kind::of(program, &forward).map_err(refuse)?;
+    let program = &if options.single { program.tolerant(SINGLE) } else { Some(program.clone()) }.ok_or_else(|| {
+        let text = "the task asks for more than the joints can do, and no target that is rounded to single precision is consistent; leave --float out, so that \
+                    callers use double precision";
+        refuse(text.to_owned())
+    })?;
+    if let Some(name) = options.namespace.as_ref().filter(|name| !is_word(name) || WORDS.is_reserved(name)) {
+        return Err(Error::new(
+            ErrorKind::BadValue,
+            format!(
+                "namespace `{}`: give a word of letters, digits and `_` that C++ does not keep for itself",
+                shown(name)
+            ),
+        ));
+    }
+    let mut outline = super::c99::outline(program);
+    stem.unwrap_or_default().clone_into(&mut outline.stem);
+    let own = format!("{}_ikfast.cpp", prefix(&program.name));
+    let own = options.file.as_deref().unwrap_or(&own);
+    let is_kept = |line: &&str| !line.starts_with("#include <");
+    let bare = |text: String| text.lines().filter(is_kept).map(|line| format!("{line}\n")).collect::<String>();
+    let solver = stem.is_none().then(|| bare(single_file::c(program, own, false)));
+    Ok(super::fill(SKELETON, &File::new(program, outline, (solver, own), &kind, options)))
+}
+
+/// A type of IKFast.
+struct Type {
+    name: &'static str,
+    code: &'static str,
+    meaning: &'static str,
+    /// Numbers of `eetrans`, then of `eerot`, that it has.
+    numbers: [usize; 2],
+    usage: &'static str,
+}
+
+const TRANSFORM: Type = Type {
+    name: "Transform6D",
+    code: "0x67000001",
+    meaning: "eetrans: the tip's position; eerot: its rotation matrix by rows.",
+    numbers: [3, 9],
+    usage: "x y z r00 r01 r02 r10 r11 r12 r20 r21 r22",
+};
+const ROTATION: Type = Type {
+    name: "Rotation3D",
+    code: "0x34000002",
+    meaning: "eerot: the tip's rotation matrix by rows.",
+    numbers: [0, 9],
+    usage: "r00 r01 r02 r10 r11 r12 r20 r21 r22",
+};
+const TRANSLATION: Type = Type {
+    name: "Translation3D",
+    code: "0x33000003",
+    meaning: "eetrans: the tip's position.",
+    numbers: [3, 0],
+    usage: "x y z",
+};
+const DIRECTION: Type = Type {
+    name: "Direction3D",
+    code: "0x23000004",
+    meaning: "eerot: the direction that the tip aims, of any length.",
+    numbers: [0, 3],
+    usage: "dx dy dz",
+};
+const RAY: Type = Type {
+    name: "TranslationDirection5D",
+    code: "0x56000007",
+    meaning: "eetrans: the tip's position; eerot: the direction that it aims, of any length.",
+    numbers: [3, 3],
+    usage: "x y z dx dy dz",
+};
+const PLANAR: Type = Type {
+    name: "TranslationXY2D",
+    code: "0x22000008",
+    meaning: "eetrans: the tip's position, x and y.",
+    numbers: [2, 0],
+    usage: "x y",
+};
+const PLANAR_POSE: Type = Type {
+    name: "TranslationXYOrientation3D",
+    code: "0x33000009",
+    meaning: "eetrans: the tip's position, x and y, and its turn about z.",
+    numbers: [3, 0],
+    usage: "x y angle",
+};
+
+/// By coordinate of the axis about which the angle is asked.
+const ABOUT: [Type; 3] = [
+    Type {
+        name: "TranslationYAxisAngleXNorm4D",
+        code: "0x4400000f",
+        meaning: "eetrans: the tip's position; eerot[0]: the angle about x, counted from y, at which its direction points.",
+        numbers: [3, 1],
+        usage: "x y z angle",
+    },
+    Type {
+        name: "TranslationZAxisAngleYNorm4D",
+        code: "0x44000010",
+        meaning: "eetrans: the tip's position; eerot[0]: the angle about y, counted from z, at which its direction points.",
+        numbers: [3, 1],
+        usage: "x y z angle",
+    },
+    Type {
+        name: "TranslationXAxisAngleZNorm4D",
+        code: "0x4400000e",
+        meaning: "eetrans: the tip's position; eerot[0]: the angle about z, counted from x, at which its direction points.",
+        numbers: [3, 1],
+        usage: "x y z angle",
+    },
+];
+
+/// The type of a program, and the joint that the user gives.
+struct Kind {
+    ikfast: &'static Type,
+    /// The given joint, and the input that is its value.
+    free: Option<(usize, usize)>,
+}
+
+impl Kind {
+    fn of(program: &Program, forward: &Forward) -> std::result::Result<Self, String> {
+        let given = |(input, reached): (usize, &Reached)| match *reached {
+            Reached::Joint(joint) => Some((joint, input)),
+            _ => None,
+        };
+        let free: Vec<(usize, usize)> = forward.inputs.iter().enumerate().filter_map(given).collect();
+        if free.len() > 1 {
+            return Err(format!("{} joints are given; IKFast's callers give the value of one at most", free.len()));
+        }
+        let own = program.inputs.len() - free.len();
+        let first_given = free.first().map_or(own, |(_, input)| *input);
+        if first_given != own {
+            return Err("the value of the given joint is not the last number of the target".to_owned());
+        }
+        let ikfast = ikfast_type(program, own).ok_or_else(|| {
+            let names: Vec<&str> = program.inputs[..own].iter().map(|input| input.name.as_str()).collect();
+            format!("IKFast has no type for a target of {}", names.join(", "))
+        })?;
+        Ok(Kind { ikfast, free: free.first().copied() })
+    }
+}
+
+/// The type for the first `own` inputs of a program.
+fn ikfast_type(program: &Program, own: usize) -> Option<&'static Type> {
+    let is_length = |unit: Unit| matches!(unit, Unit::Metre | Unit::Millimetre);
+    let units: Vec<Unit> = program.inputs[..own].iter().map(|input| input.unit).collect();
+    let lengths = units.iter().take_while(|unit| is_length(**unit)).count();
+    let rest = &units[lengths..];
+    let numbers = rest.iter().all(|unit| *unit == Unit::One);
+    let in_xy = program.inputs.iter().map(|input| input.name.as_str()).take(2).eq(["px", "py"]);
+    match (program.conditions.as_slice(), lengths, rest.len()) {
+        ([Condition::Rotation(3)], 3, 9) if numbers => Some(&TRANSFORM),
+        ([Condition::Rotation(0)], 0, 9) if numbers => Some(&ROTATION),
+        ([Condition::Unit(3)], 3, 3) if numbers => Some(&RAY),
+        ([Condition::Unit(0)], 0, 3) if numbers => Some(&DIRECTION),
+        ([], 3, 0) => Some(&TRANSLATION),
+        ([], 3, 1) if rest == [Unit::Radian] => {
+            let about = ["yaw_x", "yaw_y", "yaw"].iter().position(|name| program.inputs[3].name == *name)?;
+            Some(&ABOUT[about])
+        }
+        ([], 2, 0) if in_xy => Some(&PLANAR),
+        ([], 2, 1) if in_xy && rest == [Unit::Radian] => Some(&PLANAR_POSE),
+        _ => None,
+    }
+}
+
+/// What the skeleton names, beside the outline.
+#[derive(Serialize)]
+struct File<'a> {
+    #[serde(flatten)]
+    outline: Outline,
+    solver: Option<String>,
+    file: &'a str,
+    engine_name: String,
+    namespace: Option<&'a str>,
+    single: bool,
+    kind: KindText,
+    free_joint: Option<usize>,
+    /// How many of the equations' unit of length are a metre.
+    units: String,
+    reading: Vec<String>,
+    writing: Vec<String>,
+    conform: &'static str,
+    joint_kinds: Vec<&'static str>,
+    bases: Vec<usize>,
+    hash: String,
+    usage: String,
+    usage_count: usize,
+}
+
+#[derive(Serialize)]
+struct KindText {
+    name: &'static str,
+    code: &'static str,
+    meaning: &'static str,
+    rotation: bool,
+    direction: bool,
+    uses_translation: bool,
+    uses_rotation: bool,
+    /// Numbers of `eetrans`.
+    translation: usize,
+}
+
+impl<'a> File<'a> {
+    fn new(
+        program: &Program,
+        outline: Outline,
+        (solver, file): (Option<String>, &'a str),
+        kind: &Kind,
+        options: &'a Options,
+    ) -> Self {
+        let [translation, rotation] = kind.ikfast.numbers;
+        let joint_kinds = program.joints.iter().map(|joint| match joint.value {
+            JointValue::Angle { .. } => "0x01",
+            JointValue::Plain(_) => "0x11",
+        });
+        let hash = program.about.as_ref().map_or("", |about| about.hash.as_str());
+        let free = kind.free.map_or("", |_| " free");
+        File {
+            solver,
+            file,
+            engine_name: format!("{}_solver", prefix(&program.name)),
+            namespace: options.namespace.as_deref(),
+            single: options.single,
+            kind: KindText {
+                name: kind.ikfast.name,
+                code: kind.ikfast.code,
+                meaning: kind.ikfast.meaning,
+                rotation: rotation == 9,
+                direction: rotation == 3,
+                uses_translation: translation > 0,
+                uses_rotation: rotation > 0,
+                translation,
+            },
+            free_joint: kind.free.map(|(joint, _)| joint),
+            units: number(if in_millimetres(program) { 1000.0 } else { 1.0 }),
+            reading: transfers(program, kind, |to, number, factor| {
+                format!("target[{to}] = static_cast<double>({number}){factor};")
+            }),
+            writing: transfers(program, &Kind { free: None, ..*kind }, |from, number, factor| {
+                let divisor = factor.replace('*', "/");
+                format!("{number} = static_cast<IkReal>(target[{from}]{divisor});")
+            }),
+            conform: match (rotation, translation) {
+                (9, 0) => "onto_rotation(target)",
+                (9, _) => "onto_rotation(target + 3)",
+                (3, 0) => "onto_sphere(target)",
+                (3, _) => "onto_sphere(target + 3)",
+                _ => "true",
+            },
+            joint_kinds: joint_kinds.collect(),
+            bases: bases(program, kind.free.map(|(joint, _)| joint)),
+            hash: WORDS.quote(hash),
+            usage: format!("{}{free}", kind.ikfast.usage),
+            usage_count: translation + rotation + kind.free.iter().count(),
+            outline,
+        }
+    }
+}
+
+fn in_millimetres(program: &Program) -> bool {
+    let inputs = program.inputs.iter().map(|input| input.unit);
+    inputs.chain(program.joints.iter().map(|joint| joint.unit)).any(|unit| unit == Unit::Millimetre)
+}
+
+/// A line for each number of the target, from its index, IKFast's name for it, and the factor of a length.
+fn transfers(program: &Program, kind: &Kind, line: impl Fn(usize, String, &str) -> String) -> Vec<String> {
+    let [translation, rotation] = kind.ikfast.numbers;
+    let own = (0..translation + rotation).map(|index| match index.checked_sub(translation) {
+        None => (index, format!("eetrans[{index}]")),
+        Some(place) => (index, format!("eerot[{place}]")),
+    });
+    let free = kind.free.map(|(_, input)| (input, "pfree[0]".to_owned()));
+    let is_length = |index: usize| matches!(program.inputs[index].unit, Unit::Metre | Unit::Millimetre);
+    own.chain(free).map(|(index, name)| line(index, name, if is_length(index) { " * UNITS" } else { "" })).collect()
+}
+
+/// By joint: the base of its digit of the branch number, the first joint's being the lowest; 0 for the given one.
+fn bases(program: &Program, free: Option<usize>) -> Vec<usize> {
+    let mut left = program.blocks.iter().map(|block| block.branches()).fold(1, usize::saturating_mul);
+    let mut base = |joint: usize| {
+        if free == Some(joint) {
+            return 0;
+        }
+        let base = left.clamp(1, MOST_DIGITS);
+        left = left.div_ceil(base);
+        base
+    };
+    (0..program.joints.len()).map(&mut base).collect()
+}

@@ -1,0 +1,71 @@
+//! Names of a program as identifiers of a language: kept where they can be, else changed as little as possible.
+
+use std::collections::HashSet;
+
+use super::language::Expressions;
+use crate::solver::Program;
+use groebot_robot::document::word;
+
+/// Names that the printed functions use themselves, beside `r0`, `i0`, `roots0` and the like.
+const TAKEN: &str = "p c at all rows tip values value sizes size columns target magnitude memcpy rarely jacobian short parameters walk FACTS Solver \
+    INPUTS JOINTS CAPACITY EMPTY INPUT_NAMES JOINT_NAMES LIMITS OPEN_STRATA Solution Pairs Error Solve Candidates Condition Facts Fixed Found Joint \
+    Mechanism Number Preference Reached Short With Chain Formulation Formulations Rigid groebot_runtime";
+
+/// Letters that a number follows in the printed functions.
+const NUMBERED: [&str; 14] = [
+    "r", "i", "roots", "choice", "choices", "found", "before", "claim", "claims", "six", "answer", "answers", "count",
+    "block_",
+];
+
+/// The identifiers of one program in one language.
+pub(super) struct Names {
+    /// By parameter.
+    pub parameters: Vec<String>,
+    /// By unknown; apart from those of the parameters.
+    pub unknowns: Vec<String>,
+}
+
+impl Names {
+    pub fn new(program: &Program, language: &dyn Expressions) -> Self {
+        let mut used = HashSet::new();
+        let mut name = |text: &str| unique(text, language, &mut used);
+        Names {
+            parameters: program.parameters.iter().map(|parameter| name(&parameter.name)).collect(),
+            unknowns: program.unknowns.iter().map(|unknown| name(unknown)).collect(),
+        }
+    }
+}
+
+fn unique(text: &str, language: &dyn Expressions, used: &mut HashSet<String>) -> String {
+    let mut name = word(text);
+    while is_taken(&name, language) || used.contains(&name) {
+        name.push('_');
+        if is_taken(&name, language) {
+            name.insert(0, 'x');
+        }
+    }
+    used.insert(name.clone());
+    name
+}
+
+/// Whether a text is a word that every language takes as part of a name: a letter, then letters, digits and `_`.
+pub fn is_word(text: &str) -> bool {
+    word(text) == text
+}
+
+fn is_taken(name: &str, language: &dyn Expressions) -> bool {
+    let is_number = |rest: &str| {
+        let (first, last) = (rest.bytes().next(), rest.bytes().last());
+        first.zip(last).is_some_and(|(first, last)| first.is_ascii_digit() && last.is_ascii_digit())
+    };
+    TAKEN.split_whitespace().any(|word| word == name)
+        || NUMBERED.iter().any(|letters| name.strip_prefix(letters).is_some_and(is_number))
+        || language.is_reserved(name)
+}
+
+/// The text fit for a comment of any language: printable ASCII on one line that neither opens nor ends anything.
+pub(super) fn remark(text: &str) -> String {
+    let printable = |c: char| if c == ' ' || c.is_ascii_graphic() { c } else { '?' };
+    let line: String = text.chars().map(printable).collect();
+    line.replace('\\', "|").replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?")
+}

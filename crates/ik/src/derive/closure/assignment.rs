@@ -1,0 +1,105 @@
+//! What relations are evaluated at: the values of the joints and of the target.
+
+use super::arithmetic::Arithmetic;
+use super::mechanism::Mechanism;
+use super::vector;
+use crate::{Error, ErrorKind, Result};
+use groebot_robot::kinematics::Task;
+
+/// What is known about a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JointValue<V> {
+    /// Nothing: its unknowns stay.
+    Unknown,
+    /// The cosine c of its angle and s', the sine divided by the length of the axis vector.
+    Angle {
+        /// c.
+        cosine: V,
+        /// s'.
+        sine: V,
+    },
+    /// d', its shift divided by the length of the axis vector.
+    Length(V),
+}
+
+/// The rotation of a target, as far as the task knows it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Turn<V> {
+    /// Not at all.
+    Nothing,
+    /// Where it takes the direction that the task aims, [`Mechanism::aim`].
+    Direction([V; 3]),
+    /// Its matrix, base_from_tip, by rows.
+    Matrix([[V; 3]; 3]),
+}
+
+/// The target T: the position of the tip and its rotation, as far as the task knows them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target<V> {
+    /// The position of the tip; where the task does not know it, any: that at zero.
+    pub position: [V; 3],
+    /// The rotation.
+    pub turn: Turn<V>,
+}
+
+/// The values of the joints and of the target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assignment<V> {
+    /// One for each joint.
+    pub joints: Vec<JointValue<V>>,
+    /// The target.
+    pub target: Target<V>,
+}
+
+impl<V: Clone> Target<V> {
+    /// The target of these `parameters`, in the order of [`Mechanism::parameters`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] when there are not as many as the task has.
+    pub fn new<A: Arithmetic<Value = V>>(mechanism: &Mechanism, parameters: &[V], arithmetic: &mut A) -> Result<Self> {
+        let wanted = mechanism.parameters().len();
+        if parameters.len() != wanted {
+            let text = format!("{} numbers of the target are given; the task has {wanted}", parameters.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let mut position = mechanism.tip_point().each_ref().map(|entry| arithmetic.rational(entry));
+        let turn = match mechanism.seen() {
+            Task::Pose | Task::Ray | Task::PositionPitchRoll => {
+                position.clone_from_slice(&parameters[..3]);
+                Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 + 3 * i + j].clone())))
+            }
+            Task::Position => {
+                position.clone_from_slice(parameters);
+                Turn::Nothing
+            }
+            Task::PlanarPosition { plane } => {
+                plane.coordinates().into_iter().zip(parameters).for_each(|(k, value)| position[k] = value.clone());
+                Turn::Nothing
+            }
+            Task::Direction => Turn::Direction(std::array::from_fn(|k| parameters[k].clone())),
+            Task::Rotation => {
+                Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 * i + j].clone())))
+            }
+            Task::PositionYaw { axis } => {
+                position.clone_from_slice(&parameters[..3]);
+                Turn::Matrix(about(axis.coordinate(), &parameters[3], &parameters[4], arithmetic))
+            }
+            Task::PlanarPose { plane } => {
+                plane.coordinates().into_iter().zip(parameters).for_each(|(k, value)| position[k] = value.clone());
+                Turn::Matrix(about(plane.normal(), &parameters[2], &parameters[3], arithmetic))
+            }
+        };
+        Ok(Target { position, turn })
+    }
+}
+
+/// The rotation about a coordinate axis with this cosine and sine.
+fn about<A: Arithmetic>(normal: usize, c: &A::Value, s: &A::Value, arithmetic: &mut A) -> [[A::Value; 3]; 3] {
+    let (a, b) = ((normal + 1) % 3, (normal + 2) % 3);
+    let mut rows = vector::identity().map(|row| row.map(|entry| arithmetic.rational(&entry)));
+    rows[a][a] = c.clone();
+    rows[b][b] = c.clone();
+    rows[b][a] = s.clone();
+    rows[a][b] = arithmetic.neg(s);
+    rows
+}

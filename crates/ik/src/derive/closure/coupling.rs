@@ -1,0 +1,148 @@
+//! The exact law by which a joint follows another one of its chain (`mimic`): [`Coupling`].
+//!
+//! An angle that follows by a whole number m and an offset b has `c + i s = e^(ib) (C + i S)^m` with C and S of its leader, so that its cosine and
+//! sine are polynomials in those of the leader. A slide that follows a slide is linear in it.
+
+use num_traits::{One, ToPrimitive, Zero};
+
+use super::arithmetic::{Arithmetic, Exact};
+use groebot_algebra::number::BigRational;
+use groebot_algebra::poly::rational_root;
+use groebot_robot::kinematics::Mimic;
+
+/// How the unknowns of a joint follow from those of its leader.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Coupling {
+    /// The place of the leader.
+    pub leader: usize,
+    /// The law.
+    pub law: Law,
+}
+
+/// The law of a [`Coupling`] in the unknowns of relations: c, s' = s / |w| and d' = d / |w| with the axis vector w of each joint.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Law {
+    /// Both turn.
+    Turn {
+        /// How many turns it makes in one of its leader: not zero.
+        times: i32,
+        /// |w| of the leader over |w| of the follower.
+        ratio: BigRational,
+        /// |w|^2 of the follower.
+        square: BigRational,
+        /// c and s' of the offset.
+        offset: [BigRational; 2],
+    },
+    /// Both slide.
+    Slide {
+        /// d' of the follower for one of the leader.
+        factor: BigRational,
+        /// d' of the offset.
+        offset: BigRational,
+    },
+}
+
+impl Coupling {
+    /// The law of `mimic`, by which a joint follows the one at the place `leader`: of both, the follower first, whether they turn, and |w|^2. None
+    /// where the law is no polynomial over Q: a fraction of a turn, a slide that follows a turn or the other way round, or axis vectors whose
+    /// lengths have an irrational ratio.
+    pub(super) fn new(leader: usize, turn: [bool; 2], [own, other]: [&BigRational; 2], mimic: &Mimic) -> Option<Self> {
+        let (ratio, square) = (rational_root(&(other / own))?, own.clone());
+        let root = square.to_f64().unwrap_or(1.0).sqrt();
+        let law = match (turn, mimic.whole()) {
+            ([true, true], Some(times)) => {
+                let offset = turned(mimic.offset.to_f64().unwrap_or(0.0), &square, root);
+                Law::Turn { times, ratio, square, offset }
+            }
+            ([false, false], _) => {
+                let factor = &mimic.multiplier * ratio;
+                Law::Slide { factor, offset: quotient(&mimic.offset, &square, root) }
+            }
+            _ => return None,
+        };
+        Some(Coupling { leader, law })
+    }
+
+    /// Whether the law is linear in the unknowns of the leader, so that these follow from the follower's.
+    pub fn is_linear(&self) -> bool {
+        match self.law {
+            Law::Turn { times, .. } => times.abs() == 1,
+            Law::Slide { .. } => true,
+        }
+    }
+
+    /// The follower's unknowns, c and s' or d', by those of the leader.
+    pub fn follow<A: Arithmetic>(&self, leader: &[A::Value], arithmetic: &mut A) -> Vec<A::Value> {
+        match (&self.law, leader) {
+            (Law::Turn { times, ratio, square, offset }, [cosine, sine]) => {
+                let signed = if *times < 0 { -ratio } else { ratio.clone() };
+                let [scale, square] = [signed, square.clone()].map(|number| arithmetic.rational(&number));
+                let turn = [cosine.clone(), arithmetic.mul(&scale, sine)];
+                let start = offset.each_ref().map(|number| arithmetic.rational(number));
+                let next = |sum: [A::Value; 2], _| product(&sum, &turn, &square, arithmetic);
+                (0..times.unsigned_abs()).fold(start, next).to_vec()
+            }
+            (Law::Slide { factor, offset }, [length]) => {
+                let [factor, offset] = [factor, offset].map(|number| arithmetic.rational(number));
+                let share = arithmetic.mul(&factor, length);
+                vec![arithmetic.add(&share, &offset)]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// By the follower's unknowns, c and s' or d': their coefficients in the leader's, then the constant. Of a linear law.
+    pub(super) fn coefficients(&self) -> Vec<Vec<BigRational>> {
+        let count = if matches!(self.law, Law::Turn { .. }) { 2 } else { 1 };
+        let number = |here: bool| BigRational::from_integer(i32::from(here).into());
+        let at = |own: usize| (0..count).map(|k| number(k == own)).collect::<Vec<_>>();
+        let zero = self.follow(&at(count), &mut Exact);
+        let columns: Vec<Vec<BigRational>> = (0..count).map(|own| self.follow(&at(own), &mut Exact)).collect();
+        let row = |k: usize| columns.iter().map(|column| &column[k] - &zero[k]).chain([zero[k].clone()]).collect();
+        (0..count).map(row).collect()
+    }
+
+    /// All numbers of the law.
+    pub(in crate::derive) fn numbers(&self) -> Vec<&BigRational> {
+        match &self.law {
+            Law::Turn { ratio, square, offset: [c, s], .. } => vec![ratio, square, c, s],
+            Law::Slide { factor, offset } => vec![factor, offset],
+        }
+    }
+}
+
+/// The product of two turns, each by c and s' about axes of the same length.
+fn product<A: Arithmetic>(
+    a: &[A::Value; 2],
+    b: &[A::Value; 2],
+    square: &A::Value,
+    arithmetic: &mut A,
+) -> [A::Value; 2] {
+    let [cc, ss, sc, cs] = [(0, 0), (1, 1), (1, 0), (0, 1)].map(|(i, j)| arithmetic.mul(&a[i], &b[j]));
+    let across = arithmetic.mul(square, &ss);
+    [arithmetic.sub(&cc, &across), arithmetic.add(&sc, &cs)]
+}
+
+/// c and s' of an angle, as a rational point of `c^2 + n s'^2 = 1` where n is `square`, next to it within rounding.
+fn turned(angle: f64, square: &BigRational, root: f64) -> [BigRational; 2] {
+    let half_turns = (angle / std::f64::consts::PI).round();
+    let tangent = ((angle - half_turns * std::f64::consts::PI) / 2.0).tan();
+    let quarter = (tangent.abs() - 1.0).abs() < 4.0 * f64::EPSILON;
+    let tangent = if quarter { tangent.signum() } else { tangent };
+    let tangent = quotient(&BigRational::from_float(tangent).unwrap_or_default(), square, root);
+    let bent = square * &tangent * &tangent;
+    let below = BigRational::one() + &bent;
+    let sign = BigRational::from_integer(if half_turns % 2.0 == 0.0 { 1 } else { -1 }.into());
+    [&sign * (BigRational::one() - bent) / &below, sign * (&tangent + &tangent) / below]
+}
+
+/// `number / root`, where `root` is that of `square`: within rounding where it is irrational.
+fn quotient(number: &BigRational, square: &BigRational, root: f64) -> BigRational {
+    if number.is_zero() {
+        return BigRational::zero();
+    }
+    let root = rational_root(square).or_else(|| BigRational::from_float(root)).unwrap_or_else(BigRational::one);
+    number / root
+}

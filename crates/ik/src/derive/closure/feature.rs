@@ -1,0 +1,156 @@
+//! What joints in a row leave in place: points on all their axes, directions that they share, planes that they move in.
+
+use super::mechanism::ScrewJoint;
+use super::relation::{Measure, Object};
+use super::vector;
+use groebot_robot::kinematics::ExactVector;
+
+/// What a row of joints leaves in place.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Features {
+    /// Points: the only one, or one of a common axis.
+    points: Vec<ExactVector>,
+    /// Directions, a basis of them.
+    directions: Vec<ExactVector>,
+    /// Normals of planes, each of which is moved into itself: a basis of them.
+    normals: Vec<ExactVector>,
+    /// The common axis: a point of it and its direction.
+    line: Option<(ExactVector, ExactVector)>,
+    /// A point for planes to go through.
+    anchor: ExactVector,
+}
+
+impl Features {
+    /// The features of a row of joints; where there is a choice of directions, they suit the joint with the axis `beside`.
+    pub fn of(row: &[&ScrewJoint], beside: &ExactVector) -> Self {
+        let turns: Vec<&ScrewJoint> = row.iter().copied().filter(|joint| joint.is_revolute()).collect();
+        let slides: Vec<&ScrewJoint> = row.iter().copied().filter(|joint| !joint.is_revolute()).collect();
+        let point = if slides.is_empty() { common_point(&turns) } else { None };
+        let on_line = |(point, direction): &(ExactVector, ExactVector)| {
+            let line = Object::Line { point: point.clone(), direction: direction.clone() };
+            row.iter().all(|joint| leaves(joint, &line, Measure::Moment))
+        };
+        Features {
+            directions: shared_directions(&turns, beside),
+            normals: normals(&turns, &slides, beside),
+            line: point.clone().map(|point| (point, turns[0].axis.clone())).filter(on_line),
+            anchor: row.first().map_or_else(vector::zero, |joint| joint.point.clone()),
+            points: point.into_iter().collect(),
+        }
+    }
+
+    /// An empty row leaves everything in place: directions that suit the joint with the axis `beside`, and `points`.
+    pub fn of_nothing(beside: &ExactVector, points: Vec<ExactVector>) -> Self {
+        let frame = vector::frame(beside).to_vec();
+        let anchor = points.first().cloned().unwrap_or_else(vector::zero);
+        Features { directions: frame.clone(), normals: frame, points, line: None, anchor }
+    }
+
+    /// Whether nothing stays.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty() && self.directions.is_empty() && self.normals.is_empty()
+    }
+
+    /// Every measure of something fixed by this row and something moved that `tail` leaves in place.
+    pub fn pairs(&self, tail: &Features) -> Vec<(Measure, Object, Object)> {
+        let each = |measure, fixed: &[Object], moved: &[Object]| -> Vec<(Measure, Object, Object)> {
+            let with = |a: &Object| moved.iter().map(|b| (measure, a.clone(), b.clone())).collect::<Vec<_>>();
+            fixed.iter().flat_map(with).collect()
+        };
+        let directions = |list: &[ExactVector]| list.iter().cloned().map(Object::Direction).collect::<Vec<_>>();
+        let points = |list: &[ExactVector]| list.iter().cloned().map(Object::Point).collect::<Vec<_>>();
+        let line = |(point, direction): (ExactVector, ExactVector)| Object::Line { point, direction };
+        let planes: Vec<Object> =
+            tail.normals.iter().map(|normal| line((tail.anchor.clone(), normal.clone()))).collect();
+        let lines = |features: &Features| features.line.clone().map(line).into_iter().collect::<Vec<_>>();
+        [
+            each(Measure::Angle, &directions(&self.directions), &directions(&tail.directions)),
+            each(Measure::Offset, &directions(&self.normals), &points(&tail.points)),
+            each(Measure::Offset, &points(&self.points), &planes),
+            each(Measure::Distance, &points(&self.points), &points(&tail.points)),
+            each(Measure::Moment, &lines(self), &lines(tail)),
+        ]
+        .concat()
+    }
+}
+
+/// Whether the joint leaves `object`, as `measure` sees it, in place.
+pub fn leaves(joint: &ScrewJoint, object: &Object, measure: Measure) -> bool {
+    let along = |direction: &ExactVector| vector::parallel(&joint.axis, direction);
+    let across = |direction: &ExactVector| vector::dot(&joint.axis, direction) == Default::default();
+    let through = |point: &ExactVector| along(&vector::sub(point, &joint.point));
+    match (object, measure, joint.is_revolute()) {
+        (Object::Point(point), _, true) => through(point),
+        (Object::Point(_), _, false) => false,
+        (Object::Direction(_), Measure::Angle, false) => true,
+        (Object::Direction(direction), _, true) => along(direction),
+        (Object::Direction(direction), _, false) => across(direction),
+        (Object::Line { direction, .. }, Measure::Offset, true) => along(direction),
+        (Object::Line { direction, .. }, Measure::Offset, false) => across(direction),
+        (Object::Line { point, direction }, _, true) => along(direction) && through(point),
+        (Object::Line { direction, .. }, _, false) => along(direction),
+    }
+}
+
+/// The point through which the axes of all `joints` go, the first joint's when they are the same line; `None` when a joint slides.
+pub fn common_point_of(joints: &[ScrewJoint]) -> Option<ExactVector> {
+    let turns: Vec<&ScrewJoint> = joints.iter().filter(|joint| joint.is_revolute()).collect();
+    if turns.len() == joints.len() { common_point(&turns) } else { None }
+}
+
+/// The point of all axes: the only one, or the first joint's when all are the same line.
+fn common_point(turns: &[&ScrewJoint]) -> Option<ExactVector> {
+    let first = turns.first()?;
+    let other = turns.iter().find(|joint| !vector::parallel(&joint.axis, &first.axis));
+    let point = match other {
+        None => first.point.clone(),
+        Some(other) => crossing(first, other)?,
+    };
+    let object = Object::Point(point.clone());
+    turns.iter().all(|joint| leaves(joint, &object, Measure::Distance)).then_some(point)
+}
+
+/// The point of the first axis nearest to the other one, which is not parallel to it.
+fn crossing(first: &ScrewJoint, other: &ScrewJoint) -> Option<ExactVector> {
+    let normal = vector::cross(&first.axis, &other.axis);
+    let between = vector::sub(&other.point, &first.point);
+    let square = vector::dot(&normal, &normal);
+    let along = vector::dot(&vector::cross(&between, &other.axis), &normal) / square;
+    Some(vector::add(&first.point, &vector::scale(&first.axis, &along)))
+}
+
+fn shared_directions(turns: &[&ScrewJoint], beside: &ExactVector) -> Vec<ExactVector> {
+    match turns {
+        [] => vector::frame(beside).to_vec(),
+        [first, rest @ ..] if rest.iter().all(|joint| vector::parallel(&joint.axis, &first.axis)) => {
+            vec![first.axis.clone()]
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Directions along all turning axes and across all sliding ones.
+fn normals(turns: &[&ScrewJoint], slides: &[&ScrewJoint], beside: &ExactVector) -> Vec<ExactVector> {
+    let candidates = match (turns, slides) {
+        ([first, ..], _) => vec![first.axis.clone()],
+        ([], [first, rest @ ..]) => match rest.iter().find(|joint| !vector::parallel(&joint.axis, &first.axis)) {
+            None => across(&first.axis, beside),
+            Some(other) => vec![vector::tidy(&vector::cross(&first.axis, &other.axis))],
+        },
+        ([], []) => Vec::new(),
+    };
+    let stays = |normal: &ExactVector| {
+        let object = Object::Direction(normal.clone());
+        turns.iter().chain(slides).all(|joint| leaves(joint, &object, Measure::Offset))
+    };
+    candidates.into_iter().filter(stays).collect()
+}
+
+/// Two directions across `axis`, the first of them also across `beside`.
+fn across(axis: &ExactVector, beside: &ExactVector) -> Vec<ExactVector> {
+    let first = match vector::cross(axis, beside) {
+        cross if vector::is_zero(&cross) => vector::perpendicular(axis),
+        cross => vector::tidy(&cross),
+    };
+    vec![first.clone(), vector::tidy(&vector::cross(axis, &first))]
+}

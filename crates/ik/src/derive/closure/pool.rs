@@ -1,0 +1,136 @@
+//! All relations of a loop: every way to cut it as run . A . tail . B, with all that the run and the tail leave in place.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::feature::{Features, leaves};
+use super::mechanism::{Mechanism, ScrewJoint};
+use super::relation::{Letter, Measure, Object, Relation, Word};
+use super::vector;
+use groebot_robot::kinematics::ExactVector;
+
+impl Mechanism {
+    /// The relations of joints that follow others, then those of the loop, each once, those with few joints first.
+    ///
+    /// For each thing that stays in place only the longest run and tail are taken: the others give the same polynomials. An
+    /// empty run or tail leaves everything in place; three directions adapted to the joint beside it are taken.
+    pub fn relations(&self) -> Vec<Relation> {
+        let count = self.joints().len();
+        let ranges = |from: usize| (from..=count).flat_map(move |start| (start..=count).map(move |end| start..end));
+        let mut relations = Vec::new();
+        let mut tails = HashMap::new();
+        for run in ranges(0) {
+            // Whether there are joints between the run and the tail decides which joint is beside the run.
+            let fixed = [false, true].map(|between| self.run_features(&run, between));
+            for tail in ranges(run.end) {
+                let between = run.end < tail.start;
+                let fixed = &fixed[usize::from(between)];
+                if !fixed.is_empty() {
+                    let key = (tail.start, tail.end, between);
+                    let moved = tails.entry(key).or_insert_with(|| self.tail_features(&tail, between));
+                    Cut { mechanism: self, run: run.clone(), tail }.relate(fixed, moved, &mut relations);
+                }
+            }
+        }
+        self.couplings().into_iter().chain(sorted(relations)).collect()
+    }
+
+    fn row(&self, range: &Range<usize>) -> Vec<&ScrewJoint> {
+        self.joints()[range.clone()].iter().collect()
+    }
+
+    /// What the run leaves in place; `between` says whether joints stand between it and the tail.
+    fn run_features(&self, run: &Range<usize>, between: bool) -> Features {
+        let next = Some(run.end).filter(|&next| between && next < self.joints().len());
+        let beside = self.axis(next.or(run.start.checked_sub(1)));
+        match &self.row(run)[..] {
+            [] => Features::of_nothing(&beside, Vec::new()),
+            row => Features::of(row, &beside),
+        }
+    }
+
+    /// What the tail leaves in place, together with the motions that the task does not see.
+    fn tail_features(&self, tail: &Range<usize>, between: bool) -> Features {
+        let count = self.joints().len();
+        let mut row = self.row(tail);
+        if tail.end == count {
+            row.extend(self.unseen());
+        }
+        let beside = if between { Some(tail.start - 1) } else { Some(tail.end).filter(|&next| next < count) };
+        if row.is_empty() {
+            let point = beside.map_or_else(vector::zero, |joint| self.joints()[joint].point.clone());
+            return Features::of_nothing(&self.axis(beside), vec![point]);
+        }
+        Features::of(&row, &self.axis(beside))
+    }
+
+    fn axis(&self, joint: Option<usize>) -> ExactVector {
+        joint.map_or_else(|| vector::unit(2), |joint| self.joints()[joint].axis.clone())
+    }
+}
+
+/// Each relation once, those with few joints and short words first.
+fn sorted(mut relations: Vec<Relation>) -> Vec<Relation> {
+    relations.sort_by_cached_key(|relation| {
+        let letters = relation.left.0.len() + relation.right.0.len();
+        (relation.joints().len(), letters, relation.left.clone(), relation.right.clone(), relation.measure)
+    });
+    let mut unique: Vec<Relation> = Vec::with_capacity(relations.len());
+    for relation in relations {
+        let alike = |own: &&Relation| own.left == relation.left && own.right == relation.right;
+        if !unique.iter().rev().take_while(alike).any(|own| *own == relation) {
+            unique.push(relation);
+        }
+    }
+    unique
+}
+
+/// A run and a tail behind it. The arc between them holds no target; the other arc does.
+struct Cut<'a> {
+    mechanism: &'a Mechanism,
+    run: Range<usize>,
+    tail: Range<usize>,
+}
+
+impl Cut<'_> {
+    /// Adds what this cut says. What the task does not see stands behind the last joint and belongs to the tail; sliding does not
+    /// act on directions.
+    fn relate(&self, fixed: &Features, moved: &Features, relations: &mut Vec<Relation>) {
+        let unseen = self.mechanism.unseen();
+        let behind = self.tail.end < self.mechanism.joints().len();
+        if behind && unseen.iter().any(ScrewJoint::is_revolute) {
+            return;
+        }
+        let only_angles = behind && !unseen.is_empty();
+        for (measure, fixed, moved) in fixed.pairs(moved) {
+            if (measure == Measure::Angle || !only_angles) && self.is_widest(measure, &fixed, &moved) {
+                relations.extend(self.relation(measure, fixed, moved));
+            }
+        }
+    }
+
+    /// Whether neither the run nor the tail can be made longer.
+    fn is_widest(&self, measure: Measure, fixed: &Object, moved: &Object) -> bool {
+        let joints = self.mechanism.joints();
+        let stays = |place: usize, object: &Object| leaves(&joints[place], object, measure);
+        let (between, before, behind) =
+            (self.run.end < self.tail.start, self.run.start > 0, self.tail.end < joints.len());
+        let run = between && stays(self.run.end, fixed) || before && stays(self.run.start - 1, fixed);
+        let tail = between && stays(self.tail.start - 1, moved) || behind && stays(self.tail.end, moved);
+        !(run || tail)
+    }
+
+    /// The relation, unless it says nothing: letters that cannot change a direction are left out.
+    fn relation(&self, measure: Measure, fixed: Object, moved: Object) -> Option<Relation> {
+        let joints = self.mechanism.joints();
+        let turns = |letter: &Letter| {
+            measure != Measure::Angle || letter.joint().is_none_or(|joint| joints[joint].is_revolute())
+        };
+        let left = (self.run.end..self.tail.start).map(Letter::Joint).filter(turns).collect();
+        let before = (0..self.run.start).map(Letter::Inverse).rev();
+        let behind = (self.tail.end..joints.len()).map(Letter::Inverse).rev();
+        let right = before.chain([Letter::Target]).chain(behind).filter(turns).collect();
+        let relation = Relation { measure, fixed, moved, left: Word(left), right: Word(right) };
+        (!relation.joints().is_empty()).then_some(relation)
+    }
+}

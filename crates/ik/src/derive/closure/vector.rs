@@ -1,0 +1,99 @@
+//! Exact vectors: what the geometry of axes needs.
+
+use num_integer::Integer;
+use num_traits::{One, Signed, Zero};
+
+use groebot_algebra::number::{BigInt, BigRational};
+use groebot_algebra::poly::rational_root;
+use groebot_robot::kinematics::{ExactMatrix, ExactVector};
+
+/// Integer coordinates beyond this are long.
+const LONG: i64 = 100;
+
+pub fn zero() -> ExactVector {
+    std::array::from_fn(|_| BigRational::zero())
+}
+
+/// The unit vector along a coordinate axis: 0, 1, 2 for x, y, z.
+pub fn unit(axis: usize) -> ExactVector {
+    std::array::from_fn(|k| if k == axis { BigRational::one() } else { BigRational::zero() })
+}
+
+pub fn identity() -> ExactMatrix {
+    std::array::from_fn(unit)
+}
+
+pub fn is_zero(a: &ExactVector) -> bool {
+    a.iter().all(Zero::is_zero)
+}
+
+pub fn add(a: &ExactVector, b: &ExactVector) -> ExactVector {
+    std::array::from_fn(|k| &a[k] + &b[k])
+}
+
+pub fn sub(a: &ExactVector, b: &ExactVector) -> ExactVector {
+    std::array::from_fn(|k| &a[k] - &b[k])
+}
+
+pub fn scale(a: &ExactVector, factor: &BigRational) -> ExactVector {
+    a.each_ref().map(|entry| entry * factor)
+}
+
+pub fn dot(a: &ExactVector, b: &ExactVector) -> BigRational {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+pub fn cross(a: &ExactVector, b: &ExactVector) -> ExactVector {
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        &a[i] * &b[j] - &a[j] * &b[i]
+    })
+}
+
+/// Whether `a` and `b` are parallel, without reducing a fraction.
+pub fn parallel(a: &ExactVector, b: &ExactVector) -> bool {
+    let product = |i: usize, j: usize| a[i].numer() * b[j].numer() * (a[j].denom() * b[i].denom());
+    [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| product(i, j) == product(j, i))
+}
+
+/// The matrix, given by rows, times `a`.
+pub fn turn(matrix: &ExactMatrix, a: &ExactVector) -> ExactVector {
+    matrix.each_ref().map(|row| dot(row, a))
+}
+
+/// The unit vector along `a` when it is rational, else as [`tidy`].
+pub fn normalised(a: &ExactVector) -> ExactVector {
+    let square = dot(a, a);
+    match rational_root(&square) {
+        Some(length) if !length.is_zero() => scale(a, &length.abs().recip()),
+        _ => tidy(a),
+    }
+}
+
+/// The vector along `a` whose coordinates are coprime integers.
+pub fn primitive(a: &ExactVector) -> ExactVector {
+    let common = a.iter().fold(BigInt::one(), |common, entry| common.lcm(entry.denom()));
+    let divisor =
+        a.iter().fold(BigInt::zero(), |divisor, entry| divisor.gcd(&(entry.numer() * (&common / entry.denom()))));
+    if divisor.is_zero() { a.clone() } else { scale(a, &BigRational::new(common, divisor)) }
+}
+
+/// The vector along `a` of coprime integers, or, where these are long, with 1 as its greatest coordinate.
+pub fn tidy(a: &ExactVector) -> ExactVector {
+    let whole = primitive(a);
+    let greatest = whole.iter().map(Signed::abs).max().unwrap_or_default();
+    if greatest > BigRational::from_integer(LONG.into()) { scale(&whole, &greatest.recip()) } else { whole }
+}
+
+/// A vector perpendicular to `a`: across the coordinate axis that is least along it.
+pub fn perpendicular(a: &ExactVector) -> ExactVector {
+    let least = (0..3).min_by_key(|&k| a[k].abs()).unwrap_or(0);
+    tidy(&cross(a, &unit(least)))
+}
+
+/// Three independent directions: along `a`, and two perpendicular to it and to one another.
+pub fn frame(a: &ExactVector) -> [ExactVector; 3] {
+    let across = perpendicular(a);
+    let third = cross(a, &across);
+    [a.clone(), across, third]
+}

@@ -1,0 +1,183 @@
+//! Why a target of several chains has no solution: [`Explanation`].
+
+use std::fmt;
+
+use super::derived::{ChainStage, DerivedCoupled};
+use crate::derive::sequential::Derived;
+use crate::solver::{Nearest, Program, Unit};
+use crate::{ErrorKind, Result, Watch};
+use groebot_robot::kinematics::Solution;
+use groebot_robot::spatial::angle;
+
+/// The chain at which a target fails.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Explanation {
+    /// Its name.
+    pub member: String,
+    /// In how many ways the chains before it reach their targets.
+    pub before: usize,
+    /// By how much the actuators that it shares would have to differ, where it reaches its target alone.
+    pub disagreement: Option<Disagreement>,
+    /// What comes nearest among the chain's own joints, with the shared joints near where one of these ways has them; none when its
+    /// equations have no real candidate at all, far out of reach.
+    pub nearest: Option<Nearest>,
+}
+
+/// A shared actuator that two chains need at different values, of all their ways to reach their targets the two that differ least.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Disagreement {
+    /// The actuator's name.
+    pub actuator: String,
+    /// The unit of its values.
+    pub unit: Unit,
+    /// Where the chain needs it, to reach its target.
+    pub needed: f64,
+    /// Where the chains before have it.
+    pub found: f64,
+}
+
+impl Disagreement {
+    /// `needed - found`, of angles the way round that is shorter.
+    pub fn off(&self) -> f64 {
+        match self.unit {
+            Unit::Radian => angle::difference(self.needed, self.found),
+            _ => self.needed - self.found,
+        }
+    }
+}
+
+/// The answers of a program, none where the steps that a target may take did not lead to one: next to a target that is out of reach by little they are many.
+fn answers_of(program: &Program, target: &[f64]) -> Result<Vec<Solution>> {
+    match program.solve_numbers(target) {
+        Err(error) if error.kind() == ErrorKind::Budget => Ok(Vec::new()),
+        found => found,
+    }
+}
+
+impl DerivedCoupled {
+    /// The first chain that does not reach its part of `target` together with those before it; none when there is a solution.
+    ///
+    /// # Errors
+    /// As [`crate::solver::Program::solve`]; what `watch` stops with.
+    pub fn explain(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
+        if !answers_of(&self.program, target)?.is_empty() {
+            return Ok(None);
+        }
+        match &self.simultaneous {
+            Some(_) => self.together(target, watch).map(Some),
+            None => self.in_turn(target, watch),
+        }
+    }
+
+    /// Where the chains are solved one after the other.
+    fn in_turn(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
+        let mut before = vec![Vec::new()];
+        for stage in &self.stages {
+            let answers = answers_of(&stage.program, &target[..stage.program.inputs.len()])?;
+            if answers.is_empty() {
+                let nearest = before.iter().map(|q| stage.derived.program.nearest(&stage.target(target, q)));
+                let nearest: Vec<Option<Nearest>> = nearest.collect::<Result<_>>()?;
+                let nearest = nearest.into_iter().flatten().min_by(|a, b| a.relative.total_cmp(&b.relative));
+                let ways = if stage == &self.stages[0] { 0 } else { before.len() };
+                let member = self.coupled.chains()[stage.member].name.clone();
+                let disagreement = match self.alone(stage, watch)? {
+                    Some(alone) => {
+                        self.disagreement(stage, &before, &alone.program.solve_numbers(&stage.own_target(target))?)
+                    }
+                    None => None,
+                };
+                return Ok(Some(Explanation { member, before: ways, disagreement, nearest }));
+            }
+            before = answers.into_iter().map(|answer| answer.q).collect();
+        }
+        Ok(None)
+    }
+
+    /// Where the shared joints are found from both chains at once: which chain does not reach its target alone, or by how much the
+    /// two need a shared joint at different values; both chains when neither can be solved alone.
+    fn together(&self, target: &[f64], watch: &Watch) -> Result<Explanation> {
+        let mut before: Vec<Vec<f64>> = Vec::new();
+        let mut disagreement = None;
+        for stage in &self.stages {
+            let Some(alone) = self.alone(stage, watch)? else { break };
+            let own = stage.own_target(target);
+            let answers = answers_of(&alone.program, &own)?;
+            let member = self.coupled.chains()[stage.member].name.clone();
+            if answers.is_empty() {
+                return Ok(Explanation {
+                    member,
+                    before: 0,
+                    disagreement: None,
+                    nearest: alone.program.nearest(&own)?,
+                });
+            }
+            if !before.is_empty() {
+                disagreement = self.disagreement(stage, &before, &answers);
+                return Ok(Explanation { member, before: before.len(), disagreement, nearest: None });
+            }
+            before = answers.iter().map(|answer| stage.put(&answer.q, self.program.joints.len())).collect();
+        }
+        let names: Vec<&str> = self.coupled.chains().iter().map(|member| member.name.as_str()).collect();
+        Ok(Explanation {
+            member: names.join("` and `"),
+            before: 0,
+            disagreement,
+            nearest: self.program.nearest(target)?,
+        })
+    }
+
+    /// The derivation of a chain that shares joints with those before it, as if it shared none; none where its task does not determine
+    /// them, or the user gives joints.
+    fn alone(&self, stage: &ChainStage, watch: &Watch) -> Result<Option<Derived>> {
+        let chain = &self.coupled.chains()[stage.member].chain;
+        let is_open = chain.joints().len() > chain.task().freedoms() || !chain.given().is_empty();
+        if is_open || stage.found().next().is_none() {
+            return Ok(None);
+        }
+        Derived::of_chain(chain, watch).map(Some)
+    }
+
+    /// How far a chain's own ways `answers` to reach its target are from the ways `before` of the chains before it, by the shared actuators;
+    /// none when there are no such ways.
+    fn disagreement(&self, stage: &ChainStage, before: &[Vec<f64>], answers: &[Solution]) -> Option<Disagreement> {
+        let shared: Vec<usize> = stage.found().collect();
+        let one = |way: &Vec<f64>, answer: &Solution, actuator: usize| Disagreement {
+            actuator: self.program.joints[actuator].name.clone(),
+            unit: self.program.joints[actuator].unit,
+            needed: stage.joints.iter().position(|place| *place == actuator).map_or(f64::NAN, |joint| answer.q[joint]),
+            found: way[actuator],
+        };
+        let larger = |a: &Disagreement, b: &Disagreement| a.off().abs().total_cmp(&b.off().abs());
+        let pairs = before.iter().flat_map(|way| answers.iter().map(move |answer| (way, answer)));
+        let worst =
+            pairs.filter_map(|(way, answer)| shared.iter().map(|&actuator| one(way, answer, actuator)).max_by(larger));
+        worst.min_by(larger)
+    }
+}
+
+impl fmt::Display for Explanation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(disagreement) = &self.disagreement {
+            let Disagreement { actuator, unit, needed, found } = disagreement;
+            let unit = if *unit == Unit::Radian { "rad" } else { "in its length unit" };
+            return write!(
+                f,
+                "the chains' targets contradict each other: chain `{}` needs `{actuator}` at {needed:.9}, {:.3e} {unit} off the nearest \
+                 value {found:.9} at which the chains before it reach theirs",
+                self.member,
+                disagreement.off().abs()
+            );
+        }
+        write!(f, "the equations of chain `{}` fail", self.member)?;
+        match self.before {
+            0 => {}
+            ways => write!(f, " in each of the {ways} ways in which the chains before it reach their targets")?,
+        }
+        match &self.nearest {
+            Some(nearest) => write!(f, "; the nearest joints found leave a residual of {:.1e}", nearest.residual),
+            None => f.write_str("; no real joints come near"),
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! The solver of any six joints, offline: which formulations of the eigenvalue problem hold for a chain, proved modulo primes,
+//! and which of them are accurate ([`formulations`], [`crate::solver::eigenvalue::SixAxes`]).
+
+mod derived;
+mod given;
+mod profile;
+mod program;
+mod rank;
+mod residue;
+mod rows;
+mod screw;
+mod stages;
+mod survey;
+mod vector;
+
+pub use derived::DerivedSixAxes;
+pub use rank::Determinant;
+pub use residue::Residue;
+pub use survey::survey;
+
+use given::Six;
+use groebot_runtime::six_axes;
+use num_traits::ToPrimitive;
+
+use crate::solver::eigenvalue::{Formulation, Layout, Line};
+use crate::{Error, ErrorKind, Result};
+use groebot_algebra::number::primes_below;
+use groebot_robot::kinematics::{Chain, JointKind};
+use groebot_robot::spatial::Screw;
+
+/// Primes at each of which a formulation's determinant is evaluated.
+const PRIMES: usize = 3;
+
+/// A formulation whose equations are independent for a generic target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Regular {
+    /// The formulation.
+    pub formulation: Formulation,
+    /// One at least is not zero: that proves it.
+    pub determinants: Vec<Determinant>,
+}
+
+/// The regular formulations of `chain`.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`]).
+pub fn formulations(chain: &Chain) -> Result<Vec<Regular>> {
+    let chain = &Six::of(chain)?.chain;
+    let mut regular = Vec::new();
+    for formulation in all() {
+        let primes = primes_below(1 << 31).enumerate();
+        let found = primes.map(|(seed, prime)| Determinant::evaluate(chain, formulation, prime, seed as u64));
+        let determinants: Vec<Determinant> = found.filter_map(Result::ok).take(PRIMES).collect();
+        if determinants.iter().any(|determinant| determinant.value != 0) {
+            regular.push(Regular { formulation, determinants });
+        }
+    }
+    Ok(regular)
+}
+
+/// All formulations.
+pub fn all() -> impl Iterator<Item = Formulation> {
+    (0..6).flat_map(|hidden| [false, true].map(|second| Formulation { hidden, second }))
+}
+
+/// Whether the eigenvalue problem is one for `chain`: six joints in a row for a pose, all others given.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] that says what it is for.
+pub fn fits(chain: &Chain) -> Result<()> {
+    Six::of(chain).map(drop)
+}
+
+/// By joint of a chain of six: whether it slides.
+fn slides(chain: &Chain) -> [bool; 6] {
+    std::array::from_fn(|joint| chain.joints()[joint].kind == JointKind::Prismatic)
+}
+
+/// The axes of the joints of a chain of six, directions of length one, in the chain's unit of length.
+pub fn layout(chain: &Chain) -> Layout {
+    let line = |joint: usize| match &chain.screws()[joint] {
+        Screw::Revolute(axis) => {
+            Line { direction: axis.direction().into_inner().into(), point: axis.point().coords.into() }
+        }
+        Screw::Prismatic(direction) => {
+            let point = chain.joints()[joint].point.each_ref().map(|entry| entry.to_f64().unwrap_or(0.0));
+            Line { direction: direction.into_inner().into(), point }
+        }
+    };
+    let lines = std::array::from_fn(line);
+    Layout { lines, slides: slides(chain), length: typical_length(&lines) }
+}
+
+/// The solver of `chain`, its best regular formulations in order.
+///
+/// # Errors
+/// As [`formulations`]; [`ErrorKind::Unsupported`] when no formulation is regular and accurate.
+pub fn solver(chain: &Chain) -> Result<six_axes::Chain> {
+    let best: Vec<Formulation> = ranked(chain)?.into_iter().map(|regular| regular.formulation).collect();
+    Ok(layout(chain).chain(&program::tip(chain), &best))
+}
+
+/// The regular formulations that are accurate, the most accurate first; one at least.
+///
+/// # Errors
+/// As [`formulations`]; [`ErrorKind::Unsupported`] when no formulation is regular and accurate.
+pub(super) fn ranked(chain: &Chain) -> Result<Vec<Regular>> {
+    let regular = formulations(chain)?;
+    let known: Vec<Formulation> = regular.iter().map(|regular| regular.formulation).collect();
+    let best = survey(&layout(chain), &known);
+    if best.is_empty() {
+        let text = "no formulation of the eigenvalue problem is regular and accurate for this chain";
+        return Err(Error::new(ErrorKind::Unsupported, text));
+    }
+    let proof = |formulation: &Formulation| regular.iter().find(|regular| regular.formulation == *formulation).cloned();
+    Ok(best.iter().filter_map(proof).collect())
+}
+
+/// The longest way from one axis' point to the next one's; one for a chain that is a point.
+fn typical_length(lines: &[Line; 6]) -> f64 {
+    let way = |a: &Line, b: &Line| (0..3).map(|k| (a.point[k] - b.point[k]).powi(2)).sum::<f64>().sqrt();
+    let longest = lines.windows(2).map(|pair| way(&pair[0], &pair[1])).fold(0.0, f64::max);
+    if longest > 0.0 { longest } else { 1.0 }
+}

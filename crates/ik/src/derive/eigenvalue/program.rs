@@ -1,0 +1,84 @@
+//! The program of six axes: one block that finds all joints together.
+
+use groebot_runtime::six_axes::{ROOM, Rigid};
+
+use super::given::Six;
+use super::layout;
+use crate::derive::assemble::Assembler;
+use crate::derive::closure::Mechanism;
+use crate::derive::sequential::frame_of;
+use crate::solver::eigenvalue::{Formulation, Layout, SixAxes, SixAxesParts};
+use crate::solver::{Block, Case, Operand, Program, Step};
+use crate::{Error, ErrorKind, Result};
+use groebot_robot::kinematics::Chain;
+
+/// The program of `chain`, whose six joints are found by these formulations.
+///
+/// # Errors
+/// As [`SixAxes::new`], [`Mechanism::new`] and [`Six::target`].
+pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, dimension: usize) -> Result<Program> {
+    let mechanism = Mechanism::new(chain)?;
+    let frame = frame_of(chain, &mechanism);
+    let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
+    let Layout { lines, slides, length } = layout(&six.chain);
+    // The parameters of a given joint are what its block sets its unknowns to.
+    let value = |joint: usize| set_to(&frame, &chain.joints()[joint].name);
+    let mut assembler = Assembler::default();
+    let target = six.target(chain, std::array::from_fn(Operand::Parameter), value, &mut assembler)?;
+    let step = SixAxes::new(SixAxesParts {
+        length,
+        lines,
+        slides,
+        tip: tip(chain),
+        formulations,
+        within: 0.0,
+        joints: six.places().map(|place| frame.joints[place].value),
+        target,
+    })?;
+    let case = Case {
+        label: "six axes".to_owned(),
+        guard_code: Vec::new(),
+        guards: Vec::new(),
+        pivot: None,
+        steps: vec![Step::SixAxes(Box::new(step))],
+        free: Vec::new(),
+        open: false,
+        first_branch: 0,
+    };
+    let mut blocks = frame.blocks.clone();
+    blocks.push(Block::numbered("all joints", assembler.take(), vec![case]));
+    let program = Program { blocks, capacity: ROOM, isolated: Some(dimension), nearby: false, ..frame };
+    program.validate().map_err(|error| unsupported(error.message()))?;
+    Ok(program)
+}
+
+/// The same for a robot on which answers are polished, and which is so far from this one (shares of the reach, and rad).
+///
+/// # Errors
+/// As [`SixAxes::new`].
+pub(super) fn within(program: &mut Program, within: f64) -> Result<()> {
+    for step in program.blocks.iter_mut().flat_map(|block| &mut block.cases).flat_map(|case| &mut case.steps) {
+        if let Step::SixAxes(six) = step {
+            **six = six.within(within)?;
+        }
+    }
+    Ok(())
+}
+
+/// What the block `label` of a program sets unknowns to.
+fn set_to(program: &Program, label: &str) -> Vec<Operand> {
+    let block = program.blocks.iter().find(|block| block.label == label);
+    let steps = block.into_iter().flat_map(|block| &block.cases).flat_map(|case| &case.steps);
+    let value = |step: &Step| if let Step::Set { value, .. } = step { Some(*value) } else { None };
+    steps.filter_map(value).collect()
+}
+
+/// The tip in the base frame at zero.
+pub(super) fn tip(chain: &Chain) -> Rigid {
+    let pose = chain.base_from_tip();
+    let rotation = pose.rotation.to_rotation_matrix();
+    Rigid {
+        rotation: std::array::from_fn(|i| std::array::from_fn(|j| rotation[(i, j)])),
+        translation: pose.translation.vector.into(),
+    }
+}

@@ -1,0 +1,173 @@
+//! The numbered files of the derivation of six axes, and its page, written for a student.
+
+use std::fmt::Write;
+
+use super::DerivedSixAxes;
+use super::rank::Determinant;
+use crate::derive::explain::Document;
+use crate::derive::stages::{MARK, PAGE, STAGES};
+use crate::solver::eigenvalue::Formulation;
+use groebot_algebra::escape::markdown;
+use groebot_robot::document::word;
+use groebot_robot::kinematics::JointKind;
+
+/// How the equations come about, line by line.
+const EQUATIONS: [&str; 7] = [
+    "The loop E1 E2 E3 E4 E5 E6 = G, seen from a joint h: E_h (E_h+1 E_h+2 L) = G' E_h+5^-1 E_h+4^-1 L, where L is the line of the axis \
+     of joint h+3, which E_h+3 leaves alone; joints count on behind joint 6 at joint 1, and axes behind the target are moved by it.",
+    "Fourteen functions of a line with direction l through p: p, l, p x l, (p.p) l - 2 (p.l) p, p.p and p.l. Rigid motions map their span \
+     into itself, and a turn acts on it by a matrix that is affine in the cosine and sine of its angle (Raghavan and Roth 1993). Both sides \
+     are sums of the nine products of 1, c, s of two joints.",
+    "With the origin on axis h and w its direction: w.v for the four vectors v, p.p and p.l are the same on both sides: six equations \
+     without the angle of joint h.",
+    "For the parts across w, b turned from a by the angle q: b - a = x w x (a + b) with x = tan(q/2) (Rodrigues): eight equations, \
+     linear in x.",
+    "Each of the fourteen is multiplied by cos(r/2) and sin(r/2), r the angle of one joint next to h: 28 equations in 12 products of \
+     cos(r/2)^3, ..., sin(r/2)^3 with 1, c, s of the other joint, and 16 of the far joints. No angle is lost at half a turn.",
+    "The twelve equations without x are solved for twelve products. What is left is (A - x B) v = 0 with sixteen rows and columns: one \
+     eigenvalue for each complex solution.",
+    "The real eigenvalues are the angles of joint h, their eigenvectors give four more, forward kinematics the last. Newton's method \
+     polishes each, and the equations of the loop measure it.",
+];
+
+/// What is different for joints that slide.
+const SLIDING: [&str; 3] = [
+    "Of a joint that slides by d the functions are polynomials of degree two in d: 1, d^2, d take the places of 1, c, s, and with \
+     d = sin(r/2) / cos(r/2) the equations are multiplied by cos(r/2)^2.",
+    "A hidden joint that slides by 2 x w moves the fourteen functions by exp(2 x N) with N^3 = 0: b - a = x N (a + b), of which six \
+     equations are free of x.",
+    "If joint h+3 slides, it leaves directions alone and lines along its own, l: with a across it, a, l, p x l, l x a, p.a and p.(l x a) are \
+     the fourteen functions.",
+];
+
+impl DerivedSixAxes {
+    /// The stage files with their names: the same bytes at every run.
+    pub fn stage_files(&self) -> Vec<(String, Vec<u8>)> {
+        let [equations, plan, .., program, certificate] = STAGES;
+        let files = [
+            (equations, self.equations_text()),
+            (plan, self.plan_text()),
+            (program, self.program.to_json()),
+            (certificate, self.certificate()),
+            (PAGE, self.readme()),
+        ];
+        files.map(|(name, text)| (name.to_owned(), text.into_bytes())).to_vec()
+    }
+
+    fn equations_text(&self) -> String {
+        let mut text = format!("{}: the equations of any six joints\n", self.chain.name());
+        for (number, line) in self.told_equations().enumerate() {
+            let _ = write!(text, "\n({}) {line}\n", number + 1);
+        }
+        text
+    }
+
+    /// How the equations come about, and what is different for joints that slide if there are any.
+    fn told_equations(&self) -> impl Iterator<Item = &'static str> {
+        let slides = self.six.joints().iter().any(|joint| joint.kind == JointKind::Prismatic);
+        EQUATIONS.into_iter().chain(SLIDING.into_iter().filter(move |_| slides))
+    }
+
+    fn plan_text(&self) -> String {
+        let mut text = format!("{}: plan\n\n", self.chain.name());
+        for line in self.given().into_iter().chain(self.counts()).chain(self.choices()) {
+            let _ = writeln!(text, "{line}");
+        }
+        text
+    }
+
+    /// What is done with the joint that is given.
+    pub fn given(&self) -> Option<String> {
+        let given = self.chain.given();
+        let names: Vec<&str> = given.iter().map(|&joint| self.chain.joints()[joint].name.as_str()).collect();
+        let text = match names.as_slice() {
+            [] => return None,
+            [one] => format!("{one} is given: its motion is taken off the target"),
+            [many @ .., last] => {
+                format!("{} and {last} are given: their motions are taken off the target", many.join(", "))
+            }
+        };
+        Some(format!("{text}, and what is left is the target of the six others."))
+    }
+
+    /// What random targets modulo primes showed.
+    pub fn counts(&self) -> Vec<String> {
+        let line = |evidence: &crate::derive::planner::Evidence| {
+            let degrees: Vec<String> = evidence.degrees.iter().map(usize::to_string).collect();
+            format!(
+                "A random pose modulo {} (seed {}) has {} complex solutions; values of the joints: {}.",
+                evidence.prime,
+                evidence.seed,
+                evidence.dimension,
+                degrees.join(", ")
+            )
+        };
+        self.evidence.iter().map(line).collect()
+    }
+
+    /// The formulations with their proofs.
+    pub fn choices(&self) -> Vec<String> {
+        let value = |determinant: &Determinant| format!("{} modulo {}", determinant.value, determinant.prime);
+        let line = |(index, regular): (usize, &super::Regular)| {
+            let values: Vec<String> = regular.determinants.iter().map(value).collect();
+            format!(
+                "{}. {}; the determinant at a random pose is {}: not zero, so the equations are independent.",
+                index + 1,
+                self.told(regular.formulation),
+                values.join(", ")
+            )
+        };
+        self.formulations.iter().enumerate().map(line).collect()
+    }
+
+    /// What a formulation hides and doubles.
+    fn told(&self, formulation: Formulation) -> String {
+        let name = |joint: usize| self.six.joints()[joint].name.as_str();
+        let (hidden, doubled) = (formulation.hidden, formulation.doubled());
+        let slides = |joint: usize| self.six.joints()[joint].kind == JointKind::Prismatic;
+        let what = if slides(hidden) { "way" } else { "angle" };
+        let second = match (slides(doubled), slides(hidden)) {
+            (true, _) => format!("the equations are multiplied by the way of {}", name(doubled)),
+            (false, false) => format!("that of {} is halved", name(doubled)),
+            (false, true) => format!("the angle of {} is halved", name(doubled)),
+        };
+        format!("The {what} of {} is the eigenvalue, {second}", name(hidden))
+    }
+
+    fn readme(&self) -> String {
+        let parts = self.chain.parts();
+        let mut text = format!("# {}\n\n", markdown(self.chain.name()));
+        for line in [&parts.description, &parts.source].into_iter().flatten() {
+            let _ = writeln!(text, "{}\n", markdown(line));
+        }
+        let _ = writeln!(
+            text,
+            "Up to {} solutions, all found together: no order of joints with few solutions each exists. `1_equations.txt` tells how they \
+             become one eigenvalue problem. Answers that rounding loses are rare and counted: `6_check.csv`.\n",
+            self.dimension()
+        );
+        if let Some((_, report)) = &self.truth {
+            let _ = writeln!(text, "{}", report.paragraph());
+        }
+        for line in self
+            .given()
+            .map(|line| markdown(&line) + "\n")
+            .into_iter()
+            .chain(self.choices().iter().map(|line| markdown(line)))
+        {
+            let _ = writeln!(text, "{line}");
+        }
+        let inputs = vec!["..."; self.program.inputs.len()].join(",");
+        let _ = writeln!(text, "\n{MARK}; `groebot check` proves it again from `certificate.json`. Solve with\n");
+        let _ = writeln!(text, "    groebot solve derivations/{} --target {inputs}", word(self.chain.name()));
+        text
+    }
+
+    /// The report for a student.
+    pub fn document(&self) -> Document {
+        let mut page = Document::new(&format!("{}: its inverse kinematics, explained", self.chain.name()));
+        self.told_equations().for_each(|line| page.say(line));
+        self.given().iter().chain(&self.counts()).chain(&self.choices()).for_each(|line| page.say(line));
+        page
+    }
+}

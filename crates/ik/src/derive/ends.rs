@@ -1,0 +1,185 @@
+//! What is asked of a mechanism beyond its description: the links of a robot, a task, joints with given values. Main type: [`Ends`].
+//!
+//! In a mechanism's folder the file [`TASK_NAME`] keeps it:
+//!
+//! ```toml
+//! base = "torso"
+//! tip = "l_hand"
+//! given = ["LElbowYaw"]
+//!
+//! [task]
+//! kind = "ray"
+//! direction = [1, 0, 0]
+//! ```
+//!
+//! Every key is optional; `task` and `given` are as in [`chain.toml`](mod@groebot_robot::kinematics::chain_toml). `snap = 1e-5` asks for the
+//! ideal robot within that tolerance instead of the usual one, `snap = 0` for each digit at its word: [`Chain::ideal_within`].
+
+use std::path::Path;
+
+use num_traits::ToPrimitive;
+
+use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits::{RUN_TIME_FILES, check_name};
+use groebot_algebra::number::BigRational;
+use groebot_robot::document::{Document, TEXT_LIMIT, read_text, shown, word};
+use groebot_robot::kinematics::chain_toml::{read_given, read_task};
+use groebot_robot::kinematics::ideal::{Report, TOLERANCE};
+use groebot_robot::kinematics::{Chain, ChainParts, ExactVector, Plane, Task};
+
+/// The name of the file in a mechanism's folder that says what is asked of the input beside it.
+pub const TASK_NAME: &str = "0_task.toml";
+
+/// Between which links of a robot a chain is wanted, and for which task.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Ends {
+    /// Where it starts; by default the root.
+    pub base: Option<String>,
+    /// Where it ends; by default the only leaf.
+    pub tip: Option<String>,
+    /// What is asked of the tip; by default what the description says.
+    pub task: Option<Task>,
+    /// The direction in the tip frame that the task aims; by default what the description says, else z.
+    pub direction: Option<ExactVector>,
+    /// The joints whose values the user gives; when empty, those that the description names.
+    pub given: Vec<String>,
+    /// Whether the planner chooses the joints to give, however many: [`Ends::AUTO`].
+    pub chooses: bool,
+    /// The name of the solver, and of its files; by default that of the description, and the files are numbered stages.
+    pub name: Option<String>,
+    /// The tolerance, in radians and shares of the reach, within which the ideal robot is meant; by default [`TOLERANCE`].
+    pub snap: Option<BigRational>,
+}
+
+impl Ends {
+    /// The name that requests the planner's choice instead of a given joint.
+    pub const AUTO: &'static str = "auto";
+
+    /// What the file at `path` asks.
+    ///
+    /// # Errors
+    /// As [`read_text`] and [`Ends::from_toml`], with the file.
+    pub fn read(path: &Path) -> Result<Ends> {
+        Ends::from_toml(&read_text(path, TEXT_LIMIT)?).map_err(|error| error.in_file(path))
+    }
+
+    /// What `text` asks.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`]; [`ErrorKind::BadValue`] for a wrong type or
+    /// value. All have a line.
+    pub fn from_toml(text: &str) -> Result<Ends> {
+        let document = Document::parse(text)?;
+        let root = document.root();
+        root.deny_unknown(&["base", "tip", "given", "name", "snap", "task"])?;
+        let name = |key| root.optional(key).map(|node| node.text().map(str::to_owned)).transpose();
+        let mut ends = Ends { base: name("base")?, tip: name("tip")?, given: read_given(root)?, ..Ends::default() };
+        ends.name = root
+            .optional("name")
+            .map(|node| solver_name(node.text()?).map_err(|error| node.place(error)))
+            .transpose()?;
+        ends.snap = root.optional("snap").map(|node| node.exact()).transpose()?;
+        if let Some(node) = root.optional("task") {
+            let table = node.table()?;
+            let (task, direction) = read_task(table)?;
+            (ends.task, ends.direction) = (Some(task), table.optional("direction").map(|_| direction));
+        }
+        Ok(ends)
+    }
+
+    /// The text of which [`Ends::from_toml`] reads the same.
+    pub fn to_toml(&self) -> String {
+        let quoted = |text: &str| serde_json::Value::from(text).to_string();
+        let mut page = String::new();
+        for (key, name) in [("base", &self.base), ("tip", &self.tip), ("name", &self.name)] {
+            page += &name.as_ref().map(|name| format!("{key} = {}\n", quoted(name))).unwrap_or_default();
+        }
+        if !self.given.is_empty() {
+            let names: Vec<String> = self.given.iter().map(|name| quoted(name)).collect();
+            page += &format!("given = [{}]\n", names.join(", "));
+        }
+        page += &self.snap.as_ref().map(|snap| format!("snap = {}\n", quoted(&snap.to_string()))).unwrap_or_default();
+        if let Some(task) = self.task {
+            let plane = task.plane().map(Plane::name).map(|plane| format!("plane = {}\n", quoted(plane)));
+            let axis = task.axis().map(|axis| format!("axis = {}\n", quoted(axis.name())));
+            let of = plane.or(axis).unwrap_or_default();
+            page += &format!("\n[task]\nkind = {}\n{of}", quoted(task.name()));
+        }
+        if let Some(direction) = &self.direction {
+            let numbers = direction.each_ref().map(|entry| quoted(&entry.to_string()));
+            page += &format!("direction = [{}]\n", numbers.join(", "));
+        }
+        page
+    }
+
+    /// What this asks, and for the rest what `other` asks. A direction belongs to its task.
+    #[must_use]
+    pub fn or(&self, other: &Ends) -> Ends {
+        let first = |mine: &Option<String>, yours: &Option<String>| mine.clone().or_else(|| yours.clone());
+        let task = self.task.or(other.task);
+        let direction = self.direction.clone().or_else(|| other.direction.clone());
+        Ends {
+            base: first(&self.base, &other.base),
+            tip: first(&self.tip, &other.tip),
+            task,
+            direction: direction.filter(|_| self.direction.is_some() || task.is_none_or(Task::aims)),
+            given: if self.given.is_empty() { other.given.clone() } else { self.given.clone() },
+            chooses: self.chooses || other.chooses,
+            name: first(&self.name, &other.name),
+            snap: self.snap.clone().or_else(|| other.snap.clone()),
+        }
+    }
+
+    /// The tolerance within which the ideal robot is meant.
+    pub fn tolerance(&self) -> f64 {
+        self.snap.as_ref().map_or(TOLERANCE, |snap| snap.to_f64().unwrap_or(f64::NAN))
+    }
+
+    /// The ideal robot of `chain`, and what was taken for what.
+    ///
+    /// # Errors
+    /// As [`Chain::ideal_within`].
+    pub fn ideal(&self, chain: &Chain) -> Result<(Chain, Report)> {
+        chain.ideal_within(self.tolerance())
+    }
+
+    /// `chain` for the task that is asked.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a direction of a task that aims none; as [`Chain::with_task`].
+    pub fn ask(&self, chain: Chain) -> Result<Chain> {
+        let chain = match &self.name {
+            Some(name) => Chain::new(ChainParts { name: name.clone(), ..chain.into() })?,
+            None => chain,
+        };
+        if self.task.is_none() && self.direction.is_none() && self.given.is_empty() {
+            return Ok(chain);
+        }
+        let task = self.task.unwrap_or(chain.task());
+        if self.direction.is_some() && !task.aims() {
+            let text = format!(
+                "the task `{}` aims no direction; leave it out, or ask for `ray`, `direction` or `position_yaw`",
+                task.name()
+            );
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let keeps = task.axis().is_none() || task == chain.task();
+        let usual = || if keeps { chain.direction().clone() } else { task.usual_direction() };
+        let direction = self.direction.clone().unwrap_or_else(usual);
+        let given = if self.given.is_empty() { chain.parts().given.clone() } else { self.given.clone() };
+        chain.with_task(task, direction, given)
+    }
+}
+
+/// The name of a solver and its files.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] as [`check_name`], and for a name of the run time.
+pub fn solver_name(name: &str) -> Result<String> {
+    check_name("solver", name)?;
+    if RUN_TIME_FILES.iter().any(|own| word(name).eq_ignore_ascii_case(own)) {
+        let text = format!("the run time has files called `{}`; give the solver another name", shown(name));
+        return Err(Error::new(ErrorKind::BadValue, text));
+    }
+    Ok(name.to_owned())
+}

@@ -1,0 +1,138 @@
+//! What a chain's axes have in common, and why joints cancel in a relation, in words.
+
+use std::ops::Range;
+
+use super::document::Line;
+use crate::derive::closure::{Letter, Measure, Mechanism, Object, Relation, ScrewJoint, common_point, parallel, show};
+use groebot_robot::kinematics::Task;
+
+/// Which neighbouring axes meet or are parallel.
+pub fn common(mechanism: &Mechanism) -> Vec<Line> {
+    let joints = mechanism.joints();
+    let aligned = |row: &[ScrewJoint]| row.iter().all(|joint| parallel(&joint.axis, &row[0].axis));
+    let mut lines = Vec::new();
+    for range in longest(joints, |row| common_point(row).is_some() && !aligned(row)) {
+        let point = common_point(&joints[range.clone()]).map(|point| show(&point)).unwrap_or_default();
+        lines.push(
+            Line::of(&format!("The axes of {} meet in the point ", numbers(range.clone()))).formula(&point).and("."),
+        );
+    }
+    for range in longest(joints, |row| row.iter().all(ScrewJoint::is_revolute) && aligned(row)) {
+        let along = show(&joints[range.start].axis);
+        lines.push(Line::of(&format!("The axes of {} are parallel, along ", numbers(range))).formula(&along).and("."));
+    }
+    lines
+}
+
+/// The rows of two or more joints that pass the test and are not part of a longer one that does.
+fn longest(joints: &[ScrewJoint], test: impl Fn(&[ScrewJoint]) -> bool) -> Vec<Range<usize>> {
+    let mut found: Vec<Range<usize>> = Vec::new();
+    for start in 0..joints.len() {
+        let end = (start + 2..=joints.len()).rev().find(|&end| test(&joints[start..end]));
+        if let Some(end) = end.filter(|&end| found.iter().all(|other| other.end < end)) {
+            found.push(start..end);
+        }
+    }
+    found
+}
+
+/// Why joints do not occur in `relation`: one line for each of its objects.
+pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
+    let line = |object: &Object, idle: &[usize], seen: bool| {
+        let what = Line::of("The ").and(noun(object, relation.measure)).and(" ").formula(&vector(object));
+        if idle.is_empty() {
+            return what.and(match seen {
+                true => " is all that the task sees of the tip there.",
+                false => " was chosen freely: no joint is where the loop is cut.",
+            });
+        }
+        let verb = if idle.len() == 1 { " leaves" } else { " leave" };
+        let who = numbers(idle.iter().copied());
+        what.and(&format!(": {who}{verb} it in place, for {}.", reason(mechanism, idle, object, relation.measure)))
+    };
+    let [run, tail] = relation.cancelled(mechanism);
+    // What the task does not see of the tip stands behind the last joint.
+    let partly = !matches!(mechanism.seen(), Task::Pose | Task::PlanarPose { .. } | Task::PositionYaw { .. });
+    let at_tip = relation.right.0.last() == Some(&Letter::Target);
+    vec![line(&relation.fixed, &run, false), line(&relation.moved, &tail, partly && at_tip)]
+}
+
+/// What a relation says.
+pub fn conserved(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Angle => {
+            "the angle between the two, hence their scalar product, is the same in both directions round the loop"
+        }
+        Measure::Offset => {
+            "the distance along the normal between the two is the same in both directions round the loop"
+        }
+        Measure::Distance => {
+            "the distance between the two, hence its square, is the same in both directions round the loop"
+        }
+        Measure::Moment => "the mutual moment of the two is the same in both directions round the loop",
+        Measure::Follow => "the one joint is where the other brings it",
+    }
+}
+
+/// Where a single equation says nothing about its joint.
+pub fn degenerate(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Angle => {
+            "one of the two directions has come to lie along the joint's axis, so that turning about it changes no angle"
+        }
+        Measure::Offset => {
+            "the normal has come to lie along the joint's axis, or the point on it, so that turning moves nothing that the equation sees"
+        }
+        Measure::Distance => {
+            "one of the two points has come to lie on the joint's axis, so that turning about it changes no distance"
+        }
+        Measure::Moment => "turning about the axis does not change the moment of the two lines",
+        Measure::Follow => "nothing can: the law determines the joint everywhere",
+    }
+}
+
+fn noun(object: &Object, measure: Measure) -> &'static str {
+    match (object, measure) {
+        (Object::Point(_), _) => "point",
+        (_, Measure::Offset) => "plane normal to",
+        (Object::Direction(_), _) => "direction",
+        (Object::Line { .. }, _) => "line along",
+    }
+}
+
+fn vector(object: &Object) -> String {
+    match object {
+        Object::Point(vector) | Object::Direction(vector) => show(vector),
+        Object::Line { direction, .. } => show(direction),
+    }
+}
+
+fn reason(mechanism: &Mechanism, idle: &[usize], object: &Object, measure: Measure) -> String {
+    let (turns, slides): (Vec<usize>, Vec<usize>) =
+        idle.iter().partition(|&&place| mechanism.joints()[place].is_revolute());
+    let axes = |list: &[usize]| if list.len() == 1 { "its axis" } else { "their axes" };
+    let turning = match (object, measure) {
+        _ if turns.is_empty() => None,
+        (Object::Point(_), _) => Some(format!("it lies on {}", axes(&turns))),
+        (Object::Line { .. }, Measure::Moment) => Some(format!("it is the line of {}", axes(&turns))),
+        (_, Measure::Offset) => Some(format!("the normal is along {}", axes(&turns))),
+        _ => Some(format!("it is along {}", axes(&turns))),
+    };
+    let sliding = match measure {
+        _ if slides.is_empty() => None,
+        Measure::Angle => Some("sliding turns nothing".to_owned()),
+        Measure::Offset => Some("sliding goes along the plane".to_owned()),
+        _ => Some("sliding goes along it".to_owned()),
+    };
+    turning.into_iter().chain(sliding).collect::<Vec<_>>().join(", and ")
+}
+
+/// `joint 3`, `joints 1, 2 and 4`, counted from 1.
+pub fn numbers(places: impl IntoIterator<Item = usize>) -> String {
+    let list: Vec<String> = places.into_iter().map(|place| (place + 1).to_string()).collect();
+    match list.split_last() {
+        None => "no joint".to_owned(),
+        Some((only, [])) => format!("joint {only}"),
+        Some((last, rest)) => format!("joints {} and {last}", rest.join(", ")),
+    }
+}

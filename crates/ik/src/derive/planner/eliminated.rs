@@ -1,0 +1,276 @@
+//! Steps that find one joint after others are eliminated from as many relations as unknown joints.
+
+use std::rc::Rc;
+
+use super::echelon::Echelon;
+use super::evidence::Space;
+use super::one_joint::Candidate;
+use super::sights::{Sample, Sight, Sights, is_number, members, set};
+use super::specimen::Random;
+use super::types::{PlanStep, Way};
+use crate::derive::closure::{Factor, Mechanism};
+use crate::{Result, Watch};
+use groebot_algebra::groebner::{basis_modulo_prime, normal_form};
+use groebot_algebra::number::Ring;
+use groebot_algebra::poly::Polynomial;
+
+/// The greatest degree that a step may have.
+const GREATEST: usize = 4;
+/// So many independent relations are combined.
+const CANDIDATES: usize = 4;
+/// So many relations are looked at for independent ones.
+const LOOKED_AT: usize = 24;
+
+/// The effort of a joint that no sum of squares eliminates.
+const HARD: usize = 15;
+/// The effort of linear relations among coefficients.
+const LINEAR: usize = 20;
+
+/// A relation, by its place, with what it looks like.
+type Seen = (usize, Rc<Sight>);
+
+/// The steps to one of the joints of the set `joints`, given those of `known`, that have at most [`GREATEST`] solutions: for each
+/// joint the one of lowest degree and least effort.
+///
+/// # Errors
+/// As [`Sights::of`]; what `watch` stops with.
+pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Watch) -> Result<Vec<Candidate>> {
+    let places = members(joints);
+    let followers = followers(sights.mechanism, joints);
+    let laws = if followers == 0 { None } else { Some(Laws::new(sights, &places)?) };
+    let relations = independent(sights, joints, known, laws.as_ref())?;
+    let mut best: Vec<Option<Candidate>> = vec![None; places.len()];
+    for chosen in combinations(relations.len(), places.len() - members(followers).len()) {
+        watch.check()?;
+        let some: Vec<Seen> = chosen.into_iter().map(|at| relations[at].clone()).collect();
+        if !covers(sights.mechanism, &some, joints) {
+            continue;
+        }
+        let (degrees, symbols) = freed_degrees(sights, &some, &places, watch)?;
+        for (at, &degree) in degrees.iter().enumerate().filter(|(_, degree)| is_allowed(degree)) {
+            let away: Vec<usize> = places.iter().copied().filter(|&place| place != places[at]).collect();
+            let is_led = |joint: &usize| followers >> *joint & 1 == 1;
+            let is_plain = match &laws {
+                None => false,
+                Some(laws) => some.iter().all(|(_, sight)| laws.degree(sight).is_ok_and(|degree| degree <= 1)),
+            };
+            let is_hard = |joint: &&usize| !is_led(joint) && !is_plain && !turns_as_one(sights, &some, **joint);
+            let hard = away.iter().filter(is_hard).count();
+            let effort = 10 * places.len() + symbols + HARD * hard;
+            if best[at].as_ref().is_none_or(|(step, least)| (degree, effort) < (step.degree, *least)) {
+                let relations = some.iter().map(|(index, _)| sights.relations[*index].clone()).collect();
+                let way = Way::Eliminated { relations, away };
+                best[at] = Some((PlanStep { joint: places[at], way, degree }, effort));
+            }
+        }
+    }
+    Ok(best.into_iter().flatten().collect())
+}
+
+/// The number of values of a step's joint when others are eliminated, counted again; zero when there are none or infinitely many, or when
+/// the step has relations that no planner looks at.
+///
+/// # Errors
+/// As [`Sights::of`]; what `watch` stops with.
+pub fn count(sights: &mut Sights<'_>, step: &PlanStep, watch: &Watch) -> Result<usize> {
+    let Way::Eliminated { relations, away } = &step.way else { return Ok(step.degree) };
+    let places = members(set(away) | 1 << step.joint);
+    let mut some: Vec<Seen> = Vec::with_capacity(relations.len());
+    for relation in relations {
+        let Some(index) = sights.relations.iter().position(|known| known == relation) else { return Ok(0) };
+        let unknown = set(&places) & sights.joints_of(index);
+        some.push((index, sights.of(index, unknown)?));
+    }
+    let (degrees, _) = freed_degrees(sights, &some, &places, watch)?;
+    Ok(places.iter().zip(degrees).find(|(place, _)| **place == step.joint).map_or(0, |(_, degree)| degree))
+}
+
+/// The joints of a set that follow others of it: their laws determine them.
+pub fn followers(mechanism: &Mechanism, joints: u32) -> u32 {
+    let is_in = |joint: usize| joints >> joint & 1 == 1;
+    let led =
+        mechanism.followers().into_iter().filter(|(follower, coupling)| is_in(*follower) && is_in(coupling.leader));
+    led.fold(0, |set, (follower, _)| set | 1 << follower)
+}
+
+/// Whether every joint of the set occurs, itself or in the law of one that does.
+fn covers(mechanism: &Mechanism, some: &[Seen], joints: u32) -> bool {
+    let factors = some.iter().flat_map(|(_, sight)| sight.iter().flat_map(|(product, _)| product.list()));
+    let occur = factors.fold(0, |set, factor| set | 1 << factor.joint());
+    let leaders = mechanism.followers().into_iter().filter(|(follower, _)| occur >> follower & 1 == 1);
+    leaders.fold(occur, |set, (_, coupling)| set | 1 << coupling.leader) & joints == joints
+}
+
+/// Whether the relations are combinations, with numbers, of coordinates of one vector that `joint` turns: the sum of their squares
+/// then is free of the joint, which eliminates it (Pieper 1968). That is so when the rows (A, B) of A c + B s' stay among themselves
+/// under a quarter turn, (A, B) -> (B, -n A), at all targets alike.
+fn turns_as_one(sights: &Sights<'_>, some: &[Seen], joint: usize) -> bool {
+    let (field, n) = (sights.field(), sights.squares[joint]);
+    let mut rows = Echelon::new(field);
+    let mut turned = Vec::new();
+    for (_, sight) in some {
+        let (mut row, mut turn) = (Vec::new(), Vec::new());
+        for (product, sample) in sight.iter() {
+            let rest: Vec<Factor> = product.list().iter().copied().filter(|factor| factor.joint() != joint).collect();
+            let (cosine, sine) = (Factor::Cosine(joint), Factor::Sine(joint));
+            for (k, &value) in sample.iter().enumerate() {
+                if product.list().contains(&cosine) {
+                    row.push(((false, rest.clone(), k), value));
+                    turn.push(((true, rest.clone(), k), field.neg(&field.mul(&n, &value))));
+                } else if product.list().contains(&sine) {
+                    row.push(((true, rest.clone(), k), value));
+                    turn.push(((false, rest.clone(), k), value));
+                }
+            }
+        }
+        rows.insert(row);
+        turned.push(turn);
+    }
+    turned.into_iter().all(|turn| !rows.insert(turn))
+}
+
+/// What joints that follow others make of relations.
+struct Laws {
+    space: Space,
+    ideal: Vec<Polynomial<u64>>,
+}
+
+impl Laws {
+    fn new(sights: &Sights<'_>, places: &[usize]) -> Result<Self> {
+        let space = Space::new(sights.mechanism, places, sights.field())?;
+        let mut ideal = space.couplings(sights.mechanism);
+        ideal.extend(space.circles(&sights.squares)?);
+        Ok(Laws { space, ideal })
+    }
+
+    /// The degree of a relation with the laws in it.
+    fn degree(&self, sight: &Sight) -> Result<u32> {
+        let polynomial = self.space.polynomial(sight.iter().map(|(product, sample)| (product, sample[0])))?;
+        Ok(self.space.ring.degree(&normal_form(&self.space.ring, &polynomial, &self.ideal)?))
+    }
+}
+
+/// The first linearly independent relations in which only joints of the set are unknown; where joints follow others, of the least degree.
+fn independent(sights: &mut Sights<'_>, joints: u32, known: u32, laws: Option<&Laws>) -> Result<Vec<Seen>> {
+    let of_loop = |index: &usize| sights.relations[*index].followed().is_none();
+    let mut within: Vec<usize> =
+        subsets(joints).flat_map(|subset| sights.among(subset, known)).filter(of_loop).collect();
+    within.sort_unstable();
+    if let Some(laws) = laws {
+        let mut sorted = Vec::with_capacity(within.len());
+        for index in within {
+            let sight = sights.of(index, joints & sights.joints_of(index))?;
+            sorted.push((laws.degree(&sight)?, index));
+        }
+        sorted.sort_unstable();
+        within = sorted.into_iter().filter(|(degree, _)| *degree > 0).map(|(_, index)| index).collect();
+    }
+    let mut rows = Echelon::new(sights.field());
+    let mut found = Vec::new();
+    for index in within.into_iter().take(LOOKED_AT) {
+        let sight = sights.of(index, joints & sights.joints_of(index))?;
+        if rows.insert(sight.iter().map(|(product, sample)| (product.clone(), sample[0]))) {
+            found.push((index, sight));
+        }
+        if found.len() == CANDIDATES {
+            break;
+        }
+    }
+    Ok(found)
+}
+
+/// The subsets that are not empty.
+fn subsets(joints: u32) -> impl Iterator<Item = u32> {
+    (1..=joints).filter(move |subset| subset & !joints == 0)
+}
+
+/// All ways to choose `size` of `count` things, the first ones first.
+fn combinations(count: usize, size: usize) -> Vec<Vec<usize>> {
+    (0_u32..1 << count).filter(|set| set.count_ones() as usize == size).map(members).collect()
+}
+
+/// The numbers of values of the joints when all coefficients that are no numbers are free, as they are for the basis with symbols;
+/// proportional ones stay so; and the number of these symbols. Where that leaves more values than a step may have, other linear
+/// relations of the coefficients are kept too, which counts as [`LINEAR`] symbols more.
+fn freed_degrees(
+    sights: &mut Sights<'_>,
+    some: &[Seen],
+    places: &[usize],
+    watch: &Watch,
+) -> Result<(Vec<usize>, usize)> {
+    let space = Space::new(sights.mechanism, places, sights.field())?;
+    let mut actual = Vec::new();
+    for (_, sight) in some {
+        actual.push(space.polynomial(sight.iter().map(|(product, sample)| (product, sample[0])))?);
+    }
+    // Freed coefficients may have finitely many solutions where the actual ones have not, but no fewer.
+    if !degrees(sights, actual, &space, places, watch)?.iter().any(is_allowed) {
+        return Ok((vec![0; places.len()], 0));
+    }
+    let mut random = Random::new(some.iter().fold(1, |seed, (index, _)| seed * 1009 + *index as u64));
+    let (polynomials, symbols) = freed(sights, some, &space, &mut random)?;
+    let free = degrees(sights, polynomials, &space, places, watch)?;
+    if free.iter().any(is_allowed) {
+        return Ok((free, symbols));
+    }
+    let mut mixtures = Vec::new();
+    for (index, _) in some {
+        let unknown = set(places) & sights.joints_of(*index);
+        let mixture = sights.mixture(*index, unknown)?;
+        mixtures.push(space.polynomial(mixture.iter().map(|(product, &value)| (product, value)))?);
+    }
+    Ok((degrees(sights, mixtures, &space, places, watch)?, symbols + LINEAR))
+}
+
+/// Whether a step may have so many solutions.
+fn is_allowed(degree: &usize) -> bool {
+    (1..=GREATEST).contains(degree)
+}
+
+/// The numbers of values of the joints; zero when there are none or infinitely many.
+fn degrees(
+    sights: &Sights<'_>,
+    polynomials: Vec<Polynomial<u64>>,
+    space: &Space,
+    places: &[usize],
+    watch: &Watch,
+) -> Result<Vec<usize>> {
+    let mut generators = space.circles(&sights.squares)?;
+    generators.extend(space.couplings(sights.mechanism));
+    generators.extend(polynomials);
+    let basis = basis_modulo_prime(&space.ring, &generators, watch)?;
+    match basis.quotient_dimension() {
+        None | Some(0) => Ok(vec![0; places.len()]),
+        Some(_) => space.degrees(&basis, places, &mut Random::new(sights.field().modulus()), watch),
+    }
+}
+
+/// The relations with random numbers for symbols, and how many these are.
+fn freed(
+    sights: &Sights<'_>,
+    some: &[Seen],
+    space: &Space,
+    random: &mut Random,
+) -> Result<(Vec<Polynomial<u64>>, usize)> {
+    let field = sights.field();
+    let mut symbols: Vec<(Sample, u64)> = Vec::new();
+    let mut value = |sample: &Sample| {
+        if is_number(sample) {
+            return sample[0];
+        }
+        for (symbol, value) in &symbols {
+            if let Some(ratio) = sights.ratio(sample, symbol) {
+                return field.mul(&ratio, value);
+            }
+        }
+        let value = random.below(field.modulus());
+        symbols.push((*sample, value));
+        value
+    };
+    let polynomial = |(_, sight): &Seen| {
+        let terms: Vec<_> = sight.iter().map(|(product, sample)| (product, value(sample))).collect();
+        space.polynomial(terms.into_iter())
+    };
+    let polynomials = some.iter().map(polynomial).collect::<Result<_>>()?;
+    Ok((polynomials, symbols.len()))
+}

@@ -1,0 +1,157 @@
+//! Which joints' values are to be given when a task leaves some too many: [`joints_to_give`]. Main types: [`Choice`], [`Candidate`].
+
+use std::cmp::Reverse;
+use std::fmt;
+
+use super::plan;
+use super::refuse::{self, driven};
+use super::types::Plan;
+use crate::derive::closure::Mechanism;
+use crate::derive::eigenvalue::fits;
+use crate::{ErrorKind, Result, Watch};
+use groebot_robot::kinematics::Chain;
+
+/// A joint is as good to give as the best one when its share is this part of the best one's at least.
+const AS_GOOD: f64 = 0.8;
+
+/// The joints whose values are given, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// Their names, from the base; those that were given before too.
+    pub given: Vec<String>,
+    /// All that the last one was chosen from, from the base.
+    pub candidates: Vec<Candidate>,
+}
+
+/// A joint that might be given.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Candidate {
+    /// Its name.
+    pub joint: String,
+    /// The share of its range, and of reachable poses, that has solutions: counted by screw theory, or else [`Chain::shares`].
+    pub share: f64,
+    /// The greatest degree of a step, and the number of solutions, where the other joints are found one at a time.
+    pub plan: Option<[usize; 2]>,
+}
+
+/// The joints of `chain` to give so that its task determines the others. Of one too many: of those whose range has solutions for the greatest
+/// share of values, the one with which the others are found by polynomials of the least degree, then with the fewest solutions, the last of
+/// equals; where the others have no order whichever is given, the last, if the other six are found together. Of more, all but one are chosen by
+/// their shares alone, the first from the base of those that are as good as the best. `None` for a chain without a joint too many.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] when there is no such joint, with the number of solutions for each; what `watch` stops with.
+pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
+    let leads = |joint: &&usize| chain.leader(**joint).is_none();
+    let names =
+        |joints: &[usize]| joints.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
+    let asked = chain.given();
+    let mut given = asked.clone();
+    let Some(excess) = chain.independent().len().checked_sub(chain.task().freedoms()).filter(|n| *n > 0) else {
+        return Ok(None);
+    };
+    for _ in 1..excess {
+        let joint = of_greatest_share(&chain.shares(&given), &given);
+        given.extend((0..chain.joints().len()).filter(|&place| place == joint || led_by(chain, place) == Some(joint)));
+        given.sort_unstable();
+    }
+    let (joint, candidates) = match last_to_give(chain, &given, watch) {
+        Err(error) if is_refusal(error.kind()) => match ends_to_give(chain, &asked, excess) {
+            Some(given) => return Ok(Some(Choice { given: names(&given), candidates: Vec::new() })),
+            None => return Err(error),
+        },
+        last => last?,
+    };
+    given.push(joint);
+    given.sort_unstable();
+    Ok(Some(Choice { given: names(&given), candidates }))
+}
+
+/// The joint that the one at `place` follows.
+fn led_by(chain: &Chain, place: usize) -> Option<usize> {
+    chain.leader(place).map(|(leader, _)| leader)
+}
+
+/// The first joint whose share is as good as the greatest.
+fn of_greatest_share(shares: &[f64], given: &[usize]) -> usize {
+    let best = shares.iter().copied().fold(0.0, f64::max);
+    let free = || (0..shares.len()).filter(|joint| !given.contains(joint));
+    free().find(|&joint| shares[joint] >= AS_GOOD * best).or_else(|| free().next()).unwrap_or(0)
+}
+
+/// The last joint to give behind those of `given`, and all candidates.
+fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize, Vec<Candidate>)> {
+    let mechanism = Mechanism::new(chain)?.with_given(given)?;
+    let (places, mut shares) = (driven(&mechanism), chain.shares(given));
+    let (mut plans, mut refusals) = (Vec::new(), Vec::new());
+    for &joint in &places {
+        watch.report("choose the joint that is given", joint, places.len());
+        let with: Vec<usize> = given.iter().copied().chain([joint]).collect();
+        match plan(&mechanism.clone().with_given(&with)?, watch) {
+            Ok(plan) => plans.push((joint, [hardest(&plan), plan.dimension])),
+            Err(error) if is_refusal(error.kind()) => refusals.push((joint, error)),
+            Err(error) => return Err(error),
+        }
+    }
+    for (joint, _) in &plans {
+        shares[*joint] = chain.counted_share(given, *joint).unwrap_or(shares[*joint]);
+    }
+    let candidate = |&joint: &usize| Candidate {
+        joint: chain.joints()[joint].name.clone(),
+        share: shares[joint],
+        plan: plans.iter().find(|(other, _)| *other == joint).map(|(_, plan)| *plan),
+    };
+    let greatest = plans.iter().map(|(joint, _)| shares[*joint]).fold(0.0, f64::max);
+    let good = plans.iter().filter(|(joint, _)| shares[*joint] >= AS_GOOD * greatest);
+    let best = good.min_by_key(|(joint, plan)| (*plan, Reverse(*joint))).map(|(joint, _)| *joint);
+    match best.or_else(|| together(chain, given)) {
+        Some(joint) => Ok((joint, places.iter().map(candidate).collect())),
+        None => Err(refuse::none_to_give(&mechanism, &refusals)),
+    }
+}
+
+/// So many joints at the ends of the chain, beside those that are given, which leave six that are found together: as many as possible at its end.
+fn ends_to_give(chain: &Chain, given: &[usize], count: usize) -> Option<Vec<usize>> {
+    let leading: Vec<usize> = chain.independent().into_iter().filter(|joint| !given.contains(joint)).collect();
+    (0..=count).find_map(|front| {
+        let ends = leading[..front].iter().chain(&leading[leading.len() - (count - front)..]);
+        let mut all: Vec<usize> = given.iter().chain(ends).copied().collect();
+        all.sort_unstable();
+        leaves_six(chain, &all).then_some(all)
+    })
+}
+
+/// Whether the joints that are not given, nor follow those that are, are six that are found together.
+fn leaves_six(chain: &Chain, given: &[usize]) -> bool {
+    let leads = |joint: &&usize| chain.leader(**joint).is_none();
+    let given = given.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
+    let asked = chain.with_task(chain.task(), chain.direction().clone(), given);
+    asked.is_ok_and(|chain| fits(&chain).is_ok())
+}
+
+/// The joint that leaves six which are found together: the last one, or the first, or the one that it follows.
+fn together(chain: &Chain, given: &[usize]) -> Option<usize> {
+    let fits_with = |place: &usize| leaves_six(chain, &given.iter().copied().chain([*place]).collect::<Vec<_>>());
+    let ends = [chain.joints().len() - 1, 0].map(|place| led_by(chain, place).unwrap_or(place));
+    ends.into_iter().filter(|place| !given.contains(place)).find(fits_with)
+}
+
+fn is_refusal(kind: ErrorKind) -> bool {
+    matches!(kind, ErrorKind::Unsupported | ErrorKind::PositiveDimensional)
+}
+
+fn hardest(plan: &Plan) -> usize {
+    plan.steps.iter().map(|step| step.degree).max().unwrap_or(0)
+}
+
+/// `shoulder: 62 % of its range, 8 solutions`.
+impl fmt::Display for Candidate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: solutions on {:.0} % of its range", self.joint, 100.0 * self.share)?;
+        match self.plan {
+            Some([_, dimension]) => write!(f, ", up to {dimension} of them"),
+            None => f.write_str(", which are not found one joint at a time"),
+        }
+    }
+}

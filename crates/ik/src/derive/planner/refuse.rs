@@ -1,0 +1,120 @@
+//! Why a chain has no plan, in words: what is free, or what the geometry lacks.
+
+use super::evidence::is_finite;
+use super::types::Evidence;
+use crate::derive::closure::Mechanism;
+use crate::{Error, ErrorKind, Result, Watch};
+use groebot_robot::kinematics::ExactVector;
+
+/// The error of a mechanism with infinitely many solutions: it names the joints of which one may be given.
+///
+/// # Errors
+/// What `watch` stops with.
+pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
+    let (unknown, freedoms) = (driven(mechanism), mechanism.task().freedoms());
+    let suits = if unknown.len() <= freedoms + 1 { suitable(mechanism, watch)? } else { Vec::new() };
+    let advice = match suits.as_slice() {
+        [] if unknown.len() > freedoms => format!("give the values of at least {}", unknown.len() - freedoms),
+        [] if unknown.len() > 1 => "more than one must be given, or another task asked".to_owned(),
+        [] => "ask for another task".to_owned(),
+        [one] => format!("give the value of the joint {one}"),
+        list => format!("give the value of one of the joints {}", list.join(", ")),
+    };
+    let many =
+        format!("the `{}` task leaves some of the {} unknown joints free", mechanism.task().name(), unknown.len());
+    Ok(Error::new(ErrorKind::PositiveDimensional, format!("{many}: {advice}")))
+}
+
+/// The places of the chain's own joints that are not given and follow no other.
+pub(super) fn driven(mechanism: &Mechanism) -> Vec<usize> {
+    let leads = |joint: &usize| mechanism.hidden() != Some(*joint) && mechanism.joints()[*joint].coupling.is_none();
+    mechanism.unknown().into_iter().filter(leads).collect()
+}
+
+/// The error of a mechanism with one joint too many of which none can be given: what each leads to.
+pub fn none_to_give(mechanism: &Mechanism, refusals: &[(usize, Error)]) -> Error {
+    let told = |(joint, error): &(usize, Error)| {
+        let name = &mechanism.joints()[*joint].name;
+        let end = error.message().find(" (values").or(error.message().find(':')).unwrap_or(error.message().len());
+        format!("with `{name}` given, {}", &error.message()[..end])
+    };
+    let told: Vec<String> = refusals.iter().map(told).collect();
+    let text = format!(
+        "the `{}` task leaves one of the {} joints free, and no joint that is given leaves others that can be found one at a time with \
+         at most 4 values each (an eigenvalue problem is for a pose): {}",
+        mechanism.task().name(),
+        refusals.len(),
+        told.join("; ")
+    );
+    Error::new(ErrorKind::Unsupported, text)
+}
+
+/// The names of the joints that leave finitely many solutions when their value is given.
+fn suitable(mechanism: &Mechanism, watch: &Watch) -> Result<Vec<String>> {
+    let relations = mechanism.relations();
+    let mut names = Vec::new();
+    for joint in driven(mechanism) {
+        let given: Vec<usize> = mechanism.given().iter().copied().chain([joint]).collect();
+        if given.len() < mechanism.driven().len()
+            && is_finite(&mechanism.clone().with_given(&given)?, &relations, watch)?
+        {
+            names.push(format!("`{}`", mechanism.joints()[joint].name));
+        }
+    }
+    Ok(names)
+}
+
+/// The error of a mechanism whose joints are not found one at a time with at most four solutions each.
+pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize>) -> Error {
+    let found = match product {
+        None => "no order of the joints determines one at a time with at most 4 values each".to_owned(),
+        Some(product) => format!("the best order of the joints gives {product} instead"),
+    };
+    solved_by_none(mechanism, evidence, &found)
+}
+
+/// The error of a mechanism whose plan ends with `error` when its equations are derived.
+pub fn not_derived(mechanism: &Mechanism, evidence: &Evidence, error: &Error) -> Error {
+    solved_by_none(mechanism, evidence, error.message())
+}
+
+/// The error of a mechanism without a solver because of what was `found`: how many solutions it has, and what its geometry lacks.
+fn solved_by_none(mechanism: &Mechanism, evidence: &Evidence, found: &str) -> Error {
+    let degree = |&joint: &usize| format!("`{}` {}", mechanism.joints()[joint].name, evidence.degrees[joint]);
+    let degrees: Vec<String> = driven(mechanism).iter().map(degree).collect();
+    let text = format!(
+        "a target of the `{}` task has {} complex solutions (values of the joints: {}); {found}; {}; a search \
+         (`groebot ik --numeric`) may find some of them",
+        mechanism.task().name(),
+        evidence.dimension,
+        degrees.join(", "),
+        lacking(mechanism)
+    );
+    Error::new(ErrorKind::Unsupported, text)
+}
+
+/// Which neighbouring axes meet or are parallel, and which would have to.
+fn lacking(mechanism: &Mechanism) -> String {
+    let count = mechanism.driven().len();
+    let triples: Vec<usize> = (0..count.saturating_sub(2)).collect();
+    let names = |first: &usize| format!("{}-{}-{}", first + 1, first + 2, first + 3);
+    let list = |triples: &[usize]| triples.iter().map(names).collect::<Vec<_>>().join(", ");
+    let (good, bad): (Vec<usize>, Vec<usize>) = triples.into_iter().partition(|&first| is_special(mechanism, first));
+    match (good.as_slice(), bad.as_slice()) {
+        ([], []) => "no three axes follow one another".to_owned(),
+        ([], bad) => format!(
+            "three neighbouring axes would have to meet in one point or be parallel (joints {}); none do",
+            list(bad)
+        ),
+        (good, _) => format!("that joints {} meet in one point, are parallel or slide is not enough", list(good)),
+    }
+}
+
+/// Whether three neighbouring joints have parallel axes, axes through one point, or slide.
+fn is_special(mechanism: &Mechanism, first: usize) -> bool {
+    let joints = &mechanism.joints()[first..first + 3];
+    let along = |a: &ExactVector, b: &ExactVector| (0..3).all(|k| &a[k] * &b[(k + 1) % 3] == &a[(k + 1) % 3] * &b[k]);
+    joints.iter().all(|joint| along(&joint.axis, &joints[0].axis))
+        || joints.iter().filter(|joint| !joint.is_revolute()).count() > 1
+        || crate::derive::closure::common_point(joints).is_some()
+}

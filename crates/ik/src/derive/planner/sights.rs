@@ -1,0 +1,157 @@
+//! What relations look like at three random targets modulo one prime: which coefficients are numbers, which are proportional.
+
+use std::collections::{BTreeMap, HashMap};
+use std::rc::Rc;
+
+use super::specimen::{Random, Specimen};
+use crate::Result;
+use crate::derive::closure::{Arithmetic, Coupling, Factor, Factors, Mechanism, Modular, Multilinear, Relation};
+use groebot_algebra::number::{Ring, Zp};
+
+/// So many targets.
+pub const SPECIMENS: usize = 3;
+
+/// So many targets are mixed: one more than the symbols that a mixture leaves free.
+const MIXED: usize = 12;
+
+/// A coefficient at all targets.
+pub type Sample = [u64; SPECIMENS];
+
+/// A relation with some joints known: its coefficients by the products of the unknown ones, 1 first.
+pub type Sight = Vec<(Factors, Sample)>;
+
+/// The relations of a mechanism at random targets.
+#[non_exhaustive]
+pub struct Sights<'a> {
+    pub mechanism: &'a Mechanism,
+    pub relations: &'a [Relation],
+    /// |w|^2 of each joint's axis.
+    pub squares: Vec<u64>,
+    arithmetic: Modular,
+    specimens: Vec<Specimen>,
+    /// Random numbers with the sum 1, one for each specimen.
+    weights: Vec<u64>,
+    /// The joints of each relation.
+    joints: Vec<u32>,
+    /// The joints that must be known for each relation to be one of degree one: leaders that others follow by another law.
+    leaders: Vec<u32>,
+    seen: HashMap<(usize, u32), Rc<Sight>>,
+}
+
+impl<'a> Sights<'a> {
+    pub fn new(
+        mechanism: &'a Mechanism,
+        relations: &'a [Relation],
+        mut arithmetic: Modular,
+        random: &mut Random,
+    ) -> Result<Self> {
+        let field = arithmetic.field();
+        let mut weights: Vec<u64> = (1..MIXED).map(|_| random.below(field.modulus())).collect();
+        weights.push(weights.iter().fold(field.one(), |rest, weight| field.sub(&rest, weight)));
+        let draw = |_| Specimen::draw(mechanism, &mut arithmetic, random);
+        let specimens = (0..MIXED).map(draw).collect::<Result<_>>()?;
+        let squares = mechanism.joints().iter().map(|joint| arithmetic.rational(&joint.square)).collect();
+        let joints = relations.iter().map(|relation| set(&relation.joints())).collect();
+        let leaders = relations.iter().map(|relation| nonlinear_leader(mechanism, relation)).collect();
+        let seen = HashMap::new();
+        Ok(Sights { mechanism, relations, squares, arithmetic, specimens, weights, joints, leaders, seen })
+    }
+
+    /// The prime field.
+    pub fn field(&self) -> Zp {
+        self.arithmetic.field()
+    }
+
+    /// The relations whose unknown joints are those of the set `joints`, when those of `known` are known.
+    pub fn among(&self, joints: u32, known: u32) -> impl Iterator<Item = usize> + '_ {
+        let is_linear = move |index: &usize| self.leaders[*index] & !known == 0;
+        (0..self.relations.len()).filter(move |&index| self.joints[index] & !known == joints).filter(is_linear)
+    }
+
+    /// The joints of the relation `index`.
+    pub fn joints_of(&self, index: usize) -> u32 {
+        self.joints[index]
+    }
+
+    /// The relation `index` as a polynomial in the joints of the set `unknown`, all others at their values.
+    pub fn of(&mut self, index: usize, unknown: u32) -> Result<Rc<Sight>> {
+        if let Some(sight) = self.seen.get(&(index, unknown)) {
+            return Ok(Rc::clone(sight));
+        }
+        let relation = &self.relations[index];
+        let mut values = Vec::with_capacity(SPECIMENS);
+        for specimen in &self.specimens[..SPECIMENS] {
+            values.push(specimen.evaluate(self.mechanism, relation, unknown, &mut self.arithmetic)?);
+        }
+        let sight = Rc::new(gather(&values));
+        self.seen.insert((index, unknown), Rc::clone(&sight));
+        Ok(sight)
+    }
+
+    /// The relation `index` with free coefficients that only keep their linear relations with rational numbers: the mean of the
+    /// relation at many targets, with random weights of which the sum is 1.
+    pub fn mixture(&mut self, index: usize, unknown: u32) -> Result<BTreeMap<Factors, u64>> {
+        let (relation, field) = (&self.relations[index], self.field());
+        let mut mixture: BTreeMap<Factors, u64> = BTreeMap::new();
+        for (specimen, weight) in self.specimens.iter().zip(&self.weights) {
+            let value = specimen.evaluate(self.mechanism, relation, unknown, &mut self.arithmetic)?;
+            for (product, coefficient) in value.terms() {
+                let sum = mixture.entry(product.clone()).or_default();
+                *sum = field.add(sum, &field.mul(weight, coefficient));
+            }
+        }
+        Ok(mixture)
+    }
+
+    /// `a / b` when it is the same number at all targets.
+    pub fn ratio(&self, a: &Sample, b: &Sample) -> Option<u64> {
+        let field = self.field();
+        let ratio = field.checked_div(&a[0], &b[0])?;
+        (0..SPECIMENS).all(|k| a[k] == field.mul(&ratio, &b[k])).then_some(ratio)
+    }
+}
+
+/// The leader of a relation of a joint that follows it by a law that is not linear.
+fn nonlinear_leader(mechanism: &Mechanism, relation: &Relation) -> u32 {
+    let Some([follower, leader, _]) = relation.followed() else { return 0 };
+    let coupling = mechanism.joints()[follower].coupling.as_ref();
+    if coupling.is_some_and(Coupling::is_linear) { 0 } else { 1 << leader }
+}
+
+/// The set of these joints.
+pub fn set(joints: &[usize]) -> u32 {
+    joints.iter().fold(0, |set, joint| set | 1 << joint)
+}
+
+/// The places of the joints of a set, ascending.
+pub fn members(set: u32) -> Vec<usize> {
+    (0..u32::BITS as usize).filter(|joint| set >> joint & 1 == 1).collect()
+}
+
+fn gather(values: &[Multilinear<u64>]) -> Sight {
+    let mut sight: HashMap<&Factors, Sample> = HashMap::new();
+    for (k, value) in values.iter().enumerate() {
+        for (product, &coefficient) in value.terms() {
+            sight.entry(product).or_default()[k] = coefficient;
+        }
+    }
+    let mut sight: Sight = sight.into_iter().map(|(product, sample)| (product.clone(), sample)).collect();
+    sight.sort();
+    sight
+}
+
+/// The coefficient of a product.
+pub fn coefficient(sight: &Sight, factors: &[Factor]) -> Sample {
+    let found = sight.iter().find(|(product, _)| product.list() == factors);
+    found.map_or([0; SPECIMENS], |(_, sample)| *sample)
+}
+
+/// Whether it is one number at all targets: a rational number of the mechanism.
+pub fn is_number(sample: &Sample) -> bool {
+    sample.iter().all(|value| *value == sample[0])
+}
+
+/// Whether it is zero at no target.
+pub fn is_sound(sample: &Sample) -> bool {
+    !sample.contains(&0)
+}

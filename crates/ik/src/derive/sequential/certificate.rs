@@ -1,0 +1,211 @@
+//! The stored proof of a chain's solver: the plan with its relations as words, and the strata of each form with cofactors.
+//!
+//! Reading it proves everything anew but for the searches: every relation is reduced to its normal form modulo the loop
+//! ([`crate::derive::closure::prove`]), every step may use only what is known before it, its equations must have the form that the plan
+//! counts solutions by, and every form's bases are checked by [`groebot_algebra::groebner::verify`] on all strata. So no solution is lost, and
+//! the product of the degrees is the number of solutions that the plan claims. That number itself was counted modulo primes: the
+//! certificate records with which poses, and [`crate::derive::Recount`] counts again.
+
+use serde::{Deserialize, Serialize};
+
+use super::eliminate::{self, Elimination};
+use super::form_basis::{Form, FormBasis};
+use super::half_angle::{self, HalfAngles};
+use super::shape::{eliminated, shape};
+use super::slack::Slack;
+use super::{Derived, Parts, ProvedStep};
+use crate::derive::Orders;
+use crate::derive::certificate::{Entry, entries, refused, replay};
+use crate::derive::closure::{self, Mechanism};
+use crate::derive::planner::{Plan, PlanStep, Way};
+use crate::{Error, Result};
+use groebot_robot::document::{Certificate, Proves};
+use groebot_robot::kinematics::Chain;
+
+/// What is claimed about a chain.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::derive) struct Claims {
+    plan: Plan,
+    form_bases: Vec<Proof>,
+    /// In the order of the steps that need one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    eliminations: Vec<eliminate::Stored>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    half_angles: Option<Vec<half_angle::Stored>>,
+}
+
+/// What is claimed about a form.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Proof {
+    form: Form,
+    strata: Vec<Entry>,
+}
+
+/// The text of `certificate.json`.
+///
+/// # Errors
+/// When a form's field cannot be built: never for a derivation that was made by this crate.
+pub fn write(derived: &Derived) -> Result<String> {
+    Ok(certificate(derived)?.to_json())
+}
+
+/// The certificate as data.
+///
+/// # Errors
+/// As [`write`].
+pub(in crate::derive) fn certificate(derived: &Derived) -> Result<Certificate<Claims>> {
+    let claims = Claims {
+        plan: derived.plan.clone(),
+        form_bases: form_proofs(&derived.form_bases)?,
+        eliminations: derived
+            .steps
+            .iter()
+            .filter_map(|step| step.elimination.as_ref())
+            .map(Elimination::stored)
+            .collect(),
+        half_angles: derived.half_angles.as_ref().map(HalfAngles::stored),
+    };
+    Ok(Certificate::new(Proves::Chain, derived.chain.name(), claims))
+}
+
+/// Proves the derivation of `chain` anew from the text of its certificate, without search and without the Groebner engine.
+///
+/// # Errors
+/// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the step or the form
+/// for a claim that does not hold.
+pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
+    prove_claims(chain, Certificate::read(text, Proves::Chain, chain.name())?)
+}
+
+/// Proves the derivation of `chain` anew from what is claimed about it.
+///
+/// # Errors
+/// [`crate::ErrorKind::Certificate`] as [`prove`].
+pub(in crate::derive) fn prove_claims(chain: &Chain, claims: Claims) -> Result<Derived> {
+    let mechanism = Mechanism::new(chain)?;
+    let mut stored = claims.eliminations.iter();
+    let mut eliminate = |step: &PlanStep, away: &[usize]| match stored.next() {
+        Some(stored) => Elimination::again(&mechanism, step, away, stored),
+        None => Err(refused("its elimination is missing".to_owned())),
+    };
+    let steps = prove_plan(&mechanism, &claims.plan, &mut eliminate)?;
+    if stored.next().is_some() {
+        return Err(refused("an elimination is left over".to_owned()));
+    }
+    let (form_bases, half_angles) = prove_forms(&steps, &claims.form_bases, claims.half_angles.as_deref())?;
+    Derived::assemble(chain, &mechanism, Parts { plan: claims.plan, steps, form_bases, half_angles }, Slack::NONE)
+}
+
+/// What is claimed about the bases of forms.
+///
+/// # Errors
+/// When a form's field cannot be built: never for a derivation that was made by this crate.
+pub(super) fn form_proofs(form_bases: &[FormBasis]) -> Result<Vec<Proof>> {
+    let proof = |form_basis: &FormBasis| Ok(Proof { form: form_basis.form, strata: entries(&form_basis.tree)? });
+    form_bases.iter().map(proof).collect()
+}
+
+/// The forms that `steps` use, from what is stored of them, proved anew.
+///
+/// # Errors
+/// [`crate::ErrorKind::Certificate`] for a claim that does not hold, is missing or is left over.
+pub(super) fn prove_forms(
+    steps: &[ProvedStep],
+    form_bases: &[Proof],
+    half_angles: Option<&[half_angle::Stored]>,
+) -> Result<(Vec<FormBasis>, Option<HalfAngles>)> {
+    let half_angles = half_angles.map(HalfAngles::again).transpose()?;
+    if half_angles.is_some() != HalfAngles::are_needed(steps) {
+        return Err(refused("half angles are missing or left over".to_owned()));
+    }
+    let form_bases = form_bases.iter().map(prove_form).collect::<Result<Vec<_>>>()?;
+    if form_bases.iter().map(|form_basis| form_basis.form).ne(FormBasis::needed(steps)) {
+        return Err(refused("the bases are not those of the steps' forms, in their order".to_owned()));
+    }
+    Ok((form_bases, half_angles))
+}
+
+fn prove_form(proof: &Proof) -> Result<FormBasis> {
+    let system = proof.form.system()?;
+    let tree = replay(&system, Orders::Requested, &proof.strata)
+        .map_err(|error| refused(format!("form `{}`: {}", proof.form.name(), error.message())))?;
+    Ok(FormBasis { form: proof.form, system, tree })
+}
+
+/// Gives the proved elimination of joints from a step.
+type Eliminate<'a> = dyn FnMut(&PlanStep, &[usize]) -> Result<Elimination> + 'a;
+
+/// Every step of `plan`, proved; together they find each joint once, with as many solutions as the plan says.
+///
+/// # Errors
+/// [`crate::ErrorKind::Certificate`] that names the step.
+pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eliminate<'_>) -> Result<Vec<ProvedStep>> {
+    let count = mechanism.joints().len();
+    if plan.given != mechanism.given() {
+        return Err(refused("the plan's given joints are not those of the chain".to_owned()));
+    }
+    let mut known = plan.given.clone();
+    let mut steps = Vec::new();
+    for (index, step) in plan.steps.iter().enumerate() {
+        let proved = match step.joint < count {
+            true => prove_step(mechanism, step, &known, eliminate),
+            false => Err(refused("no such joint".to_owned())),
+        };
+        let name = mechanism.joints().get(step.joint).map_or("?", |joint| joint.name.as_str());
+        let of_step =
+            |error: Error| Error::new(error.kind(), format!("step {}, `{name}`: {}", index + 1, error.message()));
+        steps.push(proved.map_err(of_step)?);
+        known.push(step.joint);
+    }
+    if steps.len() + plan.given.len() != count {
+        return Err(refused("the plan does not find every joint".to_owned()));
+    }
+    // Equations beyond those of the plan, where the task asks for more than the joints can do or joints follow others, leave fewer solutions.
+    let exact = mechanism.counts_exactly();
+    if !exact && most(plan) < plan.dimension || exact && plan.product() != plan.dimension {
+        let text = format!("the steps give {} solutions, {} are claimed", plan.product(), plan.dimension);
+        return Err(refused(text));
+    }
+    Ok(steps)
+}
+
+/// The most solutions of the steps together, where the task asks for more than the joints can do: two equations in one joint may be
+/// dependent then.
+fn most(plan: &Plan) -> usize {
+    let most = |step: &PlanStep| if matches!(step.way, Way::Pair(_)) { 2 } else { step.degree };
+    plan.steps.iter().map(most).product()
+}
+
+fn prove_step(
+    mechanism: &Mechanism,
+    step: &PlanStep,
+    known: &[usize],
+    eliminate: &mut Eliminate<'_>,
+) -> Result<ProvedStep> {
+    let away: &[usize] = if let Way::Eliminated { away, .. } = &step.way { away } else { &[] };
+    if known.contains(&step.joint) {
+        return Err(refused("the joint is known already".to_owned()));
+    }
+    for relation in step.way.relations() {
+        let is_new = |joint: &usize| *joint != step.joint && !known.contains(joint) && !away.contains(joint);
+        if let Some(other) = relation.joints().into_iter().find(is_new) {
+            return Err(refused(format!("`{relation}` holds joint {}, which is not known yet", other + 1)));
+        }
+        closure::prove(mechanism, relation)?;
+    }
+    let elimination = if away.is_empty() { None } else { Some(eliminate(step, away)?) };
+    let shape = match &elimination {
+        Some(elimination) => eliminated(mechanism, step, elimination)?,
+        None => shape(mechanism, step)?,
+    };
+    // What is left of an elimination may have a form of higher degree than it has solutions.
+    let fits =
+        if elimination.is_some() { step.degree <= shape.form.degree() } else { step.degree == shape.form.degree() };
+    if !fits {
+        let text = format!("its equations give {} solutions, {} are claimed", shape.form.degree(), step.degree);
+        return Err(refused(text));
+    }
+    Ok(ProvedStep { joint: step.joint, relations: step.way.relations().to_vec(), elimination, shape })
+}

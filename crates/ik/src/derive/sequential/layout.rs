@@ -1,0 +1,306 @@
+//! Where a program keeps what: inputs, parameters and unknowns of a [`Mechanism`]'s solver ([`Layout`]).
+
+use num_traits::ToPrimitive;
+
+use super::emit::{Emitted, Emitter};
+use super::ray;
+use crate::Result;
+use crate::derive::assemble::Assembler;
+use crate::derive::closure::{self, Arithmetic, Assignment, Mechanism, ScrewJoint, Standing, Target, yaw_names};
+use crate::solver::{
+    Condition, Following, Input, Instruction, JointValue, Operand, Operation, ParameterRule, Rule, Unit,
+};
+use groebot_algebra::number::BigRational;
+use groebot_robot::kinematics::upright::GIVEN;
+use groebot_robot::kinematics::{BaseAxis, JointKind, LengthUnit, Task};
+
+/// The names and places of all numbers of a program.
+pub(super) struct Layout {
+    pub inputs: Vec<Input>,
+    pub conditions: Vec<Condition>,
+    pub parameters: Vec<ParameterRule>,
+    pub unknowns: Vec<String>,
+    /// By joint: its unknowns.
+    pub joints: Vec<JointValue>,
+    /// For a ray, the unknowns that hold two unit vectors across it and each other.
+    pub across: Option<[[usize; 3]; 2]>,
+    /// By joint: the parameters that are its value when it is given: a cosine and a sine, or a length.
+    pub given: Vec<Vec<usize>>,
+    /// For a target with pitch and roll, the parameters that are the cosine and the sine of the roll, and of the pitch.
+    pub told: Option<[usize; 4]>,
+    /// For such a target, the unknowns that are the cosine and the sine of the arm's first joint.
+    pub swing: Option<[usize; 2]>,
+    /// The first parameter of the target.
+    pub first: usize,
+}
+
+/// Where the inputs of the task `position_pitch_roll` stand.
+const HEIGHT: usize = 2;
+const PITCH: usize = 3;
+const ROLL: usize = 4;
+
+impl Layout {
+    /// The layout for `mechanism` with lengths in `unit`.
+    pub fn new(mechanism: &Mechanism, unit: LengthUnit) -> Self {
+        let mut layout = Layout {
+            inputs: Vec::new(),
+            conditions: Vec::new(),
+            parameters: Vec::new(),
+            unknowns: Vec::new(),
+            joints: Vec::new(),
+            across: None,
+            given: vec![Vec::new(); mechanism.joints().len()],
+            told: None,
+            swing: None,
+            first: 0,
+        };
+        let length = match unit {
+            LengthUnit::Metre => Unit::Metre,
+            LengthUnit::Millimetre => Unit::Millimetre,
+        };
+        layout.target(mechanism, length);
+        for joint in mechanism.joints() {
+            let value = match joint.kind {
+                JointKind::Revolute => JointValue::Angle {
+                    cosine: layout.unknown(&format!("c{}", joint.symbol)),
+                    sine: layout.unknown(&format!("s{}", joint.symbol)),
+                },
+                JointKind::Prismatic => JointValue::Plain(layout.unknown(&format!("d{}", joint.symbol))),
+            };
+            layout.joints.push(value);
+        }
+        layout.swing = mechanism.standing().map(|standing| {
+            let symbol = &standing.plain.joints()[0].symbol;
+            ["c", "s"].map(|letter| layout.unknown(&format!("{letter}{symbol}")))
+        });
+        layout.across = mechanism
+            .hidden()
+            .filter(|_| mechanism.standing().is_none())
+            .map(|_| ["u", "v"].map(|letter| ["x", "y", "z"].map(|axis| layout.unknown(&format!("{letter}{axis}")))));
+        layout.givens(mechanism, length);
+        layout
+    }
+
+    /// The inputs and parameters of the given joints, those that follow others last.
+    fn givens(&mut self, mechanism: &Mechanism, length: Unit) {
+        if let Some(standing) = mechanism.standing() {
+            return self.standing_givens(mechanism, standing, length);
+        }
+        let (followers, inputs): (Vec<usize>, Vec<usize>) =
+            mechanism.given().iter().partition(|&&index| mechanism.joints()[index].follows.is_some());
+        let first = self.inputs.len();
+        self.give_inputs(mechanism, &inputs, length);
+        for index in followers {
+            let joint = &mechanism.joints()[index];
+            let law = joint.follows.and_then(|(leader, [factor, offset])| {
+                let input = first + inputs.iter().position(|&input| input == leader)?;
+                Some(Following { input, factor, offset })
+            });
+            if let Some(law) = law {
+                self.give(joint, index, [Rule::CosineFollowing(law), Rule::SineFollowing(law), Rule::Following(law)]);
+            }
+        }
+    }
+
+    /// Inputs that are the values of given joints, and their parameters.
+    fn give_inputs(&mut self, mechanism: &Mechanism, given: &[usize], length: Unit) {
+        for &index in given {
+            let joint = &mechanism.joints()[index];
+            let input = self.inputs.len();
+            let unit = if joint.is_revolute() { Unit::Radian } else { length };
+            self.inputs.push(Input { name: joint.name.clone(), unit });
+            self.give(joint, index, [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)]);
+        }
+    }
+
+    /// The same of a loop that stands for a target with pitch and roll: these, the way from the first axis and the height are of the target.
+    fn standing_givens(&mut self, mechanism: &Mechanism, standing: &Standing, length: Unit) {
+        let (own, told) = mechanism.given().split_at(mechanism.given().len() - GIVEN.len());
+        self.give_inputs(mechanism, own, length);
+        let turn = |input| [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)];
+        let way = Rule::Root { code: Vec::new(), value: Operand::Constant(0.0) };
+        let rules = [turn(ROLL), turn(PITCH), [way.clone(), way.clone(), radius(standing)], turn(HEIGHT)];
+        for (&index, rules) in told.iter().zip(rules) {
+            self.give(&mechanism.joints()[index], index, rules);
+        }
+        let of = |k: usize| told.get(k).map(|&index| self.given[index].clone()).unwrap_or_default();
+        if let (&[cr, sr], &[cp, sp]) = (&of(0)[..], &of(1)[..]) {
+            self.told = Some([cr, sr, cp, sp]);
+        }
+    }
+
+    /// The parameters of a given joint by the rules for its cosine, sine and value.
+    fn give(&mut self, joint: &ScrewJoint, index: usize, [cosine, sine, value]: [Rule; 3]) {
+        let rules = if joint.is_revolute() { vec![('c', cosine), ('s', sine)] } else { vec![('d', value)] };
+        for (letter, rule) in rules {
+            self.given[index].push(self.parameters.len());
+            self.parameters.push(ParameterRule { name: format!("{letter}{}", joint.symbol), rule });
+        }
+    }
+
+    /// The inputs and parameters of the task.
+    fn target(&mut self, mechanism: &Mechanism, length: Unit) {
+        let names = mechanism.inputs();
+        let planar = matches!(mechanism.task(), Task::PlanarPose { .. });
+        let turn = mechanism.task().axis().map(yaw_names);
+        let is_yaw = |name: &str, which: usize| turn.as_ref().is_some_and(|names| names[which].1 == name);
+        for name in names {
+            let input = self.inputs.len();
+            if mechanism.standing().is_some() && input >= PITCH {
+                self.inputs.push(Input { name, unit: Unit::Radian });
+                continue;
+            }
+            let rule = match name.as_str() {
+                "cphi" if planar => Rule::Cosine(input),
+                "sphi" if planar => Rule::Sine(input - 1),
+                cosine if is_yaw(cosine, 0) => Rule::Cosine(input),
+                sine if is_yaw(sine, 1) => Rule::Sine(input - 1),
+                _ => Rule::Input(input),
+            };
+            match rule {
+                Rule::Sine(_) => {}
+                Rule::Cosine(_) => {
+                    let name = turn.as_ref().map_or_else(|| "phi".to_owned(), |names| names[0].0.clone());
+                    self.inputs.push(Input { name, unit: Unit::Radian });
+                }
+                _ => {
+                    let unit = if name.starts_with('p') { length } else { Unit::One };
+                    self.inputs.push(Input { name: name.clone(), unit });
+                }
+            }
+            self.parameters.push(ParameterRule { name, rule });
+        }
+        self.conditions = match mechanism.task() {
+            Task::Pose => vec![Condition::Rotation(3)],
+            Task::Rotation => vec![Condition::Rotation(0)],
+            Task::Ray => vec![Condition::Unit(3)],
+            Task::Direction => vec![Condition::Unit(0)],
+            _ => Vec::new(),
+        };
+    }
+
+    /// Leaves out the unknowns of all joints but the first `count`.
+    pub fn keep_joints(&mut self, count: usize) {
+        let last = self.joints[..count].last().map_or(0, |value| match *value {
+            JointValue::Angle { cosine, sine } => cosine.max(sine) + 1,
+            JointValue::Plain(unknown) => unknown + 1,
+        });
+        self.unknowns.truncate(last);
+    }
+
+    /// A new unknown.
+    pub fn unknown(&mut self, name: &str) -> usize {
+        self.unknowns.push(name.to_owned());
+        self.unknowns.len() - 1
+    }
+
+    /// What relations see of the target and of the joints in `known`; others stay unknown.
+    pub fn assignment(
+        &self,
+        mechanism: &Mechanism,
+        known: &[usize],
+        assembler: &mut Assembler,
+    ) -> Result<Assignment<Emitted>> {
+        let emitter = &mut Emitter(assembler);
+        let parameters = match self.across {
+            Some(across) => ray::turned(mechanism, across, emitter),
+            None if mechanism.standing().is_some() => closed(Emitted::integer),
+            None => {
+                let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
+                let factor =
+                    if mechanism.task() == Task::Direction { square.to_f64().unwrap_or(1.0).sqrt() } else { 1.0 };
+                let parameter = |index| Operand::Parameter(self.first + index);
+                let value = |index| Emitted::code(parameter(index)).times(factor);
+                let values: Vec<Emitted> = (0..mechanism.parameters().len()).map(value).collect();
+                match mechanism.task() {
+                    Task::PositionYaw { axis } => turned_since_zero(mechanism, axis, values, emitter),
+                    _ => values,
+                }
+            }
+        };
+        let target = Target::new(mechanism, &parameters, emitter)?;
+        let joints = (0..self.joints.len()).map(|joint| {
+            if known.contains(&joint) { self.known(mechanism, joint) } else { closure::JointValue::Unknown }
+        });
+        Ok(Assignment { joints: joints.collect(), target })
+    }
+
+    /// The values that a joint has in relations: c and s / sqrt n, or d / sqrt n.
+    fn known(&self, mechanism: &Mechanism, joint: usize) -> closure::JointValue<Emitted> {
+        let square = &mechanism.joints()[joint].square;
+        let factor = 1.0 / square.to_f64().unwrap_or(1.0).sqrt();
+        let scaled = |unknown: usize| Emitted::code(Operand::Unknown(unknown)).times(factor);
+        match self.joints[joint] {
+            JointValue::Angle { cosine, sine } => {
+                closure::JointValue::Angle { cosine: Emitted::code(Operand::Unknown(cosine)), sine: scaled(sine) }
+            }
+            JointValue::Plain(unknown) => closure::JointValue::Length(scaled(unknown)),
+        }
+    }
+
+    /// The same with magnitudes: cosines, sines and rotation entries count as one, lengths as the greatest of them.
+    pub fn sizes(
+        &self,
+        mechanism: &Mechanism,
+        known: &[usize],
+        assembler: &mut Assembler,
+    ) -> Result<Assignment<Emitted>> {
+        let emitter = &mut super::emit::Sizes(assembler);
+        let size =
+            |input: &str| if input.starts_with('p') { Emitted::code(Operand::Magnitude) } else { Emitted::integer(1) };
+        let parameters: Vec<Emitted> = match mechanism.standing() {
+            Some(_) => closed(Emitted::integer),
+            None => mechanism.parameters().iter().map(|name| size(name)).collect(),
+        };
+        let target = Target::new(mechanism, &parameters, emitter)?;
+        let joints = (0..self.joints.len()).map(|joint| match self.joints[joint] {
+            _ if !known.contains(&joint) => closure::JointValue::Unknown,
+            JointValue::Angle { .. } => {
+                closure::JointValue::Angle { cosine: Emitted::integer(1), sine: Emitted::integer(1) }
+            }
+            JointValue::Plain(unknown) => {
+                closure::JointValue::Length(Emitted::code(emitter.0.abs(Operand::Unknown(unknown))))
+            }
+        });
+        let joints = joints.collect();
+        Ok(Assignment { joints, target })
+    }
+}
+
+/// The numbers of a position and an angle about `axis`, with the cosine and the sine of the turn since the zero configuration in place of the angle's own.
+fn turned_since_zero(
+    mechanism: &Mechanism,
+    axis: BaseAxis,
+    values: Vec<Emitted>,
+    emitter: &mut Emitter<'_>,
+) -> Vec<Emitted> {
+    let [across, up] = axis.across().map(|k| mechanism.aim()[k].to_f64().unwrap_or(0.0));
+    let length = across.hypot(up);
+    let [position @ .., c, s] = &values[..] else { return values };
+    let turns = [(across, c, up, s), (across, s, -up, c)].map(|(a, x, b, y)| {
+        let (first, second) = (x.times(a / length), y.times(b / length));
+        emitter.add(&first, &second)
+    });
+    position.iter().cloned().chain(turns).collect()
+}
+
+/// The numbers of the pose that a closed loop has for a target: the identity.
+fn closed(integer: impl Fn(i32) -> Emitted) -> Vec<Emitted> {
+    let rotation = (0..9).map(|entry| i32::from(entry / 3 == entry % 3));
+    [0; 3].into_iter().chain(rotation).map(integer).collect()
+}
+
+/// How far the target is from the first axis: the first two parameters are where it is, seen from above.
+fn radius(standing: &Standing) -> Rule {
+    let register = Operand::Register;
+    let [x, y] = standing.upright.axis.each_ref().map(|x| Operand::Constant(x.to_f64().unwrap_or(0.0)));
+    let operations = [
+        Operation::Sub(Operand::Parameter(0), x),
+        Operation::Sub(Operand::Parameter(1), y),
+        Operation::Mul(register(0), register(0)),
+        Operation::Mul(register(1), register(1)),
+        Operation::Add(register(2), register(3)),
+    ];
+    let code = operations.into_iter().enumerate().map(|(target, operation)| Instruction { target, operation });
+    Rule::Root { code: code.collect(), value: register(4) }
+}

@@ -1,0 +1,190 @@
+//! From a plan's steps to a [`Program`]: a block for each joint, the checks behind them.
+
+use super::cases::{Place, Sized, cases, quartic, tell_spread};
+use super::checks::{checks, polishing};
+use super::context::Context;
+use super::form_basis::{Form, FormBasis};
+use super::frame::{framed, given, reach};
+use super::half_angle::HalfAngles;
+use super::layout::Layout;
+use super::ray;
+use super::samples::Samples;
+use super::slack::Slack;
+use super::symbols::Symbols;
+use super::{Parts, ProvedStep, standing};
+use crate::derive::assemble::Assembler;
+use crate::derive::closure::Mechanism;
+use crate::solver::{Block, Checks, Described, Guard, NEAR, Operand, Program};
+use crate::{Error, ErrorKind, Result};
+use groebot_robot::kinematics::ideal::Report;
+use groebot_robot::kinematics::{Chain, Task};
+
+/// Two linear equations are nearly dependent when their determinant is below this share of its size.
+const DEPENDENT: f64 = 1e-6;
+
+/// The program of a chain whose plan has been derived. Its formulas are off by `slack` on the chain that answers are measured on.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for what a program cannot hold.
+pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack: Slack) -> Result<Program> {
+    let form_bases = parts.form_bases.as_slice();
+    let mut layout = Layout::new(mechanism, chain.length_unit());
+    let reach = reach(chain);
+    let mut known = mechanism.given().to_vec();
+    let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
+    blocks.extend(layout.across.map(ray::across));
+    let (samples, mut spreads) = (Samples::of(&parts.steps, slack), Vec::new());
+    for (index, step) in parts.steps.iter().enumerate() {
+        let free = free(mechanism, &parts.steps[index..]);
+        let context =
+            Context { mechanism, known: &known, step, free, reach, slack, samples, spreads: &spreads, partner: None };
+        let mut block = context.block(&mut layout, form_bases, parts.half_angles.as_ref())?;
+        let has_roots = parts.steps[index + 1..].iter().any(|later| later.shape.form.degree() > 1);
+        if has_roots && block.cases.iter().any(|case| !case.free.is_empty()) {
+            let spread = layout.unknown(&format!("f{}", mechanism.joints()[step.joint].symbol));
+            tell_spread(&mut block.cases, spread);
+            spreads.push(spread);
+        }
+        blocks.push(block);
+        known.push(step.joint);
+    }
+    if let Some(standing) = mechanism.standing() {
+        standing::close(standing, &mut layout, &mut blocks, reach);
+    }
+    let (dimension, product) = (parts.plan.dimension, parts.plan.product());
+    let most = if mechanism.followers().is_empty() { dimension } else { dimension.max(product) };
+    let program = Program {
+        capacity: (2 * most + blocks.len()).min(4096),
+        // Where the task asks for more than the joints can do, special targets might have more, and so might a chain that is not ideal.
+        isolated: (mechanism.is_tight() && slack == Slack::NONE).then_some(parts.plan.dimension),
+        blocks,
+        ..framed(chain, mechanism, layout)
+    }
+    .pruned();
+    program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;
+    Ok(program)
+}
+
+/// The checks of a program of `ideal` that is polished on `chain`, which has its joints and its task.
+///
+/// # Errors
+/// As [`Mechanism::new`].
+pub(in crate::derive) fn checks_on(ideal: &Chain, chain: &Chain) -> Result<Checks> {
+    let mechanism = Mechanism::new(ideal)?;
+    let mut layout = Layout::new(&mechanism, chain.length_unit());
+    if let Some(standing) = mechanism.standing() {
+        standing::close(standing, &mut layout, &mut Vec::new(), reach(chain));
+    }
+    Ok(polishing(&Mechanism::of_chain(chain)?, &layout, reach(chain)))
+}
+
+/// The chain `truth` beside its ideal, that of `mechanism` and `program`, where the task asks for more than the joints can do: then the chain as described has
+/// no answer where the ideal one has several, or only the one that made the target. None where it is left to polishing.
+///
+/// # Errors
+/// As [`Mechanism::of_chain`].
+pub(super) fn described_by(
+    mechanism: &Mechanism,
+    truth: &Chain,
+    report: &Report,
+    program: &Program,
+) -> Result<Option<Described>> {
+    let layout = Layout::new(mechanism, truth.length_unit());
+    if !asks_for_more(mechanism) || mechanism.standing().is_some() {
+        return Ok(None);
+    }
+    let Checks { code, residuals, .. } = Checks {
+        scales: Vec::new(),
+        jacobian: Vec::new(),
+        ..checks(&Mechanism::of_chain(truth)?, &layout, reach(truth))
+    }
+    .pruned();
+    let described = Described { code, residuals, within: 2.0 * report.bound() };
+    let fits = described.is_affine(program) && program.forward().is_some_and(|forward| !forward.inputs.is_empty());
+    Ok(fits.then_some(described))
+}
+
+/// Whether the equations say more than the joints can do: for a planar pose that the chain stays in its plane, for an angle about an axis that the tip does not
+/// tilt.
+fn asks_for_more(mechanism: &Mechanism) -> bool {
+    let freedoms = mechanism.seen().freedoms();
+    matches!(mechanism.task(), Task::PlanarPose { .. } | Task::PositionYaw { .. })
+        || freedoms > mechanism.unknown().len()
+}
+
+fn form_basis(form_bases: &[FormBasis], form: Form) -> Result<&FormBasis> {
+    let missing = || Error::new(ErrorKind::Certificate, format!("the form `{}` is missing", form.name()));
+    form_bases.iter().find(|form_basis| form_basis.form == form).ok_or_else(missing)
+}
+
+/// The joint that moves freely where the first of these steps leaves its joint free: that joint itself, and for the hidden one, which is no
+/// joint of an answer, the first that follows from it; its leader where it has one.
+fn free(mechanism: &Mechanism, steps: &[ProvedStep]) -> usize {
+    let own = steps.iter().map(|step| step.joint).find(|joint| mechanism.hidden() != Some(*joint));
+    let leading = |joint: usize| mechanism.joints()[joint].coupling.as_ref().map_or(joint, |coupling| coupling.leader);
+    own.map_or(0, leading)
+}
+
+impl Context<'_> {
+    /// The block of the step.
+    pub fn block(
+        &self,
+        layout: &mut Layout,
+        form_bases: &[FormBasis],
+        half_angles: Option<&HalfAngles>,
+    ) -> Result<Block> {
+        let joint = self.step.joint;
+        let screw = &self.mechanism.joints()[joint];
+        let auxiliary = match self.step.shape.form {
+            Form::Angle | Form::Quadratic | Form::Pair | Form::Quartic => {
+                Some(layout.unknown(&format!("w{}", screw.symbol)))
+            }
+            Form::Turn | Form::Linear | Form::Lengths => None,
+        };
+        let Symbols { list: symbols, mut assembler, .. } = self.shortest(layout)?;
+        let code = assembler.take();
+        let place = |symbols: Vec<Sized>| Place {
+            free: self.free,
+            value: layout.joints[joint],
+            auxiliary,
+            symbols,
+            samples: self.samples.places(layout.joints[joint], self.reach, screw.travel),
+            slack: self.slack,
+            spreads: self.spreads.to_vec(),
+        };
+        match (self.step.shape.form, half_angles) {
+            (Form::Pair, _) => {}
+            (Form::Quartic, Some(half_angles)) => {
+                let list = quartic(half_angles, &place(symbols), &assembler)?;
+                return Ok(Block::numbered(&screw.name, code, list));
+            }
+            (form, _) => {
+                let list = cases(form_basis(form_bases, form)?, &place(symbols), &assembler, &[])?;
+                return Ok(Block::numbered(&screw.name, code, list));
+            }
+        }
+        let (both, single) = (form_basis(form_bases, Form::Pair)?, form_basis(form_bases, Form::Angle)?);
+        let [a, b, e, f, x, y] = symbols[..] else {
+            return Err(Error::new(ErrorKind::Unsupported, "a pair has six symbols"));
+        };
+        let singles = [vec![a, b, x.negated(&mut assembler)], vec![e, f, y.negated(&mut assembler)]];
+        let guard = dependent([a, b, e, f], self.slack, &mut assembler);
+        let code = [code, assembler.take()].concat();
+        let mut list = cases(both, &place(symbols), &assembler, &[])?;
+        for symbols in singles {
+            list.extend(cases(single, &place(symbols), &assembler, std::slice::from_ref(&guard))?);
+        }
+        Ok(Block::numbered(&screw.name, code, list))
+    }
+}
+
+/// The guard that two linear equations are nearly dependent, so that each is solved alone as well: answers are measured in the end.
+fn dependent([a, b, e, f]: [Sized; 4], slack: Slack, assembler: &mut Assembler) -> Guard {
+    let mut determinant = |part: fn(&Sized) -> Operand, sum: bool| {
+        let (left, right) = (assembler.mul(part(&a), part(&f)), assembler.mul(part(&b), part(&e)));
+        if sum { assembler.add(left, right) } else { assembler.sub(left, right) }
+    };
+    let (value, size) = (determinant(|s| s.value, false), determinant(|s| s.size, true));
+    let scale = assembler.mul(Operand::Constant(slack.share(DEPENDENT) / NEAR), size);
+    Guard { text: "A*F - B*E".to_owned(), value, scale, near: true }
+}

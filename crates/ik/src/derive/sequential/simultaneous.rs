@@ -1,0 +1,363 @@
+//! Joints that two chains share, found from both chains at once: [`Simultaneous`].
+//!
+//! Of each chain a relation is taken that holds no other unknown joint: what the two lines, planes or points keep between them is the
+//! same whatever the joints between do, so these drop out. One shared joint is a pair of equations: each serves where the other says
+//! nothing. Of two, which neither chain determines alone, one is eliminated: the relations are linear and homogeneous in its cosine and
+//! sine, and their determinant is an equation in the other one.
+
+use serde::{Deserialize, Serialize};
+
+use super::certificate::{Proof, form_proofs, prove_forms};
+use super::context::Context;
+use super::eliminate::{self, Elimination};
+use super::form_basis::{Form, FormBasis};
+use super::frame::{given, reach};
+use super::half_angle::{self, HalfAngles};
+use super::layout::Layout;
+use super::samples::Samples;
+use super::shape::{Shape, eliminated};
+use super::slack::Slack;
+use super::symbolic::Symbolic;
+use super::{ProvedStep, forms};
+use crate::derive::certificate::refused;
+use crate::derive::closure::{Mechanism, Relation, Word, prove};
+use crate::derive::planner::{PlanStep, Way};
+use crate::solver::{
+    Block, Checks, Condition, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Program, Rule, Unit,
+};
+use crate::{Error, ErrorKind, Result, Watch};
+use groebot_robot::kinematics::Chain;
+
+/// A chain, and what stands before its names in a program.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Side<'a> {
+    /// The chain.
+    pub chain: &'a Chain,
+    /// What stands before the names of its inputs and joints.
+    pub prefix: &'a str,
+}
+
+/// One or two unknown joints that two chains share, found from one relation of each.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Simultaneous {
+    /// The number of joints, given ones too, that stand first in both chains and are shared.
+    pub shared: usize,
+    /// The joint that is found first, from a relation of each chain; where there is another, which is eliminated for that, then this one,
+    /// from the same relations.
+    pub steps: Vec<ProvedStep>,
+    /// The forms that the steps use, solved.
+    pub form_bases: Vec<FormBasis>,
+    /// The half angles, where an equation of degree two in cosine and sine is left.
+    pub half_angles: Option<HalfAngles>,
+    /// Finds the shared joints. Of its answers only the given joints are measured: programs of the chains are to follow.
+    pub program: Program,
+}
+
+/// The stored proof.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::derive) struct Stored {
+    /// The place of the joint that is found first, and of the other one.
+    joints: Vec<usize>,
+    relations: [Relation; 2],
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    elimination: Option<eliminate::Stored>,
+    form_bases: Vec<Proof>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    half_angles: Option<Vec<half_angle::Stored>>,
+}
+
+impl Simultaneous {
+    /// Finds the relations of two chains, whose first `shared` joints are the same actuators, that determine the unknown ones among these;
+    /// proves them and what follows.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] when the shared joints are not one or two unknown ones that turn, or no relations fit; as
+    /// [`Mechanism::new`].
+    pub fn derive(sides: [Side<'_>; 2], shared: usize, watch: &Watch) -> Result<Self> {
+        let common = Common::new(sides, shared)?;
+        let steps = common.search(watch)?;
+        let (form_bases, half_angles) = forms(&steps, watch)?;
+        common.assemble(steps, form_bases, half_angles)
+    }
+
+    /// What is stored of the proof.
+    ///
+    /// # Errors
+    /// When a form's field cannot be built: never for a derivation that was made by this crate.
+    pub(in crate::derive) fn stored(&self) -> Result<Stored> {
+        let [f, g] = self.relations()?;
+        let elimination = self.steps.first().and_then(|step| step.elimination.as_ref());
+        Ok(Stored {
+            joints: self.steps.iter().map(|step| step.joint).collect(),
+            relations: [f.clone(), g.clone()],
+            elimination: elimination.map(Elimination::stored),
+            form_bases: form_proofs(&self.form_bases)?,
+            half_angles: self.half_angles.as_ref().map(HalfAngles::stored),
+        })
+    }
+
+    /// The relations, one of each chain.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Certificate`] when there are not two: never for a derivation that was made by this crate.
+    pub fn relations(&self) -> Result<[&Relation; 2]> {
+        match self.steps.first().map(|step| step.relations.as_slice()) {
+            Some([f, g]) => Ok([f, g]),
+            _ => Err(refused("shared joints follow from two relations".to_owned())),
+        }
+    }
+
+    /// Proves a stored derivation anew, without search.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Certificate`] for a claim that does not hold.
+    pub(in crate::derive) fn again(sides: [Side<'_>; 2], shared: usize, stored: &Stored) -> Result<Self> {
+        let common = Common::new(sides, shared)?;
+        let mut joints = stored.joints.clone();
+        joints.sort_unstable();
+        if joints != common.unknown {
+            return Err(refused("the shared joints are not those that both chains leave open".to_owned()));
+        }
+        let elimination = match (&stored.joints[..], &stored.elimination) {
+            (&[first, second], Some(stored_elimination)) => {
+                let sides = common.sides(&stored.relations);
+                Some(Elimination::of_two_again(&sides, [second, first], stored_elimination)?)
+            }
+            (&[_], None) => None,
+            _ => return Err(refused("the elimination of a shared joint is missing or left over".to_owned())),
+        };
+        let steps = common.steps(&stored.joints, stored.relations.clone(), elimination)?;
+        let (form_bases, half_angles) = prove_forms(&steps, &stored.form_bases, stored.half_angles.as_deref())?;
+        common.assemble(steps, form_bases, half_angles)
+    }
+
+    /// The most complex values of the shared joints together. Two dependent equations in one joint have two common solutions.
+    pub fn dimension(&self) -> usize {
+        self.steps.iter().map(|step| step.shape.form.degree().max(2)).product()
+    }
+}
+
+/// Two mechanisms whose first joints are the same actuators, which turn.
+struct Common<'a> {
+    sides: [Side<'a>; 2],
+    mechanisms: [Mechanism; 2],
+    shared: usize,
+    /// The shared joints that are not given, one or two.
+    unknown: Vec<usize>,
+}
+
+impl<'a> Common<'a> {
+    fn new(sides: [Side<'a>; 2], shared: usize) -> Result<Self> {
+        let unsupported = |text: &str| Err(Error::new(ErrorKind::Unsupported, text.to_owned()));
+        let mechanisms = [Mechanism::new(sides[0].chain)?, Mechanism::new(sides[1].chain)?];
+        let [first, second] =
+            mechanisms.each_ref().map(|mechanism| mechanism.joints().get(..shared).unwrap_or_default());
+        let alike = first.iter().zip(second).all(|(a, b)| a.is_revolute() && b.is_revolute() && a.square == b.square);
+        if first.len() != shared || second.len() != shared || !alike {
+            return unsupported(
+                "shared joints must stand first in both chains, and turn about axes that are vectors of one length",
+            );
+        }
+        if mechanisms.iter().any(|mechanism| mechanism.hidden().is_some()) {
+            return unsupported(
+                "joints that two chains share are not found from a ray, which leaves a turn open; ask for another task",
+            );
+        }
+        let given = mechanisms[0].given().to_vec();
+        if given != mechanisms[1].given() || given.iter().any(|joint| *joint >= shared) {
+            return unsupported("the joints that are given must be shared, and given to both chains");
+        }
+        let unknown: Vec<usize> = (0..shared).filter(|joint| !given.contains(joint)).collect();
+        if !matches!(unknown[..], [_] | [_, _]) {
+            return unsupported("one or two of the shared joints must be unknown");
+        }
+        Ok(Common { sides, mechanisms, shared, unknown })
+    }
+
+    /// The steps from the first relations that fit.
+    fn search(&self, watch: &Watch) -> Result<Vec<ProvedStep>> {
+        let [first, second] = [self.candidates(0)?, self.candidates(1)?];
+        let pairs = || first.iter().flat_map(|f| second.iter().map(move |g| [f.clone(), g.clone()]));
+        let text =
+            "the joints that two chains share do not follow from one relation of each; give the value of one of them";
+        let unsupported = || Error::new(ErrorKind::Unsupported, text);
+        let &[a, b] = self.unknown.as_slice() else {
+            return self.steps(&self.unknown, pairs().next().ok_or_else(unsupported)?, None);
+        };
+        for joints in [[a, b], [b, a]] {
+            for relations in pairs() {
+                watch.check()?;
+                match Elimination::of_two(&self.sides(&relations), [joints[1], joints[0]]) {
+                    Err(error) if error.kind() == ErrorKind::Unsupported => {}
+                    found => return self.steps(&joints, relations, Some(found?)),
+                }
+            }
+        }
+        Err(unsupported())
+    }
+
+    /// The relations of one of the chains that hold no joint but shared ones: the arc between the two things that are measured is
+    /// left out where what is measured stays the same on it.
+    fn candidates(&self, side: usize) -> Result<Vec<Relation>> {
+        let mechanism = &self.mechanisms[side];
+        let mut symbolic = Symbolic::new(mechanism)?;
+        let mut found = Vec::new();
+        for relation in mechanism.relations() {
+            let joints: Vec<usize> = relation.right.0.iter().filter_map(|letter| letter.joint()).collect();
+            let holds_all = self.unknown.iter().all(|joint| joints.contains(joint));
+            if !holds_all || joints.iter().any(|joint| *joint >= self.shared) {
+                continue;
+            }
+            let arc = Relation { right: Word::default(), ..relation.clone() };
+            if symbolic.polynomial(mechanism, &arc)?.is_zero() {
+                found.push(Relation { left: Word::default(), ..relation });
+            }
+        }
+        Ok(found)
+    }
+
+    fn sides<'b>(&'b self, relations: &'b [Relation; 2]) -> [(&'b Mechanism, &'b Relation); 2] {
+        [(&self.mechanisms[0], &relations[0]), (&self.mechanisms[1], &relations[1])]
+    }
+
+    /// The steps for `joints`, proved.
+    fn steps(
+        &self,
+        joints: &[usize],
+        relations: [Relation; 2],
+        elimination: Option<Elimination>,
+    ) -> Result<Vec<ProvedStep>> {
+        for (mechanism, relation) in self.sides(&relations) {
+            if let Some(joint) = relation.joints().into_iter().find(|joint| *joint >= self.shared) {
+                return Err(refused(format!("`{relation}` holds joint {}, which is not shared", joint + 1)));
+            }
+            if !relation.has_target() {
+                return Err(refused(format!("`{relation}` does not hold the target")));
+            }
+            prove(mechanism, relation)?;
+        }
+        let by_pair = |joint: usize| ProvedStep {
+            joint,
+            relations: relations.to_vec(),
+            elimination: None,
+            shape: Shape { form: Form::Pair, ratio: None },
+        };
+        let (&[leading, following], Some(elimination)) = (joints, elimination) else {
+            return Ok(self.unknown.iter().map(|joint| by_pair(*joint)).collect());
+        };
+        let way = Way::Eliminated { relations: relations.to_vec(), away: vec![following] };
+        let leader = PlanStep { joint: leading, way, degree: 4 };
+        let shape = eliminated(&self.mechanisms[0], &leader, &elimination)?;
+        let relations = relations.to_vec();
+        Ok(vec![ProvedStep { joint: leading, relations, elimination: Some(elimination), shape }, by_pair(following)])
+    }
+
+    fn assemble(
+        &self,
+        steps: Vec<ProvedStep>,
+        form_bases: Vec<FormBasis>,
+        half_angles: Option<HalfAngles>,
+    ) -> Result<Simultaneous> {
+        let unit = self.sides[0].chain.length_unit();
+        let [mechanism, partner] = &self.mechanisms;
+        let (mut layout, mut other) = (Layout::new(mechanism, unit), Layout::new(partner, unit));
+        layout.keep_joints(self.shared);
+        other.first = layout.parameters.len();
+        other.joints[..self.shared].copy_from_slice(&layout.joints[..self.shared]);
+        let reach = reach(self.sides[0].chain).max(reach(self.sides[1].chain));
+        let mut known = mechanism.given().to_vec();
+        let mut blocks: Vec<Block> = known.iter().map(|&joint| given(mechanism, &layout, joint)).collect();
+        let (slack, samples) = (Slack::NONE, Samples::of(&steps, Slack::NONE));
+        for step in &steps {
+            let (free, partner) = (step.joint, Some((partner, &other)));
+            let context =
+                Context { mechanism, known: &known, step, free, reach, slack, samples, spreads: &[], partner };
+            blocks.push(context.block(&mut layout, &form_bases, half_angles.as_ref())?);
+            known.push(step.joint);
+        }
+        let program = self.program(layout, other, blocks, reach);
+        Ok(Simultaneous { shared: self.shared, steps, form_bases, half_angles, program })
+    }
+
+    /// The program that finds the shared joints. The inputs and parameters of the second chain's target stand last.
+    fn program(&self, layout: Layout, other: Layout, blocks: Vec<Block>, scale: f64) -> Program {
+        let checks = held(&layout, self.mechanisms[0].given(), self.shared);
+        let mut program = Program {
+            name: "shared".to_owned(),
+            about: None,
+            joints: layout.joints.iter().zip(self.sides[0].chain.joints()).take(self.shared).map(joint).collect(),
+            inputs: layout.inputs,
+            conditions: layout.conditions,
+            parameters: layout.parameters,
+            unknowns: layout.unknowns,
+            blocks,
+            checks,
+            preference: None,
+            capacity: 1,
+            isolated: None,
+            nearby: false,
+            described: None,
+            scale,
+        }
+        .prefixed(self.sides[0].prefix);
+        let (first, prefix) = (program.inputs.len(), self.sides[1].prefix);
+        let (inputs, parameters) =
+            (other.inputs.len() - self.mechanisms[1].given().len(), self.mechanisms[1].parameters().len());
+        for mut input in other.inputs.into_iter().take(inputs) {
+            input.name.insert_str(0, prefix);
+            program.inputs.push(input);
+        }
+        for ParameterRule { name, rule } in other.parameters.into_iter().take(parameters) {
+            program.parameters.push(ParameterRule { name: format!("{prefix}{name}"), rule: moved(rule, first) });
+        }
+        program.conditions.extend(other.conditions.into_iter().map(|condition| match condition {
+            Condition::Rotation(index) => Condition::Rotation(first + index),
+            Condition::Unit(index) => Condition::Unit(first + index),
+        }));
+        program
+    }
+}
+
+fn joint((value, joint): (&JointValue, &groebot_robot::kinematics::Joint)) -> Joint {
+    Joint { name: joint.name.clone(), unit: Unit::Radian, value: *value }
+}
+
+/// The equations that hold the joints `given` among `count` where they are told to be.
+fn held(layout: &Layout, given: &[usize], count: usize) -> Checks {
+    let mut checks = Checks::default();
+    let mut emit = |operation: Operation| {
+        checks.code.push(Instruction { target: checks.code.len(), operation });
+        Operand::Register(checks.code.len() - 1)
+    };
+    let angles: Vec<(usize, usize, usize)> = given
+        .iter()
+        .filter_map(|&joint| match layout.joints[joint] {
+            JointValue::Angle { cosine, sine } => Some((joint, cosine, sine)),
+            JointValue::Plain(_) => None,
+        })
+        .collect();
+    for &(joint, cosine, sine) in &angles {
+        for (unknown, &parameter) in [cosine, sine].into_iter().zip(&layout.given[joint]) {
+            checks.residuals.push(emit(Operation::Sub(Operand::Unknown(unknown), Operand::Parameter(parameter))));
+            checks.scales.push(Operand::Constant(1.0));
+        }
+    }
+    for (joint, cosine, sine) in angles {
+        let fall = emit(Operation::Mul(Operand::Constant(-1.0), Operand::Unknown(sine)));
+        for derivative in [fall, Operand::Unknown(cosine)] {
+            let mut row = vec![Operand::Constant(0.0); count];
+            row[joint] = derivative;
+            checks.jacobian.push(row);
+        }
+    }
+    checks
+}
+
+/// The rule with its input `by` places further on.
+fn moved(rule: Rule, by: usize) -> Rule {
+    let Ok(rule) = rule.with_input(|index| Ok::<_, std::convert::Infallible>(index + by));
+    rule
+}

@@ -1,0 +1,211 @@
+//! Targets by their numbers. Main type: [`Poses`].
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::ask::Ask;
+use super::grid::Grid;
+use super::orientations::{Turn, direction, rotation};
+use crate::solver::{Condition, Program};
+use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits;
+use groebot_robot::kinematics::Ball;
+
+/// The most orientations at a place.
+pub(super) const MOST: usize = limits::ORIENTATIONS;
+/// How the inputs of a position are called.
+pub(super) const POSITION: [&str; 3] = ["px", "py", "pz"];
+
+/// What is asked of a solver's tip at each place of a grid: the place, and orientations that are spread evenly over all that the task tells apart.
+#[derive(Clone, Debug)]
+pub(super) struct Poses {
+    /// How many numbers a target has.
+    inputs: usize,
+    grid: Grid,
+    /// The inputs of the position, by axis.
+    position: [Option<usize>; 3],
+    spread: Spread,
+    /// Inputs that are the same in all targets.
+    given: Vec<(usize, f64)>,
+    seed: Option<u64>,
+    /// A ball that a point of the tip does not leave, and by orientation where that point is from the tip.
+    wrist: Option<(Ball, Vec<Vector3<f64>>)>,
+}
+
+/// What a task asks of the orientation, with the inputs that tell it.
+#[derive(Clone, Debug)]
+enum Spread {
+    Nothing,
+    Angles(usize, Vec<f64>),
+    /// Three numbers of a unit vector.
+    Directions(usize, Vec<Vector3<f64>>),
+    /// Pitch and roll: where the base's z axis points in the frame of the tip.
+    Tilts([usize; 2], Vec<Vector3<f64>>),
+    /// Nine numbers, by rows.
+    Rotations(usize, Vec<Matrix3<f64>>),
+}
+
+impl Poses {
+    /// Those that are asked of a solver.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a task without a position, or with inputs that are neither that, an orientation, nor given joints; [`ErrorKind::BadValue`] for no orientations or more than 10^6, for another
+    /// number of given values than joints, and for several places on an axis that the task does not ask for.
+    pub(super) fn new(program: &Program, ask: &Ask) -> Result<Self> {
+        let Ask { orientations, ref given, .. } = *ask;
+        if !(1..=MOST).contains(&orientations) {
+            let text = format!("{orientations} orientations at a place; 1 to {MOST} are allowed");
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let targets = ask.grid.places().saturating_mul(orientations);
+        limits::check_count("targets, places times orientations,", targets, limits::REACH_TARGETS)?;
+        let position = POSITION.map(|name| input(program, name));
+        let spread = Spread::of(program, orientations);
+        let known: Vec<usize> = position.iter().flatten().copied().chain(spread.inputs()).collect();
+        let others = program.given();
+        if position.iter().all(Option::is_none) || !(0..others.start).all(|input| known.contains(&input)) {
+            let names: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
+            let text = format!(
+                "a map is of the positions of one tip; targets of {} are {}: derive the pose, the position or the ray of a chain",
+                program.name,
+                names.join(", ")
+            );
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+        if others.len() != given.len() || !given.iter().all(|value| value.is_finite()) {
+            let names: Vec<&str> = program.inputs[others.clone()].iter().map(|input| input.name.as_str()).collect();
+            let asked = if names.is_empty() { "none are".to_owned() } else { names.join(", ") };
+            let text =
+                format!("{} finite values of given joints are needed ({asked}); {given:?} are told", others.len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let idle = position.iter().zip(ask.grid.axes()).zip(["x", "y", "z"]);
+        if let Some(((_, axis), name)) = idle.into_iter().find(|((input, axis), _)| input.is_none() && axis.count > 1) {
+            let text = format!("the task asks for no {name}; leave one of the {} places on that axis", axis.count);
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let given = others.zip(given.iter().copied()).collect();
+        Ok(Poses { inputs: program.inputs.len(), grid: ask.grid, position, spread, given, seed: ask.seed, wrist: None })
+    }
+
+    /// How many orientations there are at each place.
+    pub(super) fn orientations(&self) -> usize {
+        match &self.spread {
+            Spread::Nothing => 1,
+            Spread::Angles(_, all) => all.len(),
+            Spread::Directions(_, all) | Spread::Tilts(_, all) => all.len(),
+            Spread::Rotations(_, all) => all.len(),
+        }
+    }
+
+    /// Whether all three numbers of a position are asked for.
+    pub(super) fn are_in_space(&self) -> bool {
+        self.position.iter().all(Option::is_some)
+    }
+
+    /// How many numbers a target has.
+    pub(super) fn inputs(&self) -> usize {
+        self.inputs
+    }
+
+    /// Leaves out what would bring a point of the tip out of its ball, where targets tell the tip's whole pose.
+    pub(super) fn within(mut self, ball: Ball) -> Self {
+        if let (Spread::Rotations(_, all), true) = (&self.spread, self.are_in_space()) {
+            self.wrist = Some((ball, all.iter().map(|rotation| rotation * ball.point.coords).collect()));
+        }
+        self
+    }
+
+    /// Writes the targets with these numbers, the orientations of the first place, then those of the next one, and the numbers of those that are not left out.
+    pub(super) fn write(&self, numbers: Range<usize>, targets: &mut Vec<f64>, kept: &mut Vec<usize>) {
+        targets.clear();
+        targets.resize(numbers.len() * self.inputs, 0.0);
+        kept.clear();
+        let orientations = self.orientations();
+        let (mut here, mut at, mut turn) = (None, [0.0; 3], Turn::none());
+        let (mut way, mut room) = (Vector3::zeros(), f64::INFINITY);
+        for number in numbers {
+            let (place, orientation) = (number / orientations, number % orientations);
+            if here != Some(place) {
+                (here, at) = (Some(place), self.grid.at(place));
+                turn = self.seed.map_or(Turn::none(), |seed| Turn::by_chance(seed, place));
+                if let Some((ball, _)) = &self.wrist {
+                    // |w + o|^2 <= r^2, with w from the ball's middle to the tip, and o from there to the point.
+                    way = turn.back(&(Vector3::from(at) - ball.middle.coords));
+                    room = (ball.radius.powi(2) - way.norm_squared() - ball.point.coords.norm_squared()) / 2.0;
+                }
+            }
+            if self.wrist.as_ref().is_some_and(|(_, offsets)| way.dot(&offsets[orientation]) > room) {
+                continue;
+            }
+            let target = &mut targets[kept.len() * self.inputs..][..self.inputs];
+            kept.push(number);
+            self.position.iter().zip(at).for_each(|(input, value)| {
+                if let Some(input) = input {
+                    target[*input] = value;
+                }
+            });
+            self.given.iter().for_each(|(input, value)| target[*input] = *value);
+            self.spread.write(orientation, &turn, target);
+        }
+        targets.truncate(kept.len() * self.inputs);
+    }
+}
+
+/// The input of that name which is no given joint.
+fn input(program: &Program, name: &str) -> Option<usize> {
+    program.inputs[..program.given().start].iter().position(|input| input.name == name)
+}
+
+impl Spread {
+    fn of(program: &Program, count: usize) -> Self {
+        let input = |name: &str| input(program, name);
+        let directions = || (0..count).map(|number| direction(number, count)).collect();
+        match (program.conditions.as_slice(), input("phi"), [input("pitch"), input("roll")]) {
+            ([Condition::Rotation(first)], None, [None, None]) => {
+                Spread::Rotations(*first, (0..count).map(|number| rotation(number, count)).collect())
+            }
+            ([Condition::Unit(first)], None, [None, None]) => Spread::Directions(*first, directions()),
+            ([], Some(phi), [None, None]) => {
+                let angle = |number: usize| TAU * ((number as f64 + 0.5) / count as f64 - 0.5);
+                Spread::Angles(phi, (0..count).map(angle).collect())
+            }
+            ([], None, [Some(pitch), Some(roll)]) => Spread::Tilts([pitch, roll], directions()),
+            _ => Spread::Nothing,
+        }
+    }
+
+    /// The inputs that tell it.
+    fn inputs(&self) -> Vec<usize> {
+        match self {
+            Spread::Nothing => Vec::new(),
+            Spread::Angles(input, _) => vec![*input],
+            Spread::Directions(first, _) => (*first..first + 3).collect(),
+            Spread::Tilts(inputs, _) => inputs.to_vec(),
+            Spread::Rotations(first, _) => (*first..first + 9).collect(),
+        }
+    }
+
+    /// Writes the orientation with this number, turned.
+    fn write(&self, number: usize, turn: &Turn, target: &mut [f64]) {
+        match self {
+            Spread::Nothing => {}
+            Spread::Angles(input, all) => target[*input] = turn.angle(all[number]),
+            Spread::Directions(first, all) => {
+                target[*first..first + 3].copy_from_slice(turn.direction(&all[number]).as_slice());
+            }
+            Spread::Tilts([pitch, roll], all) => {
+                // R = Rz(yaw) Ry(pitch) Rx(roll): the last row of R.
+                let up = turn.direction(&all[number]);
+                (target[*pitch], target[*roll]) = (-up.x.clamp(-1.0, 1.0).asin(), up.y.atan2(up.z));
+            }
+            Spread::Rotations(first, all) => {
+                let rotation = turn.rotation(&all[number]);
+                // By rows.
+                target[*first..first + 9].copy_from_slice(rotation.transpose().as_slice());
+            }
+        }
+    }
+}

@@ -1,0 +1,257 @@
+//! Counting answers, place by place. Main type: [`Survey`].
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use nalgebra::Point3;
+use rayon::prelude::*;
+
+use super::ask::{Ask, Measure};
+use super::map::{Entry, ReachMap};
+use super::poses::Poses;
+use crate::solver::{JointValue, Program, Solved, Solver};
+use crate::{Error, ErrorKind, Result, Watch};
+use groebot_robot::kinematics::{Ball, Chain, Solution};
+
+/// So many targets are solved at once.
+const PIECE: usize = 2048;
+/// Such a share of its chain's reach beyond its radius, a ball surely ends.
+const BEYOND: f64 = 1e-6;
+/// How far beyond a limit rounding may bring a joint that is at it.
+const SLACK: f64 = 1e-9;
+
+/// What solves many targets.
+pub trait Solves: Sync {
+    /// Hands over the answers for targets one after the other, each target's followed by its end.
+    ///
+    /// # Errors
+    /// As [`Solver::solve_each`].
+    fn each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()>;
+
+    /// The answers within limits, as [`Solver::solve_within`].
+    ///
+    /// # Errors
+    /// As there.
+    fn within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>>;
+}
+
+impl Solves for Solver {
+    fn each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()> {
+        self.solve_each(targets, take)
+    }
+
+    fn within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
+        self.solve_within(target, limits)
+    }
+}
+
+/// A question to a solver.
+pub struct Survey<'a> {
+    solver: &'a dyn Solves,
+    program: &'a Program,
+    /// Whose manipulability is measured.
+    chain: Option<&'a Chain>,
+    /// What the tip never leaves.
+    ball: Option<Ball>,
+    ask: &'a Ask,
+    poses: Poses,
+    /// By joint, whether it turns.
+    turns: Vec<bool>,
+    limits: Option<Vec<[f64; 2]>>,
+}
+
+/// What is known of a target's answers while they come.
+#[derive(Default)]
+struct Target {
+    answers: u32,
+    /// Whether a member of a self-motion was beyond the limits: another one of it may be within.
+    strides: bool,
+    is_open: bool,
+    best: f64,
+}
+
+impl<'a> Survey<'a> {
+    /// What is asked of a solver, the program that it solves by, and the chain that this was derived from where there is one.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a task without a position, for targets that are more than one tip's place, orientation and given joints, and for a manipulability without a chain; [`ErrorKind::BadValue`] for no
+    /// orientations or more than 10^6, for another number of given values than joints, for several places on an axis that the task does not ask for, and for limits that are none, or are not described.
+    pub fn new(solver: &'a dyn Solves, program: &'a Program, chain: Option<&'a Chain>, ask: &'a Ask) -> Result<Self> {
+        let poses = Poses::new(program, ask)?;
+        let turns: Vec<bool> =
+            program.joints.iter().map(|joint| matches!(joint.value, JointValue::Angle { .. })).collect();
+        if let Some(chain) = chain.filter(|chain| chain.joints().len() != turns.len()) {
+            let text = format!("{} has {} joints, its chain {}", program.name, turns.len(), chain.joints().len());
+            return Err(Error::new(ErrorKind::BadValue, text));
+        }
+        let turning = chain.filter(|_| poses.are_in_space() && turns.iter().all(|turns| *turns));
+        let wider = |chain: &Chain, ball: Ball| Ball { radius: ball.radius + BEYOND * chain.reach(), ..ball };
+        let ball = turning.map(|chain| wider(chain, chain.ball()));
+        let wrist = turning.and_then(|chain| Some(wider(chain, chain.wrist_ball()?)));
+        let poses = match wrist {
+            Some(wrist) => poses.within(wrist),
+            None => poses,
+        };
+        let chain = chain.filter(|_| ask.measure == Measure::Manipulability);
+        if ask.measure == Measure::Manipulability && chain.is_none() {
+            let text = "a manipulability is that of a chain, and none is known here; give the folder of its derivation";
+            return Err(Error::new(ErrorKind::Unsupported, text));
+        }
+        let limits = match (&ask.limits, ask.measure) {
+            (None, Measure::Limits) => Some(Ask::described(program)?),
+            (limits, _) => limits.clone(),
+        };
+        if let Some(limits) = &limits {
+            check(limits, program)?;
+        }
+        Ok(Survey { solver, program, chain, ball, ask, poses, turns, limits })
+    }
+
+    /// How many orientations there are at each place.
+    pub fn orientations(&self) -> usize {
+        self.poses.orientations()
+    }
+
+    /// Counts the answers at the places with these numbers, on rayon's threads. The result depends neither on their number nor on what other places are asked for.
+    ///
+    /// # Errors
+    /// [`Watch::check`], and as [`Solves::each`].
+    ///
+    /// # Panics
+    /// For places that the grid does not have.
+    pub fn entries(&self, places: Range<usize>, watch: &Watch) -> Result<Vec<Entry>> {
+        assert!(places.end <= self.ask.grid.places(), "the grid has {} places", self.ask.grid.places());
+        let share = (PIECE / self.orientations()).max(1);
+        let done = AtomicUsize::new(0);
+        let mut entries = vec![Entry::default(); places.len()];
+        entries.par_chunks_mut(share).enumerate().try_for_each(|(number, entries)| {
+            watch.check()?;
+            self.fill(places.start + number * share, entries, watch)?;
+            let done = done.fetch_add(entries.len(), Ordering::Relaxed) + entries.len();
+            watch.report("reach: places", done, places.len() - done);
+            Ok::<_, Error>(())
+        })?;
+        Ok(entries)
+    }
+
+    /// The map of all places.
+    ///
+    /// # Errors
+    /// As [`Survey::entries`].
+    pub fn map(&self, watch: &Watch) -> Result<ReachMap> {
+        let entries = self.entries(0..self.ask.grid.places(), watch)?;
+        Ok(ReachMap::of(self.program, self.ask, self.orientations(), entries))
+    }
+
+    /// Counts at the places from `first` on.
+    fn fill(&self, first: usize, entries: &mut [Entry], watch: &Watch) -> Result<()> {
+        let mut sums = vec![0.0; entries.len()];
+        let (mut targets, mut kept) = (Vec::new(), Vec::new());
+        let mut place = 0;
+        while place < entries.len() {
+            // Places one after the other that may be reached.
+            let run = (place..entries.len()).take_while(|place| !self.is_beyond(first + place)).count();
+            let numbers = (first + place) * self.orientations()..(first + place + run) * self.orientations();
+            for start in numbers.clone().step_by(PIECE) {
+                watch.check()?;
+                self.poses.write(start..numbers.end.min(start + PIECE), &mut targets, &mut kept);
+                self.piece(&targets, |number, target| {
+                    let place = kept[number] / self.orientations() - first;
+                    let entry = &mut entries[place];
+                    entry.reached += u32::from(target.answers > 0);
+                    entry.answers = entry.answers.saturating_add(target.answers);
+                    entry.open += u32::from(target.is_open);
+                    entry.best = entry.best.max(target.best as f32);
+                    sums[place] += target.best;
+                })?;
+            }
+            place += run + 1;
+        }
+        for (entry, sum) in entries.iter_mut().zip(sums) {
+            entry.mean = (sum / f64::from(entry.reached.max(1))) as f32;
+        }
+        Ok(())
+    }
+
+    /// Whether a place is farther away than the chain gets.
+    fn is_beyond(&self, place: usize) -> bool {
+        let at = Point3::from(self.ask.grid.at(place));
+        self.ball.is_some_and(|ball| !ball.holds(&at))
+    }
+
+    /// Solves targets; each is handed over with its number.
+    fn piece(&self, targets: &[f64], mut take: impl FnMut(usize, &Target)) -> Result<()> {
+        let inputs = self.poses.inputs();
+        let (mut number, mut target, mut failed) = (0, Target::default(), None);
+        self.solver.each(targets, &mut |solved| match solved {
+            Solved::Answer { q, free, .. } => self.answer(q, free, &mut target),
+            Solved::Target { refused } => {
+                if target.strides {
+                    match self.stride(&targets[number * inputs..][..inputs]) {
+                        Ok(found) => target = found,
+                        Err(error) => failed = Some(error),
+                    }
+                }
+                match refused {
+                    Some(error) if error.kind() != ErrorKind::Unsupported => failed = Some(error),
+                    refused => target.is_open = refused.is_some(),
+                }
+                take(number, &target);
+                (number, target) = (number + 1, Target::default());
+            }
+        })?;
+        failed.map_or(Ok(()), Err)
+    }
+
+    fn answer(&self, q: &[f64], free: u32, target: &mut Target) {
+        if self.limits.as_ref().is_none_or(|limits| has_turn_within(&self.turns, q, limits)) {
+            self.count(q, target);
+        } else {
+            target.strides |= free != 0;
+        }
+    }
+
+    fn count(&self, q: &[f64], target: &mut Target) {
+        target.answers += 1;
+        if let Some(chain) = self.chain {
+            target.best = target.best.max(chain.manipulability(q));
+        }
+    }
+
+    /// A target whose self-motions are walked along to get within the limits.
+    fn stride(&self, numbers: &[f64]) -> Result<Target> {
+        let mut target = Target::default();
+        for solution in self.solver.within(numbers, self.limits.as_deref().unwrap_or_default())? {
+            self.count(&solution.q, &mut target);
+        }
+        Ok(target)
+    }
+}
+
+/// Whether there is a pair of limits for each joint, the lesser one first.
+fn check(limits: &[[f64; 2]], program: &Program) -> Result<()> {
+    let joints = &program.joints;
+    let text = match limits.iter().position(|[low, high]| low.is_nan() || high.is_nan() || low > high) {
+        _ if limits.len() != joints.len() => {
+            format!("{} pairs of limits; {} has {} joints", limits.len(), program.name, joints.len())
+        }
+        Some(joint) => {
+            let [low, high] = limits[joint];
+            format!("limits of `{}`: from {low} to {high}; the lesser one comes first", joints[joint].name)
+        }
+        None => return Ok(()),
+    };
+    Err(Error::new(ErrorKind::BadValue, text))
+}
+
+/// Whether each joint is within its limits, an angle with some of its turns.
+fn has_turn_within(turns: &[bool], q: &[f64], limits: &[[f64; 2]]) -> bool {
+    turns.iter().zip(q).zip(limits).all(|((turns, value), [low, high])| {
+        let (low, high) = (low - SLACK, high + SLACK);
+        match turns {
+            false => (low..=high).contains(value),
+            true => ((low - value) / TAU).ceil() <= ((high - value) / TAU).floor(),
+        }
+    })
+}

@@ -1,0 +1,65 @@
+//! Running a [`Program`] for once: [`Program::solver`] makes it ready for many targets.
+
+use super::program::Program;
+use super::{Batch, Nearest, Pairs, Solver};
+use crate::Result;
+use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
+
+/// The program must be valid ([`Program::validate`]).
+impl Program {
+    /// The program made ready to run.
+    pub fn solver(&self) -> Solver {
+        Solver::new(self)
+    }
+
+    /// As [`Solver::solve`], which takes a tenth of the time where there are many targets.
+    ///
+    /// # Errors
+    /// As [`Solver::solve`].
+    pub fn solve(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
+        self.solver().solve(target, given)
+    }
+
+    /// As [`Solver::solve_numbers`].
+    ///
+    /// # Errors
+    /// As [`Solver::solve_numbers`].
+    pub fn solve_numbers(&self, target: &[f64]) -> Result<Vec<Solution>> {
+        self.solver().solve_numbers(target)
+    }
+
+    /// As [`Solver::solve_pairs`].
+    ///
+    /// # Errors
+    /// As [`Solver::solve_numbers`].
+    pub fn solve_pairs(&self, target: &[f64]) -> Result<Vec<Pairs>> {
+        self.solver().solve_pairs(target)
+    }
+
+    /// As [`Solver::nearest`].
+    ///
+    /// # Errors
+    /// As [`Solver::solve_numbers`].
+    pub fn nearest(&self, target: &[f64]) -> Result<Option<Nearest>> {
+        self.solver().nearest(target)
+    }
+
+    /// As [`Solver::solve_batch`].
+    ///
+    /// # Errors
+    /// As [`Solver::solve_batch`].
+    pub fn solve_batch(&self, targets: &[f64]) -> Result<Batch> {
+        self.solver().solve_batch(targets)
+    }
+
+    /// As [`Solver::reached`].
+    pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
+        self.solver().reached(q)
+    }
+}
+
+impl InverseKinematics for Program {
+    fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
+        self.solver().solve(target, given).map(|solutions| *out = solutions)
+    }
+}

@@ -1,0 +1,45 @@
+//! The solver itself: a small straight-line program with branches ([`Program`]), and its evaluator.
+//!
+//! A program is plain data: it prints, serialises, and is what every language of [`crate::codegen`] is printed from.
+
+mod about;
+mod compose;
+mod condition;
+mod demand;
+pub mod eigenvalue;
+mod evaluate;
+pub(crate) mod facts;
+mod forward;
+mod instruction;
+mod joint;
+mod layout;
+pub(crate) mod mirror;
+mod pairs;
+mod prepared;
+mod program;
+mod prune;
+mod rule;
+mod tolerant;
+mod validate;
+
+pub use about::About;
+pub(crate) use demand::{Demand, ParameterDemand};
+pub(crate) use facts::Facts;
+pub use forward::{Forward, Reached};
+pub use instruction::{Instruction, Operand, Operation};
+pub use joint::{Joint, JointValue, Unit};
+pub(crate) use layout::Layout;
+pub use pairs::Pairs;
+pub use prepared::{Batch, Nearest, Solved, Solver};
+pub(crate) use program::square;
+pub use program::{Block, Case, Checks, Condition, Described, Guard, Input, Pivot, Preference, Program, Short, Step};
+pub use rule::{Following, ParameterRule, Rule};
+
+pub use groebot_runtime::tolerances::{
+    ACCEPT, ADRIFT, ALIKE, ALONE, ALONG, APART, APPROACHES, ARRIVED, ASIDE, ASTRAY, BESIDE, BLUR, CHORD, CONSISTENT,
+    DAMPINGS, DISTINCT, DOUBLINGS, FARTHER, FARTHEST, GRAZING, INVERSIONS, LEAPS, LEAPT, LEVER, MEETING, MERGE, MILD,
+    NARROWS, NEAR, OVERSHOT, PACES, PATIENCE, PIVOT, PLAIN, POLISH_STEPS, POLISHED, REGULAR, RETURNS, ROUNDING, SHORT,
+    SINGULAR, STEEP, STIFF, TINY, TURN, TWIN, TWIN_AT, TWIN_WITHIN,
+};
+/// The most joints that a program may have.
+pub const MAX_JOINTS: usize = groebot_algebra::limits::SOLVER_JOINTS;

@@ -1,0 +1,332 @@
+//! A chain and its task in floating point: what every check measures by. Only forward kinematics is used here. Main types:
+//! [`Configuration`], what checks need to know, and [`Model`], that of one chain.
+
+use std::f64::consts::PI;
+
+use nalgebra::DMatrix;
+
+use super::singular::smallest_singular_value;
+use crate::Result;
+use groebot_robot::kinematics::oracle::{Oracle, Unknown};
+use groebot_robot::kinematics::{BaseAxis, Chain, JointKind, Solution, Task};
+use groebot_robot::spatial::{Pose, angle, pitch_and_roll, vertical};
+
+/// An answer reaches its target when it misses it by no more than this share of the reach, or this angle \[rad\].
+pub(super) const RESIDUAL: f64 = 1e-11;
+/// An ordinary joint vector that misses by no more is a solution beyond doubt.
+pub(super) const EXACT: f64 = 1e-13;
+/// One next to a singular configuration that misses by no more: there a target 1e-13 away may have other solutions, or a self-motion.
+pub(super) const SHARP: f64 = 1e-14;
+/// A joint vector is ordinary when the smallest singular value of the scaled Jacobian exceeds this.
+pub(super) const ORDINARY: f64 = 1e-3;
+
+/// The chain, its task, and which of its joints are unknown.
+pub(super) struct Model<'a> {
+    pub chain: &'a Chain,
+    /// The reach, or one for a chain that only turns its tip.
+    pub length: f64,
+    /// The joints that are asked for, but for those that follow others.
+    pub unknown: Vec<usize>,
+    /// The joints whose values are given.
+    pub given: Vec<usize>,
+}
+
+impl<'a> Model<'a> {
+    pub fn new(chain: &'a Chain) -> Self {
+        let given = chain.given();
+        let reach = chain.reach();
+        Model { chain, length: if reach > 0.0 { reach } else { 1.0 }, unknown: chain.independent(), given }
+    }
+
+    /// Whether joint `index` turns.
+    /// The values that a joint which slides may have: its limits, or the reach to either side.
+    pub fn slide(&self, joint: usize) -> (f64, f64) {
+        let limits = self.chain.joints()[joint].limits.filter(|(low, high)| low < high);
+        limits.unwrap_or((-self.length, self.length))
+    }
+
+    pub fn turns(&self, index: usize) -> bool {
+        self.chain.joints()[index].kind == JointKind::Revolute
+    }
+
+    /// The names of a target's numbers: those of the task, then those of the given joints.
+    pub fn input_names(&self) -> Vec<String> {
+        let letters = ["x", "y", "z"];
+        let position = |axes: &[usize]| axes.iter().map(|&axis| format!("p{}", letters[axis])).collect::<Vec<_>>();
+        let aim = letters.map(|letter| format!("d{letter}")).to_vec();
+        let rotation = (0..9).map(|k| format!("r{}{}", k / 3 + 1, k % 3 + 1)).collect();
+        let mut names = match self.chain.task() {
+            Task::Position => position(&[0, 1, 2]),
+            Task::PlanarPosition { plane } => position(&plane.coordinates()),
+            Task::PlanarPose { plane } => [position(&plane.coordinates()), vec!["phi".to_owned()]].concat(),
+            Task::Pose => [position(&[0, 1, 2]), rotation].concat(),
+            Task::Ray => [position(&[0, 1, 2]), aim].concat(),
+            Task::Direction => aim,
+            Task::Rotation => rotation,
+            Task::PositionYaw { axis: BaseAxis::Z } => [position(&[0, 1, 2]), vec!["yaw".to_owned()]].concat(),
+            Task::PositionYaw { axis } => [position(&[0, 1, 2]), vec![format!("yaw_{}", axis.name())]].concat(),
+            Task::PositionPitchRoll => [position(&[0, 1, 2]), vec!["pitch".to_owned(), "roll".to_owned()]].concat(),
+        };
+        names.extend(self.chain.given_inputs().iter().map(|&joint| self.chain.joints()[joint].name.clone()));
+        names
+    }
+
+    /// The number of a target's numbers that are lengths, all in front.
+    pub fn lengths(&self) -> usize {
+        match self.chain.task() {
+            Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => 3,
+            Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,
+            Task::Direction | Task::Rotation => 0,
+        }
+    }
+
+    /// The target that joint values reach, as the numbers that a program takes.
+    pub fn target(&self, q: &[f64]) -> Vec<f64> {
+        let mut target = self.seen(&self.forward(q));
+        target.extend(self.chain.given_inputs().iter().map(|&joint| q[joint]));
+        target
+    }
+
+    pub fn forward(&self, q: &[f64]) -> Pose {
+        let steps = self.chain.screws().iter().zip(q).rev();
+        steps.fold(self.chain.base_from_tip(), |pose, (screw, &q)| screw.exp(q) * pose)
+    }
+
+    /// What the task sees of a pose.
+    pub fn seen(&self, pose: &Pose) -> Vec<f64> {
+        let tip = pose.translation.vector;
+        let matrix = pose.rotation.to_rotation_matrix();
+        let rotation = || (0..9).map(|k| matrix[(k / 3, k % 3)]).collect::<Vec<f64>>();
+        let aim = || (pose.rotation * self.chain.aim().into_inner()).iter().copied().collect::<Vec<f64>>();
+        let point = tip.as_slice().to_vec();
+        match self.chain.task() {
+            Task::Position => point,
+            Task::PlanarPosition { plane } => plane.coordinates().map(|axis| tip[axis]).to_vec(),
+            Task::PlanarPose { plane } => {
+                let turn = pose.rotation * self.chain.base_from_tip().rotation.inverse();
+                let phi = 2.0 * turn.imag()[plane.normal()].atan2(turn.scalar());
+                let [x, y] = plane.coordinates().map(|axis| tip[axis]);
+                vec![x, y, angle::wrap(phi)]
+            }
+            Task::Pose => [point, rotation()].concat(),
+            Task::Ray => [point, aim()].concat(),
+            Task::Direction => aim(),
+            Task::Rotation => rotation(),
+            Task::PositionYaw { axis } => {
+                let (aim, [a, b]) = (aim(), axis.across());
+                [point, vec![aim[b].atan2(aim[a])]].concat()
+            }
+            Task::PositionPitchRoll => {
+                let (pitch, roll) = pitch_and_roll(&pose.rotation);
+                [point, vec![pitch, roll]].concat()
+            }
+        }
+    }
+
+    /// By how much joint values miss each number of a target: shares of the reach, then plain numbers or radians.
+    pub fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
+        let seen = self.compared(&self.seen(&self.forward(q)));
+        let target = &self.compared(target)[..];
+        let size = self.size(q);
+        let turn = match self.chain.task() {
+            Task::PlanarPose { .. } => Some(2),
+            Task::PositionYaw { .. } => Some(3),
+            _ => None,
+        };
+        let miss = |(index, (seen, wanted)): (usize, (&f64, &f64))| match index {
+            index if index < self.lengths() => (seen - wanted) / size,
+            index if turn == Some(index) => angle::difference(*seen, *wanted),
+            _ => seen - wanted,
+        };
+        let misses = seen.iter().zip(target).enumerate().map(miss);
+        // Where no joint follows another this is no number of the task's.
+        let strays = self.chain.joints().iter().any(|joint| joint.mimic.is_some()).then(|| self.chain.strays(q));
+        misses.chain(strays).collect()
+    }
+
+    /// A target's numbers as they are compared: in place of pitch and roll, which jump, where the vertical is, seen from the tip.
+    fn compared(&self, target: &[f64]) -> Vec<f64> {
+        match (self.chain.task(), target) {
+            (Task::PositionPitchRoll, &[x, y, z, pitch, roll, ref rest @ ..]) => {
+                [&[x, y, z], vertical(pitch, roll).as_slice(), rest].concat()
+            }
+            _ => target.to_vec(),
+        }
+    }
+
+    /// The reach with the slides of `q` added.
+    fn size(&self, q: &[f64]) -> f64 {
+        let slides = q.iter().enumerate().filter(|(joint, _)| !self.turns(*joint));
+        self.length + slides.map(|(_, q)| q.abs()).sum::<f64>()
+    }
+
+    /// The residual of joint values: the larger of the position's share of the reach and the angle of the orientation \[rad\].
+    pub fn residual(&self, target: &[f64], q: &[f64]) -> f64 {
+        let misses = self.misses(target, q);
+        let (position, turn) = misses.split_at(self.lengths());
+        let norm = |part: &[f64]| part.iter().map(|miss| miss * miss).sum::<f64>().sqrt();
+        // A small turn by an angle moves the nine entries of a matrix by its root of two in all.
+        let whole = matches!(self.chain.task(), Task::Pose | Task::Rotation);
+        let turn = norm(turn) / if whole { 2.0_f64.sqrt() } else { 1.0 };
+        let worst = norm(position).max(turn);
+        if worst.is_nan() { f64::INFINITY } else { worst }
+    }
+
+    /// The derivative of what the task sees, by the unknown joints, with which others move: lengths in reaches, angles in radians. As many rows
+    /// as the task has freedoms.
+    pub fn jacobian(&self, q: &[f64]) -> DMatrix<f64> {
+        let mut q = q.to_vec();
+        self.chain.follow(&mut q);
+        self.chain.coupled_jacobian(&q, &self.given).select_columns(&self.unknown)
+    }
+}
+
+/// What checks need to know of a mechanism and its task: its joints, and by how much they miss a target.
+pub(super) trait Configuration {
+    /// The number of joints, given ones too.
+    fn count(&self) -> usize;
+
+    /// The joints that are asked for.
+    fn unknown(&self) -> &[usize];
+
+    /// Whether a joint turns.
+    fn turns(&self, joint: usize) -> bool;
+
+    /// A length typical of the mechanism.
+    fn length(&self) -> f64;
+
+    /// The target that joint values reach, as the numbers that a program takes.
+    fn target(&self, q: &[f64]) -> Vec<f64>;
+
+    /// By how much joint values miss each number of a target: shares of the reach, then plain numbers or radians.
+    fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64>;
+
+    /// The residual of joint values: the larger of the position's share of the reach and the angle of the orientation \[rad\].
+    fn residual(&self, target: &[f64], q: &[f64]) -> f64;
+
+    /// The derivative of what the task sees, by the unknown joints: lengths in reaches, angles in radians. As many rows as the
+    /// task has freedoms.
+    fn jacobian(&self, q: &[f64]) -> DMatrix<f64>;
+
+    /// The joint vectors that the numeric oracle finds from a number of starting points.
+    ///
+    /// # Errors
+    /// As [`Oracle::search`].
+    fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>>;
+
+    /// An answer with the values of all joints.
+    fn completed(&self, target: &[f64], answer: Solution) -> Solution;
+
+    /// Brings joints that follow others to where these bring them.
+    fn settle(&self, _q: &mut [f64]) {}
+
+    /// One radian, or the reach.
+    fn unit(&self, joint: usize) -> f64 {
+        if self.turns(joint) { 1.0 } else { self.length() }
+    }
+
+    /// The smallest singular value of the Jacobian.
+    fn sigma(&self, q: &[f64]) -> f64 {
+        smallest_singular_value(self.jacobian(q))
+    }
+
+    /// The largest difference of two joint vectors: radians, or shares of the reach.
+    fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let one = |&joint: &usize| self.difference(joint, a[joint], b[joint]).abs() / self.unit(joint);
+        self.unknown().iter().map(one).fold(0.0, f64::max)
+    }
+
+    /// `a - b`, of angles the way round that is shorter.
+    fn difference(&self, joint: usize, a: f64, b: f64) -> f64 {
+        if self.turns(joint) { angle::difference(a, b) } else { a - b }
+    }
+
+    /// `q` with every angle in (-pi, pi].
+    fn wrapped(&self, q: &[f64]) -> Vec<f64> {
+        let wrap = |(joint, q): (usize, &f64)| if self.turns(joint) { angle::wrap(*q) } else { *q };
+        q.iter().enumerate().map(wrap).collect()
+    }
+
+    /// Whether `q` has a finite value for each joint, angles in (-pi, pi].
+    fn is_well_formed(&self, q: &[f64]) -> bool {
+        let allowed = |(joint, q): (usize, &f64)| q.is_finite() && (!self.turns(joint) || (-PI < *q && *q <= PI));
+        q.len() == self.count() && q.iter().enumerate().all(allowed)
+    }
+}
+
+impl Configuration for Model<'_> {
+    fn count(&self) -> usize {
+        self.chain.joints().len()
+    }
+
+    fn unknown(&self) -> &[usize] {
+        &self.unknown
+    }
+
+    fn turns(&self, joint: usize) -> bool {
+        Model::turns(self, joint)
+    }
+
+    fn length(&self) -> f64 {
+        self.length
+    }
+
+    fn target(&self, q: &[f64]) -> Vec<f64> {
+        Model::target(self, q)
+    }
+
+    fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
+        Model::misses(self, target, q)
+    }
+
+    fn residual(&self, target: &[f64], q: &[f64]) -> f64 {
+        Model::residual(self, target, q)
+    }
+
+    fn jacobian(&self, q: &[f64]) -> DMatrix<f64> {
+        Model::jacobian(self, q)
+    }
+
+    fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>> {
+        let unknown = |&joint: &usize| match self.turns(joint) {
+            true => Unknown::Angle,
+            false => Unknown::Displacement { low: -1.5 * self.length, high: 1.5 * self.length },
+        };
+        let unknowns: Vec<Unknown> = self.unknown.iter().map(unknown).collect();
+        let whole = |values: &[f64]| {
+            let part = Solution { q: values.to_vec(), ..Solution::default() };
+            self.completed(target, part).q
+        };
+        let oracle = Oracle { seeds, ..Oracle::default() };
+        let found = oracle.search(&unknowns, |values| self.misses(target, &whole(values)))?;
+        Ok(found.iter().map(|answer| whole(&answer.q)).collect())
+    }
+
+    fn settle(&self, q: &mut [f64]) {
+        self.chain.follow(q);
+    }
+
+    /// An answer with the values of all joints, the given ones taken from the target, in the chain's numbering. Of a joint that follows another
+    /// one and is free, that one is.
+    fn completed(&self, target: &[f64], answer: Solution) -> Solution {
+        let count = self.chain.joints().len();
+        let open: Vec<usize> = (0..count).filter(|joint| !self.given.contains(joint)).collect();
+        let places = match answer.q.len() {
+            length if length == count => (0..count).collect(),
+            length if length == open.len() => open,
+            length if length == self.unknown.len() => self.unknown.clone(),
+            _ => return answer,
+        };
+        let mut q = vec![0.0; count];
+        let inputs = &target[target.len() - self.chain.given_inputs().len()..];
+        let values = self.chain.given_values(inputs);
+        self.given.iter().zip(values).for_each(|(&joint, value)| q[joint] = value);
+        places.iter().zip(&answer.q).for_each(|(&joint, &value)| q[joint] = value);
+        if places.len() < count - self.given.len() {
+            self.chain.follow(&mut q);
+        }
+        let leading = |joint: usize| self.chain.leader(joint).map_or(joint, |(leader, _)| leader);
+        let free = answer.free.iter().map(|&place| leading(places[place])).collect();
+        Solution { q, free, ..answer }
+    }
+}

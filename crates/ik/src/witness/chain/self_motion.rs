@@ -1,0 +1,237 @@
+//! Self-motions of one parameter at singular targets: whether there is one, whether a path in it leads to an answer, and which answers
+//! are the same up to one.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::model::{Configuration, ORDINARY, RESIDUAL};
+use super::singular::{least_squares, null_vector};
+use crate::solver::BLUR;
+use groebot_robot::kinematics::Solution;
+
+/// A self-motion's own configurations are at most this ordinary.
+const SINGULAR: f64 = 1e-12;
+/// How far along the null vector a self-motion is looked for.
+const PROBE: f64 = 0.05;
+/// The residual of a member of a self-motion, after correction.
+pub(super) const MEMBER: f64 = 1e-12;
+/// That of the member by which a self-motion is found: where an isolated answer is singular and another singularity is 1e-6 away, joint vectors
+/// 0.05 off miss by no more than 1e-12 and yet are no solutions.
+const ROUNDED: f64 = 1e-14;
+/// How many times that far a self-motion goes on: where two axes are off one line by 1e-6 rad there is a double solution instead, which misses by 1e-12 times
+/// the square of the way, less than rounding at first.
+const PROBES: usize = 4;
+/// Steps \[rad, or reaches\] of a path: shorter ones where longer ones do not arrive.
+pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
+/// Corrections of one member at most.
+const CORRECTIONS: usize = 20;
+/// Singular values below this share of the largest are taken as zero.
+const RANK: f64 = 1e-8;
+/// A way between two joint vectors bends by at most this share of its length, or of the square of its length when that is more.
+const STRAIGHT: f64 = 1e-2;
+/// The longest and the shortest step along a curve, and how many there are at most.
+const LONGEST: f64 = 0.1;
+const SHORTEST: f64 = 1e-6;
+const PACES: usize = 2000;
+/// The cosine of the angle between a curve's directions before and behind a step is more than this.
+const STEADY: f64 = 0.9;
+/// How near a path must come to the answer it leads to.
+const ARRIVED: f64 = 1e-6;
+
+/// Paths of joint vectors with the same target.
+pub(super) trait SelfMotions: Configuration {
+    /// Whether `q` is one of a curve of joint vectors with the same target.
+    fn is_in_self_motion(&self, target: &[f64], q: &[f64]) -> bool {
+        self.tangent(q).is_some_and(|tangent| self.goes_on(target, q, tangent))
+    }
+
+    /// Whether the curve goes on from `q` to the side of `ahead`.
+    fn goes_on(&self, target: &[f64], q: &[f64], mut ahead: DVector<f64>) -> bool {
+        let mut at = q.to_vec();
+        (0..PROBES).all(|_| {
+            let next = self.stepped(target, &at, &ahead, (PROBE, ROUNDED));
+            next.is_some_and(|(next, on)| {
+                (at, ahead) = (next, on);
+                true
+            })
+        })
+    }
+
+    /// The direction in which joints that are singular within rounding can move.
+    fn tangent(&self, q: &[f64]) -> Option<DVector<f64>> {
+        if self.sigma(q) > SINGULAR { None } else { null_vector(self.jacobian(q)) }
+    }
+
+    /// The member beside `q` moved by `way` along the unit vector `ahead`, and no farther along it; it misses the target by no more than
+    /// `tolerance`.
+    fn beside(&self, target: &[f64], q: &[f64], ahead: &DVector<f64>, way: f64, tolerance: f64) -> Option<Vec<f64>> {
+        let mut moved = q.to_vec();
+        for (&joint, share) in self.unknown().iter().zip(ahead.iter()) {
+            moved[joint] += way * share * self.unit(joint);
+        }
+        let across = |_: &[f64]| DMatrix::from_row_slice(1, ahead.len(), ahead.as_slice());
+        self.corrected(target, moved, self.unknown(), &across, tolerance)
+    }
+
+    /// Whether `b` is the same answer as `a`, and no farther from it than a solver merges answers.
+    fn is_same(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        self.distance(a, b) <= BLUR && self.matches(target, a, b)
+    }
+
+    /// Whether `b` is the same answer as `a`, or of its self-motion: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), or four times what
+    /// `a` misses the target by over sigma where that is more, and then a path must lead from one to the other that reaches the target
+    /// all the way.
+    fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
+        let (distance, sigma) = (self.distance(a, b), self.sigma(a));
+        if sigma > ORDINARY {
+            return distance <= 1e-9;
+        }
+        let miss = f64::max(1e-13, 4.0 * self.residual(target, a));
+        distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b, RESIDUAL)
+    }
+
+    /// Whether joint vectors next to the straight way from `a` to `b` reach the target, within `missed`.
+    fn is_joined(&self, target: &[f64], a: &[f64], b: &[f64], missed: f64) -> bool {
+        let none = |_: &[f64]| DMatrix::zeros(0, self.unknown().len());
+        let width = self.distance(a, b);
+        [0.25, 0.5, 0.75].iter().all(|share| {
+            let point = |joint: usize| a[joint] + share * self.difference(joint, b[joint], a[joint]);
+            let between: Vec<f64> = (0..a.len()).map(point).collect();
+            let found = self.corrected(target, between.clone(), self.unknown(), &none, missed);
+            found.is_some_and(|found| self.distance(&found, &between) <= width * width.max(STRAIGHT))
+        })
+    }
+
+    /// Whether the free joints of `answer` can be led from their values in `q` to those in `answer`, either way round, while the
+    /// others keep the tip at the target, within `missed`, and end at the answer; in such steps. What is missed leaves the others open by its square
+    /// root, next to a double root.
+    fn leads_to(&self, target: &[f64], q: &[f64], answer: &Solution, (step, missed): (f64, f64)) -> bool {
+        let Solution { q: end, free, .. } = answer;
+        let short: Vec<f64> = free.iter().map(|&joint| self.difference(joint, end[joint], q[joint])).collect();
+        let round = |(way, &joint): (&f64, &usize)| {
+            if self.turns(joint) { way - std::f64::consts::TAU.copysign(*way) } else { *way }
+        };
+        let long: Vec<f64> = short.iter().zip(free).map(round).collect();
+        [short, long].iter().any(|way| {
+            let led = self.led(target, q, (free, way), (step, missed));
+            led.is_some_and(|led| self.distance(&led, end) <= missed.sqrt())
+        })
+    }
+
+    /// The end of the path on which the free joints go `way` in such steps.
+    fn led(
+        &self,
+        target: &[f64],
+        q: &[f64],
+        (free, way): (&[usize], &[f64]),
+        (step, missed): (f64, f64),
+    ) -> Option<Vec<f64>> {
+        let others: Vec<usize> = self.unknown().iter().copied().filter(|joint| !free.contains(joint)).collect();
+        let units = free.iter().map(|&joint| self.unit(joint));
+        let longest = way.iter().zip(units).map(|(way, unit)| way.abs() / unit).fold(0.0, f64::max);
+        let steps = (longest / step).ceil().max(1.0);
+        let none = |_: &[f64]| DMatrix::zeros(0, others.len());
+        (1..=steps as usize).try_fold(q.to_vec(), |mut at, step| {
+            for (&joint, way) in free.iter().zip(way) {
+                at[joint] = q[joint] + way * step as f64 / steps;
+            }
+            self.corrected(target, at, &others, &none, missed)
+        })
+    }
+
+    /// Whether the curve of joint vectors with the same target that `q` is on runs through `answer`, to one side or the other. It goes on
+    /// where a free joint comes to the end of its part of the circle and turns back while the others take another branch.
+    fn runs_to(&self, target: &[f64], q: &[f64], answer: &[f64]) -> bool {
+        let tangent = self.tangent(q);
+        tangent.is_some_and(|ahead| [ahead.clone(), -ahead].into_iter().any(|way| self.runs(target, q, way, answer)))
+    }
+
+    /// The same to the side of `ahead`, in steps as long as the curve's bends allow.
+    fn runs(&self, target: &[f64], q: &[f64], mut ahead: DVector<f64>, answer: &[f64]) -> bool {
+        let (mut at, mut pace) = (q.to_vec(), LONGEST);
+        for _ in 0..PACES {
+            if self.distance(&at, answer) <= 2.0 * pace && self.passes(target, &at, &ahead, answer) {
+                return true;
+            }
+            match self.stepped(target, &at, &ahead, (pace, MEMBER)).filter(|(_, next)| next.dot(&ahead) > STEADY) {
+                Some(next) => ((at, ahead), pace) = (next, f64::min(2.0 * pace, LONGEST)),
+                None if pace > SHORTEST => pace /= 2.0,
+                None => return false,
+            }
+        }
+        false
+    }
+
+    /// Whether the curve that goes on from `at` along `ahead` has `answer`, a little on.
+    fn passes(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, answer: &[f64]) -> bool {
+        let apart = |&joint: &usize| self.difference(joint, answer[joint], at[joint]) / self.unit(joint);
+        let way = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
+        self.beside(target, at, ahead, way, MEMBER).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
+    }
+
+    /// The point of the curve beside `at` moved by `way` along the unit vector `ahead`, which misses the target by no more than `tolerance`, and the curve's
+    /// direction there.
+    fn stepped(
+        &self,
+        target: &[f64],
+        at: &[f64],
+        ahead: &DVector<f64>,
+        (way, tolerance): (f64, f64),
+    ) -> Option<(Vec<f64>, DVector<f64>)> {
+        let next = self.beside(target, at, ahead, way, tolerance)?;
+        let tangent = null_vector(self.jacobian(&next))?;
+        let side = tangent.dot(ahead).signum();
+        Some((next, tangent * side))
+    }
+
+    /// The member next to `q` with all but the joints `moving` held, by Gauss-Newton; `across` gives directions (rows, one column
+    /// a moving joint) in which it must not go.
+    fn corrected(
+        &self,
+        target: &[f64],
+        mut q: Vec<f64>,
+        moving: &[usize],
+        across: &dyn Fn(&[f64]) -> DMatrix<f64>,
+        tolerance: f64,
+    ) -> Option<Vec<f64>> {
+        self.settle(&mut q);
+        let fixed = across(&q);
+        for _ in 0..CORRECTIONS {
+            if self.residual(target, &q) <= tolerance {
+                break;
+            }
+            let slopes = self.slopes(target, &q, moving);
+            let rows = slopes.nrows();
+            let mut system = slopes.insert_rows(rows, fixed.nrows(), 0.0);
+            system.rows_mut(rows, fixed.nrows()).copy_from(&fixed);
+            let mut missed = DVector::from_vec(self.misses(target, &q));
+            missed = missed.insert_rows(rows, fixed.nrows(), 0.0);
+            let step = least_squares(system, &missed, RANK)?;
+            for (&joint, step) in moving.iter().zip(step.iter()) {
+                q[joint] -= step * self.unit(joint);
+            }
+            self.settle(&mut q);
+        }
+        (self.residual(target, &q) <= tolerance).then_some(q)
+    }
+
+    /// Central differences of the misses by the joints `moving` in their units.
+    fn slopes(&self, target: &[f64], q: &[f64], moving: &[usize]) -> DMatrix<f64> {
+        let width = f64::EPSILON.cbrt();
+        let column = |&joint: &usize| {
+            let moved = |by: f64| {
+                let mut q = q.to_vec();
+                q[joint] += by * self.unit(joint);
+                self.settle(&mut q);
+                DVector::from_vec(self.misses(target, &q))
+            };
+            (moved(width) - moved(-width)) / (2.0 * width)
+        };
+        let columns: Vec<DVector<f64>> = moving.iter().map(column).collect();
+        if columns.is_empty() {
+            return DMatrix::zeros(self.misses(target, q).len(), 0);
+        }
+        DMatrix::from_columns(&columns)
+    }
+}
+
+impl<M: Configuration + ?Sized> SelfMotions for M {}

@@ -1,0 +1,335 @@
+//! Which targets are tried: from random joints, from singular configurations and next to them, at and beyond the boundary of the
+//! workspace, anywhere. Singular configurations are found where the Jacobian's determinant changes its sign while one joint moves.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
+
+use super::model::{Configuration, Model};
+use super::round::RoundTargets;
+use super::singular::null_vector;
+use crate::witness::Draws;
+use crate::witness::random::Random;
+use crate::witness::report::Kind;
+use groebot_robot::spatial::Pose;
+
+/// Draws after which a kind of target is given up.
+const DRAWS: usize = 12;
+/// Places at which a determinant is looked at while a joint goes round.
+const PLACES: usize = 48;
+/// Two configurations share a critical joint value when they have it within this \[rad, or reaches\].
+const SHARED: f64 = 1e-9;
+/// A critical value so near to a multiple of a right angle is one.
+const RIGHT: f64 = 1e-10;
+/// A singular configuration is one up to this.
+const SINGULAR: f64 = 1e-10;
+/// An unreachable target is this many reaches away.
+const FAR: f64 = 10.0;
+/// Distances 10^-k from singular configurations.
+const NEAR: [u32; 3] = [3, 6, 9];
+
+/// What every 24 rows try.
+const PLAN: [Slot; 24] = {
+    use Slot::{Aligned, Anywhere, Edge, Far, Near, Random, Round, Singular, Special};
+    [
+        Random,
+        Round(15),
+        Aligned,
+        Singular,
+        Random,
+        Near(0),
+        Random,
+        Near(1),
+        Random,
+        Near(2),
+        Random,
+        Special,
+        Round(30),
+        Aligned,
+        Random,
+        Singular,
+        Random,
+        Near(0),
+        Edge,
+        Near(1),
+        Anywhere,
+        Near(2),
+        Singular,
+        Far,
+    ]
+};
+
+/// What is tried in turn where all targets are to be round.
+const ROUND: [Slot; 3] = [Slot::Round(15), Slot::Round(30), Slot::Aligned];
+
+#[derive(Clone, Copy)]
+enum Slot {
+    Random,
+    Singular,
+    Near(usize),
+    Special,
+    Round(u32),
+    Aligned,
+    Edge,
+    Anywhere,
+    Far,
+}
+
+/// A target and, where it was made from joint values, these.
+pub(super) struct Target {
+    pub kind: Kind,
+    pub inputs: Vec<f64>,
+    pub joints: Option<Vec<f64>>,
+}
+
+/// The source of targets for one chain.
+pub(super) struct Targets<'a> {
+    model: &'a Model<'a>,
+    random: Random,
+    plan: &'static [Slot],
+    round: RoundTargets<'a>,
+    /// Values of single joints that make every configuration singular: joint and value.
+    critical: Vec<(usize, f64)>,
+    done: usize,
+}
+
+/// A singular configuration, and the joint that leads out of it.
+struct Singularity {
+    q: Vec<f64>,
+    way: usize,
+}
+
+impl<'a> Targets<'a> {
+    pub fn new(model: &'a Model<'a>, draws: Draws, seed: u64) -> Self {
+        let (random, round) = (Random::new(seed), RoundTargets::new(model, seed));
+        let plan: &[Slot] = if draws == Draws::Round { &ROUND } else { &PLAN };
+        let mut targets = Targets { model, random, plan, round, critical: Vec::new(), done: 0 };
+        targets.critical = targets.critical_values();
+        targets
+    }
+
+    /// The target of row `number`.
+    pub fn draw(&mut self, number: usize) -> Target {
+        let special = match self.plan[number % self.plan.len()] {
+            Slot::Random => None,
+            Slot::Singular => self.singular().map(|found| self.reached(Kind::Singular, found.q)),
+            Slot::Near(index) => self.near(NEAR[index]),
+            Slot::Special => Some(self.special()),
+            Slot::Round(degrees) => {
+                let q = self.round.joints(degrees);
+                Some(self.reached(Kind::Round, q))
+            }
+            Slot::Aligned => {
+                let inputs = self.round.aligned(number);
+                Some(Target { kind: Kind::Aligned, inputs, joints: None })
+            }
+            Slot::Edge => self.edge(),
+            Slot::Anywhere => Some(self.anywhere()),
+            Slot::Far => self.far(),
+        };
+        special.unwrap_or_else(|| {
+            let q = self.joints();
+            self.reached(Kind::Random, q)
+        })
+    }
+
+    fn reached(&self, kind: Kind, mut q: Vec<f64>) -> Target {
+        self.model.chain.follow(&mut q);
+        let q = self.model.wrapped(&q);
+        Target { kind, inputs: self.model.target(&q), joints: Some(q) }
+    }
+
+    /// Random values of all joints.
+    pub fn joints(&mut self) -> Vec<f64> {
+        let mut q: Vec<f64> = (0..self.model.chain.joints().len()).map(|joint| self.joint(joint)).collect();
+        self.model.chain.follow(&mut q);
+        q
+    }
+
+    /// A random value: an angle in (-pi, pi], a slide within its limits, or within the reach to either side.
+    fn joint(&mut self, joint: usize) -> f64 {
+        if self.model.turns(joint) {
+            return self.random.between(-PI, PI);
+        }
+        let (low, high) = self.model.slide(joint);
+        self.random.between(low, high)
+    }
+
+    /// Single joint values that are critical whatever the other joints are, as two configurations tell.
+    fn critical_values(&mut self) -> Vec<(usize, f64)> {
+        let (a, b) = (self.joints(), self.joints());
+        let mut found = Vec::new();
+        for &joint in &self.model.unknown {
+            let others = self.sign_changes(&b, joint);
+            let near = |x: f64, y: f64| self.model.difference(joint, x, y).abs() <= SHARED * self.model.unit(joint);
+            let shared = self.sign_changes(&a, joint).into_iter().filter(|&x| others.iter().any(|&y| near(x, y)));
+            found.extend(shared.map(|value| (joint, value)));
+        }
+        found
+    }
+
+    /// The values of one joint at which the determinant changes its sign while the others stay as in `q`.
+    fn sign_changes(&self, q: &[f64], joint: usize) -> Vec<f64> {
+        let (low, high) = if self.model.turns(joint) { (-PI, PI) } else { self.model.slide(joint) };
+        let place = |k: usize| low + (high - low) * (k as f64 + 0.37) / PLACES as f64;
+        let count = if self.model.turns(joint) { PLACES } else { PLACES - 1 };
+        (0..count).filter_map(|k| self.bisected(q, joint, place(k), place(k + 1))).collect()
+    }
+
+    fn determinant(&self, q: &[f64], joint: usize, value: f64) -> Option<f64> {
+        let mut q = q.to_vec();
+        q[joint] = value;
+        let jacobian = self.model.jacobian(&q);
+        jacobian.is_square().then(|| jacobian.determinant())
+    }
+
+    fn bisected(&self, q: &[f64], joint: usize, mut low: f64, mut high: f64) -> Option<f64> {
+        let positive = |value: f64| Some(self.determinant(q, joint, value)? > 0.0);
+        let sign = positive(low)?;
+        if positive(high)? == sign {
+            return None;
+        }
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if positive(middle)? == sign { low = middle } else { high = middle }
+        }
+        let right = (low / FRAC_PI_2).round() * FRAC_PI_2;
+        let snapped = if self.model.turns(joint) && (low - right).abs() <= RIGHT { right } else { low };
+        let mut at = q.to_vec();
+        at[joint] = snapped;
+        (self.model.sigma(&at) <= SINGULAR).then_some(snapped)
+    }
+
+    /// In turn: one critical joint, two critical joints, and a configuration that is singular by several joints together.
+    fn singular(&mut self) -> Option<Singularity> {
+        self.done += 1;
+        let critical = self.critical.clone();
+        let turn = self.done % 5;
+        let Some(&(way, value)) = critical.get(self.done / 5 % critical.len().max(1)) else { return self.mixed() };
+        match turn {
+            0 | 4 => self.mixed().or_else(|| self.with(&[(way, value)])),
+            1 | 3 => self.with(&[critical[self.done % critical.len()]]),
+            _ => {
+                let other = critical[(self.done / 5 + self.done) % critical.len()];
+                self.with(&[(way, value), other])
+            }
+        }
+    }
+
+    fn with(&mut self, held: &[(usize, f64)]) -> Option<Singularity> {
+        let mut q = self.joints();
+        held.iter().for_each(|&(joint, value)| q[joint] = value);
+        Some(Singularity { q, way: held.first()?.0 })
+    }
+
+    /// A sign change of the determinant at a value that is not critical by itself.
+    fn mixed(&mut self) -> Option<Singularity> {
+        (0..DRAWS).find_map(|draw| {
+            let mut q = self.joints();
+            let joint = self.model.unknown[(self.done + draw) % self.model.unknown.len()];
+            let known = |value: f64| {
+                let mut critical = self.critical.iter().filter(|(other, _)| *other == joint);
+                critical.any(|(_, other)| self.model.difference(joint, value, *other).abs() <= 1e-6)
+            };
+            let value = self.sign_changes(&q, joint).into_iter().find(|&value| !known(value))?;
+            q[joint] = value;
+            Some(Singularity { q, way: joint })
+        })
+    }
+
+    /// Next to a singular configuration: the joint that leads out of it has moved by 10^-k.
+    fn near(&mut self, k: u32) -> Option<Target> {
+        let distance = 10.0_f64.powi(-(k as i32));
+        let q = (0..DRAWS).find_map(|_| {
+            let Singularity { mut q, way } = self.singular()?;
+            let side = if self.done.is_multiple_of(2) { 1.0 } else { -1.0 };
+            q[way] += side * distance * self.model.unit(way);
+            // It may be singular for another reason still.
+            (self.model.sigma(&q) >= 1e-3 * distance).then_some(q)
+        })?;
+        Some(self.reached(Kind::Near(k), q))
+    }
+
+    /// One joint at a multiple of a right angle.
+    fn special(&mut self) -> Target {
+        self.done += 1;
+        let mut q = self.joints();
+        let joint = self.model.unknown[self.done % self.model.unknown.len()];
+        let turns = self.done / self.model.unknown.len();
+        q[joint] = if self.model.turns(joint) { FRAC_PI_2 * (turns % 4) as f64 } else { 0.0 };
+        self.reached(Kind::Special, q)
+    }
+
+    /// A singular target moved by 10^-k reaches, or radians, in the direction in which the tip cannot go: to either side of the
+    /// boundary, where it is one.
+    fn edge(&mut self) -> Option<Target> {
+        let found = (0..DRAWS).find_map(|_| self.mixed()).or_else(|| self.singular())?;
+        self.done += 1;
+        let outward = null_vector(self.model.jacobian(&found.q).transpose())?;
+        let k = [3, 6, 9, 12][self.done % 4];
+        let side = if (self.done / 4).is_multiple_of(2) { 1.0 } else { -1.0 };
+        let shift = outward * side * 10.0_f64.powi(-k);
+        let mut inputs = self.shifted(&found.q, shift.as_slice())?;
+        inputs.extend(self.model.chain.given_inputs().iter().map(|&joint| found.q[joint]));
+        let k = k.unsigned_abs();
+        Some(Target { kind: Kind::Edge(k), inputs, joints: None })
+    }
+
+    /// What the task sees after a small motion of the tip, told as a row of the Jacobian is.
+    fn shifted(&self, q: &[f64], rows: &[f64]) -> Option<Vec<f64>> {
+        use groebot_robot::kinematics::Task;
+        let pose = self.model.forward(q);
+        let mut v = Vector3::zeros();
+        let mut w = Vector3::zeros();
+        match self.model.chain.task() {
+            Task::Position => v.copy_from_slice(rows),
+            Task::PlanarPosition { plane } => plane.coordinates().iter().zip(rows).for_each(|(&i, x)| v[i] = *x),
+            Task::PlanarPose { plane } => {
+                plane.coordinates().iter().zip(rows).for_each(|(&i, x)| v[i] = *x);
+                w[plane.normal()] = rows[2];
+            }
+            Task::Pose => {
+                v.copy_from_slice(&rows[..3]);
+                w.copy_from_slice(&rows[3..]);
+            }
+            Task::PositionYaw { axis } => {
+                v.copy_from_slice(&rows[..3]);
+                w[axis.coordinate()] = rows[3];
+            }
+            Task::Rotation => w.copy_from_slice(rows),
+            Task::Ray | Task::Direction | Task::PositionPitchRoll => return None,
+        }
+        let turn = UnitQuaternion::from_scaled_axis(w) * pose.rotation;
+        let translation = Translation3::from(pose.translation.vector + v * self.model.length);
+        Some(self.model.seen(&Pose::from_parts(translation, turn)))
+    }
+
+    /// Any position within two reaches and any orientation.
+    fn anywhere(&mut self) -> Target {
+        let size = 2.0 * self.model.length;
+        let given: Vec<f64> = self.joints();
+        let mut number = |limit: f64| self.random.between(-limit, limit);
+        let translation = Vector3::from_fn(|_, _| number(size));
+        let axis = Vector3::from_fn(|_, _| number(1.0)).normalize();
+        let turn = match self.model.chain.task().plane() {
+            Some(plane) => {
+                UnitQuaternion::from_scaled_axis(Vector3::ith(plane.normal(), number(PI)))
+                    * self.model.chain.base_from_tip().rotation
+            }
+            None => UnitQuaternion::from_scaled_axis(axis * number(TAU)),
+        };
+        let pose = Pose::from_parts(Translation3::from(translation), turn);
+        let mut inputs = self.model.seen(&pose);
+        inputs.extend(self.model.chain.given_inputs().iter().map(|&joint| given[joint]));
+        Target { kind: Kind::Anywhere, inputs, joints: None }
+    }
+
+    /// A reachable target moved by many reaches; `None` where nothing is out of reach by its position.
+    fn far(&mut self) -> Option<Target> {
+        let q = self.joints();
+        let mut inputs = self.model.target(&q);
+        let lengths = self.model.lengths();
+        inputs[..lengths].iter_mut().for_each(|value| *value += FAR * self.model.length);
+        (lengths > 0).then_some(Target { kind: Kind::Far, inputs, joints: None })
+    }
+}

@@ -1,0 +1,93 @@
+//! Printed solvers of six axes by one eigenvalue problem: compiled, run, compared with the evaluator.
+
+use super::derivations::targets_of;
+use super::harness::{SANITIZERS, compare, compile_solver, feed, has_sanitizers, write_c};
+use super::single;
+use super::stored::{Stored, named};
+
+const FOLDERS: [&str; 9] = [
+    "booster_leg_like",
+    "crx_like",
+    "gen3_like",
+    "general_4r2p",
+    "general_5r1p",
+    "general_6r",
+    "jaco_like",
+    "ur5_calibrated",
+    "xarm6_like",
+];
+
+fn folders() -> Vec<Stored> {
+    let stored = named(&FOLDERS);
+    assert_eq!(stored.len(), FOLDERS.len());
+    stored
+}
+
+/// The arithmetic is the same in all languages, and so are the answers: not one joint is another double.
+#[test]
+fn printed_eigenvalue_problems_answer_like_the_program() {
+    for stored in named(&["gen3_like", "general_6r"]) {
+        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 120)) {
+            assert!(report.answers > 150 && report.refused > 10, "{report:?}");
+            assert_eq!(report.unequal, 0, "{}: {report:?}", stored.name);
+        }
+    }
+}
+
+/// Next to self-motions too, where walks along curves find the answers: the targets of the derivation's check.
+#[test]
+fn printed_walks_along_curves_answer_like_the_program() {
+    for stored in named(&["jaco_like", "general_5r1p"]) {
+        let singular = |row: &csv::StringRecord| row[0].contains("singular");
+        let numbers = |row: csv::StringRecord| row.iter().skip(1).take(12).map(|word| word.parse().unwrap()).collect();
+        let path = format!("{}/derivations/{}/6_check.csv", concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), stored.name);
+        let mut file = csv::Reader::from_path(path).unwrap();
+        let targets: Vec<Vec<f64>> =
+            file.records().map(Result::unwrap).filter(singular).step_by(2).map(numbers).collect();
+        if let Some(report) = compare(&stored.program, &targets) {
+            assert!(report.answers > 75 && report.unequal == 0, "{}: {report:?}", stored.name);
+        }
+    }
+}
+
+#[test]
+#[ignore = "minutes: ten thousand targets of each folder"]
+fn every_printed_eigenvalue_problem_answers_like_the_program() {
+    for stored in folders() {
+        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 10_000)) {
+            assert!(report.answers >= 10_000 && report.unequal == 0, "{}: {report:?}", stored.name);
+        }
+    }
+}
+
+/// No access out of bounds and no undefined operation, targets that are none among the targets.
+#[test]
+fn the_c_file_runs_under_sanitizers() {
+    for stored in named(&["crx_like"]) {
+        let folder = tempfile::tempdir().unwrap();
+        write_c(&stored.program, folder.path());
+        let checked = [&SANITIZERS[..], &["-O1", "-g"]].concat();
+        if !has_sanitizers(folder.path()) || compile_solver(&stored.program, folder.path(), &[], "c99").is_none() {
+            return;
+        }
+        compile_solver(&stored.program, folder.path(), &checked, "checked");
+        let targets = targets_of(&stored.program, 100);
+        let lines = targets.iter().map(|target| {
+            let words: Vec<String> = target.iter().map(|value| format!("{value:e}")).collect();
+            words.join(" ")
+        });
+        let text = format!("{}\n{}\n", targets.len(), lines.collect::<Vec<_>>().join("\n"));
+        assert_eq!(feed(&folder.path().join("checked"), text.clone()), feed(&folder.path().join("c99"), text));
+    }
+}
+
+/// In single precision eigenvalues are known to about a thousandth: some answers are lost, none is wrong.
+#[test]
+fn single_precision_finds_most_answers() {
+    for stored in named(&["general_6r", "xarm6_like"]) {
+        let Some(seen) = single::compare(&stored.program, 600) else { return };
+        println!("{}: {seen:?}", stored.name);
+        assert!(seen.farthest <= 1e-4, "{}: {seen:?}", stored.name);
+        assert!(seen.found * 100 >= seen.expected * 95, "{}: {seen:?}", stored.name);
+    }
+}

@@ -1,0 +1,227 @@
+//! NAO's legs, whose hips one actuator turns: eleven actuators.
+
+use std::fs;
+use std::path::Path;
+use std::sync::LazyLock;
+use std::time::{Duration, Instant};
+
+use groebot_ik::derive::coupled::{CoupledChains, DerivedCoupled};
+use groebot_ik::{ErrorKind, Watch};
+use groebot_robot::kinematics::screw::ScrewSolver;
+use groebot_robot::kinematics::{Chain, Solution, Target, Task, along_z};
+use groebot_robot::robots;
+
+use super::{Random, distance};
+
+/// The left foot's pose; of the right foot the position and where the sole's normal points.
+const POSE_AND_RAY: &str = r#"
+name = "legs"
+shared = [["left.HipYawPitch", "right.HipYawPitch"]]
+[[chain]]
+name = "right"
+chain = "right.toml"
+task = { kind = "ray", direction = [0, 0, 1] }
+[[chain]]
+name = "left"
+chain = "left.toml"
+"#;
+
+fn derive(text: &str) -> DerivedCoupled {
+    let folder = tempfile::tempdir().unwrap();
+    for (file, robot) in [("left.toml", "nao_left_leg"), ("right.toml", "nao_right_leg")] {
+        let described = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+            .join("derivations")
+            .join(robot)
+            .join("0_chain.toml");
+        fs::copy(described, folder.path().join(file)).unwrap();
+    }
+    fs::write(folder.path().join("0_coupled.toml"), text).unwrap();
+    let members = CoupledChains::read(&folder.path().join("0_coupled.toml")).unwrap();
+    DerivedCoupled::of_coupled(&members, &Watch::none()).unwrap()
+}
+
+static LEGS: LazyLock<DerivedCoupled> = LazyLock::new(|| derive(POSE_AND_RAY));
+
+/// Both feet's poses: twelve numbers for eleven actuators.
+static BOTH_POSES: LazyLock<DerivedCoupled> =
+    LazyLock::new(|| derive(&POSE_AND_RAY.replace("task = { kind = \"ray\", direction = [0, 0, 1] }", "")));
+
+fn names<'a>(list: impl IntoIterator<Item = &'a String>) -> String {
+    list.into_iter().map(String::as_str).collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn the_solver_has_eleven_joints_and_the_inputs_of_both_feet() {
+    let program = &LEGS.program;
+    program.validate().unwrap();
+    assert_eq!(
+        names(program.joints.iter().map(|joint| &joint.name)),
+        "HipYawPitch left_HipRoll left_HipPitch left_KneePitch left_AnklePitch left_AnkleRoll right_HipRoll \
+         right_HipPitch right_KneePitch right_AnklePitch right_AnkleRoll"
+    );
+    assert_eq!(
+        names(program.inputs.iter().map(|input| &input.name)),
+        "left_px left_py left_pz left_r11 left_r12 left_r13 left_r21 left_r22 left_r23 left_r31 left_r32 left_r33 \
+         right_px right_py right_pz right_dx right_dy right_dz"
+    );
+    let members: Vec<&str> =
+        LEGS.stages.iter().map(|stage| LEGS.coupled.chains()[stage.member].name.as_str()).collect();
+    assert_eq!(members, ["left", "right"], "the ray alone does not determine six joints");
+}
+
+/// The largest miss of a foot: its position as a share of the leg's length, and its rotation or its sole's normal.
+fn miss(chain: &Chain, reached: &[f64], asked: &[f64]) -> f64 {
+    let reached = chain.forward(reached).unwrap();
+    let asked = chain.forward(asked).unwrap();
+    let position = (reached.translation.vector - asked.translation.vector).amax() / chain.reach();
+    let (reached, asked) = (reached.rotation.to_rotation_matrix(), asked.rotation.to_rotation_matrix());
+    let turn = reached.matrix() - asked.matrix();
+    position.max(if chain.task() == Task::Ray { turn.column(2).amax() } else { turn.amax() })
+}
+
+/// The number of answers by screw theory: of the left leg, and for each of the right leg with its hip where the left leg has it.
+fn counted(left: &ScrewSolver, right: &ScrewSolver, q: [&[f64]; 2]) -> usize {
+    let answers = left.solve(&Target::reached(left.chain(), q[0]).unwrap()).unwrap();
+    let target = Target::reached(right.chain(), q[1]).unwrap();
+    let solved = |hip: f64| right.solve_given(&target, &[hip]).unwrap().len();
+    answers.iter().map(|answer| solved(answer.q[0])).sum()
+}
+
+#[test]
+fn both_feet_are_reached_in_all_ways_and_as_often_as_screw_theory_says() {
+    let left = robots::nao_left_leg();
+    let given = vec!["RHipYawPitch".to_owned()];
+    let right = robots::nao_right_leg().with_task(Task::Ray, along_z(), given).unwrap();
+    let screws = [&left, &right].map(|chain| ScrewSolver::new(chain).unwrap());
+    let mut random = Random(11);
+    let (mut running, mut most) = (Duration::ZERO, 0);
+    let solver = LEGS.program.solver();
+    for pose in 0..200 {
+        let q = random.angles(11);
+        let target = LEGS.reached(&q).unwrap();
+        let start = Instant::now();
+        let answers = solver.solve_numbers(&target).unwrap();
+        running += start.elapsed();
+        let place = format!("pose {pose} {q:?}");
+        assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{place}: {answers:?}");
+        let feet = |q: &[f64]| [LEGS.joints_of(1, q).unwrap(), LEGS.joints_of(0, q).unwrap()];
+        let asked = feet(&q);
+        for answer in &answers {
+            let reached = feet(&answer.q);
+            assert!(miss(&left, &reached[0], &asked[0]) <= 1e-12, "{place}: left foot of {answer:?}");
+            assert!(miss(&right, &reached[1], &asked[1]) <= 1e-12, "{place}: right foot of {answer:?}");
+            assert!(answer.free.is_empty(), "{place}: {answer:?}");
+        }
+        let expected = counted(&screws[0], &screws[1], [&asked[0], &asked[1]]);
+        assert_eq!(answers.len(), expected, "{place}: {answers:?}");
+        most = most.max(answers.len());
+    }
+    println!("at most {most} answers, {:?} each", running / 200);
+}
+
+#[test]
+fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
+    let legs = [robots::nao_left_leg(), robots::nao_right_leg()];
+    let mut random = Random(12);
+    let solver = BOTH_POSES.program.solver();
+    for pose in 0..40 {
+        let q = random.angles(11);
+        let target = BOTH_POSES.reached(&q).unwrap();
+        let answers = solver.solve_numbers(&target).unwrap();
+        assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "pose {pose} {q:?}: {answers:?}");
+        for (member, chain) in [(1, &legs[0]), (0, &legs[1])] {
+            let asked = BOTH_POSES.joints_of(member, &q).unwrap();
+            for answer in &answers {
+                let reached = BOTH_POSES.joints_of(member, &answer.q).unwrap();
+                assert!(miss(chain, &reached, &asked) <= 1e-12, "pose {pose} {q:?}: {answer:?}");
+            }
+        }
+        assert_eq!(BOTH_POSES.explain(&target, &Watch::none()).unwrap(), None);
+    }
+}
+
+/// Each foot can be reached, but not with one value of the hip's actuator: the left leg's is 0.01 off. The hip's values differ by that,
+/// but where two other ways of the legs come nearer by chance.
+#[test]
+fn two_poses_that_disagree_are_refused_by_the_actuator_and_by_how_much() {
+    let mut random = Random(13);
+    let mut exact = 0;
+    let solver = BOTH_POSES.program.solver();
+    for _ in 0..8 {
+        let q = random.angles(11);
+        let mut other = q.clone();
+        other[0] += 0.01;
+        let mut target = BOTH_POSES.reached(&q).unwrap();
+        // The right foot's pose stands first.
+        target[12..].copy_from_slice(&BOTH_POSES.reached(&other).unwrap()[12..]);
+        // Some of these take all steps that a target may take: then none is found, either.
+        let found = solver.solve_numbers(&target);
+        assert!(found.map_or_else(|error| error.kind() == ErrorKind::Budget, |answers| answers.is_empty()));
+        let explained = BOTH_POSES.explain(&target, &Watch::none()).unwrap().unwrap();
+        assert_eq!((explained.member.as_str(), explained.before), ("left", 8));
+        assert!(explained.to_string().contains("chain `left` needs `HipYawPitch` at"), "{explained}");
+        let disagreement = explained.disagreement.unwrap();
+        assert!(disagreement.actuator == "HipYawPitch" && disagreement.off().abs() <= 0.01 + 1e-9, "{disagreement:?}");
+        exact += usize::from((disagreement.off() - 0.01).abs() < 1e-9);
+    }
+    assert!(exact >= 7, "{exact} of 8");
+}
+
+/// Both feet below the hips, soles level, knees bent: the foot's x axis and that of the hip's roll are parallel.
+#[test]
+fn the_standing_robot_is_found() {
+    let leg = [0.0, -0.4, 0.8, -0.4, 0.0];
+    let q = [&[0.0][..], &leg, &leg].concat();
+    let answers = BOTH_POSES.program.solve_numbers(&BOTH_POSES.reached(&q).unwrap()).unwrap();
+    assert_eq!(answers.len(), 32, "{answers:?}");
+    assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{answers:?}");
+}
+
+/// Where one hip's axes are in line its leg leaves the actuator open; the other leg says where it stands.
+#[test]
+fn a_hip_that_one_leg_leaves_open_is_found_from_the_other() {
+    let mut random = Random(15);
+    // The first and the third axis are in line where the roll turns the third into the first: by 45 and 135 degrees to either side.
+    let solver = BOTH_POSES.program.solver();
+    for (member, roll) in [(1, 2.356_194_490_192_345), (0, -2.356_194_490_192_345)] {
+        let roll_place = BOTH_POSES.stages.iter().find(|stage| stage.member == member).unwrap().joints[1];
+        for _ in 0..10 {
+            let mut q = random.angles(11);
+            q[roll_place] = roll;
+            let target = BOTH_POSES.reached(&q).unwrap();
+            let answers = solver.solve_numbers(&target).unwrap();
+            let near = |answer: &Solution| distance(&answer.q, &q) < 1e-6;
+            assert!(answers.iter().any(near), "{q:?}: {answers:?}");
+        }
+    }
+}
+
+#[test]
+fn a_foot_out_of_reach_is_named() {
+    let q = Random(14).angles(11);
+    let mut target = LEGS.reached(&q).unwrap();
+    target[12] += 1.0;
+    let explained = LEGS.explain(&target, &Watch::none()).unwrap().unwrap();
+    assert_eq!(explained.member, "right");
+    target[12] -= 1.0;
+    target[0] += 1.0;
+    let explained = LEGS.explain(&target, &Watch::none()).unwrap().unwrap();
+    assert_eq!((explained.member.as_str(), explained.before), ("left", 0));
+}
+
+#[test]
+fn the_certificate_proves_the_same_solver_again_and_no_other() {
+    let text = LEGS.certificate().unwrap();
+    let again = DerivedCoupled::prove(&LEGS.coupled, &text).unwrap();
+    assert_eq!(again.program, LEGS.program);
+    let refused = |text: &str, kind: ErrorKind, word: &str| {
+        let error = DerivedCoupled::prove(&LEGS.coupled, text).unwrap_err();
+        assert!(error.kind() == kind && error.message().contains(word), "`{word}`: {error}");
+    };
+    refused(&text.replacen("\"chain\": \"left\"", "\"chain\": \"right\"", 1), ErrorKind::Certificate, "`left`");
+    refused(&text.replacen("\"name\": \"legs\"", "\"name\": \"arms\"", 1), ErrorKind::Certificate, "`arms`");
+    refused(&text.replacen("\"joint\": 0", "\"joint\": 1", 1), ErrorKind::Certificate, "chain `left`");
+    refused(&text[..text.len() / 2], ErrorKind::Syntax, "certificate");
+    let both = DerivedCoupled::prove(&BOTH_POSES.coupled, &text).unwrap_err();
+    assert_eq!(both.kind(), ErrorKind::Certificate, "{both}");
+}

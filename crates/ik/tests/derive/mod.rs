@@ -1,0 +1,26 @@
+//! Tests of `groebot_ik::derive`.
+
+mod certificate;
+mod chains;
+mod closure;
+mod coupled;
+pub mod described;
+mod described_singular;
+mod encoding;
+mod ends;
+mod explain;
+mod families;
+mod followers;
+mod mimic;
+mod noisy;
+mod planner;
+mod position_yaw;
+mod random_chains;
+mod renamed;
+mod robots;
+mod seed;
+mod sequential;
+mod strata;
+mod system;
+mod system_toml;
+mod upright;

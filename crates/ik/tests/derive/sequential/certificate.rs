@@ -1,0 +1,75 @@
+//! The certificate of a chain: proved again without search, refused where it is forged.
+
+use groebot_ik::ErrorKind;
+use groebot_ik::derive::sequential::certificate;
+use groebot_robot::kinematics::Chain;
+use groebot_robot::robots;
+use serde_json::Value;
+
+use super::derive;
+
+fn puma() -> (groebot_robot::kinematics::Chain, String) {
+    let chain = robots::puma();
+    let text = certificate::write(&derive(&chain)).unwrap();
+    (chain, text)
+}
+
+#[test]
+fn it_proves_the_same_derivation_again() {
+    for robot in robots::ALL {
+        let derived = derive(&robot.chain());
+        let text = certificate::write(&derived).unwrap();
+        assert_eq!(certificate::prove(&robot.chain(), &text).unwrap(), derived, "{}", robot.name());
+        assert_eq!(text, certificate::write(&derive(&robot.chain())).unwrap(), "the same bytes at every run");
+        let size: usize = derived.stage_files().unwrap().iter().map(|(_, bytes)| bytes.len()).sum();
+        assert!(size < 500_000 && text.len() < 200_000, "{}: {size} {}", robot.name(), text.len());
+    }
+}
+
+fn refused(change: impl Fn(&mut Value)) -> String {
+    let (chain, text) = puma();
+    let mut value: Value = serde_json::from_str(&text).unwrap();
+    change(&mut value["claims"]);
+    let error = certificate::prove(&chain, &value.to_string()).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Certificate, "{error}");
+    error.message().to_owned()
+}
+
+#[test]
+fn a_forged_plan_fails_at_its_step() {
+    let text = refused(|value| value["plan"]["steps"].as_array_mut().unwrap().swap(0, 3));
+    assert!(text.contains("step 1"), "{text}");
+    let text = refused(|value| drop(value["plan"]["steps"].as_array_mut().unwrap().pop()));
+    assert!(text.contains("every joint"), "{text}");
+    let text = refused(|value| value["plan"]["steps"][1]["degree"] = 1.into());
+    assert!(text.contains("step 2"), "{text}");
+    let text = refused(|value| value["plan"]["dimension"] = 4.into());
+    assert!(text.contains("8 solutions"), "{text}");
+}
+
+#[test]
+fn a_forged_relation_or_basis_is_refused() {
+    let text = refused(|value| {
+        let way = &mut value["plan"]["steps"][1]["way"];
+        let relation = if way["single"].is_null() { &mut way["pair"][0] } else { &mut way["single"] };
+        let object = relation["moved"].as_object_mut().unwrap().values_mut().next().unwrap();
+        object[0] = "7/3".into();
+    });
+    assert!(text.contains("step 2") && text.contains("does not follow"), "{text}");
+    let text = refused(|value| value["form_bases"][0]["strata"][0]["claim"]["basis"][0] = "w^2 - A^2".into());
+    assert!(text.contains("form `angle`"), "{text}");
+    let text = refused(|value| drop(value["form_bases"].as_array_mut().unwrap().pop()));
+    assert!(text.contains("the bases are not those of the steps' forms"), "{text}");
+}
+
+/// A position says nothing of where other points of the tip are: an equation about one of these holds in the loop, but not for all poses with that position.
+#[test]
+fn an_equation_about_what_the_task_does_not_see_is_refused() {
+    let chain = Chain::from_toml(include_str!("../../../../../derivations/polar/0_chain.toml")).unwrap();
+    let mut value: Value = serde_json::from_str(&certificate::write(&derive(&chain)).unwrap()).unwrap();
+    let point = &mut value["claims"]["plan"]["steps"][0]["way"]["single"]["moved"]["point"];
+    assert!(point.as_array().is_some_and(|point| point.len() == 3), "{point}");
+    point.as_array_mut().unwrap().swap(0, 1);
+    let error = certificate::prove(&chain, &value.to_string()).unwrap_err();
+    assert!(error.kind() == ErrorKind::Certificate && error.message().contains("than the task sees"), "{error}");
+}

@@ -1,0 +1,6 @@
+//! Tests of `groebot_ik::folder`: a forged file or a forged record of a certificate is refused, or what it says is still true.
+
+mod files;
+mod honest;
+mod motion;
+mod records;

@@ -1,0 +1,156 @@
+//! Places, orientations and refusals.
+
+use std::f64::consts::FRAC_PI_2;
+
+use groebot_ik::derive::Proved;
+use groebot_ik::reach::{Ask, Axis, Grid, Measure, Survey};
+use groebot_ik::solver::Program;
+use groebot_ik::{ErrorKind, Watch};
+use groebot_robot::kinematics::Chain;
+
+use super::{derivation, grid, map};
+
+#[test]
+fn places_are_numbered_with_z_first() {
+    let grid = grid([(-1.0, 1.0, 3), (0.0, 3.0, 4), (0.5, 0.5, 1)]);
+    assert_eq!(grid.places(), 12);
+    assert_eq!((grid.at(0), grid.at(1), grid.at(4)), ([-1.0, 0.0, 0.5], [-1.0, 1.0, 0.5], [0.0, 0.0, 0.5]));
+    assert_eq!(grid.at(11), [1.0, 3.0, 0.5]);
+    assert!((0..12).all(|place| grid.place(grid.numbers(place)) == place));
+    assert_eq!((grid.axes()[1].step(), grid.axes()[2].step()), (1.0, 0.0));
+}
+
+#[test]
+fn what_is_no_grid_is_refused() {
+    for (from, to, count) in
+        [(0.0, 1.0, 0), (1.0, 0.0, 2), (0.0, 0.0, 2), (0.0, 1.0, 1), (f64::NAN, 1.0, 2), (0.0, f64::INFINITY, 2)]
+    {
+        assert_eq!(Axis::new(from, to, count).unwrap_err().kind(), ErrorKind::BadValue, "{from} {to} {count}");
+    }
+    let long = Axis::new(0.0, 1.0, 1000).unwrap();
+    assert_eq!(Grid::new([long; 3]).unwrap_err().kind(), ErrorKind::BadValue);
+    let none = Axis { from: 0.0, to: 1.0, count: 0 };
+    assert!(Grid::new([none, long, long]).unwrap_err().message().contains("`x`"));
+    let vast = Axis::new(0.0, 1.0, usize::MAX).unwrap();
+    assert_eq!(Grid::new([vast; 3]).unwrap_err().kind(), ErrorKind::BadValue);
+}
+
+#[test]
+fn questions_that_no_map_answers_are_refused() {
+    let here = Ask::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.2, 0.2, 1)]));
+    let refused = |name: &str, ask: &Ask| map(name, ask).unwrap_err();
+    // No place is asked for, or two tips.
+    for name in ["wrist_rotation", "nao_head"] {
+        assert_eq!(refused(name, &here).kind(), ErrorKind::Unsupported, "{name}");
+    }
+    let legs = Program::from_json(&std::fs::read_to_string("derivations/nao_legs/5_program.json").unwrap()).unwrap();
+    assert_eq!(Survey::new(&legs.solver(), &legs, None, &here).err().unwrap().kind(), ErrorKind::Unsupported);
+    let line = Ask::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.0, 1.0, 5)]));
+    assert!(refused("planar_2r", &line).message().contains("asks for no z"));
+    for orientations in [0, 1_000_001] {
+        assert_eq!(refused("ur5", &Ask { orientations, ..here.clone() }).kind(), ErrorKind::BadValue);
+    }
+    for given in [vec![], vec![0.1, 0.2], vec![f64::NAN]] {
+        assert!(refused("iiwa14", &Ask { given, ..here.clone() }).message().contains("A3"));
+    }
+    // Nothing is said of its limits, or the wrong thing.
+    assert_eq!(refused("planar_2r", &Ask { measure: Measure::Limits, ..here.clone() }).kind(), ErrorKind::BadValue);
+    for limits in [vec![[0.0, 1.0]], vec![[0.0, f64::NAN]; 2], vec![[0.0, 1.0], [1.0, 0.0]]] {
+        assert_eq!(refused("planar_2r", &Ask { limits: Some(limits), ..here.clone() }).kind(), ErrorKind::BadValue);
+    }
+    let (_, program) = derivation("planar_2r");
+    let ask = Ask { measure: Measure::Manipulability, ..here };
+    let without = Survey::new(&program.solver(), &program, None, &ask).err().unwrap();
+    assert_eq!(without.kind(), ErrorKind::Unsupported);
+}
+
+#[test]
+fn orientations_are_spread_evenly_over_all() {
+    // An arm whose tip is where the three axes of its wrist meet. For each way of the arm, where rotations are spread evenly the sine of the wrist's pitch is, too, and one of two answers has the pitch between -90 and 90
+    // degrees: up to an angle a it has the share (1 + sin a) / 2 of all.
+    let text = std::fs::read_to_string("derivations/puma/0_chain.toml").unwrap();
+    let at_wrist = text.replace("[0, 1.524, 0.15]", "[0, 1.524, 0]");
+    assert_ne!(at_wrist, text);
+    let chain = Chain::from_toml(&at_wrist).unwrap();
+    let proved = Proved::of_chain(&chain, &Watch::none()).unwrap();
+    let (program, free) = (proved.program(), [f64::NEG_INFINITY, f64::INFINITY]);
+    let places = grid([(0.3, 0.3, 1), (0.8, 0.8, 1), (0.4, 0.4, 1)]);
+    let orientations = 2000;
+    let answers = |seed: Option<u64>, limits: Option<Vec<[f64; 2]>>| {
+        let ask = Ask { orientations, seed, limits, ..Ask::new(places) };
+        let found = Survey::new(&program.solver(), program, Some(&chain), &ask).unwrap().map(&Watch::none()).unwrap();
+        found.entries[0].answers
+    };
+    for (most, seed) in [(-1.0, None), (-0.3, None), (0.6, None), (1.2, Some(3)), (0.6, Some(4))] {
+        let mut limits = vec![free; 6];
+        limits[4] = [-FRAC_PI_2, most];
+        let (all, within) = (answers(seed, None), answers(seed, Some(limits)));
+        assert_eq!(all as usize, 8 * orientations);
+        let share = 2.0 * f64::from(within) / f64::from(all);
+        let wanted = (1.0 + f64::sin(most)) / 2.0;
+        assert!((share - wanted).abs() < 0.01, "{most}: {share} {wanted}");
+    }
+}
+
+#[test]
+fn a_map_does_not_depend_on_how_it_is_cut() {
+    let (chain, program) = derivation("ur5");
+    let solver = program.solver();
+    let places = grid([(-0.9, 0.9, 5), (0.0, 0.8, 3), (-0.1, 0.9, 4)]);
+    for measure in [Measure::Count, Measure::Manipulability] {
+        for seed in [None, Some(7)] {
+            let ask = Ask { orientations: 37, measure, seed, ..Ask::new(places) };
+            let survey = Survey::new(&solver, &program, Some(&chain), &ask).unwrap();
+            let whole = survey.map(&Watch::none()).unwrap();
+            let cuts = [0, 1, 17, 18, 60];
+            let parts = cuts.windows(2).flat_map(|ends| survey.entries(ends[0]..ends[1], &Watch::none()).unwrap());
+            assert_eq!(whole.entries, parts.collect::<Vec<_>>());
+            let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+            assert_eq!(whole, alone.install(|| survey.map(&Watch::none())).unwrap());
+            assert!(whole.reached() > 0 && whole.entries.iter().any(|entry| entry.reached == 0));
+        }
+    }
+}
+
+#[test]
+fn a_seed_turns_each_place_otherwise() {
+    let places = grid([(0.3, 0.6, 4), (0.3, 0.3, 1), (0.4, 0.4, 1)]);
+    let reached = |seed: Option<u64>| -> Vec<u32> {
+        let map = map("ur5", &Ask { orientations: 300, seed, ..Ask::new(places) }).unwrap();
+        map.entries.iter().map(|entry| entry.answers).collect()
+    };
+    let (own, one, two) = (reached(None), reached(Some(1)), reached(Some(2)));
+    assert!(own != one && one != two && one == reached(Some(1)));
+}
+
+#[test]
+fn long_maps_can_be_stopped() {
+    let (_, program) = derivation("ur5");
+    let ask = Ask { orientations: 1000, ..Ask::new(grid([(-1.0, 1.0, 100), (-1.0, 1.0, 100), (-1.0, 1.0, 100)])) };
+    let solver = program.solver();
+    let survey = Survey::new(&solver, &program, None, &ask).unwrap();
+    let budget = Watch::none().with_time(std::time::Duration::from_millis(30));
+    assert_eq!(survey.map(&budget).unwrap_err().kind(), ErrorKind::Budget);
+    let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
+    assert_eq!(survey.map(&Watch::none().with_cancel(flag)).unwrap_err().kind(), ErrorKind::Cancelled);
+}
+
+#[test]
+fn given_joints_are_told_from_numbers_of_the_same_name() {
+    // The upright arm has a joint `roll`, and its task a number of that name.
+    let told = [
+        ("upright_arm", 0),
+        ("iiwa14", 1),
+        ("nao_left_arm_position", 1),
+        ("nao_left_arm", 0),
+        ("planar_4r", 1),
+        ("ur5", 0),
+    ];
+    for (name, count) in told {
+        let mut program = derivation(name).1;
+        assert_eq!(program.given(), program.inputs.len() - count..program.inputs.len(), "{name}");
+        // Without what is known of the source, by the names.
+        program.about = None;
+        assert_eq!(program.given().len(), if name == "upright_arm" { 1 } else { count }, "{name}");
+    }
+}

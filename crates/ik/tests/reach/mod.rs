@@ -1,0 +1,30 @@
+//! Maps of what solvers reach: against plane geometry, against the screw solver, and against other ways to count the same.
+
+mod arms;
+mod grids;
+mod stored;
+
+use std::path::PathBuf;
+
+use groebot_ik::derive::{Ends, InputFile};
+use groebot_ik::reach::{Ask, Axis, Grid, ReachMap, Survey};
+use groebot_ik::solver::Program;
+use groebot_ik::{Result, Watch};
+use groebot_robot::kinematics::Chain;
+
+/// The chain and the program of a committed derivation.
+fn derivation(name: &str) -> (Chain, Program) {
+    let folder = PathBuf::from("derivations").join(name);
+    let chain = InputFile::read(&folder).unwrap().chain(&Ends::default()).unwrap().unwrap();
+    let program = Program::from_json(&std::fs::read_to_string(folder.join("5_program.json")).unwrap()).unwrap();
+    (chain, program)
+}
+
+fn grid(axes: [(f64, f64, usize); 3]) -> Grid {
+    Grid::new(axes.map(|(from, to, count)| Axis::new(from, to, count).unwrap())).unwrap()
+}
+
+fn map(name: &str, ask: &Ask) -> Result<ReachMap> {
+    let (chain, program) = derivation(name);
+    Survey::new(&program.solver(), &program, Some(&chain), ask)?.map(&Watch::none())
+}

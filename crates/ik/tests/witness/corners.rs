@@ -1,0 +1,63 @@
+//! Joints at multiples of a right angle, several at once: poses that are singular in more than one way.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use groebot_ik::Watch;
+use groebot_ik::derive::sequential::Derived;
+use groebot_robot::robots;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestRunner};
+
+/// Joint values of six joints: each anywhere or, more often, at a multiple of a right angle.
+fn corners() -> impl Strategy<Value = [f64; 6]> {
+    let corner = prop::sample::select(vec![-FRAC_PI_2, 0.0, FRAC_PI_2, PI]);
+    prop::array::uniform6(prop_oneof![2 => -PI..PI, 3 => corner])
+}
+
+/// A UR5's arm, its elbow and its wrist straight, with the wrist's offset in line as well: the wrist, which is free elsewhere, has one place
+/// only, from which each joint's motion misses the target by the square of its way at least.
+fn stretched() -> impl Strategy<Value = [f64; 6]> {
+    let wrist = prop::sample::select(vec![0.0, PI]);
+    (prop::array::uniform3(-PI..PI), wrist)
+        .prop_map(|([pan, lift, last], wrist)| [pan, lift, 0.0, -FRAC_PI_2, wrist, last])
+}
+
+/// Solves the poses that so many joint values reach: each pose has an answer, and each answer reaches it; where no joint is free, the joint
+/// values are among the answers.
+fn answer_all(derived: &Derived, cases: u32, joints: impl Strategy<Value = [f64; 6]>) {
+    let mut runner = TestRunner::new(Config { failure_persistence: None, ..Config::with_cases(cases) });
+    let run = |q: [f64; 6]| {
+        let target = derived.reached(&q).unwrap();
+        let found = derived.program.solve_numbers(&target).unwrap();
+        prop_assert!(!found.is_empty(), "{q:?}: no answer");
+        for answer in &found {
+            let reached = derived.reached(&answer.q).unwrap();
+            prop_assert!(reached.iter().zip(&target).all(|(a, b)| (a - b).abs() < 1e-11), "{q:?}: {answer:?}");
+        }
+        // A miss of 1e-14 moves the joints of a double root by its square root.
+        let near = |a: f64, b: f64| (a - b).sin().abs() < 1e-5 && (a - b).cos() > 0.0;
+        let is_found = found.iter().any(|answer| answer.q.iter().zip(q).all(|(a, b)| near(*a, b)));
+        prop_assert!(is_found || found.iter().any(|answer| !answer.free.is_empty()), "{q:?}: {found:?}");
+        Ok(())
+    };
+    runner.run(&joints, run).unwrap();
+}
+
+fn ur5() -> Derived {
+    Derived::of_chain(&robots::ur5(), &Watch::none()).unwrap()
+}
+
+#[test]
+fn a_pose_that_is_singular_twice_is_answered() {
+    let derived = ur5();
+    answer_all(&derived, 60, stretched());
+    answer_all(&derived, 500, corners());
+}
+
+#[test]
+#[ignore = "a minute: 20,000 poses each"]
+fn poses_that_are_singular_twice_are_answered() {
+    let derived = ur5();
+    answer_all(&derived, 20_000, corners());
+    answer_all(&derived, 20_000, stretched());
+}

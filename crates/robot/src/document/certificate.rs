@@ -1,0 +1,101 @@
+//! The one form of every stored proof: what it proves, of what, and its claims. Main type: [`Certificate`].
+
+use std::fmt;
+
+use serde::de::{DeserializeOwned, IgnoredAny};
+use serde::{Deserialize, Serialize};
+
+use super::json::JsonFormat;
+use super::shown;
+use crate::{Error, ErrorKind, Result};
+
+const FORMAT: JsonFormat = JsonFormat {
+    what: "certificate",
+    number: 6,
+    renew: "`groebot derive`, or for equations of motion `groebot dynamics --symbolic`, on its folder writes it anew",
+};
+
+/// What a certificate proves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Proves {
+    /// Equations whose solution set is proved.
+    Equations,
+    /// A chain that is solved joint by joint.
+    Chain,
+    /// A chain that is solved as an eigenvalue problem.
+    EigenvalueProblem,
+    /// Chains that share joints.
+    CoupledChains,
+    /// Equations of motion.
+    Dynamics,
+}
+
+impl fmt::Display for Proves {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Proves::Equations => "the equations",
+            Proves::Chain => "the chain",
+            Proves::EigenvalueProblem => "the eigenvalue problem",
+            Proves::CoupledChains => "the coupled chains",
+            Proves::Dynamics => "the equations of motion",
+        })
+    }
+}
+
+/// A stored proof, whose claims have a type for each thing that is proved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Certificate<Claims> {
+    format: u32,
+    proves: Proves,
+    /// The mechanism that it is about.
+    name: String,
+    claims: Claims,
+}
+
+impl<Claims> Certificate<Claims> {
+    /// The certificate of these claims about the mechanism `name`.
+    pub fn new(proves: Proves, name: &str, claims: Claims) -> Self {
+        Certificate { format: FORMAT.number, proves, name: name.to_owned(), claims }
+    }
+
+    /// The claims of a certificate that proves this about the mechanism `name`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Certificate`] for one that proves something else.
+    pub fn claims(self, proves: Proves, name: &str) -> Result<Claims> {
+        if (self.proves, self.name.as_str()) == (proves, name) {
+            return Ok(self.claims);
+        }
+        let words = |(proves, name): (Proves, &str)| format!("{proves} `{}`", shown(name));
+        let (found, allowed) = (words((self.proves, &self.name)), words((proves, name)));
+        let text = format!("this certificate proves {found}; one of {allowed} is allowed");
+        Err(Error::new(ErrorKind::Certificate, text))
+    }
+}
+
+impl<Claims: Serialize> Certificate<Claims> {
+    /// The text of the certificate: the same bytes for the same claims.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("claims hold nothing that JSON cannot say") + "\n"
+    }
+}
+
+impl<Claims: DeserializeOwned> Certificate<Claims> {
+    /// The claims in `text`, which must prove this about the mechanism `name`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Unsupported`] for one of another format; as
+    /// [`Certificate::claims`].
+    pub fn read(text: &str, proves: Proves, name: &str) -> Result<Claims> {
+        FORMAT.read::<Certificate<IgnoredAny>>(text)?.claims(proves, name)?;
+        FORMAT.read::<Self>(text)?.claims(proves, name)
+    }
+}
+
+/// What the certificate in `text` proves, and about what; none for text that is no certificate of this format.
+pub fn head_of(text: &str) -> Option<(Proves, String)> {
+    let Certificate { proves, name, .. } = FORMAT.read::<Certificate<IgnoredAny>>(text).ok()?;
+    Some((proves, name))
+}

@@ -1,0 +1,84 @@
+//! What a file is by its content, for files that are given where a description is expected.
+
+use serde::de::IgnoredAny;
+
+use crate::{Error, ErrorKind, Result};
+
+/// How binary files begin, what they are, and what to do about it.
+const BINARY: [(&[u8], &str, &str); 14] = [
+    (b"PK\x03\x04", "a ZIP archive", "give the URDF in it"),
+    (b"PK\x05\x06", "an empty ZIP archive", "give the URDF"),
+    (b"\x1f\x8b", "a gzip archive", "give the URDF in it"),
+    (b"BZh", "a bzip2 archive", "give the URDF in it"),
+    (b"\xfd7zXZ\0", "an xz archive", "give the URDF in it"),
+    (b"7z\xbc\xaf\x27\x1c", "a 7z archive", "give the URDF in it"),
+    (b"PXR-USDC", "a USD scene", "give the robot's URDF"),
+    (b"#usda", "a USD scene", "give the robot's URDF"),
+    (b"glTF", "a glTF scene", "give the robot's URDF"),
+    (b"\x89PNG", "a PNG image", "give the robot's URDF"),
+    (b"\xff\xd8\xff", "a JPEG image", "give the robot's URDF"),
+    (b"%PDF", "a PDF", "give the robot's URDF"),
+    (b"\x89HDF", "an HDF5 file", "give the robot's URDF"),
+    (b"\x7fELF", "a program", "give the robot's URDF"),
+];
+/// How many lines tell whether a text is a table.
+const TABLE: usize = 4;
+
+/// Whether `bytes` are XML by how they begin, in any encoding.
+pub fn is_xml(bytes: &[u8]) -> bool {
+    let is_mark = |byte: &u8| matches!(byte, 0 | 0xef | 0xbb | 0xbf | 0xff | 0xfe) || byte.is_ascii_whitespace();
+    bytes.iter().find(|byte| !is_mark(byte)) == Some(&b'<')
+}
+
+/// Fails for archives, images, scenes and other files that are no text to read a description from.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] with what the file is, what to give instead, and what is allowed.
+pub fn refuse_binary(bytes: &[u8]) -> Result<()> {
+    match BINARY.iter().find(|(start, ..)| bytes.starts_with(start)) {
+        Some((_, name, advice)) => Err(foreign(name, advice)),
+        None => Ok(()),
+    }
+}
+
+/// `error` of a reader of descriptions, unless `text` is of a format that is none: then an error that names this format.
+pub fn explained(error: Error, text: &str) -> Error {
+    let name = if error.kind() == ErrorKind::Syntax { text_format(text) } else { None };
+    name.map_or(error, |name| foreign(name, "give the robot's URDF"))
+}
+
+fn foreign(name: &str, advice: &str) -> Error {
+    let text = format!(
+        "this is {name}; {advice}: descriptions are URDF (XML) or TOML, of a robot, a chain, a DH table or a system of equations"
+    );
+    Error::new(ErrorKind::Unsupported, text)
+}
+
+/// JSON, YAML or CSV, where `text` is one of them and neither XML nor TOML with a slip.
+fn text_format(text: &str) -> Option<&'static str> {
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    if text.starts_with('{') || (text.starts_with('[') && serde_json::from_str::<IgnoredAny>(text).is_ok()) {
+        return Some("JSON");
+    }
+    if text.starts_with('<') || text.lines().any(|line| line.contains(" = ") || line.starts_with("[[")) {
+        return None;
+    }
+    let told = text.lines().map(str::trim_end).filter(|line| !line.is_empty() && !line.trim_start().starts_with('#'));
+    let lines: Vec<&str> = told.take(TABLE).collect();
+    let first = *lines.first()?;
+    if first == "---" || first.starts_with("--- ") || first.starts_with("%YAML") || is_yaml_entry(first) {
+        return Some("YAML");
+    }
+    let cells =
+        |separator: char| lines.iter().all(|line| line.matches(separator).count() == first.matches(separator).count());
+    let is_table =
+        |separator: &char| lines.len() > 1 && first.contains(*separator) && !first.contains('=') && cells(*separator);
+    [',', ';', '\t'].iter().any(is_table).then_some("a table (CSV)")
+}
+
+/// Whether `line` is `key: value`, or `key:` with the value on the next lines, or `- value`.
+fn is_yaml_entry(line: &str) -> bool {
+    let is_key = |key: &str| !key.is_empty() && !key.contains(['=', '[', '{', '<', ',']);
+    let entry = line.split_once(": ").map(|(key, _)| key).or_else(|| line.strip_suffix(':'));
+    line.starts_with("- ") || entry.is_some_and(is_key)
+}

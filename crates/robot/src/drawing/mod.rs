@@ -1,0 +1,4 @@
+//! Pictures in SVG: shapes ([`svg`]) and frames with numbers on their axes ([`frame`]).
+
+pub mod frame;
+pub mod svg;

@@ -1,0 +1,241 @@
+//! The ideal places, from the base to the tip: each axis at its offset from the one before, told by their common normal as by Denavit and
+//! Hartenberg (1955), so that what almost meets does.
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::directions::directions;
+use super::{SAME, lengths, line};
+use crate::Result;
+use crate::kinematics::{Chain, ChainParts, ExactMatrix, ExactVector, Joint, JointKind, Tip};
+use crate::spatial::exact::vector::{Line, add, cosine, cross, dot, is_zero, length, scale, sine, sub};
+use groebot_algebra::number::BigRational;
+
+/// Directions nearer than this have their common normal far away; their offset is taken as that of parallel ones \[rad\].
+const PARALLEL: f64 = 1e-3;
+/// The most places of a rounded length.
+const PLACES: usize = 18;
+
+/// `chain` with what almost holds made exact, and lengths rounded to decimals within `grain` of the tolerance.
+pub(super) fn ideal(chain: &Chain, tolerance: f64, grain: f64) -> Result<Chain> {
+    let directions = directions(chain.joints(), tolerance, grain);
+    let length = lengths(chain, tolerance);
+    let mut placing =
+        Placing { tolerance: length, grain: grain * length, true_pivot: Default::default(), lines: Vec::new() };
+    for (joint, direction) in chain.joints().iter().zip(directions) {
+        placing.place(joint, chain, direction);
+    }
+    let tip = placing.tip(chain, tolerance);
+    let joints = chain.joints().iter().zip(&placing.lines).map(|(joint, placed)| placed.joint(joint)).collect();
+    let direction = aimed(chain, &tip, &placing, tolerance);
+    Chain::new(ChainParts { joints, tip, direction, ..chain.parts().clone() })
+}
+
+/// A rotation whose entries have more bits than this is told in shorter numbers, where that much of an angle is allowed \[rad\].
+const LONG: u64 = 64;
+const COARSEST: f64 = 1e-12;
+
+/// An ideal axis with the point from which the next one is reached.
+struct Placed {
+    line: Line,
+    pivot: ExactVector,
+}
+
+impl Placed {
+    /// `joint` on this line: as it is when it stands there.
+    fn joint(&self, joint: &Joint) -> Joint {
+        let Line { point, direction } = &self.line;
+        let turns = joint.kind == JointKind::Revolute;
+        let stands = if turns { self.line.distance(&joint.point) == 0.0 } else { joint.point == *point };
+        let point = if stands { joint.point.clone() } else { point.clone() };
+        Joint { axis: direction.clone(), point, ..joint.clone() }
+    }
+}
+
+/// The axes on their way to their ideal places.
+struct Placing {
+    /// A length that is taken for zero.
+    tolerance: f64,
+    /// A length by which coordinates may be rounded.
+    grain: f64,
+    /// The pivot of the joint placed last, on its true axis.
+    true_pivot: ExactVector,
+    lines: Vec<Placed>,
+}
+
+impl Placing {
+    /// Puts the next joint where it belongs.
+    fn place(&mut self, joint: &Joint, chain: &Chain, direction: ExactVector) {
+        let (pivot, ideal) = match self.lines.last() {
+            // Where the robot stands is no relation of its axes.
+            None => (joint.point.clone(), self.tidy(&straightened(&joint.point, lengths(chain, SAME)))),
+            Some(_) if joint.kind == JointKind::Prismatic => (self.true_pivot.clone(), self.last_pivot()),
+            Some(_) => self.turning(joint, &chain.joints()[self.lines.len() - 1], &direction),
+        };
+        // The joint's own point, at its offset along the axis.
+        let offset = sub(&joint.point, &pivot);
+        let point = match joint.kind {
+            JointKind::Prismatic => add(&ideal, &offset),
+            JointKind::Revolute => add(&ideal, &self.straightened_along(&offset, &direction)),
+        };
+        self.true_pivot = pivot;
+        self.lines.push(Placed { line: Line { point, direction }, pivot: ideal });
+    }
+
+    fn last_pivot(&self) -> ExactVector {
+        self.lines.last().map(|placed| placed.pivot.clone()).unwrap_or_default()
+    }
+
+    /// The pivot of a joint that turns, on its true axis and on the ideal one: the foot of the common normal with the axis before.
+    fn turning(&self, joint: &Joint, before: &Joint, direction: &ExactVector) -> (ExactVector, ExactVector) {
+        let (own, other) = (line(joint), Line { point: self.true_pivot.clone(), direction: before.axis.clone() });
+        let along = self.lines.last().map(|placed| placed.line.direction.clone()).unwrap_or_default();
+        let is_parallel = is_zero(&cross(&along, direction));
+        if is_parallel || sine(&own.direction, &other.direction) <= PARALLEL {
+            let pivot = own.foot(&self.true_pivot);
+            let step = sub(&pivot, &self.true_pivot);
+            let step = if is_parallel { self.straightened_across(&step, direction) } else { self.nearly_zero(step) };
+            return (pivot, add(&self.last_pivot(), &step));
+        }
+        let (foot, pivot) = (other.nearest(&own), own.nearest(&other));
+        let shift = self.straightened_along(&sub(&foot, &self.true_pivot), &along);
+        let gap = self.straightened_along(&sub(&pivot, &foot), &cross(&along, direction));
+        (pivot, add(&self.last_pivot(), &add(&shift, &gap)))
+    }
+
+    /// The part of `step` along `direction`; zero when that is short.
+    fn straightened_along(&self, step: &ExactVector, direction: &ExactVector) -> ExactVector {
+        let along = scale(direction, &(dot(step, direction) / dot(direction, direction)));
+        let tidy = self.tidy(&along);
+        self.nearly_zero(if is_zero(&cross(&tidy, direction)) { tidy } else { self.short(step, direction) })
+    }
+
+    /// The part of `step` along `direction`, as a multiple of it that is as short a decimal as the grain allows.
+    fn short(&self, step: &ExactVector, direction: &ExactVector) -> ExactVector {
+        let share = dot(step, direction) / dot(direction, direction);
+        // Of the greatest entry, which may be a long integer.
+        let size = direction.iter().map(Signed::abs).max().unwrap_or_else(BigRational::one);
+        let most = size.to_f64().unwrap_or(1.0) / length(direction);
+        scale(direction, &(shortest_decimal(&(share * &size), self.grain * most) / size))
+    }
+
+    /// The part of `step` across `direction`, without short parts along coordinate axes; zero when it is short.
+    fn straightened_across(&self, step: &ExactVector, direction: &ExactVector) -> ExactVector {
+        let across = sub(step, &scale(direction, &(dot(step, direction) / dot(direction, direction))));
+        let straight = self.tidy(&straightened(&across, self.tolerance));
+        let short = || {
+            let first = upright(direction);
+            add(&self.short(step, &first), &self.short(step, &cross(direction, &first)))
+        };
+        let straight = if dot(&straight, direction).is_zero() { straight } else { short() };
+        self.nearly_zero(straight)
+    }
+
+    /// `step` with its coordinates rounded to decimals, as short as the grain allows.
+    fn tidy(&self, step: &ExactVector) -> ExactVector {
+        step.each_ref().map(|x| shortest_decimal(x, self.grain))
+    }
+
+    /// `step`, or zero when it is short.
+    fn nearly_zero(&self, step: ExactVector) -> ExactVector {
+        if length(&step) <= self.tolerance { ExactVector::default() } else { step }
+    }
+
+    /// The tip at its offset from the last axis, on it when it almost is.
+    fn tip(&self, chain: &Chain, tolerance: f64) -> Tip {
+        let tip = chain.tip();
+        let Some(last) = self.lines.last() else { return tip.clone() };
+        let step = sub(&tip.point, &self.true_pivot);
+        let direction = &last.line.direction;
+        let (along, across) = match chain.joints().last().map(|joint| joint.kind) {
+            Some(JointKind::Revolute) => {
+                (self.straightened_along(&step, direction), self.straightened_across(&step, direction))
+            }
+            _ => (ExactVector::default(), straightened(&step, self.tolerance)),
+        };
+        let point = add(&last.pivot, &add(&along, &across));
+        let rotation = straight(&tip.rotation, tolerance);
+        let is_long = rotation.iter().flatten().any(|entry| entry.denom().bits() > LONG);
+        let angle = self.grain / lengths(chain, 1.0);
+        Tip { point, rotation: if is_long && angle >= COARSEST { shortened(&rotation, angle) } else { rotation } }
+    }
+}
+
+/// The direction that a task aims, in the frame of `tip`: along the last axis, or perpendicular to it, when it almost is.
+fn aimed(chain: &Chain, tip: &Tip, placing: &Placing, tolerance: f64) -> ExactVector {
+    let own = chain.direction();
+    if let Some(axis) = chain.task().axis() {
+        // At right angles to the axis about which its angle is asked, when it almost is.
+        let normal = tip.rotation[axis.coordinate()].clone();
+        let upright = cosine(own, &normal);
+        let is_near = upright > 0.0 && upright <= tolerance;
+        return if is_near { sub(own, &scale(&normal, &dot(own, &normal))) } else { own.clone() };
+    }
+    let Some(last) = placing.lines.last().filter(|_| chain.task().aims()) else { return own.clone() };
+    let axis: ExactVector =
+        std::array::from_fn(|i| (0..3).map(|k| &tip.rotation[k][i] * &last.line.direction[k]).sum());
+    let (along, upright) = (sine(own, &axis), cosine(own, &axis));
+    let flat = || sub(own, &scale(&axis, &(dot(own, &axis) / dot(&axis, &axis))));
+    match (along > 0.0 && along <= tolerance, upright > 0.0 && upright <= tolerance) {
+        (true, _) if dot(own, &axis).is_negative() => axis.map(|x| -x),
+        (true, _) => axis,
+        (_, true) => flat(),
+        _ => own.clone(),
+    }
+}
+
+/// A vector across `direction`, and across the coordinate axis that is most so.
+fn upright(direction: &ExactVector) -> ExactVector {
+    let least = (0..3).min_by_key(|&i| direction[i].abs()).unwrap_or(0);
+    let axis = std::array::from_fn(|i| if i == least { BigRational::one() } else { BigRational::zero() });
+    cross(direction, &axis)
+}
+
+/// `step` without parts along coordinate axes that are not longer than `tolerance`.
+fn straightened(step: &ExactVector, tolerance: f64) -> ExactVector {
+    step.each_ref().map(|x| if is_small(x, tolerance) { BigRational::zero() } else { x.clone() })
+}
+
+/// The decimal with the fewest places that is within `grain` of `x`, or `x` itself.
+fn shortest_decimal(x: &BigRational, grain: f64) -> BigRational {
+    let mut shift = BigRational::one();
+    for _ in 0..PLACES {
+        let rounded = (x * &shift).round() / &shift;
+        if is_small(&(x - &rounded), grain) {
+            return rounded;
+        }
+        shift *= BigRational::from_integer(10.into());
+    }
+    x.clone()
+}
+
+fn is_small(x: &BigRational, tolerance: f64) -> bool {
+    x.to_f64().is_some_and(|x| x.abs() <= tolerance)
+}
+
+/// `rotation` with all entries rounded to -1, 0 or 1, if each is within `tolerance` of that.
+fn straight(rotation: &ExactMatrix, tolerance: f64) -> ExactMatrix {
+    let whole = rotation.each_ref().map(|row| row.each_ref().map(BigRational::round));
+    let mut entries = rotation.iter().flatten().zip(whole.iter().flatten());
+    if entries.all(|(x, whole)| is_small(&(x - whole), tolerance)) { whole } else { rotation.clone() }
+}
+
+/// The rotation of a quaternion of integers within `angle` \[rad\] of `rotation`: exactly orthogonal.
+fn shortened(rotation: &ExactMatrix, angle: f64) -> ExactMatrix {
+    let matrix = Matrix3::from_fn(|i, j| rotation[i][j].to_f64().unwrap_or(0.0));
+    let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
+    let whole = |x: f64| BigRational::from_float((x / angle).round()).unwrap_or_default();
+    let [w, x, y, z] = [quaternion.w, quaternion.i, quaternion.j, quaternion.k].map(whole);
+    let two = BigRational::from_integer(2.into());
+    let (square, axis) = (&w * &w + &x * &x + &y * &y + &z * &z, [x, y, z]);
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let across = match (i + 3 - j) % 3 {
+                0 => &w * &w * &two - &square,
+                1 => &w * &axis[3 - i - j] * &two,
+                _ => -(&w * &axis[3 - i - j] * &two),
+            };
+            (&axis[i] * &axis[j] * &two + across) / &square
+        })
+    })
+}

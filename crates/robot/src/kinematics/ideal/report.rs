@@ -1,0 +1,237 @@
+//! What was taken for what: [`Report`], its [`Relation`]s and the axes that [moved](Moved).
+
+use std::fmt;
+use std::ops::Range;
+
+use super::meeting::gatherings;
+use super::{SAME, line, size, turn};
+use crate::kinematics::{Chain, Joint, JointKind, LengthUnit};
+use crate::spatial::exact::vector::{Line, cosine, cross, is_zero, length, sine, sub};
+use groebot_algebra::escape::markdown;
+
+/// What joints in a row have in common.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RelationKind {
+    /// The directions of two neighbours are parallel.
+    Parallel,
+    /// The directions of two neighbours are perpendicular.
+    Perpendicular,
+    /// The axes of two or more neighbours meet in one point.
+    Meeting,
+    /// The axes of two neighbours are one line.
+    Coincident,
+    /// The common normals of three neighbours meet: the middle one has no offset.
+    Level,
+}
+
+/// A relation that a description misses by less than the tolerance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Relation {
+    /// The places of the joints.
+    pub joints: Range<usize>,
+    /// What was taken to hold.
+    pub kind: RelationKind,
+    /// By how much it does not: an angle \[rad\], or a distance in the chain's length unit.
+    pub by: f64,
+}
+
+/// How far a joint's axis is from the ideal one.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Moved {
+    /// The name of the joint; none for the tip.
+    pub joint: Option<String>,
+    /// The angle \[rad\] by which it was turned.
+    pub angle: f64,
+    /// The distance in the chain's length unit by which it was shifted.
+    pub distance: f64,
+}
+
+/// What [`Chain::ideal`] took for what.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// The tolerance: radians, and shares of the reach.
+    pub tolerance: f64,
+    /// The unit of the distances here.
+    pub length_unit: LengthUnit,
+    /// The reach, in that unit.
+    pub reach: f64,
+    /// The relations that were made exact, from the base.
+    pub relations: Vec<Relation>,
+    /// The axes, and the tip, that were moved. Shifts of earlier joints carry the later ones along.
+    pub moved: Vec<Moved>,
+}
+
+impl Report {
+    /// What there is to say of `ideal`, which stands for `described`.
+    pub(super) fn new(described: &Chain, ideal: &Chain, tolerance: f64) -> Self {
+        Report {
+            relations: relations(described, ideal),
+            moved: moved(described, ideal),
+            ..Report::of_exact(described, tolerance)
+        }
+    }
+
+    /// Nothing was changed of `chain`.
+    pub(super) fn of_exact(chain: &Chain, tolerance: f64) -> Self {
+        let (length_unit, reach) = (chain.length_unit(), size(chain));
+        Report { tolerance, length_unit, reach, relations: Vec::new(), moved: Vec::new() }
+    }
+
+    /// Whether nothing was changed.
+    pub fn is_empty(&self) -> bool {
+        self.moved.is_empty()
+    }
+
+    /// How far the ideal robot is from the description at most, joint by joint: radians, or shares of the reach.
+    pub fn deviation(&self) -> f64 {
+        self.moved.iter().map(|moved| moved.deviation(self.reach)).fold(0.0, f64::max)
+    }
+
+    /// How far the tips of the two robots can be from one another at the same joint values, whatever these are: radians, and shares of the reach.
+    ///
+    /// A joint whose axis is turned by `a` and shifted by `d` moves what it carries as the ideal one does but for a rigid motion before and its inverse behind:
+    /// the angle differs by `2 a` at most, and the place by `2 (a r + d)`, `r` being the reach. The chain's tip is off by the sum over the joints, and its own.
+    pub fn bound(&self) -> f64 {
+        self.moved.iter().map(|moved| 2.0 * (moved.angle + moved.distance / self.reach)).sum()
+    }
+
+    /// Whether the ideal robot is the described one in doubles.
+    pub fn is_same(&self) -> bool {
+        self.deviation() <= SAME
+    }
+}
+
+/// The relations that `ideal` has exactly and `described` does not, by the place of their first joint.
+fn relations(described: &Chain, ideal: &Chain) -> Vec<Relation> {
+    let pairs = described.joints().windows(2).zip(ideal.joints().windows(2)).enumerate();
+    let mut found: Vec<Relation> = pairs.flat_map(|(first, (told, meant))| of_pair(first, told, meant)).collect();
+    for joints in gatherings(ideal.joints()) {
+        let axes = &described.joints()[joints.clone()];
+        let point = line(&axes[0]).nearest(&line(&axes[1]));
+        let by = axes.iter().map(|axis| line(axis).distance(&point)).fold(0.0, f64::max);
+        found.push(Relation { joints, kind: RelationKind::Meeting, by });
+    }
+    let triples = described.joints().windows(3).zip(ideal.joints().windows(3)).enumerate();
+    found.extend(triples.filter_map(|(first, (told, meant))| level(first, told, meant)));
+    found.retain(|relation| relation.by > 0.0);
+    found.sort_by_key(|relation| (relation.joints.start, relation.joints.end));
+    found
+}
+
+/// What two neighbours have in common, but for a meeting point.
+fn of_pair(first: usize, told: &[Joint], meant: &[Joint]) -> Vec<Relation> {
+    let is_parallel = sine(&meant[0].axis, &meant[1].axis) == 0.0;
+    let is_upright = cosine(&meant[0].axis, &meant[1].axis) == 0.0;
+    let is_one = is_parallel && turn(meant) && line(&meant[0]).distance(&meant[1].point) == 0.0;
+    let relation = |kind, by: f64| Relation { joints: first..first + 2, kind, by };
+    let mut found = Vec::new();
+    if is_parallel {
+        found.push(relation(RelationKind::Parallel, sine(&told[0].axis, &told[1].axis).asin()));
+    }
+    if is_upright {
+        found.push(relation(RelationKind::Perpendicular, cosine(&told[0].axis, &told[1].axis).asin()));
+    }
+    if is_one {
+        found.push(relation(RelationKind::Coincident, line(&told[0]).distance(&told[1].point)));
+    }
+    found
+}
+
+/// Whether the middle one of three axes, which do not meet in one point, has no offset.
+fn level(first: usize, told: &[Joint], meant: &[Joint]) -> Option<Relation> {
+    let offset = |axes: &[Joint]| {
+        let [before, own, behind] = [0, 1, 2].map(|place| line(&axes[place]));
+        let bends = |other: &Line| !is_zero(&cross(&own.direction, &other.direction));
+        let feet = (bends(&before) && bends(&behind)).then(|| (own.nearest(&before), own.nearest(&behind)));
+        feet.map(|(a, b)| (a == b, length(&sub(&a, &b))))
+    };
+    let meets = |pair: &[Joint]| line(&pair[0]).gap(&line(&pair[1])) == 0.0;
+    let (is_level, _) = offset(meant).filter(|_| turn(meant))?;
+    let is_new = is_level && !(meets(&meant[..2]) && meets(&meant[1..]));
+    let by = offset(told).map_or(0.0, |(_, by)| by);
+    is_new.then_some(Relation { joints: first..first + 3, kind: RelationKind::Level, by })
+}
+
+/// The axes, and the tip, that differ.
+pub(super) fn moved(described: &Chain, ideal: &Chain) -> Vec<Moved> {
+    let joints = described.joints().iter().zip(ideal.joints());
+    let axes = joints.map(|(a, b)| Moved {
+        joint: Some(a.name.clone()),
+        angle: sine(&a.axis, &b.axis).asin(),
+        distance: if a.kind == JointKind::Revolute { line(b).distance(&a.point) } else { 0.0 },
+    });
+    let (from, to) = (described.base_from_tip(), ideal.base_from_tip());
+    let is_turned = described.tip().rotation != ideal.tip().rotation;
+    let tip = Moved {
+        joint: None,
+        angle: if is_turned { from.rotation.angle_to(&to.rotation) } else { 0.0 },
+        distance: (from.translation.vector - to.translation.vector).norm(),
+    };
+    axes.chain([tip]).filter(|moved| moved.angle > 0.0 || moved.distance > 0.0).collect()
+}
+
+impl Moved {
+    /// The greater of the angle and the distance in units of `reach`.
+    pub fn deviation(&self, reach: f64) -> f64 {
+        self.angle.max(self.distance / reach)
+    }
+}
+
+impl Relation {
+    /// In words, lengths in `unit`: `axes 4 to 6 meet in one point, which they miss by 5e-6 m`.
+    pub fn words(&self, unit: LengthUnit) -> String {
+        let axes = format!("axes {} to {}", self.joints.start + 1, self.joints.end);
+        let pair = format!("axes {} and {}", self.joints.start + 1, self.joints.end);
+        let (by, unit) = (format!("{:.1e}", self.by), unit.symbol());
+        match self.kind {
+            RelationKind::Parallel => format!("{pair} are parallel; they are {by} rad off"),
+            RelationKind::Perpendicular => format!("{pair} are perpendicular; they are {by} rad off"),
+            RelationKind::Meeting if self.joints.len() == 2 => format!("{pair} meet; they pass at {by} {unit}"),
+            RelationKind::Meeting => format!("{axes} meet in one point; they miss it by {by} {unit}"),
+            RelationKind::Coincident => format!("{pair} are one line; they are {by} {unit} apart"),
+            RelationKind::Level => {
+                format!("axis {} has no offset between its neighbours; it has {by} {unit}", self.joints.start + 2)
+            }
+        }
+    }
+}
+
+impl Report {
+    /// What a mechanism's README says of it, in Markdown.
+    pub fn paragraph(&self) -> String {
+        format!(
+            "The solver is derived for the ideal robot within {:e} rad, or of the reach. Each answer is polished by Newton's method on the robot as \
+             described, and measured on it. What was taken to be meant:\n\n{}\n",
+            self.tolerance,
+            self.lines().iter().map(|line| format!("* {}\n", markdown(line))).collect::<String>()
+        )
+    }
+
+    /// One line a relation that misses by more than rounding in doubles, then how far the axes moved.
+    pub fn lines(&self) -> Vec<String> {
+        let is_length = |kind| !matches!(kind, RelationKind::Parallel | RelationKind::Perpendicular);
+        let share = |relation: &Relation| relation.by / if is_length(relation.kind) { self.reach } else { 1.0 };
+        let (told, rounding): (Vec<_>, Vec<_>) = self.relations.iter().partition(|relation| share(relation) > SAME);
+        let mut lines: Vec<String> = told.iter().map(|relation| relation.words(self.length_unit)).collect();
+        if !rounding.is_empty() {
+            let ending = if rounding.len() == 1 { "relation misses" } else { "relations miss" };
+            lines.push(format!("{} {ending} by rounding of doubles only, up to 1e-15", rounding.len()));
+        }
+        lines.extend(self.moved.iter().filter(|moved| moved.deviation(self.reach) > SAME).map(|moved| {
+            let name = moved.joint.as_deref().map_or("the tip".to_owned(), |name| format!("the axis of {name}"));
+            let unit = self.length_unit.symbol();
+            format!("{name} is turned by {:.1e} rad and shifted by {:.1e} {unit}", moved.angle, moved.distance)
+        }));
+        lines
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.is_empty() {
+            return write!(f, "nothing within {:e} rad, or of the reach, had to be changed", self.tolerance);
+        }
+        f.write_str(&self.lines().join("\n"))
+    }
+}

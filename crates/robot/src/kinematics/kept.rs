@@ -1,0 +1,88 @@
+//! Whether a chain keeps to what its task takes for granted: to a plane, or to an axis that the tip only turns about.
+
+use nalgebra::Vector3;
+use num_traits::{One, Zero};
+
+use super::parts::{TOLERANCE, show};
+use super::validate::check_plane;
+use super::{BaseAxis, Chain, ExactVector, Joint, JointKind};
+use crate::document::shown;
+use crate::spatial::exact::vector::sine;
+use crate::{Error, ErrorKind, Result};
+use groebot_algebra::number::BigRational;
+
+/// How far \[rad\] the tip may tilt at other joint values, by rounding: the axes of ideal robots are exact.
+const TILT: f64 = 1e-9;
+
+impl Chain {
+    /// Fails where a joint leaves the plane of a planar task, or tilts the tip of one that asks for the angle about an axis, by more than 1e-6 rad: a chain as
+    /// described may, its ideal must not.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] with the joint, or the direction that is not at right angles to the axis.
+    pub fn check_task(&self) -> Result<()> {
+        if let Some(axis) = self.task().axis() {
+            self.check_aim(axis)?;
+            return self.check_tilt(axis);
+        }
+        let Some(plane) = self.task().plane() else { return Ok(()) };
+        let mut joints = self.joints().iter().enumerate();
+        let kept = joints.try_for_each(|(index, joint)| check_plane(index, joint, plane, TOLERANCE));
+        kept.map_err(|fault| fault.error)
+    }
+
+    /// Where an axis of the base points, seen from the tip.
+    fn axis_from_tip(&self, axis: BaseAxis, q: &[f64]) -> Result<Vector3<f64>> {
+        Ok(self.forward(q)?.rotation.inverse() * Vector3::ith(axis.coordinate(), 1.0))
+    }
+
+    /// The direction of the tip whose angle about `axis` is asked must be at right angles to it.
+    fn check_aim(&self, axis: BaseAxis) -> Result<()> {
+        let off = self.aim().dot(&self.axis_from_tip(axis, &vec![0.0; self.joints().len()])?).abs();
+        if off <= TOLERANCE {
+            return Ok(());
+        }
+        let text = format!(
+            "the direction {} of the tip is {off:.1e} off a right angle to the base's {}, about which its angle is asked; give one at right \
+             angles (`direction`, `--direction`; by default {}), or another axis (`axis`, `--axis`)",
+            show(self.direction()),
+            axis.name(),
+            show(&self.task().usual_direction())
+        );
+        Err(Error::new(ErrorKind::BadValue, text))
+    }
+
+    /// The tip must turn about `axis` only, whatever the joint values.
+    fn check_tilt(&self, axis: BaseAxis) -> Result<()> {
+        let still = self.axis_from_tip(axis, &vec![0.0; self.joints().len()])?;
+        let moved = (1..=3).map(|round| self.axis_from_tip(axis, &self.some_values(round)));
+        let tilts = moved.collect::<Result<Vec<_>>>()?.iter().any(|moved| (moved - still).norm() > TILT);
+        if !tilts {
+            return Ok(());
+        }
+        let one = |i: usize| if i == axis.coordinate() { BigRational::one() } else { BigRational::zero() };
+        let normal: ExactVector = std::array::from_fn(one);
+        let tilts = |joint: &&Joint| joint.kind == JointKind::Revolute && sine(&joint.axis, &normal) > TOLERANCE;
+        let name = self.joints().iter().find(tilts).map(|joint| format!("joint `{}`", shown(&joint.name)));
+        let text = format!(
+            "{} tilts the tip; the task `position_yaw` is for arms whose tip only turns about the base's {}: SCARAs, gantries, palletizers whose \
+             linkage keeps the tip level (joints that `mimic` others)",
+            name.as_deref().unwrap_or("a joint"),
+            axis.name()
+        );
+        Err(Error::new(ErrorKind::BadValue, text))
+    }
+
+    /// Joint values like any others, of joints that follow others as these tell them.
+    fn some_values(&self, round: usize) -> Vec<f64> {
+        let value = |joint: usize| 0.37 * round as f64 + 0.61 * joint as f64;
+        let mut q: Vec<f64> = (0..self.joints().len()).map(value).collect();
+        for place in 0..q.len() {
+            if let Some((leader, mimic)) = self.leader(place) {
+                let [factor, offset] = mimic.law();
+                q[place] = factor * q[leader] + offset;
+            }
+        }
+        q
+    }
+}

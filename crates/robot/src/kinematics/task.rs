@@ -1,0 +1,201 @@
+//! What is asked of the tip of a chain. Main type: [`Task`].
+
+use num_traits::{One, Zero};
+use serde::{Deserialize, Serialize};
+
+use super::ExactVector;
+use groebot_algebra::number::BigRational;
+
+/// A coordinate plane of the base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Plane {
+    /// z = const.
+    Xy,
+    /// y = const.
+    Xz,
+    /// x = const.
+    Yz,
+}
+
+impl Plane {
+    /// The coordinate (0, 1, 2 for x, y, z) along its normal.
+    pub fn normal(self) -> usize {
+        match self {
+            Plane::Xy => 2,
+            Plane::Xz => 1,
+            Plane::Yz => 0,
+        }
+    }
+
+    /// Its two coordinates, in the order of its name.
+    pub fn coordinates(self) -> [usize; 2] {
+        match self {
+            Plane::Xy => [0, 1],
+            Plane::Xz => [0, 2],
+            Plane::Yz => [1, 2],
+        }
+    }
+
+    /// `xy`, `xz` or `yz`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Plane::Xy => "xy",
+            Plane::Xz => "xz",
+            Plane::Yz => "yz",
+        }
+    }
+}
+
+/// A coordinate axis of the base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BaseAxis {
+    /// x.
+    X,
+    /// y.
+    Y,
+    /// z.
+    Z,
+}
+
+impl BaseAxis {
+    /// All of them.
+    pub const ALL: [BaseAxis; 3] = [BaseAxis::X, BaseAxis::Y, BaseAxis::Z];
+
+    /// Its coordinate: 0, 1, 2 for x, y, z.
+    pub fn coordinate(self) -> usize {
+        self as usize
+    }
+
+    /// The coordinate axis from which an angle about this one is counted, and the one to which a quarter turn leads.
+    pub fn across(self) -> [usize; 2] {
+        [1, 2].map(|step| (self.coordinate() + step) % 3)
+    }
+
+    /// `x`, `y` or `z`.
+    pub fn name(self) -> &'static str {
+        ["x", "y", "z"][self.coordinate()]
+    }
+}
+
+/// What is asked of the tip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Task {
+    /// The position: three numbers.
+    Position,
+    /// The position in a plane in which the whole chain moves: two numbers.
+    PlanarPosition {
+        /// The plane.
+        plane: Plane,
+    },
+    /// The position in a plane and the angle about its normal: three numbers.
+    PlanarPose {
+        /// The plane.
+        plane: Plane,
+    },
+    /// Position and orientation.
+    Pose,
+    /// The position, and where [`super::Chain::direction`] points: five numbers.
+    Ray,
+    /// Where [`super::Chain::direction`] points: two numbers.
+    Direction,
+    /// The orientation: three numbers.
+    Rotation,
+    /// The position, and pitch and roll of the tip, whatever its yaw, in R = Rz(yaw) Ry(pitch) Rx(roll): five numbers.
+    PositionPitchRoll,
+    /// The position, and the angle about an axis of the base at which [`super::Chain::direction`] points: four numbers, of a tip that turns about that axis
+    /// only and a direction at right angles to it. The angle is counted from x about z, from y about x, from z about y.
+    PositionYaw {
+        /// The axis.
+        axis: BaseAxis,
+    },
+}
+
+impl Task {
+    /// The plane of a planar task.
+    pub fn plane(self) -> Option<Plane> {
+        match self {
+            Task::PlanarPosition { plane } | Task::PlanarPose { plane } => Some(plane),
+            _ => None,
+        }
+    }
+
+    /// The axis of a position with the angle about it.
+    pub fn axis(self) -> Option<BaseAxis> {
+        match self {
+            Task::PositionYaw { axis } => Some(axis),
+            _ => None,
+        }
+    }
+
+    /// The direction in the tip frame that is aimed when none is named: z, or the axis from which an angle about an axis is counted.
+    pub fn usual_direction(self) -> ExactVector {
+        let along = self.axis().map_or(2, |axis| axis.across()[0]);
+        std::array::from_fn(|i| if i == along { BigRational::one() } else { BigRational::zero() })
+    }
+
+    /// The most joints that it determines: its number of independent values.
+    pub fn freedoms(self) -> usize {
+        match self {
+            Task::Pose => 6,
+            Task::Ray | Task::PositionPitchRoll => 5,
+            Task::PositionYaw { .. } => 4,
+            Task::Position | Task::PlanarPose { .. } | Task::Rotation => 3,
+            Task::PlanarPosition { .. } | Task::Direction => 2,
+        }
+    }
+
+    /// How many of its numbers are lengths; they come first.
+    pub fn lengths(self) -> usize {
+        match self {
+            Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => 3,
+            Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,
+            Task::Direction | Task::Rotation => 0,
+        }
+    }
+
+    /// The names of the numbers of a target, in the order of a derived solver: `px`, `r11` by rows, `dx`, `phi`, `pitch`.
+    pub fn numbers(self) -> Vec<String> {
+        let along = |prefix: &str, axes: &[usize]| -> Vec<String> {
+            axes.iter().map(|&axis| format!("{prefix}{}", ["x", "y", "z"][axis])).collect()
+        };
+        let (position, direction) = (along("p", &[0, 1, 2]), along("d", &[0, 1, 2]));
+        let rows = (1..=3).flat_map(|row| (1..=3).map(move |column| format!("r{row}{column}"))).collect();
+        let angles = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
+        match self {
+            Task::Pose => [position, rows].concat(),
+            Task::Position => position,
+            Task::Ray => [position, direction].concat(),
+            Task::Direction => direction,
+            Task::Rotation => rows,
+            Task::PositionPitchRoll => [position, angles(&["pitch", "roll"])].concat(),
+            Task::PositionYaw { axis: BaseAxis::Z } => [position, angles(&["yaw"])].concat(),
+            Task::PositionYaw { axis } => [position, vec![format!("yaw_{}", axis.name())]].concat(),
+            Task::PlanarPosition { plane } => along("p", &plane.coordinates()),
+            Task::PlanarPose { plane } => [along("p", &plane.coordinates()), angles(&["phi"])].concat(),
+        }
+    }
+
+    /// Whether it aims a direction of the tip frame.
+    pub fn aims(self) -> bool {
+        matches!(self, Task::Ray | Task::Direction | Task::PositionYaw { .. })
+    }
+
+    /// Its name in a file: `position`, `planar_position`, `planar_pose`, `pose`, `ray`, `direction`, `rotation` or
+    /// `position_pitch_roll`, `position_yaw`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Task::Position => "position",
+            Task::PlanarPosition { .. } => "planar_position",
+            Task::PlanarPose { .. } => "planar_pose",
+            Task::Pose => "pose",
+            Task::Ray => "ray",
+            Task::Direction => "direction",
+            Task::Rotation => "rotation",
+            Task::PositionPitchRoll => "position_pitch_roll",
+            Task::PositionYaw { .. } => "position_yaw",
+        }
+    }
+}

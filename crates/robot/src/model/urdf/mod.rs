@@ -1,0 +1,111 @@
+//! Robots as URDF: read by [`Robot::read_urdf`], [`Robot::from_urdf`], written by [`Robot::to_urdf`].
+//!
+#![doc = include_str!("../../../docs/urdf.md")]
+
+mod joint;
+mod link;
+mod transmission;
+mod write;
+mod xacro;
+mod xml;
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use super::{Fault, Part, Robot, RobotParts};
+use crate::document::{did_you_mean, explained, read_xml};
+use crate::{ErrorKind, Result};
+use groebot_algebra::limits;
+use joint::read_joint;
+use link::{colour_of, read_link};
+use transmission::{add_rotors, read_transmission};
+use xml::Element;
+
+/// The longest file that is read, in bytes.
+pub const URDF_LIMIT: u64 = limits::XML_BYTES;
+
+impl Robot {
+    /// The robot that the URDF file at `path` describes.
+    ///
+    /// # Errors
+    /// As [`read_xml`], with a limit of four megabytes, and [`Robot::from_urdf`], with the file; [`ErrorKind::Unsupported`] for JSON, YAML and tables.
+    pub fn read_urdf(path: &Path) -> Result<Robot> {
+        let file = read_xml(path, URDF_LIMIT)?;
+        let robot = Robot::from_urdf(&file.text).map_err(|error| explained(error, &file.text).in_file(path))?;
+        Ok(robot.with_notes(file.notes))
+    }
+
+    /// The robot that `text` describes in the format of [`crate::model::urdf`]. What is wrong with a single link or joint is kept in [`Robot::faults`]:
+    /// [`Robot::chain`] refuses it in a chain, and [`Robot::check`] in the whole robot.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] for text that is not XML; [`ErrorKind::MissingKey`] for links and joints without a name, and joints without links;
+    /// [`ErrorKind::BadValue`] for another root element; [`ErrorKind::Unsupported`] for xacro; and as [`Robot::with_faults`]. All have a line.
+    pub fn from_urdf(text: &str) -> Result<Robot> {
+        let root = Element::parse(text)?;
+        let mut notes = xacro::unused(&root)?;
+        if root.name != "robot" {
+            return Err(root.error(ErrorKind::BadValue, "is the root element; a URDF has the root element <robot>"));
+        }
+        let is_recent = version(&root).is_some_and(|version| version >= (1, 2));
+        let elements = |name| root.children.iter().filter(move |child| child.name == name);
+        let mut faults = Vec::new();
+        let mut links = Vec::new();
+        let colours = colours(&root, &mut notes);
+        for element in elements("link") {
+            let (link, error) = read_link(element, &colours)?;
+            faults.extend(error.map(|error| Fault { part: Part::Link(link.name.clone()), error }));
+            links.push(link);
+        }
+        let mut joints = Vec::new();
+        for element in elements("joint") {
+            let (joint, error) = read_joint(element, is_recent)?;
+            faults.extend(error.map(|error| Fault { part: Part::Joint(joint.name.clone()), error }));
+            joints.push(joint);
+        }
+        let name = root.attribute("name").unwrap_or("robot").trim();
+        let name = if name.is_empty() { "robot".to_owned() } else { name.to_owned() };
+        let actuators = elements("transmission").filter_map(read_transmission).collect();
+        faults.extend(add_rotors(elements("transmission"), &mut joints));
+        let parts = RobotParts { name, source: None, links, joints, actuators, faults, notes };
+        let line_of = |part: &Part| {
+            let Part::Actuator(name) = part else { return None };
+            let is_own = |child: &Element| child.name == "actuator" && child.attribute("name") == Some(name);
+            elements("transmission").find(|element| element.children.iter().any(is_own)).map(|element| element.line)
+        };
+        Ok(Robot::with_faults(parts).map_err(|error| error.at_line(root.line))?.with_lines(line_of))
+    }
+}
+
+/// The colours of the robot's materials; one that is none is ignored, with a note.
+fn colours<'e>(root: &'e Element, notes: &mut Vec<String>) -> HashMap<&'e str, [f64; 4]> {
+    let mut colours = HashMap::new();
+    for material in root.children.iter().filter(|child| child.name == "material") {
+        match (material.attribute("name"), colour_of(material)) {
+            (Some(name), Ok(Some(colour))) => {
+                colours.insert(name, colour);
+            }
+            (_, Err(error)) => notes.push(format!("left out: {error}")),
+            _ => {}
+        }
+    }
+    colours
+}
+
+/// Fails for a child whose name is nearly one of `parts`; other unknown ones are extensions.
+fn refuse_slips(element: &Element, parts: &[&str]) -> Result<()> {
+    for child in element.children.iter().filter(|child| !parts.contains(&child.name.as_str())) {
+        let advice = did_you_mean(&child.name, parts);
+        if !advice.is_empty() {
+            let text = format!("is no element of a {}{advice}", element.name);
+            return Err(child.error(ErrorKind::UnknownKey, &text));
+        }
+    }
+    Ok(())
+}
+
+/// The version of the format, (1, 2) for "1.2".
+fn version(root: &Element) -> Option<(u32, u32)> {
+    let (major, minor) = root.attribute("version")?.trim().split_once('.')?;
+    Some((major.parse().ok()?, minor.parse().ok()?))
+}

@@ -1,0 +1,249 @@
+//! The outer levels of an XML text as elements that know their lines; everything deeper is only checked to be XML.
+
+use num_traits::ToPrimitive;
+use quick_xml::events::attributes::AttrError;
+use quick_xml::events::{BytesStart, Event};
+use quick_xml::{Decoder, Reader};
+
+use crate::document::shown;
+use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits;
+use groebot_algebra::number::{BigRational, parse_rational};
+
+/// How many levels are kept: robot, link or joint, their parts, and two levels of these: a collision's geometry and its box.
+const KEPT: usize = 5;
+/// The most bytes of an element's text.
+const MOST_TEXT: usize = limits::XML_TEXT;
+/// The deepest nesting.
+const DEEPEST: usize = limits::XML_DEPTH;
+
+/// What to do with xacro.
+pub const EXPAND: &str = "a language that makes URDF; run `xacro robot.urdf.xacro > robot.urdf` first";
+
+/// An element with its attributes and children.
+#[derive(Debug)]
+pub struct Element {
+    pub name: String,
+    pub line: usize,
+    attributes: Vec<(String, String)>,
+    /// The text in it, without the blanks at both ends.
+    pub text: String,
+    pub children: Vec<Element>,
+}
+
+impl Element {
+    /// The root element of `text`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] with its line for text that is not one well-formed XML element or is nested too deeply.
+    pub fn parse(text: &str) -> Result<Element> {
+        let newlines: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
+        let line_of = |offset: usize| 1 + newlines.partition_point(|&newline| newline < offset);
+        let mut reader = Reader::from_str(text);
+        let mut builder = Builder { decoder: reader.decoder(), open: Vec::new(), depth: 0, root: None };
+        loop {
+            let line = line_of(reader.buffer_position() as usize);
+            let event = reader.read_event().map_err(|error| {
+                let line = line_of(reader.error_position() as usize);
+                syntax(&error.to_string()).at_line(line)
+            })?;
+            if matches!(event, Event::Eof) {
+                return builder.finish().map_err(|error| error.at_line(line));
+            }
+            builder.take(&event, line).map_err(|error| error.at_line(line))?;
+        }
+    }
+
+    /// The text of the attribute `name`.
+    pub fn attribute(&self, name: &str) -> Option<&str> {
+        self.attributes.iter().find(|(key, _)| key == name).map(|(_, value)| value.as_str())
+    }
+
+    /// All attributes, each with its name.
+    pub fn attributes(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.attributes.iter().map(|(name, value)| (name.as_str(), value.as_str()))
+    }
+
+    /// The text of an attribute that must be there.
+    ///
+    /// # Errors
+    /// [`ErrorKind::MissingKey`] at the element's line.
+    pub fn required(&self, name: &str) -> Result<&str> {
+        self.attribute(name)
+            .ok_or_else(|| self.error(ErrorKind::MissingKey, &format!("has no `{name}`; it is required")))
+    }
+
+    /// The child `name`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] at the second one's line.
+    pub fn child(&self, name: &str) -> Result<Option<&Element>> {
+        let mut children = self.children.iter().filter(|child| child.name == name);
+        match (children.next(), children.next()) {
+            (_, Some(second)) => Err(second.error(ErrorKind::BadValue, "is given twice; give one")),
+            (first, None) => Ok(first),
+        }
+    }
+
+    /// The exact numbers of an attribute, blanks between them.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for another count, for nan and infinities, and for what is no decimal number.
+    pub fn numbers<const N: usize>(&self, name: &str) -> Result<Option<[BigRational; N]>> {
+        let Some(text) = self.attribute(name) else { return Ok(None) };
+        let bad = |what: String| {
+            let wanted = if N == 1 { "one number".to_owned() } else { format!("{N} numbers with blanks between them") };
+            self.error(ErrorKind::BadValue, &format!("has `{name}` = \"{}\": {what}; give {wanted}", shown(text)))
+        };
+        if text.contains("$(") {
+            let text = format!("has `{name}` = \"{}\": `$(...)` is xacro, {EXPAND}", shown(text));
+            return Err(self.error(ErrorKind::Unsupported, &text));
+        }
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let numbers: Vec<BigRational> = words.iter().map(|word| decimal(word).map_err(bad)).collect::<Result<_>>()?;
+        let count = numbers.len();
+        numbers.try_into().map(Some).map_err(|_| bad(format!("{count} found")))
+    }
+
+    /// The exact number of an attribute.
+    ///
+    /// # Errors
+    /// As [`Element::numbers`].
+    pub fn number(&self, name: &str) -> Result<Option<BigRational>> {
+        Ok(self.numbers::<1>(name)?.map(|[value]| value))
+    }
+
+    /// The same in doubles.
+    ///
+    /// # Errors
+    /// As [`Element::numbers`]; also for numbers beyond doubles.
+    pub fn floats<const N: usize>(&self, name: &str) -> Result<Option<[f64; N]>> {
+        let Some(exact) = self.numbers::<N>(name)? else { return Ok(None) };
+        let floats = exact.each_ref().map(|number| number.to_f64().unwrap_or(f64::INFINITY));
+        if floats.iter().all(|number| number.is_finite()) {
+            return Ok(Some(floats));
+        }
+        Err(self.error(ErrorKind::BadValue, &format!("has a number in `{name}` that no double holds")))
+    }
+
+    /// The double of an attribute.
+    ///
+    /// # Errors
+    /// As [`Element::floats`].
+    pub fn float(&self, name: &str) -> Result<Option<f64>> {
+        Ok(self.floats::<1>(name)?.map(|[value]| value))
+    }
+
+    /// An error about this element, at its line.
+    pub fn error(&self, kind: ErrorKind, message: &str) -> Error {
+        Error::new(kind, format!("<{}> {message}", shown(&self.name))).at_line(self.line)
+    }
+}
+
+/// A decimal number; fractions, which XML readers do not know, are refused.
+fn decimal(word: &str) -> std::result::Result<BigRational, String> {
+    let is_plain = word.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b)) && word.len() <= 400;
+    let value = if is_plain { parse_rational(word).ok() } else { None };
+    value.ok_or_else(|| match word.parse::<f64>() {
+        Ok(value) if !value.is_finite() => format!("{} is not finite", shown(word)),
+        _ => format!("`{}` is no number", shown(word)),
+    })
+}
+
+fn syntax(message: &str) -> Error {
+    Error::new(ErrorKind::Syntax, format!("this is not XML: {}", shown_long(message)))
+}
+
+/// `message` on one line.
+fn shown_long(message: &str) -> String {
+    message.chars().take(160).flat_map(|c| if c.is_control() { c.escape_debug().collect() } else { vec![c] }).collect()
+}
+
+/// Elements as they open and close.
+struct Builder {
+    decoder: Decoder,
+    /// The open elements that are kept.
+    open: Vec<Element>,
+    depth: usize,
+    root: Option<Element>,
+}
+
+impl Builder {
+    fn take(&mut self, event: &Event<'_>, line: usize) -> Result<()> {
+        match event {
+            Event::Start(start) => self.start(start, line),
+            Event::Empty(start) => {
+                self.start(start, line)?;
+                self.end();
+                Ok(())
+            }
+            Event::End(_) => {
+                self.end();
+                Ok(())
+            }
+            Event::Text(text) if self.depth > 0 && self.depth <= KEPT && text.len() <= MOST_TEXT => {
+                if let (Some(open), Ok(text)) = (self.open.last_mut(), text.decode()) {
+                    open.text += text.trim();
+                }
+                Ok(())
+            }
+            Event::Text(text) if self.depth == 0 && !text.iter().all(u8::is_ascii_whitespace) && !is_mark(text) => {
+                Err(syntax("there is text outside the root element"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn start(&mut self, start: &BytesStart<'_>, line: usize) -> Result<()> {
+        if self.depth == 0 && self.root.is_some() {
+            return Err(syntax("a second root element"));
+        }
+        if self.depth >= DEEPEST {
+            return Err(syntax(&format!("elements are nested deeper than {DEEPEST}")));
+        }
+        self.depth += 1;
+        let attributes = attributes(start, self.decoder)?;
+        if self.depth <= KEPT {
+            let name = String::from_utf8_lossy(start.name().as_ref()).into_owned();
+            self.open.push(Element { name, line, attributes, text: String::new(), children: Vec::new() });
+        }
+        Ok(())
+    }
+
+    fn end(&mut self) {
+        let is_kept = self.depth <= KEPT;
+        self.depth = self.depth.saturating_sub(1);
+        if let Some(element) = is_kept.then(|| self.open.pop()).flatten() {
+            match self.open.last_mut() {
+                Some(parent) => parent.children.push(element),
+                None => self.root = Some(element),
+            }
+        }
+    }
+
+    fn finish(self) -> Result<Element> {
+        match (self.open.last(), self.root) {
+            (Some(open), _) => Err(syntax(&format!("<{}> of line {} is not closed", shown(&open.name), open.line))),
+            (None, None) => Err(syntax("there is no element; give a <robot>")),
+            (None, Some(root)) => Ok(root),
+        }
+    }
+}
+
+/// Whether `text` is the byte order mark of UTF-8.
+fn is_mark(text: &[u8]) -> bool {
+    text.strip_prefix(b"\xef\xbb\xbf").is_some_and(|rest| rest.iter().all(u8::is_ascii_whitespace))
+}
+
+fn attributes(start: &BytesStart<'_>, decoder: Decoder) -> Result<Vec<(String, String)>> {
+    let mut attributes = Vec::new();
+    for attribute in start.attributes() {
+        if attributes.len() >= limits::XML_ATTRIBUTES {
+            return Err(syntax(&format!("an element has more than {} attributes", limits::XML_ATTRIBUTES)));
+        }
+        let attribute = attribute.map_err(|error: AttrError| syntax(&error.to_string()))?;
+        let value = attribute.decode_and_unescape_value(decoder).map_err(|error| syntax(&error.to_string()))?;
+        attributes.push((String::from_utf8_lossy(attribute.key.as_ref()).into_owned(), value.into_owned()));
+    }
+    Ok(attributes)
+}

@@ -1,0 +1,381 @@
+//! An arm along poses: of all solutions the branch that stays continuous, within limits. Main function: [`follow`].
+
+use std::cmp::Ordering;
+
+use super::{JointTrack, Trajectory};
+use crate::kinematics::{Chain, InverseKinematics, Joint, JointKind, Solution, Target, Task};
+use crate::spatial::{Pose, angle};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// How far a joint goes from pose to pose without a jump \[rad\], where no time says it.
+const NEAR: f64 = 0.5;
+/// How near to a limit a value may be beyond it by rounding \[rad or m\].
+const ROUNDING: f64 = 1e-9;
+/// The most combinations of a solution's values that differ by whole turns; those furthest from zero are left out.
+const MOST_STATES: usize = groebot_algebra::limits::POSE_STATES;
+
+/// How fast a path is gone.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pace {
+    /// A pose each so many seconds: joints are as fast as they can be.
+    Every(f64),
+    /// At these times \[s\], ascending.
+    At(Vec<f64>),
+}
+
+/// Where a path must jump from one branch to another, and why.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Jump {
+    /// The pose that is jumped to, from 0.
+    pub sample: usize,
+    /// The joint that goes furthest, by its place.
+    pub joint: usize,
+    /// How far \[rad or the chain's unit\].
+    pub step: f64,
+    /// Why, in words.
+    pub why: String,
+}
+
+/// A path, and where it jumps.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Followed {
+    /// The path.
+    pub trajectory: Trajectory,
+    /// Its jumps, in order.
+    pub jumps: Vec<Jump>,
+}
+
+/// A state of the arm at a pose, and the best way to it.
+struct State {
+    q: Vec<f64>,
+    branch: usize,
+    /// The number of jumps and the way of the joints up to here.
+    cost: (usize, f64),
+    /// The state at the pose before.
+    from: usize,
+}
+
+/// The joint values that bring the tip of `chain` to each of `poses` in turn, by `solver`: with the fewest jumps between branches, and of these
+/// the shortest way, the sum of the squares of all joints' steps. A joint that turns is shifted by whole turns where its limits allow. A step is a
+/// jump where a joint goes further than its speed allows in the time, or, where it has none, than half a radian or a tenth of the reach.
+///
+/// # Errors
+/// [`ErrorKind::BadValue`] for no pose, times that are not one each, and with the number of the pose for one that is out of reach, or
+/// whose solutions are all beyond limits; [`ErrorKind::Unsupported`] for a task other than the pose, and for given joints;
+/// [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
+pub fn follow(
+    chain: &Chain,
+    speeds: &[Option<f64>],
+    solver: &dyn InverseKinematics,
+    poses: &[Pose],
+    pace: &Pace,
+    watch: &Watch,
+) -> Result<Followed> {
+    follow_from(chain, speeds, solver, None, poses, pace, watch)
+}
+
+/// As [`follow`], for an arm that stands at the joint values `start`: the way from there to the first pose counts like any other, and so does
+/// a jump to it.
+///
+/// # Errors
+/// As [`follow`]; [`ErrorKind::BadValue`] unless there is one finite value per joint.
+pub fn follow_from(
+    chain: &Chain,
+    speeds: &[Option<f64>],
+    solver: &dyn InverseKinematics,
+    start: Option<&[f64]>,
+    poses: &[Pose],
+    pace: &Pace,
+    watch: &Watch,
+) -> Result<Followed> {
+    start.map(|start| chain.forward(start)).transpose()?;
+    if chain.task() != Task::Pose || !chain.given().is_empty() {
+        let text =
+            format!("the task is `{}`; a path of poses is followed by `pose` without given joints", chain.asked());
+        return Err(Error::new(ErrorKind::Unsupported, text));
+    }
+    let times = times(pace, poses.len())?;
+    let path = Path { chain, speeds, times: &times, start };
+    let mut layers: Vec<Vec<State>> = Vec::with_capacity(poses.len());
+    let mut found = Vec::new();
+    for (sample, pose) in poses.iter().enumerate() {
+        watch.check()?;
+        watch.report("poses of the path", sample, poses.len() - sample);
+        let named = |error: Error| error.with_context(format_args!("pose {}", sample + 1));
+        solver.solve(&Target::Pose(*pose), &[], &mut found).map_err(named)?;
+        let choices = path.choices(&found).map_err(named)?;
+        layers.push(path.reached(sample, &choices, layers.last()));
+    }
+    let ways = path.ways(&layers);
+    let later = (1..ways.len()).filter_map(|sample| path.jump(sample, &layers, &ways));
+    let jumps = path.first_jump(&layers[0][ways[0]]).into_iter().chain(later).collect();
+    let trajectory = path.trajectory(&layers, &ways);
+    trajectory.check()?;
+    Ok(Followed { trajectory, jumps })
+}
+
+/// The times of `count` poses.
+fn times(pace: &Pace, count: usize) -> Result<Vec<f64>> {
+    let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
+    match pace {
+        _ if count == 0 => bad("there is no pose; give one at least".to_owned()),
+        Pace::Every(time) if !(time.is_finite() && *time > 0.0) => {
+            bad(format!("the time between two poses is {time}; give a positive number"))
+        }
+        Pace::Every(time) => Ok((0..count).map(|sample| sample as f64 * time).collect()),
+        Pace::At(times) if times.len() != count => {
+            bad(format!("{} times for {count} poses; give one each", times.len()))
+        }
+        Pace::At(times) => Ok(times.clone()),
+    }
+}
+
+/// Fewer jumps first, then the shorter way.
+fn cheaper(a: (usize, f64), b: (usize, f64)) -> Ordering {
+    a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+}
+
+/// The values of a solution's joints within the limits, which differ by whole turns.
+struct Choices {
+    branch: usize,
+    values: Vec<Vec<f64>>,
+}
+
+impl Choices {
+    /// The number of combinations.
+    fn count(&self) -> usize {
+        self.values.iter().fold(1, |count, values| count.saturating_mul(values.len()))
+    }
+
+    /// The same with at most [`MOST_STATES`] combinations: the joint with the most values loses the one that is furthest from zero.
+    fn fewer(mut self) -> Self {
+        while self.count() > MOST_STATES {
+            let Some(most) = self.values.iter_mut().max_by_key(|values| values.len()) else { break };
+            most.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+            most.pop();
+            most.sort_by(f64::total_cmp);
+        }
+        self
+    }
+
+    /// All combinations, the last joint's values fastest.
+    fn states(&self) -> Vec<State> {
+        let mut all = vec![Vec::new()];
+        for values in &self.values {
+            all = all.iter().flat_map(|q| values.iter().map(|value| [&q[..], &[*value]].concat())).collect();
+        }
+        let state = |q| State { q, branch: self.branch, cost: (usize::MAX, f64::INFINITY), from: 0 };
+        all.into_iter().map(state).collect()
+    }
+
+    /// The place among the combinations of the one that is next to `q`.
+    fn nearest(&self, q: &[f64]) -> usize {
+        self.values.iter().zip(q).fold(0, |place, (values, before)| {
+            let off = |at: &usize| (values[*at] - before).abs();
+            let next = (0..values.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(0);
+            place * values.len() + next
+        })
+    }
+}
+
+/// What all steps of a path have in common.
+struct Path<'p> {
+    chain: &'p Chain,
+    speeds: &'p [Option<f64>],
+    times: &'p [f64],
+    /// Where the arm stands before the first pose, where that is known.
+    start: Option<&'p [f64]>,
+}
+
+impl Path<'_> {
+    /// The values of each solution that are within the limits, joint by joint.
+    fn choices(&self, found: &[Solution]) -> Result<Vec<Choices>> {
+        let of = |solution: &Solution| {
+            let joints = self.chain.joints().iter().zip(&solution.q);
+            let values = joints.map(|(joint, value)| within(joint.limits, *value, joint.kind == JointKind::Revolute));
+            Choices { branch: solution.branch, values: values.collect() }
+        };
+        let choices: Vec<Choices> =
+            found.iter().map(of).filter(|choices| choices.count() > 0).map(Choices::fewer).collect();
+        match (choices.is_empty(), found.first()) {
+            (false, _) => Ok(choices),
+            (true, None) => Err(Error::new(ErrorKind::BadValue, "it is out of reach")),
+            (true, Some(_)) => {
+                let text = format!("all {} solutions are beyond the limits of a joint", found.len());
+                Err(Error::new(ErrorKind::BadValue, text))
+            }
+        }
+    }
+
+    /// The states at a pose, each with the best way to it: from a state before to the values of a solution that are next to its own, or by a jump
+    /// from the best of all.
+    fn reached(&self, sample: usize, choices: &[Choices], before: Option<&Vec<State>>) -> Vec<State> {
+        let mut states: Vec<State> = choices.iter().flat_map(Choices::states).collect();
+        let Some(before) = before else {
+            for state in &mut states {
+                let step = self.start.map_or((false, 0.0), |start| self.step(0, start, &state.q));
+                state.cost = (usize::from(step.0), step.1);
+            }
+            return states;
+        };
+        let best = (0..before.len()).min_by(|a, b| cheaper(before[*a].cost, before[*b].cost)).unwrap_or(0);
+        let starts: Vec<usize> =
+            choices.iter().scan(0, |start, own| Some(std::mem::replace(start, *start + own.count()))).collect();
+        let mut relax = |to: usize, from: usize| {
+            let (jumps, way) = self.step(sample, &before[from].q, &states[to].q);
+            let cost = (before[from].cost.0 + usize::from(jumps), before[from].cost.1 + way);
+            if cheaper(cost, states[to].cost).is_lt() {
+                (states[to].cost, states[to].from) = (cost, from);
+            }
+        };
+        for (own, start) in choices.iter().zip(starts) {
+            (start..start + own.count()).for_each(|to| relax(to, best));
+            (0..before.len()).for_each(|from| relax(start + own.nearest(&before[from].q), from));
+        }
+        states
+    }
+
+    /// Whether a step jumps, and the sum of the squares of the joints' ways.
+    fn step(&self, sample: usize, before: &[f64], q: &[f64]) -> (bool, f64) {
+        let steps = (0..q.len()).map(|joint| self.way(joint, before[joint], q[joint]));
+        let far = steps.clone().enumerate().any(|(joint, step)| step.abs() > self.most(sample, joint));
+        (far, steps.map(|step| step * step).sum())
+    }
+
+    /// How far a joint goes from one value to another: one without limits the shorter way round.
+    fn way(&self, joint: usize, from: f64, to: f64) -> f64 {
+        let Joint { kind, limits, .. } = &self.chain.joints()[joint];
+        if *kind == JointKind::Revolute && limits.is_none() { angle::difference(to, from) } else { to - from }
+    }
+
+    /// How far a joint may go to a pose without a jump.
+    fn most(&self, sample: usize, joint: usize) -> f64 {
+        // Nothing says how long the way to the first pose takes.
+        let time = sample.checked_sub(1).map(|before| self.times[sample] - self.times[before]);
+        match self.speeds.get(joint).copied().flatten().zip(time) {
+            Some((speed, time)) => speed * time,
+            None if self.chain.joints()[joint].kind == JointKind::Revolute => NEAR,
+            None => 0.1 * self.chain.reach(),
+        }
+    }
+
+    /// The joint that goes furthest in a step, and its way as a share of what it may go without a jump.
+    fn furthest(&self, sample: usize, before: &[f64], q: &[f64]) -> Option<(usize, f64)> {
+        let share = |joint: usize| self.way(joint, before[joint], q[joint]).abs() / self.most(sample, joint);
+        (0..q.len()).map(|joint| (joint, share(joint))).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The state of the best path at each pose.
+    fn ways(&self, layers: &[Vec<State>]) -> Vec<usize> {
+        let last = layers.last().map_or(&[][..], |layer| layer);
+        let end = (0..last.len()).min_by(|a, b| cheaper(last[*a].cost, last[*b].cost)).unwrap_or(0);
+        let mut ways = vec![end];
+        for layer in layers[1..].iter().rev() {
+            ways.push(layer[ways[ways.len() - 1]].from);
+        }
+        ways.reverse();
+        ways
+    }
+
+    /// The jump from where the arm stands to the first state, if there is one.
+    fn first_jump(&self, first: &State) -> Option<Jump> {
+        let start = self.start?;
+        let (joint, _) = self.furthest(0, start, &first.q).filter(|(_, share)| *share > 1.0)?;
+        let step = self.way(joint, start[joint], first.q[joint]);
+        Some(Jump { sample: 0, joint, step, why: "the path begins away from where the arm stands".to_owned() })
+    }
+
+    /// The jump to a pose, if there is one, and why: what becomes of the branch that it leaves.
+    fn jump(&self, sample: usize, layers: &[Vec<State>], ways: &[usize]) -> Option<Jump> {
+        let [before, now] = [sample - 1, sample].map(|at| &layers[at][ways[at]]);
+        let (joint, _) = self.furthest(sample, &before.q, &now.q).filter(|(_, share)| *share > 1.0)?;
+        let step = self.way(joint, before.q[joint], now.q[joint]);
+        let name = |joint: usize| &self.chain.joints()[joint].name;
+        let goes_on = layers[sample].iter().any(|state| !self.step(sample, &before.q, &state.q).0);
+        let same = layers[sample].iter().find(|state| state.branch == before.branch);
+        let why = if goes_on {
+            let blocked = self.end_of_branch(sample, layers, ways);
+            format!("the branch goes on, but ends {blocked}")
+        } else if let Some(same) = same {
+            let (fast, _) = self.furthest(sample, &before.q, &same.q)?;
+            let turns = self.chain.joints()[fast].kind == JointKind::Revolute;
+            if turns && self.way(fast, before.q[fast], same.q[fast]).abs() > std::f64::consts::PI {
+                format!("`{}` would leave its limits; it turns back by a whole turn", name(fast))
+            } else {
+                format!("the branch goes on, but `{}` would be faster than it can", name(fast))
+            }
+        } else if let Some(limited) = self.at_limit(&before.q) {
+            format!("`{}` is at its limit", name(limited))
+        } else {
+            "the branch ends: its solutions are no more, or beyond limits".to_owned()
+        };
+        Some(Jump { sample, joint, step, why })
+    }
+
+    /// At which pose all ways end that go on from the state that a jump leaves.
+    fn end_of_branch(&self, sample: usize, layers: &[Vec<State>], ways: &[usize]) -> String {
+        let mut alive = vec![ways[sample - 1]];
+        for at in sample..layers.len() {
+            let next: Vec<usize> = (0..layers[at].len())
+                .filter(|to| alive.iter().any(|from| !self.step(at, &layers[at - 1][*from].q, &layers[at][*to].q).0))
+                .collect();
+            if next.is_empty() {
+                return format!("at pose {}", at + 1);
+            }
+            alive = next;
+        }
+        "behind the path".to_owned()
+    }
+
+    /// The joint that is next to a limit, if one is.
+    fn at_limit(&self, q: &[f64]) -> Option<usize> {
+        let near = |(joint, value): (&Joint, &f64)| {
+            joint.limits.is_some_and(|(low, high)| (value - low).min(high - value) < 0.1 * NEAR)
+        };
+        self.chain.joints().iter().zip(q).position(near)
+    }
+
+    fn trajectory(&self, layers: &[Vec<State>], ways: &[usize]) -> Trajectory {
+        let joint = |(place, joint): (usize, &Joint)| JointTrack {
+            name: joint.name.clone(),
+            slides: joint.kind == JointKind::Prismatic,
+            limits: joint.limits,
+            speed: self.speeds.get(place).copied().flatten(),
+        };
+        Trajectory {
+            robot: self.chain.name().to_owned(),
+            joints: self.chain.joints().iter().enumerate().map(joint).collect(),
+            times: self.times.to_vec(),
+            q: self.unwound(layers.iter().zip(ways).map(|(layer, way)| &layer[*way].q)),
+            ..Trajectory::default()
+        }
+    }
+
+    /// The values with joints without limits turned on from where they were.
+    fn unwound<'q>(&self, values: impl Iterator<Item = &'q Vec<f64>>) -> Vec<Vec<f64>> {
+        let mut unwound: Vec<Vec<f64>> = Vec::new();
+        for q in values {
+            let next = match unwound.last().map(Vec::as_slice).or(self.start) {
+                Some(last) => (0..q.len()).map(|joint| last[joint] + self.way(joint, last[joint], q[joint])).collect(),
+                None => q.clone(),
+            };
+            unwound.push(next);
+        }
+        unwound
+    }
+}
+
+/// The values that are `value` but for whole turns, within limits; the value itself without limits.
+fn within(limits: Option<(f64, f64)>, value: f64, turns: bool) -> Vec<f64> {
+    let turn = std::f64::consts::TAU;
+    let Some((low, high)) = limits else { return vec![value] };
+    let inside = |value: &f64| *value >= low - ROUNDING && *value <= high + ROUNDING;
+    if !turns {
+        return Some(value).filter(inside).into_iter().collect();
+    }
+    let first = ((low - ROUNDING - value) / turn).ceil() as i64;
+    let shifts = (first..first + 8).map(|count| value + count as f64 * turn);
+    shifts.filter(inside).map(|value| value.clamp(low, high)).collect()
+}

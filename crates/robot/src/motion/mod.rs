@@ -1,0 +1,18 @@
+//! Motions in time: a walk, an arm's path, a recording. Main type: [`Trajectory`].
+//!
+//! A trajectory prints as a table ([`table`]) and as JSON, and both are read back. [`findings`] checks one against limits, speeds, jumps and margins;
+//! [`follow`] makes one of poses, by the branch of the solutions that stays continuous.
+
+mod check;
+mod follow;
+mod json;
+mod states;
+pub mod table;
+mod trajectory;
+
+pub use table::pose_numbers;
+
+pub use check::{Bounds, Fault, Finding, beyond_limit, findings, too_fast};
+pub use follow::{Followed, Jump, Pace, follow, follow_from};
+pub use states::{StateRow, StateTable};
+pub use trajectory::{Contact, Figure, JointTrack, Track, Trajectory};

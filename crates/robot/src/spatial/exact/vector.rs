@@ -1,0 +1,111 @@
+//! Exact vectors: sums, products and lines, for what must be zero or not.
+
+use num_traits::{ToPrimitive, Zero};
+
+use super::ExactVector;
+use super::rotation::over_common;
+use groebot_algebra::number::{BigInt, BigRational};
+
+/// `a + b`.
+pub fn add(a: &ExactVector, b: &ExactVector) -> ExactVector {
+    std::array::from_fn(|i| &a[i] + &b[i])
+}
+
+/// `a - b`.
+pub fn sub(a: &ExactVector, b: &ExactVector) -> ExactVector {
+    std::array::from_fn(|i| &a[i] - &b[i])
+}
+
+/// `factor a`.
+pub fn scale(a: &ExactVector, factor: &BigRational) -> ExactVector {
+    a.each_ref().map(|x| x * factor)
+}
+
+/// `a . b`.
+pub fn dot(a: &ExactVector, b: &ExactVector) -> BigRational {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// `a x b`.
+pub fn cross(a: &ExactVector, b: &ExactVector) -> ExactVector {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        &a[j] * &b[k] - &a[k] * &b[j]
+    })
+}
+
+/// Whether all entries are zero.
+pub fn is_zero(a: &ExactVector) -> bool {
+    a.iter().all(Zero::is_zero)
+}
+
+/// The length.
+pub fn length(a: &ExactVector) -> f64 {
+    root(&dot(a, a))
+}
+
+/// The square root of a number that is not negative.
+pub fn root(square: &BigRational) -> f64 {
+    square.to_f64().unwrap_or(f64::INFINITY).sqrt()
+}
+
+/// The square root of a quotient, without its greatest divisor.
+fn ratio(a: &BigRational, b: &BigRational) -> f64 {
+    root(&BigRational::new_raw(a.numer() * b.denom(), a.denom() * b.numer()))
+}
+
+/// The sine of the angle between two vectors that are not zero, not negative; exactly zero when they are parallel.
+pub fn sine(a: &ExactVector, b: &ExactVector) -> f64 {
+    share(a, b, |product, lengths| lengths - product)
+}
+
+/// The magnitude of the cosine of that angle; exactly zero when they are perpendicular.
+pub fn cosine(a: &ExactVector, b: &ExactVector) -> f64 {
+    share(a, b, |product, _| product.clone())
+}
+
+/// The square root of `part` over |a|^2 |b|^2, given (a . b)^2 and that: in whole numbers, which need no greatest divisors.
+fn share(a: &ExactVector, b: &ExactVector, part: impl Fn(&BigInt, &BigInt) -> BigInt) -> f64 {
+    let [a, b] = [a, b].map(|vector| over_common(vector.each_ref()).0);
+    let dot = |a: &[BigInt; 3], b: &[BigInt; 3]| -> BigInt { a.iter().zip(b).map(|(x, y)| x * y).sum() };
+    let (product, lengths) = (dot(&a, &b).pow(2), dot(&a, &a) * dot(&b, &b));
+    root(&BigRational::new_raw(part(&product, &lengths), lengths))
+}
+
+/// A line in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// A point of it.
+    pub point: ExactVector,
+    /// Its direction, of any length.
+    pub direction: ExactVector,
+}
+
+impl Line {
+    /// The point of the line that is nearest to `p`.
+    pub fn foot(&self, p: &ExactVector) -> ExactVector {
+        let along = dot(&sub(p, &self.point), &self.direction) / dot(&self.direction, &self.direction);
+        add(&self.point, &scale(&self.direction, &along))
+    }
+
+    /// The distance of `p`; exactly zero on the line.
+    pub fn distance(&self, p: &ExactVector) -> f64 {
+        let moment = cross(&sub(p, &self.point), &self.direction);
+        ratio(&dot(&moment, &moment), &dot(&self.direction, &self.direction))
+    }
+
+    /// The point of this line that is nearest to a line that is not parallel to it.
+    pub fn nearest(&self, other: &Line) -> ExactVector {
+        let normal = cross(&self.direction, &other.direction);
+        let apart = sub(&other.point, &self.point);
+        let along = dot(&cross(&apart, &other.direction), &normal) / dot(&normal, &normal);
+        add(&self.point, &scale(&self.direction, &along))
+    }
+
+    /// The distance of a line that is not parallel to this one; exactly zero when they meet.
+    pub fn gap(&self, other: &Line) -> f64 {
+        let normal = cross(&self.direction, &other.direction);
+        let volume = dot(&sub(&other.point, &self.point), &normal);
+        ratio(&(&volume * &volume), &dot(&normal, &normal))
+    }
+}

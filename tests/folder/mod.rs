@@ -1,6 +1,0 @@
-//! Tests of `groebot::folder`: a forged file or a forged record of a certificate is refused, or what it says is still true.
-
-mod files;
-mod honest;
-mod motion;
-mod records;
