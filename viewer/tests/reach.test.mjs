@@ -171,7 +171,7 @@ test("the map goes with its link", async () => {
 });
 
 /** The colours of a map from least to greatest, those of groebot's own pictures. */
-const COLOURS = [...readFileSync(path.join(root, "src/reach/drawing.rs"), "utf8").match(/COLOURS[^=]*= \[([\s\S]*?)\];/)[1].matchAll(/(\d+), (\d+), (\d+)/g)].map((found) => found.slice(1).map(Number));
+const COLOURS = [...readFileSync(path.join(root, "crates/ik/src/reach/drawing.rs"), "utf8").match(/COLOURS[^=]*= \[([\s\S]*?)\];/)[1].matchAll(/(\d+), (\d+), (\d+)/g)].map((found) => found.slice(1).map(Number));
 function colour(share) {
   const first = Math.min(Math.floor(share * (COLOURS.length - 1)), COLOURS.length - 2);
   return COLOURS[first].map((from, part) => from + (COLOURS[first + 1][part] - from) * (share * (COLOURS.length - 1) - first));
