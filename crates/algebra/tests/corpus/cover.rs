@@ -1,19 +1,24 @@
 //! The file `tests/corpus/cover/systems.toml`; its README explains the keys.
 
-use groebot_algebra::Result;
 use groebot_algebra::number::Field;
 use groebot_algebra::poly::{Fraction, Fractions, Order, Polynomial, PolynomialRing, parse};
-use groebot_robot::document::Table;
+use serde::Deserialize;
 
-use super::{load, read_all, tables, text, texts};
+use super::{load, read_all};
+
+#[derive(Deserialize)]
+struct File {
+    system: Vec<System>,
+}
 
 /// A parametric system with the number of segments that Singular's cover has.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
 pub struct System {
     pub name: String,
     pub variables: Vec<String>,
     pub parameters: Vec<String>,
     pub segments: usize,
+    #[serde(deserialize_with = "super::order")]
     pub order: Order,
     pub generators: Vec<String>,
 }
@@ -22,23 +27,12 @@ type Unknowns<F> = PolynomialRing<Fractions<F>>;
 
 /// All systems.
 pub fn all() -> Vec<System> {
-    load("cover/systems.toml", |root| tables(root, "system")?.into_iter().map(system_of).collect())
+    load::<File>("cover/systems.toml").system
 }
 
 /// The system of this name.
 pub fn system(name: &str) -> System {
     all().into_iter().find(|system| system.name == name).unwrap_or_else(|| panic!("no system {name}"))
-}
-
-fn system_of(table: Table<'_>) -> Result<System> {
-    Ok(System {
-        name: text(table, "name")?,
-        variables: texts(table, "variables")?,
-        parameters: texts(table, "parameters")?,
-        segments: table.required("segments")?.count()?,
-        order: table.required("order")?.one_of(&[("lex", Order::Lex), ("grevlex", Order::GrevLex)])?,
-        generators: texts(table, "generators")?,
-    })
 }
 
 impl System {

@@ -2,39 +2,47 @@
 
 use std::path::Path;
 
-use groebot_algebra::Result;
 use groebot_algebra::number::{Field, Ring};
 use groebot_algebra::poly::{Order, Polynomial, PolynomialRing};
-use groebot_robot::document::Table;
+use serde::Deserialize;
 
-use super::{load, read_all, tables, text, texts};
+use super::{load, read_all};
 
 /// One system in one field and order, with its reduced basis.
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
 pub struct Case {
     /// The file's name without `.toml`.
+    #[serde(skip)]
     pub file: String,
     pub field: String,
+    #[serde(deserialize_with = "super::order")]
     pub order: Order,
     pub variables: Vec<String>,
     pub parameters: Vec<String>,
     pub generators: Vec<String>,
     pub basis: Vec<String>,
+    pub facts: Facts,
+    #[serde(default, rename = "elimination")]
+    pub eliminations: Vec<Elimination>,
+    #[serde(default, rename = "membership")]
+    pub memberships: Vec<Membership>,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct Facts {
     /// -1 for the unit ideal.
     pub dimension: i64,
     pub quotient_dimension: Option<usize>,
     pub standard_monomials: Option<Vec<String>>,
-    pub eliminations: Vec<Elimination>,
-    pub memberships: Vec<Membership>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
 pub struct Elimination {
     pub eliminate: Vec<String>,
     pub basis: Vec<String>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
 pub struct Membership {
     pub polynomial: String,
     pub member: bool,
@@ -43,41 +51,7 @@ pub struct Membership {
 
 /// The case of this file, named without `.toml`.
 pub fn case(file: &str) -> Case {
-    load(&format!("groebner/{file}.toml"), |root| case_of(file, root))
-}
-
-fn case_of(file: &str, root: Table<'_>) -> Result<Case> {
-    let facts = root.required("facts")?.table()?;
-    let whole = |node: groebot_robot::document::Node<'_>| Ok(i64::try_from(node.exact()?.to_integer()).expect("small"));
-    Ok(Case {
-        file: file.to_owned(),
-        field: text(root, "field")?,
-        order: root.required("order")?.one_of(&[("lex", Order::Lex), ("grevlex", Order::GrevLex)])?,
-        variables: texts(root, "variables")?,
-        parameters: texts(root, "parameters")?,
-        generators: texts(root, "generators")?,
-        basis: texts(root, "basis")?,
-        dimension: whole(facts.required("dimension")?)?,
-        quotient_dimension: facts.optional("quotient_dimension").map(|node| node.count()).transpose()?,
-        standard_monomials: facts
-            .optional("standard_monomials")
-            .map(|_| texts(facts, "standard_monomials"))
-            .transpose()?,
-        eliminations: tables(root, "elimination")?.into_iter().map(elimination_of).collect::<Result<_>>()?,
-        memberships: tables(root, "membership")?.into_iter().map(membership_of).collect::<Result<_>>()?,
-    })
-}
-
-fn elimination_of(table: Table<'_>) -> Result<Elimination> {
-    Ok(Elimination { eliminate: texts(table, "eliminate")?, basis: texts(table, "basis")? })
-}
-
-fn membership_of(table: Table<'_>) -> Result<Membership> {
-    Ok(Membership {
-        polynomial: text(table, "polynomial")?,
-        member: table.required("member")?.boolean()?,
-        normal_form: text(table, "normal_form")?,
-    })
+    Case { file: file.to_owned(), ..load(&format!("groebner/{file}.toml")) }
 }
 
 /// All cases, by file name.

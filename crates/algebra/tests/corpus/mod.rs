@@ -8,8 +8,9 @@ pub mod systems;
 use std::path::Path;
 
 use groebot_algebra::number::{Field, Rationals, Zp};
-use groebot_algebra::poly::{Fractions, Polynomial, PolynomialRing, parse};
-use groebot_robot::document::{Document, Table};
+use groebot_algebra::poly::{Fractions, Order, Polynomial, PolynomialRing, parse};
+use serde::de::{DeserializeOwned, Error};
+use serde::{Deserialize, Deserializer};
 
 /// Something to do over whatever field a file names.
 pub trait Check {
@@ -46,23 +47,18 @@ pub fn read_all<F: Field>(ring: &PolynomialRing<F>, texts: &[String]) -> Vec<Pol
     texts.iter().map(|text| read(ring, text)).collect()
 }
 
-/// Parses the file at `path` of this folder and hands its root to `reader`.
-fn load<T>(path: &str, reader: impl Fn(Table<'_>) -> groebot_algebra::Result<T>) -> T {
-    let full = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("tests/corpus").join(path);
+/// The file at `path` of `tests/corpus`.
+fn load<T: DeserializeOwned>(path: &str) -> T {
+    let full = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/corpus")).join(path);
     let text = std::fs::read_to_string(&full).unwrap_or_else(|error| panic!("{path}: {error}"));
-    let document = Document::parse(&text).unwrap_or_else(|error| panic!("{path}: {error}"));
-    reader(document.root()).unwrap_or_else(|error| panic!("{path}: {error}"))
+    toml::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-fn text(table: Table<'_>, key: &str) -> groebot_algebra::Result<String> {
-    Ok(table.required(key)?.text()?.to_owned())
-}
-
-fn texts(table: Table<'_>, key: &str) -> groebot_algebra::Result<Vec<String>> {
-    Ok(table.required(key)?.texts()?.into_iter().map(str::to_owned).collect())
-}
-
-/// The tables of an array of tables; none when the key is absent.
-fn tables<'d>(table: Table<'d>, key: &str) -> groebot_algebra::Result<Vec<Table<'d>>> {
-    table.optional(key).map_or(Ok(Vec::new()), |node| node.tables())
+/// A monomial order by its name.
+fn order<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Order, D::Error> {
+    match String::deserialize(deserializer)?.as_str() {
+        "lex" => Ok(Order::Lex),
+        "grevlex" => Ok(Order::GrevLex),
+        other => Err(D::Error::custom(format!("order {other}"))),
+    }
 }

@@ -1,12 +1,17 @@
 //! The files of `tests/corpus/poly`; its README explains their keys.
 
-use groebot_algebra::Result;
-use groebot_robot::document::Table;
+use serde::Deserialize;
 
-use super::{load, text, texts};
+use super::load;
+
+/// A file of cases.
+#[derive(Deserialize)]
+struct File<T> {
+    case: Vec<T>,
+}
 
 /// Two polynomials and their greatest common divisor.
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
 pub struct Pair {
     pub name: String,
     pub field: String,
@@ -18,47 +23,29 @@ pub struct Pair {
 }
 
 /// A polynomial over Q or GF(p) and its irreducible factors, with their multiplicities.
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
 pub struct Factored {
     pub name: String,
     pub field: String,
     pub variables: Vec<String>,
     pub polynomial: String,
     pub unit: String,
-    pub factors: Vec<(String, usize)>,
+    pub factors: Vec<Factor>,
+}
+
+/// A factor with its multiplicity.
+#[derive(Debug, Deserialize)]
+pub struct Factor {
+    pub polynomial: String,
+    pub multiplicity: usize,
 }
 
 /// All pairs of `gcd.toml`.
 pub fn pairs() -> Vec<Pair> {
-    load("poly/gcd.toml", |root| root.required("case")?.tables()?.into_iter().map(pair_of).collect())
-}
-
-fn pair_of(table: Table<'_>) -> Result<Pair> {
-    Ok(Pair {
-        name: text(table, "name")?,
-        field: text(table, "field")?,
-        variables: texts(table, "variables")?,
-        parameters: texts(table, "parameters")?,
-        f: text(table, "f")?,
-        g: text(table, "g")?,
-        gcd: text(table, "gcd")?,
-    })
+    load::<File<Pair>>("poly/gcd.toml").case
 }
 
 /// All factorisations of `factor.toml`.
 pub fn factorisations() -> Vec<Factored> {
-    load("poly/factor.toml", |root| root.required("case")?.tables()?.into_iter().map(factored_of).collect())
-}
-
-fn factored_of(table: Table<'_>) -> Result<Factored> {
-    let factor = |table: Table<'_>| Ok((text(table, "polynomial")?, table.required("multiplicity")?.count()?));
-    let factors = table.required("factors")?.tables()?;
-    Ok(Factored {
-        name: text(table, "name")?,
-        field: text(table, "field")?,
-        variables: texts(table, "variables")?,
-        polynomial: text(table, "polynomial")?,
-        unit: text(table, "unit")?,
-        factors: factors.into_iter().map(factor).collect::<Result<_>>()?,
-    })
+    load::<File<Factored>>("poly/factor.toml").case
 }

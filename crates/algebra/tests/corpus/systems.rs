@@ -2,34 +2,36 @@
 
 use std::path::Path;
 
-use groebot_algebra::Result;
 use groebot_algebra::number::{BigInt, BigRational, Field, Rationals, Zp};
 use groebot_algebra::poly::{Order, Polynomial, PolynomialRing};
-use groebot_robot::document::{Node, Table};
 use num_integer::Integer;
 use num_traits::{One, Signed};
+use serde::{Deserialize, Deserializer};
 
-use super::{load, read_all, tables, text, texts};
+use super::{load, read_all};
 
 /// One system of equations with what is known of its reduced bases.
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
 pub struct System {
     pub name: String,
     pub variables: Vec<String>,
     pub generators: Vec<String>,
+    #[serde(default, rename = "answer")]
     pub answers: Vec<Answer>,
 }
 
 /// The facts of one reduced basis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Answer {
     /// `Q` or `GF(p)`.
     pub field: String,
+    #[serde(deserialize_with = "super::order")]
     pub order: Order,
+    #[serde(flatten)]
     pub facts: Facts,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Facts {
     /// -1 for the unit ideal.
     pub dimension: i64,
@@ -37,33 +39,17 @@ pub struct Facts {
     pub degree: usize,
     pub size: usize,
     /// [`basis_hash`].
+    #[serde(deserialize_with = "hexadecimal")]
     pub hash: u64,
 }
 
 /// The system of this name, such as `katsura_8`.
 pub fn system(name: &str) -> System {
-    load(&format!("groebner/systems/{name}.toml"), system_of)
+    load(&format!("groebner/systems/{name}.toml"))
 }
 
-fn system_of(root: Table<'_>) -> Result<System> {
-    Ok(System {
-        name: text(root, "name")?,
-        variables: texts(root, "variables")?,
-        generators: texts(root, "generators")?,
-        answers: tables(root, "answer")?.into_iter().map(answer_of).collect::<Result<_>>()?,
-    })
-}
-
-fn answer_of(table: Table<'_>) -> Result<Answer> {
-    let whole = |node: Node<'_>| Ok(i64::try_from(node.exact()?.to_integer()).expect("small"));
-    let facts = Facts {
-        dimension: whole(table.required("dimension")?)?,
-        degree: table.required("degree")?.count()?,
-        size: table.required("size")?.count()?,
-        hash: u64::from_str_radix(&text(table, "hash")?, 16).expect("16 hexadecimal digits"),
-    };
-    let order = table.required("order")?.one_of(&[("lex", Order::Lex), ("grevlex", Order::GrevLex)])?;
-    Ok(Answer { field: text(table, "field")?, order, facts })
+fn hexadecimal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u64, D::Error> {
+    u64::from_str_radix(&String::deserialize(deserializer)?, 16).map_err(serde::de::Error::custom)
 }
 
 /// All systems, by name.

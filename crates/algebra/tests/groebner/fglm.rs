@@ -35,7 +35,7 @@ fn graded(p: u64, texts: &[&str]) -> Basis<Zp> {
 fn finite_over(prime: u64) -> impl Fn(&Case) -> bool {
     move |case| {
         let field = case.field == "Q" || case.field == format!("GF({prime})");
-        field && case.order == Order::Lex && case.dimension == 0
+        field && case.order == Order::Lex && case.facts.dimension == 0
     }
 }
 
@@ -52,7 +52,7 @@ fn the_known_lexicographic_bases_are_found() {
             let found = change_order(&start, &lex, &Watch::none()).unwrap();
             assert!(found.polynomials == read_basis(&lex, &case.basis), "{}: another basis", case.file);
             let quotient = WordQuotient::new(&start, &Watch::none()).unwrap();
-            assert_eq!(Some(quotient.dimension()), case.quotient_dimension, "{}", case.file);
+            assert_eq!(Some(quotient.dimension()), case.facts.quotient_dimension, "{}", case.file);
             assert_eq!(quotient.basis_in(start_ring(&start), &Watch::none()).unwrap(), start, "{}", case.file);
             cases += 1;
         }

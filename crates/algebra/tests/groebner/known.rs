@@ -53,7 +53,7 @@ impl Check for Engine<'_> {
         let found = basis(&ring, &case.generators(&ring), &options, &Watch::none()).unwrap();
         assert_eq!(found.ring, ring, "{}", case.file);
         assert!(found.polynomials == read_basis(&ring, &case.basis), "{} {strategy:?}: another basis", case.file);
-        assert_eq!(found.is_unit_ideal(), case.dimension == -1, "{}", case.file);
+        assert_eq!(found.is_unit_ideal(), case.facts.dimension == -1, "{}", case.file);
     }
 }
 
@@ -93,10 +93,10 @@ impl Check for Facts<'_> {
         let ring = case.ring(&field);
         let known = Basis { polynomials: read_basis(&ring, &case.basis), ring: ring.clone(), cofactors: Vec::new() };
         let free = known.independent_variables();
-        assert_eq!(free.as_ref().map_or(-1, |free| free.len() as i64), case.dimension, "{}", case.file);
-        assert_eq!(known.require_zero_dimensional().is_ok(), case.dimension == 0, "{}", case.file);
-        assert_eq!(known.quotient_dimension(), case.quotient_dimension, "{}", case.file);
-        if let (Some(monomials), Some(texts)) = (known.quotient_basis(), &case.standard_monomials) {
+        assert_eq!(free.as_ref().map_or(-1, |free| free.len() as i64), case.facts.dimension, "{}", case.file);
+        assert_eq!(known.require_zero_dimensional().is_ok(), case.facts.dimension == 0, "{}", case.file);
+        assert_eq!(known.quotient_dimension(), case.facts.quotient_dimension, "{}", case.file);
+        if let (Some(monomials), Some(texts)) = (known.quotient_basis(), &case.facts.standard_monomials) {
             let mut expected: Vec<_> = texts.iter().map(|text| read(&ring, text).terms()[0].monomial.clone()).collect();
             expected.sort_by(|a, b| ring.layout().compare(a, b));
             assert_eq!(monomials, expected, "{}", case.file);
@@ -203,14 +203,14 @@ impl Check for ChangeOfOrder<'_> {
         let options = Options { strategy: Strategy::Normal, cofactors: false };
         let start = basis(&graded, &case.generators(&graded), &options, &Watch::none()).unwrap();
         let quotient = Quotient::new(&start).unwrap();
-        assert_eq!(Some(quotient.dimension()), case.quotient_dimension, "{}", case.file);
+        assert_eq!(Some(quotient.dimension()), case.facts.quotient_dimension, "{}", case.file);
         let moved = quotient.basis_in(&lex, &Watch::none()).unwrap();
         assert!(moved.polynomials == read_basis(&lex, &case.basis), "{}: another basis", case.file);
     }
 }
 
 fn is_lex_and_finite(case: &Case) -> bool {
-    case.order == Order::Lex && case.dimension == 0
+    case.order == Order::Lex && case.facts.dimension == 0
 }
 
 #[test]
@@ -247,7 +247,7 @@ impl Check for Back<'_> {
 
 #[test]
 fn a_change_of_order_goes_back_and_eliminates() {
-    let small = |case: &Case| is_lex_and_finite(case) && case.quotient_dimension <= Some(12);
+    let small = |case: &Case| is_lex_and_finite(case) && case.facts.quotient_dimension <= Some(12);
     assert!(check_all(small, |case| over(&case.field, &case.parameters, &Back(case))) >= 15);
 }
 
@@ -341,7 +341,7 @@ fn the_lists_of_exceptions_name_files() {
         assert!(!case(file).generators.is_empty());
     }
     let leg = case("nao_leg-lex-q_px_pz");
-    assert_eq!((leg.basis.len(), leg.memberships.len(), leg.quotient_dimension), (4, 5, Some(2)));
+    assert_eq!((leg.basis.len(), leg.memberships.len(), leg.facts.quotient_dimension), (4, 5, Some(2)));
     assert!(leg.memberships.iter().any(|m| m.member) && leg.memberships.iter().any(|m| !m.member));
     let ring =
         leg.ring(&groebot_algebra::poly::Fractions::new(groebot_algebra::number::Rationals, &leg.parameters).unwrap());

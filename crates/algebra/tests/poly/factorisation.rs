@@ -10,6 +10,7 @@ use proptest::prelude::*;
 
 use super::factors::pairwise_coprime;
 use super::sparse::{Sparse, build, sparse};
+use crate::corpus::poly::Factor;
 use crate::corpus::{Check, over, poly, read};
 
 fn factored<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>) -> Factorisation<F::Element> {
@@ -27,7 +28,7 @@ impl Check for KnownFactors<'_> {
             let found = factored(&ring, &f);
             assert_eq!(found.product(&ring), f, "{}", case.name);
             assert_eq!(found.factors.len(), case.factors.len(), "{}: the number of factors", case.name);
-            for (text, multiplicity) in &case.factors {
+            for Factor { polynomial: text, multiplicity } in &case.factors {
                 let known = (ring.monic(&read(&ring, text)), *multiplicity as u32);
                 assert!(found.factors.contains(&known), "{}: {text}", case.name);
             }

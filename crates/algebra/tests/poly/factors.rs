@@ -68,9 +68,10 @@ fn known_factors() {
     for case in cases.iter().filter(|case| case.field == "Q") {
         let ring = PolynomialRing::new(Rationals, &case.variables, Order::GrevLex).unwrap();
         let f = read(&ring, &case.polynomial);
-        let irreducible: Vec<_> = case.factors.iter().map(|(text, _)| ring.monic(&read(&ring, text))).collect();
-        let multiplied = case.factors.iter().fold(read(&ring, &case.unit), |product, (text, n)| {
-            ring.mul(&product, &ring.pow(&read(&ring, text), *n as u32))
+        let irreducible: Vec<_> = case.factors.iter().map(|factor| ring.monic(&read(&ring, &factor.polynomial))).collect();
+        let multiplied = case.factors.iter().fold(read(&ring, &case.unit), |product, factor| {
+            let base = read(&ring, &factor.polynomial);
+            ring.mul(&product, &ring.pow(&base, factor.multiplicity as u32))
         });
         assert_eq!(multiplied, f, "{}: the corpus", case.name);
         let factors = square_free_factors(&ring, &f);
