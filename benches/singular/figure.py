@@ -2,7 +2,7 @@
 
     python3 benches/singular/figure.py
 
-from the rows `bounded` of benches/record/2026-11-27-singular-times.csv, and 2026-11-27-singular-peers.csv. Both axes are logarithmic.
+from the rows `after` of benches/record/2026-11-28-singular-times.csv, and 2026-11-27-singular-peers.csv. Both axes are logarithmic.
 """
 
 import csv
@@ -10,7 +10,7 @@ import math
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-RECORD = ROOT / "benches/record/2026-11-27-singular-times.csv"
+RECORD = ROOT / "benches/record/2026-11-28-singular-times.csv"
 PEERS = ROOT / "benches/record/2026-11-27-singular-peers.csv"
 FIGURE = ROOT / "docs/singular_times.svg"
 ROBOTS = {
@@ -62,8 +62,8 @@ def frame():
 
 def curves():
     for place, (robot, (label, joint, colour)) in enumerate(ROBOTS.items()):
-        yield line(times(RECORD, ["bounded", robot], joint, 4), colour)
-        yield line(times(RECORD, ["bounded", robot], joint, 6), colour, "2 3")
+        yield line(times(RECORD, ["after", robot], joint, 4), colour)
+        yield line(times(RECORD, ["after", robot], joint, 6), colour, "2 3")
         yield f'<text x="{LEFT + 10}" y="{TOP + 18 + 16 * place}" fill="{colour}">{label}</text>'
     for place, ((robot, contestant), (label, colour)) in enumerate(OTHERS.items(), len(ROBOTS)):
         yield line(times(PEERS, [robot, contestant], "wrist", 4), colour, "8 4")

@@ -159,12 +159,18 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         walk(mechanism, parameters, self);
         self.flush();
         self.walk_curves();
-        if self.strays.are_doubtful() && !self.problem.steps.are_spent() {
+        if self.strays.are_doubtful() && !self.are_all() && !self.problem.steps.are_spent() {
             self.suffices = false;
             walk(mechanism, parameters, self);
             self.flush();
         }
         self.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
+    }
+
+    /// Whether there are as many isolated answers as a target can have.
+    fn are_all(&self) -> bool {
+        let count = self.out[..self.count].iter().filter(|answer| answer.is_isolated()).count();
+        self.problem.facts().isolated.is_some_and(|most| count >= most)
     }
 
     /// Brings all answers into the form that callers see; their number.

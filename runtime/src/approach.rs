@@ -7,7 +7,7 @@ use crate::number::{Number, With};
 use crate::problem::{Fit, Problem, everywhere, fit};
 use crate::storage::Array;
 use crate::tolerances::{APPROACHES, CHORD, PLAIN, ROUNDING, TURN};
-use crate::trigonometry::{cosine, in_turn, sine};
+use crate::trigonometry::{cosine_and_sine, in_turn};
 
 /// Where the short way has led.
 pub(crate) struct Approach<M: Mechanism> {
@@ -70,7 +70,7 @@ impl<M: Mechanism> Problem<'_, M> {
                     }
                     q.as_mut()[i] = angle;
                     let is_long = way.abs() > TURN;
-                    [at[c], at[s]] = if is_long { [cosine(angle), sine(angle)] } else { [cosine_back, sine_back] };
+                    [at[c], at[s]] = if is_long { cosine_and_sine(angle) } else { [cosine_back, sine_back] };
                 }
                 Joint::Length(place) => {
                     q.as_mut()[i] = value;

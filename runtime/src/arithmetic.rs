@@ -21,7 +21,7 @@ impl Arithmetic for f64 {
 
     #[inline(always)]
     fn round(self) -> f64 {
-        f64::round(self)
+        to_nearest(self)
     }
 
     #[inline(always)]
@@ -51,8 +51,7 @@ impl Arithmetic for f64 {
     }
 
     fn round(self) -> f64 {
-        // Just below one half: what is added to it must not round up to one.
-        whole(self + 0.499_999_999_999_999_94_f64.copysign(self))
+        to_nearest(self)
     }
 
     fn floor(self) -> f64 {
@@ -65,8 +64,15 @@ impl Arithmetic for f64 {
     }
 }
 
+/// The nearest whole number, halves away from zero: that of `std` is a call of the C library where the processor need not have SSE4.1.
+#[inline(always)]
+fn to_nearest(x: f64) -> f64 {
+    // Just below one half: what is added to it must not round up to one.
+    whole(x + 0.499_999_999_999_999_94_f64.copysign(x))
+}
+
 /// The number without what is behind its point.
-#[cfg(not(feature = "std"))]
+#[inline(always)]
 fn whole(x: f64) -> f64 {
     const ALL_WHOLE: f64 = (1_u64 << 52) as f64;
     if x.abs() < ALL_WHOLE { ((x as i64) as f64).copysign(x) } else { x }

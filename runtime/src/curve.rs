@@ -10,7 +10,7 @@ use crate::joints::{beyond, differences, is_in, moved, stepped};
 use crate::mechanism::{Equations, Found, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::starts::{Starts, product};
-use crate::tolerances::{ACCEPT, ALONE, NEAR, ROUNDING};
+use crate::tolerances::{ACCEPT, ALONE, NEAR, REGULAR, ROUNDING};
 
 /// The most least-squares steps across the curve.
 const ROUNDS: usize = 6;
@@ -238,7 +238,8 @@ impl<M: Mechanism> Answers<'_, M> {
         if self.is_listed(&end.0) {
             return;
         }
-        let free = self.problem.joint_on_long_self_motion(&end.0).unwrap_or(0);
+        let is_singular = self.problem.regularity(&end.0) <= REGULAR;
+        let free = if is_singular { self.problem.joint_on_long_self_motion(&end.0) } else { None }.unwrap_or(0);
         self.keep(&Found { free, ..*found }, end);
     }
 

@@ -4,7 +4,7 @@ use core::f64::consts::{PI, TAU};
 
 use crate::mechanism::{Facts, Joint, Joints, Mechanism, Places};
 use crate::storage::Array;
-use crate::trigonometry::{cosine, sine, wrap};
+use crate::trigonometry::{cosine_and_sine, wrap};
 
 /// Whether bit `joint` of a set of joints is set.
 #[inline(always)]
@@ -108,7 +108,7 @@ pub(crate) fn place<M: Mechanism>(facts: &Facts<'_>, q: &Joints<M>, like: Option
     let mut at: Places<M> = like.cloned().unwrap_or_else(|| Array::by(facts.places, |_| 0.0));
     for (joint, value) in facts.joints.iter().zip(q.as_ref()) {
         match *joint {
-            Joint::Angle([c, s]) => (at.as_mut()[c], at.as_mut()[s]) = (cosine(*value), sine(*value)),
+            Joint::Angle([c, s]) => [at.as_mut()[c], at.as_mut()[s]] = cosine_and_sine(*value),
             Joint::Length(place) => at.as_mut()[place] = *value,
         }
     }

@@ -4,6 +4,7 @@ use crate::answers::Answers;
 use crate::counters::Phase;
 use crate::mechanism::{Found, Joints, Mechanism};
 use crate::problem::End;
+use crate::self_motion::Member;
 use crate::solution::Solution;
 use crate::tolerances::{ADRIFT, ALONE, MERGE, NEAR, REGULAR, ROUNDING};
 
@@ -24,6 +25,10 @@ impl<M: Mechanism> Answers<'_, M> {
         if self.suffices && (missed > ADRIFT || self.strays.are_known(found, missed)) {
             return self.miss(end);
         }
+        // Once more, for an answer next to a self-motion's end, but not from where that is far.
+        if missed > NEAR && self.strays.are_astray(found) {
+            return self.miss(end);
+        }
         if self.problem.steps.are_spent() {
             return self.keep(found, end);
         }
@@ -34,8 +39,11 @@ impl<M: Mechanism> Answers<'_, M> {
         if (ROUNDING..=ADRIFT).contains(&missed) {
             end = self.problem.polish(end, found.free);
         }
-        if is_known && !self.is_another(found, &end) {
-            return self.trails.remember(found, &end.0);
+        if end.1.relative > ROUNDING && self.has_member_of_branch(found) {
+            return;
+        }
+        if is_known && self.is_on_known(found, &end) {
+            return;
         }
         self.is_another = is_known;
         let is_done =
@@ -45,6 +53,9 @@ impl<M: Mechanism> Answers<'_, M> {
             return;
         }
         end = self.problem.polish(end, 0);
+        if self.is_joined_to_listed(&end) {
+            return;
+        }
         if !self.keep_member(found, &end) {
             self.keep_alone(found, end, missed);
         }
@@ -71,24 +82,48 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that
-    /// is not asked.
-    fn is_another(&mut self, found: &Found, (q, fit): &End<M>) -> bool {
-        if !(fit.relative <= ROUNDING && self.problem.is_on_curve(q, found.free)) {
-            return false;
-        }
+    /// Whether a member is of a self-motion of its branch that is known: a continuous motion joins them. Where other joints are free too, it is taken for
+    /// one; and remembered.
+    fn is_on_known(&mut self, found: &Found, (q, fit): &End<M>) -> bool {
         let Answers { problem, out, count, trails, .. } = self;
-        let mut leads = |a: &Joints<M>| problem.leads_to(a, q, found.free);
         let last = trails.last(found.branch, |free| free == found.free);
-        let joins = last.is_some_and(|(_, _, last)| leads(last))
-            || out[..*count].iter().rev().any(|a| is_told(a, found) && leads(&a.q));
-        !joins
+        // First, for that is the quickest.
+        if fit.relative > ROUNDING || last.is_some_and(|last| problem.leads_straight_to(&last.q, q, found.free)) {
+            trails.remember(found, q, None);
+            return true;
+        }
+        let tangent = problem.tangent(q, found.free);
+        let member = |q, tangent: &Option<Joints<M>>| Member { q, tangent: tangent.clone() };
+        let joins = tangent.is_none()
+            || last.is_some_and(|last| {
+                problem.leads_round_to(member(&last.q, &last.tangent), member(q, &tangent), found.free)
+            })
+            || out[..*count].iter().rev().any(|a| is_told(a, found) && problem.leads_to(&a.q, q, found.free));
+        if joins {
+            trails.remember(found, q, tangent);
+        }
+        joins
     }
 
     /// Whether an isolated answer with these joints is in the list.
     pub fn is_listed(&self, q: &Joints<M>) -> bool {
         let is_same = |answer: &Solution<M>| self.problem.facts().is_within(answer.q.as_ref(), q.as_ref(), MERGE);
         self.out[..self.count].iter().any(|answer| answer.is_isolated() && is_same(answer))
+    }
+
+    /// Whether a member with the branch and the one free joint of a candidate is in the list: of one branch are all those that do not hold within rounding.
+    fn has_member_of_branch(&self, found: &Found) -> bool {
+        let is_of_branch = |a: &Solution<M>| a.branch == found.branch && a.free == found.free;
+        found.free.is_power_of_two() && self.out[..self.count].iter().any(is_of_branch)
+    }
+
+    /// Whether joints that hold within rounding are one singular configuration with an isolated answer in the list.
+    fn is_joined_to_listed(&mut self, (q, fit): &End<M>) -> bool {
+        let Answers { problem, out, count, .. } = self;
+        fit.relative <= ROUNDING
+            && out[..*count]
+                .iter()
+                .any(|a| a.is_isolated() && problem.are_blurred((&a.q, a.relative), (q, fit.relative)))
     }
 
     /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an
@@ -122,7 +157,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Keeps an answer, and remembers a member.
     fn keep_on_trail(&mut self, found: &Found, end: End<M>) {
         if found.free != 0 {
-            self.trails.remember(found, &end.0);
+            self.trails.remember(found, &end.0, None);
         }
         self.keep(found, end);
     }
@@ -130,11 +165,11 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Whether joints are on a self-motion of one joint that the last candidates of this branch have led to.
     fn is_on_trail(&mut self, found: &Found, q: &Joints<M>) -> bool {
         let Answers { problem, trails, .. } = self;
-        let Some((_, free, last)) = trails.last(found.branch, u32::is_power_of_two) else { return false };
-        let free = *free;
-        let is_on = problem.regularity(q) <= REGULAR && problem.leads_to(last, q, free);
+        let Some(last) = trails.last(found.branch, u32::is_power_of_two) else { return false };
+        let free = last.free;
+        let is_on = problem.regularity(q) <= REGULAR && problem.leads_to(&last.q, q, free);
         if is_on {
-            trails.remember(&Found { free, ..*found }, q);
+            trails.remember(&Found { free, ..*found }, q, None);
         }
         is_on
     }

@@ -14,9 +14,11 @@ use crate::tolerances::{
 /// A triangle of columns, the right side in the last one.
 pub(crate) struct Triangle<M: Mechanism> {
     numbers: <M::Storage as Storage>::Triangle,
-    /// The length of a column.
+    /// The length of a column: one entry for each equation, then one for each joint.
     rows: usize,
     joints: usize,
+    /// In all columns the entries are zero after those of so many joints. Before the reflection of a pivot they are zero after that of its joint.
+    damped: usize,
 }
 
 impl<M: Mechanism> Problem<'_, M> {
@@ -50,6 +52,7 @@ impl<M: Mechanism> Problem<'_, M> {
     fn improved(&mut self, (q, fit): &End<M>, held: u32) -> Option<End<M>> {
         let leaps = (ROUNDING..=NEAR).contains(&fit.relative);
         let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
+        let last = if held == 0 { ALONE } else { ROUNDING };
         let (derivatives, values) = self.slopes(q);
         let mut fallen = None;
         for damping in DAMPINGS {
@@ -62,7 +65,7 @@ impl<M: Mechanism> Problem<'_, M> {
             if damping == 0.0 && fit.relative < ROUNDING && self.facts().longest(step.as_ref()) <= SHORT {
                 return None;
             }
-            if damping == 0.0 && fit.relative > ALONE && triangle.is_regular() {
+            if damping == 0.0 && fit.relative > last && triangle.is_regular() {
                 return (next.1.relative < fit.relative).then_some(next);
             }
             if leaps && damping == 0.0 && held == 0 && next.1.relative <= OVERSHOT * fit.relative {
@@ -274,7 +277,7 @@ impl<M: Mechanism> Problem<'_, M> {
     pub(crate) fn no_triangle(&self) -> Triangle<M> {
         let joints = self.joints();
         let rows = self.facts().size_of.len() + joints;
-        Triangle { numbers: Array::by((joints + 1) * rows, |_| 0.0), rows, joints }
+        Triangle { numbers: Array::by((joints + 1) * rows, |_| 0.0), rows, joints, damped: joints }
     }
 
     /// The triangle of equations with these derivatives and values.
@@ -298,6 +301,7 @@ impl<M: Mechanism> Problem<'_, M> {
             size = f64::max(size, square);
         }
         triangle.column_mut(joints)[..equations].copy_from_slice(right.as_ref());
+        triangle.damped = if damping > 0.0 { joints } else { (u32::BITS - held.leading_zeros()) as usize };
         for i in 0..joints {
             let damped = if is_in(held, i) { 1.0 } else { Arithmetic::sqrt(damping * size) };
             triangle.column_mut(i)[equations + i] = damped;
@@ -323,8 +327,9 @@ impl<M: Mechanism> Triangle<M> {
     /// Turns columns into a triangle by reflections.
     pub fn reflect(&mut self) {
         for pivot in 0..self.joints {
+            let end = self.rows - self.joints + usize::min(pivot + 1, self.damped);
             let (before, behind) = self.numbers.as_mut().split_at_mut((pivot + 1) * self.rows);
-            let mirror = &mut before[pivot * self.rows..][pivot..];
+            let mirror = &mut before[pivot * self.rows..][pivot..end];
             let square = mirror.iter().fold(0.0, |sum, x| sum + x * x);
             if square == 0.0 {
                 continue;
@@ -333,7 +338,7 @@ impl<M: Mechanism> Triangle<M> {
             mirror[0] += length;
             let half = length * mirror[0];
             for column in behind.chunks_exact_mut(self.rows) {
-                let column = &mut column[pivot..];
+                let column = &mut column[pivot..end];
                 let along = mirror.iter().zip(&*column).fold(0.0, |sum, (x, y)| sum + x * y) / half;
                 column.iter_mut().zip(&*mirror).for_each(|(x, y)| *x -= along * y);
             }
@@ -359,19 +364,43 @@ impl<M: Mechanism> Triangle<M> {
 
     /// The solution of the triangular system; none for a zero or non-finite pivot.
     pub fn substituted(&self) -> Option<Joints<M>> {
-        let mut solution: Joints<M> = Array::by(self.joints, |_| 0.0);
+        self.substituted_from(Array::by(self.joints, |row| self.entry(self.joints, row)))
+    }
+
+    /// The same with another right side.
+    fn substituted_from(&self, mut solution: Joints<M>) -> Option<Joints<M>> {
         for row in (0..self.joints).rev() {
             let pivot = self.entry(row, row);
             if pivot == 0.0 || !pivot.is_finite() {
                 return None;
             }
-            let mut sum = self.entry(self.joints, row);
+            let mut sum = solution.as_ref()[row];
             for k in row + 1..self.joints {
                 sum -= self.entry(k, row) * solution.as_ref()[k];
             }
             solution.as_mut()[row] = sum / pivot;
         }
         Some(solution)
+    }
+
+    /// The solution for other values of the equations, by the triangle `R` of their derivatives `J` alone: `R^T R x = J^T f`; none for a zero or non-finite pivot.
+    pub fn substituted_again(
+        &self,
+        derivatives: &Equations<M, Joints<M>>,
+        values: &Equations<M>,
+        held: u32,
+    ) -> Option<Joints<M>> {
+        let mut solution: Joints<M> = Array::by(self.joints, |_| 0.0);
+        for row in 0..self.joints {
+            let along = |sum, (slopes, value): (&Joints<M>, &f64)| sum + slopes.as_ref()[row] * value;
+            let rows = derivatives.as_ref().iter().zip(values.as_ref());
+            let mut sum = if is_in(held, row) { 0.0 } else { rows.fold(0.0, along) };
+            for k in 0..row {
+                sum -= self.entry(row, k) * solution.as_ref()[k];
+            }
+            solution.as_mut()[row] = sum / self.entry(row, row);
+        }
+        self.substituted_from(solution)
     }
 }
 

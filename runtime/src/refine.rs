@@ -44,16 +44,18 @@ impl<M: Mechanism> Answers<'_, M> {
         if found.close {
             self.doubted = number;
         }
-        if is_nearby && is_beside && self.keep_moving(found, &end) {
+        let triangle = (is_nearby && is_beside).then(|| self.problem.triangle(&end.0, 0.0, 0));
+        let regularity = triangle.as_ref().map_or(1.0, Triangle::regularity);
+        if triangle.is_some() && self.keep_moving(found, &end, regularity) {
             return;
         }
-        if is_nearby && self.leads_to_curve(found, (&q, is_beside), &end) {
+        if is_nearby && self.leads_to_curve(found, (&q, is_beside), &end, regularity) {
             return self.miss(end);
         }
         if (ROUNDING..=NEAR).contains(&miss) {
             self.around(found, &end, miss);
         } else if is_beside && way > LEVER * Arithmetic::sqrt(missed) {
-            if !is_nearby || self.problem.regularity(&end.0) <= DISTINCT {
+            if !is_nearby || regularity <= DISTINCT {
                 self.around(found, &end, missed);
             }
             // Such a candidate stands between two answers: starts from the other side too.
@@ -62,8 +64,7 @@ impl<M: Mechanism> Answers<'_, M> {
             let start = self.problem.polished(start, 0);
             self.keep(found, start);
         }
-        if is_nearby && is_beside {
-            let triangle = self.problem.triangle(&end.0, 0.0, 0);
+        if let Some(triangle) = triangle {
             self.twin(found, &end.0, triangle, missed);
         }
         self.keep(found, end);
@@ -71,8 +72,14 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Looks for curves next to where steps from a candidate have led, and next to the candidate where they have led far from it; whether they have come to
     /// an end on a curve.
-    fn leads_to_curve(&mut self, found: &Found, (q, is_beside): (&Joints<M>, bool), end: &End<M>) -> bool {
-        if is_beside && self.is_curve(found, end) && end.1.relative >= ROUNDING {
+    fn leads_to_curve(
+        &mut self,
+        found: &Found,
+        (q, is_beside): (&Joints<M>, bool),
+        end: &End<M>,
+        regularity: f64,
+    ) -> bool {
+        if is_beside && self.is_curve(found, end, regularity) && end.1.relative >= ROUNDING {
             return true;
         }
         if self.problem.facts().farthest(q.as_ref(), end.0.as_ref()) > BLUR {
@@ -90,8 +97,9 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         self.unsound = number;
         let triangle = self.problem.triangle(&end, 0.0, 0);
-        if triangle.regularity() <= REGULAR {
-            if self.keep_moving(found, &(end.clone(), fit)) {
+        let regularity = triangle.regularity();
+        if regularity <= REGULAR {
+            if self.keep_moving(found, &(end.clone(), fit), regularity) {
                 return;
             }
             self.begin_curve(found, &end);
@@ -102,9 +110,9 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a
     /// self-motion as to an isolated answer. Whether it is one.
-    fn keep_moving(&mut self, found: &Found, end: &End<M>) -> bool {
-        let is_sharp = end.1.relative <= ROUNDING;
-        let joint = if is_sharp { self.problem.joint_on_long_self_motion(&end.0) } else { None };
+    fn keep_moving(&mut self, found: &Found, end: &End<M>, regularity: f64) -> bool {
+        let may_move = end.1.relative <= ROUNDING && regularity <= REGULAR;
+        let joint = if may_move { self.problem.joint_on_long_self_motion(&end.0) } else { None };
         if let Some(free) = joint {
             self.keep(&Found { free, ..*found }, end.clone());
         }
@@ -112,9 +120,8 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Whether a curve goes through an answer of a nearby mechanism, or through where steps to one have come to an end: then it is followed.
-    fn is_curve(&mut self, found: &Found, (q, fit): &End<M>) -> bool {
-        let is_singular =
-            (ROUNDING..=NEAR).contains(&fit.relative) || fit.accepted && self.problem.regularity(q) <= REGULAR;
+    fn is_curve(&mut self, found: &Found, (q, fit): &End<M>, regularity: f64) -> bool {
+        let is_singular = (ROUNDING..=NEAR).contains(&fit.relative) || fit.accepted && regularity <= REGULAR;
         is_singular && self.begin_curve(found, q)
     }
 
@@ -314,7 +321,7 @@ impl<M: Mechanism> Answers<'_, M> {
             return are_alike(problem, a, b);
         }
         match (a.is_isolated(), b.is_isolated()) {
-            (true, true) => are_blurred(problem, a, b),
+            (true, true) => problem.are_blurred((&a.q, a.relative), (&b.q, b.relative)),
             (false, false) => {
                 let are_apart = *is_another && a.relative <= ROUNDING && a.branch == b.branch;
                 let is_alike = a.free == b.free && !are_apart;
@@ -323,6 +330,19 @@ impl<M: Mechanism> Answers<'_, M> {
             (true, false) => is_on(problem, loners, b, a, *suffices),
             (false, true) => is_on(problem, loners, a, b, *suffices),
         }
+    }
+}
+
+impl<M: Mechanism> Problem<'_, M> {
+    /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond [`MERGE`]: they hold
+    /// half-way too, as well as at the worse of the two.
+    pub fn are_blurred(&mut self, (a, of_a): (&Joints<M>, f64), (b, of_b): (&Joints<M>, f64)) -> bool {
+        let bound = f64::max(f64::max(of_a, of_b), ALIKE);
+        let is_near = self.facts().farthest(a.as_ref(), b.as_ref()) <= BLUR;
+        if bound <= ROUNDING && is_near && self.regularity(b) > DISTINCT {
+            return false;
+        }
+        self.are_joined(a, b, bound, 0)
     }
 }
 
@@ -349,18 +369,7 @@ fn is_on<M: Mechanism>(
 /// Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding.
 fn are_by_branch<M: Mechanism>(problem: &mut Problem<'_, M>, a: &Solution<M>, b: &Solution<M>) -> bool {
     let are_sharp = f64::max(a.relative, b.relative) <= ROUNDING;
-    a.branch == b.branch && !(are_sharp && problem.is_on_curve(&b.q, b.free))
-}
-
-/// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond [`MERGE`]: they hold half-way
-/// too, as well as at the worse of the two.
-fn are_blurred<M: Mechanism>(problem: &mut Problem<'_, M>, a: &Solution<M>, b: &Solution<M>) -> bool {
-    let bound = f64::max(f64::max(a.relative, b.relative), ALIKE);
-    let is_near = problem.facts().farthest(a.q.as_ref(), b.q.as_ref()) <= BLUR;
-    if bound <= ROUNDING && is_near && problem.regularity(&b.q) > DISTINCT {
-        return false;
-    }
-    problem.are_joined(&a.q, &b.q, bound, 0)
+    a.branch == b.branch && !(are_sharp && problem.tangent(&b.q, b.free).is_some())
 }
 
 /// Whether two answers that no steps are left to tell apart count as one: members of a branch, and what polishing might have led to the other.

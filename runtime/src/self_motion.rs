@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use crate::joints::{beyond, differences, is_in, moved, stepped};
-use crate::mechanism::{Joints, Mechanism};
+use crate::mechanism::{Equations, Facts, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::Array;
 use crate::tolerances::{
@@ -38,10 +38,9 @@ impl<M: Mechanism> Problem<'_, M> {
         self.joint_that(|problem, free| problem.leads_to_self_motion(q, free, bound, regularity))
     }
 
-    /// The same of long self-motions within rounding.
+    /// The same of long self-motions within rounding, for joints that are singular.
     pub fn joint_on_long_self_motion(&mut self, q: &Joints<M>) -> Option<u32> {
-        let is_singular = self.regularity(q) <= REGULAR;
-        self.joint_that(|problem, free| is_singular && problem.leads_far_aside(q, free))
+        self.joint_that(|problem, free| problem.leads_far_aside(q, free))
     }
 
     fn joint_that(&mut self, moves: impl Fn(&mut Self, u32) -> bool) -> Option<u32> {
@@ -95,7 +94,8 @@ impl<M: Mechanism> Problem<'_, M> {
         for stage in 0..DOUBLINGS {
             let ahead = beyond::<M>(&self.facts(), &before, &at, if stage == 1 { 1.0 } else { 2.0 });
             let start = self.moved_all(&ahead, q, free, share * way);
-            let (next, fit) = self.polished(start, free);
+            let start = self.measured(start);
+            let (next, fit) = if start.1.relative <= bound { start } else { self.polish(start, free) };
             if fit.relative > bound || (stage == 1 && !self.leads_back(q, free, &at, &next, bound)) {
                 return false;
             }
@@ -115,21 +115,42 @@ impl<M: Mechanism> Problem<'_, M> {
         fit.accepted && self.are_joined(&back, q, bound, free)
     }
 
-    /// Whether the self-motion that `q` is a member of is a curve there, along which one free joint tells all others.
-    pub fn is_on_curve(&mut self, q: &Joints<M>, free: u32) -> bool {
-        free.is_power_of_two() && self.regularity_of(q, free) > REGULAR
+    /// The tangent of the self-motion that `q` is a member of, if that is a curve there, along which one free joint tells all others: their derivatives by
+    /// that joint.
+    pub fn tangent(&mut self, q: &Joints<M>, free: u32) -> Option<Joints<M>> {
+        if !free.is_power_of_two() {
+            return None;
+        }
+        let derivatives = self.derivatives(&self.place(q));
+        let joint = free.trailing_zeros() as usize;
+        let ahead: Equations<M> = Array::by(self.facts().size_of.len(), |i| derivatives.as_ref()[i].as_ref()[joint]);
+        let triangle = self.triangle_of(&derivatives, &ahead, 0.0, free);
+        let back = if triangle.regularity() > REGULAR { triangle.substituted() } else { None }?;
+        Some(Array::by(self.joints(), |i| if i == joint { 1.0 } else { -back.as_ref()[i] }))
     }
 
     /// Whether a continuous motion of the joints, the equations held, joins a member of a self-motion to another one with the same free joints: along a
     /// straight line, or as the free joints move there and the others follow. Where the shorter way round is barred, a joint takes the longer.
     pub fn leads_to(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
+        let member = |q| Member { q, tangent: None };
+        self.leads_straight_to(a, b, free) || self.leads_round_to(member(a), member(b), free)
+    }
+
+    /// The same along a straight line, of which a joint may take the longer way round.
+    pub fn leads_straight_to(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
         let short = differences::<M>(&self.facts(), b, a);
+        self.is_straight(a, &short) || self.other_way(&short, free).is_some_and(|long| self.is_straight(a, &long))
+    }
+
+    /// The same as the free joints move and the others follow.
+    pub fn leads_round_to(&mut self, a: Member<'_, M>, b: Member<'_, M>, free: u32) -> bool {
+        let short = differences::<M>(&self.facts(), b.q, a.q);
         let long = self.other_way(&short, free);
-        if self.is_straight(a, &short) || long.as_ref().is_some_and(|long| self.is_straight(a, long)) {
+        if self.are_joined_by_cubics(&a, &b, free, [Some(&short), long.as_ref()]) {
             return true;
         }
-        let arrives = self.leads_along(a, b, free, &short);
-        arrives.or_else(|| self.leads_along(a, b, free, &long?)).unwrap_or(false)
+        let arrives = self.leads_along(a.q, b.q, free, &short);
+        arrives.or_else(|| self.leads_along(a.q, b.q, free, &long?)).unwrap_or(false)
     }
 
     /// The way on which a free joint goes the other way round, if it is one that turns.
@@ -149,6 +170,59 @@ impl<M: Mechanism> Problem<'_, M> {
             let at = Array::by(self.joints(), |i| a.as_ref()[i] + share * way.as_ref()[i]);
             self.measure(&at).relative <= ROUNDING
         })
+    }
+
+    /// Whether cubic curves join a member of a self-motion to another one along one of two ways of a free joint. Where that goes no farther than the first step
+    /// to follow it, it is not tried.
+    fn are_joined_by_cubics(
+        &mut self,
+        a: &Member<'_, M>,
+        b: &Member<'_, M>,
+        free: u32,
+        ways: [Option<&Joints<M>>; 2],
+    ) -> bool {
+        let joint = free.trailing_zeros() as usize;
+        let is_far = |way: &&Joints<M>| free.is_power_of_two() && way.as_ref()[joint].abs() > ALONG[1];
+        if !ways[0].is_some_and(|way| is_far(&way)) {
+            return false;
+        }
+        let mut tangent = |member: &Member<'_, M>| member.tangent.clone().or_else(|| self.tangent(member.q, free));
+        let (Some(at_a), Some(at_b)) = (tangent(a), tangent(b)) else { return false };
+        ways.into_iter().flatten().any(|way| {
+            let way = way.as_ref()[joint];
+            let ends = [(a.q, &at_a, 0.0), (b.q, &at_b, way)];
+            self.is_interpolated(
+                ends.map(|(q, tangent, gone)| Knot { q: q.clone(), tangent: tangent.clone(), gone }),
+                joint,
+            )
+        })
+    }
+
+    /// Whether cubic curves lead from one place of a self-motion to another: half-way along each curve, the other joints follow by no more than [`ARRIVED`].
+    /// A curve that they do not follow is divided there, until it is too short. (Hermite interpolation: the curves have the self-motion's tangents at their
+    /// ends, and miss it by the fourth power of their length.)
+    fn is_interpolated(&mut self, [first, last]: [Knot<M>; 2], joint: usize) -> bool {
+        let (facts, free, start) = (self.facts(), 1 << joint, first.q.as_ref()[joint]);
+        let (mut at, mut count) = (Some(first), 1);
+        let mut ends: [Option<Knot<M>>; DIVISIONS] = [const { None }; DIVISIONS];
+        ends[0] = Some(last);
+        while count > 0 {
+            let (Some(near), Some(far)) = (&at, &ends[count - 1]) else { return false };
+            let (mut middle, gone) = (near.half_way(&facts, far), 0.5 * (near.gone + far.gone));
+            middle.as_mut()[joint] = facts.wrapped(joint, start + gone);
+            let Some((q, _)) = self.corrected(middle.clone(), free) else { return false };
+            if facts.farthest(q.as_ref(), middle.as_ref()) <= ARRIVED {
+                count -= 1;
+                at = ends[count].take();
+            } else if count < DIVISIONS {
+                let tangent = self.tangent(&q, free);
+                ends[count] = tangent.map(|tangent| Knot { q, tangent, gone });
+                count += 1;
+            } else {
+                return false;
+            }
+        }
+        true
     }
 
     /// Whether the joints come to `b` as the free ones go `way` from `a` and the others follow, in steps with which they keep up; none where they
@@ -187,16 +261,35 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// Where the others follow to as the free joints have been moved, if that is near: by a few steps.
     fn followed(&mut self, ahead: Joints<M>, free: u32) -> Option<End<M>> {
-        let mut end = self.measured(ahead.clone());
+        let end = self.corrected(ahead.clone(), free)?;
+        (self.facts().farthest(end.0.as_ref(), ahead.as_ref()) <= LEAPT).then_some(end)
+    }
+
+    /// The same wherever that is. Each Newton step is followed by another one with the derivatives of the first.
+    fn corrected(&mut self, mut q: Joints<M>, free: u32) -> Option<End<M>> {
+        let mut at = self.place(&q);
+        let mut fit = self.measure_at(&at, &q);
         for _ in 0..RETURNS {
-            if end.1.relative <= ASTRAY {
+            if fit.relative <= ASTRAY || self.steps.are_spent() {
                 break;
             }
-            let step = self.newton_step(&end.0, DAMPINGS[1], free)?;
-            end = self.measured(stepped::<M>(&self.facts(), &end.0, &step));
+            let (derivatives, mut values) = (self.derivatives(&at), self.mechanism.values(self.parameters, &at));
+            let triangle = self.triangle_of(&derivatives, &values, DAMPINGS[1], free);
+            let mut step = triangle.substituted()?;
+            for second in 0..2 {
+                if second > 0 {
+                    values = self.mechanism.values(self.parameters, &at);
+                    step = triangle.substituted_again(&derivatives, &values, free)?;
+                }
+                q = stepped::<M>(&self.facts(), &q, &step);
+                at = self.place(&q);
+                fit = self.measure_at(&at, &q);
+                if fit.relative <= ASTRAY {
+                    break;
+                }
+            }
         }
-        let is_near = self.facts().farthest(end.0.as_ref(), ahead.as_ref()) <= LEAPT;
-        (end.1.relative <= ASTRAY && is_near).then_some(end)
+        (fit.relative <= ASTRAY).then_some((q, fit))
     }
 
     /// Whether joints that have come next to a member of a self-motion are on that one: half-way the equations hold too.
@@ -204,6 +297,33 @@ impl<M: Mechanism> Problem<'_, M> {
         let (q, fit) = self.polish(end, free);
         let is_close = fit.accepted && self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED);
         is_close && self.are_joined(&q, b, ROUNDING, free)
+    }
+}
+
+/// The most cubic curves that one between two members is divided into, as a power of two, and one.
+const DIVISIONS: usize = 5;
+
+/// A member of a self-motion, with the tangent if it is known.
+pub(crate) struct Member<'a, M: Mechanism> {
+    pub q: &'a Joints<M>,
+    pub tangent: Option<Joints<M>>,
+}
+
+/// A place on a self-motion where cubic curves meet: joints, the tangent, and how far the free joint has gone.
+struct Knot<M: Mechanism> {
+    q: Joints<M>,
+    tangent: Joints<M>,
+    gone: f64,
+}
+
+impl<M: Mechanism> Knot<M> {
+    /// Half-way along the cubic curve to another place.
+    fn half_way(&self, facts: &Facts<'_>, other: &Self) -> Joints<M> {
+        let (bend, apart) = (0.125 * (other.gone - self.gone), differences::<M>(facts, &other.q, &self.q));
+        Array::by(facts.joints.len(), |i| {
+            let turned = bend * (self.tangent.as_ref()[i] - other.tangent.as_ref()[i]);
+            facts.wrapped(i, self.q.as_ref()[i] + 0.5 * apart.as_ref()[i] + turned)
+        })
     }
 }
 

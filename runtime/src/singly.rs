@@ -10,7 +10,7 @@ use crate::solution::{Error, Pairs, Solution};
 use crate::steps::Steps;
 use crate::storage::Array;
 use crate::tolerances::MOST_STEPS;
-use crate::trigonometry::{cosine, sine};
+use crate::trigonometry::cosine_and_sine;
 
 /// As [`crate::Solve::solve`].
 #[inline]
@@ -62,7 +62,7 @@ pub(crate) fn pairs_of<M: Mechanism>(mechanism: &M, solution: &Solution<M>) -> P
     let facts = mechanism.facts();
     let joints = Array::by(facts.joints.len(), |i| {
         let value = solution.q.as_ref()[i];
-        if matches!(facts.joints[i], Joint::Angle(_)) { [cosine(value), sine(value)] } else { [value, 0.0] }
+        if matches!(facts.joints[i], Joint::Angle(_)) { cosine_and_sine(value) } else { [value, 0.0] }
     });
     Pairs {
         joints,

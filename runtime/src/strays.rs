@@ -41,6 +41,12 @@ impl Strays {
         kind.is_astray
     }
 
+    /// Whether those of this kind have turned out to be no members.
+    pub fn are_astray(&self, found: &Found) -> bool {
+        let is_it = |kind: &&Kind| (kind.branch, kind.free) == (found.branch, found.free);
+        self.kinds[..self.count].iter().find(is_it).is_some_and(|kind| kind.is_astray)
+    }
+
     /// Those of this kind are no members.
     pub fn mark(&mut self, found: &Found) {
         if let Some(kind) = self.kind(found) {
@@ -94,32 +100,41 @@ impl Merged {
 /// How many members are remembered; of more, the first is forgotten.
 const MEMBERS: usize = 32;
 
-/// Candidates that have turned out to be members of self-motions of the list, with their branches and free joints: strata repeat each other, and the next
-/// candidate of a branch is near the last one most often.
+/// A member of a self-motion: with which branch and free joints it was found, and the tangent there where it has been needed.
+pub(crate) struct Known<M: Mechanism> {
+    branch: usize,
+    pub free: u32,
+    pub q: Joints<M>,
+    pub tangent: Option<Joints<M>>,
+}
+
+/// Candidates that have turned out to be members of self-motions of the list: strata repeat each other, and the next candidate of a branch is near the last one
+/// most often.
 pub(crate) struct Trails<M: Mechanism> {
-    list: [Option<(usize, u32, Joints<M>)>; MEMBERS],
+    list: [Option<Known<M>>; MEMBERS],
     count: usize,
 }
 
 impl<M: Mechanism> Trails<M> {
     pub const NONE: Self = Trails { list: [const { None }; MEMBERS], count: 0 };
 
-    pub fn remember(&mut self, found: &Found, q: &Joints<M>) {
-        self.list[self.count % MEMBERS] = Some((found.branch, found.free, q.clone()));
+    pub fn remember(&mut self, found: &Found, q: &Joints<M>, tangent: Option<Joints<M>>) {
+        let Found { branch, free, .. } = *found;
+        self.list[self.count % MEMBERS] = Some(Known { branch, free, q: q.clone(), tangent });
         self.count += 1;
     }
 
     /// Whether the same joints have been found before, within a distance.
     pub fn contains(&self, facts: &Facts<'_>, q: &Joints<M>, free: u32, distance: f64) -> bool {
-        self.latest_first().any(|(_, of, other)| *of == free && facts.is_within(other.as_ref(), q.as_ref(), distance))
+        self.latest_first().any(|known| known.free == free && facts.is_within(known.q.as_ref(), q.as_ref(), distance))
     }
 
     /// The last one of a branch with one of these sets of free joints.
-    pub fn last(&self, branch: usize, is_free: impl Fn(u32) -> bool) -> Option<&(usize, u32, Joints<M>)> {
-        self.latest_first().find(|(of, free, _)| *of == branch && is_free(*free))
+    pub fn last(&self, branch: usize, is_free: impl Fn(u32) -> bool) -> Option<&Known<M>> {
+        self.latest_first().find(|known| known.branch == branch && is_free(known.free))
     }
 
-    fn latest_first(&self) -> impl Iterator<Item = &(usize, u32, Joints<M>)> {
+    fn latest_first(&self) -> impl Iterator<Item = &Known<M>> {
         let latest = (1..=self.count.min(MEMBERS)).map(|k| (self.count - k) % MEMBERS);
         latest.filter_map(|place| self.list[place].as_ref())
     }

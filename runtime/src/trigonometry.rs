@@ -68,6 +68,18 @@ pub fn sine(angle: f64) -> f64 {
     }
 }
 
+/// The cosine and the sine of an angle in rad: equal to those of [`cosine`] and [`sine`], in two thirds of the time.
+pub fn cosine_and_sine(angle: f64) -> [f64; 2] {
+    let (quarters, x, rest) = reduced(angle);
+    let (c, s) = (cosine_of(x, rest), sine_of(x, rest));
+    match quarters & 3 {
+        0 => [c, s],
+        1 => [-s, c],
+        2 => [-c, -s],
+        _ => [s, -c],
+    }
+}
+
 /// The number of quarter turns nearest to an angle, and what is left, in two numbers.
 #[inline]
 fn reduced(angle: f64) -> (i64, f64, f64) {

@@ -182,7 +182,7 @@ static void gb_keep_on_curve(gb_answers *all, const gb_found_1 *found, const gb_
     if (gb_is_listed(all, end.q)) {
         return;
     }
-    moving.free = gb_joint_on_long_self_motion(&all->problem, end.q);
+    moving.free = gb_regularity(&all->problem, end.q) <= GB_REGULAR ? gb_joint_on_long_self_motion(&all->problem, end.q) : 0;
     gb_keep(all, &moving, end.q, &end.fit);
 }
 

@@ -69,8 +69,7 @@ static bool gb_step_back(const gb_real *step, gb_real *at, gb_real *q)
             return false;
         }
         if (gb_magnitude(step[i]) > GB_TURN) {
-            *first = gb_cosine(q[i]);
-            *second = gb_sine(q[i]);
+            gb_cosine_and_sine(q[i], first, second);
         }
     }
     return true;

@@ -1,12 +1,16 @@
 /* Candidates for members of self-motions: members.rs */
 
-/* Remembers a member. */
-static void gb_remember(gb_answers *all, size_t branch, uint32_t free, const gb_real *q)
+/* Remembers a member, with the tangent unless that is null. */
+static void gb_remember(gb_answers *all, size_t branch, uint32_t free, const gb_real *q, const gb_real *tangent)
 {
     const size_t place = all->trails_count++ % GB_MEMBERS;
     all->trails_of[place].branch = branch;
     all->trails_of[place].free = free;
     gb_copy(all->trails[place], q, all->problem.mechanism->joints);
+    all->trails_have_tangent[place] = tangent != NULL;
+    if (tangent) {
+        gb_copy(all->trails_tangent[place], tangent, all->problem.mechanism->joints);
+    }
 }
 
 /* The place of the k-th last member that is remembered, from 1; false where there are not so many. */
@@ -47,7 +51,7 @@ static bool gb_find_trail(const gb_answers *all, size_t branch, uint32_t free, s
 static void gb_keep_on_trail(gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
     if (found->free != 0) {
-        gb_remember(all, found->branch, found->free, end->q);
+        gb_remember(all, found->branch, found->free, end->q, NULL);
     }
     gb_keep(all, found, end->q, &end->fit);
 }
@@ -60,7 +64,7 @@ static bool gb_is_on_trail(gb_answers *all, const gb_found_1 *found, const gb_re
         || !gb_leads_to(&all->problem, all->trails[place], q, all->trails_of[place].free)) {
         return false;
     }
-    gb_remember(all, found->branch, all->trails_of[place].free, q);
+    gb_remember(all, found->branch, all->trails_of[place].free, q, NULL);
     return true;
 }
 
@@ -143,21 +147,54 @@ static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const 
     return true;
 }
 
-/* Whether a member of a self-motion is of another one than those of its branch: no continuous motion joins them. Where other joints are free too, that is not
- * asked. */
-static bool gb_is_another(gb_answers *all, const gb_found_1 *found, const gb_end *end)
+/* Whether a member is of a self-motion of its branch that is known: a continuous motion joins them. Where other joints are free too, it is taken for one; and
+ * remembered. */
+static bool gb_is_on_known(gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
-    if (!(end->fit.relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, end->q, found->free))) {
-        return false;
+    const gb_problem *problem = &all->problem;
+    gb_real tangent[GB_MAX_JOINTS];
+    size_t place = 0;
+    const bool has_last = gb_find_trail(all, found->branch, found->free, &place);
+    /* First, for that is the quickest. */
+    if (end->fit.relative > GB_ROUNDING || (has_last && gb_leads_straight_to(problem, all->trails[place], end->q, found->free))) {
+        gb_remember(all, found->branch, found->free, end->q, NULL);
+        return true;
     }
-    size_t place;
-    bool joins = gb_find_trail(all, found->branch, found->free, &place)
-        && gb_leads_to(&all->problem, all->trails[place], end->q, found->free);
+    const bool is_on_curve = gb_find_tangent(problem, end->q, found->free, tangent);
+    const gb_member last = {all->trails[place], has_last && all->trails_have_tangent[place] ? all->trails_tangent[place] : NULL};
+    const gb_member here = {end->q, tangent};
+    bool joins = !is_on_curve || (has_last && gb_leads_round_to(problem, last, here, found->free));
     for (size_t i = all->count; i > 0 && !joins;) {
         i--;
-        joins = gb_is_told(all, i, found) && gb_leads_to(&all->problem, gb_q_of(all, i), end->q, found->free);
+        joins = gb_is_told(all, i, found) && gb_leads_to(problem, gb_q_of(all, i), end->q, found->free);
     }
-    return !joins;
+    if (joins) {
+        gb_remember(all, found->branch, found->free, end->q, is_on_curve ? tangent : NULL);
+    }
+    return joins;
+}
+
+/* Whether a member with the branch and the one free joint of a candidate is in the list: of one branch are all those that do not hold within rounding. */
+static bool gb_has_member_of_branch(const gb_answers *all, const gb_found_1 *found)
+{
+    for (size_t i = 0; gb_is_single(found->free) && i < all->count; i++) {
+        if (*gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Whether joints that hold within rounding are one singular configuration with an isolated answer in the list. */
+static bool gb_is_joined_to_listed(const gb_answers *all, const gb_end *end)
+{
+    for (size_t i = 0; end->fit.relative <= GB_ROUNDING && i < all->count; i++) {
+        if (*gb_free_of(all, i) == 0
+            && gb_are_blurred(&all->problem, gb_q_of(all, i), *gb_relative_of(all, i), end->q, end->fit.relative)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 /* Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion goes round a part of
@@ -179,6 +216,11 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
         gb_miss(all, end.q, &end.fit);
         return;
     }
+    /* Once more, for an answer next to a self-motion's end, but not from where that is far. */
+    if (missed > GB_NEAR && gb_are_astray(&all->strays, found)) {
+        gb_miss(all, end.q, &end.fit);
+        return;
+    }
     if (gb_are_spent(&all->problem)) {
         gb_keep(all, found, end.q, &end.fit);
         return;
@@ -190,8 +232,10 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
     if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
         gb_polish(&all->problem, &end, found->free);
     }
-    if (is_known && !gb_is_another(all, found, &end)) {
-        gb_remember(all, found->branch, found->free, end.q);
+    if (end.fit.relative > GB_ROUNDING && gb_has_member_of_branch(all, found)) {
+        return;
+    }
+    if (is_known && gb_is_on_known(all, found, &end)) {
         return;
     }
     all->is_another = is_known;
@@ -201,6 +245,9 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
         return;
     }
     gb_polish(&all->problem, &end, 0);
+    if (gb_is_joined_to_listed(all, &end)) {
+        return;
+    }
     if (!gb_keep_member(all, found, &end)) {
         gb_keep_alone(all, found, &end, missed);
     }

@@ -1,10 +1,12 @@
 /* Newton's method with all that keeps it from going astray next to singular configurations: newton.rs */
 
-/* Columns, the right side in the last one. */
+/* Columns, the right side in the last one: one entry for each equation, then one for each joint. In all columns the entries are zero after those of so many
+ * joints as are `damped`; before the reflection of a pivot they are zero after that of its joint. */
 typedef struct {
     gb_real numbers[(GB_MAX_JOINTS + 1) * (GB_MAX_EQUATIONS + GB_MAX_JOINTS)];
     size_t rows;
     size_t joints;
+    size_t damped;
 } gb_triangle;
 
 static gb_real *gb_column(gb_triangle *triangle, size_t column)
@@ -16,8 +18,10 @@ static gb_real *gb_column(gb_triangle *triangle, size_t column)
 static void gb_reflect(gb_triangle *triangle)
 {
     for (size_t pivot = 0; pivot < triangle->joints; pivot++) {
+        const size_t damped = pivot < triangle->damped ? pivot + 1 : triangle->damped;
+        const size_t end = triangle->rows - triangle->joints + damped;
         gb_real *mirror = gb_column(triangle, pivot), square = R(0.0);
-        for (size_t i = pivot; i < triangle->rows; i++) {
+        for (size_t i = pivot; i < end; i++) {
             square = square + mirror[i] * mirror[i];
         }
         if (square == R(0.0)) {
@@ -28,11 +32,11 @@ static void gb_reflect(gb_triangle *triangle)
         const gb_real half = length * mirror[pivot];
         for (size_t other = pivot + 1; other <= triangle->joints; other++) {
             gb_real *column = gb_column(triangle, other), along = R(0.0);
-            for (size_t i = pivot; i < triangle->rows; i++) {
+            for (size_t i = pivot; i < end; i++) {
                 along = along + mirror[i] * column[i];
             }
             along = along / half;
-            for (size_t i = pivot; i < triangle->rows; i++) {
+            for (size_t i = pivot; i < end; i++) {
                 column[i] -= along * mirror[i];
             }
         }
@@ -45,6 +49,7 @@ static void gb_clear_triangle(const gb_mechanism *m, gb_triangle *triangle)
 {
     triangle->rows = m->equations + m->joints;
     triangle->joints = m->joints;
+    triangle->damped = m->joints;
     memset(triangle->numbers, 0, (m->joints + 1) * triangle->rows * sizeof *triangle->numbers);
 }
 
@@ -61,6 +66,9 @@ static void gb_fill_triangle(const gb_problem *problem, const gb_real *rows, gb_
             square += column[k] * column[k];
         }
         size = gb_larger(size, square);
+    }
+    while (damping == R(0.0) && triangle->damped > 0 && !gb_is_in(held, triangle->damped - 1)) {
+        triangle->damped--;
     }
     for (size_t i = 0; i < m->joints; i++) {
         gb_column(triangle, i)[m->equations + i] = gb_is_in(held, i) ? R(1.0) : gb_square_root(damping * size);
@@ -127,22 +135,45 @@ static void gb_make_shares(const gb_problem *problem, const gb_real *q, gb_real 
     gb_fill_triangle(problem, rows, damping, held, triangle);
 }
 
-/* Solves the triangular system; false for a zero or non-finite pivot. */
-static bool gb_substitute(gb_triangle *triangle, gb_real *solution)
+/* Solves the triangular system for the right side in `solution`; false for a zero or non-finite pivot. */
+static bool gb_substitute_from(gb_triangle *triangle, gb_real *solution)
 {
-    const gb_real *right = gb_column(triangle, triangle->joints);
     for (size_t row = triangle->joints; row-- > 0;) {
         const gb_real pivot = gb_column(triangle, row)[row];
         if (pivot == R(0.0) || !gb_is_finite(pivot)) {
             return false;
         }
-        gb_real sum = right[row];
+        gb_real sum = solution[row];
         for (size_t k = row + 1; k < triangle->joints; k++) {
             sum -= gb_column(triangle, k)[row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
     return true;
+}
+
+/* The same for the right side in the last column. */
+static bool gb_substitute(gb_triangle *triangle, gb_real *solution)
+{
+    gb_copy(solution, gb_column(triangle, triangle->joints), triangle->joints);
+    return gb_substitute_from(triangle, solution);
+}
+
+/* The solution for other values of the equations, by the triangle R of their derivatives J alone: R^T R x = J^T f; false for a zero or non-finite pivot. */
+static bool gb_substitute_again(gb_triangle *triangle, const gb_slopes *slopes, uint32_t held, gb_real *solution)
+{
+    const size_t joints = triangle->joints, equations = triangle->rows - joints;
+    for (size_t row = 0; row < joints; row++) {
+        gb_real sum = R(0.0);
+        for (size_t k = 0; !gb_is_in(held, row) && k < equations; k++) {
+            sum = sum + slopes->rows[k * joints + row] * slopes->values[k];
+        }
+        for (size_t k = 0; k < row; k++) {
+            sum -= gb_column(triangle, row)[k] * solution[k];
+        }
+        solution[row] = sum / gb_column(triangle, row)[row];
+    }
+    return gb_substitute_from(triangle, solution);
 }
 
 /* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular, or no steps are left. */
@@ -333,7 +364,7 @@ static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
     const gb_mechanism *m = problem->mechanism;
     const gb_real relative = end->fit.relative;
     const bool leaps = gb_is_between(relative, GB_ROUNDING, GB_NEAR);
-    const gb_real enough = leaps ? R(0.5) * relative : relative;
+    const gb_real enough = leaps ? R(0.5) * relative : relative, last = held == 0 ? GB_ALONE : GB_ROUNDING;
     bool has_fallen = false;
     gb_end fallen, next, other;
     gb_real step[GB_MAX_JOINTS];
@@ -355,7 +386,7 @@ static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
         if (is_plain && relative < GB_ROUNDING && gb_longest(m, step) <= GB_SHORT) {
             return false;
         }
-        if (is_plain && relative > GB_ALONE && gb_is_regular(&triangle)) {
+        if (is_plain && relative > last && gb_is_regular(&triangle)) {
             has_fallen = next.fit.relative < relative;
             *end = has_fallen ? next : *end;
             return has_fallen;

@@ -9,9 +9,10 @@ GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *a
     }
     for (size_t i = 0; i < m->joints; i++) {
         const gb_joint joint = m->joint[i];
-        at[joint.places[0]] = joint.is_angle ? gb_cosine(q[i]) : q[i];
         if (joint.is_angle) {
-            at[joint.places[1]] = gb_sine(q[i]);
+            gb_cosine_and_sine(q[i], &at[joint.places[0]], &at[joint.places[1]]);
+        } else {
+            at[joint.places[0]] = q[i];
         }
     }
 }

@@ -120,21 +120,22 @@ static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, cons
 
 /* Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond GB_MERGE: they hold half-way
  * too, as well as at the worse of the two. */
-static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real relative, const gb_answer *b)
+static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real of_a, const gb_real *b, gb_real of_b)
 {
-    const gb_real bound = gb_larger(gb_larger(relative, b->fit.relative), GB_ALIKE);
-    const bool is_near = gb_farthest(problem->mechanism, a, b->q) <= GB_BLUR;
-    if (bound <= GB_ROUNDING && is_near && gb_regularity(problem, b->q) > GB_DISTINCT) {
+    const gb_real bound = gb_larger(gb_larger(of_a, of_b), GB_ALIKE);
+    const bool is_near = gb_farthest(problem->mechanism, a, b) <= GB_BLUR;
+    if (bound <= GB_ROUNDING && is_near && gb_regularity(problem, b) > GB_DISTINCT) {
         return false;
     }
-    return gb_are_joined(problem, a, b->q, bound, 0);
+    return gb_are_joined(problem, a, b, bound, 0);
 }
 
 /* Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding. */
 static bool gb_are_by_branch(const gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_real relative = gb_larger(*gb_relative_of(all, i), b->fit.relative);
-    return *gb_branch_of(all, i) == b->branch && !(relative <= GB_ROUNDING && gb_is_on_curve(&all->problem, b->q, b->free));
+    gb_real tangent[GB_MAX_JOINTS];
+    return *gb_branch_of(all, i) == b->branch && !(relative <= GB_ROUNDING && gb_find_tangent(&all->problem, b->q, b->free, tangent));
 }
 
 /* Whether an answer in the list and a new one that no steps are left to tell apart count as one: members of a branch, and what polishing might have led to
@@ -162,7 +163,7 @@ static bool gb_is_one(gb_answers *all, size_t i, const gb_answer *b)
         return gb_are_alike(all, i, b);
     }
     if (free == 0 && b->free == 0) {
-        return gb_are_blurred(problem, a, relative, b);
+        return gb_are_blurred(problem, a, relative, b->q, b->fit.relative);
     }
     if (free != 0 && b->free != 0) {
         const bool are_apart = all->is_another && relative <= GB_ROUNDING && *gb_branch_of(all, i) == b->branch;
@@ -358,10 +359,10 @@ static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end
 
 /* Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a self-motion as to
  * an isolated answer. Whether it is one. */
-static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
+static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit, gb_real regularity)
 {
     gb_found_1 moving = *found;
-    moving.free = fit->relative <= GB_ROUNDING ? gb_joint_on_long_self_motion(&all->problem, q) : 0;
+    moving.free = fit->relative <= GB_ROUNDING && regularity <= GB_REGULAR ? gb_joint_on_long_self_motion(&all->problem, q) : 0;
     if (moving.free != 0) {
         gb_keep(all, &moving, q, fit);
     }
@@ -369,10 +370,10 @@ static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_re
 }
 
 /* Whether a curve goes through an answer of a nearby mechanism, or through where steps to one have come to an end: then it is followed. */
-static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
+static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit, gb_real regularity)
 {
     const bool is_valley = gb_is_between(fit->relative, GB_ROUNDING, GB_NEAR);
-    const bool is_singular = is_valley || (fit->accepted && gb_regularity(&all->problem, q) <= GB_REGULAR);
+    const bool is_singular = is_valley || (fit->accepted && regularity <= GB_REGULAR);
     return is_singular && gb_begin_curve(all, found, q);
 }
 
@@ -386,8 +387,9 @@ GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *foun
     }
     all->unsound = number;
     gb_make_triangle(&all->problem, approach->end, R(0.0), 0, &triangle);
-    if (gb_regularity_in(&triangle) <= GB_REGULAR) {
-        if (gb_keep_moving(all, found, approach->end, &approach->fit)) {
+    const gb_real regularity = gb_regularity_in(&triangle);
+    if (regularity <= GB_REGULAR) {
+        if (gb_keep_moving(all, found, approach->end, &approach->fit, regularity)) {
             return;
         }
         gb_begin_curve(all, found, approach->end);
@@ -412,9 +414,9 @@ static void gb_start_beyond(gb_answers *all, const gb_found_1 *found, const gb_r
 
 /* Looks for curves next to where steps from a candidate have led, and next to the candidate where they have led far from it; whether they have come to an end
  * on a curve. */
-static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, bool is_beside, const gb_end *end)
+static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, bool is_beside, const gb_end *end, gb_real regularity)
 {
-    if (is_beside && gb_is_curve(all, found, end->q, &end->fit) && end->fit.relative >= GB_ROUNDING) {
+    if (is_beside && gb_is_curve(all, found, end->q, &end->fit, regularity) && end->fit.relative >= GB_ROUNDING) {
         return true;
     }
     if (gb_farthest(all->problem.mechanism, q, end->q) > GB_BLUR) {
@@ -442,44 +444,54 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     const bool holds = missed < GB_ROUNDING || (miss < GB_ROUNDING && way <= GB_MERGE);
     all->unsound = end.fit.accepted && holds ? all->unsound : number;
     all->doubted = found->close ? number : all->doubted;
-    if (is_nearby && is_beside && gb_keep_moving(all, found, end.q, &end.fit)) {
-        return;
+    gb_triangle triangle;
+    gb_real regularity = R(1.0);
+    if (is_nearby && is_beside) {
+        gb_make_triangle(problem, end.q, R(0.0), 0, &triangle);
+        regularity = gb_regularity_in(&triangle);
+        if (gb_keep_moving(all, found, end.q, &end.fit, regularity)) {
+            return;
+        }
     }
-    if (is_nearby && gb_leads_to_curve(all, found, q, is_beside, &end)) {
+    if (is_nearby && gb_leads_to_curve(all, found, q, is_beside, &end, regularity)) {
         gb_miss(all, end.q, &end.fit);
         return;
     }
     if (gb_is_between(miss, GB_ROUNDING, GB_NEAR)) {
         gb_around(all, found, &end, miss);
     } else if (is_beside && way > GB_LEVER * gb_square_root(missed)) {
-        if (!is_nearby || gb_regularity(problem, end.q) <= GB_DISTINCT) {
+        if (!is_nearby || regularity <= GB_DISTINCT) {
             gb_around(all, found, &end, missed);
         }
         gb_start_beyond(all, found, q, &end);
     }
     if (is_nearby && is_beside) {
-        gb_triangle triangle;
-        gb_make_triangle(problem, end.q, R(0.0), 0, &triangle);
         gb_twin(all, found, end.q, &triangle, missed);
     }
     gb_keep(all, found, end.q, &end.fit);
 }
 
-/* Whether there are more isolated answers than a target can have. */
-static bool gb_are_too_many(const gb_answers *all)
+/* How many isolated answers there are. */
+static size_t gb_count_isolated(const gb_answers *all)
 {
     size_t isolated = 0;
     for (size_t i = 0; i < all->count; i++) {
         isolated += *gb_free_of(all, i) == 0;
     }
-    return isolated > all->problem.mechanism->isolated;
+    return isolated;
+}
+
+/* Whether there are as many isolated answers as a target can have. */
+GB_LINKAGE bool gb_are_all(const gb_answers *all)
+{
+    return gb_count_isolated(all) >= all->problem.mechanism->isolated;
 }
 
 /* Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the nearest two are one, and
  * the better of them stays. */
 static void gb_unite(gb_answers *all)
 {
-    while (gb_are_too_many(all)) {
+    while (gb_count_isolated(all) > all->problem.mechanism->isolated) {
         gb_real least = INFINITY;
         size_t worse = 0;
         for (size_t second = 0; second < all->count; second++) {

@@ -27,7 +27,10 @@ static bool gb_leads_aside(const gb_problem *problem, const gb_real *q, uint32_t
         for (size_t i = 0; i < m->joints; i++) {
             next.q[i] = gb_is_in(free, i) ? gb_moved(m, q, i, share * way) : next.q[i];
         }
-        gb_polish_from(problem, &next, free);
+        next.fit = gb_measure(problem, next.q);
+        if (!(next.fit.relative <= bound)) {
+            gb_polish(problem, &next, free);
+        }
         if (next.fit.relative > bound || (stage == 1 && !gb_leads_back(problem, q, free, at, next.q, bound))) {
             return false;
         }
@@ -131,12 +134,11 @@ static uint32_t gb_joint_on_self_motion(const gb_problem *problem, const gb_real
     return 0;
 }
 
-/* The same of long self-motions within rounding. */
+/* The same of long self-motions within rounding, for joints that are singular. */
 static uint32_t gb_joint_on_long_self_motion(const gb_problem *problem, const gb_real *q)
 {
     const gb_mechanism *m = problem->mechanism;
-    const bool is_singular = gb_regularity(problem, q) <= GB_REGULAR;
-    for (size_t i = m->joints; is_singular && i-- > 0;) {
+    for (size_t i = m->joints; i-- > 0;) {
         const uint32_t free = (uint32_t)1 << m->last_first[i];
         if (gb_may_be_free(m, m->last_first[i]) && gb_leads_far_aside(problem, q, free)) {
             return free;
@@ -166,10 +168,41 @@ static bool gb_is_single(uint32_t free)
     return free != 0 && (free & (free - 1)) == 0;
 }
 
-/* Whether the self-motion that q is a member of is a curve there, along which one free joint tells all others. */
-static bool gb_is_on_curve(const gb_problem *problem, const gb_real *q, uint32_t free)
+/* The joint that is free alone. */
+static size_t gb_single(const gb_mechanism *m, uint32_t free)
 {
-    return gb_is_single(free) && gb_regularity_of(problem, q, free) > GB_REGULAR;
+    size_t joint = 0;
+    while (joint + 1 < m->joints && !gb_is_in(free, joint)) {
+        joint++;
+    }
+    return joint;
+}
+
+/* The tangent of the self-motion that q is a member of, if that is a curve there, along which one free joint tells all others: their derivatives by that
+ * joint. False if it is none. */
+static bool gb_find_tangent(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real *tangent)
+{
+    const gb_mechanism *m = problem->mechanism;
+    gb_triangle triangle;
+    gb_slopes slopes;
+    gb_real at[GB_MAX_PLACES];
+    if (!gb_is_single(free)) {
+        return false;
+    }
+    const size_t joint = gb_single(m, free);
+    gb_place(problem, q, at);
+    m->jacobian(problem->p, at, slopes.rows);
+    for (size_t i = 0; i < m->equations; i++) {
+        slopes.values[i] = slopes.rows[i * m->joints + joint];
+    }
+    gb_triangle_of(problem, &slopes, R(0.0), free, &triangle);
+    if (!(gb_regularity_in(&triangle) > GB_REGULAR && gb_substitute(&triangle, tangent))) {
+        return false;
+    }
+    for (size_t i = 0; i < m->joints; i++) {
+        tangent[i] = i == joint ? R(1.0) : -tangent[i];
+    }
+    return true;
 }
 
 /* Whether the equations hold on the straight line along `way`, as they do where axes coincide. */
@@ -206,23 +239,133 @@ static gb_real gb_length_of(const gb_mechanism *m, const gb_real *way, uint32_t 
     return gb_longest(m, freed);
 }
 
-/* Whether the others follow, from end->q, where the free joints have been moved, and are near: by a few steps. */
-static bool gb_followed(const gb_problem *problem, gb_end *end, uint32_t free)
+/* Whether the others follow, from end->q, where the free joints have been moved: by a few Newton steps, each followed by another one with the derivatives of
+ * the first. */
+static bool gb_correct(const gb_problem *problem, gb_end *end, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;
+    gb_triangle triangle;
+    gb_slopes slopes;
+    gb_real at[GB_MAX_PLACES], step[GB_MAX_JOINTS];
+    gb_place(problem, end->q, at);
+    end->fit = gb_measure_at(problem, at, end->q);
+    for (int k = 0; k < GB_RETURNS && !(end->fit.relative <= GB_ASTRAY || gb_are_spent(problem)); k++) {
+        m->jacobian(problem->p, at, slopes.rows);
+        for (int second = 0; second < 2 && !(second > 0 && end->fit.relative <= GB_ASTRAY); second++) {
+            m->values(problem->p, at, slopes.values);
+            if (second == 0) {
+                gb_triangle_of(problem, &slopes, gb_dampings[1], free, &triangle);
+            }
+            if (!(second > 0 ? gb_substitute_again(&triangle, &slopes, free, step) : gb_substitute(&triangle, step))) {
+                return false;
+            }
+            gb_stepped(m, end->q, step, end->q);
+            gb_place(problem, end->q, at);
+            end->fit = gb_measure_at(problem, at, end->q);
+        }
+    }
+    return end->fit.relative <= GB_ASTRAY;
+}
+
+/* The same if that is near. */
+static bool gb_followed(const gb_problem *problem, gb_end *end, uint32_t free)
+{
     gb_real ahead[GB_MAX_JOINTS];
-    gb_copy(ahead, end->q, m->joints);
-    end->fit = gb_measure(problem, end->q);
-    for (int k = 0; k < GB_RETURNS && !(end->fit.relative <= GB_ASTRAY); k++) {
-        gb_real step[GB_MAX_JOINTS], next[GB_MAX_JOINTS];
-        if (!gb_newton_step(problem, end->q, gb_dampings[1], free, step)) {
+    gb_copy(ahead, end->q, problem->mechanism->joints);
+    return gb_correct(problem, end, free) && gb_farthest(problem->mechanism, end->q, ahead) <= GB_LEAPT;
+}
+
+/* A member of a self-motion, with the tangent if it is known, else null. */
+typedef struct {
+    const gb_real *q;
+    const gb_real *tangent;
+} gb_member;
+
+/* A place on a self-motion where cubic curves meet: joints, the tangent, and how far the free joint has gone. */
+typedef struct {
+    gb_real q[GB_MAX_JOINTS];
+    gb_real tangent[GB_MAX_JOINTS];
+    gb_real gone;
+} gb_knot;
+
+/* The place of a member; false if the self-motion is no curve there. */
+static bool gb_make_knot(const gb_problem *problem, gb_member member, uint32_t free, gb_knot *knot)
+{
+    const size_t joints = problem->mechanism->joints;
+    gb_copy(knot->q, member.q, joints);
+    if (!member.tangent) {
+        return gb_find_tangent(problem, member.q, free, knot->tangent);
+    }
+    gb_copy(knot->tangent, member.tangent, joints);
+    return true;
+}
+
+/* Half-way along the cubic curve from one place to another. */
+static void gb_half_way(const gb_mechanism *m, const gb_knot *near, const gb_knot *far, gb_real *out)
+{
+    const gb_real bend = R(0.125) * (far->gone - near->gone);
+    for (size_t i = 0; i < m->joints; i++) {
+        const gb_real turned = bend * (near->tangent[i] - far->tangent[i]);
+        out[i] = gb_wrapped(m, i, near->q[i] + R(0.5) * gb_shortest(m, i, far->q[i] - near->q[i]) + turned);
+    }
+}
+
+/* The most cubic curves that one between two members is divided into, as a power of two, and one. */
+#define GB_DIVISIONS 5
+
+/* Whether cubic curves lead from one place of a self-motion to another: half-way along each curve, the other joints follow by no more than GB_ARRIVED. A curve
+ * that they do not follow is divided there, until it is too short. (Hermite interpolation: the curves have the self-motion's tangents at their ends, and miss it
+ * by the fourth power of their length.) */
+static bool gb_is_interpolated(const gb_problem *problem, const gb_knot *first, const gb_knot *last, uint32_t free)
+{
+    const gb_mechanism *m = problem->mechanism;
+    const size_t joint = gb_single(m, free);
+    gb_knot at = *first, ends[GB_DIVISIONS];
+    size_t count = 1;
+    ends[0] = *last;
+    while (count > 0) {
+        const gb_real gone = R(0.5) * (at.gone + ends[count - 1].gone);
+        gb_real middle[GB_MAX_JOINTS];
+        gb_end end;
+        gb_half_way(m, &at, &ends[count - 1], middle);
+        middle[joint] = gb_wrapped(m, joint, first->q[joint] + gone);
+        gb_copy(end.q, middle, m->joints);
+        if (!gb_correct(problem, &end, free)) {
             return false;
         }
-        gb_stepped(m, end->q, step, next);
-        gb_copy(end->q, next, m->joints);
-        end->fit = gb_measure(problem, end->q);
+        if (gb_farthest(m, end.q, middle) <= GB_ARRIVED) {
+            at = ends[--count];
+        } else if (count < GB_DIVISIONS) {
+            gb_knot *knot = &ends[count++];
+            const gb_member member = {end.q, NULL};
+            knot->gone = gone;
+            if (!gb_make_knot(problem, member, free, knot)) {
+                return false;
+            }
+        } else {
+            return false;
+        }
     }
-    return end->fit.relative <= GB_ASTRAY && gb_farthest(m, end->q, ahead) <= GB_LEAPT;
+    return true;
+}
+
+/* Whether cubic curves join a member of a self-motion to another one along one of two ways of a free joint, the second of which may be null. Where that goes no
+ * farther than the first step to follow it, it is not tried. */
+static bool gb_are_joined_by_cubics(const gb_problem *problem, gb_member a, gb_member b, uint32_t free, const gb_real *way, const gb_real *other)
+{
+    const size_t joint = gb_single(problem->mechanism, free);
+    gb_knot first, last;
+    if (!(gb_is_single(free) && gb_magnitude(way[joint]) > gb_along[1])
+        || !gb_make_knot(problem, a, free, &first) || !gb_make_knot(problem, b, free, &last)) {
+        return false;
+    }
+    first.gone = R(0.0);
+    last.gone = way[joint];
+    if (gb_is_interpolated(problem, &first, &last, free)) {
+        return true;
+    }
+    last.gone = other ? other[joint] : R(0.0);
+    return other && gb_is_interpolated(problem, &first, &last, free);
 }
 
 /* Whether the joints come to b as the free ones go `way` from a and the others follow, in steps with which they keep up; in `*arrives`. Whether they do. */
@@ -272,20 +415,34 @@ static bool gb_other_way(const gb_mechanism *m, const gb_real *way, uint32_t fre
     return turns;
 }
 
+/* Whether the equations hold on a straight line from one member of a self-motion to another one, of which a joint may take the longer way round. */
+static bool gb_leads_straight_to(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free)
+{
+    gb_real way[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
+    gb_differences(problem->mechanism, b, a, way);
+    return gb_is_straight(problem, a, way) || (gb_other_way(problem->mechanism, way, free, other) && gb_is_straight(problem, a, other));
+}
+
+/* Whether the joints come from one member to another one as the free ones move and the others follow. */
+static bool gb_leads_round_to(const gb_problem *problem, gb_member a, gb_member b, uint32_t free)
+{
+    gb_real way[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
+    bool arrives = false;
+    gb_differences(problem->mechanism, b.q, a.q, way);
+    const bool turns = gb_other_way(problem->mechanism, way, free, other);
+    if (gb_are_joined_by_cubics(problem, a, b, free, way, turns ? other : NULL)) {
+        return true;
+    }
+    if (!gb_leads_along(problem, a.q, b.q, free, way, &arrives) && turns) {
+        return gb_leads_along(problem, a.q, b.q, free, other, &arrives) && arrives;
+    }
+    return arrives;
+}
+
 /* Whether a continuous motion of the joints, the equations held, joins a member of a self-motion to another one with the same free joints: along a straight
  * line, or as the free joints move there and the others follow. Where the shorter way round is barred, a joint takes the longer. */
 static bool gb_leads_to(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free)
 {
-    const gb_mechanism *m = problem->mechanism;
-    gb_real way[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
-    bool arrives = false;
-    gb_differences(m, b, a, way);
-    const bool turns = gb_other_way(m, way, free, other);
-    if (gb_is_straight(problem, a, way) || (turns && gb_is_straight(problem, a, other))) {
-        return true;
-    }
-    if (!gb_leads_along(problem, a, b, free, way, &arrives) && turns) {
-        return gb_leads_along(problem, a, b, free, other, &arrives) && arrives;
-    }
-    return arrives;
+    const gb_member from = {a, NULL}, to = {b, NULL};
+    return gb_leads_straight_to(problem, a, b, free) || gb_leads_round_to(problem, from, to, free);
 }

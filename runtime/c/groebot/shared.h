@@ -252,9 +252,11 @@ typedef struct {
     /* Candidates for members of self-motions that were dropped for this. */
     gb_strays strays;
     /* Candidates that have turned out to be members of self-motions of the list; of more, the first is forgotten. Strata repeat each other, and the next
-     * candidate of a branch is near the last one most often. And whether the one that is kept is of another self-motion. */
+     * candidate of a branch is near the last one most often. Tangents are there where they have been needed. And whether the one that is kept is of another self-motion. */
     gb_found_1 trails_of[GB_MEMBERS];
     gb_real trails[GB_MEMBERS][GB_MAX_JOINTS];
+    gb_real trails_tangent[GB_MEMBERS][GB_MAX_JOINTS];
+    bool trails_have_tangent[GB_MEMBERS];
     size_t trails_count;
     bool is_another;
     /* Of members with several free joints that were found to be on a self-motion of the list: their branches and free joints, as many as there is room for. */
@@ -288,6 +290,7 @@ typedef struct {
 
 GB_LINKAGE gb_real gb_cosine(gb_real angle);
 GB_LINKAGE gb_real gb_sine(gb_real angle);
+GB_LINKAGE void gb_cosine_and_sine(gb_real angle, gb_real *cosine, gb_real *sine);
 GB_LINKAGE gb_real gb_wrap(gb_real angle);
 GB_LINKAGE gb_real gb_round(gb_real x);
 GB_LINKAGE gb_real gb_angle(gb_real cosine, gb_real sine);
@@ -301,6 +304,7 @@ GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real 
 GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *found, const gb_real *q);
 GB_LINKAGE void gb_walk_curves(gb_answers *all);
 GB_LINKAGE bool gb_are_doubtful(const gb_strays *strays);
+GB_LINKAGE bool gb_are_all(const gb_answers *all);
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach);
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most);
 GB_LINKAGE bool gb_free_joints(const gb_problem *problem, gb_real *q, uint32_t free);

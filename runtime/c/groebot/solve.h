@@ -52,7 +52,7 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     if (gb_this.is_nearby && c->all.starts.count > 0) {
         gb_walk_curves(&c->all);
     }
-    if (gb_are_doubtful(&c->all.strays) && *steps > 0) {
+    if (gb_are_doubtful(&c->all.strays) && !gb_are_all(&c->all) && *steps > 0) {
         c->all.suffices = false;
         gb_walk_1(p, c);
         gb_flush(c);

@@ -30,6 +30,17 @@ static bool gb_are_known(gb_strays *strays, const gb_found_1 *found, gb_real mis
     return kind->is_astray;
 }
 
+/* Whether those of a candidate's kind have turned out to be no members. */
+static bool gb_are_astray(const gb_strays *strays, const gb_found_1 *found)
+{
+    for (size_t i = 0; i < strays->count; i++) {
+        if (strays->kinds[i].branch == found->branch && strays->kinds[i].free == found->free) {
+            return strays->kinds[i].is_astray;
+        }
+    }
+    return false;
+}
+
 /* Whether an answer may have been lost: a kind is there on a part of the circle only, next to whose end rounding may have hidden one, so near the stratum are
  * its candidates. A free joint is put at eight places round the circle, or at a multiple of it. */
 GB_LINKAGE bool gb_are_doubtful(const gb_strays *strays)

@@ -102,6 +102,9 @@ static void angles_are_those_of_the_library(void)
     for (int i = 0; i < 100000; i++) {
         const gb_real angle = random_number() * (i % 2 ? R(4.0) : R(300.0)), x = random_number(), y = random_number();
         CHECK(are_close(gb_sine(angle), (gb_real)sin((double)angle), GB_EITHER(2.3e-16, 1.2e-7)));
+        gb_real cosine, sine;
+        gb_cosine_and_sine(angle, &cosine, &sine);
+        CHECK(cosine == gb_cosine(angle) && sine == gb_sine(angle));
         CHECK(are_close(gb_cosine(angle), (gb_real)cos((double)angle), GB_EITHER(2.3e-16, 1.2e-7)));
         const gb_real arc = gb_unfold_1(gb_acute_1(gb_magnitude(x), gb_magnitude(y)), x, y);
         CHECK(are_close(arc, (gb_real)atan2((double)y, (double)x), GB_EITHER(9e-16, 5e-7)));
