@@ -239,7 +239,8 @@ fn nothing_points_outside_the_repository() {
 #[test]
 fn no_build_output_is_tracked() {
     let files: Vec<String> = tracked_files().iter().map(|path| slashed(path)).collect();
-    let is_output = |file: &&String| file.split('/').any(|part| ["target", "node_modules", "__pycache__"].contains(&part));
+    let is_output =
+        |file: &&String| file.split('/').any(|part| ["target", "node_modules", "__pycache__"].contains(&part));
     assert_none(&files.iter().filter(is_output).cloned().collect::<Vec<_>>());
     let is_large = |file: &&String| fs::metadata(root().join(file)).is_ok_and(|found| found.len() > 2_500_000);
     assert_none(&files.iter().filter(is_large).cloned().collect::<Vec<_>>());

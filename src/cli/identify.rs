@@ -145,7 +145,7 @@ fn report<'a>(found: &'a Identification, rows: usize, joints: &'a [String], name
         name: &estimate.name,
         value: estimate.value,
         confidence: estimate.interval,
-        described: estimate.told,
+        described: estimate.described,
         of_bodies,
     };
     let consistency = &found.consistency;

@@ -1,11 +1,11 @@
-//! The one error type: a kind to match on, a place to look at, a message that says what is allowed.
+//! The one error type: a kind to match on, the location of the error, and a message with the allowed values.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::escape;
 
-/// What went wrong, coarsely; match on it with a wildcard arm.
+/// Kind of an error. Match on it with a wildcard arm.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ErrorKind {
@@ -17,19 +17,20 @@ pub enum ErrorKind {
     UnknownKey,
     /// A key that the format requires is absent.
     MissingKey,
-    /// A value outside what is allowed (a zero axis, NaN, inverted limits ...).
+    /// A value outside the allowed range (a zero axis, NaN, inverted limits ...).
     BadValue,
     /// A name that is declared twice or means two things.
     DuplicateName,
     /// A name that nothing declares.
     UnknownName,
-    /// An exponent or degree beyond what a monomial can hold.
+    /// An exponent or degree that does not fit into a monomial.
     Overflow,
     /// The equations have no solution for generic parameters: the unit ideal.
     Inconsistent,
-    /// Some unknowns stay free: more joints than independent equations.
+    /// The ideal is positive-dimensional: some unknowns stay free, for example with more joints than independent
+    /// equations.
     PositiveDimensional,
-    /// The caller asked for an end.
+    /// The caller cancelled the work.
     Cancelled,
     /// The time or memory budget is used up.
     Budget,
@@ -39,16 +40,16 @@ pub enum ErrorKind {
     Certificate,
 }
 
-/// Where a mistake stands: a file, a line of it (from 1), or both.
+/// Location of an error: a file, a line of it (counted from 1), or both.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place {
-    /// The file, when the text came from one.
+    /// The file, when the text was read from one.
     pub file: Option<PathBuf>,
     /// The line, counted from 1.
     pub line: Option<usize>,
 }
 
-/// The error of every fallible function of this crate.
+/// The error type of every fallible function of groebot's crates.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub struct Error {
     kind: ErrorKind,
@@ -56,23 +57,23 @@ pub struct Error {
     message: String,
 }
 
-/// Shorthand for results of this crate.
+/// Shorthand for a result with [`Error`].
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
-    /// An error of `kind`; the message says what was wrong and what is allowed.
+    /// Builds an error of `kind`. The message says what is wrong and what is allowed.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
         Error { kind, place: Place::default(), message: message.into() }
     }
 
-    /// The same error, standing at `line` (from 1) unless it already has one.
+    /// Adds the line number (from 1), unless the error already has one.
     #[must_use]
     pub fn at_line(mut self, line: usize) -> Self {
         self.place.line.get_or_insert(line);
         self
     }
 
-    /// The same error, standing in `file` unless it already has one. The file `-` is standard input.
+    /// Adds the file, unless the error already has one. The file `-` is standard input.
     #[must_use]
     pub fn in_file(mut self, file: &Path) -> Self {
         let file = if file == Path::new("-") { Path::new("<stdin>") } else { file };
@@ -80,36 +81,36 @@ impl Error {
         self
     }
 
-    /// The same error with `context` in front of its message.
+    /// Puts `context` before the message.
     #[must_use]
     pub fn with_context(mut self, context: impl fmt::Display) -> Self {
         self.message = format!("{context}: {}", self.message);
         self
     }
 
-    /// The same error with `advice` after its message.
+    /// Puts `advice` after the message.
     #[must_use]
     pub fn with_advice(mut self, advice: impl fmt::Display) -> Self {
         self.message = format!("{}; {advice}", self.message);
         self
     }
 
-    /// What went wrong.
+    /// The kind of the error.
     pub fn kind(&self) -> ErrorKind {
         self.kind
     }
 
-    /// Where it went wrong.
+    /// The location of the error.
     pub fn place(&self) -> &Place {
         &self.place
     }
 
-    /// The message without its place.
+    /// The message without the location.
     pub fn message(&self) -> &str {
         &self.message
     }
 
-    /// An [`ErrorKind::Io`] error about `path`.
+    /// Builds an [`ErrorKind::Io`] error about `path`.
     pub fn io(path: &Path, error: &std::io::Error) -> Self {
         Error::new(ErrorKind::Io, error.to_string()).in_file(path)
     }

@@ -1,31 +1,31 @@
-//! Text of others, fit to be shown: on a terminal, in messages and in Markdown.
+//! Escaping of untrusted text for terminals, messages and Markdown.
 
 use std::borrow::Cow;
 
-/// The most characters of an input that a message repeats.
+/// Maximum number of characters of an input that a message repeats.
 pub const MOST_ECHOED: usize = 200;
-/// The most characters of a name in a message.
+/// Maximum number of characters of a name in a message.
 const MOST_SHOWN: usize = 40;
 
-/// Whether a character acts on the text around it instead of being seen: control characters, those that change the direction of writing, and separators of
-/// lines and paragraphs.
+/// Whether a character changes the text around it instead of being visible: control characters, bidirectional
+/// formatting characters, line separators and paragraph separators.
 pub fn is_hidden(c: char) -> bool {
     let is_direction =
         matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     c.is_control() || is_direction || matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}')
 }
 
-/// `text` with its hidden characters, but line ends and tabs, as `\u001b`: in JSON they then mean the same.
+/// Replaces hidden characters, except line ends and tabs, by `\u001b` escapes. In JSON they keep their meaning.
 pub fn page(text: &str) -> Cow<'_, str> {
     replaced(text, |c| is_hidden(c) && c != '\n' && c != '\t')
 }
 
-/// `text` on one line: also line ends and tabs are written as escapes.
+/// Replaces all hidden characters by escapes, also line ends and tabs. The result is one line.
 pub fn line(text: &str) -> Cow<'_, str> {
     replaced(text, is_hidden)
 }
 
-/// All that is hidden is in the basic plane: four digits hold it.
+/// Every hidden character is in the basic multilingual plane, so four digits are enough.
 fn replaced(text: &str, is_bad: impl Fn(char) -> bool) -> Cow<'_, str> {
     if !text.contains(&is_bad) {
         return Cow::Borrowed(text);
@@ -37,14 +37,14 @@ fn replaced(text: &str, is_bad: impl Fn(char) -> bool) -> Cow<'_, str> {
     Cow::Owned(whole)
 }
 
-/// `text` fit for a message: at most 40 characters, control characters escaped.
+/// Shortens `text` to 40 characters for a message and escapes control characters.
 pub fn shown(text: &str) -> String {
     let dots = if text.chars().nth(MOST_SHOWN).is_some() { "..." } else { "" };
     text.chars().take(MOST_SHOWN).flat_map(char::escape_debug).chain(dots.chars()).collect()
 }
 
-/// A message in which each quotation and each word has at most [`MOST_ECHOED`] characters and none is hidden. A quotation begins after a space or a bracket
-/// with one of the signs `` ` ``, `"` and `'`, and ends with the same one.
+/// Limits each quotation and each word of a message to [`MOST_ECHOED`] characters and escapes hidden ones. A quotation
+/// begins after a space or a bracket with one of the signs `` ` ``, `"` and `'`, and ends with the same sign.
 pub fn message(text: &str) -> String {
     let mut whole = String::with_capacity(text.len().min(1 << 12));
     let (mut rest, mut before) = (&*page(text), ' ');
@@ -59,15 +59,16 @@ pub fn message(text: &str) -> String {
 
 const SIGNS: [char; 3] = ['`', '"', '\''];
 
-/// How long the quotation is that `text` begins with, in bytes, if it does. One that does not end is as long as the text.
+/// Length in bytes of the quotation at the start of `text`, if there is one. A quotation without an end has the length
+/// of the text.
 fn quotation(text: &str, before: char) -> Option<usize> {
     let sign = text.chars().next().filter(|sign| SIGNS.contains(sign) && !before.is_alphanumeric())?;
     let end = text[1..].find(sign).map(|at| at + 2);
-    // An apostrophe ends what it does not begin.
+    // An apostrophe without a partner ends a quotation that it did not begin.
     end.or((sign != '\'').then_some(text.len()))
 }
 
-/// How long the word or the blank is that `text` begins with, in bytes.
+/// Length in bytes of the word or the blank at the start of `text`.
 fn word(text: &str) -> usize {
     let mut before = ' ';
     let is_end = |c: char| {
@@ -95,7 +96,7 @@ fn cut(piece: &str) -> String {
     piece.chars().take(MOST_ECHOED + 1).chain("...".chars()).chain(end.chars()).collect()
 }
 
-/// `text` as words of Markdown on one line: neither HTML nor a link, a list, a heading or a command of a shell.
+/// Escapes `text` as words of Markdown on one line: no HTML, link, list, heading or shell command.
 pub fn markdown(text: &str) -> String {
     let text = text.replace(['\n', '\t'], " ");
     let text = line(text.trim());
@@ -112,7 +113,7 @@ pub fn markdown(text: &str) -> String {
     whole
 }
 
-/// Whether a character means something in Markdown between those before and after it.
+/// Whether a character has a meaning in Markdown between its two neighbours.
 fn is_special(before: Option<char>, c: char, after: Option<char>) -> bool {
     let is_letter = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
     match c {

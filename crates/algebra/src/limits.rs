@@ -1,10 +1,10 @@
-//! The limits of all readers and options, in one table: what is larger is refused before work is spent on it.
+//! Limits of all readers and options, in one table. A larger input is refused before any work is done on it.
 //!
 //! | of | limit |
 //! | --- | --- |
 //! | a description in TOML, a task file | [`DESCRIPTION_BYTES`] |
 //! | a URDF or other XML | [`XML_BYTES`], [`XML_DEPTH`] levels, [`XML_ATTRIBUTES`] attributes and [`XML_TEXT`] bytes of text an element |
-//! | a robot | [`FOLLOWERS`] joints that follow in turn |
+//! | a robot | chains of [`FOLLOWERS`] mimic joints |
 //! | a mesh | [`MESH_BYTES`] |
 //! | a map | [`MAP_BYTES`] of YAML, [`YAML_DEPTH`] levels; [`IMAGE_BYTES`] of image, [`IMAGE_MEMORY`] in memory, [`MAP_CELLS`], [`CELL_METRES`] |
 //! | a scene in VRML | [`VRML_DEPTH`] levels |
@@ -16,8 +16,8 @@
 //! | samples of a trajectory, steps of a control law | [`SAMPLES`], [`CONTROL_STEPS`] |
 //! | footsteps, their coordinates, samples of a walk and of a phase | [`FOOTSTEPS`], [`FOOTPRINT_METRES`], [`WALK_SAMPLES`], [`PHASE_SAMPLES`] |
 //! | places of a grid, orientations at a place, both multiplied | [`GRID_PLACES`], [`ORIENTATIONS`], [`REACH_TARGETS`] |
-//! | entries of the regressor of a log to identify, and its numbers | [`LOG_ENTRIES`], [`LOG_LARGEST`] |
-//! | a budget of time | [`BUDGET_SECONDS`] |
+//! | entries of the regressor in parameter identification, and the numbers of its log | [`LOG_ENTRIES`], [`LOG_LARGEST`] |
+//! | a time budget | [`BUDGET_SECONDS`] |
 //! | a name, a description of some lines, the symbol of a joint | [`NAME_CHARACTERS`], [`TEXT_CHARACTERS`], [`SYMBOL_CHARACTERS`] |
 //! | a number of a description | [`DIGITS`] digits, [`EXPONENT`] as exponent |
 //! | a number of a table, a target or an option | [`LARGEST`] |
@@ -25,7 +25,7 @@
 //! | the expansion of a polynomial | [`EXPANSION_TERMS`], [`EXPANSION_BITS`], [`EXPANSION_DEGREE`], [`EXPANSION_PARAMETER_DEGREE`], [`EXPANSION_DENOMINATOR_DEGREE`] |
 //! | a system of polynomials | [`SYSTEM_NAMES`] names, [`POLYNOMIAL_WORDS`] words a polynomial, [`SYSTEM_ROOTS`] square roots |
 //! | a constant of a derivation, an equation with its constants | [`CONSTANT_BITS`], [`CONSTANT_PARTS`]; [`EQUATION_PARTS`] |
-//! | joints of a chain with those that are fixed and without, of a solver; coordinates of an axis | [`PATH_JOINTS`], [`CHAIN_JOINTS`], [`SOLVER_JOINTS`]; [`COORDINATE`] |
+//! | joints of a path including fixed ones, of a chain, of a solver; coordinates of an axis | [`PATH_JOINTS`], [`CHAIN_JOINTS`], [`SOLVER_JOINTS`]; [`COORDINATE`] |
 //! | a solver's program | [`PROGRAM_ANSWERS`], [`PROGRAM_BLOCKS`], [`PROGRAM_UNKNOWNS`] |
 //! | bodies of a robot whose equations of motion are printed | [`PRINTED_BODIES`] |
 //! | equations of motion as polynomials | [`SYMBOLIC_JOINTS`], [`SYMBOLIC_TERMS`] |
@@ -33,154 +33,157 @@
 use crate::escape::{is_hidden, shown};
 use crate::{Error, ErrorKind, Result};
 
-/// Bytes of a description in TOML or a task file.
+/// Bytes of a TOML description or a task file.
 pub const DESCRIPTION_BYTES: u64 = 1_000_000;
 /// Bytes of a URDF.
 pub const XML_BYTES: u64 = 4_000_000;
-/// Levels of elements in XML.
+/// Nesting depth of XML elements.
 pub const XML_DEPTH: usize = 100;
-/// Attributes of an element in XML.
+/// Attributes of an XML element.
 pub const XML_ATTRIBUTES: usize = 200;
-/// Bytes of text in an element of XML.
+/// Bytes of text in an XML element.
 pub const XML_TEXT: usize = 200;
-/// Joints of a robot that follow one another in turn.
+/// Length of a chain of mimic joints, each of which follows the next.
 pub const FOLLOWERS: usize = 100;
 /// Bytes of a mesh.
 pub const MESH_BYTES: u64 = 100_000_000;
 /// Bytes of an image.
 pub const IMAGE_BYTES: u64 = 1 << 30;
-/// Bytes that an image takes in memory.
+/// Bytes of a decoded image in memory.
 pub const IMAGE_MEMORY: usize = 1 << 30;
-/// Bytes of the description of a map in YAML.
+/// Bytes of the YAML description of a map.
 pub const MAP_BYTES: u64 = 100_000;
 /// Cells of a map.
 pub const MAP_CELLS: usize = 1 << 28;
-/// The least and the greatest side of a cell \[m\].
+/// The smallest and the largest side of a map cell \[m\].
 pub const CELL_METRES: [f64; 2] = [1e-6, 1e6];
-/// Levels of YAML.
+/// Nesting depth of YAML.
 pub const YAML_DEPTH: usize = 20;
-/// Levels of nodes in VRML.
+/// Nesting depth of VRML nodes.
 pub const VRML_DEPTH: usize = 64;
-/// Bytes of a solver's program, and of equations of motion.
+/// Bytes of a solver's program, or of equations of motion.
 pub const PROGRAM_BYTES: u64 = 64_000_000;
 /// Bytes of a certificate or a stage file.
 pub const STAGE_BYTES: u64 = 256_000_000;
-/// Bytes of a system of polynomials.
+/// Bytes of a polynomial system.
 pub const SYSTEM_BYTES: usize = 16_000_000;
-/// Bytes of a trajectory, a map of a reach, a walk or a task.
+/// Bytes of a trajectory, a reachability map, a walk or a task.
 pub const TABLE_BYTES: u64 = 1_000_000_000;
 /// Bytes of a table of states.
 pub const STATES_BYTES: u64 = 1 << 30;
-/// Bytes of footsteps.
+/// Bytes of a footstep file.
 pub const FOOTSTEPS_BYTES: u64 = 4_000_000;
-/// Columns of a table, and tracks of a trajectory: names are compared in pairs.
+/// Columns of a table, and tracks of a trajectory. Names are compared in pairs.
 pub const COLUMNS: usize = 10_000;
-/// Bytes of a line of a table that is read row by row.
+/// Bytes of a line of a table that is streamed row by row.
 pub const LINE_BYTES: usize = 1_000_000;
-/// Rows of such a table that is kept.
+/// Rows of a streamed table that is held in memory.
 pub const ROWS: usize = 10_000_000;
 
-/// Poses that are followed: the graph of their solutions is kept.
+/// Poses of a path to follow. The graph of their solutions is held in memory.
 pub const POSES: usize = 200_000;
-/// Combinations of the values of a solution that differ by whole turns, at a pose to follow; those furthest from zero are left out.
+/// Combinations of whole turns of the solution's joint values, at each pose of a path to follow. Those furthest from
+/// zero are left out.
 pub const POSE_STATES: usize = 4096;
 /// Samples of a trajectory.
 pub const SAMPLES: usize = 10_000_000;
 /// Footsteps of a walk.
 pub const FOOTSTEPS: usize = 10_000;
-/// The farthest coordinate of a footstep \[m\].
+/// The largest coordinate of a footstep \[m\].
 pub const FOOTPRINT_METRES: f64 = 1e4;
 /// Samples of a walk: half an hour at 100 Hz.
 pub const WALK_SAMPLES: usize = 180_000;
-/// Samples of a phase of a step.
+/// Samples of a phase of a footstep.
 pub const PHASE_SAMPLES: usize = 1 << 30;
-/// Places of a grid of reach: what is counted at each takes up to 28 bytes.
+/// Cells of a reachability grid. The counters of each take up to 28 bytes.
 pub const GRID_PLACES: usize = 100_000_000;
-/// Orientations at each of these places.
+/// Orientations at each cell of a reachability grid.
 pub const ORIENTATIONS: usize = 1_000_000;
-/// Targets of a map of reach, places times orientations: hours of work.
+/// Targets of a reachability map: cells times orientations. This many take hours.
 pub const REACH_TARGETS: usize = 4_000_000_000;
-/// Steps for which a control law holds its torques.
+/// Steps of a simulation with constant torques in each step.
 pub const CONTROL_STEPS: usize = 1_000_000;
-/// Entries of the regressor of a log: rows times joints times ten parameters a joint.
+/// Entries of the regressor of a log: rows times joints times ten parameters for each joint.
 pub const LOG_ENTRIES: usize = 100_000_000;
-/// The greatest number of a log: squares of such numbers, and their sums, are far within doubles.
+/// The largest number in a log. Squares of such numbers, and sums of squares, stay far below the largest `f64`.
 pub const LOG_LARGEST: f64 = 1e12;
-/// Seconds of a budget: about thirty years.
+/// Seconds of a time budget: about thirty years.
 pub const BUDGET_SECONDS: f64 = 1e9;
 
 /// Characters of a name.
 pub const NAME_CHARACTERS: usize = 200;
-/// Characters of a text of some lines.
+/// Characters of a text with several lines.
 pub const TEXT_CHARACTERS: usize = 2000;
-/// Characters of the symbol of a joint in equations.
+/// Characters of a joint's symbol in equations.
 pub const SYMBOL_CHARACTERS: usize = 16;
 /// Digits of a number in a description.
 pub const DIGITS: usize = 4096;
-/// The greatest power of ten of such a number, and the least one's opposite.
+/// The largest decimal exponent of a number in a description. The smallest is its negative.
 pub const EXPONENT: i64 = 4096;
-/// The greatest number of a table, a target or an option, in any unit: its square and its cube are far from the end of doubles.
+/// The largest number in a table, a target or an option, in any unit. Its square and its cube stay far below the
+/// largest `f64`.
 pub const LARGEST: f64 = 1e15;
 
 /// Characters of an expression.
 pub const EXPRESSION_CHARACTERS: usize = 400_000;
-/// Levels of parentheses in an expression.
+/// Nesting depth of parentheses in an expression.
 pub const EXPRESSION_DEPTH: usize = 200;
-/// The greatest exponent in an expression.
+/// The largest exponent in an expression.
 pub const EXPRESSION_EXPONENT: u32 = 1000;
-/// Terms that the expansion of a polynomial may take.
+/// Maximum number of terms of an expanded polynomial.
 pub const EXPANSION_TERMS: f64 = 1e6;
-/// Bits of a coefficient in it.
+/// Bits of a coefficient in an expanded polynomial.
 pub const EXPANSION_BITS: f64 = 1e6;
-/// Its degree.
+/// Degree of an expanded polynomial.
 pub const EXPANSION_DEGREE: u64 = 30_000;
-/// The degree of a summand in the parameters, numerator and denominator together.
+/// Degree of a summand in the parameters: numerator and denominator together.
 pub const EXPANSION_PARAMETER_DEGREE: u64 = 100;
-/// The sum of the degrees of all denominators of a polynomial.
+/// Sum of the degrees of all denominators of a polynomial.
 pub const EXPANSION_DENOMINATOR_DEGREE: u64 = 1000;
-/// Variables and parameters of a system of polynomials.
+/// Variables and parameters of a polynomial system.
 pub const SYSTEM_NAMES: usize = 1000;
-/// Words of a polynomial: numbers, names and signs.
+/// Tokens of a polynomial: numbers, names and signs.
 pub const POLYNOMIAL_WORDS: usize = 1_000_000;
 /// Square roots of rational numbers in a system.
 pub const SYSTEM_ROOTS: usize = 8;
-/// Bits of a rational constant of a derivation, and of the square of a root.
+/// Bits of a rational constant of a derivation, and of the square of a square root.
 pub const CONSTANT_BITS: u64 = 10_000;
-/// Parts of a constant with square roots.
+/// Summands of a constant with square roots.
 pub const CONSTANT_PARTS: usize = 1_000;
-/// Parts of an equation after its constants are put in.
+/// Summands of an equation after its constants are substituted.
 pub const EQUATION_PARTS: usize = 400_000;
 
-/// Joints of a path of a robot, with those that are fixed.
+/// Joints of a path through a robot, including fixed joints.
 pub const PATH_JOINTS: usize = 64;
-/// The greatest coordinate of an axis of a chain, in its unit: doubles hold every sum of such numbers.
+/// The largest coordinate of a chain's axis, in the chain's unit. Sums of such numbers are far below the largest `f64`.
 pub const COORDINATE: u64 = 1_000_000_000_000;
 /// Joints of a chain.
 pub const CHAIN_JOINTS: usize = 12;
 /// Joints of a solver.
 pub const SOLVER_JOINTS: usize = 16;
-/// Answers of a solver's program for a target.
+/// Solutions that a program can return for one target.
 pub const PROGRAM_ANSWERS: usize = 4096;
-/// Blocks of it.
+/// Blocks of a solver's program.
 pub const PROGRAM_BLOCKS: usize = 64;
-/// Unknowns of it.
+/// Unknowns of a solver's program.
 pub const PROGRAM_UNKNOWNS: usize = 1024;
-/// Bodies of a robot whose equations of motion are printed as code.
+/// Bodies of a robot whose equations of motion are generated as code.
 pub const PRINTED_BODIES: usize = 500;
-/// Joints of a chain whose equations of motion are polynomials.
+/// Joints of a chain whose equations of motion are written as polynomials.
 pub const SYMBOLIC_JOINTS: usize = 7;
-/// Terms of M, C and N of these equations together.
+/// Terms of the polynomials M, C and N together.
 pub const SYMBOLIC_TERMS: usize = 100_000;
 
-/// The stems of the files of the run time in C: no printed solver is called so.
+/// File stems of the C run time. No generated solver may have one of these names.
 pub const RUN_TIME_FILES: [&str; 3] = ["groebot", "groebot_six_axes", "groebot_dynamics"];
 
-/// Whether `name` can be a name in any input: 1 to [`NAME_CHARACTERS`] characters, not all of them blanks, none of which acts on the text around it.
+/// Whether `name` can be a name in any input: 1 to [`NAME_CHARACTERS`] characters, not all of them blanks, none of them
+/// hidden ([`crate::escape::is_hidden`]).
 pub fn is_name(name: &str) -> bool {
     !name.trim().is_empty() && name.chars().count() <= NAME_CHARACTERS && !name.chars().any(is_hidden)
 }
 
-/// Fails for what [`is_name`] refuses; `what` says whose name it is.
+/// Checks a name with [`is_name`]. `what` describes the named item in the message.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] with the name.
@@ -195,10 +198,10 @@ pub fn check_name(what: &str, name: &str) -> Result<()> {
     Err(Error::new(ErrorKind::BadValue, text))
 }
 
-/// The number of a cell of a table or of an option.
+/// Parses the number in a table cell or an option.
 ///
 /// # Errors
-/// What is wrong, in words: no number, not finite, or beyond [`LARGEST`].
+/// A message: not a number, not finite, or beyond [`LARGEST`].
 pub fn number(cell: &str) -> std::result::Result<f64, String> {
     match cell.trim().parse::<f64>() {
         Ok(number) if number.abs() <= LARGEST => Ok(number),
@@ -208,7 +211,7 @@ pub fn number(cell: &str) -> std::result::Result<f64, String> {
     }
 }
 
-/// Fails for more than `most` of something.
+/// Checks that `count` is at most `most`.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] with both numbers.

@@ -1,4 +1,4 @@
-//! How a caller follows, stops and bounds long work. Engines never print; they ask a [`Watch`].
+//! Progress, cancellation and budgets of long computations. Engines never print; they call a [`Watch`].
 
 use std::fmt;
 use std::sync::Arc;
@@ -7,29 +7,29 @@ use std::time::{Duration, Instant};
 
 use crate::{Error, ErrorKind, Result};
 
-/// One line of progress: which work, how much is done, how much is known to be left.
+/// One progress report: the stage, the units done and the units known to be left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Progress<'a> {
     /// The stage, such as "basis" or "search of orders".
     pub stage: &'a str,
-    /// Units done so far.
+    /// Units done.
     pub done: usize,
-    /// Units that are still known to be open; it may grow.
+    /// Units known to be left. The number may grow.
     pub open: usize,
-    /// The matrix that is being reduced, in engines that work with one.
+    /// The matrix that is being reduced, in engines that use matrices.
     pub matrix: Option<Matrix>,
 }
 
-/// The matrix of one step of an engine.
+/// Size of the matrix of one step of an engine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Matrix {
-    /// The degree of the step.
+    /// The degree of the S-polynomials of the step.
     pub degree: usize,
-    /// Rows.
+    /// Number of rows.
     pub rows: usize,
-    /// Columns.
+    /// Number of columns.
     pub columns: usize,
-    /// The rank as far as it is known: rows that are reduced and not zero.
+    /// The rank known so far: rows that are reduced and not zero.
     pub rank: usize,
 }
 
@@ -61,80 +61,80 @@ pub struct Watch {
 }
 
 impl Watch {
-    /// A watch that never stops anything and tells nobody.
+    /// A watch without listener, cancel flag or budget.
     pub fn none() -> Self {
         Watch::default()
     }
 
-    /// Calls `listener` now and then from the working thread.
+    /// Sets a listener. It is called from time to time on the working thread.
     #[must_use]
     pub fn with_listener(mut self, listener: impl Fn(Progress<'_>) + Send + Sync + 'static) -> Self {
         self.listener = Some(Arc::new(listener));
         self
     }
 
-    /// Stops with [`ErrorKind::Cancelled`] soon after `flag` becomes true.
+    /// Sets a cancel flag. Work stops with [`ErrorKind::Cancelled`] soon after the flag becomes true.
     #[must_use]
     pub fn with_cancel(mut self, flag: Arc<AtomicBool>) -> Self {
         self.cancel = Some(flag);
         self
     }
 
-    /// Stops with [`ErrorKind::Budget`] once `time` has passed from now on.
+    /// Sets a time budget that starts now. Work stops with [`ErrorKind::Budget`] when it is used up.
     #[must_use]
     pub fn with_time(mut self, time: Duration) -> Self {
         self.deadline = Some((Instant::now() + time, time));
         self
     }
 
-    /// Stops with [`ErrorKind::Budget`] when more than `terms` polynomial terms are alive:
-    /// the memory budget, counted in the engine's own unit.
+    /// Sets a memory budget in polynomial terms, the engine's own unit. Work stops with [`ErrorKind::Budget`] when more
+    /// than `terms` terms are stored.
     #[must_use]
     pub fn with_terms(mut self, terms: usize) -> Self {
         self.terms = Some(terms);
         self
     }
 
-    /// Stops with [`ErrorKind::Budget`] when more than `bytes` bytes are in use, by the engine's own count
-    /// ([`Watch::check_memory`]) or by the caller's ([`Watch::with_meter`]).
+    /// Sets a memory budget in bytes. Work stops with [`ErrorKind::Budget`] when the engine ([`Watch::check_memory`])
+    /// or the caller ([`Watch::with_meter`]) counts more than `bytes`.
     #[must_use]
     pub fn with_memory(mut self, bytes: usize) -> Self {
         self.memory = Some(bytes);
         self
     }
 
-    /// Reads the bytes in use from `meter`, which the caller keeps up to date, at each [`Watch::check`].
+    /// Reads the bytes in use from `meter` at each [`Watch::check`]. The caller keeps the meter up to date.
     #[must_use]
     pub fn with_meter(mut self, meter: Arc<AtomicUsize>) -> Self {
         self.meter = Some(meter);
         self
     }
 
-    /// Stops with [`ErrorKind::Cancelled`] at the call of [`Watch::check`] that finds `left` at zero; each call before takes one off. This
-    /// shows how often the work asks, without a clock.
+    /// Sets a countdown for tests. Each [`Watch::check`] subtracts one from `left`; at zero, work stops with
+    /// [`ErrorKind::Cancelled`]. This counts the calls without a clock.
     #[must_use]
     pub fn with_patience(mut self, left: Arc<AtomicUsize>) -> Self {
         self.patience = Some(left);
         self
     }
 
-    /// Tells the listener how far the work is.
+    /// Reports progress to the listener.
     pub fn report(&self, stage: &str, done: usize, open: usize) {
-        self.tell(Progress { stage, done, open, matrix: None });
+        self.notify(Progress { stage, done, open, matrix: None });
     }
 
-    /// As [`Watch::report`], with the matrix that is being reduced.
+    /// Same as [`Watch::report`], but with the matrix that is being reduced.
     pub fn report_matrix(&self, stage: &str, done: usize, open: usize, matrix: Matrix) {
-        self.tell(Progress { stage, done, open, matrix: Some(matrix) });
+        self.notify(Progress { stage, done, open, matrix: Some(matrix) });
     }
 
-    fn tell(&self, progress: Progress<'_>) {
+    fn notify(&self, progress: Progress<'_>) {
         if let Some(listener) = &self.listener {
             listener(progress);
         }
     }
 
-    /// Fails when the work should stop.
+    /// Checks the cancel flag, the time budget and the meter. Engines call it often.
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`] or [`ErrorKind::Budget`].
@@ -157,7 +157,7 @@ impl Watch {
         }
     }
 
-    /// Fails when `bytes` bytes in use are more than the budget allows.
+    /// Checks `bytes` bytes in use against the memory budget.
     ///
     /// # Errors
     /// [`ErrorKind::Budget`].
@@ -174,7 +174,7 @@ impl Watch {
         }
     }
 
-    /// Fails when `terms` terms are more than the budget allows.
+    /// Checks `terms` stored terms against the memory budget.
     ///
     /// # Errors
     /// [`ErrorKind::Budget`].

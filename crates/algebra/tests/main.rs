@@ -11,7 +11,7 @@ mod watch;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 
-/// So many cases of a property; inputs that fail are kept in `tests/regressions/` and come first from then on.
+/// The number of cases of a property test. Failing inputs are stored in `tests/regressions/` and run first afterwards.
 fn cases(count: u32) -> Config {
     let kept = FileFailurePersistence::SourceParallel("tests/regressions");
     Config { cases: count, failure_persistence: Some(Box::new(kept)), ..Config::default() }

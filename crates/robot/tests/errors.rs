@@ -1,4 +1,4 @@
-//! What tests expect of an error.
+//! Assertions on errors.
 
 use groebot_algebra::{Error, ErrorKind};
 

@@ -1,14 +1,16 @@
-//! Buchberger's algorithm exactly as NAO section 6.3 prints it: the reference that other engines are compared with.
+//! Buchberger's algorithm exactly as printed in NAO section 6.3: the reference for the other engines.
 
 use super::division::{normal_form, s_polynomial};
 use crate::number::Field;
 use crate::poly::{Polynomial, PolynomialRing};
 use crate::{Result, Watch};
 
-/// A Groebner basis of the ideal of `generators`, by the ten lines of NAO section 6.3. Neither minimal nor reduced.
+/// Computes a Groebner basis of the ideal of `generators` by the ten lines of NAO section 6.3. It is neither minimal
+/// nor reduced.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Overflow`] when a degree outgrows the ring's lanes; what `watch` stops with.
+/// [`crate::ErrorKind::Overflow`] when a degree overflows the ring's lanes; the error with which `watch` stops the
+/// work.
 pub fn buchberger<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
@@ -36,7 +38,7 @@ pub fn buchberger<F: Field>(
 /// Buchberger's criterion (NAO 6.2.3): whether all S-polynomials of `basis` reduce to zero by it.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Overflow`] when a degree outgrows the ring's lanes.
+/// [`crate::ErrorKind::Overflow`] when a degree overflows the ring's lanes.
 pub fn is_groebner_basis<F: Field>(ring: &PolynomialRing<F>, basis: &[Polynomial<F::Element>]) -> Result<bool> {
     for (index, p) in basis.iter().enumerate() {
         for q in &basis[index + 1..] {

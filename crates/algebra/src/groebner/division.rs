@@ -4,20 +4,21 @@ use crate::number::{Field, Ring, Style};
 use crate::poly::{Polynomial, PolynomialRing, Term};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// `f = sum quotients[k] * divisors[k] + remainder`; no term of the remainder is divisible by a leading monomial.
+/// Result of a division: `f = sum quotients[k] * divisors[k] + remainder`. No term of the remainder is divisible by a
+/// leading monomial.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Division<E> {
-    /// One quotient a divisor.
+    /// One quotient for each divisor.
     pub quotients: Vec<Polynomial<E>>,
-    /// The normal form of `f` (unique when the divisors are a Groebner basis).
+    /// The normal form of `f`. It is unique when the divisors are a Groebner basis.
     pub remainder: Polynomial<E>,
 }
 
-/// Divides `f` by `divisors`; the first that fits is taken. Zero divisors are skipped.
+/// Divides `f` by `divisors`. The first divisor whose leading monomial divides is used. Zero divisors are skipped.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Overflow`] when a degree outgrows the ring's lanes.
+/// [`crate::ErrorKind::Overflow`] when a degree overflows the ring's lanes.
 pub fn divide<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -26,7 +27,7 @@ pub fn divide<F: Field>(
     divide_by(ring, f.clone(), &divisors.iter().collect::<Vec<_>>(), &Watch::none())
 }
 
-/// [`divide`] under a watch: one polynomial may take longer than all the rest.
+/// Same as [`divide`], but under a watch, since the division of one polynomial can take long.
 pub(super) fn divide_by<F: Field>(
     ring: &PolynomialRing<F>,
     f: Polynomial<F::Element>,
@@ -65,10 +66,11 @@ fn find_divisor<F: Field>(
     })
 }
 
-/// The remainder of [`divide`]: zero exactly for members of the ideal when `basis` is a Groebner basis.
+/// The normal form: the remainder of [`divide`]. If `basis` is a Groebner basis, it is zero exactly for elements of the
+/// ideal.
 ///
 /// # Errors
-/// As [`divide`].
+/// Those of [`divide`].
 pub fn normal_form<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -80,7 +82,7 @@ pub fn normal_form<F: Field>(
 /// The S-polynomial of two nonzero polynomials (NAO 6.3.1); zero when one of them is zero.
 ///
 /// # Errors
-/// As [`divide`]; [`ErrorKind::BadValue`] when a leading coefficient has no inverse.
+/// Those of [`divide`]; [`ErrorKind::BadValue`] when a leading coefficient has no inverse.
 pub fn s_polynomial<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -115,7 +117,8 @@ pub(super) fn s_factors<F: Field>(
 /// The inverse of a nonzero coefficient.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when it has none: the coefficients are no field (see [`crate::poly::Fractions::with_square`]).
+/// [`ErrorKind::BadValue`] when it has none: the coefficients are not a field (see
+/// [`crate::poly::Fractions::with_square`]).
 pub(super) fn inverse<F: Field>(ring: &PolynomialRing<F>, coefficient: &F::Element) -> Result<F::Element> {
     ring.field().inverse(coefficient).ok_or_else(|| {
         let text = ring.field().format(coefficient, Style::Text);

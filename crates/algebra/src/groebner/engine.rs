@@ -1,4 +1,4 @@
-//! The Buchberger engine that users run: pair criteria, strategies, cofactors, progress and budget.
+//! The Buchberger engine for users: pair criteria, selection strategies, cofactors, progress and budget.
 
 use super::goal::Goal;
 use super::hilbert::HilbertSeries;
@@ -9,22 +9,22 @@ use crate::number::Field;
 use crate::poly::{Polynomial, PolynomialRing, Width};
 use crate::{ErrorKind, Result, Watch};
 
-/// How [`basis`] works.
+/// Options of [`basis`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Which pair comes next.
+    /// The selection strategy for pairs.
     pub strategy: Strategy,
-    /// Whether to carry the cofactors that express each basis element in the generators: the proof of `G in <F>`.
+    /// Whether to compute the cofactors that express each basis element in the generators: the proof of `G in <F>`.
     pub cofactors: bool,
 }
 
-/// The reduced Groebner basis of the ideal of `generators` in the order of `ring`.
+/// Computes the reduced Groebner basis of the ideal of `generators` in the order of `ring`.
 ///
 /// Exponents start in narrow lanes; an overflow restarts the work with wider ones.
 ///
 /// # Errors
-/// [`ErrorKind::Overflow`] when a degree outgrows even 31 bits; [`ErrorKind::BadValue`] when a nonzero coefficient has
-/// no inverse; what `watch` stops with.
+/// [`ErrorKind::Overflow`] when a degree overflows even 31 bits; [`ErrorKind::BadValue`] when a nonzero coefficient has
+/// no inverse; the error with which `watch` stops the work.
 pub fn basis<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
@@ -34,7 +34,7 @@ pub fn basis<F: Field>(
     basis_towards(ring, generators, options, None, watch)
 }
 
-/// [`basis`], without the pairs that the Hilbert series of a homogeneous ideal shows to be idle.
+/// Same as [`basis`], but skips the pairs that reduce to zero according to the Hilbert series of a homogeneous ideal.
 pub(super) fn basis_towards<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
@@ -70,10 +70,10 @@ fn basis_in_width<F: Field>(
     Ok(Basis { ring: ring.clone(), polynomials, cofactors })
 }
 
-/// Buchberger's loop: select a pair, reduce its S-polynomial, update the pairs with what remains.
+/// Buchberger's loop: select a pair, reduce its S-polynomial, update the pairs with the remainder.
 ///
-/// Redundant elements stay among the divisors: they are older and simpler than what made them so. Without them the
-/// lexicographic basis of cyclic-5 modulo 32003 takes minutes instead of milliseconds.
+/// Redundant elements stay among the divisors, because they are older and simpler than the elements that made them
+/// redundant. Without them the lexicographic basis of cyclic-5 modulo 32003 takes minutes instead of milliseconds.
 fn complete<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
@@ -112,7 +112,7 @@ fn complete<F: Field>(
     Ok(live.map(|(element, _)| element).collect())
 }
 
-/// Makes a nonzero remainder monic and takes it into the basis.
+/// Makes a nonzero remainder monic and adds it to the basis.
 fn adjoin<F: Field>(
     ring: &PolynomialRing<F>,
     element: Tracked<F::Element>,

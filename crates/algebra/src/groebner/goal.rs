@@ -1,4 +1,4 @@
-//! The Hilbert series that a running computation is to reach, which tells the pairs that are idle.
+//! The known Hilbert series of a running computation, which identifies pairs that reduce to zero.
 
 use num_traits::ToPrimitive;
 
@@ -8,11 +8,11 @@ use crate::number::Field;
 use crate::poly::PolynomialRing;
 use crate::{Error, ErrorKind, Result};
 
-/// The known Hilbert series of a running computation, which takes pairs by degree.
+/// The known Hilbert series of a running computation that processes pairs by degree.
 #[derive(Debug)]
 pub(super) struct Goal<'a> {
     series: &'a HilbertSeries,
-    /// The degree that the computation is at, and the number of elements with which it is full.
+    /// The current degree, and the number of elements with which it is complete.
     stage: Option<(u32, usize)>,
 }
 
@@ -21,7 +21,7 @@ impl<'a> Goal<'a> {
         Goal { series, stage: None }
     }
 
-    /// Whether all leading monomials of `degree` are there: each new element has one more.
+    /// Whether all leading monomials of `degree` are found. Each new element adds one.
     pub fn is_full<F: Field>(&mut self, ring: &PolynomialRing<F>, heads: &[Head], degree: u32) -> Result<bool> {
         let size = match self.stage {
             Some((at, size)) if at == degree => size,
@@ -39,7 +39,7 @@ impl<'a> Goal<'a> {
     }
 }
 
-/// The refusal of a series that the computation contradicts.
+/// The error for a series that contradicts the computation.
 pub(super) fn another_series() -> Error {
     Error::new(
         ErrorKind::BadValue,

@@ -1,7 +1,7 @@
 //! Hilbert series of ideals: [`HilbertSeries`], from the leading monomials of a basis.
 //!
-//! A. Bigatti, "Computation of Hilbert-Poincare series", J. Pure and Applied Algebra 119 (1997): the series of a monomial ideal is
-//! that of two simpler ones, its sum with a pivot and its quotient by it.
+//! A. Bigatti, "Computation of Hilbert-Poincare series", J. Pure and Applied Algebra 119 (1997): the series of a
+//! monomial ideal follows from two simpler ones, its sum with a pivot and its quotient by it.
 
 use num_traits::{One, Signed, Zero};
 
@@ -15,16 +15,16 @@ use crate::{Error, ErrorKind, Result};
 /// degree d: numerator / (1 - t)^variables.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HilbertSeries {
-    /// The numerator of the first series, constant term first; empty for the unit ideal.
+    /// The numerator, constant term first; empty for the unit ideal.
     pub numerator: Vec<BigInt>,
-    /// The number of variables: the power of `1 - t` below the first series.
+    /// The number of variables: the power of `1 - t` in the denominator.
     pub variables: usize,
 }
 
 impl<F: Field> Basis<F> {
-    /// The Hilbert series of the ideal of the leading monomials. For a homogeneous ideal it is that of the ideal, in any order; for
-    /// another one in a degree order, its coefficients up to degree d add up to the dimension of the polynomials of degree at most
-    /// d modulo the ideal.
+    /// The Hilbert series of the ideal of the leading monomials. For a homogeneous ideal it is the series of the ideal,
+    /// in any order. For another ideal and a degree order, the sum of its coefficients up to degree d is the affine
+    /// Hilbert function: the dimension of the polynomials of degree at most d modulo the ideal.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when the ideal is not homogeneous and the order does not compare total degrees first.
@@ -40,11 +40,11 @@ impl<F: Field> Basis<F> {
         Ok(HilbertSeries { numerator: numerator(leads), variables: layout.variables() })
     }
 
-    /// The degree (multiplicity) of the ideal: for a zero-dimensional one the number of solutions, else that of its projective
-    /// closure. Zero for the unit ideal.
+    /// The degree (multiplicity) of the ideal. For a zero-dimensional ideal it is the number of solutions with
+    /// multiplicity, else the degree of its projective closure. Zero for the unit ideal.
     ///
     /// # Errors
-    /// As [`Basis::hilbert_series`].
+    /// Those of [`Basis::hilbert_series`].
     pub fn degree(&self) -> Result<BigInt> {
         Ok(self.hilbert_series()?.degree())
     }
@@ -66,8 +66,8 @@ pub(super) fn is_homogeneous<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<
 }
 
 impl HilbertSeries {
-    /// The numerator of the second series, whose denominator is `(1 - t)^k` with the least k, and that k: the dimension of the ideal
-    /// (of the affine set; that of the projective set is one less). Empty and 0 for the unit ideal.
+    /// The numerator of the reduced series, whose denominator is `(1 - t)^k` with the least k, and this k. It is the
+    /// dimension of the ideal as an affine set; that of the projective set is one less. Empty and 0 for the unit ideal.
     pub fn reduced(&self) -> (Vec<BigInt>, usize) {
         let (mut numerator, mut power) = (self.numerator.clone(), self.variables);
         while !numerator.is_empty() && numerator.iter().sum::<BigInt>().is_zero() {
@@ -83,7 +83,7 @@ impl HilbertSeries {
         (!self.numerator.is_empty()).then(|| self.reduced().1)
     }
 
-    /// The degree: the second numerator at `t = 1`.
+    /// The degree: the reduced numerator at `t = 1`.
     pub fn degree(&self) -> BigInt {
         self.reduced().0.iter().sum()
     }
@@ -98,7 +98,7 @@ impl HilbertSeries {
         coefficients.swap_remove(degree)
     }
 
-    /// The polynomial that the Hilbert function equals in all degrees from [`HilbertSeries::regularity`] on.
+    /// The Hilbert polynomial, equal to the Hilbert function in all degrees from [`HilbertSeries::regularity`] on.
     pub fn polynomial(&self) -> Univariate<BigRational> {
         let ring = UnivariateRing::new(Rationals, "d");
         let (numerator, dimension) = self.reduced();
@@ -109,7 +109,7 @@ impl HilbertSeries {
         terms.fold(ring.zero(), |sum, term| ring.add(&sum, &term))
     }
 
-    /// The degree from which on function and polynomial agree.
+    /// The least degree from which on Hilbert function and polynomial agree.
     pub fn regularity(&self) -> usize {
         let (numerator, dimension) = self.reduced();
         numerator.len().saturating_sub(dimension)
@@ -126,7 +126,7 @@ fn binomial(ring: &UnivariateRing<Rationals>, shift: BigInt, below: usize) -> Un
     })
 }
 
-/// The coefficients of the product with `1 + t + t^2 + ...`, as many.
+/// The coefficients of the product with `1 + t + t^2 + ...`, truncated to the same length.
 fn running_sums(coefficients: &[BigInt]) -> Vec<BigInt> {
     let mut sum = BigInt::zero();
     coefficients
@@ -171,7 +171,7 @@ fn quotient(m: &[u32], pivot: &[u32]) -> Vec<u32> {
     m.iter().zip(pivot).map(|(a, b)| a.saturating_sub(*b)).collect()
 }
 
-/// The monomials that no other one divides.
+/// The monomials that no other monomial divides.
 fn minimal(mut monomials: Vec<Vec<u32>>) -> Vec<Vec<u32>> {
     monomials.sort_by_cached_key(|m| (degree(m), m.clone()));
     let mut kept: Vec<Vec<u32>> = Vec::new();
@@ -207,7 +207,7 @@ fn coprime_numerator(monomials: &[Vec<u32>]) -> Vec<BigInt> {
     })
 }
 
-/// How many monomials of this degree `smaller` has more than `larger`; `None` when it has fewer.
+/// The number of additional monomials of this degree in `smaller` compared with `larger`; `None` when it has fewer.
 pub(super) fn excess(larger: &HilbertSeries, smaller: &HilbertSeries, degree: usize) -> Option<BigInt> {
     let difference = larger.value(degree) - smaller.value(degree);
     (!difference.is_negative()).then_some(difference)

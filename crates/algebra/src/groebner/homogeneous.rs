@@ -1,7 +1,7 @@
-//! Homogenisation, and the computation of a homogeneous basis whose Hilbert series is known beforehand.
+//! Homogenisation, and the Hilbert-driven computation of a homogeneous basis.
 //!
-//! C. Traverso, "Hilbert functions and the Buchberger algorithm", J. Symbolic Computation 22 (1996): once the leading monomials of a
-//! degree are as many as the series says, all pairs of that degree reduce to zero and are skipped.
+//! C. Traverso, "Hilbert functions and the Buchberger algorithm", J. Symbolic Computation 22 (1996): pairs of a degree
+//! are skipped once the number of leading monomials of this degree agrees with the series. They reduce to zero.
 
 use super::engine::basis_towards;
 use super::goal::another_series;
@@ -14,11 +14,11 @@ use crate::{Error, ErrorKind, Result, Watch};
 /// A ring and polynomials of it.
 pub type System<F> = (PolynomialRing<F>, Vec<Polynomial<<F as crate::number::Ring>::Element>>);
 
-/// The polynomials made homogeneous by powers of one more variable, `name`, the smallest. The order among the others stays; a basis
-/// of the homogenised system becomes one of the system by [`dehomogenise`].
+/// Homogenises the polynomials by powers of one more variable `name`, the smallest one. The order of the other
+/// variables is unchanged. [`dehomogenise`] maps a basis of the homogenised system to a basis of the system.
 ///
 /// # Errors
-/// [`ErrorKind::DuplicateName`] when `name` is taken.
+/// [`ErrorKind::DuplicateName`] when `name` is already a variable.
 pub fn homogenise<F: Field>(
     ring: &PolynomialRing<F>,
     polynomials: &[Polynomial<F::Element>],
@@ -43,7 +43,7 @@ pub fn homogenise<F: Field>(
     Ok((target, lifted))
 }
 
-/// The polynomials with one for the variable `name`, in the ring without it.
+/// Substitutes one for the variable `name`. The result is in the ring without it.
 ///
 /// # Errors
 /// [`ErrorKind::UnknownName`] when there is no such variable.
@@ -71,7 +71,7 @@ pub fn dehomogenise<F: Field>(
     Ok((target, lowered))
 }
 
-/// The order of the variables that stay when the one at `index` goes.
+/// The order of the remaining variables after the one at `index` is removed.
 fn order_without(order: &Order, index: usize) -> Order {
     let Order::Block(blocks) = order else { return order.clone() };
     let mut end = 0;
@@ -83,14 +83,14 @@ fn order_without(order: &Order, index: usize) -> Order {
     Order::Block(shrunk.filter(|block| block.size > 0).collect())
 }
 
-/// The reduced Groebner basis of a homogeneous ideal whose Hilbert series is known: from another order, or from another prime that
-/// is no less lucky. Pays where most pairs reduce to zero, as for a lexicographic order.
+/// Computes the reduced Groebner basis of a homogeneous ideal with a known Hilbert series, for example from another
+/// order or another prime. This is faster where most pairs reduce to zero, as for a lexicographic order.
 ///
-/// The answer is right when `series` is that of the ideal.
+/// The result is correct if `series` is the series of the ideal.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when a generator is not homogeneous, or when the series is found not to be that of the ideal; those of
-/// [`super::basis`].
+/// [`ErrorKind::BadValue`] when a generator is not homogeneous, or when the computation contradicts the series; those
+/// of [`super::basis`].
 pub fn hilbert_driven<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],

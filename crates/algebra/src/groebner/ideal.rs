@@ -1,4 +1,4 @@
-//! Questions to an ideal, answered by a Groebner basis: membership, elimination, dimension, quotient.
+//! Operations on an ideal with a Groebner basis: membership, elimination, dimension, quotient.
 
 use super::{Basis, Options, Settings, basis, f4_with, modular, normal_form};
 use crate::number::{Field, PrimeElement, Rationals, Ring, Zp};
@@ -6,7 +6,7 @@ use crate::poly::{Monomial, Order, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
 impl<F: Field> Basis<F> {
-    /// Whether `f` lies in the ideal.
+    /// Whether `f` belongs to the ideal.
     ///
     /// # Errors
     /// [`ErrorKind::Overflow`].
@@ -19,9 +19,9 @@ impl<F: Field> Basis<F> {
         self.polynomials.iter().filter_map(|f| f.leading()).map(|term| &term.monomial).collect()
     }
 
-    /// The standard monomials, smallest first: a vector-space basis of the quotient ring, whose size is the number of
-    /// complex solutions with multiplicity. Empty for the unit ideal; `None` when the ideal is positive-dimensional, or
-    /// when a standard monomial does not fit the lanes of the ring.
+    /// The standard monomials, smallest first. They are a vector-space basis of the quotient ring, and their number is
+    /// the number of complex solutions with multiplicity. Empty for the unit ideal. `None` when the ideal is
+    /// positive-dimensional, or when a standard monomial overflows the lanes of the ring.
     pub fn quotient_basis(&self) -> Option<Vec<Monomial>> {
         let layout = self.ring.layout();
         let mut standard: Vec<_> =
@@ -53,8 +53,8 @@ impl<F: Field> Basis<F> {
         Some(standard)
     }
 
-    /// A largest set of variables (indices) that no leading monomial is made of alone: they can be chosen freely. Its size is the
-    /// dimension of the ideal (Kredel and Weispfenning 1988); empty when zero-dimensional, `None` for the unit ideal.
+    /// A largest set of independent variables (indices): no leading monomial has only these variables. Its size is the
+    /// dimension of the ideal (Kredel and Weispfenning 1988). Empty when zero-dimensional; `None` for the unit ideal.
     pub fn independent_variables(&self) -> Option<Vec<usize>> {
         if self.is_unit_ideal() {
             return None;
@@ -72,10 +72,11 @@ impl<F: Field> Basis<F> {
         Some(best)
     }
 
-    /// Fails unless the ideal has finitely many solutions.
+    /// Checks that the ideal has finitely many solutions.
     ///
     /// # Errors
-    /// [`ErrorKind::Inconsistent`] for the unit ideal; [`ErrorKind::PositiveDimensional`] with the names of variables that stay free.
+    /// [`ErrorKind::Inconsistent`] for the unit ideal; [`ErrorKind::PositiveDimensional`] with the names of the free
+    /// variables.
     pub fn require_zero_dimensional(&self) -> Result<()> {
         match self.independent_variables() {
             None => Err(Error::new(ErrorKind::Inconsistent, "the equations contradict each other: the ideal is {1}")),
@@ -89,8 +90,8 @@ impl<F: Field> Basis<F> {
     }
 }
 
-/// Walks the exponent vectors that agree with `exponents` before `variable` and that no leading monomial divides; the
-/// walk ends because some lead is a power of each variable.
+/// Enumerates the exponent vectors that start with `exponents` before `variable` and that no leading monomial divides.
+/// The enumeration is finite because some leading monomial is a power of each variable.
 fn collect_standard(leads: &[Vec<u32>], exponents: &mut Vec<u32>, variable: usize, standard: &mut Vec<Vec<u32>>) {
     let divides = |lead: &Vec<u32>, exponents: &[u32]| lead.iter().zip(exponents).all(|(a, b)| a <= b);
     if leads.iter().any(|lead| divides(lead, exponents)) {
@@ -106,7 +107,7 @@ fn collect_standard(leads: &[Vec<u32>], exponents: &mut Vec<u32>, variable: usiz
     exponents[variable] = 0;
 }
 
-/// How many pairwise disjoint sets the first fit finds: each must lose a variable.
+/// The number of pairwise disjoint sets that a greedy search finds. Each must lose a variable.
 fn disjoint_supports(supports: &[Vec<usize>], count: usize) -> usize {
     let mut taken = vec![false; count];
     let mut sorted: Vec<_> = supports.iter().collect();
@@ -121,8 +122,8 @@ fn disjoint_supports(supports: &[Vec<usize>], count: usize) -> usize {
     free.count()
 }
 
-/// Extends `chosen` by variables of `rest`, in all ways that may beat `best`; the first of equals stays, and nothing beats
-/// `limit`.
+/// Extends `chosen` by variables of `rest` and searches for a larger set than `best`. The first of equal size is kept,
+/// and no set exceeds `limit`.
 fn largest_independent(
     supports: &[Vec<usize>],
     rest: std::ops::Range<usize>,
@@ -145,7 +146,8 @@ fn largest_independent(
     largest_independent(supports, after, limit, chosen, best);
 }
 
-/// The reduced basis without doubt: over Q by primes and a proof, modulo p by F4 without chance, else by [`basis`].
+/// Computes the proved reduced basis: over Q by a modular computation with proof, modulo p by F4 without random
+/// combinations, else by [`basis`].
 fn certain_basis<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
@@ -196,7 +198,7 @@ fn modulo_prime<F: Field>(
 /// A ring and generators in it.
 type Generated<G> = (PolynomialRing<G>, Vec<Polynomial<<G as Ring>::Element>>);
 
-/// The same ideal in the ring over a field that the engines know.
+/// Converts the ideal to a ring over a field that the engines support.
 fn over<F: Field, G: Field>(
     ring: &PolynomialRing<F>,
     field: G,
@@ -209,7 +211,7 @@ fn over<F: Field, G: Field>(
     Ok((plain, moved))
 }
 
-/// The basis over the field of `ring`.
+/// Converts the basis back to the field of `ring`.
 fn back<F: Field, G: Field>(
     ring: &PolynomialRing<F>,
     found: &Basis<G>,
@@ -225,13 +227,13 @@ fn no_number() -> Error {
     Error::new(ErrorKind::BadValue, "the elements of a prime field are numbers")
 }
 
-/// The elimination ideal: the reduced basis of the ideal of `generators` intersected with the ring without the variables named
-/// `eliminated`, in graded reverse order. Over Q the basis comes from primes and is proved ([`modular::prove`]), modulo a prime below
-/// 2^31 from F4 without chance, else from [`basis`].
+/// Computes the elimination ideal: the reduced grevlex basis of the ideal of `generators` intersected with the ring
+/// without the variables `eliminated`. Over Q the basis is computed modulo primes and proved ([`modular::prove`]).
+/// Modulo a prime below 2^31 it is computed by F4 without random combinations, else by [`basis`].
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] for a name that is no variable, [`ErrorKind::DuplicateName`] for one listed twice; those of
-/// [`basis`].
+/// [`ErrorKind::UnknownName`] for a name that is not a variable, [`ErrorKind::DuplicateName`] for one listed twice;
+/// those of [`basis`].
 pub fn eliminate<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],

@@ -1,13 +1,13 @@
-//! Groebner bases over any field, and what is computed from them.
+//! Groebner bases over any field, and computations with them.
 //!
-//! Which front door for what:
+//! Which function for which task:
 //!
-//! | question | function | the answer is |
+//! | task | function | the result is |
 //! | --- | --- | --- |
-//! | a basis over any field, with cofactors if asked | [`basis()`] | exact; Buchberger's algorithm with criteria |
-//! | a basis modulo a prime, in any order | [`basis_modulo_prime`] | [`f4()`], then [`change_order`]; wrong with a chance below 2^-50 a block of rows |
-//! | a basis over Q | [`modular::basis`] | [`modular::Status::Probable`]; [`modular::prove`] settles it |
-//! | a basis over the rational functions of parameters | [`parametric::basis`] | for generic parameters; exact or tested, as it says |
+//! | a basis over any field, with cofactors on request | [`basis()`] | exact; Buchberger's algorithm with criteria |
+//! | a basis modulo a prime, in any order | [`basis_modulo_prime`] | [`f4()`], then [`change_order`]; wrong with a probability below 2^-50 per block of rows |
+//! | a basis over Q | [`modular::basis`] | [`modular::Status::Probable`]; [`modular::prove`] proves it |
+//! | a basis over the rational functions of parameters | [`parametric::basis`] | for generic parameters; exact or tested, as reported |
 //! | a basis for every value of the parameters | [`cover::cover`] | a list of strata; [`cover::check`] proves it |
 //! | another order, elimination, a minimal polynomial | [`change_order`], [`Quotient`], [`WordQuotient`] | exact; dimension zero only |
 //! | elimination in any dimension | [`ideal::eliminate`] | exact |
@@ -15,8 +15,8 @@
 //! | all complex solutions as roots of one polynomial | [`univariate_representation()`] | proved over Q, given the basis |
 //! | all real solutions in boxes | [`crate::real::solve`] | proved |
 //!
-//! [`buchberger`] is the algorithm of NAO section 6.3, word for word: the reference. [`verify`] proves a basis without trusting
-//! any engine. `docs/groebner.md` tells what each guarantee rests on.
+//! [`buchberger`] is the algorithm of NAO section 6.3, line by line: the reference. [`verify`] proves a basis
+//! independently of the engines. `docs/groebner.md` explains what each guarantee depends on.
 
 pub mod buchberger;
 pub mod cover;

@@ -9,17 +9,18 @@ use crate::Result;
 use crate::number::Field;
 use crate::poly::{Monomial, PolynomialRing};
 
-/// Which pair comes next.
+/// Selection strategy for critical pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategy {
-    /// The least common multiple that is smallest in the monomial order.
+    /// Normal strategy: the least common multiple that is smallest in the monomial order.
     Normal,
-    /// The smallest sugar degree (that of homogenised input), then as `Normal`: better for lexicographic orders.
+    /// Sugar strategy: the smallest sugar degree (that of homogenised input), then as `Normal`. Better for
+    /// lexicographic orders.
     #[default]
     Sugar,
 }
 
-/// A pair of basis elements whose S-polynomial is still open.
+/// A pair of basis elements whose S-polynomial is not yet reduced.
 #[derive(Clone, Debug)]
 pub(super) struct Pair {
     pub left: usize,
@@ -28,12 +29,12 @@ pub(super) struct Pair {
     pub sugar: u32,
 }
 
-/// What a basis element shows to the pair criteria.
+/// Data of a basis element for the pair criteria.
 #[derive(Clone, Debug)]
 pub(super) struct Head {
     pub monomial: Monomial,
     pub sugar: u32,
-    /// Its leading monomial is a multiple of a later one: no new pairs are made with it.
+    /// Whether its leading monomial is a multiple of a later one. No new pairs are made with it.
     pub redundant: bool,
 }
 
@@ -53,7 +54,7 @@ impl Pairs {
         self.open.len()
     }
 
-    /// Takes the next pair out.
+    /// Removes and returns the next pair.
     pub fn select<F: Field>(&mut self, ring: &PolynomialRing<F>) -> Option<Pair> {
         let compare = |a: &Pair, b: &Pair| {
             let sugar = match self.strategy {
@@ -67,10 +68,12 @@ impl Pairs {
         Some(self.open.swap_remove(index))
     }
 
-    /// Adds the element with index `heads.len()`: drops old pairs by the chain criterion, keeps of the new ones those that no
-    /// other new pair covers and whose heads are not coprime, and marks redundant elements. A constant closes all pairs.
+    /// Adds the element with index `heads.len()`: removes old pairs by the chain criterion, keeps the new ones that no
+    /// other new pair covers and whose heads are not coprime, and marks redundant elements. A constant removes all
+    /// pairs.
     ///
-    /// Of new pairs with the same multiple one is kept, a coprime one if there is any (it stands for them and then falls).
+    /// One of several new pairs with the same least common multiple is kept, a coprime one if there is any. A coprime
+    /// pair represents the others and is then removed.
     pub fn update<F: Field>(&mut self, ring: &PolynomialRing<F>, heads: &mut Vec<Head>, new: Head) -> Result<()> {
         let layout = ring.layout();
         let index = heads.len();
@@ -105,7 +108,7 @@ impl Pairs {
     }
 }
 
-/// The degree that the S-polynomial would have, had the input been homogenised.
+/// The sugar degree: the degree of the S-polynomial if the input had been homogenised.
 fn pair_sugar<F: Field>(ring: &PolynomialRing<F>, a: &Head, b: &Head, lcm: &Monomial) -> u32 {
     let degree = |m: &Monomial| ring.layout().degree(m);
     let excess = (a.sugar - degree(&a.monomial)).max(b.sugar - degree(&b.monomial));

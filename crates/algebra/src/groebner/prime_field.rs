@@ -1,16 +1,17 @@
-//! The fastest way to a reduced basis over a prime field, in any order.
+//! Fast computation of reduced bases over a prime field, in any order.
 
 use super::{Basis, Options, basis, change_order, f4};
 use crate::number::{Field, Ring, Zp};
 use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::{ErrorKind, Result, Watch};
 
-/// The reduced Groebner basis of the ideal of `generators` modulo a prime, in the order of `ring`: by [`f4()`] in the graded
-/// reverse order, and from there by [`change_order`] when the ideal is zero-dimensional, else by [`f4()`] in the order itself.
-/// Primes beyond those of F4, and more variables than its keys hold, go to [`basis`].
+/// Computes the reduced Groebner basis of the ideal of `generators` modulo a prime, in the order of `ring`. A
+/// zero-dimensional ideal is computed by [`f4()`] in graded reverse order and converted by [`change_order`]. Other
+/// ideals are computed by [`f4()`] in the order itself. Larger primes or more variables than F4 supports are passed to
+/// [`basis`].
 ///
 /// # Errors
-/// [`ErrorKind::Overflow`] when a degree does not fit; what `watch` stops with.
+/// [`ErrorKind::Overflow`] when a degree does not fit; the error with which `watch` stops the work.
 pub fn basis_modulo_prime(
     ring: &PolynomialRing<Zp>,
     generators: &[Polynomial<u64>],
@@ -29,7 +30,7 @@ pub fn basis_modulo_prime(
     }
 }
 
-/// The reduced basis in the order of `ring`, through the graded one where that helps.
+/// The reduced basis in the order of `ring`, converted from the graded one where that is faster.
 ///
 /// # Errors
 /// Those of [`f4()`] and [`change_order`].
@@ -46,7 +47,7 @@ pub(super) fn by_degree_first(
     }
 }
 
-/// The same ring in the graded reverse order.
+/// Same ring, but in graded reverse order.
 pub(super) fn graded<F: Field>(ring: &PolynomialRing<F>) -> Result<PolynomialRing<F>> {
     let plain = PolynomialRing::new(ring.field().clone(), ring.variables(), Order::GrevLex)?;
     Ok(plain.with_width(ring.layout().width()))

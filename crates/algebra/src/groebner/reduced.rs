@@ -1,14 +1,15 @@
-//! From a Groebner basis to the reduced one, a [`Basis`].
+//! The reduced Groebner basis, a [`Basis`], from any Groebner basis.
 
 use super::tracked::{Tracked, monic, reduce};
 use crate::number::Field;
 use crate::poly::{Polynomial, PolynomialRing, Width};
 use crate::{Result, Watch};
 
-/// A reduced Groebner basis: monic, sorted by leading monomial from the smallest, unique for ideal and order.
+/// A reduced Groebner basis: monic, sorted by leading monomial from the smallest. It is unique for an ideal and an
+/// order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basis<F: Field> {
-    /// The ring and its order; its lanes are wider than those of the ring asked for when the basis does not fit those.
+    /// The ring and its order. Its lanes are wider than those of the given ring when the basis needs it.
     pub ring: PolynomialRing<F>,
     /// The basis; empty for the zero ideal, `[1]` for the unit ideal.
     pub polynomials: Vec<Polynomial<F::Element>>,
@@ -18,7 +19,7 @@ pub struct Basis<F: Field> {
 }
 
 impl<F: Field> Basis<F> {
-    /// The same basis with exponent lanes of `width`.
+    /// Same basis, but with exponent lanes of `width`.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Overflow`] when a degree does not fit.
@@ -32,16 +33,17 @@ impl<F: Field> Basis<F> {
         Ok(Basis { ring, polynomials, cofactors })
     }
 
-    /// Whether the ideal is the whole ring: the equations have no solution in any extension field.
+    /// Whether the ideal is the unit ideal: the equations have no solution in any extension field.
     pub fn is_unit_ideal(&self) -> bool {
         self.polynomials.iter().any(|f| self.ring.as_constant(f).is_some_and(|c| !self.ring.field().is_zero(&c)))
     }
 }
 
-/// The reduced basis of a Groebner basis that came about elsewhere, its cofactors (one row a polynomial) carried along.
+/// Reduces a given Groebner basis. Cofactors, one row for each polynomial, are transformed too.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Overflow`] when a degree outgrows the ring's lanes; what `watch` stops with.
+/// [`crate::ErrorKind::Overflow`] when a degree overflows the ring's lanes; the error with which `watch` stops the
+/// work.
 pub fn reduced_basis<F: Field>(
     ring: &PolynomialRing<F>,
     polynomials: Vec<Polynomial<F::Element>>,
@@ -55,7 +57,8 @@ pub fn reduced_basis<F: Field>(
     Ok(Basis { ring: ring.clone(), polynomials, cofactors })
 }
 
-/// Drops elements whose leading monomial another divides, reduces the tails, makes monic and sorts from the smallest.
+/// Removes elements whose leading monomial another one divides, reduces the tails, makes all monic and sorts from the
+/// smallest.
 pub(super) fn interreduce<F: Field>(
     ring: &PolynomialRing<F>,
     elements: Vec<Tracked<F::Element>>,

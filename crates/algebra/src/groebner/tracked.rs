@@ -6,14 +6,14 @@ use crate::number::{Field, Ring};
 use crate::poly::{Polynomial, PolynomialRing};
 use crate::{Result, Watch};
 
-/// A polynomial of the running basis with its cofactors (empty when they are not asked for).
+/// A polynomial of the running basis with its cofactors. They are empty when they are not requested.
 #[derive(Clone, Debug)]
 pub(super) struct Tracked<E> {
     pub polynomial: Polynomial<E>,
     pub cofactors: Vec<Polynomial<E>>,
 }
 
-/// Generator number `index` with its unit vector of cofactors.
+/// The generator `index` with its unit vector of cofactors.
 pub(super) fn generator<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -32,7 +32,7 @@ pub(super) fn term_count<E>(element: &Tracked<E>) -> usize {
     element.polynomial.terms().len() + cofactors
 }
 
-/// The multiple of `element` with leading coefficient one; zero stays zero.
+/// `element` with leading coefficient one; zero stays zero.
 pub(super) fn monic<F: Field>(ring: &PolynomialRing<F>, element: Tracked<F::Element>) -> Result<Tracked<F::Element>> {
     let factor = match element.polynomial.leading() {
         Some(lead) if !ring.field().is_one(&lead.coefficient) => inverse(ring, &lead.coefficient)?,
@@ -60,7 +60,7 @@ pub(super) fn s_element<F: Field>(
     Ok(Tracked { polynomial: combine(&a.polynomial, &b.polynomial)?, cofactors })
 }
 
-/// The normal form of `element` by `divisors`, cofactors carried along.
+/// The normal form of `element` by `divisors`, with its cofactors.
 pub(super) fn reduce<F: Field>(
     ring: &PolynomialRing<F>,
     element: Tracked<F::Element>,

@@ -1,24 +1,24 @@
-//! An independent checker of Groebner bases: small, slow, and sharing no code with the engine but ring arithmetic.
+//! An independent checker of Groebner bases: small, slow, and without code of the engines except ring arithmetic.
 //!
-//! What [`verify`] accepts is proved over the given field: `<G> = <F>` and `G` is a Groebner basis (NAO proposition 6.2.2).
+//! [`verify`] proves over the given field that `<G> = <F>` and that `G` is a Groebner basis (NAO proposition 6.2.2).
 
 use crate::number::{Field, Ring};
 use crate::poly::{Monomial, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// What is claimed: `basis` is the reduced Groebner basis of the ideal of `generators`, and
-/// `basis[i] = sum over j of cofactors[i][j] * generators[j]`.
+/// The claim: `basis` is the reduced Groebner basis of the ideal of `generators`, and `basis[i] = sum over j of
+/// cofactors[i][j] * generators[j]`.
 #[derive(Clone, Copy, Debug)]
 pub struct Claim<'a, E> {
     /// The generators F.
     pub generators: &'a [Polynomial<E>],
     /// The basis G.
     pub basis: &'a [Polynomial<E>],
-    /// One row a basis element, one column a generator.
+    /// Cofactors: one row for each basis element, one column for each generator.
     pub cofactors: &'a [Vec<Polynomial<E>>],
 }
 
-/// What was proved, in numbers.
+/// Numbers of the statements that were proved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Proof {
     /// Basis elements whose cofactors multiply out.
@@ -33,7 +33,7 @@ pub struct Proof {
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] with the first element, generator or pair for which the claim fails;
-/// [`ErrorKind::Overflow`]; what `watch` stops with.
+/// [`ErrorKind::Overflow`]; the error with which `watch` stops the work.
 pub fn verify<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>, watch: &Watch) -> Result<Proof> {
     check_forms(ring, claim)?;
     check_reduced(ring, claim.basis, watch)?;
@@ -51,7 +51,7 @@ fn refuse(text: String) -> Error {
     Error::new(ErrorKind::Certificate, text)
 }
 
-/// All are polynomials of `ring`, and none of the basis is zero.
+/// Checks that all are polynomials of `ring` and that no basis element is zero.
 fn check_forms<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>) -> Result<()> {
     let bad = |list: &[Polynomial<F::Element>]| list.iter().position(|f| !ring.is_well_formed(f));
     let rows =
@@ -68,7 +68,7 @@ fn check_forms<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>
     }
 }
 
-/// Monic, and no term divisible by the leading monomial of another element.
+/// Checks that the basis is monic and that no term is divisible by the leading monomial of another element.
 fn check_reduced<F: Field>(ring: &PolynomialRing<F>, basis: &[Polynomial<F::Element>], watch: &Watch) -> Result<()> {
     for (index, g) in basis.iter().enumerate() {
         watch.check()?;
@@ -138,7 +138,7 @@ fn check_pairs<F: Field>(ring: &PolynomialRing<F>, basis: &[Polynomial<F::Elemen
     Ok(pairs)
 }
 
-/// The remainder of `f` by the monic `basis`, whole terms cancelled one at a time.
+/// The remainder of `f` by the monic `basis`. Whole terms are cancelled one at a time.
 fn remainder<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,

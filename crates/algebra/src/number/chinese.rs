@@ -1,8 +1,8 @@
-//! Integers from their residues modulo many word-size primes.
+//! Chinese remainder theorem: integers from their residues modulo many word-size primes.
 //!
-//! [`Chinese`] holds all that depends on the primes alone (Knuth, TAOCP 2, section 4.3.2): the integer is the sum of
-//! `c_p * (M / p)` with one word `c_p` a prime, less a multiple of `M` that the fractions `c_p / p` tell. So one integer costs one
-//! multiplication by a word for each two primes, and no inversion.
+//! [`Chinese`] stores all that depends on the primes alone (Knuth, TAOCP 2, section 4.3.2). The integer is the sum of
+//! `c_p * (M / p)`, with one word `c_p` for each prime, minus a multiple of `M`. The fractions `c_p / p` determine this
+//! multiple. One integer costs one multiplication by a word for each two primes, and no inversion.
 
 use num_bigint::Sign;
 
@@ -10,24 +10,24 @@ use super::limbs::{add_product, signed, sub_product};
 use super::{BigInt, Field, Ring, Zp};
 use crate::{Error, ErrorKind, Result};
 
-/// What the residues modulo a list of distinct primes below 2^31 are rebuilt with.
+/// Precomputed tables for Chinese remaindering modulo a list of distinct primes below 2^31.
 #[derive(Clone, Debug)]
 pub struct Chinese {
     primes: Vec<u32>,
     modulus: BigInt,
     /// `M` in limbs.
     limbs: Vec<u64>,
-    /// The inverse of `M / p` modulo `p`, one a prime.
+    /// The inverse of `M / p` modulo `p` for each prime.
     inverses: Vec<u32>,
-    /// `M / (p q)` for the primes two by two, all of the length of `M`; `M / p` for a last one alone.
+    /// `M / (p q)` for pairs of primes, each as long as `M`; `M / p` for a last single prime.
     cofactors: Vec<u64>,
 }
 
 impl Chinese {
-    /// The tables for `primes`; their cost is quadratic in the number of primes.
+    /// Builds the tables for `primes`. The cost is quadratic in the number of primes.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when a modulus is no prime below 2^31, or is listed twice.
+    /// [`ErrorKind::BadValue`] when a modulus is not a prime below 2^31, or is listed twice.
     pub fn new(primes: &[u32]) -> Result<Self> {
         primes.iter().try_for_each(|&p| check_prime(p))?;
         let modulus: BigInt = primes.iter().map(|&p| BigInt::from(p)).product();
@@ -48,17 +48,17 @@ impl Chinese {
         &self.primes
     }
 
-    /// Their product `M`; one for no primes.
+    /// The product `M` of the primes; one for an empty list.
     pub fn modulus(&self) -> &BigInt {
         &self.modulus
     }
 
-    /// The factors of [`Chinese::lift`] that rebuild integers themselves.
+    /// The factors with which [`Chinese::lift`] returns the integer itself.
     pub fn factors(&self) -> &[u32] {
         &self.inverses
     }
 
-    /// The factors of [`Chinese::lift`] that rebuild `multiplier` times an integer.
+    /// The factors with which [`Chinese::lift`] returns `multiplier` times the integer.
     pub fn factors_times(&self, multiplier: &BigInt) -> Vec<u32> {
         let product = |(&p, &inverse): (&u32, &u32)| {
             let residue = super::residue(multiplier, p);
@@ -67,7 +67,8 @@ impl Chinese {
         self.primes.iter().zip(&self.inverses).map(product).collect()
     }
 
-    /// The integer between `-M/2` and `M/2` whose residue modulo `primes[k]` is `residues[k]` times what `factors` stand for.
+    /// The integer between `-M/2` and `M/2` whose residue modulo `primes[k]` is `residues[k]` times the multiplier of
+    /// `factors`.
     ///
     /// # Panics
     /// When there are fewer residues or factors than primes.
@@ -93,7 +94,7 @@ impl Chinese {
         self.centred(signed(&sum))
     }
 
-    /// The fractions were cut off: the sum may be off by one `M`.
+    /// The fractions were truncated, so the sum may be wrong by one `M`.
     fn centred(&self, n: BigInt) -> BigInt {
         if n.bits() + 1 < self.modulus.bits() {
             return n;

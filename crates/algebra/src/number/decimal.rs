@@ -1,4 +1,4 @@
-//! Exact reading of decimal text: `0.1029` is 1029/10000, never a rounded binary.
+//! Exact parser of decimal text: `0.1029` is 1029/10000, never a rounded binary number.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -7,14 +7,14 @@ use num_traits::Pow;
 use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
-/// The largest exponent and digit count that a number may have.
+/// The largest exponent and number of digits of a number.
 const MAX_EXPONENT: i64 = limits::EXPONENT;
 
-/// Reads `-12`, `3/4`, `0.1029`, `.5` or `1.5e-3` as an exact rational.
+/// Parses `-12`, `3/4`, `0.1029`, `.5` or `1.5e-3` as an exact rational.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] for anything else (NaN and infinities included), an exponent beyond +-4096
-/// or a zero denominator.
+/// [`ErrorKind::Syntax`] for anything else (NaN and infinities included), an exponent beyond +-4096 or a zero
+/// denominator.
 pub fn parse_rational(text: &str) -> Result<BigRational> {
     let text = text.trim();
     let fail = || {

@@ -1,20 +1,21 @@
-//! Algebraic extensions `F[t]/(m)` of a field.
+//! Algebraic extension fields `F[t]/(m)`.
 
 use super::{BigInt, Field, Ring, Style};
 use crate::{Error, ErrorKind, Result};
 
-/// The field `F[t]/(m)` for an irreducible polynomial `m`; an element is the list of its coefficients, that of 1 first.
+/// The field `F[t]/(m)` for an irreducible polynomial `m`. An element is the list of its coefficients, constant term
+/// first.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extension<F: Field> {
     base: F,
     name: String,
-    /// `t^d` is minus the sum of `low[i] t^i`.
+    /// The relation: `t^d` is minus the sum of `low[i] t^i`.
     low: Vec<F::Element>,
 }
 
 impl<F: Field> Extension<F> {
-    /// `base` with a root `name` of the monic polynomial `t^d + low[d-1] t^(d-1) + ... + low[0]`. The caller vouches that it is
-    /// irreducible; where it is not, some inverses do not exist.
+    /// Extends `base` by a root `name` of the monic polynomial `t^d + low[d-1] t^(d-1) + ... + low[0]`. The caller
+    /// ensures that it is irreducible. Otherwise some inverses do not exist.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when `low` is empty: the degree is at least one.
@@ -28,24 +29,24 @@ impl<F: Field> Extension<F> {
         Ok(Extension { base, name: name.into(), low })
     }
 
-    /// The field that is extended.
+    /// The base field.
     pub fn base(&self) -> &F {
         &self.base
     }
 
-    /// The degree over the base.
+    /// The degree of the extension over its base.
     pub fn degree(&self) -> usize {
         self.low.len()
     }
 
-    /// An element of the base.
+    /// Embeds an element of the base field.
     pub fn embed(&self, a: &F::Element) -> Vec<F::Element> {
         let mut element = vec![self.base.zero(); self.degree()];
         element[0] = a.clone();
         element
     }
 
-    /// `t a`: the coefficients move up, the last comes back through the relation.
+    /// `t a`: shifts the coefficients up and reduces the last one by the relation.
     fn shifted(&self, a: &[F::Element]) -> Vec<F::Element> {
         let top = &a[a.len() - 1];
         let below = std::iter::once(self.base.zero()).chain(a[..a.len() - 1].iter().cloned());
@@ -56,7 +57,7 @@ impl<F: Field> Extension<F> {
         a.iter().map(|c| self.base.mul(c, by)).collect()
     }
 
-    /// The `x` with `b x = a`: Gauss-Jordan elimination on the matrix of the multiplication by `b`.
+    /// Solves `b x = a` by Gauss-Jordan elimination on the matrix of the multiplication by `b`.
     fn quotient(&self, a: &[F::Element], b: &[F::Element]) -> Option<Vec<F::Element>> {
         let degree = self.degree();
         let columns: Vec<_> = std::iter::successors(Some(b.to_vec()), |c| Some(self.shifted(c))).take(degree).collect();
@@ -94,7 +95,7 @@ impl<F: Field> Ring for Extension<F> {
     fn neg(&self, a: &Self::Element) -> Self::Element {
         a.iter().map(|x| self.base.neg(x)).collect()
     }
-    /// By Horner's rule in `t`.
+    /// Horner's rule in `t`.
     fn mul(&self, a: &Self::Element, b: &Self::Element) -> Self::Element {
         let horner = |sum: Vec<_>, c| self.add(&self.shifted(&sum), &self.scaled(a, c));
         b.iter().rev().fold(self.zero(), horner)
@@ -118,7 +119,7 @@ impl<F: Field> Ring for Extension<F> {
         let terms: Vec<String> = nonzero.map(term).collect();
         if terms.is_empty() { "0".to_owned() } else { terms.join(" + ") }
     }
-    /// The root by its name, else what the base knows by it.
+    /// The root by its name, else a generator of the base field.
     fn generator(&self, name: &str) -> Option<Self::Element> {
         if name == self.name {
             return Some(self.shifted(&self.one()));

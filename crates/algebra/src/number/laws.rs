@@ -1,4 +1,4 @@
-//! The axioms as reusable test functions: every ring and field of the crate runs them.
+//! The axioms of rings and fields as reusable test functions. Every ring and field of the crate is tested with them.
 
 use super::{BigInt, Field, Ring};
 
@@ -50,10 +50,7 @@ fn integers_embed<R: Ring>(ring: &R) {
     assert_eq!(ring.mul(&image(7), &image(-12)), image(-84), "integers multiply");
 }
 
-/// Asserts the axioms of a field: those of a ring, and an inverse for all but zero.
-///
-/// # Panics
-/// When an axiom does not hold; the message names it.
+/// Asserts the axioms of a field: those of a ring, and an inverse of every nonzero element.
 pub fn field_axioms<F: Field>(field: &F, samples: &[F::Element]) {
     ring_axioms(field, samples);
     assert!(field.inverse(&field.zero()).is_none(), "zero has no inverse");

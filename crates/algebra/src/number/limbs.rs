@@ -1,10 +1,11 @@
-//! Natural numbers as little-endian vectors of 64-bit limbs of a fixed length: what big integers cost too much for.
+//! Natural numbers as little-endian vectors of 64-bit limbs of a fixed length, for inner loops in which `BigInt` is too
+//! slow.
 
 use num_bigint::Sign;
 
 use super::BigInt;
 
-/// `accumulator += factor * number`; the accumulator is long enough for the sum.
+/// `accumulator += factor * number`. The accumulator is long enough for the sum.
 pub(super) fn add_product(accumulator: &mut [u64], number: &[u64], factor: u64) {
     let mut carry = 0u128;
     let (low, high) = accumulator.split_at_mut(number.len());
@@ -72,7 +73,7 @@ pub fn residue(n: &BigInt, p: u32) -> u32 {
     if n.sign() == Sign::Minus && rest != 0 { p - rest } else { rest }
 }
 
-/// `a x + b y` without leading zeros, when it is not negative.
+/// `a x + b y` without leading zeros. The result is not negative.
 pub(super) fn combine(x: &[u64], y: &[u64], a: i64, b: i64) -> Vec<u64> {
     let length = x.len().max(y.len()) + 1;
     let digit = |n: &[u64], k: usize| i128::from(n.get(k).copied().unwrap_or(0));
@@ -99,7 +100,7 @@ pub(super) fn bits(limbs: &[u64]) -> u64 {
     limbs.last().map_or(0, |limb| limbs.len() as u64 * 64 - u64::from(limb.leading_zeros()))
 }
 
-/// The leading 62 bits of `x`, and the same places of `y`, which is not greater.
+/// The leading 62 bits of `x`, and the bits of `y` in the same positions. `y` is at most `x`.
 pub(super) fn top_words(x: &[u64], y: &[u64]) -> (i64, i64) {
     let shift = bits(x).saturating_sub(62);
     let (skip, places) = ((shift / 64) as usize, shift % 64);

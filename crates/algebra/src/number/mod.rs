@@ -1,7 +1,7 @@
 //! Exact numbers. The field is a value ([`Rationals`], [`Zp`]); its elements are plain data.
 //!
-//! [`Ring`] and [`Field`] are the only two rungs of the ladder; polynomial rings and fields of
-//! rational functions (in [`crate::poly`]) stand on them too. [`laws`] holds the axioms as functions.
+//! [`Ring`] and [`Field`] are the only two traits of the hierarchy. Polynomial rings and fields of rational functions
+//! (in [`crate::poly`]) implement them too. [`laws`] has the axioms as test functions.
 
 mod chinese;
 mod decimal;
@@ -29,12 +29,12 @@ pub use zp::Zp;
 
 use std::fmt::Debug;
 
-/// How an element or a polynomial is written.
+/// Output style of an element or a polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// Plain text that our parser reads back: `3/2*x^2`.
+    /// Plain text that the parser of [`crate::poly`] reads back: `3/2*x^2`.
     Text,
-    /// Plain text in which numbers with a finite decimal expansion are decimals: `1.5*x^2`. The parser reads it back too.
+    /// Plain text with finite decimal expansions where they exist: `1.5*x^2`. The parser reads it back too.
     Decimal,
     /// LaTeX mathematics: `\frac{3}{2}x^{2}`.
     Latex,
@@ -42,7 +42,7 @@ pub enum Style {
 
 /// A commutative ring with one, as a value.
 pub trait Ring: Clone + Debug + PartialEq {
-    /// Plain data; two elements are equal exactly when they are the same ring element.
+    /// Type of the elements, plain data. Two elements are equal exactly when they are the same element of the ring.
     type Element: Clone + Debug + PartialEq;
 
     /// The neutral element of addition.
@@ -59,9 +59,9 @@ pub trait Ring: Clone + Debug + PartialEq {
     fn mul(&self, a: &Self::Element, b: &Self::Element) -> Self::Element;
     /// Whether `a` is zero.
     fn is_zero(&self, a: &Self::Element) -> bool;
-    /// `a` divided by a unit `b`; `None` when `b` has no inverse here.
+    /// `a` divided by a unit `b`; `None` when `b` has no inverse in the ring.
     fn checked_div(&self, a: &Self::Element, b: &Self::Element) -> Option<Self::Element>;
-    /// Text of `a` in `style`; the text style is read back by the parser of [`crate::poly`].
+    /// Formats `a` in `style`. The parser of [`crate::poly`] reads the text style back.
     fn format(&self, a: &Self::Element, style: Style) -> String;
 
     /// `a - b`.
@@ -86,35 +86,35 @@ pub trait Ring: Clone + Debug + PartialEq {
         }
         result
     }
-    /// The element that `name` stands for (a variable, a parameter), if any.
+    /// The element with the name `name` (a variable or a parameter), if there is one.
     fn generator(&self, _name: &str) -> Option<Self::Element> {
         None
     }
 }
 
-/// An element of a prime field, as algorithms on machine words take it.
+/// An element of a prime field, in the form that algorithms on machine words take.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PrimeElement<'a> {
-    /// A number `0..p` of GF(p).
+    /// An element of GF(p), in `0..p`.
     Residue(u64),
     /// A rational number.
     Rational(&'a BigRational),
 }
 
-/// A field as a value: a [`Ring`] in which all but zero has an inverse.
+/// A field as a value: a [`Ring`] in which every nonzero element has an inverse.
 pub trait Field: Ring {
-    /// The characteristic; 0 for the rationals and what stands on them.
+    /// The characteristic; 0 for the rationals and their extensions.
     fn characteristic(&self) -> u64;
 
     /// `1 / a`, or `None` for zero.
     fn inverse(&self, a: &Self::Element) -> Option<Self::Element> {
         self.checked_div(&self.one(), a)
     }
-    /// The image of a rational number; `None` when its denominator is zero here.
+    /// The image of a rational number; `None` when its denominator is zero in the field.
     fn from_rational(&self, q: &BigRational) -> Option<Self::Element> {
         self.checked_div(&self.from_integer(q.numer()), &self.from_integer(q.denom()))
     }
-    /// `a` as a plain number, in Q and GF(p); `None` in other fields.
+    /// `a` as a number of Q or GF(p); `None` in other fields.
     fn prime_element<'a>(&self, _a: &'a Self::Element) -> Option<PrimeElement<'a>> {
         None
     }

@@ -1,9 +1,9 @@
-//! Primes of a machine word, from the greatest down.
+//! Word-size primes in descending order.
 
 use super::Zp;
 use super::zp::is_prime;
 
-/// All primes below `limit` in descending order; `limit` above [`Zp::LIMIT`] counts as that.
+/// All primes below `limit` in descending order. A `limit` above [`Zp::LIMIT`] is reduced to it.
 ///
 /// ```
 /// let first: Vec<u64> = groebot_algebra::number::primes_below(1 << 31).take(2).collect();

@@ -71,7 +71,7 @@ impl Field for Rationals {
     }
 }
 
-/// Whether both have the denominator one: then nothing is to be cancelled, and no gcd is taken.
+/// Whether both denominators are one. Then no gcd is needed.
 fn are_integers(a: &BigRational, b: &BigRational) -> bool {
     a.denom().is_one() && b.denom().is_one()
 }
@@ -96,7 +96,7 @@ fn product(a: &BigRational, (n, d): (&BigInt, &BigInt)) -> BigRational {
     )
 }
 
-/// The conversion of a word is faster than that of a double word.
+/// Converting a word is faster than converting a double word.
 fn integer_of(n: i128) -> BigInt {
     i64::try_from(n).map_or_else(|_| n.into(), BigInt::from)
 }
@@ -105,12 +105,13 @@ fn words(n: &BigInt, d: &BigInt) -> Option<(i64, i64)> {
     n.to_i64().zip(d.to_i64())
 }
 
-/// The greatest common divisor of `a` and `b > 0`, which then fits the type of `b`.
+/// The greatest common divisor of `a` and `b > 0`. It fits the type of `b`.
 fn gcd_of_words(a: i64, b: i64) -> i64 {
     if b == 1 { 1 } else { a.unsigned_abs().gcd(&b.unsigned_abs()) as i64 }
 }
 
-/// The greatest common divisor of two integers, not both zero. Where one is a word, the other is reduced by it first.
+/// The greatest common divisor of two integers, not both zero. If one fits a word, the other is first reduced modulo
+/// it.
 pub fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
     let by_word = |word: u64, other: &BigInt| {
         let rest = if word == 0 { return other.abs() } else { (other.magnitude() % word).to_u64() };
@@ -125,7 +126,7 @@ pub fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
     }
 }
 
-/// The finite decimal expansion of `a`, if it has one of at most 30 places.
+/// The finite decimal expansion of `a`, if it has one with at most 30 places.
 pub fn decimal(a: &BigRational) -> Option<String> {
     let ten = BigInt::from(10);
     let places = (0u32..=30).find(|&k| (ten.clone().pow(k) % a.denom()).is_zero())?;

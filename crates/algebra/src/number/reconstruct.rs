@@ -1,8 +1,8 @@
-//! Rational numbers from their residue modulo a large integer.
+//! Rational reconstruction: a rational number from its residue modulo a large integer.
 //!
-//! The Euclidean algorithm on the modulus and the residue meets the fraction (Wang, Guy and Davenport 1982); it is told by the
-//! large quotient that follows it (Monagan 2004), so that numerator and denominator need not be of one size. Quotients come a
-//! word of leading digits at a time (Lehmer; Knuth, TAOCP 2, 4.5.2, algorithm L).
+//! The Euclidean algorithm on the modulus and the residue produces the fraction (Wang, Guy and Davenport 1982). The
+//! large quotient after it identifies it (Monagan 2004), so numerator and denominator need not have similar sizes.
+//! Quotients are computed from one word of leading digits at a time (Lehmer; Knuth, TAOCP 2, 4.5.2, algorithm L).
 
 use num_bigint::Sign;
 use num_integer::Integer;
@@ -10,9 +10,10 @@ use num_integer::Integer;
 use super::limbs::{bits, combine, top_words};
 use super::{BigInt, BigRational};
 
-/// A fraction `n / d` in lowest terms with `n = d * residue` modulo `modulus` and `|n| d 2^surplus < modulus`: the one with the
-/// greatest numerator of those that are smaller by another factor 4. `None` when there is none so small. The odds that a
-/// random residue has one are some `2^-surplus` for each of its bits.
+/// Reconstructs a fraction `n / d` in lowest terms with `n = d * residue` modulo `modulus` and `|n| d 2^surplus <
+/// modulus`. Among the fractions that are smaller by another factor 4, it is the one with the largest numerator.
+/// Returns `None` when there is no such fraction. A random residue has one with a probability of about `2^-surplus` for
+/// each bit of the modulus.
 ///
 /// ```
 /// use groebot_algebra::number::{BigInt, BigRational, reconstruct};
@@ -39,7 +40,8 @@ pub fn reconstruct(residue: &BigInt, modulus: &BigInt, surplus: u32) -> Option<B
     }
 }
 
-/// Two neighbouring remainders, and the magnitudes of the factors of the residue that they are modulo the modulus.
+/// Two consecutive remainders, and the magnitudes of their cofactors: each remainder is its cofactor times the residue,
+/// modulo the modulus.
 struct Euclid {
     rests: [Vec<u64>; 2],
     cofactors: [Vec<u64>; 2],
@@ -53,7 +55,7 @@ impl Euclid {
         Euclid { rests: [limbs(modulus), limbs(residue)], cofactors: [Vec::new(), vec![1]], negative: false }
     }
 
-    /// Several steps at once.
+    /// Applies several steps at once.
     fn apply(&mut self, matrix: &Matrix) {
         let [[a, b], [c, d]] = matrix.entries;
         let [x, y] = &self.rests;
@@ -63,7 +65,7 @@ impl Euclid {
         self.negative ^= matrix.steps % 2 == 1;
     }
 
-    /// One step with a quotient of any size.
+    /// One division step with a quotient of any size.
     fn divide(&mut self) {
         let integer = |limbs: &[u64]| super::limbs::unsigned(limbs);
         let [x, y] = [0, 1].map(|k| integer(&self.rests[k]));
@@ -75,7 +77,7 @@ impl Euclid {
         self.negative = !self.negative;
     }
 
-    /// The second remainder over its cofactor, when they have no common divisor.
+    /// The second remainder divided by its cofactor, when they have no common divisor.
     fn fraction(&self) -> Option<BigRational> {
         let [numerator, denominator] = [&self.rests[1], &self.cofactors[1]].map(|limbs| super::limbs::unsigned(limbs));
         let coprime = numerator.gcd(&denominator) == BigInt::from(1);
@@ -84,7 +86,7 @@ impl Euclid {
     }
 }
 
-/// Some steps of the Euclidean algorithm in one: new remainders are `entries` times the old.
+/// Several steps of the Euclidean algorithm as one matrix: the new remainders are `entries` times the old ones.
 struct Matrix {
     entries: [[i64; 2]; 2],
     steps: u32,

@@ -1,15 +1,15 @@
-//! Arithmetic modulo primes on machine words: what all engines modulo primes share beside their vector kernels.
+//! Modular arithmetic on machine words, shared by all engines modulo primes. Vector kernels are elsewhere.
 
-/// The integers modulo `p`; elements are `0..p`.
+/// The integers modulo `p`. Elements are in `0..p`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Prime {
     pub p: u64,
-    /// `floor(2^64 / p)`, for Barrett's reduction (CRYPTO 1986).
+    /// `floor(2^64 / p)`, for Barrett reduction (CRYPTO 1986).
     reciprocal: u64,
 }
 
 impl Prime {
-    /// The field modulo `p`, a prime below 2^31.
+    /// Builds the field of integers modulo `p`, a prime below 2^31.
     pub fn new(p: u32) -> Self {
         debug_assert!((2..1 << 31).contains(&p));
         Prime { p: u64::from(p), reciprocal: u64::MAX / u64::from(p) }
@@ -72,7 +72,7 @@ impl Prime {
         if a == 0 { 0 } else { inverse_modulo(a, self.p) }
     }
 
-    /// The inverses of all of `values` with one inversion (Montgomery 1987); `None` when one is zero.
+    /// The inverses of all `values` with one inversion (Montgomery 1987); `None` when one is zero.
     pub fn inverses(self, values: &[u64]) -> Option<Vec<u64>> {
         let mut products = Vec::with_capacity(values.len());
         let mut product = 1;
@@ -109,13 +109,13 @@ impl Prime {
         }
     }
 
-    /// The value of a polynomial, constant term first.
+    /// Evaluates a polynomial, constant term first.
     pub fn horner(self, coefficients: &[u64], x: u64) -> u64 {
         coefficients.iter().rev().fold(0, |value, &c| self.reduce(value * x + c))
     }
 }
 
-/// The inverse of `a` modulo `n < 2^63`, coprime to it, by Euclid's algorithm.
+/// The inverse of `a` modulo `n < 2^63` by Euclid's algorithm. `a` is coprime to `n`.
 pub(crate) fn inverse_modulo(a: u64, n: u64) -> u64 {
     let (mut r0, mut r1, mut s0, mut s1) = (n as i64, a as i64, 0i64, 1i64);
     while r1 > 0 {

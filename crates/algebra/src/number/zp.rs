@@ -1,21 +1,21 @@
-//! Prime fields GF(p) with word-size p.
+//! Prime fields GF(p) with a word-size p.
 
 use num_bigint::Sign;
 
 use super::{BigInt, Field, PrimeElement, Ring, Style};
 use crate::{Error, ErrorKind, Result};
 
-/// The field of integers modulo a prime `p < 2^61`; elements are `0..p`.
+/// The field of integers modulo a prime `p < 2^61`. Elements are in `0..p`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Zp {
     p: u64,
 }
 
 impl Zp {
-    /// The largest modulus allowed, exclusive.
+    /// Exclusive upper bound of the modulus.
     pub const LIMIT: u64 = 1 << 61;
 
-    /// GF(p).
+    /// Builds GF(p).
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when `p` is not a prime below [`Zp::LIMIT`].
@@ -26,7 +26,7 @@ impl Zp {
         Err(Error::new(ErrorKind::BadValue, format!("{p} is not a prime below 2^61; give one, such as 2147483647")))
     }
 
-    /// GF(p) for a prime `p` below [`Zp::LIMIT`] that is known to be one.
+    /// Builds GF(p) for a number `p` below [`Zp::LIMIT`] that is known to be prime.
     pub(crate) fn known_prime(p: u64) -> Self {
         debug_assert!(p < Self::LIMIT && is_prime(p));
         Zp { p }
@@ -58,8 +58,8 @@ fn pow_mod(mut a: u64, mut n: u64, p: u64) -> u64 {
     result
 }
 
-/// Miller-Rabin. The bases 2, 7 and 61 are exact below 4,759,123,141 (Jaeschke 1993), the first twelve primes below 3.3e24
-/// (Sorenson and Webster 2015).
+/// Miller-Rabin primality test. The bases 2, 7 and 61 are exact below 4,759,123,141 (Jaeschke 1993), the first twelve
+/// primes below 3.3e24 (Sorenson and Webster 2015).
 pub(super) fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     const FEW: [u64; 3] = [2, 7, 61];

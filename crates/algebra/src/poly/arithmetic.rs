@@ -1,4 +1,4 @@
-//! A ring of polynomials as a [`Ring`]: sums and products, and the text of its elements.
+//! A polynomial ring as a [`Ring`]: sums, products and printed elements.
 
 use std::cmp::Ordering;
 
@@ -47,8 +47,8 @@ impl<F: Field> Ring for PolynomialRing<F> {
         };
         Polynomial { terms: f.terms.iter().map(negated).collect() }
     }
-    /// The product. Degrees beyond the lanes panic, as integer overflow does; engines and readers
-    /// use [`PolynomialRing::checked_mul`].
+    /// The product. A degree that overflows the lanes panics, like integer overflow. Engines and readers use
+    /// [`PolynomialRing::checked_mul`].
     ///
     /// # Panics
     /// When the degree exceeds that of the ring's [`Width`](super::Width).

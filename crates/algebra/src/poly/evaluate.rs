@@ -1,4 +1,4 @@
-//! Values of an [`Expression`]: in any [`Ring`], or in floating point.
+//! Evaluation of an [`Expression`] in any [`Ring`], or in floating point.
 
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -8,9 +8,9 @@ use crate::number::Ring;
 use crate::{Error, ErrorKind, Result};
 
 impl Expression {
-    /// The value in `ring`, whose generators are what the names stand for.
+    /// Evaluates the expression in `ring`. The names are generators of the ring.
     ///
-    /// Powers and products are expanded by the ring: the caller bounds the work by [`Expression::expansion_bound`].
+    /// The ring expands powers and products. The caller limits the work with [`Expression::expansion_bound`].
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] for a name that `ring` does not have; [`ErrorKind::BadValue`] for a divisor (or the
@@ -19,7 +19,7 @@ impl Expression {
         self.evaluate_with(ring, &|_| None)
     }
 
-    /// As [`Expression::evaluate`], but a name for which `values` has an element stands for that element.
+    /// Same as [`Expression::evaluate`], but a name for which `values` has an element is replaced by that element.
     ///
     /// # Errors
     /// Those of [`Expression::evaluate`].
@@ -41,10 +41,8 @@ impl Expression {
         }
     }
 
-    /// The value in floating point, from left to right; a division by zero gives an infinity or NaN, as in IEEE 754.
-    ///
-    /// # Errors
-    /// [`ErrorKind::UnknownName`] for a name without a value.
+    /// Evaluates the expression in floating point, from left to right. A division by zero gives an infinity or NaN, as
+    /// in IEEE 754.
     pub fn evaluate_f64(&self, values: &dyn Fn(&str) -> Option<f64>) -> Result<f64> {
         match self {
             Expression::Number(q) => Ok(q.to_f64().unwrap_or(f64::NAN)),
@@ -60,7 +58,7 @@ impl Expression {
         }
     }
 
-    /// The total degree that the expanded polynomial cannot exceed, divisors counted like factors.
+    /// An upper bound of the total degree of the expanded polynomial. Divisors count like factors.
     pub fn degree_bound(&self) -> u64 {
         match self {
             Expression::Number(_) => 0,
@@ -72,8 +70,8 @@ impl Expression {
         }
     }
 
-    /// What the expanded polynomial cannot exceed, names being variables: a caller refuses what is hopeless before it
-    /// evaluates.
+    /// Upper bounds on the expanded polynomial, with names as variables. A caller refuses too large an expansion before
+    /// it evaluates.
     pub fn expansion_bound(&self) -> ExpansionBound {
         let size = self.size();
         ExpansionBound { terms: size.terms, bits: size.numerator + size.denominator }
@@ -95,13 +93,13 @@ impl Expression {
     }
 }
 
-/// Bounds on an expanded polynomial; infinite when they exceed a double.
+/// Bounds on an expanded polynomial. They are infinite when they exceed a double.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ExpansionBound {
     /// The number of terms.
     pub terms: f64,
-    /// The bits of a coefficient: of its numerator, and of the common denominator of all, together.
+    /// The bits of a coefficient: its numerator and the common denominator of all coefficients together.
     pub bits: f64,
 }
 
@@ -178,7 +176,7 @@ fn no_inverse(divisor: &str) -> Error {
     Error::new(ErrorKind::BadValue, text)
 }
 
-/// Adds neighbours until one is left, so that long polynomials merge in `n log n` steps.
+/// Adds neighbours until one is left, so that sums with many terms take `n log n` steps.
 fn sum_in<R: Ring>(ring: &R, mut terms: Vec<R::Element>) -> R::Element {
     while terms.len() > 1 {
         terms = terms.chunks(2).map(|pair| pair.iter().skip(1).fold(pair[0].clone(), |a, b| ring.add(&a, b))).collect();

@@ -1,4 +1,4 @@
-//! [`Expression`]: an exact algebraic expression as a plain tree, and its text.
+//! [`Expression`]: an exact algebraic expression as a tree, and its text.
 
 use std::collections::HashSet;
 use std::fmt::{self, Display, Formatter};
@@ -8,13 +8,13 @@ use num_rational::BigRational;
 use num_traits::{One, Pow, Signed};
 use serde::{Deserialize, Serialize, Serializer};
 
-/// An exact algebraic expression, as it was written: nothing is expanded or simplified.
+/// An exact algebraic expression, as written: neither expanded nor simplified.
 ///
 /// `a - b` is `Sum[a, Negation(b)]` and `a / b` is `Product[a, Inverse(b)]`, so that long sums and products stay flat.
-/// Its [`Display`] is plain text that [`parse`] reads back: as the same tree when it came from [`parse`], else as an
-/// equal expression, as long as it keeps within [`MAX_LENGTH`](super::MAX_LENGTH), [`MAX_DEPTH`](super::MAX_DEPTH)
-/// and [`MAX_EXPONENT`](super::MAX_EXPONENT). Serde writes and reads that text. All functions recurse to the height of
-/// the tree: a tree built by hand should keep to `MAX_DEPTH` too.
+/// Its [`Display`] is plain text that [`parse`] reads back. A tree from [`parse`] is read back as the same tree, others
+/// as an equal expression. The text must be within [`MAX_LENGTH`](super::MAX_LENGTH), [`MAX_DEPTH`](super::MAX_DEPTH)
+/// and [`MAX_EXPONENT`](super::MAX_EXPONENT). Serde writes and reads this text. All functions recurse to the height of
+/// the tree, so a tree built by hand should not be higher than `MAX_DEPTH`.
 ///
 /// [`parse`]: super::parse()
 #[derive(Clone, Debug, PartialEq, Eq, Hash, Deserialize)]
@@ -42,7 +42,7 @@ impl Expression {
         Expression::Number(BigRational::from_integer(BigInt::from(n)))
     }
 
-    /// The identifier `name`, which the caller knows to be valid ([`is_identifier`](super::is_identifier)).
+    /// The identifier `name`. The caller ensures that it is valid ([`is_identifier`](super::is_identifier)).
     pub fn name(name: impl Into<String>) -> Self {
         Expression::Name(name.into())
     }
@@ -59,17 +59,17 @@ impl Expression {
         Expression::Power(Box::new(self), n)
     }
 
-    /// The sum of `terms`; a single term stays itself.
+    /// The sum of `terms`. A single term is returned unchanged.
     pub fn sum(terms: Vec<Expression>) -> Self {
         single(terms).unwrap_or_else(Expression::Sum)
     }
 
-    /// The product of `factors`; a single factor stays itself.
+    /// The product of `factors`. A single factor is returned unchanged.
     pub fn product(factors: Vec<Expression>) -> Self {
         single(factors).unwrap_or_else(Expression::Product)
     }
 
-    /// The parts that this expression is made of, from left to right.
+    /// The operands of this expression, from left to right.
     pub fn children(&self) -> &[Expression] {
         match self {
             Expression::Number(_) | Expression::Name(_) => &[],
@@ -78,7 +78,7 @@ impl Expression {
         }
     }
 
-    /// The identifiers, each once, in the order of their first appearance.
+    /// The identifiers, each once, in the order of first appearance.
     pub fn names(&self) -> Vec<&str> {
         let (mut seen, mut names) = (HashSet::new(), Vec::new());
         self.visit(&mut |node| {
@@ -91,7 +91,7 @@ impl Expression {
         names
     }
 
-    /// Calls `see` with this expression, then with all of its parts, from left to right.
+    /// Calls `see` with this expression, then with all its subexpressions, from left to right.
     pub fn visit<'a>(&'a self, see: &mut dyn FnMut(&'a Expression)) {
         see(self);
         for child in self.children() {
@@ -99,7 +99,7 @@ impl Expression {
         }
     }
 
-    /// This expression with each name for which `replacement` has an expression replaced by it.
+    /// Replaces each name for which `replacement` has an expression.
     #[must_use]
     pub fn substitute(&self, replacement: &dyn Fn(&str) -> Option<Expression>) -> Self {
         let each = |parts: &[Expression]| parts.iter().map(|part| part.substitute(replacement)).collect();
@@ -127,7 +127,7 @@ impl Expression {
         }
     }
 
-    /// Writes this expression, in parentheses when it binds less tightly than `least`.
+    /// Writes this expression, in parentheses when its precedence is below `least`.
     fn write(&self, f: &mut Formatter<'_>, least: Level) -> fmt::Result {
         if self.level() >= least {
             return self.write_bare(f);
@@ -162,7 +162,7 @@ impl Expression {
     }
 }
 
-/// How tightly the outermost operation of a text binds.
+/// Precedence of the outermost operation of a text.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Level {
     Sum,
@@ -211,10 +211,10 @@ fn write_product(f: &mut Formatter<'_>, factors: &[Expression]) -> fmt::Result {
     Ok(())
 }
 
-/// The most digits that a number is written with before it takes an exponent.
+/// Maximum number of digits of a number that is written without an exponent.
 const PLAIN_DIGITS: usize = 40;
 
-/// The number of decimals that writes `q` exactly, if any does.
+/// The number of decimals that writes `q` exactly, if there is one.
 fn decimal_places(q: &BigRational) -> Option<u32> {
     let twos = q.denom().trailing_zeros()?;
     let mut odd: BigUint = q.denom().magnitude() >> twos;
@@ -226,7 +226,7 @@ fn decimal_places(q: &BigRational) -> Option<u32> {
     odd.is_one().then(|| twos.max(fives)).and_then(|places| u32::try_from(places).ok())
 }
 
-/// Writes `q` as an integer or decimal when that is exact, else as a fraction.
+/// Writes `q` as an integer or a decimal number when that is exact, else as a fraction.
 fn write_number(f: &mut Formatter<'_>, q: &BigRational) -> fmt::Result {
     let Some(places) = decimal_places(q) else { return write!(f, "{q}") };
     let scaled = (q * BigRational::from_integer(BigInt::from(10).pow(places))).to_integer();

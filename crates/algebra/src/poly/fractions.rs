@@ -1,9 +1,9 @@
 //! Rational functions of parameters as a field, with square-root relations between the parameters.
 //!
-//! A relation `v^2 = e` makes `v` algebraic over the parameters before it: the sine of an angle whose cosine is
-//! a parameter (`v^2 = 1 - c^2`), or a constant such as `sqrt(1/2)`. Numerators are reduced modulo the relations and
-//! denominators are free of algebraic parameters, so that equal elements are equal data: no parameter relation is ever
-//! hidden in a coefficient that looks invertible (design: `r.r - 1` must not become a unit).
+//! A relation `v^2 = e` makes `v` algebraic over the parameters before it. Examples are the sine of an angle whose
+//! cosine is a parameter (`v^2 = 1 - c^2`), and a constant such as `sqrt(1/2)`. Numerators are reduced modulo the
+//! relations and denominators are free of algebraic parameters. So equal elements have equal data, and a relation
+//! between parameters is never used as a unit.
 
 use super::gcd::{common, gcd};
 use super::order::Order;
@@ -11,7 +11,7 @@ use super::ring::{Polynomial, PolynomialRing};
 use crate::number::{BigInt, Field, Ring, Style};
 use crate::{Error, ErrorKind, Result};
 
-/// A rational function in lowest terms: the denominator is monic. Plain data of [`Fractions`].
+/// A rational function in lowest terms with a monic denominator. Plain data of [`Fractions`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fraction<E> {
     numerator: Polynomial<E>,
@@ -44,7 +44,7 @@ pub struct Fractions<F: Field> {
 }
 
 impl<F: Field> Fractions<F> {
-    /// The rational functions of `parameters` over `field`.
+    /// Builds the field of rational functions of `parameters` over `field`.
     ///
     /// # Errors
     /// [`ErrorKind::DuplicateName`] when a parameter is listed twice.
@@ -53,12 +53,12 @@ impl<F: Field> Fractions<F> {
         Ok(Fractions { ring, relations: Vec::new() })
     }
 
-    /// The field in which parameter `variable` satisfies `variable^2 = square`. The caller vouches that `square` is
-    /// not a square already (the relation ideal is prime); where it is, some inverses do not exist.
+    /// Adds the relation `variable^2 = square`. The caller ensures that `square` is not yet a square, so that the ideal
+    /// of the relations is prime. Otherwise some inverses do not exist.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when there is no such parameter, when `square` uses `variable` or one behind it or is zero
-    /// modulo the relations before, or when relations do not come in the order of their variables.
+    /// [`ErrorKind::BadValue`] when there is no such parameter, when `square` uses `variable` or a later parameter or
+    /// is zero modulo the relations before, or when relations are not added in the order of their variables.
     pub fn with_square(mut self, variable: usize, square: &Polynomial<F::Element>) -> Result<Self> {
         let names = self.ring.variables();
         let Some(name) = names.get(variable) else {
@@ -76,7 +76,7 @@ impl<F: Field> Fractions<F> {
         Ok(self)
     }
 
-    /// The ring of the numerators and denominators.
+    /// The polynomial ring of numerators and denominators.
     pub fn ring(&self) -> &PolynomialRing<F> {
         &self.ring
     }
@@ -86,12 +86,12 @@ impl<F: Field> Fractions<F> {
         self.relations.iter().any(|relation| relation.variable == variable)
     }
 
-    /// The relations: a parameter and the polynomial that its square equals.
+    /// The relations: a parameter and the polynomial equal to its square.
     pub fn squares(&self) -> impl Iterator<Item = (usize, &Polynomial<F::Element>)> {
         self.relations.iter().map(|relation| (relation.variable, &relation.square))
     }
 
-    /// `f` modulo the relations: every algebraic parameter to the power 0 or 1.
+    /// Reduces `f` modulo the relations: every algebraic parameter has exponent 0 or 1 afterwards.
     pub fn reduce(&self, f: &Polynomial<F::Element>) -> Polynomial<F::Element> {
         self.relations.iter().rev().fold(f.clone(), |f, relation| {
             if self.ring.degree_in(&f, relation.variable) < 2 {
@@ -107,7 +107,7 @@ impl<F: Field> Fractions<F> {
         })
     }
 
-    /// The polynomial `f` of the parameters as a field element.
+    /// The polynomial `f` of the parameters as an element of the field.
     pub fn embed(&self, f: &Polynomial<F::Element>) -> Fraction<F::Element> {
         Fraction { numerator: self.reduce(f), denominator: self.ring.one() }
     }
@@ -129,7 +129,7 @@ impl<F: Field> Fractions<F> {
         (!bottom.is_zero()).then(|| self.lowest_terms(top, bottom))
     }
 
-    /// `numerator / denominator`, which the caller knows to be coprime, with a monic denominator that is free of algebraic parameters.
+    /// `numerator / denominator` for coprime arguments. The denominator is monic and free of algebraic parameters.
     pub fn coprime_fraction(
         &self,
         numerator: Polynomial<F::Element>,
@@ -139,14 +139,14 @@ impl<F: Field> Fractions<F> {
         Fraction { numerator, denominator }
     }
 
-    /// `f` with the sign of its root `variable` changed; `f` is reduced.
+    /// Replaces the root `variable` by its negative in a reduced `f`.
     fn conjugate(&self, f: &Polynomial<F::Element>, variable: usize) -> Polynomial<F::Element> {
         let parts = self.ring.coefficients_in(f, variable);
         let root = self.ring.variable(variable);
         self.ring.sub(&parts[0], &self.ring.mul(&parts[1], &root))
     }
 
-    /// Divides by the common factor of the denominator and all coefficients of the numerator in the roots.
+    /// Divides by the common factor of the denominator and all coefficients of the numerator with respect to the roots.
     fn lowest_terms(
         &self,
         numerator: Polynomial<F::Element>,
@@ -158,7 +158,7 @@ impl<F: Field> Fractions<F> {
         Fraction { numerator: self.ring.scale(&top, &inverse), denominator: self.ring.scale(&bottom, &inverse) }
     }
 
-    /// `f` and `divisor`, which is free of roots, without their common factor.
+    /// Divides `f` and `divisor` by their common factor. `divisor` is free of roots.
     fn cancel(
         &self,
         f: Polynomial<F::Element>,
@@ -175,7 +175,7 @@ impl<F: Field> Fractions<F> {
         (self.divided(&f, &shared), self.divided(&divisor, &shared))
     }
 
-    /// The gcd of `divisor`, which is free of roots, and all parts of `f` over the roots.
+    /// The gcd of `divisor` and all coefficients of `f` with respect to the roots. `divisor` is free of roots.
     fn shared_factor(&self, f: &Polynomial<F::Element>, divisor: &Polynomial<F::Element>) -> Polynomial<F::Element> {
         let mut parts = self.parts_over_roots(f);
         parts.sort_by_key(|part| part.terms().len());
@@ -186,7 +186,8 @@ impl<F: Field> Fractions<F> {
         self.ring.exact_div(f, divisor).expect("a gcd divides")
     }
 
-    /// The sum over different denominators: only a factor that the denominators share can cancel (Henrici 1956; Knuth 4.5.1).
+    /// The sum for different denominators. Only a common factor of the denominators can cancel (Henrici 1956; Knuth
+    /// 4.5.1).
     fn add_unlike(&self, a: &Fraction<F::Element>, b: &Fraction<F::Element>) -> Fraction<F::Element> {
         let denominators = common(&self.ring, &a.denominator, &b.denominator);
         let (left, right) = (denominators.left, denominators.right);
@@ -195,7 +196,7 @@ impl<F: Field> Fractions<F> {
         Fraction { numerator, denominator: self.ring.mul(&self.ring.mul(&left, &right), &shared) }
     }
 
-    /// The product after cancelling crosswise; roots that multiply may cancel once more.
+    /// The product after cancelling crosswise. A product of roots may require one more cancellation.
     fn mul_crosswise(&self, a: &Fraction<F::Element>, b: &Fraction<F::Element>) -> Fraction<F::Element> {
         let (a_top, b_bottom) = self.cancel(a.numerator.clone(), b.denominator.clone());
         let (b_top, a_bottom) = self.cancel(b.numerator.clone(), a.denominator.clone());
@@ -214,7 +215,7 @@ impl<F: Field> Fractions<F> {
         })
     }
 
-    /// The element when it is a constant of the base field.
+    /// The element as a constant of the base field, if it is one.
     pub fn as_constant(&self, a: &Fraction<F::Element>) -> Option<F::Element> {
         self.ring.as_constant(&a.denominator)?;
         self.ring.as_constant(&a.numerator)

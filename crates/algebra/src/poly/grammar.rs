@@ -1,4 +1,4 @@
-//! The grammar that plain text and LaTeX share: tokens to [`Expression`] by recursive descent.
+//! The grammar shared by plain text and LaTeX: recursive descent from tokens to an [`Expression`].
 
 use std::fmt;
 
@@ -8,21 +8,21 @@ use crate::limits;
 use crate::number::parse_rational;
 use crate::{Error, Result};
 
-/// The deepest nesting of parentheses, fractions and signs that is read.
+/// Maximum nesting depth of parentheses, fractions and signs.
 pub const MAX_DEPTH: usize = limits::EXPRESSION_DEPTH;
-/// The largest exponent that is read.
+/// The largest exponent that the parser accepts.
 pub const MAX_EXPONENT: u32 = limits::EXPRESSION_EXPONENT;
 
-/// The two ways to write an expression.
+/// Notation of an expression.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Dialect {
-    /// Products need `*`, exponents are bare.
+    /// Products need `*`; exponents have no braces.
     Text,
-    /// Products may be implied, exponents and fractions stand in braces.
+    /// Products may be implied; exponents and fractions have braces.
     Latex,
 }
 
-/// Reads tokens, the last of which is [`Kind::End`] or a [`Kind::Delimiter`].
+/// Parser of tokens. The last token is [`Kind::End`] or a [`Kind::Delimiter`].
 pub(super) struct Parser<'a> {
     tokens: Vec<Token<'a>>,
     next: usize,
@@ -35,16 +35,16 @@ impl<'a> Parser<'a> {
         Parser { tokens, next: 0, depth: 0, dialect }
     }
 
-    /// One expression and nothing after it.
+    /// Parses one expression with nothing after it.
     pub(super) fn whole(mut self) -> Result<Expression> {
         let expression = self.expression()?;
         self.end()?;
         Ok(expression)
     }
 
-    /// One expression, or two with `=` between them.
+    /// Parses one expression, or two with `=` between them.
     pub(super) fn equation(mut self) -> Result<(Expression, Option<Expression>)> {
-        self.depth = 1; // the right side gets into parentheses when the difference is printed
+        self.depth = 1; // the right side is printed in parentheses
         let left = self.expression()?;
         let right = if self.take('=') { Some(self.expression()?) } else { None };
         self.end()?;
@@ -54,7 +54,7 @@ impl<'a> Parser<'a> {
     fn end(&self) -> Result<()> {
         match self.peek() {
             Kind::End | Kind::Delimiter(_) => Ok(()),
-            Kind::Symbol('=') => Err(self.error("`=` may stand once, between the two sides of an equation")),
+            Kind::Symbol('=') => Err(self.error("`=` is allowed once, between the two sides of an equation")),
             Kind::Symbol(')') => Err(self.error("`)` closes nothing; remove it or open a `(`")),
             found => Err(self.error(format!("an operator or the end expected, found `{found}`"))),
         }
@@ -92,7 +92,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Whether an operand follows an operand: a product in LaTeX, a mistake in plain text.
+    /// Whether an operand follows an operand: a product in LaTeX, an error in plain text.
     fn implied_product(&self) -> Result<bool> {
         if !matches!(self.peek(), Kind::Number(_) | Kind::Name(_) | Kind::Fraction | Kind::Symbol('(')) {
             return Ok(false);
@@ -177,7 +177,7 @@ impl<'a> Parser<'a> {
         Ok(expression)
     }
 
-    /// Takes the next token, then reads one level deeper.
+    /// Takes the next token and parses one level deeper.
     fn nested(&mut self, read: impl FnOnce(&mut Self) -> Result<Expression>) -> Result<Expression> {
         if self.depth == MAX_DEPTH {
             return Err(self.error(format!("nested more than {MAX_DEPTH} deep; name a part of it")));

@@ -1,8 +1,8 @@
-//! LaTeX of names, and a reader of the LaTeX that our printers write.
+//! LaTeX of names, and a parser of the LaTeX that our printers write.
 //!
 //! The grammar is that of plain text, with these differences: a product is implied (`2 x y`) or a `\cdot`; a fraction
-//! is `\frac{a}{b}`, not `/`; an exponent stands in braces unless it is one digit; parentheses may be `\left( \right)`;
-//! `\,` is space; numbers have no `e` exponent. A letter is a name of its own, as LaTeX sets it: `xy` is `x*y`.
+//! is `\frac{a}{b}`, not `/`; an exponent has braces unless it is one digit; parentheses may be `\left( \right)`; `\,`
+//! is space; numbers have no `e` exponent. Each letter is a separate name, as LaTeX prints it: `xy` is `x*y`.
 //!
 //! A name is written by its form ([`latex_name`]), and read back as the same name:
 //!
@@ -32,7 +32,7 @@ pub fn latex_name(name: &str) -> String {
     if digits.is_empty() { stem } else { format!("{stem}_{{{digits}}}") }
 }
 
-/// Reads the LaTeX of an expression, as our printers write it.
+/// Parses the LaTeX of an expression, as our printers write it.
 ///
 /// # Errors
 /// [`ErrorKind::Syntax`](crate::ErrorKind::Syntax) with the column (in characters, from 1) and what is allowed there.
@@ -61,7 +61,7 @@ fn tokens(text: &str) -> Result<Vec<Token<'_>>> {
     Ok(tokens)
 }
 
-/// What the command at the cursor means; nothing for a space.
+/// The meaning of the command at the cursor; `None` for a space.
 fn command<'a>(cursor: &mut Cursor<'a>) -> Result<Option<Kind<'a>>> {
     let column = cursor.column();
     cursor.take_one();
@@ -101,7 +101,7 @@ fn upright_name(text: &str, column: usize) -> Result<String> {
     Err(syntax(column, "`\\mathrm{...}` holds a name of letters, digits and `\\_` that starts with no digit"))
 }
 
-/// `_{digits}` or `_digit` at the cursor, without the marks; empty when there is none.
+/// Parses `_{digits}` or `_digit` at the cursor. Returns the digits; empty when there is no subscript.
 fn subscript<'a>(cursor: &mut Cursor<'a>) -> Result<&'a str> {
     if !cursor.take_if(|c| c == '_') {
         return Ok("");

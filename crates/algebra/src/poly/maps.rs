@@ -1,11 +1,11 @@
-//! Maps out of a polynomial ring: into other rings, to values, to the coefficients in one variable, to derivatives.
+//! Maps from a polynomial ring: to other rings, to values, to the coefficients in one variable, to derivatives.
 
 use super::ring::{Polynomial, PolynomialRing, Term};
 use crate::number::{BigInt, Field, Ring};
 use crate::{Error, ErrorKind, Result};
 
 impl<F: Field> PolynomialRing<F> {
-    /// The same polynomial read in another ring with the same variables, in any order or width.
+    /// Converts `f` to another ring with the same variables, in any order or width.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] when `f` uses a variable that `target` lacks; [`ErrorKind::Overflow`].
@@ -17,10 +17,10 @@ impl<F: Field> PolynomialRing<F> {
         self.map_into(f, target, |coefficient| Ok(coefficient.clone()))
     }
 
-    /// The image of `f` in another ring: variables by name, coefficients by `map`.
+    /// Maps `f` to another ring: variables by name, coefficients by `map`.
     ///
     /// # Errors
-    /// As [`PolynomialRing::transfer`], and what `map` fails with.
+    /// Those of [`PolynomialRing::transfer`] and of `map`.
     pub fn map_into<G: Field>(
         &self,
         f: &Polynomial<F::Element>,
@@ -45,7 +45,7 @@ impl<F: Field> PolynomialRing<F> {
         Ok(target.collect(terms))
     }
 
-    /// `f` with the ring elements `values` put in place of all variables, in ring `target`.
+    /// Substitutes the elements `values` of `target` for all variables of `f`.
     pub fn substitute<R: Ring>(
         &self,
         f: &Polynomial<F::Element>,
@@ -62,7 +62,7 @@ impl<F: Field> PolynomialRing<F> {
         })
     }
 
-    /// The coefficients of `f` as a polynomial in one variable: `result[k]` belongs to its `k`-th power.
+    /// The coefficients of `f` as a polynomial in one variable: `result[k]` is the coefficient of the `k`-th power.
     pub fn coefficients_in(&self, f: &Polynomial<F::Element>, variable: usize) -> Vec<Polynomial<F::Element>> {
         let mut parts = vec![Vec::new(); self.degree_in(f, variable) as usize + 1];
         for term in &f.terms {

@@ -1,9 +1,9 @@
-//! Polynomials: packed monomials and their orders, sparse rings over any field, gcd, rational functions.
+//! Polynomials: packed monomials and their orders, sparse rings over any field, gcd, factorization, rational functions.
 //!
-//! [`PolynomialRing`] is a ring as a value, [`Polynomial`] its plain data; [`Fractions`] is the field of
-//! rational functions of the parameters; [`Expression`] is what a person wrote, before it is expanded. [`gcd()`] and [`factor()`]
-//! compute modulo primes on machine words (`words`), and prove what they find by division. [`system`] reads and prints systems
-//! in the formats of `groebot basis`.
+//! [`PolynomialRing`] is a ring as a value, and [`Polynomial`] is its plain data. [`Fractions`] is the field of
+//! rational functions of the parameters. [`Expression`] is the text of a user before expansion. [`gcd()`] and
+//! [`factor()`] compute modulo primes on machine words (`words`) and prove their results by division. [`system`] reads
+//! and prints systems in the formats of `groebot basis`.
 
 mod arithmetic;
 mod evaluate;

@@ -1,8 +1,8 @@
 //! Packed monomials: exponents in lanes of machine words, the total degree in the first lane.
 //!
-//! A [`Layout`] fixes the lane width and the lane of each variable; a [`Monomial`] is plain words.
-//! No exponent exceeds the total degree, so the degree lane alone tells an overflow, and the top bit
-//! of every lane stays free: divisibility is one subtraction per word.
+//! A [`Layout`] fixes the lane width and the lane of each variable; a [`Monomial`] is plain words. No exponent exceeds
+//! the total degree, so overflow is checked in the degree lane alone. The top bit of every lane stays zero, so
+//! divisibility is one subtraction per word.
 
 use std::cmp::Ordering;
 
@@ -16,7 +16,7 @@ pub struct Monomial {
     words: SmallVec<[u64; 3]>,
 }
 
-/// The width of a lane: how large a total degree may become.
+/// The width of a lane, which limits the total degree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Width {
     /// Total degrees up to 127.
@@ -42,7 +42,7 @@ impl Width {
         (1 << (self.bits() - 1)) - 1
     }
 
-    /// The next wider lane, if any.
+    /// The next wider lane, if there is one.
     pub fn wider(self) -> Option<Width> {
         match self {
             Width::Bits8 => Some(Width::Bits16),
@@ -52,7 +52,7 @@ impl Width {
     }
 }
 
-/// Where each variable's exponent stands in the words of a monomial, and how two monomials compare.
+/// The position of each variable's exponent in the words of a monomial, and the comparison of monomials.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     variables: usize,
@@ -61,7 +61,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The layout of `variables` variables (greatest first) in `order`.
+    /// Builds the layout of `variables` variables (greatest first) in `order`.
     ///
     /// # Panics
     /// When a block order does not cover exactly `variables` variables.
@@ -88,7 +88,7 @@ impl Layout {
         &self.order
     }
 
-    /// The binary logarithm of the lanes of a word: places are found by shifts.
+    /// The binary logarithm of the number of lanes in a word, for positions by shifts.
     fn lanes_per_word_log2(&self) -> u32 {
         match self.width {
             Width::Bits8 => 3,
@@ -101,7 +101,7 @@ impl Layout {
         1 << self.lanes_per_word_log2()
     }
 
-    /// Graded reverse orders keep the last variable in front, so that words compare as numbers.
+    /// In graded reverse orders the last variable comes first, so that words compare as numbers.
     fn lane(&self, variable: usize) -> usize {
         match self.order {
             Order::GrevLex => self.variables - variable,
@@ -134,7 +134,7 @@ impl Layout {
         Monomial { words: SmallVec::from_elem(0, words) }
     }
 
-    /// Packs `exponents` (one a variable); `None` when the total degree does not fit.
+    /// Packs `exponents`, one for each variable; `None` when the total degree does not fit.
     pub fn pack(&self, exponents: &[u32]) -> Option<Monomial> {
         debug_assert_eq!(exponents.len(), self.variables);
         let degree: u64 = exponents.iter().map(|&e| u64::from(e)).sum();
@@ -161,7 +161,7 @@ impl Layout {
         (0..self.variables).map(|variable| self.exponent(m, variable)).collect()
     }
 
-    /// Whether `m` may come from this layout. Another lane width, or more variables, mostly shows.
+    /// Whether `m` can belong to this layout. This detects most monomials of another lane width or number of variables.
     pub fn is_packed(&self, m: &Monomial) -> bool {
         m.words.len() == self.one().words.len() && self.pack(&self.exponents(m)).is_some_and(|packed| packed == *m)
     }
@@ -209,7 +209,7 @@ impl Layout {
         (0..self.variables).all(|v| self.exponent(a, v) == 0 || self.exponent(b, v) == 0)
     }
 
-    /// The variable and power when `m` is a power of one variable, 1 excluded.
+    /// The variable and exponent when `m` is a power of one variable; `None` for 1.
     pub fn pure_power(&self, m: &Monomial) -> Option<(usize, u32)> {
         let degree = self.degree(m);
         (0..self.variables).find(|&v| degree > 0 && self.exponent(m, v) == degree).map(|v| (v, degree))
@@ -227,7 +227,7 @@ impl Layout {
         }
     }
 
-    /// Compares the words as numbers, the degree lane left out.
+    /// Compares the words as numbers, without the degree lane.
     fn compare_lanes(&self, a: &Monomial, b: &Monomial) -> Ordering {
         let mask = !self.degree_mask();
         let first = (a.words[0] & mask).cmp(&(b.words[0] & mask));

@@ -3,14 +3,15 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-/// A total order of monomials, compatible with multiplication, in which 1 is the smallest.
+/// A monomial order: total, compatible with multiplication, with 1 as the smallest monomial.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Order {
     /// Lexicographic: the first differing exponent decides (NAO definition 13).
     Lex,
-    /// Total degree first; then the monomial with less of the smallest variable is greater.
+    /// Graded reverse lexicographic: total degree first, then the monomial with the smaller exponent of the smallest
+    /// variable is greater.
     GrevLex,
-    /// Blocks of consecutive variables, the first block decides first: an elimination order.
+    /// Blocks of consecutive variables, compared from the first block on: an elimination order.
     Block(Vec<Block>),
 }
 
@@ -24,7 +25,7 @@ pub struct Block {
 }
 
 impl Order {
-    /// The order that eliminates the first `first` of `variables` variables: two graded blocks.
+    /// The elimination order of the first `first` of `variables` variables: two graded blocks.
     pub fn elimination(first: usize, variables: usize) -> Order {
         let sizes = [first, variables.saturating_sub(first)];
         let blocks = sizes.into_iter().filter(|&size| size > 0).map(|size| Block { size, graded: true });

@@ -1,4 +1,4 @@
-//! Plain text of expressions and equations: `L1*c2 + L2*s4 - pz = 0`.
+//! Parser of plain-text expressions and equations: `L1*c2 + L2*s4 - pz = 0`.
 //!
 //! ```text
 //! equation   = expression ["=" expression]
@@ -10,13 +10,11 @@
 //! name       = letter or "_", then letters, digits and "_"
 //! ```
 //!
-//! So `-x^2` is `-(x^2)`. A product needs its `*`; an exponent is an integer from 0 to [`MAX_EXPONENT`], and a power of
-//! a power needs parentheses. Spaces, tabs and line ends separate. Text is at most [`MAX_LENGTH`] bytes long and
+//! So `-x^2` is `-(x^2)`. A product needs `*`. An exponent is an integer from 0 to [`MAX_EXPONENT`], and a power of a
+//! power needs parentheses. Spaces, tabs and line ends separate tokens. Text is at most [`MAX_LENGTH`] bytes long and
 //! parentheses and signs nest at most [`MAX_DEPTH`] deep.
 //!
-//! [`MAX_EXPONENT`]: super::MAX_EXPONENT
-//! [`MAX_LENGTH`]: super::MAX_LENGTH
-//! [`MAX_DEPTH`]: super::MAX_DEPTH
+//! [`MAX_EXPONENT`]: super::MAX_EXPONENT [`MAX_LENGTH`]: super::MAX_LENGTH [`MAX_DEPTH`]: super::MAX_DEPTH
 
 use std::str::FromStr;
 
@@ -32,7 +30,7 @@ pub fn is_identifier(text: &str) -> bool {
     text.chars().next().is_some_and(starts_name) && text.chars().all(continues_name)
 }
 
-/// Reads an expression without `=`.
+/// Parses an expression without `=`.
 ///
 /// # Errors
 /// [`ErrorKind::Syntax`](crate::ErrorKind::Syntax) with the column (in characters, from 1) and what is allowed there.
@@ -40,10 +38,10 @@ pub fn parse(text: &str) -> Result<Expression> {
     Parser::new(tokens(text)?, Dialect::Text).whole()
 }
 
-/// As [`parse`], of a text whose length the caller bounds.
+/// Same as [`parse`], but the caller limits the length of the text.
 ///
 /// # Errors
-/// As [`parse`].
+/// Those of [`parse`].
 pub fn parse_long(text: &str) -> Result<Expression> {
     Parser::new(words(Cursor::at_start(text))?, Dialect::Text).whole()
 }
@@ -64,15 +62,15 @@ impl TryFrom<String> for Expression {
     }
 }
 
-/// Reads `a = b` as the expression `a - b` (`a` alone when `b` is 0), and `a` without `=` as `a = 0`.
+/// Parses `a = b` as the expression `a - b` (`a` alone when `b` is 0), and `a` without `=` as `a = 0`.
 ///
 /// # Errors
-/// As [`parse`]; a second `=`, or one inside parentheses, is refused.
+/// Those of [`parse`]. A second `=`, or one inside parentheses, is refused.
 pub fn parse_equation(text: &str) -> Result<Expression> {
     equation_of(tokens(text)?)
 }
 
-/// As [`parse_equation`], of words that are cut already.
+/// Same as [`parse_equation`], but the tokens are given.
 pub(super) fn equation_of(tokens: Vec<Token<'_>>) -> Result<Expression> {
     let (left, right) = Parser::new(tokens, Dialect::Text).equation()?;
     Ok(match right {
@@ -118,7 +116,7 @@ fn words(mut cursor: Cursor<'_>) -> Result<Vec<Token<'_>>> {
     Ok(tokens)
 }
 
-/// Digits and points, then an exponent if `e` or `E` is followed by one; whether that is a number is checked later.
+/// Scans digits and points, then an exponent if `e` or `E` is followed by one. The number is validated later.
 pub(super) fn number<'a>(cursor: &mut Cursor<'a>) -> &'a str {
     let start = cursor.mark();
     cursor.take_while(|c| c.is_ascii_digit() || c == '.');

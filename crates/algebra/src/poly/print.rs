@@ -1,4 +1,4 @@
-//! Printing polynomials as text that the parser reads back, and as LaTeX.
+//! Printing of polynomials as text that the parser reads back, and as LaTeX.
 
 use super::monomial::Monomial;
 use super::ring::{Polynomial, PolynomialRing, Term};
@@ -71,7 +71,7 @@ pub(super) fn parenthesise(text: &str, style: Style) -> String {
     }
 }
 
-/// Whether `text` is a sum at its top level: a sign behind its first character, outside brackets.
+/// Whether `text` is a sum at its top level: it has a sign after its first character, outside brackets.
 pub(super) fn is_sum(text: &str) -> bool {
     let mut depth = 0usize;
     text.char_indices().any(|(index, c)| {

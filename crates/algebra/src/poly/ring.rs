@@ -8,7 +8,8 @@ use super::order::Order;
 use crate::number::{Field, Ring};
 use crate::{Error, ErrorKind, Result};
 
-/// So many products of terms wait at most, or twice as many as the terms that they have become, until those of one monomial are added.
+/// Threshold for collecting products of terms. They are collected when there are this many, or twice as many as
+/// distinct monomials so far.
 const UNCOLLECTED: usize = 1 << 18;
 
 /// One term: a nonzero coefficient and its monomial.
@@ -20,7 +21,7 @@ pub struct Term<E> {
     pub monomial: Monomial,
 }
 
-/// A polynomial: terms in strictly descending monomial order, none zero. Plain data of a [`PolynomialRing`].
+/// A polynomial: nonzero terms in strictly descending monomial order. Plain data of a [`PolynomialRing`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polynomial<E> {
     pub(super) terms: Vec<Term<E>>,
@@ -37,7 +38,7 @@ impl<E> Polynomial<E> {
         self.terms.first()
     }
 
-    /// Takes the leading term out; `None` for zero.
+    /// Removes and returns the leading term; `None` for zero.
     pub fn take_leading(&mut self) -> Option<Term<E>> {
         (!self.terms.is_empty()).then(|| self.terms.remove(0))
     }
@@ -57,16 +58,16 @@ pub struct PolynomialRing<F: Field> {
 }
 
 impl<F: Field> PolynomialRing<F> {
-    /// The ring over `field` in `variables` (greatest first) with 16-bit exponent lanes.
+    /// Builds the ring over `field` in `variables` (greatest first) with 16-bit exponent lanes.
     ///
     /// # Errors
-    /// [`ErrorKind::DuplicateName`] when a variable is listed twice or already names a field element;
+    /// [`ErrorKind::DuplicateName`] when a variable is listed twice or has the name of a field element;
     /// [`ErrorKind::BadValue`] when a block order does not cover the variables.
     pub fn new<S: AsRef<str>>(field: F, variables: &[S], order: Order) -> Result<Self> {
         let names: Vec<String> = variables.iter().map(|name| name.as_ref().to_owned()).collect();
         for (index, name) in names.iter().enumerate() {
             if names[..index].contains(name) || field.generator(name).is_some() {
-                let text = format!("variable `{name}` is already taken; each name stands for one thing");
+                let text = format!("variable `{name}` is already taken; give each variable its own name");
                 return Err(Error::new(ErrorKind::DuplicateName, text));
             }
         }
@@ -80,14 +81,14 @@ impl<F: Field> PolynomialRing<F> {
         Ok(PolynomialRing { field, variables: names.into(), layout })
     }
 
-    /// The same ring with another lane width.
+    /// Same ring, but with another lane width.
     #[must_use]
     pub fn with_width(&self, width: Width) -> Self {
         let layout = Layout::new(self.layout.variables(), width, self.layout.order().clone());
         PolynomialRing { layout, ..self.clone() }
     }
 
-    /// The ring of the same monomials over another field, none of whose elements has the name of a variable.
+    /// The ring of the same monomials over another field. No element of the field has the name of a variable.
     pub(crate) fn over<G: Field>(&self, field: G) -> PolynomialRing<G> {
         debug_assert!(self.variables.iter().all(|name| field.generator(name).is_none()));
         PolynomialRing { field, variables: self.variables.clone(), layout: self.layout.clone() }
@@ -103,12 +104,12 @@ impl<F: Field> PolynomialRing<F> {
         &self.variables
     }
 
-    /// The layout of the monomials, with their order.
+    /// The layout of the monomials, which includes their order.
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// The polynomial of `terms` given in any order, like terms collected.
+    /// Builds a polynomial from `terms` in any order. Like terms are collected.
     pub fn collect(&self, terms: impl IntoIterator<Item = Term<F::Element>>) -> Polynomial<F::Element> {
         let mut sums: HashMap<Monomial, F::Element> = HashMap::new();
         for Term { coefficient, monomial } in terms {
@@ -123,7 +124,7 @@ impl<F: Field> PolynomialRing<F> {
         Polynomial { terms }
     }
 
-    /// The polynomial of nonzero `terms` that descend in the monomial order already.
+    /// Builds a polynomial from nonzero `terms` that are already in descending monomial order.
     pub(crate) fn descending(&self, terms: Vec<Term<F::Element>>) -> Polynomial<F::Element> {
         let f = Polynomial { terms };
         debug_assert!(self.is_sorted(&f), "terms descend and none is zero");
@@ -157,7 +158,7 @@ impl<F: Field> PolynomialRing<F> {
         self.variables.iter().position(|variable| variable == name)
     }
 
-    /// The constant that `f` is, if it is one.
+    /// The value of `f`, if it is a constant.
     pub fn as_constant(&self, f: &Polynomial<F::Element>) -> Option<F::Element> {
         match f.terms.as_slice() {
             [] => Some(self.field.zero()),
@@ -232,7 +233,7 @@ impl<F: Field> PolynomialRing<F> {
                 let mut products = Vec::with_capacity(room);
                 for term in &short.terms {
                     products.extend(self.mul_term(long, &term.coefficient, &term.monomial)?.terms);
-                    // Most of them are of few monomials.
+                    // Most of these products have few distinct monomials.
                     if products.len() > room {
                         products = self.collect(products).terms;
                         room = products.len().saturating_mul(2).max(UNCOLLECTED);
@@ -276,20 +277,20 @@ impl<F: Field> PolynomialRing<F> {
         self.layout.lcm(a, b).ok_or_else(|| self.overflow())
     }
 
-    /// Whether the invariants of a polynomial of this ring hold: monomials packed by its layout, descending, no zero
-    /// coefficient.
+    /// Whether `f` satisfies the invariants of this ring: monomials in its layout, descending, without zero
+    /// coefficients.
     pub fn is_well_formed(&self, f: &Polynomial<F::Element>) -> bool {
         let packed = |term: &Term<F::Element>| self.layout.is_packed(&term.monomial);
         f.terms.iter().all(packed) && self.is_sorted(f)
     }
 
-    /// Descending, no zero coefficient.
+    /// Whether the terms are descending without zero coefficients.
     pub(super) fn is_sorted(&self, f: &Polynomial<F::Element>) -> bool {
         let descending = |pair: &[Term<F::Element>]| self.layout.compare(&pair[0].monomial, &pair[1].monomial).is_gt();
         f.terms.windows(2).all(descending) && f.terms.iter().all(|term| !self.field.is_zero(&term.coefficient))
     }
 
-    /// The monomial with these exponents, one a variable.
+    /// The monomial with these exponents, one for each variable.
     ///
     /// # Errors
     /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.

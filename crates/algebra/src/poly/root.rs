@@ -6,7 +6,7 @@ use crate::number::{BigInt, BigRational, Rationals, Ring};
 type Ground = PolynomialRing<Rationals>;
 type Poly = Polynomial<BigRational>;
 
-/// The polynomial whose square is `f`, up to sign, if `f` is a square over Q.
+/// The square root of `f`, up to sign, if `f` is a square over Q.
 pub fn square_root(ring: &Ground, f: &Poly) -> Option<Poly> {
     let Some(lead) = f.leading() else { return Some(ring.zero()) };
     let exponents = ring.layout().exponents(&lead.monomial);
@@ -29,7 +29,7 @@ pub fn square_root(ring: &Ground, f: &Poly) -> Option<Poly> {
     }
 }
 
-/// The positive square root of a rational number that is a square.
+/// The positive square root of a rational number, if it is rational.
 pub fn rational_root(q: &BigRational) -> Option<BigRational> {
     let root = |n: &BigInt| Some(n.sqrt()).filter(|r| r * r == *n);
     let positive = q.numer().sign() != num_bigint::Sign::Minus;

@@ -1,33 +1,33 @@
-//! Words of a text and the cursor that cuts them, for the lexers.
+//! Tokens of a text, and the cursor of the lexers.
 
 use std::fmt;
 
 use crate::limits;
 use crate::{Error, ErrorKind, Result};
 
-/// The longest text that is read, in bytes.
+/// Maximum length of a text in bytes.
 pub const MAX_LENGTH: usize = limits::EXPRESSION_CHARACTERS;
 
-/// A word of the text and where it starts.
+/// A token and its location.
 pub(super) struct Token<'a> {
-    /// From 1, in a text that is read by lines.
+    /// Line, counted from 1, in a text that is read line by line.
     pub(super) line: Option<usize>,
-    /// In characters, from 1.
+    /// Column in characters, counted from 1.
     pub(super) column: usize,
     pub(super) kind: Kind<'a>,
 }
 
-/// What a word is.
+/// Kind of a token.
 #[derive(Clone, PartialEq)]
 pub(super) enum Kind<'a> {
     Number(&'a str),
     Name(String),
     Symbol(char),
-    /// A word that its reader has yet to understand: a name, or a monomial written without signs.
+    /// A word that the parser interprets: a name, or a monomial written without signs.
     Word(&'a str),
     /// `\frac`.
     Fraction,
-    /// What ends an expression inside a longer text: `,`, `;`, the end of a line.
+    /// The end of an expression inside a longer text: `,`, `;` or the end of a line.
     Delimiter(&'static str),
     End,
 }
@@ -51,7 +51,7 @@ pub(super) fn syntax(column: usize, message: impl fmt::Display) -> Error {
     Error::new(ErrorKind::Syntax, format!("column {column}: {message}"))
 }
 
-/// A place in a text, counted in bytes and in characters.
+/// A location in a text, counted in bytes and in characters.
 #[derive(Clone, Copy)]
 pub(super) struct Cursor<'a> {
     text: &'a str,
@@ -68,7 +68,7 @@ impl<'a> Cursor<'a> {
         Ok(Cursor::at_start(text))
     }
 
-    /// At the start of a text whose length the caller bounds.
+    /// A cursor at the start of a text. The caller limits the length of the text.
     pub(super) fn at_start(text: &'a str) -> Self {
         Cursor { text, byte: 0, column: 1 }
     }
@@ -98,7 +98,7 @@ impl<'a> Cursor<'a> {
         self.peek()
     }
 
-    /// Takes the next character, which the caller has peeked at.
+    /// Takes the next character, which the caller has already inspected.
     pub(super) fn take_one(&mut self) -> char {
         let c = self.peek().unwrap_or(' ');
         self.take_if(|_| true);

@@ -4,9 +4,9 @@
 
 use crate::number::{BigInt, Field, Ring, Style};
 
-/// A polynomial as plain data: the coefficient of `x^i` stands at index `i`.
+/// A polynomial as plain data: the coefficient of `x^i` has index `i`.
 ///
-/// The last coefficient is never zero, so the zero polynomial is empty; [`UnivariateRing::polynomial`] sees to it.
+/// The last coefficient is never zero, so the zero polynomial is empty. [`UnivariateRing::polynomial`] ensures this.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Univariate<E> {
     /// The coefficients, constant term first, without trailing zeros.
@@ -36,7 +36,7 @@ pub struct UnivariateRing<F: Field> {
 type Element<F> = Univariate<<F as Ring>::Element>;
 
 impl<F: Field> UnivariateRing<F> {
-    /// The polynomials over `field` in one variable, which is written as `variable`.
+    /// Builds the ring of polynomials over `field` in one variable with the name `variable`.
     pub fn new(field: F, variable: impl Into<String>) -> Self {
         UnivariateRing { field, variable: variable.into() }
     }
@@ -51,7 +51,7 @@ impl<F: Field> UnivariateRing<F> {
         &self.variable
     }
 
-    /// The polynomial with these coefficients, constant term first; trailing zeros are dropped.
+    /// Builds the polynomial with these coefficients, constant term first. Trailing zeros are dropped.
     pub fn polynomial(&self, mut coefficients: Vec<F::Element>) -> Element<F> {
         while coefficients.last().is_some_and(|c| self.field.is_zero(c)) {
             coefficients.pop();
@@ -115,7 +115,7 @@ impl<F: Field> UnivariateRing<F> {
 
     /// The monic product of the distinct irreducible factors, `a / gcd(a, a')`; zero stays zero.
     ///
-    /// `None` when the characteristic is positive and not above the degree: `a'` may vanish there.
+    /// `None` when the characteristic is positive and at most the degree, because `a'` may vanish then.
     pub fn square_free_part(&self, a: &Element<F>) -> Option<Element<F>> {
         let p = self.field.characteristic();
         let Some(degree) = a.degree() else { return Some(a.clone()) };
@@ -132,9 +132,10 @@ impl<F: Field> UnivariateRing<F> {
         a.coefficients.iter().rev().fold(self.field.zero(), horner)
     }
 
-    /// The resultant, `lc(a)^deg(b)` times the product of the values of `b` at the roots of `a`; zero when either is zero.
+    /// The resultant, `lc(a)^deg(b)` times the product of the values of `b` at the roots of `a`; zero when either is
+    /// zero.
     ///
-    /// By `res(a, b) = (-1)^(deg a deg b) lc(b)^(deg a - deg r) res(b, r)` for `r = a mod b`.
+    /// Uses `res(a, b) = (-1)^(deg a deg b) lc(b)^(deg a - deg r) res(b, r)` for `r = a mod b`.
     pub fn resultant(&self, a: &Element<F>, b: &Element<F>) -> F::Element {
         let (mut a, mut b, mut factor) = (a.clone(), b.clone(), self.field.one());
         while let (Some(m), Some(n), Some(leading)) = (a.degree(), b.degree(), b.leading()) {
@@ -232,7 +233,7 @@ impl<F: Field> Ring for UnivariateRing<F> {
         }
         if text.is_empty() { "0".into() } else { text }
     }
-    /// The variable by its name, else what the field knows by it.
+    /// The variable by its name, else a generator of the field.
     fn generator(&self, name: &str) -> Option<Self::Element> {
         if name == self.variable {
             return Some(self.monomial(self.field.one(), 1));

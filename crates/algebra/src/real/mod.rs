@@ -1,7 +1,8 @@
-//! All real solutions of a zero-dimensional polynomial system, isolated exactly: [`solve`] gives one [`RealSolution`] each.
+//! All real solutions of a zero-dimensional polynomial system, isolated exactly: [`solve`] gives one [`RealSolution`]
+//! each.
 //!
-//! The rational univariate representation turns the solutions into the roots of one polynomial (Rouillier 1999); these are isolated
-//! by Descartes' rule of signs, refined, and carried back into boxes.
+//! The rational univariate representation describes the solutions by the roots of one polynomial (Rouillier 1999).
+//! These roots are isolated by Descartes' rule of signs, refined, and mapped back to boxes.
 
 mod solution;
 
@@ -14,7 +15,7 @@ use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::roots::isolate_square_free;
 use crate::{ErrorKind, Result, Watch};
 
-/// How precisely to solve.
+/// Options of [`solve`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
     /// Every coordinate is enclosed in an interval of width at most `2^-precision`.
@@ -28,14 +29,15 @@ impl Default for Options {
     }
 }
 
-/// All real solutions of the system in which each of `generators`, polynomials of `ring` in any order, is zero.
+/// Computes all real solutions of the system `generators = 0`. The generators are polynomials of `ring`, in any order.
 ///
-/// The boxes are disjoint, and each holds exactly one real solution. They stand in the order of the separating linear form.
+/// The boxes are disjoint, and each holds exactly one real solution. They are sorted by the value of the separating
+/// linear form.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Inconsistent`] when there is no solution at all, complex ones included;
-/// [`crate::ErrorKind::PositiveDimensional`] when there are infinitely many; [`crate::ErrorKind::Overflow`]; what `watch` stops
-/// with.
+/// [`crate::ErrorKind::PositiveDimensional`] when there are infinitely many; [`crate::ErrorKind::Overflow`]; the error
+/// with which `watch` stops the work.
 pub fn solve(
     ring: &PolynomialRing<Rationals>,
     generators: &[Polynomial<BigRational>],
@@ -50,7 +52,8 @@ pub fn solve(
     solve_basis(&basis, &generators, options, watch)
 }
 
-/// The reduced basis without doubt: by primes and a proof, or by the engine over Q where primes do not serve.
+/// The proved reduced basis: by a modular computation with proof, or by the engine over Q where the modular one is not
+/// applicable.
 fn proved_basis(
     ring: &PolynomialRing<Rationals>,
     generators: &[Polynomial<BigRational>],
@@ -68,7 +71,8 @@ fn proved_basis(
     }
 }
 
-/// As [`solve`], given the reduced Groebner basis, in any order, of the ideal of `generators`, which are in the basis' ring.
+/// Same as [`solve`], but with the reduced Groebner basis of the ideal of `generators` as input. The generators are in
+/// the basis' ring.
 ///
 /// # Errors
 /// Those of [`univariate_representation()`].
@@ -89,7 +93,7 @@ pub fn solve_basis(
     Ok(solutions)
 }
 
-/// Refines solutions until no two boxes meet.
+/// Refines the solutions until no two boxes intersect.
 fn separate(solutions: &mut [RealSolution], watch: &Watch) -> Result<()> {
     for i in 1..solutions.len() {
         for j in 0..i {

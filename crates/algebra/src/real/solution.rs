@@ -1,4 +1,4 @@
-//! One real solution: a box that holds it, and exact answers to questions about it.
+//! One real solution: a box that contains it, and exact tests on it.
 
 use std::cmp::Ordering;
 use std::sync::Arc;
@@ -28,7 +28,7 @@ impl Enclosure {
         &self.high - &self.low
     }
 
-    /// Whether `x` lies in it.
+    /// Whether the interval contains `x`.
     pub fn contains(&self, x: &BigRational) -> bool {
         self.low <= *x && *x <= self.high
     }
@@ -38,17 +38,17 @@ impl Enclosure {
     }
 }
 
-/// Bits between the width asked for and the grid that enclosures are rounded to.
+/// Guard bits between the requested width and the grid to which enclosures are rounded.
 const GUARD: u64 = 2;
 
-/// Relative bits at which a coordinate between two doubles is taken to lie on their midpoint.
+/// Relative precision in bits at which a coordinate between two doubles is treated as their midpoint.
 const TIE: u64 = 256;
 
 /// An isolated real solution of a system.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct RealSolution {
-    /// One interval a variable: the sides of a box in which no other real solution lies.
+    /// One interval for each variable: the sides of a box that contains no other real solution.
     pub coordinates: Vec<Enclosure>,
     /// The multiplicity: the dimension of the local ring at the solution.
     pub multiplicity: usize,
@@ -58,7 +58,7 @@ pub struct RealSolution {
 }
 
 impl RealSolution {
-    /// The solution at the root of the representation's polynomial in `root`, to `precision` bits.
+    /// Builds the solution at the root `root` of the representation's polynomial, to `precision` bits.
     pub(super) fn new(
         representation: Arc<UnivariateRepresentation>,
         root: Interval,
@@ -71,29 +71,29 @@ impl RealSolution {
         Ok(RealSolution { coordinates, multiplicity, root, precision, representation })
     }
 
-    /// The bits asked for: every coordinate is at most `2^-precision` wide.
+    /// The requested precision in bits: every coordinate is at most `2^-precision` wide.
     pub fn precision(&self) -> u64 {
         self.precision
     }
 
-    /// The representation of all solutions that this one belongs to.
+    /// The univariate representation of the system's solutions.
     pub fn representation(&self) -> &UnivariateRepresentation {
         &self.representation
     }
 
-    /// The same solution with coordinates at most `2^-precision` wide.
+    /// Refines the solution until every coordinate is at most `2^-precision` wide.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error with which `watch` stops the work.
     pub fn refine(&self, precision: u64, watch: &Watch) -> Result<RealSolution> {
         let (coordinates, root) = locate(&self.representation, self.root.clone(), precision, watch)?;
         Ok(RealSolution { coordinates, root, precision, ..self.clone() })
     }
 
-    /// How `polynomial` compares with zero at the solution, exactly. `ring` has the variables of the system in its order.
+    /// The exact sign of `polynomial` at the solution. `ring` has the variables of the system in its order.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::BadValue`] when `ring` has other variables; what `watch` stops with.
+    /// [`crate::ErrorKind::BadValue`] when `ring` has other variables; the error with which `watch` stops the work.
     pub fn sign(
         &self,
         ring: &PolynomialRing<Rationals>,
@@ -113,7 +113,7 @@ impl RealSolution {
         sign_at_root(f, &self.root, &polynomial.coefficients, watch)
     }
 
-    /// The coordinates as doubles, each the nearest one (or, for a number half-way between two, one of them).
+    /// The coordinates as doubles, each the nearest one. A number half-way between two doubles gives one of them.
     pub fn approximate(&self) -> Vec<f64> {
         let mut solution = self.clone();
         let rounded = |solution: &RealSolution, v: usize| solution.rounded(v);
@@ -133,7 +133,7 @@ impl RealSolution {
             .collect()
     }
 
-    /// The double nearest to a coordinate, if the box tells.
+    /// The double nearest to a coordinate, if the box determines it.
     fn rounded(&self, v: usize) -> Option<f64> {
         let Enclosure { low, high } = &self.coordinates[v];
         let nearest = |x: &BigRational| x.to_f64().unwrap_or(f64::NAN) + 0.0;
@@ -155,7 +155,7 @@ impl RealSolution {
     }
 }
 
-/// The box of the solution at a root, and the root refined as far as that took.
+/// The box of the solution at a root, and the root as refined for it.
 fn locate(
     representation: &UnivariateRepresentation,
     mut root: Interval,

@@ -1,8 +1,8 @@
-//! Exact real-root isolation by Descartes' rule of signs and bisection: [`real_roots_of`], beside Sturm's method and faster for
-//! high degrees.
+//! Exact real-root isolation by Descartes' rule of signs and bisection: [`real_roots_of`]. It is faster than Sturm's
+//! method for high degrees.
 //!
-//! Source: Collins and Akritas, "Polynomial real root isolation using Descartes' rule of signs", SYMSAC (1976); Basu, Pollack
-//! and Roy, Algorithms in Real Algebraic Geometry, 2nd edition (2006), section 10.2.
+//! Source: Collins and Akritas, "Polynomial real root isolation using Descartes' rule of signs", SYMSAC (1976); Basu,
+//! Pollack and Roy, Algorithms in Real Algebraic Geometry, 2nd edition (2006), section 10.2.
 
 use num_bigint::Sign;
 use num_traits::{One, Zero};
@@ -17,16 +17,16 @@ use crate::{Error, ErrorKind, Result, Watch};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct RealRoot {
-    /// The isolating interval; its open ends are no roots of the whole polynomial.
+    /// The isolating interval. Its open ends are not roots of the whole polynomial.
     pub interval: Interval,
     /// The multiplicity of the root.
     pub multiplicity: usize,
 }
 
-/// All distinct real roots, ascending, in disjoint isolating intervals; `coefficients` has the constant term first.
+/// Isolates all distinct real roots, ascending, in disjoint intervals. `coefficients` has the constant term first.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for the zero polynomial; what `watch` stops with.
+/// [`ErrorKind::BadValue`] for the zero polynomial; the error with which `watch` stops the work.
 pub fn real_roots_of(coefficients: &[BigRational], watch: &Watch) -> Result<Vec<RealRoot>> {
     let polynomial = integral(coefficients);
     if polynomial.is_empty() {
@@ -42,10 +42,11 @@ pub fn real_roots_of(coefficients: &[BigRational], watch: &Watch) -> Result<Vec<
     Ok(intervals.into_iter().map(|i| RealRoot { multiplicity: multiplicity(&i), interval: i }).collect())
 }
 
-/// The isolating intervals of the real roots of a square-free integer polynomial, ascending and disjoint.
+/// Isolates the real roots of a square-free integer polynomial, in ascending, disjoint intervals.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when the polynomial is zero or has a multiple root; what `watch` stops with.
+/// [`ErrorKind::BadValue`] when the polynomial is zero or has a multiple root; the error with which `watch` stops the
+/// work.
 pub fn isolate_square_free(polynomial: &[BigInt], watch: &Watch) -> Result<Vec<Interval>> {
     let polynomial = primitive(polynomial.to_vec());
     if polynomial.is_empty() || gcd(&polynomial, &derivative(&polynomial)).len() > 1 {
@@ -71,7 +72,8 @@ fn mirrored(p: &[BigInt]) -> Coefficients {
     p.iter().enumerate().map(|(i, c)| if i % 2 == 1 { -c } else { c.clone() }).collect()
 }
 
-/// A part of the positive axis: `(number, number + 1) 2^exponent`, and the polynomial with that part stretched over `(0, 1)`.
+/// A part of the positive axis: `(number, number + 1) 2^exponent`, and the polynomial mapped from this part to `(0,
+/// 1)`.
 struct Cell {
     number: BigInt,
     exponent: i64,
@@ -100,7 +102,7 @@ fn positive_roots(p: &[BigInt], watch: &Watch) -> Result<Vec<Interval>> {
     Ok(found)
 }
 
-/// An `e` with all positive roots below `2^e` (Fujiwara's bound in powers of two); `None` for constants.
+/// An `e` such that all positive roots are below `2^e` (Fujiwara's bound in powers of two); `None` for constants.
 fn root_exponent(p: &[BigInt]) -> Option<i64> {
     let (lead, low) = p.split_last()?;
     let excess = |c: &BigInt| c.bits() as i64 - lead.bits() as i64 + 1;
@@ -146,7 +148,7 @@ enum Changes {
     More,
 }
 
-/// Descartes' rule for the interval (0, 1): the sign changes of `(x + 1)^n p(1 / (x + 1))`, as far as they tell anything.
+/// Descartes' rule for the interval (0, 1): the sign changes of `(x + 1)^n p(1 / (x + 1))`, counted up to two.
 fn sign_changes(p: &[BigInt]) -> Changes {
     let mut reversed: Coefficients = p.iter().rev().cloned().collect();
     let (mut changes, mut last) = (0, Sign::NoSign);
@@ -165,7 +167,7 @@ fn sign_changes(p: &[BigInt]) -> Changes {
 }
 
 impl Cell {
-    /// The two halves, left and right.
+    /// The left and the right half.
     fn halves(self) -> [Cell; 2] {
         let last = self.polynomial.len() - 1;
         let halved = self.polynomial.iter().enumerate().map(|(i, c)| c << (last - i)).collect();

@@ -10,10 +10,10 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use crate::number::{BigInt, BigRational};
 use crate::{Error, ErrorKind, Result};
 
-/// A place on the real line with exactly one root of its polynomial: the open interval `(low, high)`,
-/// or the rational root itself when `low = high`.
+/// An isolating interval, which contains exactly one root of its polynomial: the open interval `(low, high)`, or the
+/// rational root itself when `low = high`.
 ///
-/// The ends are dyadic. Those of an open interval are no roots, and the square-free part has opposite signs there.
+/// The ends are dyadic. The ends of an open interval are not roots, and the square-free part has opposite signs there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Interval {
     low: BigRational,
@@ -70,7 +70,7 @@ pub struct Sturm {
     sequence: Vec<Coefficients>,
 }
 
-/// The isolating intervals of all distinct real roots, ascending and disjoint; `coefficients` has the constant term first.
+/// Isolates all distinct real roots in ascending, disjoint intervals. `coefficients` has the constant term first.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for the zero polynomial.
@@ -89,7 +89,8 @@ pub fn rounded_roots(coefficients: &[BigRational]) -> Result<Vec<f64>> {
 }
 
 impl Sturm {
-    /// The sequence of the polynomial with these coefficients, constant term first; trailing zeros are allowed.
+    /// Builds the Sturm sequence of a polynomial. Coefficients have the constant term first; trailing zeros are
+    /// allowed.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for the zero polynomial.
@@ -145,7 +146,7 @@ impl Sturm {
         found
     }
 
-    /// The part of `interval` around the same root that is at most `width` wide.
+    /// Narrows `interval` around its root to at most `width`.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when `width` is not positive.
@@ -163,7 +164,7 @@ impl Sturm {
         Ok(interval)
     }
 
-    /// The root in `interval` rounded to the nearest `f64`; infinite when it is beyond the range of `f64`.
+    /// The root in `interval` rounded to the nearest `f64`; infinite when it is outside the range of `f64`.
     pub fn round(&self, interval: &Interval) -> f64 {
         let finest = BigRational::new(BigInt::one(), BigInt::one() << 1100);
         let mut interval = interval.clone();
@@ -176,7 +177,7 @@ impl Sturm {
         }
     }
 
-    /// The half of an isolating interval that holds its root, or the root when it is the middle.
+    /// The half of an isolating interval that contains its root, or the root when it is the midpoint.
     fn halve(&self, interval: Interval) -> Interval {
         let polynomial = self.square_free_part();
         let middle = interval.middle();
@@ -211,7 +212,7 @@ impl Sturm {
         ]
     }
 
-    /// The isolating interval of a cell with one root; `None` for other counts, and while a root sits on its lower end.
+    /// The isolating interval of a cell with one root; `None` for other counts, and while the lower end is a root.
     fn isolated(&self, cell: &Cell) -> Option<Interval> {
         if cell.count() != 1 {
             return None;
@@ -224,7 +225,7 @@ impl Sturm {
     }
 }
 
-/// A half-open piece `(low, high]` of the line with the sign variations of the sequence at its ends.
+/// A half-open interval `(low, high]` with the sign variations of the sequence at its ends.
 struct Cell {
     range: Interval,
     at_low: usize,

@@ -1,8 +1,8 @@
-//! Real roots of univariate polynomials: exactly over Q ([`Sturm`], and [`real_roots_of`] for high degrees), and in `f64`, as the run
-//! time finds them ([`real_roots`]).
+//! Real roots of univariate polynomials: exactly over Q ([`Sturm`], and [`real_roots_of`] for high degrees), and in
+//! `f64` as in the run time ([`real_roots`]).
 //!
-//! The exact ones are the witnesses that the last are tested against. [`refine()`] narrows an exact root, [`sign_at_root`] tells the sign
-//! of another polynomial there.
+//! The exact methods test the floating-point one. [`refine()`] narrows an exact root; [`sign_at_root`] computes the
+//! sign of another polynomial there.
 
 mod descartes;
 mod isolate;

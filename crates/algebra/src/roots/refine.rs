@@ -1,7 +1,8 @@
-//! Narrowing an isolated root to any precision, and the signs of other polynomials there.
+//! Refinement of an isolated root to any precision, and signs of other polynomials there.
 //!
-//! Source: Abbott, "Quadratic interval refinement for real roots", ACM Communications in Computer Algebra 48 (2014). Signs come
-//! from fixed-point arithmetic with error bounds, at a precision at which they are exact if all else fails.
+//! Source: Abbott, "Quadratic interval refinement for real roots", ACM Communications in Computer Algebra 48 (2014).
+//! Signs come from fixed-point arithmetic with error bounds. The precision grows until the sign is certain, at the
+//! latest when the value is exact.
 
 use std::cmp::Ordering;
 
@@ -14,14 +15,15 @@ use super::square_free::gcd;
 use crate::number::{BigInt, BigRational};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// Bits that a fixed-point value keeps below what is asked for.
+/// Guard bits of a fixed-point value, in addition to the requested ones.
 const GUARD: u64 = 64;
 
-/// The part of `interval` around its root of `polynomial` that is at most `2^-bits` wide. `polynomial` is square-free with
-/// integer coefficients, constant term first, and has exactly one root in `interval`, an isolating interval of it.
+/// Narrows an isolating interval of a root to at most `2^-bits`. `polynomial` is square-free with integer coefficients,
+/// constant term first.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when the polynomial does not change its sign over the interval; what `watch` stops with.
+/// [`ErrorKind::BadValue`] when the polynomial does not change its sign over the interval; the error with which `watch`
+/// stops the work.
 pub fn refine(polynomial: &[BigInt], interval: &Interval, bits: u64, watch: &Watch) -> Result<Interval> {
     if interval.is_point() {
         return Ok(interval.clone());
@@ -34,13 +36,13 @@ pub fn refine(polynomial: &[BigInt], interval: &Interval, bits: u64, watch: &Wat
     Ok(state.interval())
 }
 
-/// Whether a square-free polynomial that has at most one root in an isolating interval has one.
+/// Whether a square-free polynomial has a root in `interval`. It has at most one there.
 pub fn has_root(polynomial: &[BigInt], interval: &Interval) -> bool {
     let (low, high) = (sign_at(polynomial, interval.low()), sign_at(polynomial, interval.high()));
     if interval.is_point() { low == Sign::NoSign } else { low == -high && low != Sign::NoSign }
 }
 
-/// How `other` compares with zero at the root of `polynomial` in `interval`, exactly; the polynomial and its interval are as for
+/// The exact sign of `other` at the root of `polynomial` in `interval`. The polynomial and its interval are as for
 /// [`refine()`].
 ///
 /// # Errors
@@ -72,8 +74,8 @@ fn order(sign: Sign) -> Ordering {
     }
 }
 
-/// Two integers `low <= high` such that the polynomial's values on `interval` lie between `low / 2^bits` and `high / 2^bits`:
-/// Horner's rule in interval arithmetic.
+/// Two integers `low <= high` such that the polynomial's values on `interval` are between `low / 2^bits` and `high /
+/// 2^bits`: Horner's rule in interval arithmetic.
 pub fn enclose(polynomial: &[BigInt], interval: &Interval, bits: u64) -> (BigInt, BigInt) {
     let scale = BigInt::one() << bits;
     let down = (interval.low().numer() * &scale).div_floor(interval.low().denom());
@@ -89,12 +91,12 @@ pub fn enclose(polynomial: &[BigInt], interval: &Interval, bits: u64) -> (BigInt
     value
 }
 
-/// The interval `(number, number + 1) 2^exponent` around a root, and in how many parts the next step cuts it.
+/// The interval `(number, number + 1) 2^exponent` around a root, with the number of parts of the next step.
 struct Refinement<'a> {
     polynomial: &'a [BigInt],
     number: BigInt,
     exponent: i64,
-    /// The next step cuts into `2^cut` parts.
+    /// The next step divides the interval into `2^cut` parts.
     cut: u64,
     low_sign: Sign,
     is_point: bool,
@@ -125,7 +127,8 @@ impl<'a> Refinement<'a> {
         Interval::between(end(&self.number), end(&(&self.number + 1)))
     }
 
-    /// Cuts at the part where the secant meets the axis; when the root is not there, the next step halves.
+    /// Divides the interval and selects the part in which the secant meets the axis. If the root is not there, the next
+    /// step bisects.
     fn step(&mut self, wanted: i64) {
         let missing = (wanted + self.exponent).max(1) as u64;
         self.cut = self.cut.min(missing);
@@ -149,7 +152,7 @@ impl<'a> Refinement<'a> {
         }
     }
 
-    /// The inner cut that is nearest to where the secant meets the axis.
+    /// The inner point of division nearest to the secant's zero.
     fn guess(&self, parts: &BigInt) -> BigInt {
         let bits = self.cut + GUARD;
         let low = value_at(self.polynomial, &self.number, self.exponent, bits);
@@ -160,7 +163,7 @@ impl<'a> Refinement<'a> {
         nearest.max(BigInt::one()).min(parts - 1)
     }
 
-    /// The sign at the cut of this index; at the ends it is known.
+    /// The sign at the point of division with this index. At the ends it is known.
     fn sign_of_part(&self, index: &BigInt) -> Sign {
         let number = (&self.number << self.cut) + index;
         value_at(self.polynomial, &number, self.exponent - self.cut as i64, GUARD).value.sign()
@@ -179,7 +182,7 @@ struct Scaled {
     bits: u64,
 }
 
-/// The polynomial at `number 2^exponent`, to `guard` bits more than the point has.
+/// Evaluates the polynomial at `number 2^exponent`, with `guard` more bits than the point has.
 fn value_at(polynomial: &[BigInt], number: &BigInt, exponent: i64, guard: u64) -> Scaled {
     if exponent >= 0 {
         let x = number << exponent as u64;
@@ -198,7 +201,7 @@ fn value_at(polynomial: &[BigInt], number: &BigInt, exponent: i64, guard: u64) -
     Scaled { value: fixed_point(polynomial, number, places, exact).0, bits: exact }
 }
 
-/// The value at `number / 2^places` times `2^bits`, and a bound on its error.
+/// The value at `number / 2^places` times `2^bits`, with a bound on its error.
 fn fixed_point(polynomial: &[BigInt], number: &BigInt, places: u64, bits: u64) -> (BigInt, BigInt) {
     let size = number.abs();
     let (mut value, mut radius) = (BigInt::zero(), BigInt::zero());

@@ -10,8 +10,8 @@ use super::isolate::{Coefficients, derivative, primitive};
 use crate::number::{BigInt, Ring, Zp};
 use crate::poly::univariate::UnivariateRing;
 
-/// The primitive greatest common divisor with a positive leading coefficient; coefficients have the constant term first.
-/// Empty only for two zero polynomials.
+/// The primitive greatest common divisor with a positive leading coefficient. Coefficients have the constant term
+/// first. The result is empty only for two zero polynomials.
 pub fn gcd(a: &[BigInt], b: &[BigInt]) -> Vec<BigInt> {
     let (a, b) = (primitive(a.to_vec()), primitive(b.to_vec()));
     let (Some(first), Some(second)) = (a.last(), b.last()) else {
@@ -35,8 +35,8 @@ pub fn gcd(a: &[BigInt], b: &[BigInt]) -> Vec<BigInt> {
     vec![BigInt::one()]
 }
 
-/// The pairwise coprime, square-free, primitive polynomials `p_m` of degree at least one with their multiplicities `m`, such that
-/// `p` is a constant times the product of the `p_m^m`; `p` is not zero.
+/// Square-free factorization of a nonzero polynomial `p`: `p` is a constant times the product of the `p_m^m`. Returns
+/// the multiplicities `m` and the pairwise coprime, square-free, primitive polynomials `p_m` of degree at least one.
 pub fn square_free_parts(p: &[BigInt]) -> Vec<(usize, Vec<BigInt>)> {
     let p = positive(primitive(p.to_vec()));
     let common = gcd(&p, &derivative(&p));
@@ -73,12 +73,12 @@ pub(super) fn product(a: &[BigInt], b: &[BigInt]) -> Coefficients {
     product
 }
 
-/// The primes from `2^61` downwards.
+/// Primes below `2^61` in descending order.
 fn primes() -> impl Iterator<Item = Zp> {
     (3..Zp::LIMIT).rev().step_by(2).filter_map(|p| Zp::new(p).ok())
 }
 
-/// The gcd modulo a prime with leading coefficient `lead`, constant term first.
+/// The gcd modulo a prime, with leading coefficient `lead` and the constant term first.
 fn common_divisor_modulo(field: Zp, a: &[BigInt], b: &[BigInt], lead: &BigInt) -> Vec<u64> {
     let ring = UnivariateRing::new(field, "x");
     let image = |p: &[BigInt]| ring.polynomial(p.iter().map(|c| field.from_integer(c)).collect());
@@ -92,7 +92,8 @@ struct Image {
 }
 
 impl Image {
-    /// Takes in the image modulo a new prime; true when it tells nothing new. A higher degree comes from an unlucky prime.
+    /// Combines with the image modulo a new prime. Returns true when nothing changes. An image of higher degree comes
+    /// from an unlucky prime and is ignored.
     fn refine(&mut self, field: Zp, residues: &[u64]) -> bool {
         if !self.values.is_empty() && residues.len() > self.values.len() {
             return false;

@@ -1,4 +1,4 @@
-//! The file `tests/corpus/cover/systems.toml`; its README explains the keys.
+//! Reader of `tests/corpus/cover/systems.toml`. The README there explains the keys.
 
 use groebot_algebra::number::Field;
 use groebot_algebra::poly::{Fraction, Fractions, Order, Polynomial, PolynomialRing, parse};
@@ -25,12 +25,12 @@ pub struct System {
 
 type Unknowns<F> = PolynomialRing<Fractions<F>>;
 
-/// All systems.
+/// Reads all systems.
 pub fn all() -> Vec<System> {
     load::<File>("cover/systems.toml").system
 }
 
-/// The system of this name.
+/// The system with this name.
 pub fn system(name: &str) -> System {
     all().into_iter().find(|system| system.name == name).unwrap_or_else(|| panic!("no system {name}"))
 }

@@ -1,4 +1,4 @@
-//! The files of `tests/corpus/groebner`; its README explains their keys.
+//! Reader of the files in `tests/corpus/groebner`. The README there explains their keys.
 
 use std::path::Path;
 
@@ -49,12 +49,12 @@ pub struct Membership {
     pub normal_form: String,
 }
 
-/// The case of this file, named without `.toml`.
+/// Reads the case of this file, named without `.toml`.
 pub fn case(file: &str) -> Case {
     Case { file: file.to_owned(), ..load(&format!("groebner/{file}.toml")) }
 }
 
-/// All cases, by file name.
+/// Reads all cases, sorted by file name.
 pub fn all() -> Vec<Case> {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("tests/corpus/groebner");
     let entries = std::fs::read_dir(folder).expect("the corpus is there");
@@ -66,12 +66,12 @@ pub fn all() -> Vec<Case> {
 }
 
 impl Case {
-    /// The ring of the file over `field`, which is the one that it names.
+    /// The ring of the file over `field`, which is the field that the file names.
     pub fn ring<F: Field>(&self, field: &F) -> PolynomialRing<F> {
         self.ring_in(field, self.order.clone())
     }
 
-    /// The same in another order.
+    /// Same as [`Case::ring`], but in another order.
     pub fn ring_in<F: Field>(&self, field: &F, order: Order) -> PolynomialRing<F> {
         PolynomialRing::new(field.clone(), &self.variables, order).expect("distinct variables")
     }
@@ -82,7 +82,7 @@ impl Case {
     }
 }
 
-/// A known basis as the engine gives it: monic, smallest leading monomial first.
+/// A known basis in the form of the engine: monic, smallest leading monomial first.
 pub fn read_basis<F: Field>(ring: &PolynomialRing<F>, texts: &[String]) -> Vec<Polynomial<F::Element>> {
     let basis: Vec<_> = read_all(ring, texts).iter().map(|f| ring.monic(f)).collect();
     assert!(basis.iter().all(|f| !ring.is_zero(f)), "a known basis has no zero");

@@ -1,4 +1,4 @@
-//! The known answers of this folder, which an independent computer algebra system gave.
+//! Known results computed by an independent computer algebra system.
 
 pub mod cover;
 pub mod groebner;
@@ -12,7 +12,7 @@ use groebot_algebra::poly::{Fractions, Order, Polynomial, PolynomialRing, parse}
 use serde::de::{DeserializeOwned, Error};
 use serde::{Deserialize, Deserializer};
 
-/// Something to do over whatever field a file names.
+/// A check over any field that a file names.
 pub trait Check {
     fn run<F: Field>(&self, field: F);
 }
@@ -36,18 +36,18 @@ fn with_parameters<F: Field>(field: F, parameters: &[String], check: &impl Check
     }
 }
 
-/// The polynomial that `text` stands for.
+/// Parses the polynomial in `text`.
 pub fn read<F: Field>(ring: &PolynomialRing<F>, text: &str) -> Polynomial<F::Element> {
     let value = parse(text).and_then(|expression| expression.evaluate(ring));
     value.unwrap_or_else(|error| panic!("{text}: {error}"))
 }
 
-/// The polynomials that `texts` stand for.
+/// Parses the polynomials in `texts`.
 pub fn read_all<F: Field>(ring: &PolynomialRing<F>, texts: &[String]) -> Vec<Polynomial<F::Element>> {
     texts.iter().map(|text| read(ring, text)).collect()
 }
 
-/// The file at `path` of `tests/corpus`.
+/// Parses the file at `path` of `tests/corpus`.
 fn load<T: DeserializeOwned>(path: &str) -> T {
     let full = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/corpus")).join(path);
     let text = std::fs::read_to_string(&full).unwrap_or_else(|error| panic!("{path}: {error}"));

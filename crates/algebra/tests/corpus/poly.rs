@@ -1,4 +1,4 @@
-//! The files of `tests/corpus/poly`; its README explains their keys.
+//! Reader of the files in `tests/corpus/poly`. The README there explains their keys.
 
 use serde::Deserialize;
 

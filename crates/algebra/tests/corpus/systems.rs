@@ -10,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::{load, read_all};
 
-/// One system of equations with what is known of its reduced bases.
+/// One system of equations with the known properties of its reduced bases.
 #[derive(Debug, Deserialize)]
 pub struct System {
     pub name: String,
@@ -20,7 +20,7 @@ pub struct System {
     pub answers: Vec<Answer>,
 }
 
-/// The facts of one reduced basis.
+/// The known properties of one reduced basis.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct Answer {
     /// `Q` or `GF(p)`.
@@ -43,7 +43,7 @@ pub struct Facts {
     pub hash: u64,
 }
 
-/// The system of this name, such as `katsura_8`.
+/// The system with this name, such as `katsura_8`.
 pub fn system(name: &str) -> System {
     load(&format!("groebner/systems/{name}.toml"))
 }
@@ -52,7 +52,7 @@ fn hexadecimal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u64, D::Err
     u64::from_str_radix(&String::deserialize(deserializer)?, 16).map_err(serde::de::Error::custom)
 }
 
-/// All systems, by name.
+/// All systems, sorted by name.
 pub fn all() -> Vec<System> {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("tests/corpus/groebner/systems");
     let entries = std::fs::read_dir(folder).expect("the corpus is there");

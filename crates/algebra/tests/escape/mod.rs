@@ -1,4 +1,4 @@
-//! Text of others is shown without acting, and shortened.
+//! Escaping and shortening of untrusted text.
 
 use groebot_algebra::escape::{MOST_ECHOED, is_hidden, line, markdown, message, page};
 use groebot_algebra::{Error, ErrorKind};

@@ -1,7 +1,7 @@
 //! Blocks of unknowns of known mechanisms, over the rational functions of their parameters.
 //!
-//! Each is written from the kinematics: `c`, `s` are cosine and sine of a joint angle; the parameters are coordinates of the tip and, where
-//! the name says so, lengths.
+//! Each is derived from the kinematics. `c` and `s` are cosine and sine of a joint angle. The parameters are
+//! coordinates of the tip and, for names with `symbolic`, lengths.
 
 use groebot_algebra::number::{BigRational, Rationals, Ring};
 use groebot_algebra::poly::{Block, Fraction, Fractions, Order, Polynomial, PolynomialRing};
@@ -19,7 +19,7 @@ pub struct Mechanism {
     pub solutions: usize,
 }
 
-/// Pairs (cosine, sine), a pair a block, each block graded: the angle solved first stands last.
+/// Pairs (cosine, sine), one graded block for each pair. The angle that is solved first comes last.
 fn pairs(count: usize) -> Order {
     Order::Block(vec![Block { size: 2, graded: true }; count])
 }
@@ -63,7 +63,7 @@ pub fn planar_3r() -> Mechanism {
     let ring = field.ring().clone();
     let c = ring.variable(2);
     let field = field.with_square(3, &ring.sub(&ring.one(), &ring.mul(&c, &c))).expect("a square of c");
-    // The wrist is at (x - c, y - s); the third angle is the rest of the orientation.
+    // The wrist is at (x - c, y - s). The third angle follows from the orientation.
     let equations = [
         "3*c1 + 2*(c1*c2 - s1*s2) + c - x".into(),
         "3*s1 + 2*(s1*c2 + c1*s2) + s - y".into(),
@@ -77,8 +77,9 @@ pub fn planar_3r() -> Mechanism {
     over(field, &unknowns, Order::GrevLex, &equations, 2)
 }
 
-/// The position of the PUMA 560's wrist (Craig, Introduction to Robotics, 3rd edition, section 4.7), shoulder to wrist: the forward
-/// equations turned back by the first joint, and the squared distance, in which the second joint cancels.
+/// The position of the PUMA 560's wrist (Craig, Introduction to Robotics, 3rd edition, section 4.7), shoulder to wrist:
+/// the forward equations multiplied by the inverse of the first joint, and the squared distance, in which the second
+/// joint cancels.
 fn puma(lengths: [&str; 4], parameters: &str) -> Mechanism {
     let [a2, a3, d3, d4] = lengths;
     let reach = format!("{a3}*c3 - {d4}*s3 + {a2}");
@@ -111,8 +112,9 @@ pub fn puma_symbolic() -> Mechanism {
     puma(["a2", "a3", "d3", "d4"], "x y z a2 a3 d3 d4")
 }
 
-/// The tip's position of three revolute joints in general position, in Denavit and Hartenberg's parameters; the twists have the cosines
-/// 3/5 and 5/13, the first offset is part of z, and the third twist does not matter. With the squared distance (Pieper 1968).
+/// The tip's position of three revolute joints in general position, in Denavit and Hartenberg's parameters; the twists
+/// have the cosines 3/5 and 5/13, the first offset is part of z, and the third twist has no influence. The squared
+/// distance is added (Pieper 1968).
 fn generic_3r(lengths: [&str; 5], parameters: &str) -> Mechanism {
     let [a1, a2, a3, d2, d3] = lengths;
     let (x, y, z) =

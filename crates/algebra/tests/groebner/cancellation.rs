@@ -1,10 +1,10 @@
-//! How often the engines ask their watch, counted and not timed: all stop at the very call that says so.
+//! Number of calls to the watch, counted and not timed. All engines stop at the call that reports cancellation.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use groebot_algebra::groebner::cover::{Space, cover};
-use groebot_algebra::groebner::parametric::{self, Way};
+use groebot_algebra::groebner::parametric::{self, Method};
 use groebot_algebra::groebner::{Options, basis_modulo_prime, change_order, f4, modular};
 use groebot_algebra::number::{Rationals, Zp};
 use groebot_algebra::poly::{Order, PolynomialRing};
@@ -15,8 +15,8 @@ use crate::corpus::groebner::case;
 
 const PATIENCE: usize = 1 << 40;
 
-/// Runs `work` to its end, where it must have asked `often` times at least; then stops it early, in the middle and late: it fails with
-/// `Cancelled` and asks no more.
+/// Runs `work` to its end and checks that it called the watch at least `often` times. Then cancels it at the start, in
+/// the middle and near the end: it fails with `Cancelled` and does not call the watch again.
 fn asks_often<T>(often: usize, work: impl Fn(&Watch) -> Result<T>) {
     let left = Arc::new(AtomicUsize::new(PATIENCE));
     work(&Watch::none().with_patience(left.clone())).unwrap_or_else(|error| panic!("{error}"));
@@ -55,13 +55,15 @@ fn over_the_rationals() {
 
 #[test]
 fn with_parameters() {
-    for (way, often) in [(Way::Direct, 20), (Way::Variables, 20), (Way::Modular, 50), (Way::Interpolation, 500)] {
+    for (method, often) in
+        [(Method::Direct, 20), (Method::Variables, 20), (Method::Modular, 50), (Method::Interpolation, 500)]
+    {
         let block = blocks::nao_leg();
-        let options = parametric::Options { way: Some(way) };
+        let options = parametric::Options { method: Some(method) };
         asks_often(often, |watch| parametric::basis(&block.ring, &block.generators, &options, watch));
     }
     let block = blocks::puma_position();
-    let options = parametric::Options { way: Some(Way::Interpolation) };
+    let options = parametric::Options { method: Some(Method::Interpolation) };
     asks_often(5_000, |watch| parametric::basis(&block.ring, &block.generators, &options, watch));
 }
 

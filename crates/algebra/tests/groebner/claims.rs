@@ -1,4 +1,4 @@
-//! The checker refuses every kind of forged claim, and says where.
+//! The checker refuses every kind of forged claim and reports the location.
 
 use groebot_algebra::groebner::verify::{Claim, Proof, verify};
 use groebot_algebra::groebner::{Options, basis};
@@ -8,7 +8,7 @@ use groebot_algebra::{ErrorKind, Watch};
 
 use crate::corpus::{read, read_all};
 
-/// A claim that owns its parts, to be forged.
+/// A claim that owns its parts, for forging.
 #[derive(Clone)]
 struct Owned<F: Field> {
     ring: PolynomialRing<F>,
@@ -18,7 +18,7 @@ struct Owned<F: Field> {
 }
 
 impl<F: Field> Owned<F> {
-    /// Three circles' worth of equations: a basis of several elements in `x`, `y`, `z`.
+    /// Equations of three circles: a basis of several elements in `x`, `y`, `z`.
     fn honest(field: F) -> Self {
         let ring = PolynomialRing::new(field, &["x", "y", "z"], Order::GrevLex).unwrap();
         let texts = ["x^2 + y^2 - 1", "x*y - z", "y*z + 2*x - 3"].map(str::to_owned);
@@ -143,7 +143,7 @@ fn every_forgery_is_refused_over_every_field() {
     every_forgery_is_refused(groebot_algebra::poly::Fractions::new(Rationals, &["p"]).unwrap());
 }
 
-/// Generators that are monic and reduced but no basis: only the S-pair tells.
+/// Generators that are monic and reduced but not a basis: only the S-pair shows it.
 #[test]
 fn generators_that_are_no_basis_fail_at_their_pair() {
     let ring = PolynomialRing::new(Rationals, &["x", "y"], Order::Lex).unwrap();

@@ -1,4 +1,4 @@
-//! Covers of known systems: proved, as few strata as Singular's, told in words, and false covers refused.
+//! Covers of known systems: proofs, number of strata compared with Singular, texts, and refusal of wrong covers.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -21,7 +21,7 @@ fn covered(system: &System, space: &Space<BigRational>) -> (Cover<Rationals>, Ve
     (found, generators)
 }
 
-/// The whole definition of a cover is proved, and Singular's grobcov.lib, by which the corpus was made, has no fewer segments.
+/// Every property of a cover is proved, and Singular's grobcov.lib, which produced the corpus, has no fewer segments.
 #[test]
 fn every_system_is_covered_with_no_more_strata_than_singular_has() {
     let systems = all();
@@ -35,8 +35,8 @@ fn every_system_is_covered_with_no_more_strata_than_singular_has() {
     }
 }
 
-/// Where the leg has how many solutions: by hand. The hip and the ankle coincide at the origin, which legs of 100 and 102.9 do
-/// not allow; on the isotropic lines c4 is still determined, and the equations are linear then.
+/// Numbers of solutions of the leg, by hand. Hip and ankle cannot coincide at the origin with legs of 100 and 102.9. On
+/// the isotropic lines c4 is still determined, and the equations are linear.
 #[test]
 fn the_strata_of_the_nao_leg() {
     let leg = system("nao_leg");
@@ -68,7 +68,7 @@ fn the_leg_in_words() {
     }
 }
 
-/// The quadratic equation as everybody knows it.
+/// The quadratic equation.
 #[test]
 fn the_quadratic_equation_has_four_strata() {
     let (found, _) = covered(&system("quadratic"), &Space::all());
@@ -89,7 +89,7 @@ fn an_element_with_two_representatives() {
     assert_eq!(most, Some(2));
 }
 
-/// With lengths that are not zero there are fewer strata, and they still make all that is asked for.
+/// With nonzero lengths there are fewer strata, and they still cover the whole space.
 #[test]
 fn a_space_without_zero_lengths() {
     let leg = system("nao_leg_symbolic");
@@ -104,7 +104,7 @@ fn a_space_without_zero_lengths() {
     assert!(all.at(&Rationals, &point, &BigRational::clone).is_some());
 }
 
-/// Equations on the parameters: the leg on the line pz = 0 has a stratum less than everywhere.
+/// Equations on the parameters: the leg on the line pz = 0 has one stratum less than without them.
 #[test]
 fn a_space_with_an_equation() {
     let leg = system("nao_leg");
@@ -206,7 +206,7 @@ fn a_cover_stops_when_it_is_told_to() {
     assert_eq!(stopped(&Watch::none().with_terms(20)), ErrorKind::Budget);
 }
 
-/// What is zero where, and whether that has real points: by hand.
+/// Zero sets of polynomials, and whether they have real points: by hand.
 #[test]
 fn real_points_of_zero_sets() {
     let verdict = |zero: &str| {
@@ -232,7 +232,7 @@ fn real_points_of_zero_sets() {
     }
 }
 
-/// A point that is exhibited lies on its stratum.
+/// A sample point is on its stratum.
 #[test]
 fn exhibited_points_lie_on_their_strata() {
     let mut exhibited = 0;
@@ -249,7 +249,8 @@ fn exhibited_points_lie_on_their_strata() {
     assert!(exhibited >= 60, "{exhibited}");
 }
 
-/// The solution 1/a jumps to 0 at a = 0: both strata lead with x, but no polynomial has the right value on both.
+/// The solution 1/a changes to 0 at a = 0. Both strata have the leading monomial x, but no polynomial has the correct
+/// value on both.
 #[test]
 fn strata_without_a_common_basis_stay_apart() {
     let (found, _) = covered(&system("jump"), &Space::all());

@@ -1,4 +1,5 @@
-//! At random points of every stratum the specialised basis is the basis computed there: over Q, prime fields and extensions.
+//! At random points of every stratum, the specialised basis equals the basis computed at the point: over Q, prime
+//! fields and extensions.
 
 use groebot_algebra::ErrorKind;
 use groebot_algebra::Watch;
@@ -14,7 +15,7 @@ use crate::poly::sparse::{Sparse, build, sparse};
 
 type Parametric<F> = Polynomial<Fraction<<F as Ring>::Element>>;
 
-/// Numbers that look random, the same every time.
+/// Pseudorandom numbers, the same every time.
 struct Dice(u64);
 
 impl Dice {
@@ -24,7 +25,7 @@ impl Dice {
     }
 }
 
-/// A cover over `F` and a field `G` to take points from.
+/// A cover over `F` and a field `G` for points.
 struct Setting<'a, F: Field, G: Field, Embed> {
     cover: &'a Cover<F>,
     generators: &'a [Parametric<F>],
@@ -51,7 +52,7 @@ impl<F: Field, G: Field, Embed: Fn(&F::Element) -> G::Element> Setting<'_, F, G,
         assert_eq!(specialised.polynomials, fresh.polynomials, "at {point:?}");
     }
 
-    /// Points found on the strata, `tries` on each.
+    /// Points on the strata, `tries` on each.
     fn points(&self, tries: usize, candidates: &mut Candidates<'_, G::Element>) -> Vec<Vec<G::Element>> {
         let parameters = self.cover.ring.field().ring();
         let ring = PolynomialRing::new(self.field.clone(), parameters.variables(), Order::GrevLex).unwrap();
@@ -81,7 +82,7 @@ fn finite_candidates<G: Field>(
     }
 }
 
-/// The number of points that were compared over GF(p) and over the extension `t^d + low`.
+/// Number of points that were compared over GF(p) and over the extension `t^d + low`.
 fn compared_over(system: &System, p: u64, low: Vec<u64>) -> usize {
     let prime = Zp::new(p).unwrap();
     if !system.exists_over(&prime) {
@@ -114,7 +115,7 @@ fn elements(field: &Extension<Zp>, p: u64) -> Vec<Vec<u64>> {
     (0..p.pow(field.degree() as u32)).map(digits).collect()
 }
 
-/// 2 is no square modulo 11 and 13, 3 none modulo 7; t^3 + t + 1 has no root modulo 5.
+/// 2 is not a square modulo 11 and 13, 3 not modulo 7; t^3 + t + 1 has no root modulo 5.
 #[test]
 fn specialised_bases_over_finite_fields() {
     for (p, low) in [(11, vec![9, 0]), (13, vec![11, 0]), (7, vec![4, 0]), (5, vec![1, 1, 0])] {
@@ -163,7 +164,7 @@ fn specialised_bases_over_the_rationals() {
     assert!(compared >= 180, "{compared}");
 }
 
-/// A random system in x, y with parameters a, b: its cover is proved and right at every point of a small plane.
+/// A random system in x, y with parameters a, b: its cover is proved, and correct at every point of a small plane.
 fn is_covered(systems: &[Sparse]) -> bool {
     let prime = Zp::new(7).unwrap();
     let names = PolynomialRing::new(prime, &["x", "y", "a", "b"], Order::Lex).unwrap();

@@ -1,4 +1,4 @@
-//! F4 modulo primes beside Buchberger's algorithm and the known bases of Singular, and its replays.
+//! F4 modulo primes compared with Buchberger's algorithm and the known bases of Singular, and its replays.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -15,7 +15,7 @@ use crate::corpus;
 use crate::corpus::groebner::{all, read_basis};
 use crate::poly::sparse::{Sparse, build, orders, sparse};
 
-/// Small primes, where chance is not used; 16, 30 and 31 bits, the largest at the end.
+/// Small primes, for which random combinations are not used; then 16, 30 and 31 bits, the largest last.
 const PRIMES: [u64; 9] = [2, 3, 5, 7, 101, 32003, 65521, 1073741827, 2147483647];
 
 fn ring(p: u64, variables: &[&str], order: Order) -> PolynomialRing<Zp> {
@@ -30,7 +30,7 @@ fn by_buchberger(ring: &PolynomialRing<Zp>, generators: &[Polynomial<u64>]) -> O
     basis(ring, generators, &Options::default(), &Watch::none().with_time(Duration::from_secs(1))).ok()
 }
 
-/// The coefficients of the generators, the same in all lanes.
+/// The coefficients of the generators, equal in all lanes.
 fn lanes<const N: usize>(generators: &[Polynomial<u64>]) -> Vec<Vec<[u32; N]>> {
     generators.iter().map(|f| f.terms().iter().map(|t| [u32::try_from(t.coefficient).unwrap(); N]).collect()).collect()
 }
@@ -40,7 +40,7 @@ fn coefficients(basis: &Basis<Zp>) -> Vec<Vec<u32>> {
     basis.polynomials.iter().map(row).collect()
 }
 
-/// All ways of F4 give the basis that Buchberger's algorithm gives; `false` when that took too long.
+/// Checks that all settings of F4 give the basis of Buchberger's algorithm; `false` when that took too long.
 fn agree(p: u64, order: Order, generators: &[Sparse]) -> bool {
     let ring = ring(p, &["x", "y", "z"], order);
     let generators: Vec<_> = generators.iter().map(|f| build(&ring, f)).collect();
@@ -83,8 +83,8 @@ fn known_bases() {
     assert!(seen >= 15, "{seen} cases");
 }
 
-/// A basis over Q, read modulo a prime that divides no denominator and no leading coefficient met on the way, is the basis there.
-/// A random prime of 31 bits does not, but for chance.
+/// A basis over Q modulo a prime that divides no denominator and no leading coefficient of the computation is the basis
+/// modulo the prime. A random prime of 31 bits satisfies this with high probability.
 #[test]
 fn known_bases_over_the_rationals_modulo_a_prime() {
     let mut seen = 0;
@@ -138,7 +138,7 @@ fn a_lane_that_goes_another_way_is_told() {
     let generators = vec![vec![[2, 1, 3], [1, 1, 1]], vec![[1, 1, 1], [1, 1, 1]]];
     let replayed = trace.replay([101; 3], &generators, &Watch::none()).unwrap();
     assert_eq!(replayed, [Some(vec![vec![1], vec![1]]), None, Some(vec![vec![1], vec![1]])]);
-    // More terms than were learned: x + y with y learned as absent.
+    // More terms than in the learned run: x + y with y learned as absent.
     let (_, trace) = Trace::learn(&ring, &read(&ring, &["x+y", "x-y+1"]), &Watch::none()).unwrap();
     let error = trace.replay([101], &[vec![[1]], vec![[1]]], &Watch::none()).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::BadValue);
@@ -156,7 +156,7 @@ fn unit_zero_and_no_generators() {
     assert_eq!(trace.replay([7], &[vec![], vec![[3]]], &Watch::none()).unwrap(), [Some(vec![vec![1]])]);
 }
 
-/// Degrees beyond 127 take wider lanes; beyond 32767 there are none.
+/// Degrees above 127 need wider lanes; above 32767 there are none.
 #[test]
 fn large_exponents() {
     let ring = ring(32003, &["x", "y"], Order::GrevLex);
@@ -171,7 +171,7 @@ fn large_exponents() {
     assert_eq!(error.kind(), ErrorKind::Overflow);
 }
 
-/// x1 = x2 = ... = xn = 1 by differences, for numbers of variables that take one to eight words.
+/// x1 = x2 = ... = xn = 1 by differences, for numbers of variables that need one to eight words.
 #[test]
 fn many_variables() {
     for count in [1, 7, 8, 15, 16, 23, 24, 31, 32, 47, 63] {

@@ -1,4 +1,4 @@
-//! The families that benchmarks write out against the files of the corpus.
+//! Families of systems in the benchmarks, compared with the files of the corpus.
 
 #[path = "../../../../benches/algebra/families.rs"]
 mod written;
@@ -9,7 +9,7 @@ use groebot_algebra::poly::{Order, Polynomial, PolynomialRing};
 use crate::corpus::read_all;
 use crate::corpus::systems::{System, all};
 
-/// The polynomials of `texts`, monic: a family may be written with another factor.
+/// The polynomials of `texts`, monic, since a family may have other factors.
 fn monic(ring: &PolynomialRing<Rationals>, texts: &[String]) -> Vec<Polynomial<BigRational>> {
     read_all(ring, texts).iter().map(|f| ring.monic(f)).collect()
 }

@@ -1,4 +1,5 @@
-//! Change of order and minimal polynomials: the word engine, the generic one, known bases and direct computations agree.
+//! Change of order and minimal polynomials: agreement of the word engine, the generic one, known bases and direct
+//! computations.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
@@ -39,7 +40,8 @@ fn finite_over(prime: u64) -> impl Fn(&Case) -> bool {
     }
 }
 
-/// A known basis over Q is also one modulo a prime that no coefficient shows: 2^31 - 1 is lucky for all these files.
+/// A known basis over Q is also a basis modulo a prime that divides no coefficient: 2^31 - 1 is lucky for all these
+/// files.
 #[test]
 fn the_known_lexicographic_bases_are_found() {
     let mut cases = 0;
@@ -94,7 +96,7 @@ fn special_positions_come_out_as_computed_directly() {
     }
 }
 
-/// Not all bases are reduced: the word engine takes any, as the generic one.
+/// Input bases need not be reduced, in the word engine and in the generic one.
 #[test]
 fn a_basis_that_is_not_reduced_gives_the_reduced_one() {
     let start = graded(32003, &["x^2 + y + z - 1", "x + y^2 + z - 1", "x + y + z^2 - 1"]);
@@ -199,7 +201,8 @@ fn stopped_at(stop: usize) -> (Watch, Arc<AtomicUsize>) {
     (Watch::none().with_listener(listener).with_cancel(flag), reports)
 }
 
-/// Shape position reports two powers a solution; cyclic-5 has to walk after its first powers.
+/// Shape position reports two powers for each solution; cyclic-5 needs the enumeration of monomials after its first
+/// powers.
 #[test]
 fn the_work_is_followed_and_stopped() {
     for (file, least) in [("katsura_4-grevlex-gf32003", 32), ("cyclic_5-grevlex-gf32003", 70)] {
@@ -219,7 +222,8 @@ fn the_work_is_followed_and_stopped() {
     }
 }
 
-/// Random systems with finitely many solutions: a power of each unknown leads; a square of the ideal has multiple points only.
+/// Random systems with finitely many solutions: a power of each unknown is a leading monomial. A square of the ideal
+/// has multiple points only.
 fn finite_system() -> impl Strategy<Value = (Vec<u32>, Vec<Sparse>, Vec<Sparse>, bool)> {
     let tails = prop::collection::vec(sparse(3, 4, 1), 3);
     (prop::collection::vec(1u32..=3, 3), tails, prop::collection::vec(sparse(3, 3, 2), 0..2), any::<bool>())

@@ -14,7 +14,8 @@ use crate::poly::sparse::{build, sparse};
 /// A file of the corpus with its first and second series, its dimension (-1 for the unit ideal) and its degree.
 type Known = (&'static str, &'static [i64], &'static [i64], i64, i64);
 
-/// Made by Singular 4.3.1: `ideal j = std(i); hilb(j, 1); hilb(j, 2); dim(j); mult(j);` over each file's generators in order dp.
+/// Computed by Singular 4.3.1: `ideal j = std(i); hilb(j, 1); hilb(j, 2); dim(j); mult(j);` over each file's generators
+/// in order dp.
 const CORPUS: [Known; 17] = [
     ("circle_parametrised-grevlex-q", &[1, 0, -3, 2], &[1, 2], 1, 3),
     ("cyclic_4-grevlex-q", &[1, -1, -1, 0, 1, 0, 1, 0, -2, 1], &[1, 2, 2, 1, 0, -1, -1], 1, 4),
@@ -82,7 +83,7 @@ fn graded(variables: &[&str], texts: &[&str]) -> Basis<Rationals> {
     basis(&ring, &read_all(&ring, &texts), &Options::default(), &Watch::none()).unwrap()
 }
 
-/// By the same commands; the first is `minor(m, 2)` of the generic 2 x 4 matrix, Segre's threefold.
+/// By the same commands. The first is `minor(m, 2)` of the generic 2 x 4 matrix, Segre's threefold.
 #[test]
 fn further_series_are_singulars() {
     let minors = ["b*e - a*f", "c*e - a*g", "d*e - a*h", "c*f - b*g", "d*f - b*h", "d*g - c*h"];
@@ -130,7 +131,7 @@ fn a_lexicographic_basis_that_is_not_homogeneous_has_no_series() {
     assert_eq!(find("x*y - y^2").degree().unwrap(), BigInt::from(2));
 }
 
-/// The exponents of this sum in three variables.
+/// The exponent vectors with this sum in three variables.
 fn exponents(degree: u32) -> impl Iterator<Item = [u32; 3]> {
     (0..=degree).flat_map(move |a| (0..=degree - a).map(move |b| [a, b, degree - a - b]))
 }
@@ -138,7 +139,8 @@ fn exponents(degree: u32) -> impl Iterator<Item = [u32; 3]> {
 proptest! {
     #![proptest_config(crate::cases(60))]
 
-    /// The definition: as many as the monomials of that degree that no lead divides; from some degree on a polynomial.
+    /// By definition, the number of monomials of a degree that no leading monomial divides. From some degree on it is a
+    /// polynomial.
     #[test]
     fn values_count_standard_monomials(generators in prop::collection::vec(sparse(3, 1, 5), 0..6)) {
         let ring = PolynomialRing::new(Rationals, &["x", "y", "z"], Order::GrevLex).unwrap();

@@ -1,4 +1,4 @@
-//! Homogenised systems and their bases, found with a known Hilbert series.
+//! Homogenised systems and their bases, computed with a known Hilbert series.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -17,14 +17,14 @@ fn plain(ring: &PolynomialRing<Zp>, generators: &[Polynomial<u64>]) -> Basis<Zp>
     basis(ring, generators, &Options::default(), &Watch::none()).unwrap()
 }
 
-/// A watch that counts the pairs that are reduced.
+/// A watch that counts the reduced pairs.
 fn counting() -> (Watch, Arc<AtomicUsize>) {
     let count = Arc::new(AtomicUsize::new(0));
     let counted = count.clone();
     (Watch::none().with_listener(move |_| _ = counted.fetch_add(1, Relaxed)), count)
 }
 
-/// The homogenised case in Lex with the series that its GrevLex basis shows.
+/// The homogenised case in Lex with the series of its GrevLex basis.
 fn lexicographic(file: &str) -> (PolynomialRing<Zp>, Vec<Polynomial<u64>>, groebot_algebra::groebner::HilbertSeries) {
     let case = case(file);
     let field = Zp::new(32003).unwrap();
@@ -100,7 +100,7 @@ fn degrees_are_filled_up_by_the_new_variable() {
 proptest! {
     #![proptest_config(crate::cases(40))]
 
-    /// In every order a basis of the homogenised system becomes one of the system.
+    /// In every order a basis of the homogenised system gives one of the system.
     #[test]
     fn a_homogeneous_basis_gives_the_affine_one(
         generators in prop::collection::vec(sparse(3, 3, 2), 1..4),

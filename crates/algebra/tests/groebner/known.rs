@@ -1,4 +1,4 @@
-//! The engine, its questions and its reference against the known bases of the corpus.
+//! The engine, the operations on ideals and the reference algorithm, compared with the known bases of the corpus.
 
 use groebot_algebra::Watch;
 use groebot_algebra::groebner::buchberger::{buchberger, is_groebner_basis};
@@ -13,7 +13,7 @@ use crate::corpus::{Check, over, read, read_all};
 
 const BOTH: [Strategy; 2] = [Strategy::Normal, Strategy::Sugar];
 
-/// Direct computations that take more than half a second, measured with the test profile: run by the ignored test.
+/// Direct computations that take more than half a second in the test profile. The ignored test runs them.
 const SLOW: [(&str, Strategy); 7] = [
     ("cyclic_5-lex-gf32003", Strategy::Normal),
     ("cyclic_6-grevlex-q", Strategy::Sugar),
@@ -24,8 +24,8 @@ const SLOW: [(&str, Strategy); 7] = [
     ("noon_3-lex-q", Strategy::Normal),
 ];
 
-/// Direct computations that do not end within 15 seconds: coefficients over Q or Q(px,pz) explode on the way to a
-/// lexicographic basis (or with pairs chosen by order alone). The same bases are reached by change of order.
+/// Direct computations that do not end within 15 seconds: coefficients over Q or Q(px,pz) become huge in lexicographic
+/// computations (or with the normal strategy). The same bases are computed by change of order.
 const HOPELESS: [(&str, Strategy); 7] = [
     ("cyclic_5-lex-q", Strategy::Normal),
     ("cyclic_6-grevlex-q", Strategy::Normal),
@@ -84,7 +84,7 @@ fn the_engine_finds_the_slow_known_bases() {
     }
 }
 
-/// What the files say about dimension, quotient ring and membership holds of their bases.
+/// Checks dimension, quotient ring and membership as given in the files.
 struct Facts<'a>(&'a Case);
 
 impl Check for Facts<'_> {
@@ -146,7 +146,8 @@ fn elimination_ideals_are_known() {
     assert!(cases >= 16);
 }
 
-/// The elimination ideal of the circle's parametrisation is the circle, over Q by primes and a proof, modulo p by F4.
+/// The elimination ideal of the circle's parametrisation is the circle: over Q modulo primes with a proof, modulo p by
+/// F4.
 #[test]
 fn a_parametrised_circle_is_eliminated_over_every_field() {
     struct Circle;
@@ -165,7 +166,7 @@ fn a_parametrised_circle_is_eliminated_over_every_field() {
     over("Q", &["a".to_owned()], &Circle);
 }
 
-/// A known basis passes Buchberger's criterion (NAO 6.2.3); without one of its elements it is no basis of the ideal.
+/// A known basis passes Buchberger's criterion (NAO 6.2.3). Without one of its elements it is not a basis of the ideal.
 struct Criterion<'a>(&'a Case);
 
 impl Check for Criterion<'_> {
@@ -193,7 +194,7 @@ fn what_is_no_basis_fails_the_criterion() {
     assert!(!is_groebner_basis(&ring, &case.generators(&ring)).unwrap());
 }
 
-/// From the engine's basis in grevlex to the known lexicographic one, and from there back.
+/// Changes the order of the engine's grevlex basis to the known lexicographic one, and back.
 struct ChangeOfOrder<'a>(&'a Case);
 
 impl Check for ChangeOfOrder<'_> {
@@ -219,7 +220,7 @@ fn a_change_of_order_gives_the_known_lexicographic_bases() {
     assert!(cases >= 20);
 }
 
-/// From a lexicographic basis to the graded one, and to the ideal without the greatest variable.
+/// Changes the order of a lexicographic basis to the graded one, and eliminates the greatest variable.
 struct Back<'a>(&'a Case);
 
 impl Check for Back<'_> {
@@ -269,7 +270,7 @@ const REFERENCE_IS_SLOW: [&str; 14] = [
     "noon_3-lex",
 ];
 
-/// Systems whose cofactors are too large to be found and checked in a second.
+/// Systems whose cofactors are too large to be computed and checked in a second.
 const PROOF_IS_SLOW: [&str; 10] = [
     "cyclic_5-lex",
     "cyclic_6",
@@ -287,7 +288,7 @@ fn is_none_of(list: &'static [&str]) -> impl Fn(&Case) -> bool {
     |case| !list.iter().any(|start| case.file.starts_with(start))
 }
 
-/// The reference's basis and the known one reduce each other to zero, and it passes the criterion.
+/// The reference's basis and the known one reduce each other to zero, and the reference's basis passes the criterion.
 struct Reference<'a>(&'a Case);
 
 impl Check for Reference<'_> {
@@ -334,7 +335,7 @@ fn the_checker_accepts_what_the_engine_proves() {
     assert!(cases >= 60, "{cases}");
 }
 
-/// A stale name or a basis read wrongly would make all of the above vacuous.
+/// An obsolete name or an incorrectly read basis would make all tests above meaningless.
 #[test]
 fn the_lists_of_exceptions_name_files() {
     for (file, _) in SLOW.iter().chain(&HOPELESS) {

@@ -1,4 +1,4 @@
-//! Progress, cancellation, budgets, and exponents that outgrow their lanes.
+//! Progress, cancellation, budgets, and exponents that overflow their lanes.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, Mutex};
@@ -16,7 +16,7 @@ use crate::corpus::read;
 
 type Modular = (PolynomialRing<Zp>, Vec<Polynomial<u64>>);
 
-/// Several seconds of work.
+/// A computation of several seconds.
 fn long() -> Modular {
     let case = case("katsura_5-lex-gf32003");
     let ring = case.ring(&Zp::new(32003).unwrap());
@@ -24,7 +24,7 @@ fn long() -> Modular {
     (ring, generators)
 }
 
-/// Milliseconds of work.
+/// A computation of some milliseconds.
 fn short() -> Modular {
     let case = case("katsura_4-grevlex-gf32003");
     let ring = case.ring(&Zp::new(32003).unwrap());
@@ -36,7 +36,7 @@ fn normal() -> Options {
     Options { strategy: Strategy::Normal, cofactors: false }
 }
 
-/// A watch whose flag its own listener sets at report number `stop`, and the number of reports.
+/// A watch whose listener sets its cancel flag at report number `stop`, and the number of reports.
 fn cancelled_at(stop: usize) -> (Watch, Arc<AtomicUsize>) {
     let (flag, reports) = (Arc::new(AtomicBool::new(false)), Arc::new(AtomicUsize::new(0)));
     let (raised, counted) = (flag.clone(), reports.clone());
@@ -137,7 +137,7 @@ fn exponents_beyond_all_lanes_are_an_error() {
     assert_eq!(buchberger(&ring, &generators, &Watch::none()).unwrap_err().kind(), ErrorKind::Overflow);
 }
 
-/// The standard monomials need a larger degree than the basis does.
+/// The standard monomials have a larger degree than the basis.
 #[test]
 fn a_quotient_larger_than_the_lanes_is_counted() {
     let ring = PolynomialRing::new(Rationals, &["x", "y"], Order::GrevLex).unwrap().with_width(Width::Bits8);

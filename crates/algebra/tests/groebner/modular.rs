@@ -1,4 +1,5 @@
-//! Bases over Q by many primes: against known answers and the engine over Q, with unlucky primes planted, and their proofs.
+//! Bases over Q modulo many primes, compared with known results and the engine over Q, with planted unlucky primes, and
+//! their proofs.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -40,7 +41,7 @@ fn ring_of(names: &[&str], order: Order) -> PolynomialRing<Rationals> {
     PolynomialRing::new(Rationals, names, order).unwrap()
 }
 
-/// The generators that `texts` stand for, with `P`, `Q` and `B` for numbers.
+/// The generators in `texts`, with `P`, `Q` and `B` replaced by numbers.
 fn system(ring: &PolynomialRing<Rationals>, texts: &[&str], numbers: &[(&str, BigInt)]) -> Vec<Element> {
     let put =
         |text: &&str| numbers.iter().fold((*text).to_owned(), |text, (name, n)| text.replace(name, &n.to_string()));
@@ -67,7 +68,7 @@ fn the_known_bases_over_q_are_found_and_proved() {
     }
 }
 
-/// Whether the engine over Q ended in time to compare with.
+/// Whether the engine over Q finished in time for a comparison.
 fn agrees(order: Order, generators: &[Sparse], numbers: &[BigInt]) -> bool {
     let ring = ring_of(&["x", "y", "z"], order);
     let scaled =
@@ -109,8 +110,8 @@ proptest! {
     }
 }
 
-/// Coefficients, leading coefficients and denominators that the first primes divide; systems that are others modulo the first
-/// prime, the first two alike, or the first thirty.
+/// Coefficients, leading coefficients and denominators divisible by the first primes; systems that differ modulo the
+/// first prime, the first two, or the first thirty.
 #[test]
 fn unlucky_primes_do_no_harm() {
     let systems: [&[&str]; 8] = [
@@ -165,14 +166,14 @@ fn the_zero_and_the_unit_ideal() {
     }
 }
 
-/// An honest result with its elements replaced.
+/// A correct result with its elements replaced.
 fn forged(honest: &Modular, polynomials: Vec<Element>) -> Modular {
     let mut forged = honest.clone();
     forged.basis.polynomials = polynomials;
     forged
 }
 
-/// Bases of other ideals, larger and smaller, and sets that are no bases.
+/// Bases of other ideals, larger and smaller, and sets that are not bases.
 #[test]
 fn forged_bases_are_not_proved() {
     let forgeries: [(&[&str], &[&[&str]]); 5] = [
@@ -199,7 +200,7 @@ fn forged_bases_are_not_proved() {
     }
 }
 
-/// Every coefficient of a basis matters to its proof.
+/// Every coefficient of a basis affects its proof.
 #[test]
 fn a_changed_coefficient_is_not_proved() {
     let homogeneous: &[&str] = &["x^2 + 2*x*y - z^2", "x*y - 3*y*z", "y^2 - x*z"];

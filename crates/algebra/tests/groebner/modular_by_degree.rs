@@ -1,4 +1,5 @@
-//! Bases over Q by primes and a change of order: against Singular's facts and the engine over Q, with unlucky primes planted.
+//! Bases over Q modulo primes with a change of order, compared with Singular's results and the engine over Q, with
+//! planted unlucky primes.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -25,7 +26,7 @@ fn ring_of(names: &[&str], order: Order) -> PolynomialRing<Rationals> {
     PolynomialRing::new(Rationals, names, order).unwrap()
 }
 
-/// Answers of larger degree take seconds.
+/// Systems of larger degree take seconds.
 const DEGREE: usize = 100;
 
 #[test]
@@ -51,7 +52,7 @@ fn the_lexicographic_facts_of_singular_are_found_over_q() {
     assert!(checked >= 25, "{checked}");
 }
 
-/// Whether the engine over Q ended in time to compare with.
+/// Whether the engine over Q finished in time for a comparison.
 fn agrees(ring: &PolynomialRing<Rationals>, texts: &[String]) -> bool {
     let generators = read_all(ring, texts);
     let watch = Watch::none().with_time(Duration::from_secs(1));
@@ -81,8 +82,8 @@ proptest! {
     }
 }
 
-/// Modulo P the last coordinate tells fewer points apart than over Q, while the graded leading monomials stay: `x` is a polynomial in
-/// `y` over Q alone. No coefficient is divisible by P.
+/// Modulo P the last coordinate separates fewer points than over Q, while the graded leading monomials are unchanged:
+/// `x` is a polynomial in `y` over Q only. No coefficient is divisible by P.
 #[test]
 fn primes_that_lose_the_shape_position_do_no_harm() {
     let systems: [&[&str]; 3] = [
@@ -102,7 +103,7 @@ fn primes_that_lose_the_shape_position_do_no_harm() {
     }
 }
 
-/// Graded leading monomials that are others modulo P, with the same lexicographic ones, and the other way round.
+/// Graded leading monomials that differ modulo P while the lexicographic ones do not, and the reverse.
 #[test]
 fn primes_that_change_the_graded_shape_do_no_harm() {
     let systems: [&[&str]; 3] = [

@@ -1,10 +1,10 @@
-//! Bases over rational functions: three ways to one answer, which specialises to the bases at single points.
+//! Bases over rational functions: agreement of the methods, and specialisation to the bases at single points.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use groebot_algebra::groebner::parametric::{Options, Parametric, Way, basis};
+use groebot_algebra::groebner::parametric::{Method, Options, Parametric, basis};
 use groebot_algebra::groebner::{self, Basis};
 use groebot_algebra::number::{BigRational, Rationals, Ring, Zp};
 use groebot_algebra::poly::{Fractions, Order, PolynomialRing};
@@ -16,18 +16,23 @@ use crate::corpus::groebner::{all, read_basis};
 use crate::corpus::read;
 use crate::poly::sparse::{Sparse, build, orders, quotient, sparse};
 
-fn by(ring: &PolynomialRing<Field>, generators: &[Poly], way: Way) -> groebot_algebra::Result<Parametric> {
-    basis(ring, generators, &Options { way: Some(way) }, &Watch::none().with_time(Duration::from_secs(20)))
+fn by(ring: &PolynomialRing<Field>, generators: &[Poly], method: Method) -> groebot_algebra::Result<Parametric> {
+    basis(ring, generators, &Options { method: Some(method) }, &Watch::none().with_time(Duration::from_secs(20)))
 }
 
-fn agree(ring: &PolynomialRing<Field>, generators: &[Poly], ways: &[Way]) -> Basis<Field> {
-    let found = |way: &Way| by(ring, generators, *way).unwrap_or_else(|error| panic!("{way:?}: {error}"));
-    let bases: Vec<_> = ways.iter().map(found).collect();
+fn agree(ring: &PolynomialRing<Field>, generators: &[Poly], methods: &[Method]) -> Basis<Field> {
+    let found = |method: &Method| by(ring, generators, *method).unwrap_or_else(|error| panic!("{method:?}: {error}"));
+    let bases: Vec<_> = methods.iter().map(found).collect();
     for other in &bases[1..] {
-        assert!(other.basis.polynomials == bases[0].basis.polynomials, "{:?} and {:?} differ", bases[0].way, other.way);
-        assert_eq!(other.exact, matches!(other.way, Way::Direct | Way::Variables));
+        assert!(
+            other.basis.polynomials == bases[0].basis.polynomials,
+            "{:?} and {:?} differ",
+            bases[0].method,
+            other.method
+        );
+        assert_eq!(other.exact, matches!(other.method, Method::Direct | Method::Variables));
     }
-    bases.into_iter().next().expect("one way at least").basis
+    bases.into_iter().next().expect("one method at least").basis
 }
 
 /// The image of the basis at a point modulo `p` equals the basis computed there.
@@ -60,9 +65,9 @@ fn assert_specialises_at(found: &Basis<Field>, generators: &[Poly], p: u64, poin
 
 #[test]
 fn the_ways_agree_on_small_blocks() {
-    use Way::{Direct, Interpolation, Modular, Variables};
-    let check = |block: Mechanism, ways: &[Way]| {
-        let found = agree(&block.ring, &block.generators, ways);
+    use Method::{Direct, Interpolation, Modular, Variables};
+    let check = |block: Mechanism, methods: &[Method]| {
+        let found = agree(&block.ring, &block.generators, methods);
         assert_eq!(found.quotient_dimension(), Some(block.solutions));
     };
     check(blocks::nao_leg(), &[Direct, Variables, Modular, Interpolation]);
@@ -75,7 +80,7 @@ fn the_ways_agree_on_small_blocks() {
 #[test]
 fn interpolated_blocks_specialise() {
     for block in [blocks::puma_position(), blocks::puma_symbolic(), blocks::generic_3r_position()] {
-        let found = by(&block.ring, &block.generators, Way::Interpolation).unwrap().basis;
+        let found = by(&block.ring, &block.generators, Method::Interpolation).unwrap().basis;
         assert_eq!(found.quotient_dimension(), Some(block.solutions));
         for (p, seed) in [(2_147_483_647, 5), (1_000_003, 6), (2_305_843_009_213_693_951, 7)] {
             assert_specialises(&found, &block.generators, p, seed);
@@ -102,8 +107,8 @@ fn known_parametric_bases_are_found() {
     let mut count = 0;
     for case in cases {
         let ring = case.ring(&Fractions::new(Rationals, &case.parameters).unwrap());
-        for way in [Way::Interpolation, Way::Modular] {
-            let found = by(&ring, &case.generators(&ring), way).unwrap();
+        for method in [Method::Interpolation, Method::Modular] {
+            let found = by(&ring, &case.generators(&ring), method).unwrap();
             assert!(found.basis.polynomials == read_basis(&ring, &case.basis), "{}: another basis", case.file);
         }
         count += 1;
@@ -116,11 +121,11 @@ fn known_parametric_bases_are_found() {
 fn coefficients_may_be_the_primes_that_are_tried_first() {
     let field = Fractions::new(Rationals, &["a"]).unwrap();
     let ring = PolynomialRing::new(field, &["x", "y"], Order::Lex).unwrap();
-    let ways = [Way::Direct, Way::Variables, Way::Modular, Way::Interpolation];
+    let methods = [Method::Direct, Method::Variables, Method::Modular, Method::Interpolation];
     let primes = [2_147_483_647u64, 2_147_483_629, 2_147_483_587, 2_147_483_579, 2_147_483_563, 2_013_265_921];
     let find = |texts: &[String]| {
         let generators: Vec<Poly> = texts.iter().map(|text| read(&ring, text)).collect();
-        agree(&ring, &generators, &ways).polynomials
+        agree(&ring, &generators, &methods).polynomials
     };
     let found = find(&["1/2147483647*x^2 - 1/2147483629".to_owned(), "a*y - 2147483647*x".to_owned()]);
     let (first, second) = ("y^2 - 2147483647^3/2147483629/a^2", "x - a*y/2147483647");
@@ -137,9 +142,9 @@ fn coefficients_may_be_the_primes_that_are_tried_first() {
 #[test]
 fn orientation_given_by_related_parameters() {
     let block = blocks::planar_3r();
-    let found = by(&block.ring, &block.generators, Way::Variables).unwrap().basis;
+    let found = by(&block.ring, &block.generators, Method::Variables).unwrap().basis;
     assert_eq!(found.quotient_dimension(), Some(block.solutions));
-    // The wrist (x - c, y - s) decides the second angle: 2*3*2*c2 = |wrist|^2 - 3^2 - 2^2.
+    // The wrist (x - c, y - s) determines the second angle: 2*3*2*c2 = |wrist|^2 - 3^2 - 2^2.
     let cosine = read(&block.ring, "12*c2 - (x - c)^2 - (y - s)^2 + 13");
     assert!(found.contains(&cosine).unwrap());
     let (p, fifth) = (1_000_003, 600_002);
@@ -147,7 +152,7 @@ fn orientation_given_by_related_parameters() {
     for (x, y) in [(17, 29), (401, 7), (123_456, 654_321)] {
         assert_specialises_at(&found, &block.generators, p, &[x, y, 3 * fifth % p, 4 * fifth % p]);
     }
-    let refused = by(&block.ring, &block.generators, Way::Interpolation).unwrap_err();
+    let refused = by(&block.ring, &block.generators, Method::Interpolation).unwrap_err();
     assert_eq!(refused.kind(), ErrorKind::Unsupported);
 }
 
@@ -164,15 +169,15 @@ fn relations_between_parameters_hold_in_the_basis() {
     let ring = PolynomialRing::new(unit_vector(), &["x", "y", "z"], Order::GrevLex).unwrap();
     let texts = ["a*x + b*y + r*z - 1", "h*x - h*y - 1", "r*x - a*z + h"];
     let generators: Vec<Poly> = texts.iter().map(|text| read(&ring, text)).collect();
-    let found = agree(&ring, &generators, &[Way::Direct, Way::Variables, Way::Modular]);
+    let found = agree(&ring, &generators, &[Method::Direct, Method::Variables, Method::Modular]);
     assert_eq!(found.quotient_dimension(), Some(1));
     let unit = [read(&ring, "a^2*x + b^2*x + r^2*x - 1")];
-    let found = agree(&ring, &unit, &[Way::Direct, Way::Variables, Way::Modular]);
+    let found = agree(&ring, &unit, &[Method::Direct, Method::Variables, Method::Modular]);
     assert_eq!(found.polynomials, [read(&ring, "x - 1")], "r.r = 1");
     let chosen = basis(&ring, &unit, &Options::default(), &Watch::none()).unwrap();
-    assert!(chosen.way == Way::Modular && chosen.basis.polynomials == found.polynomials);
+    assert!(chosen.method == Method::Modular && chosen.basis.polynomials == found.polynomials);
     let both = ["x*r - x", "x - 1"].map(|text| read(&ring, text));
-    let found = agree(&ring, &both, &[Way::Direct, Way::Variables, Way::Modular]);
+    let found = agree(&ring, &both, &[Method::Direct, Method::Variables, Method::Modular]);
     assert_eq!(found.polynomials, [ring.one()], "a polynomial of the parameters that no relation makes zero");
 }
 
@@ -182,7 +187,8 @@ fn degenerate_input_is_answered() {
     let ring = PolynomialRing::new(field, &["x", "y"], Order::Lex).unwrap();
     let find = |texts: &[&str]| {
         let generators: Vec<Poly> = texts.iter().map(|text| read(&ring, text)).collect();
-        agree(&ring, &generators, &[Way::Direct, Way::Variables, Way::Modular, Way::Interpolation]).polynomials
+        agree(&ring, &generators, &[Method::Direct, Method::Variables, Method::Modular, Method::Interpolation])
+            .polynomials
     };
     assert!(find(&[]).is_empty());
     assert!(find(&["0"]).is_empty());
@@ -191,7 +197,7 @@ fn degenerate_input_is_answered() {
     assert_eq!(find(&["x^2/p - 1/(p + 1)", "x^2/p - 1/(p + 1)"]), [read(&ring, "x^2 - p/(p + 1)")]);
     let constants = PolynomialRing::new(Fractions::new(Rationals, &[""; 0]).unwrap(), &["x"], Order::Lex).unwrap();
     let f = [read(&constants, "2*x - 1")];
-    assert_eq!(by(&constants, &f, Way::Interpolation).unwrap_err().kind(), ErrorKind::Unsupported);
+    assert_eq!(by(&constants, &f, Method::Interpolation).unwrap_err().kind(), ErrorKind::Unsupported);
     assert_eq!(basis(&constants, &f, &Options::default(), &Watch::none()).unwrap().basis.polynomials.len(), 1);
 }
 
@@ -218,7 +224,7 @@ fn assert_interpolates(functions: &[(Sparse, Sparse)]) {
         ring.sub(&ring.variable(k), &ring.constant(value))
     };
     let generators: Vec<Poly> = functions.iter().enumerate().map(line).collect();
-    let found = by(&ring, &generators, Way::Interpolation).unwrap().basis;
+    let found = by(&ring, &generators, Method::Interpolation).unwrap().basis;
     let expected: Vec<Poly> = generators.into_iter().rev().collect();
     assert!(found.polynomials == expected, "{}", ring.format(&expected[0], groebot_algebra::number::Style::Text));
 }
@@ -261,7 +267,7 @@ proptest! {
         let brief = Watch::none().with_time(Duration::from_secs(1));
         let direct = groebner::basis(&ring, &generators, &groebner::Options::default(), &brief);
         prop_assume!(direct.is_ok());
-        let found = agree(&ring, &generators, &[Way::Interpolation, Way::Variables, Way::Modular]);
+        let found = agree(&ring, &generators, &[Method::Interpolation, Method::Variables, Method::Modular]);
         prop_assert!(found.polynomials == direct.unwrap().polynomials);
         prop_assert!(found.polynomials.iter().all(|f| ring.is_well_formed(f)));
     }

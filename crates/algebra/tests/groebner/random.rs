@@ -1,4 +1,5 @@
-//! Random small ideals: the engine, its strategies, the reference, the checker and the change of order agree.
+//! Random small ideals: agreement of the engine, its strategies, the reference algorithm, the checker and the change of
+//! order.
 
 use std::time::Duration;
 
@@ -12,7 +13,7 @@ use proptest::prelude::*;
 
 use crate::poly::sparse::{Sparse, build, orders, sparse};
 
-/// Whether everything agrees; `false` when the ideal was too hard for a second.
+/// Whether everything agrees; `false` when the computation takes more than a second.
 fn agree<F: Field>(field: F, order: Order, generators: &[Sparse]) -> bool {
     let ring = PolynomialRing::new(field, &["x", "y", "z"], order).unwrap();
     let generators: Vec<_> = generators.iter().map(|f| build(&ring, f)).collect();

@@ -1,4 +1,5 @@
-//! The engine against the systems of `tests/corpus/groebner/systems`, whose facts come from Singular and from the literature.
+//! The engine compared with the systems of `tests/corpus/groebner/systems`, whose properties are from Singular and from
+//! the literature.
 
 use groebot_algebra::Watch;
 use groebot_algebra::groebner::modular::{self, Status};
@@ -8,14 +9,14 @@ use groebot_algebra::poly::Order;
 
 use crate::corpus::systems::{Answer, Canonical, Facts, System, all, basis_hash, system};
 
-/// What Buchberger's engine finds quickly: few solutions, few unknowns, short equations.
+/// Systems that Buchberger's engine solves quickly: few solutions, few unknowns, short equations.
 fn is_quick(system: &System, answer: &Answer) -> bool {
     let most = if answer.field == "Q" { 8 } else { 16 };
     let length: usize = system.generators.iter().map(String::len).sum();
     answer.facts.degree <= most && system.variables.len() <= 6 && length <= 500
 }
 
-/// Directly in grevlex, from there in lex if there are finitely many solutions.
+/// Directly in grevlex, then in lex if there are finitely many solutions.
 fn by_buchberger<F: Canonical>(field: F, system: &System, order: &Order) -> Facts {
     let options = Options { strategy: Strategy::Sugar, cofactors: false };
     let direct = |order: &Order| {
@@ -51,8 +52,8 @@ fn facts<F: Canonical>(found: &Basis<F>) -> Facts {
     }
 }
 
-/// The degree of the ideal of leading monomials: over the largest sets of free variables, the number of standard monomials in the
-/// other variables once the free ones are units.
+/// The degree of the ideal of leading monomials: the sum over the largest sets of free variables of the number of
+/// standard monomials in the other variables, with the free ones as units.
 fn degree<F: Field>(basis: &Basis<F>) -> usize {
     let layout = basis.ring.layout();
     let leads: Vec<Vec<u32>> = basis.leading_monomials().iter().map(|m| layout.exponents(m)).collect();
@@ -62,7 +63,8 @@ fn degree<F: Field>(basis: &Basis<F>) -> usize {
     sets.map(|set| standard_beside(&leads, set, count)).sum()
 }
 
-/// The number of standard monomials in the variables outside `set` where those of `set` are units; 0 if infinite or none.
+/// The number of standard monomials in the variables outside `set`, with those of `set` as units; 0 if infinite or
+/// none.
 fn standard_beside(leads: &[Vec<u32>], set: u32, count: usize) -> usize {
     let bound: Vec<usize> = (0..count).filter(|v| set & (1 << v) == 0).collect();
     let local: Vec<Vec<u32>> = leads.iter().map(|lead| bound.iter().map(|&v| lead[v]).collect()).collect();
@@ -71,7 +73,7 @@ fn standard_beside(leads: &[Vec<u32>], set: u32, count: usize) -> usize {
     if is_finite { standard_from(&local, &mut vec![0; bound.len()], 0) } else { 0 }
 }
 
-/// The number of standard monomials that agree with `exponents` before `variable`.
+/// The number of standard monomials that start with `exponents` before `variable`.
 fn standard_from(leads: &[Vec<u32>], exponents: &mut Vec<u32>, variable: usize) -> usize {
     let is_standard = |exponents: &[u32]| !leads.iter().any(|lead| lead.iter().zip(exponents).all(|(a, b)| a <= b));
     if variable == exponents.len() || !is_standard(exponents) {
@@ -86,7 +88,7 @@ fn standard_from(leads: &[Vec<u32>], exponents: &mut Vec<u32>, variable: usize) 
     found
 }
 
-/// An order that does not go by degree does not show the degree of a positive-dimensional ideal.
+/// An order that does not compare degrees does not determine the degree of a positive-dimensional ideal.
 fn compare(mut found: Facts, system: &System, answer: &Answer) {
     if answer.order == Order::Lex && found.dimension > 0 {
         found.degree = answer.facts.degree;
@@ -131,7 +133,8 @@ fn is_long(system: &System) -> bool {
     ["cyclic_8", "eco_12", "katsura_10", "noon_8", "six_tangents"].contains(&system.name.as_str())
 }
 
-/// Over Q: everything in grevlex; in lex, where the many primes work in that order itself, few solutions.
+/// Over Q: all systems in grevlex. In lex, where the modular computation uses that order itself, those with few
+/// solutions.
 fn is_quick_by_many_primes(answer: &Answer) -> bool {
     answer.field == "Q" && (answer.order == Order::GrevLex || answer.facts.degree <= 48)
 }
@@ -152,7 +155,7 @@ fn many_primes_find_the_facts_over_the_rationals() {
     assert!(check_all(check_rational, |_, answer| is_quick_by_many_primes(answer)) >= 75);
 }
 
-/// The literature's numbers of solutions, beside Singular's.
+/// The numbers of solutions in the literature, compared with Singular's.
 #[test]
 fn the_known_degrees_stand_in_the_files() {
     let degree = |name: &str| system(name).answer("GF(32003)", &Order::GrevLex).expect("an answer").facts.degree;

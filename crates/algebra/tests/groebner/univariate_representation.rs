@@ -1,4 +1,5 @@
-//! The rational univariate representation: planted solutions, its definition checked with other arithmetic, and refusals.
+//! The rational univariate representation: planted solutions, a check of its definition with other arithmetic, and
+//! refusals.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -71,7 +72,7 @@ fn assert_represents(representation: &UnivariateRepresentation, ring: &Ground, g
     assert_eq!(form, reduce(&line.monomial(line.field().one(), 1)), "the form is the parameter");
 }
 
-/// The roots and multiplicities of a univariate polynomial, planted: `product (x - n/d)^m`.
+/// A univariate polynomial with planted roots and multiplicities: `product (x - n/d)^m`.
 fn planted(variable: &str, roots: &[(i64, i64, usize)]) -> String {
     let factor = |&(n, d, m): &(i64, i64, usize)| format!("({d}*({variable}) - ({n}))^{m}");
     roots.iter().map(factor).collect::<Vec<_>>().join("*")
@@ -85,7 +86,7 @@ fn roots(denominator: i64) -> impl Strategy<Value = Vec<(i64, i64, usize)>> {
 proptest! {
     #![proptest_config(crate::cases(24))]
 
-    /// `p(x + a y) = q(y + b x) = 0`: a grid of points, each of the product of two multiplicities.
+    /// `p(x + a y) = q(y + b x) = 0`: a grid of points, each with the product of two multiplicities.
     #[test]
     fn grids_of_multiple_points_are_found(p in roots(1), q in roots(3), a in -2i64..3, b in -2i64..3) {
         prop_assume!(a * b != 1);
@@ -138,8 +139,8 @@ fn fat_points_that_no_single_curve_holds() {
     }
 }
 
-/// A point that shares its value of a coordinate with another one, and is less multiple: no coordinate may be taken for a
-/// separating form, and the hidden point may not be lost.
+/// A point with smaller multiplicity that shares the value of a coordinate with another point. No coordinate may be
+/// used as a separating form, and the hidden point must be found.
 #[test]
 fn points_above_each_other_are_told_apart() {
     let (ring, generators) = system(&["x", "y"], &["x^2*(x-1)", "y*(y-1)", "x*(x-1)*y", "x*(1-y)*(x-1)"]);

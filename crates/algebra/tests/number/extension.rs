@@ -4,7 +4,7 @@ use groebot_algebra::ErrorKind;
 use groebot_algebra::number::{BigInt, BigRational, Extension, Field, Rationals, Ring, Style, Zp, laws};
 use proptest::prelude::*;
 
-/// 2 is no square modulo 11; t^3 + t + 1 has no root modulo 5, so that it is irreducible.
+/// 2 is not a square modulo 11; t^3 + t + 1 has no root modulo 5, so it is irreducible.
 fn finite() -> [Extension<Zp>; 2] {
     let field = |p, low| Extension::new(Zp::new(p).unwrap(), "t", low).unwrap();
     [field(11, vec![9, 0]), field(5, vec![1, 1, 0])]
@@ -30,7 +30,7 @@ proptest! {
     }
 }
 
-/// The multiplicative group has one element less than the field, and the Frobenius map fixes the base alone.
+/// The multiplicative group has one element less than the field, and the Frobenius map fixes exactly the base field.
 #[test]
 fn the_group_of_units_has_its_order() {
     for field in finite() {

@@ -1,4 +1,4 @@
-//! The fields obey their axioms, and decimals are read exactly.
+//! The fields satisfy their axioms, and decimals are parsed exactly.
 
 mod extension;
 mod modular;

@@ -1,4 +1,4 @@
-//! Chinese remainders and rational reconstruction against plain big integers.
+//! Chinese remaindering and rational reconstruction compared with big integers.
 
 use groebot_algebra::ErrorKind;
 use groebot_algebra::number::{BigInt, BigRational, Chinese, Field, Zp, primes_below, reconstruct, residue};
@@ -22,7 +22,7 @@ fn residues(n: &BigInt, primes: &[u32]) -> Vec<u32> {
     primes.iter().map(|&p| u32::try_from(n.mod_floor(&BigInt::from(p))).unwrap()).collect()
 }
 
-/// The fraction mapped modulo each prime, lifted.
+/// Computes the residues of a fraction modulo each prime and lifts them.
 fn image(q: &BigRational, chinese: &Chinese) -> BigInt {
     let field = |p: u32| Zp::new(u64::from(p)).unwrap();
     let residues: Vec<u32> =
@@ -74,7 +74,7 @@ proptest! {
     }
 }
 
-/// The least remainders and quotients of all kinds: every residue of a small modulus against a search.
+/// Small remainders and quotients of all kinds: every residue of a small modulus compared with a search.
 #[test]
 fn small_moduli_are_searched_through() {
     for p in [101i64, 1009] {

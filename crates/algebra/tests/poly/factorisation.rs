@@ -1,4 +1,4 @@
-//! Irreducible factors: Singular's answers, the definition, and counts of irreducible polynomials.
+//! Irreducible factors: Singular's results, the definition, and counts of irreducible polynomials.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -45,7 +45,7 @@ fn known_irreducible_factors() {
     }
 }
 
-/// The factors multiply to `f`, are pairwise coprime, and each has itself as its only factor.
+/// Checks that the product of the factors is `f`, that they are pairwise coprime, and that each is its own only factor.
 fn laws<F: Field>(field: F, parts: &[(Sparse, u32)]) {
     let ring = PolynomialRing::new(field, &["x", "y", "z"], Order::GrevLex).unwrap();
     let powers = parts.iter().map(|(part, n)| ring.pow(&build(&ring, part), *n));
@@ -77,7 +77,7 @@ proptest! {
     }
 }
 
-/// All monic polynomials of one degree over GF(p): as many are irreducible as Gauss counted.
+/// All monic polynomials of one degree over GF(p). The number of irreducible ones is given by Gauss's formula.
 #[test]
 fn as_many_are_irreducible_as_gauss_counted() {
     // (1/n) sum of mu(d) p^(n/d) over the divisors d of n.
@@ -93,12 +93,12 @@ fn as_many_are_irreducible_as_gauss_counted() {
     }
 }
 
-/// A polynomial of GF(2)[x, y] as bits: that of `x^i y^j` is bit `5 i + j`. The product without carries.
+/// A polynomial of GF(2)[x, y] as bits: `x^i y^j` is bit `5 i + j`. The product without carries.
 fn times(a: u64, b: u64) -> u64 {
     (0..15).filter(|k| b >> k & 1 == 1).fold(0, |product, k| product ^ (a << k))
 }
 
-/// Among the polynomials of degrees at most 2 in `x` and in `y` over GF(2) those are reducible that are products.
+/// Among the polynomials of degrees at most 2 in `x` and in `y` over GF(2), exactly the products are reducible.
 #[test]
 fn all_small_polynomials_in_two_variables_over_gf2() {
     let ring = PolynomialRing::new(Zp::new(2).unwrap(), &["x", "y"], Order::GrevLex).unwrap();
@@ -140,8 +140,9 @@ fn what_cannot_be_factored_is_refused() {
     assert_eq!(refused.unwrap_err().kind(), ErrorKind::Unsupported);
 }
 
-/// Irreducible polynomials that split whenever one certain variable gets a number: all elements of these fields are cubes, in
-/// GF(2) and its extensions of odd degree, in GF(5), and in GF(32003). Singular 4.4: `factorize` finds one factor each.
+/// Irreducible polynomials that split whenever one certain variable is replaced by a number: all elements of these
+/// fields are cubes, in GF(2) and its extensions of odd degree, in GF(5), and in GF(32003). Singular 4.4: `factorize`
+/// finds one factor each.
 #[test]
 fn irreducible_although_every_image_splits() {
     for (p, text) in [
@@ -157,7 +158,7 @@ fn irreducible_although_every_image_splits() {
     }
 }
 
-/// The degrees are above those of the extensions of GF(5) that have tables. Singular 4.4: `factorize` finds these factors.
+/// The degrees are above those of the extensions of GF(5) with tables. Singular 4.4: `factorize` finds these factors.
 #[test]
 fn degrees_above_those_of_the_extensions() {
     let ring = PolynomialRing::new(Zp::new(5).unwrap(), &["x", "y", "z"], Order::GrevLex).unwrap();

@@ -1,4 +1,4 @@
-//! Greatest common divisors, square-free and coprime factors, square roots: the known answers and the definitions.
+//! Greatest common divisors, square-free and coprime factors, square roots: known results and the definitions.
 
 use groebot_algebra::number::{BigInt, BigRational, Field, Rationals, Ring, Zp};
 use groebot_algebra::poly::{Fractions, Order, Polynomial, PolynomialRing};
@@ -47,7 +47,7 @@ pub fn pairwise_coprime<F: Field>(ring: &PolynomialRing<F>, factors: &[Polynomia
     factors.iter().enumerate().all(|(k, f)| factors[k + 1..].iter().all(|g| coprime(f, g)))
 }
 
-/// Divides the factors out of `f` as often as they fit; the rest.
+/// Divides `f` by the factors as often as possible. Returns the rest.
 fn divide_out<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -68,7 +68,8 @@ fn known_factors() {
     for case in cases.iter().filter(|case| case.field == "Q") {
         let ring = PolynomialRing::new(Rationals, &case.variables, Order::GrevLex).unwrap();
         let f = read(&ring, &case.polynomial);
-        let irreducible: Vec<_> = case.factors.iter().map(|factor| ring.monic(&read(&ring, &factor.polynomial))).collect();
+        let irreducible: Vec<_> =
+            case.factors.iter().map(|factor| ring.monic(&read(&ring, &factor.polynomial))).collect();
         let multiplied = case.factors.iter().fold(read(&ring, &case.unit), |product, factor| {
             let base = read(&ring, &factor.polynomial);
             ring.mul(&product, &ring.pow(&base, factor.multiplicity as u32))

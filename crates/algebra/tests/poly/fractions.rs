@@ -30,7 +30,7 @@ proptest! {
     #[test]
     fn they_are_a_field_with_square_roots(parts in parts(3, 2)) {
         axioms(&with_roots(Rationals), &parts);
-        // 2 is no square modulo 5.
+        // 2 is not a square modulo 5.
         axioms(&with_roots(Zp::new(5).unwrap()), &parts);
     }
 

@@ -27,7 +27,7 @@ fn several_primes_rebuild_large_coefficients() {
 
 #[test]
 fn unlucky_primes_are_seen() {
-    // Modulo 2^61 - 1, the first prime of the engine, the two cofactors agree, or lose their leading terms.
+    // Modulo 2^61 - 1, the first prime of the engine, the two cofactors are equal, or lose their leading terms.
     let p = "(2^61 - 1)";
     let ring = ring_over(Rationals);
     finds_the_common_factor(&ring, &format!("x + {p}"), &format!("x + 2*{p}"), "y + 1");

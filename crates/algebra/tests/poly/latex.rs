@@ -1,4 +1,4 @@
-//! LaTeX of names, and the reader of LaTeX.
+//! LaTeX of names, and the LaTeX parser.
 
 use groebot_algebra::ErrorKind;
 use groebot_algebra::number::Rationals;

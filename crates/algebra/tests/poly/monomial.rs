@@ -1,4 +1,4 @@
-//! Packed monomials do what plain exponent vectors do, in every width and order; orders are monomial orders.
+//! Packed monomials compared with plain exponent vectors, in every width and order; axioms of monomial orders.
 
 use std::cmp::Ordering;
 
@@ -14,7 +14,7 @@ fn pair_and_order() -> impl Strategy<Value = (Vec<u32>, Vec<u32>, Order)> {
         let vector = prop::collection::vec(exponent.clone(), count);
         (vector.clone(), vector, order(count))
     });
-    // Every third pair differs in one place only, so that ties run deep.
+    // Every third pair differs in one exponent only, so that later exponents decide.
     (top, 0..3, any::<prop::sample::Index>()).prop_map(|((a, mut b, order), kind, place)| {
         if kind == 0 {
             let place = place.index(a.len());
@@ -71,7 +71,7 @@ fn merged(a: &[u32], b: &[u32], f: impl Fn(u32, u32) -> u32) -> Vec<u32> {
     a.iter().zip(b).map(|(&x, &y)| f(x, y)).collect()
 }
 
-/// What [`Layout::pack`] must give: nothing when the degree does not fit.
+/// The expected result of [`Layout::pack`]: `None` when the degree does not fit.
 fn checked_pack(layout: &Layout, exponents: &[u32]) -> Option<Monomial> {
     let packed = layout.pack(exponents);
     assert_eq!(packed.is_some(), degree(exponents) <= u64::from(layout.width().max_degree()));
@@ -111,7 +111,7 @@ proptest! {
         }
     }
 
-    /// NAO definition 12: 1 is least, the order is total, and multiplication keeps it.
+    /// NAO definition 12: 1 is the least monomial, the order is total, and multiplication preserves it.
     #[test]
     fn orders_are_monomial_orders((a, b, order) in pair_and_order(), c in prop::collection::vec(0u32..9, 12)) {
         for width in WIDTHS {

@@ -1,4 +1,4 @@
-//! The reader of plain text: precedence, limits, and each mistake with its column.
+//! The plain-text parser: precedence, limits, and each error with its column.
 
 use groebot_algebra::ErrorKind;
 use groebot_algebra::poly::{Expression, MAX_DEPTH, MAX_LENGTH, parse, parse_equation};

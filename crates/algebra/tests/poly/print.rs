@@ -1,4 +1,4 @@
-//! What is printed is read back as the same polynomial, in text and in LaTeX.
+//! Printed polynomials are read back as equal polynomials, in text and in LaTeX.
 
 use groebot_algebra::number::{BigInt, BigRational, Field, Rationals, Ring, Style, Zp};
 use groebot_algebra::poly::{Fractions, Order, Polynomial, PolynomialRing, parse, parse_latex};

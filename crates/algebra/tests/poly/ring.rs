@@ -1,4 +1,4 @@
-//! Polynomial rings over every field are rings, in every order; their maps are homomorphisms.
+//! Polynomial rings satisfy the ring axioms over every field and in every order. Their maps are homomorphisms.
 
 use groebot_algebra::ErrorKind;
 use groebot_algebra::number::{BigInt, BigRational, Field, Rationals, Ring, Zp, laws};

@@ -1,4 +1,4 @@
-//! Random sparse polynomials: as plain data first, so that one value can be built in many rings.
+//! Random sparse polynomials, first as plain data, so that one value can be converted to many rings.
 
 use groebot_algebra::number::{BigInt, Field, Ring};
 use groebot_algebra::poly::{Block, Fraction};
@@ -30,7 +30,7 @@ pub fn orders() -> [Order; 4] {
     [Order::Lex, Order::GrevLex, Order::elimination(2, 3), Order::Block(blocks.to_vec())]
 }
 
-/// A quotient of two polynomials of the parameters; the numerator alone when the denominator is zero.
+/// A quotient of two polynomials of the parameters; the numerator alone for a zero denominator.
 pub fn quotient<F: Field>(field: &Fractions<F>, top: &Sparse, bottom: &Sparse) -> Fraction<F::Element> {
     let (top, bottom) = (build(field.ring(), top), build(field.ring(), bottom));
     field.fraction(&top, &bottom).unwrap_or_else(|| field.embed(&top))

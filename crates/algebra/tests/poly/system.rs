@@ -1,4 +1,4 @@
-//! Systems in files: what the three readers understand, and that the printers' text is read back.
+//! Systems in files: the three readers, and reading back of printed text.
 
 use groebot_algebra::number::{Field, Rationals, Ring, Style, Zp};
 use groebot_algebra::poly::system::{Format, Heading, PolynomialSystem, parse_order};
@@ -64,7 +64,7 @@ fn singular() {
     let (heading, list) = read(text);
     assert_eq!(heading.variables, ["x", "y", "z1", "z2"]);
     assert_eq!(heading.order, blocks(&[(2, true), (2, false)]));
-    // Singular 4.3.1 on this text and `short=0; i;`, its z(1) written z1.
+    // Singular 4.3.1 with this text and `short=0; i;`, its z(1) written as z1.
     assert_eq!(list, ["3*x^2*y - 1/3*x*y^2 + x^2 + 2*x*y + y^2", "-1/2*x^3 + z1*z2^2", "3*x^2"]);
 }
 
@@ -88,7 +88,7 @@ fn singular_rings() {
     assert_eq!(heading("(32003,q(1..2)),(x),(dp(1),C)", "q(1)*x").parameters, ["q1", "q2"]);
     assert_eq!(heading("(2147483647),(x,y),(c,lp)", "x").order, Order::Lex);
     assert_eq!(heading("0,(x,y,z),(dp(1),dp)", "x").order, blocks(&[(1, true), (2, true)]));
-    // A declared name comes before a monomial of that form.
+    // A declared name has precedence over a monomial of that form.
     assert_eq!(read("ring r=0,(xy,x,y),dp; poly f=xy+2xy;").1, ["2*x*y + xy"]);
 }
 
@@ -161,7 +161,7 @@ impl Sample {
         Heading { characteristic: self.characteristic, parameters, variables, order: self.order.clone() }
     }
 
-    /// Prints, reads, and compares over `field`, whose elements `scale` makes.
+    /// Prints, reads, and compares over `field`. `scale` builds its elements.
     fn check<F: Field>(&self, field: F, scale: impl Fn(&F, &Sparse, &Sparse) -> F::Element) {
         let heading = self.heading();
         let ring = heading.ring(field.clone()).unwrap();

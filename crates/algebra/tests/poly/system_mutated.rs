@@ -1,4 +1,5 @@
-//! Damaged systems, always the same ones: whatever the bytes, the readers answer or refuse, and what is read prints and reads again.
+//! Damaged systems, always the same ones. For any bytes the readers return a result or an error, and a result is
+//! printed and read back.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -25,7 +26,7 @@ impl Chance {
         (self.0 >> 33) as usize % bound.max(1)
     }
 
-    /// One to three changes: a byte, a piece taken out or doubled, a word of the formats, a piece of another seed.
+    /// One to three changes: a byte, a piece removed or doubled, a word of the formats, a piece of another seed.
     fn damage(&mut self, seed: &str) -> Vec<u8> {
         const WORDS: [&str; 16] = [
             "(",
@@ -65,7 +66,7 @@ impl Chance {
     }
 }
 
-/// Reads `bytes` in every format; what is short enough to expand at once is printed and read again.
+/// Reads `bytes` in every format. Systems that are small enough to expand at once are printed and read back.
 fn digest(bytes: &[u8]) -> usize {
     let mut read = 0;
     for format in [None, Some(Format::Plain), Some(Format::Singular), Some(Format::Msolve)] {
@@ -88,7 +89,7 @@ fn digest(bytes: &[u8]) -> usize {
 fn print_and_read(system: &PolynomialSystem) {
     for format in FORMATS {
         let Ok(text) = system.print(format) else { continue };
-        // A power may print longer than what is read, and msolve's format forgets the order.
+        // A power may print longer than the input, and msolve's format loses the order.
         match PolynomialSystem::read(&text, Some(format)) {
             Ok(again) if again.heading == system.heading => assert_eq!(again.print(format).unwrap(), text),
             _ => {}

@@ -1,4 +1,4 @@
-//! Bad systems: each is refused with its line and column, and with what is allowed.
+//! Invalid systems: each is refused with its line and column, and with the allowed values.
 
 use groebot_algebra::ErrorKind::{
     self, BadValue, DuplicateName, MissingKey, Syntax, UnknownKey, UnknownName, Unsupported,
@@ -51,7 +51,7 @@ fn plain_text() {
             ("variables: x\nvariables: y\nx", DuplicateName, 2, 1, "twice"),
             ("variables: x,\nx", Syntax, 1, 14, "a name expected"),
             ("variables: x\nx*y", UnknownName, 2, 3, "declared are x"),
-            ("x\nvariables: x", Syntax, 2, 1, "above the first polynomial"),
+            ("x\nvariables: x", Syntax, 2, 1, "before the first polynomial"),
             ("name: circle\nx", UnknownKey, 1, 1, "`variables`"),
             ("variables: x\n  1 + 1/x", BadValue, 2, 3, "divides by a variable"),
             ("3", MissingKey, 1, 2, "declare some"),
@@ -96,7 +96,7 @@ fn singular() {
             ("ring r = 0,(x,y),dp; ideal i = x; ideal j = y;", Unsupported, 1, 35, "second ideal"),
             ("ring r = 0,(x,y),dp; ring s = 0,x,dp;", Unsupported, 1, 22, "second ring"),
             ("ring r = 0,(x,y),dp; poly f = x; poly f = y;", DuplicateName, 1, 39, "`f`"),
-            ("ring r = 0,(x,y),dp; poly f = x; ideal i = f^2;", Unsupported, 1, 44, "alone in the ideal"),
+            ("ring r = 0,(x,y),dp; poly f = x; ideal i = f^2;", Unsupported, 1, 44, "element of the ideal"),
             ("ring r = 0,(x,y),dp; ideal i = x;\nideal j = std(i);", Unsupported, 2, 1, "second ideal"),
             ("LIB \"primdec.lib\";\nring r = 0,(x,y),dp;", Syntax, 1, 5, "`\\\"`"),
             ("option(redSB);\nring r = 0,(x,y),dp;", Unsupported, 1, 1, "`option`"),

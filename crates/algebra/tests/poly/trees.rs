@@ -1,4 +1,4 @@
-//! Random expressions for the properties.
+//! Random expressions for property tests.
 
 use groebot_algebra::number::{BigInt, BigRational};
 use groebot_algebra::poly::Expression;

@@ -1,4 +1,5 @@
-//! Univariate polynomials are a ring with Euclid's division, and gcd, derivative and resultant keep their laws.
+//! Univariate polynomials satisfy the ring axioms, with Euclidean division. The gcd, derivative and resultant satisfy
+//! their laws.
 
 use groebot_algebra::number::{BigInt, BigRational, Field, Rationals, Ring, Style, Zp, laws};
 use groebot_algebra::poly::univariate::{Univariate, UnivariateRing};

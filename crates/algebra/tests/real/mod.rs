@@ -1,4 +1,4 @@
-//! Real solutions of systems: numbers of real solutions from elsewhere, planted solutions, exact signs.
+//! Real solutions of systems: known numbers of real solutions, planted solutions, exact signs.
 
 pub(crate) mod sixteen;
 
@@ -34,7 +34,7 @@ fn numbered(count: usize) -> Vec<String> {
     (0..count).map(|i| format!("x{i}")).collect()
 }
 
-/// Katsura's magnets with `n + 1` unknowns.
+/// Katsura's system with `n + 1` unknowns.
 fn katsura(n: usize) -> (Vec<String>, Vec<String>) {
     let index = |i: i64| i.unsigned_abs() as usize;
     let n = n as i64;
@@ -69,7 +69,7 @@ fn eco(n: usize) -> (Vec<String>, Vec<String>) {
     (numbered(n), equations)
 }
 
-/// Every generator is zero at every solution, the boxes are disjoint and narrow.
+/// Checks that every generator is zero at every solution, and that the boxes are disjoint and narrow.
 fn assert_solves(ring: &Ground, generators: &[Poly], solutions: &[RealSolution]) {
     let width = BigRational::new(BigInt::one(), BigInt::one() << Options::default().precision);
     for (i, solution) in solutions.iter().enumerate() {
@@ -92,7 +92,7 @@ fn assert_count((variables, equations): (Vec<String>, Vec<String>), count: usize
     assert_solves(&ring, &generators, &solutions);
 }
 
-/// Counted by msolve 0.10.1 (`msolve -f FILE`, the number of boxes in its answer).
+/// Counted by msolve 0.10.1 (`msolve -f FILE`, the number of boxes in its output).
 #[test]
 fn families_have_the_numbers_of_real_solutions_that_msolve_finds() {
     for (n, count) in [(3, 6), (4, 12), (5, 16)] {
@@ -115,7 +115,7 @@ fn large_families_have_the_numbers_of_real_solutions_that_msolve_finds() {
     assert_count(eco(8), 8);
 }
 
-/// From the bases of Singular in tests/corpus; the counts are msolve's.
+/// From the bases of Singular in tests/corpus. The counts are msolve's.
 #[test]
 fn katsura_6_and_cyclic_6_from_stored_bases() {
     for (name, count) in [("katsura_6-grevlex-q", 32), ("cyclic_6-grevlex-q", 24)] {
@@ -142,7 +142,7 @@ fn two_links(a: i64, b: i64, s: (i64, i64), t: (i64, i64)) -> (Vec<BigRational>,
         "c2^2 + s2^2 - 1".to_owned(),
     ];
     let solutions = all(&["c1", "s1", "c2", "s2"].map(str::to_owned), &equations);
-    // The other elbow is the mirror image at the line from the base to the tip.
+    // The other solution is the mirror image at the line from the base to the tip.
     let square = &x * &x + &y * &y;
     let project = (&c1 * &x + &s1 * &y) / &square * rational(2, 1);
     let mirror = vec![&project * &x - &c1, &project * &y - &s1, c2.clone(), -s2.clone()];
@@ -194,8 +194,8 @@ proptest! {
     }
 }
 
-/// The NAO leg in the sagittal plane (NAO section 6.7, millimetres) at (60, 150): both solutions satisfy `20580 c4 = px^2 + pz^2 -
-/// 20588.41` (6.7.18), and the knee bends either way.
+/// The NAO leg in the sagittal plane (NAO section 6.7, millimetres) at (60, 150): both solutions satisfy `20580 c4 =
+/// px^2 + pz^2 - 20588.41` (6.7.18), and the knee bends forwards or backwards.
 #[test]
 fn the_nao_leg_bends_its_knee_both_ways() {
     let equations = [

@@ -1,11 +1,13 @@
-//! Sixteen real solutions at one pose, the most that six joints can have, against a table in print.
+//! Sixteen real solutions at one pose, the maximum for six joints, compared with a published table.
 //!
-//! D. Manocha and J. F. Canny, "Efficient inverse kinematics for general 6R manipulators", IEEE Trans. Robotics and Automation 10
-//! (1994) 648-657: Table I, the pose below it and Table III. It is problem 6 of C. Wampler and A. P. Morgan, Mechanism and Machine
-//! Theory 26 (1991) 91-106, a slight variation of the manipulator of R. Manseur and K. L. Doty, Int. J. Robotics Research 8 (1989) 75-79.
+//! D. Manocha and J. F. Canny, "Efficient inverse kinematics for general 6R manipulators", IEEE Trans. Robotics and
+//! Automation 10 (1994) 648-657: Table I, the pose below it and Table III. It is problem 6 of C. Wampler and A. P.
+//! Morgan, Mechanism and Machine Theory 26 (1991) 91-106, a slight variation of the manipulator of R. Manseur and K. L.
+//! Doty, Int. J. Robotics Research 8 (1989) 75-79.
 //!
-//! Fourteen functions of the fifth frame's axis and origin are affine in the cosine and sine of every joint (M. Raghavan and B. Roth,
-//! J. Mechanical Design 115 (1993) 502-508), so that joints 1 and 2 are eliminated by linear algebra over Q.
+//! Fourteen functions of the fifth frame's axis and origin are affine in the cosine and sine of every joint (M.
+//! Raghavan and B. Roth, J. Mechanical Design 115 (1993) 502-508), so joints 1 and 2 are eliminated by linear algebra
+//! over Q.
 
 use std::ops::Neg;
 
@@ -34,7 +36,7 @@ pub(crate) type Frame<T> = [[T; 4]; 4];
 pub(crate) trait Number: Num + Neg<Output = Self> + Clone {}
 impl<T: Num + Neg<Output = T> + Clone> Number for T {}
 
-/// A link in Denavit and Hartenberg's way: lengths in the unit of the table, cosine and sine of the twist.
+/// A link in Denavit-Hartenberg parameters: lengths in the unit of the table, cosine and sine of the twist.
 #[derive(Clone)]
 pub(crate) struct Link<T> {
     pub length: T,
@@ -71,15 +73,15 @@ pub(crate) fn turn((n, d): (i64, i64)) -> [BigRational; 2] {
     [rational(d * d - n * n, d * d + n * n), rational(2 * n * d, d * d + n * n)]
 }
 
-/// The six links, one degree to within 4e-6 degrees.
+/// The six links, with angles within 4e-6 degrees.
 pub(crate) fn links() -> [Link<BigRational>; 6] {
     let exact = |text: &str| text.parse().unwrap();
     let twist = |degrees: f64| turn(if degrees == 90.0 { (1, 1) } else { (17, 1948) });
     TABLE.map(|(length, offset, degrees)| Link { length: exact(length), offset: exact(offset), twist: twist(degrees) })
 }
 
-/// The pose, exactly orthogonal; its entries begin with the four decimals in print. The sign of the first coordinate is lost there: the
-/// matrix Q of the same page and Table III have it negative.
+/// The pose, exactly orthogonal. Its entries begin with the four printed decimals. The sign of the first coordinate is
+/// missing there; the matrix Q on the same page and Table III have it negative.
 pub(crate) fn pose() -> Frame<BigRational> {
     let ([c, s], [k, m]) = (turn((69, 190)), turn((14, 209)));
     let (zero, one) = (BigRational::zero(), BigRational::one());
@@ -91,7 +93,7 @@ pub(crate) fn pose() -> Frame<BigRational> {
     ]
 }
 
-/// The frame of a link after its joint has turned.
+/// The frame of a link after the rotation of its joint.
 fn link<T: Number>([c, s]: &[T; 2], link: &Link<T>) -> Frame<T> {
     let ([u, v], [c, s]) = (link.twist.clone(), [c.clone(), s.clone()]);
     let (a, zero) = (link.length.clone(), T::zero);
@@ -139,8 +141,9 @@ fn invariants(frame: &Frame<BigRational>) -> Vec<BigRational> {
     found
 }
 
-/// The coefficients of functions that are affine in the cosine and sine of each of `joints` joints, from their values at quarter turns: of
-/// the products of one of 1, c, s for each joint, the last joint's changing fastest.
+/// The coefficients of functions that are affine in the cosine and sine of each of `joints` joints, from their values
+/// at quarter turns. The coefficients are those of the products of one of 1, c, s for each joint. The last joint varies
+/// fastest.
 fn expand(joints: u32, values: impl Fn(&[[BigRational; 2]]) -> Vec<BigRational>) -> Vec<Vec<BigRational>> {
     let places = [(1, 0), (-1, 0), (0, 1)].map(|(c, s)| [rational(c, 1), rational(s, 1)]);
     let count = 3_usize.pow(joints);
@@ -162,7 +165,7 @@ fn expand(joints: u32, values: impl Fn(&[[BigRational; 2]]) -> Vec<BigRational>)
     (0..table[0].len()).map(|row| table.iter().map(|values| values[row].clone()).collect()).collect()
 }
 
-/// Gauss and Jordan on the first `columns` columns; the number of pivots, whose rows come first.
+/// Gauss-Jordan elimination on the first `columns` columns. Returns the number of pivots, whose rows come first.
 fn reduce(rows: &mut [Vec<BigRational>], columns: usize) -> usize {
     let mut rank = 0;
     for column in 0..columns {
@@ -180,11 +183,12 @@ fn reduce(rows: &mut [Vec<BigRational>], columns: usize) -> usize {
     rank
 }
 
-/// The products of cosines and sines of joints 1 and 2, less the constant: c2, s2, c1, c1 c2, c1 s2, s1, s1 c2, s1 s2.
+/// The products of cosines and sines of joints 1 and 2, without the constant: c2, s2, c1, c1 c2, c1 s2, s1, s1 c2, s1
+/// s2.
 const EIGHT: usize = 8;
 
-/// First the eight products of joints 1 and 2, then relations of joints 3, 4 and 5 alone: each row has the coefficients of the eight
-/// products and of what they are equal to, in 1, c, s of joints 3, 4 and 5.
+/// First the eight products of joints 1 and 2, then relations of joints 3, 4 and 5 alone. Each row has the coefficients
+/// of the eight products and of the right side, in 1, c, s of joints 3, 4 and 5.
 pub(crate) fn eliminate(links: &[Link<BigRational>; 6], pose: &Frame<BigRational>) -> Vec<Vec<BigRational>> {
     let zero = turn((0, 1));
     let without_last = product(pose, &inverse(&link(&zero, &links[5])));
@@ -209,7 +213,7 @@ fn products() -> Vec<String> {
     names
 }
 
-/// What is zero at the turns of joints 3, 4 and 5.
+/// The polynomials that vanish at the angles of joints 3, 4 and 5.
 fn relations(rows: &[Vec<BigRational>]) -> Vec<String> {
     let relation = |row: &Vec<BigRational>| {
         let terms = row[EIGHT..].iter().zip(products()).filter(|(c, _)| !c.is_zero());
@@ -219,14 +223,14 @@ fn relations(rows: &[Vec<BigRational>]) -> Vec<String> {
     rows[EIGHT..].iter().map(relation).chain(circles).collect()
 }
 
-/// The real turns of joints 3, 4 and 5.
+/// The real solutions for joints 3, 4 and 5.
 pub(crate) fn solutions(rows: &[Vec<BigRational>]) -> Vec<RealSolution> {
     let names = ["c3", "s3", "c4", "s4", "c5", "s5"].map(str::to_owned);
     let (ring, generators) = system(&names, &relations(rows));
     solve(&ring, &generators, &Options::default(), &Watch::none()).unwrap()
 }
 
-/// The six joint angles \[rad\] that go with the cosines and sines of joints 3, 4 and 5.
+/// The six joint angles \[rad\] for the cosines and sines of joints 3, 4 and 5.
 fn angles(rows: &[Vec<BigRational>], turns: &[f64]) -> [f64; 6] {
     let mut values = vec![1.0];
     for pair in turns.chunks(2) {
@@ -257,7 +261,7 @@ fn rounded() -> [Link<f64>; 6] {
     })
 }
 
-/// The table as it is printed, in doubles.
+/// The table as printed, in doubles.
 fn printed() -> [Link<f64>; 6] {
     let radians = TABLE.map(|(_, _, degrees)| degrees.to_radians());
     let mut links = rounded();
@@ -278,7 +282,7 @@ fn distance(q: &[f64; 6], degrees: &[f64; 6]) -> f64 {
     q.iter().zip(degrees).map(difference).fold(0.0, |most, d: f64| most.max(d.abs()))
 }
 
-/// Table I, the pose and Table III agree: the data are read as they were meant.
+/// Table I, the pose and Table III agree, so the data are read correctly.
 #[test]
 fn the_printed_angles_reach_the_printed_pose() {
     for row in &ANGLES {

@@ -1,4 +1,4 @@
-//! Descartes' method against Sturm's and against known roots; refinement and signs at roots.
+//! Descartes' method compared with Sturm's and with known roots; refinement and signs at roots.
 
 use std::cmp::Ordering;
 
@@ -20,7 +20,7 @@ fn whole(p: &[BigRational]) -> Vec<BigInt> {
     p.iter().map(|c| c.to_integer()).collect()
 }
 
-/// The roots of Sturm's method lie in the intervals, one in each, and the intervals are disjoint.
+/// The roots of Sturm's method are in the intervals, one in each, and the intervals are disjoint.
 fn assert_agrees_with_sturm(p: &[BigRational]) -> Vec<RealRoot> {
     let sturm = Sturm::new(p).unwrap();
     let found = roots_of(p);
@@ -133,7 +133,8 @@ fn even_polynomials_are_solved() {
 fn wilkinson_has_twenty_roots_and_its_perturbation_ten() {
     let wilkinson = with_roots(&(1..=20).map(|n| rational(n, 1)).collect::<Vec<_>>());
     assert_eq!(assert_agrees_with_sturm(&wilkinson).len(), 20);
-    // Wilkinson, "The evaluation of the zeros of ill-conditioned polynomials" (1959): -210 - 2^-23 at x^19 leaves ten real roots.
+    // Wilkinson, "The evaluation of the zeros of ill-conditioned polynomials" (1959): with -210 - 2^-23 at x^19 it has
+    // ten real roots.
     let mut perturbed = wilkinson;
     perturbed[19] -= rational(1, 1 << 23);
     assert_eq!(assert_agrees_with_sturm(&perturbed).len(), 10);

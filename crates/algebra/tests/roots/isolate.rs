@@ -1,4 +1,4 @@
-//! Sturm's method against polynomials with known roots.
+//! Sturm's method compared with polynomials with known roots.
 
 use groebot_algebra::ErrorKind;
 use groebot_algebra::number::{BigInt, BigRational};

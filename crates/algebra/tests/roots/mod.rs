@@ -1,4 +1,4 @@
-//! Real roots: exact isolation against known roots, the numeric method against exact isolation.
+//! Real roots: exact isolation compared with known roots, the numeric method compared with exact isolation.
 
 mod descartes;
 mod isolate;
@@ -26,7 +26,8 @@ fn with_roots(roots: &[BigRational]) -> Vec<BigRational> {
     product(&roots.iter().map(|root| vec![-root, rational(1, 1)]).collect::<Vec<_>>())
 }
 
-/// Polynomials that break eigenvalue methods, with their real roots: `x^6 - 1`, `x^8 + 1`, `(x^2 - 1)^2 (x^2 - 4)^2`.
+/// Polynomials for which eigenvalue methods fail, with their real roots: `x^6 - 1`, `x^8 + 1`, `(x^2 - 1)^2 (x^2 -
+/// 4)^2`.
 fn even_polynomials() -> [(Vec<BigRational>, Vec<f64>); 3] {
     let (one, two) = (integers(&[-1, 0, 1]), integers(&[-4, 0, 1]));
     [

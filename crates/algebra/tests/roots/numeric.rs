@@ -1,4 +1,4 @@
-//! The run time's roots against known ones and against exact isolation.
+//! The run time's roots compared with known roots and with exact isolation.
 
 use groebot_algebra::number::{BigRational, Rationals};
 use groebot_algebra::poly::univariate::UnivariateRing;
@@ -26,12 +26,12 @@ fn evaluate(p: &[f64], x: f64) -> (f64, f64, f64) {
     (value, slope, size)
 }
 
-/// Whether `p` stays a hundred times further from the axis at its critical points than a tangency would.
+/// Whether `p` stays a hundred times further from the axis at its critical points than near a tangency.
 fn is_well_separated(p: &[BigRational]) -> bool {
     is_separated(p, 0.0)
 }
 
-/// The same for an unknown of that typical size.
+/// Same as `is_well_separated`, but for an unknown of this typical size.
 fn is_separated(p: &[BigRational], scale: f64) -> bool {
     let ring = UnivariateRing::new(Rationals, "x");
     let derivative = ring.derivative(&ring.polynomial(p.to_vec())).coefficients;
@@ -44,19 +44,19 @@ fn is_separated(p: &[BigRational], scale: f64) -> bool {
     })
 }
 
-/// Asserts equal counts, and errors within the conditioning of each simple root.
+/// Asserts equal numbers of roots, and errors within the conditioning of each simple root.
 fn assert_matches(p: &[BigRational], expected: &[f64]) {
     assert_found(p, expected, 0.0);
 }
 
-/// The same for an unknown of that typical size.
+/// Same as `assert_matches`, but for an unknown of this typical size.
 fn assert_found(p: &[BigRational], expected: &[f64], scale: f64) {
     let coefficients = floats(p);
     let roots = real_roots(&coefficients, scale);
     assert_eq!(roots.as_slice().len(), expected.len(), "{coefficients:?}: {roots:?}, not {expected:?}");
     for (root, exact) in roots.as_slice().iter().zip(expected) {
         let (_, slope, size) = evaluate(&coefficients, *exact);
-        // A root that is zero has no size of its own: what is nothing beside the unknown's typical size is zero.
+        // A zero root has no size of its own: a root that is negligible relative to the unknown's typical size is zero.
         let nothing = f64::EPSILON * f64::EPSILON * scale;
         let bound = 1e-14 * size / slope.abs() + 4.0 * f64::EPSILON * exact.abs() + nothing;
         assert!((root - exact).abs() <= bound, "{root} is not {exact} within {bound}");

@@ -1,4 +1,4 @@
-//! Tests of `groebot_algebra::watch`: what is told, and what ends the work.
+//! Tests of `groebot_algebra::watch`: progress reports and the end of work.
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::sync::{Arc, Mutex};

@@ -123,7 +123,7 @@ fn poses_that_cannot_be_followed_are_refused_with_their_number() {
     refused(
         follow(&chain, &[], SOLVER.program(), &some, &pace, &Watch::none()).unwrap_err(),
         ErrorKind::BadValue,
-        "let time go on",
+        "give increasing times",
     );
     let position = chain.with_task(Task::Position, along_z(), Vec::new()).unwrap();
     refused(followed(&position, &some, SOLVER.program()).unwrap_err(), ErrorKind::Unsupported, "followed by `pose`");

@@ -1,64 +1,67 @@
-//! A law and a robot together: what the robot does. Main type: [`ClosedLoop`].
+//! Simulation of a robot under a control law. Main type: [`ClosedLoop`].
 
 use super::{Desired, Law};
 use crate::dynamics::{Equations, State, Workspace};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::limits::{CONTROL_STEPS, check_count};
 
-/// What a law does not know of a robot.
+/// Disturbances: actuation delay and measurement noise.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Disturbance {
-    /// How many steps pass until torques act.
+    /// Delay until torques act, in steps.
     pub delay: usize,
-    /// The standard deviation of what is measured of places \[rad or m\] and of rates, per second of these.
+    /// Standard deviations of the measured positions \[rad or m\] and velocities \[rad/s or m/s\].
     pub noise: [f64; 2],
     /// The seed of the noise.
     pub seed: u64,
 }
 
-/// A robot that a law moves: torques are held for a step, in which the robot moves by Runge's and Kutta's method of order four.
+/// A robot under a control law. Torques are constant during a step, which is integrated by the Runge-Kutta method of
+/// order four.
 #[derive(Debug)]
 pub struct ClosedLoop<'a, L> {
     plant: &'a Equations,
-    room: Workspace,
+    workspace: Workspace,
     law: L,
     step: f64,
     disturbance: Disturbance,
 }
 
-/// A robot at a time.
+/// A sample of a simulation.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sample {
-    /// Since the beginning \[s\].
+    /// The time since the beginning \[s\].
     pub time: f64,
-    /// Where it is.
+    /// The configuration.
     pub q: Vec<f64>,
-    /// How it moves.
+    /// The velocity.
     pub velocity: Vec<f64>,
-    /// What is held from here on.
+    /// The torques, constant from this time on.
     pub torques: Vec<f64>,
-    /// Where it should be.
+    /// The desired configuration.
     pub desired: Vec<f64>,
 }
 
 impl<'a, L: Law> ClosedLoop<'a, L> {
-    /// A robot, of which a law may know something else, and the time for which torques are held \[s\].
+    /// Builds the simulation of `plant`, which may differ from the law's model. `step` is the time for which torques
+    /// are constant \[s\].
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a step that is not positive; [`ErrorKind::Unsupported`] for a base that moves freely.
+    /// [`ErrorKind::BadValue`] for a step that is not positive; [`ErrorKind::Unsupported`] for a floating base.
     pub fn new(plant: &'a Equations, law: L, step: f64, disturbance: Disturbance) -> Result<Self> {
         super::fixed(plant)?;
         if !(step.is_finite() && step > 0.0) {
             return Err(Error::new(ErrorKind::BadValue, format!("a step of {step} s: give a positive one")));
         }
-        Ok(ClosedLoop { room: plant.workspace(), plant, law, step, disturbance })
+        Ok(ClosedLoop { workspace: plant.workspace(), plant, law, step, disturbance })
     }
 
-    /// What the robot does in a time \[s\] from a configuration and rates; `desired` tells configuration, rates and what these change by at a time.
+    /// Simulates the robot for `duration` \[s\] from a configuration and a velocity. `desired` returns the desired
+    /// configuration, velocity and acceleration at a time.
     ///
     /// # Errors
-    /// As [`Law::torques`] and [`Equations::forward`], with the time; [`Watch::check`].
+    /// Those of [`Law::torques`] and [`Equations::forward`], with the time; those of [`Watch::check`].
     pub fn run(
         &mut self,
         start: [&[f64]; 2],
@@ -67,7 +70,7 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
         watch: &Watch,
     ) -> Result<Vec<Sample>> {
         let [mut q, mut velocity] = start.map(<[f64]>::to_vec);
-        // A quotient beyond the integers is the greatest one.
+        // A quotient outside the range of integers becomes the largest integer.
         let steps = (duration / self.step).round() as usize;
         check_count("steps of the law", steps, CONTROL_STEPS)?;
         check_count("steps of delay", self.disturbance.delay, CONTROL_STEPS)?;
@@ -83,7 +86,7 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
             let seen = State::new(&measured[0], &measured[1]);
             let at = |error: Error| error.with_context(format!("at {time:.4} s"));
             let asked = self.law.torques(&wanted, seen).map_err(at)?.to_vec();
-            self.law.endure(&wanted, seen, self.step);
+            self.law.integrate(&wanted, seen, self.step);
             let torques = match number.checked_sub(self.disturbance.delay) {
                 _ if self.disturbance.delay == 0 => asked.clone(),
                 Some(earlier) => samples[earlier].torques.clone(),
@@ -97,14 +100,14 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
         Ok(samples)
     }
 
-    /// Moves the robot on by a step.
+    /// Integrates one step.
     fn advance(&mut self, q: &mut [f64], velocity: &mut [f64], torques: &[f64]) -> Result<()> {
         let step = self.step;
-        let along = |from: &[f64], way: &[f64], time: f64| -> Vec<f64> {
-            from.iter().zip(way).map(|(from, way)| from + time * way).collect()
+        let along = |from: &[f64], slope: &[f64], time: f64| -> Vec<f64> {
+            from.iter().zip(slope).map(|(from, slope)| from + time * slope).collect()
         };
         let mut change = |q: &[f64], velocity: &[f64]| -> Result<Vec<f64>> {
-            Ok(self.plant.forward(&mut self.room, State::new(q, velocity), torques)?.as_slice().to_vec())
+            Ok(self.plant.forward(&mut self.workspace, State::new(q, velocity), torques)?.as_slice().to_vec())
         };
         let first = change(q, velocity)?;
         let [q_2, v_2] = [along(q, velocity, step / 2.0), along(velocity, &first, step / 2.0)];
@@ -125,7 +128,7 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
     }
 }
 
-/// Normal noise by SplitMix64 (Steele, Lea and Flood 2014) and Box and Muller.
+/// Normal noise by SplitMix64 (Steele, Lea and Flood 2014) and the Box-Muller transform.
 struct Noise(u64);
 
 impl Noise {

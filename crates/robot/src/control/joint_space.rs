@@ -1,22 +1,22 @@
-//! Laws in joint space: open loop, computed torque, and proportional and derivative action with gravity compensated.
+//! Joint-space control laws: open loop, computed torque, and PD control with gravity compensation.
 
 use super::{Desired, Law, fixed};
 use crate::dynamics::{Equations, State, Workspace};
 use crate::{Error, ErrorKind, Result};
 
-/// By freedom the factors of an error, its rate, and its integral in time.
+/// PID gains for each degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gains {
-    /// `Kp` \[1/s^2, or of torques N m/rad\].
+    /// `Kp` \[1/s^2; for torques N m/rad\].
     pub proportional: Vec<f64>,
-    /// `Kv` \[1/s, or N m s/rad\].
+    /// `Kv` \[1/s; for torques N m s/rad\].
     pub derivative: Vec<f64>,
-    /// `Ki` \[1/s^3, or N m/(rad s)\]; nought for none.
+    /// `Ki` \[1/s^3; for torques N m/(rad s)\]; zero without integral action.
     pub integral: Vec<f64>,
 }
 
 impl Gains {
-    /// Those with which errors die out as fast as they can without swinging, at a frequency \[rad/s\]: `Kp = w^2` and `Kv = 2 w`.
+    /// Gains of critical damping at a frequency \[rad/s\]: `Kp = w^2` and `Kv = 2 w`.
     pub fn critical(count: usize, frequency: f64) -> Self {
         Gains {
             proportional: vec![frequency * frequency; count],
@@ -32,7 +32,7 @@ impl Gains {
         if lists.iter().all(is_right) { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text())) }
     }
 
-    /// What the errors of a freedom ask for: `-Kv e' - Kp e - Ki int e`.
+    /// The correction of a degree of freedom: `-Kv e' - Kp e - Ki int e`.
     fn pull(&self, at: usize, desired: &Desired<'_>, state: &State<'_>, sum: &[f64]) -> f64 {
         let (error, rate) = (state.q[at] - desired.q[at], state.velocity[at] - desired.velocity[at]);
         -self.derivative[at] * rate - self.proportional[at] * error - self.integral[at] * sum[at]
@@ -44,32 +44,32 @@ fn endured(sum: &mut [f64], desired: &Desired<'_>, state: &State<'_>, time: f64)
     sum.iter_mut().zip(errors).for_each(|(sum, error)| *sum += error * time);
 }
 
-/// The torques that the desired motion asks for, wherever the robot is, RH0 (2-46).
+/// Open-loop control: the torques of the desired motion, independent of the state, RH0 (2-46).
 #[derive(Clone, Debug)]
 pub struct OpenLoop {
     equations: Equations,
-    room: Workspace,
+    workspace: Workspace,
 }
 
 impl OpenLoop {
-    /// That of a robot.
+    /// Builds the law of a robot.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a base that moves freely.
+    /// [`ErrorKind::Unsupported`] for a floating base.
     pub fn new(equations: &Equations) -> Result<Self> {
         fixed(equations)?;
-        Ok(OpenLoop { room: equations.workspace(), equations: equations.clone() })
+        Ok(OpenLoop { workspace: equations.workspace(), equations: equations.clone() })
     }
 }
 
 impl Law for OpenLoop {
     fn torques(&mut self, desired: &Desired<'_>, _: State<'_>) -> Result<&[f64]> {
         let state = State::new(desired.q, desired.velocity);
-        self.equations.inverse(&mut self.room, state, desired.acceleration).map(|torques| torques.as_slice())
+        self.equations.inverse(&mut self.workspace, state, desired.acceleration).map(|torques| torques.as_slice())
     }
 }
 
-/// What errors make of the acceleration that is desired.
+/// The commanded acceleration: the desired one with feedback of the errors.
 #[derive(Clone, Debug)]
 pub(super) struct Commanded {
     gains: Gains,
@@ -78,10 +78,10 @@ pub(super) struct Commanded {
 }
 
 impl Commanded {
-    /// That of gains in 1/s^2, 1/s and 1/s^3.
+    /// Builds the feedback from gains in 1/s^2, 1/s and 1/s^3.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for gains that are not as many as freedoms, finite and not below zero.
+    /// [`ErrorKind::BadValue`] unless there is one finite, nonnegative gain for each degree of freedom.
     pub(super) fn new(count: usize, gains: Gains) -> Result<Self> {
         gains.check(count)?;
         Ok(Commanded { gains, sum: vec![0.0; count], accelerations: vec![0.0; count] })
@@ -95,77 +95,80 @@ impl Commanded {
         &self.accelerations
     }
 
-    /// Adds errors that have lasted for a time \[s\].
-    pub(super) fn endure(&mut self, desired: &Desired<'_>, state: &State<'_>, time: f64) {
+    /// Integrates the errors over a time \[s\].
+    pub(super) fn integrate(&mut self, desired: &Desired<'_>, state: &State<'_>, time: f64) {
         endured(&mut self.sum, desired, state, time);
     }
 }
 
-/// Computed torque, RH0 (2-47): `M (q_d'' - Kv e' - Kp e) + C q' + N`, so that each error obeys `e'' + Kv e' + Kp e = 0`, whatever the others do.
+/// Computed torque, RH0 (2-47): `M (q_d'' - Kv e' - Kp e) + C q' + N`, so that each error satisfies `e'' + Kv e' + Kp e
+/// = 0`, independently of the others.
 #[derive(Clone, Debug)]
 pub struct ComputedTorque {
     equations: Equations,
-    room: Workspace,
+    workspace: Workspace,
     commanded: Commanded,
 }
 
 impl ComputedTorque {
-    /// That of a robot, with gains in 1/s^2, 1/s and 1/s^3.
+    /// Builds the law of a robot, with gains in 1/s^2, 1/s and 1/s^3.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for gains that are not as many as freedoms, finite and not below zero; [`ErrorKind::Unsupported`] for a base that moves freely.
+    /// [`ErrorKind::BadValue`] unless there is one finite, nonnegative gain for each degree of freedom;
+    /// [`ErrorKind::Unsupported`] for a floating base.
     pub fn new(equations: &Equations, gains: Gains) -> Result<Self> {
         let commanded = Commanded::new(fixed(equations)?, gains)?;
-        Ok(ComputedTorque { room: equations.workspace(), equations: equations.clone(), commanded })
+        Ok(ComputedTorque { workspace: equations.workspace(), equations: equations.clone(), commanded })
     }
 }
 
 impl Law for ComputedTorque {
     fn torques(&mut self, desired: &Desired<'_>, state: State<'_>) -> Result<&[f64]> {
         let commanded = self.commanded.accelerations(desired, &state);
-        self.equations.inverse(&mut self.room, state, commanded).map(|torques| torques.as_slice())
+        self.equations.inverse(&mut self.workspace, state, commanded).map(|torques| torques.as_slice())
     }
 
-    fn endure(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
-        self.commanded.endure(desired, &state, time);
+    fn integrate(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
+        self.commanded.integrate(desired, &state, time);
     }
 }
 
-/// Gravity compensated, and errors pulled back by proportional and derivative action: `N - Kv e' - Kp e`. It comes to rest where it should wherever it starts, of
-/// the robot's own damping alone if need be (M. Takegaki and S. Arimoto, J. Dynamic Systems, Measurement, and Control 103, 1981).
+/// PD control with gravity compensation: `N - Kv e' - Kp e`. The desired configuration is globally asymptotically
+/// stable, also with the robot's own damping alone (M. Takegaki and S. Arimoto, J. Dynamic Systems, Measurement, and
+/// Control 103, 1981).
 #[derive(Clone, Debug)]
 pub struct GravityCompensation {
     equations: Equations,
-    room: Workspace,
+    workspace: Workspace,
     gains: Gains,
     sum: Vec<f64>,
     torques: Vec<f64>,
 }
 
 impl GravityCompensation {
-    /// That of a robot, with gains in N m/rad, N m s/rad and N m/(rad s).
+    /// Builds the law of a robot, with gains in N m/rad, N m s/rad and N m/(rad s).
     ///
     /// # Errors
-    /// As [`ComputedTorque::new`].
+    /// Those of [`ComputedTorque::new`].
     pub fn new(equations: &Equations, gains: Gains) -> Result<Self> {
         let count = fixed(equations)?;
         gains.check(count)?;
         let zeros = vec![0.0; count];
         let (sum, torques) = (zeros.clone(), zeros);
-        Ok(GravityCompensation { room: equations.workspace(), equations: equations.clone(), gains, sum, torques })
+        Ok(GravityCompensation { workspace: equations.workspace(), equations: equations.clone(), gains, sum, torques })
     }
 }
 
 impl Law for GravityCompensation {
     fn torques(&mut self, desired: &Desired<'_>, state: State<'_>) -> Result<&[f64]> {
-        let gravity = self.equations.gravity(&mut self.room, state.q)?;
+        let gravity = self.equations.gravity(&mut self.workspace, state.q)?;
         for (at, (torque, gravity)) in self.torques.iter_mut().zip(gravity.iter()).enumerate() {
             *torque = gravity + self.gains.pull(at, desired, &state, &self.sum);
         }
         Ok(&self.torques)
     }
 
-    fn endure(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
+    fn integrate(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
         endured(&mut self.sum, desired, &state, time);
     }
 }

@@ -1,6 +1,8 @@
-//! Control laws, RH0 2.5: what torques make a robot follow a reference. They return torques and own no clock. Main type: [`Law`].
+//! Control laws, RH0 2.5: the torques with which a robot follows a reference. A law returns torques and has no clock.
+//! Main type: [`Law`].
 //!
-//! Errors are what is less what should be, `e = q - q_d`, as in the thesis. [`ClosedLoop`] puts a law and a robot together.
+//! Errors are actual minus desired values, `e = q - q_d`, as in the thesis. [`ClosedLoop`] simulates a robot under a
+//! law.
 
 mod closed_loop;
 mod joint_space;
@@ -19,21 +21,21 @@ pub use work_space::{Effective, Inversion, Target, WorkSpace};
 use crate::Result;
 use crate::dynamics::{Equations, State};
 
-/// A control law of a robot: it reads where the robot is and should be.
+/// A control law of a robot: it computes torques from the actual and the desired state.
 pub trait Law {
-    /// The torques at a state, of each freedom.
+    /// Computes the torque of each degree of freedom at a state.
     ///
     /// # Errors
-    /// As [`Equations::inverse`], and what the law itself refuses.
+    /// Those of [`Equations::inverse`], and errors of the law itself.
     fn torques(&mut self, desired: &Desired<'_>, state: State<'_>) -> Result<&[f64]>;
 
-    /// Tells the law that an error has lasted for a time \[s\]; laws without integral action do not mind.
-    fn endure(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
+    /// Integrates the errors over a time \[s\]. Laws without integral action ignore this call.
+    fn integrate(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
         let _ = (desired, state, time);
     }
 }
 
-/// A law whose torques are cut at what the motors give.
+/// A law with torque limits of the motors.
 #[derive(Clone, Debug)]
 pub struct Limited<L> {
     law: L,
@@ -43,13 +45,13 @@ pub struct Limited<L> {
 }
 
 impl<L: Law> Limited<L> {
-    /// The law with the greatest torque of each freedom \[N m or N\]; infinite where there is none.
+    /// Limits the torque of each degree of freedom \[N m or N\]; infinite without a limit.
     pub fn new(law: L, most: Vec<f64>) -> Self {
         let count = most.len();
         Limited { law, most, torques: vec![0.0; count], cut: vec![0.0; count] }
     }
 
-    /// By freedom, what was cut off the last torques, with its sign.
+    /// The signed excess of the last torques over the limits, for each degree of freedom.
     pub fn cut(&self) -> &[f64] {
         &self.cut
     }
@@ -65,10 +67,10 @@ impl<L: Law> Law for Limited<L> {
         Ok(&self.torques)
     }
 
-    fn endure(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
-        // What lasts while a motor gives all it can is not summed up: it would take as long to be undone.
+    fn integrate(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
+        // Anti-windup: errors are not integrated while a motor is at its limit.
         if self.cut.iter().all(|cut| *cut == 0.0) {
-            self.law.endure(desired, state, time);
+            self.law.integrate(desired, state, time);
         }
     }
 }
@@ -78,12 +80,12 @@ impl<L: Law + ?Sized> Law for Box<L> {
         (**self).torques(desired, state)
     }
 
-    fn endure(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
-        (**self).endure(desired, state, time);
+    fn integrate(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
+        (**self).integrate(desired, state, time);
     }
 }
 
-/// How many freedoms the equations of a law have; laws of joints ask for a base that is fixed.
+/// Number of degrees of freedom of a law's equations. Joint-space laws need a fixed base.
 fn fixed(equations: &Equations) -> Result<usize> {
     use crate::{Error, ErrorKind};
     let text = "this law is for a robot whose base is fixed";

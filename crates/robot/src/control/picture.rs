@@ -1,4 +1,4 @@
-//! A tracked motion as a picture: errors and torques in time.
+//! Pictures of a tracked motion: errors and torques over time.
 
 use super::Sample;
 use crate::drawing::frame::Frame;
@@ -8,12 +8,12 @@ const WIDTH: f64 = 1000.0;
 const LEFT: f64 = 70.0;
 const HEIGHT: f64 = 220.0;
 const GAP: f64 = 20.0;
-/// Errors below this are drawn there.
+/// Smaller errors are drawn at this value.
 const LEAST: f64 = 1e-8;
-/// Lines are told apart by their colours, as many as there are here.
+/// Line colours. This is the maximum number of different lines.
 const COLOURS: [&str; 8] = ["#1f5f9e", "#b05a00", "#2f8f4e", "#b0126f", "#6b4fa0", "#7a6a1f", "#3aa0a0", "#444444"];
 
-/// Errors of all joints and their torques in time, as SVG; `names` are the joints'.
+/// Errors and torques of all joints over time, as SVG. `names` are the joint names.
 pub fn errors_and_torques(samples: &[Sample], names: &[String]) -> String {
     let mut svg = Svg::default();
     let errors = |joint: usize| samples.iter().map(move |sample| 1e3 * (sample.q[joint] - sample.desired[joint]));
@@ -23,7 +23,7 @@ pub fn errors_and_torques(samples: &[Sample], names: &[String]) -> String {
     svg.finish(WIDTH, end + GAP)
 }
 
-/// The greatest error of each run in time, by powers of ten, as SVG: runs have a name each.
+/// The largest error of each run over time on a logarithmic scale, as SVG. Each run has a name.
 pub fn greatest_errors(runs: &[(&str, &[Sample])]) -> String {
     let mut svg = Svg::default();
     let greatest = |sample: &Sample| {
@@ -51,7 +51,7 @@ pub fn greatest_errors(runs: &[(&str, &[Sample])]) -> String {
     svg.finish(WIDTH, frame.end() + GAP)
 }
 
-/// One panel below `top`; where it ends \[px\].
+/// Draws one panel below `top` \[px\]. Returns its lower end \[px\].
 fn panel<I: Iterator<Item = f64>>(
     svg: &mut Svg,
     top: f64,
@@ -64,13 +64,13 @@ fn panel<I: Iterator<Item = f64>>(
     svg.text("title", (LEFT, top + 12.0), title);
     let all = (0..names.len()).flat_map(&values);
     let (low, high) = all.fold((0.0, 0.0), |(low, high): (f64, f64), value| (low.min(value), high.max(value)));
-    let room = 0.05 * (high - low).max(1e-12);
+    let workspace = 0.05 * (high - low).max(1e-12);
     let end = samples.last().map_or(1.0, |sample| sample.time);
     let frame = Frame {
         corner: (LEFT, top + 42.0),
         size: (WIDTH - LEFT - GAP, HEIGHT),
-        low: (0.0, low - room),
-        high: (end.max(1e-9), high + room),
+        low: (0.0, low - workspace),
+        high: (end.max(1e-9), high + workspace),
     };
     frame.draw(("s", unit), svg);
     for (joint, name) in names.iter().enumerate() {

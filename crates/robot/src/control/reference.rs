@@ -1,31 +1,33 @@
-//! Where a robot should be: at a time ([`Desired`]), and all along ([`Trajectory`]).
+//! References: the desired state at a time ([`Desired`]), and a whole motion ([`Trajectory`]).
 
 use crate::{Error, ErrorKind, Result};
 
-/// Where joints should be and how they should move: configuration, rates, and what these change by.
+/// The desired configuration, velocity and acceleration.
 #[derive(Clone, Copy, Debug)]
 pub struct Desired<'a> {
-    /// As told.
+    /// The configuration.
     pub q: &'a [f64],
-    /// As told.
+    /// The velocity.
     pub velocity: &'a [f64],
-    /// As told.
+    /// The acceleration.
     pub acceleration: &'a [f64],
 }
 
-/// Places of joints in time, with rates and what these change by, between which they move by polynomials of degree five: all three are continuous.
+/// A joint trajectory through knots with position, velocity and acceleration. Polynomials of degree five between the
+/// knots make all three continuous.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
     times: Vec<f64>,
-    /// By time: configuration, rates, changes.
+    /// For each knot: configuration, velocity, acceleration.
     knots: Vec<[Vec<f64>; 3]>,
 }
 
 impl Trajectory {
-    /// That through knots, of which each has a time \[s\], a configuration, rates and what these change by.
+    /// Builds the trajectory through knots. Each has a time \[s\], a configuration, a velocity and an acceleration.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for fewer than two knots, times that do not grow, lists of different lengths, and numbers that are not finite.
+    /// [`ErrorKind::BadValue`] for fewer than two knots, times that do not increase, lists of different lengths, and
+    /// numbers that are not finite.
     pub fn new(times: Vec<f64>, knots: Vec<[Vec<f64>; 3]>) -> Result<Self> {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         if times.len() < 2 || times.len() != knots.len() {
@@ -48,10 +50,10 @@ impl Trajectory {
         Ok(Trajectory { times, knots })
     }
 
-    /// That through places alone: the natural cubic spline, which begins and ends without acceleration.
+    /// Builds the trajectory through positions only: the natural cubic spline, whose acceleration is zero at both ends.
     ///
     /// # Errors
-    /// As [`Trajectory::new`].
+    /// Those of [`Trajectory::new`].
     pub fn through(times: Vec<f64>, places: Vec<Vec<f64>>) -> Result<Self> {
         let still = |q: Vec<f64>| {
             let zeros = vec![0.0; q.len()];
@@ -59,13 +61,13 @@ impl Trajectory {
         };
         let mut trajectory = Trajectory::new(times, places.into_iter().map(still).collect())?;
         for joint in 0..trajectory.joints() {
-            trajectory.bend(joint);
+            trajectory.fit_spline(joint);
         }
         Ok(trajectory)
     }
 
-    /// Rates and changes of a joint by the natural cubic spline: a tridiagonal system for the changes.
-    fn bend(&mut self, joint: usize) {
+    /// Velocities and accelerations of a joint by the natural cubic spline: a tridiagonal system for the accelerations.
+    fn fit_spline(&mut self, joint: usize) {
         let (times, last) = (&self.times, self.times.len() - 1);
         let q = |at: usize| self.knots[at][0][joint];
         let width = |at: usize| times[at + 1] - times[at];
@@ -87,17 +89,18 @@ impl Trajectory {
         }
     }
 
-    /// How many joints it moves.
+    /// Number of joints.
     pub fn joints(&self) -> usize {
         self.knots[0][0].len()
     }
 
-    /// When it begins and ends \[s\].
+    /// Start and end time \[s\].
     pub fn times(&self) -> [f64; 2] {
         [self.times[0], self.times[self.times.len() - 1]]
     }
 
-    /// Configuration, rates and what these change by at a time \[s\]; before the beginning and behind the end those there, without motion.
+    /// Configuration, velocity and acceleration at a time \[s\]. Before the start and after the end the trajectory is
+    /// at rest.
     pub fn at(&self, time: f64) -> [Vec<f64>; 3] {
         let [begin, end] = self.times();
         if !(begin..=end).contains(&time) {
@@ -121,7 +124,8 @@ impl Trajectory {
     }
 }
 
-/// Value, slope and bend at a share of the way of the polynomial of degree five that has these at both ends.
+/// Value, first and second derivative, at the parameter `t` in \[0, 1\], of the polynomial of degree five with these
+/// values at both ends.
 fn quintic([[p, v, a], [q, w, b]]: [[f64; 3]; 2], t: f64) -> [f64; 3] {
     let (d, dv, da) = (q - p - v - 0.5 * a, w - v - a, b - a);
     let c = [10.0 * d - 4.0 * dv + 0.5 * da, -15.0 * d + 7.0 * dv - da, 6.0 * d - 3.0 * dv + 0.5 * da];

@@ -1,4 +1,4 @@
-//! Computed torque in work space, RH0 (2-48) to (2-50). Main type: [`WorkSpace`].
+//! Computed torque in workspace (operational space), RH0 (2-48) to (2-50). Main type: [`WorkSpace`].
 
 use nalgebra::{DMatrix, DVector, Isometry3, Vector6};
 
@@ -6,42 +6,47 @@ use super::{Desired, fixed};
 use crate::dynamics::{Equations, State, Workspace};
 use crate::{Error, ErrorKind, Result};
 
-/// What is done where the Jacobian has no inverse: where the robot has more or fewer joints than the task has directions, or stands next to a singular configuration.
+/// Inversion of the Jacobian, which has no inverse near singular configurations, or when the numbers of joints and task
+/// directions differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Inversion {
-    /// It is refused where its least singular value is below this share of its greatest.
+    /// Exact inverse. It is refused when the least singular value is below this fraction of the greatest.
     Exact(f64),
-    /// `J' (J J' + d^2)^-1` is taken for its inverse, `d` this share of its greatest singular value: rates stay bounded, and errors die out more slowly. Where there
-    /// are more joints than directions, the motion that is least in the sum of its squares is taken.
+    /// Damped least squares: `J' (J J' + d^2)^-1`, where `d` is this fraction of the greatest singular value.
+    /// Velocities stay bounded, and errors decrease more slowly. With more joints than directions, the motion has the
+    /// least sum of squares.
     Damped(f64),
 }
 
-/// Where a link should be in the world (of a fixed base: in its frame), and how it should move: velocity of its origin and angular velocity, and what these change by, along the world's axes.
+/// Target of a link in the world frame; for a fixed base, in its frame. Velocity and acceleration of its origin and its
+/// angular velocity and acceleration are along the world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    /// Where.
+    /// The pose.
     pub pose: Isometry3<f64>,
-    /// How fast.
+    /// The velocity.
     pub velocity: Vector6<f64>,
-    /// As told.
+    /// The acceleration.
     pub acceleration: Vector6<f64>,
 }
 
-/// A law that lets a link follow a target, RH0 (2-50): with effective parameters (2-49) the torques are `J' (M~ (x_d'' - Kv e' - Kp e) + C~ x' + N~)`.
+/// A law with which a link follows a target, RH0 (2-50). With the effective parameters (2-49), the torques are `J' (M~
+/// (x_d'' - Kv e' - Kp e) + C~ x' + N~)`.
 #[derive(Clone, Debug)]
 pub struct WorkSpace {
     equations: Equations,
-    room: Workspace,
+    workspace: Workspace,
     link: usize,
     inversion: Inversion,
     proportional: f64,
     derivative: f64,
     commanded: Vec<f64>,
-    /// By how much the last inversion was damped, as a share of the greatest singular value.
+    /// Damping of the last inversion as a fraction of the greatest singular value.
     damped: f64,
 }
 
-/// The effective parameters of RH0 (2-49) at a state: `M~ x'' + C~ x' + N~` is the force at the link, and `M~' - 2 C~` is skew.
+/// The effective parameters of RH0 (2-49) at a state: `M~ x'' + C~ x' + N~` is the force at the link, and `M~' - 2 C~`
+/// is skew-symmetric.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effective {
     /// `J^-T M J^-1`.
@@ -53,10 +58,12 @@ pub struct Effective {
 }
 
 impl WorkSpace {
-    /// That of the link with this place in a robot, with the gains `Kp` \[1/s^2\] and `Kv` \[1/s\] of all directions.
+    /// Builds the law for the link with the index `link` in a robot. The gains `Kp` \[1/s^2\] and `Kv` \[1/s\] are
+    /// those of all directions.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for gains or a share that are not finite, or below zero; [`ErrorKind::Unsupported`] for a base that moves freely.
+    /// [`ErrorKind::BadValue`] for gains or a fraction that are negative or not finite; [`ErrorKind::Unsupported`] for
+    /// a floating base.
     pub fn new(equations: &Equations, link: usize, gains: [f64; 2], inversion: Inversion) -> Result<Self> {
         let count = fixed(equations)?;
         let (Inversion::Exact(share) | Inversion::Damped(share)) = inversion;
@@ -65,7 +72,7 @@ impl WorkSpace {
         }
         let [proportional, derivative] = gains;
         Ok(WorkSpace {
-            room: equations.workspace(),
+            workspace: equations.workspace(),
             equations: equations.clone(),
             link,
             inversion,
@@ -76,18 +83,20 @@ impl WorkSpace {
         })
     }
 
-    /// By how much the last inversion was damped, as a share of the Jacobian's greatest singular value; nought where it was exact.
+    /// Damping of the last inversion, as a fraction of the Jacobian's greatest singular value; zero for an exact
+    /// inversion.
     pub fn damped(&self) -> f64 {
         self.damped
     }
 
-    /// The torques that let the link follow.
+    /// Computes the torques with which the link follows the target.
     ///
     /// # Errors
-    /// As [`Equations::inverse`], and [`ErrorKind::BadValue`] where an exact inverse is asked for and there is none, with what the singular values are.
+    /// Those of [`Equations::inverse`]; [`ErrorKind::BadValue`] with the singular values when an exact inverse is
+    /// requested and does not exist.
     pub fn torques(&mut self, target: &Target, state: State<'_>) -> Result<&[f64]> {
-        let pose = self.equations.pose(&mut self.room, state.q, self.link)?;
-        let [jacobian, rate] = self.equations.jacobian(&mut self.room, state, self.link)?;
+        let pose = self.equations.pose(&mut self.workspace, state.q, self.link)?;
+        let [jacobian, rate] = self.equations.jacobian(&mut self.workspace, state, self.link)?;
         let velocity = DVector::from_column_slice(state.velocity);
         let (moving, drift) = (jacobian * &velocity, rate * &velocity);
         let jacobian = DMatrix::from_column_slice(6, jacobian.ncols(), jacobian.as_slice());
@@ -102,21 +111,21 @@ impl WorkSpace {
         let inverse = self.inverted(&jacobian)?;
         let commanded = inverse * DVector::from_column_slice(asked.as_slice());
         self.commanded.copy_from_slice(commanded.as_slice());
-        self.equations.inverse(&mut self.room, state, &self.commanded).map(|torques| torques.as_slice())
+        self.equations.inverse(&mut self.workspace, state, &self.commanded).map(|torques| torques.as_slice())
     }
 
-    /// The effective parameters where the Jacobian has an inverse.
+    /// Computes the effective parameters if the Jacobian has an inverse.
     ///
     /// # Errors
-    /// As [`WorkSpace::torques`], and where the robot has not six joints.
+    /// Those of [`WorkSpace::torques`], and an error unless the robot has six joints.
     pub fn effective(&mut self, state: State<'_>) -> Result<Effective> {
-        let [jacobian, rate] = self.equations.jacobian(&mut self.room, state, self.link)?;
+        let [jacobian, rate] = self.equations.jacobian(&mut self.workspace, state, self.link)?;
         let [jacobian, rate] =
             [jacobian, rate].map(|matrix| DMatrix::from_column_slice(6, matrix.ncols(), matrix.as_slice()));
         let (Inversion::Exact(share) | Inversion::Damped(share)) = self.inversion;
         let inverse = exact(&jacobian, share)?;
-        let [inertia, coriolis] = self.equations.matrices(&mut self.room, state)?.map(Clone::clone);
-        let gravity = self.equations.gravity(&mut self.room, state.q)?.clone();
+        let [inertia, coriolis] = self.equations.matrices(&mut self.workspace, state)?.map(Clone::clone);
+        let gravity = self.equations.gravity(&mut self.workspace, state.q)?.clone();
         let changing = -(&inverse * rate * &inverse);
         Ok(Effective {
             coriolis: inverse.transpose() * (coriolis * &inverse + &inertia * changing),
@@ -141,7 +150,7 @@ impl WorkSpace {
     }
 }
 
-/// The inverse of a Jacobian whose singular values are not far apart.
+/// The inverse of a Jacobian with similar singular values.
 fn exact(jacobian: &DMatrix<f64>, share: f64) -> Result<DMatrix<f64>> {
     if !jacobian.is_square() {
         let text = format!(
@@ -155,21 +164,21 @@ fn exact(jacobian: &DMatrix<f64>, share: f64) -> Result<DMatrix<f64>> {
     let inverse = if least > share * greatest { jacobian.clone().try_inverse() } else { None };
     inverse.ok_or_else(|| {
         let text = format!(
-            "the configuration is singular: the Jacobian's singular values are from {least:e} to {greatest:e}; take a damped inverse, or go another way"
+            "the configuration is singular: the Jacobian's singular values are from {least:e} to {greatest:e}; use a damped inverse, or another path"
         );
         Error::new(ErrorKind::BadValue, text)
     })
 }
 
 impl Desired<'_> {
-    /// Where a link is and how it moves when joints do what is desired.
+    /// Computes the target of a link for the desired motion of the joints.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
-    pub fn target(&self, equations: &Equations, room: &mut Workspace, link: usize) -> Result<Target> {
+    /// Those of [`Equations::inverse`].
+    pub fn target(&self, equations: &Equations, workspace: &mut Workspace, link: usize) -> Result<Target> {
         let state = State::new(self.q, self.velocity);
-        let pose = equations.pose(room, self.q, link)?;
-        let [jacobian, rate] = equations.jacobian(room, state, link)?;
+        let pose = equations.pose(workspace, self.q, link)?;
+        let [jacobian, rate] = equations.jacobian(workspace, state, link)?;
         let list = |numbers: &[f64]| DVector::from_column_slice(numbers);
         let velocity = jacobian * list(self.velocity);
         let acceleration = jacobian * list(self.acceleration) + rate * list(self.velocity);

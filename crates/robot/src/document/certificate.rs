@@ -1,4 +1,4 @@
-//! The one form of every stored proof: what it proves, of what, and its claims. Main type: [`Certificate`].
+//! The format of every stored proof: what it proves, for which mechanism, and its claims. Main type: [`Certificate`].
 
 use std::fmt;
 
@@ -15,13 +15,13 @@ const FORMAT: JsonFormat = JsonFormat {
     renew: "`groebot derive`, or for equations of motion `groebot dynamics --symbolic`, on its folder writes it anew",
 };
 
-/// What a certificate proves.
+/// Subject of a certificate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Proves {
     /// Equations whose solution set is proved.
     Equations,
-    /// A chain that is solved joint by joint.
+    /// A chain that is solved joint by joint (sequential method).
     Chain,
     /// A chain that is solved as an eigenvalue problem.
     EigenvalueProblem,
@@ -43,27 +43,27 @@ impl fmt::Display for Proves {
     }
 }
 
-/// A stored proof, whose claims have a type for each thing that is proved.
+/// A stored proof. The type of the claims depends on its subject.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate<Claims> {
     format: u32,
     proves: Proves,
-    /// The mechanism that it is about.
+    /// The mechanism.
     name: String,
     claims: Claims,
 }
 
 impl<Claims> Certificate<Claims> {
-    /// The certificate of these claims about the mechanism `name`.
+    /// Builds the certificate of these claims about the mechanism `name`.
     pub fn new(proves: Proves, name: &str, claims: Claims) -> Self {
         Certificate { format: FORMAT.number, proves, name: name.to_owned(), claims }
     }
 
-    /// The claims of a certificate that proves this about the mechanism `name`.
+    /// The claims of a certificate with this subject about the mechanism `name`.
     ///
     /// # Errors
-    /// [`ErrorKind::Certificate`] for one that proves something else.
+    /// [`ErrorKind::Certificate`] for a certificate with another subject.
     pub fn claims(self, proves: Proves, name: &str) -> Result<Claims> {
         if (self.proves, self.name.as_str()) == (proves, name) {
             return Ok(self.claims);
@@ -76,25 +76,26 @@ impl<Claims> Certificate<Claims> {
 }
 
 impl<Claims: Serialize> Certificate<Claims> {
-    /// The text of the certificate: the same bytes for the same claims.
+    /// The text of the certificate. Equal claims give equal bytes.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("claims hold nothing that JSON cannot say") + "\n"
     }
 }
 
 impl<Claims: DeserializeOwned> Certificate<Claims> {
-    /// The claims in `text`, which must prove this about the mechanism `name`.
+    /// Reads the claims in `text`, a certificate with this subject about the mechanism `name`.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Unsupported`] for one of another format; as
-    /// [`Certificate::claims`].
+    /// [`ErrorKind::Syntax`] with the line for text that is not a certificate; [`ErrorKind::Unsupported`] for another
+    /// format; those of [`Certificate::claims`].
     pub fn read(text: &str, proves: Proves, name: &str) -> Result<Claims> {
         FORMAT.read::<Certificate<IgnoredAny>>(text)?.claims(proves, name)?;
         FORMAT.read::<Self>(text)?.claims(proves, name)
     }
 }
 
-/// What the certificate in `text` proves, and about what; none for text that is no certificate of this format.
+/// The subject and the mechanism of the certificate in `text`; `None` for text that is not a certificate of this
+/// format.
 pub fn head_of(text: &str) -> Option<(Proves, String)> {
     let Certificate { proves, name, .. } = FORMAT.read::<Certificate<IgnoredAny>>(text).ok()?;
     Some((proves, name))

@@ -1,10 +1,10 @@
-//! What a file is by its content, for files that are given where a description is expected.
+//! Detection of a file's type by its content, for files that are given instead of a description.
 
 use serde::de::IgnoredAny;
 
 use crate::{Error, ErrorKind, Result};
 
-/// How binary files begin, what they are, and what to do about it.
+/// Magic bytes of binary files, their type, and advice.
 const BINARY: [(&[u8], &str, &str); 14] = [
     (b"PK\x03\x04", "a ZIP archive", "give the URDF in it"),
     (b"PK\x05\x06", "an empty ZIP archive", "give the URDF"),
@@ -21,19 +21,19 @@ const BINARY: [(&[u8], &str, &str); 14] = [
     (b"\x89HDF", "an HDF5 file", "give the robot's URDF"),
     (b"\x7fELF", "a program", "give the robot's URDF"),
 ];
-/// How many lines tell whether a text is a table.
+/// Number of lines that are inspected to recognise a table.
 const TABLE: usize = 4;
 
-/// Whether `bytes` are XML by how they begin, in any encoding.
+/// Whether `bytes` begin like XML, in any encoding.
 pub fn is_xml(bytes: &[u8]) -> bool {
     let is_mark = |byte: &u8| matches!(byte, 0 | 0xef | 0xbb | 0xbf | 0xff | 0xfe) || byte.is_ascii_whitespace();
     bytes.iter().find(|byte| !is_mark(byte)) == Some(&b'<')
 }
 
-/// Fails for archives, images, scenes and other files that are no text to read a description from.
+/// Refuses archives, images, scenes and other binary files.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] with what the file is, what to give instead, and what is allowed.
+/// [`ErrorKind::Unsupported`] with the file's type, advice, and the allowed formats.
 pub fn refuse_binary(bytes: &[u8]) -> Result<()> {
     match BINARY.iter().find(|(start, ..)| bytes.starts_with(start)) {
         Some((_, name, advice)) => Err(foreign(name, advice)),
@@ -41,7 +41,7 @@ pub fn refuse_binary(bytes: &[u8]) -> Result<()> {
     }
 }
 
-/// `error` of a reader of descriptions, unless `text` is of a format that is none: then an error that names this format.
+/// Replaces the `error` of a description's reader if `text` has another known format. The new error names this format.
 pub fn explained(error: Error, text: &str) -> Error {
     let name = if error.kind() == ErrorKind::Syntax { text_format(text) } else { None };
     name.map_or(error, |name| foreign(name, "give the robot's URDF"))
@@ -54,7 +54,7 @@ fn foreign(name: &str, advice: &str) -> Error {
     Error::new(ErrorKind::Unsupported, text)
 }
 
-/// JSON, YAML or CSV, where `text` is one of them and neither XML nor TOML with a slip.
+/// JSON, YAML or CSV, if `text` is one of them and neither XML nor TOML with a typing error.
 fn text_format(text: &str) -> Option<&'static str> {
     let text = text.trim_start_matches('\u{feff}').trim_start();
     if text.starts_with('{') || (text.starts_with('[') && serde_json::from_str::<IgnoredAny>(text).is_ok()) {
@@ -63,8 +63,9 @@ fn text_format(text: &str) -> Option<&'static str> {
     if text.starts_with('<') || text.lines().any(|line| line.contains(" = ") || line.starts_with("[[")) {
         return None;
     }
-    let told = text.lines().map(str::trim_end).filter(|line| !line.is_empty() && !line.trim_start().starts_with('#'));
-    let lines: Vec<&str> = told.take(TABLE).collect();
+    let significant =
+        text.lines().map(str::trim_end).filter(|line| !line.is_empty() && !line.trim_start().starts_with('#'));
+    let lines: Vec<&str> = significant.take(TABLE).collect();
     let first = *lines.first()?;
     if first == "---" || first.starts_with("--- ") || first.starts_with("%YAML") || is_yaml_entry(first) {
         return Some("YAML");

@@ -1,4 +1,4 @@
-//! XML bytes as text: byte-order marks, declared encodings, and comments that are not UTF-8.
+//! Decoding of XML: byte-order marks, declared encodings, and comments that are not UTF-8.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -8,38 +8,39 @@ use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE};
 use super::shown;
 use crate::{Error, ErrorKind, Result};
 
-/// The longest XML declaration that is looked at, in bytes.
+/// Maximum length of an XML declaration in bytes.
 const DECLARATION: usize = 400;
-/// How many bytes tell whether a text is UTF-16 or UTF-32 without a byte-order mark.
+/// Number of bytes that are inspected to recognise UTF-16 or UTF-32 without a byte-order mark.
 const HEAD: usize = 64;
 
 /// The text of an XML file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct XmlText {
-    /// The text. A declaration that named another encoding names UTF-8, which the text is written in from now on.
+    /// The text. A declaration of another encoding is replaced by UTF-8, the encoding of the text.
     pub text: String,
-    /// What of the file was ignored.
+    /// Notes about ignored contents.
     pub notes: Vec<String>,
 }
 
-/// The text of XML `bytes`: in the encoding of their byte-order mark (UTF-8, UTF-16), else in the one that they declare (any of the WHATWG's
-/// Encoding Standard), else in UTF-8. Bytes in comments that are not UTF-8 are replaced by U+FFFD, with a note.
+/// Decodes XML `bytes`. The encoding is that of the byte-order mark (UTF-8, UTF-16), else the declared one (any of the
+/// WHATWG's Encoding Standard), else UTF-8. Bytes in comments that are not UTF-8 are replaced by U+FFFD, with a note.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] for an empty text, an unknown encoding, UTF-16 and UTF-32 without a byte-order mark, and bytes that do not belong to the encoding.
+/// [`ErrorKind::Syntax`] for an empty text, an unknown encoding, UTF-16 and UTF-32 without a byte-order mark, and bytes
+/// that are invalid in the encoding.
 pub fn decode_xml(bytes: &[u8]) -> Result<XmlText> {
     refuse_unmarked(bytes)?;
     let decoded = match (Encoding::for_bom(bytes), declared(bytes)?) {
         (Some((encoding, mark)), _) if encoding != UTF_8 => decode(encoding, &bytes[mark..])?,
         (Some((_, mark)), _) => decode_utf8(&bytes[mark..])?,
-        // A declaration that can be read byte by byte is not in UTF-16, whatever it says.
+        // A declaration that is readable byte by byte is not in UTF-16, even if it declares that.
         (None, Some(encoding)) if ![UTF_8, UTF_16LE, UTF_16BE].contains(&encoding) => decode(encoding, bytes)?,
         (None, _) => decode_utf8(bytes)?,
     };
     if decoded.text.trim().is_empty() { Err(empty()) } else { Ok(decoded) }
 }
 
-/// XML text with a declaration, if any, that names UTF-8: for text that was decoded already.
+/// XML text whose declaration, if there is one, names UTF-8. For text that is already decoded.
 pub fn as_utf8(text: &str) -> Cow<'_, str> {
     let place = encoding_value(text.as_bytes());
     match place.filter(|place| !text[place.clone()].eq_ignore_ascii_case("utf-8")) {
@@ -48,7 +49,7 @@ pub fn as_utf8(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Refuses UTF-32, and UTF-16 whose byte order no mark tells.
+/// Refuses UTF-32, and UTF-16 without a byte-order mark.
 fn refuse_unmarked(bytes: &[u8]) -> Result<()> {
     let head = &bytes[..bytes.len().min(HEAD)];
     let all = |size: usize, zeros: &[usize]| {
@@ -69,7 +70,7 @@ fn refuse_unmarked(bytes: &[u8]) -> Result<()> {
     Err(Error::new(ErrorKind::Syntax, format!("the text is {name}; save the file as UTF-8{other}")))
 }
 
-/// The encoding that the XML declaration names.
+/// The encoding in the XML declaration.
 fn declared(bytes: &[u8]) -> Result<Option<&'static Encoding>> {
     let Some(place) = encoding_value(bytes) else { return Ok(None) };
     let label = &bytes[place.clone()];
@@ -82,7 +83,7 @@ fn declared(bytes: &[u8]) -> Result<Option<&'static Encoding>> {
     })
 }
 
-/// Where the value of `encoding` is in the XML declaration that `bytes` begin with.
+/// The range of the value of `encoding` in the XML declaration at the start of `bytes`.
 fn encoding_value(bytes: &[u8]) -> Option<Range<usize>> {
     let mark = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
     let start = mark + bytes[mark..].iter().take(DECLARATION).position(|byte| !byte.is_ascii_whitespace())?;
@@ -103,7 +104,7 @@ fn decode(encoding: &'static Encoding, bytes: &[u8]) -> Result<XmlText> {
     Ok(XmlText { text: as_utf8(&text).into_owned(), notes: Vec::new() })
 }
 
-/// UTF-8 text, whatever stands in comments.
+/// Decodes UTF-8 text with any bytes in comments.
 fn decode_utf8(bytes: &[u8]) -> Result<XmlText> {
     let comments = comments(bytes);
     let (mut text, mut at, mut lines) = (String::with_capacity(bytes.len()), 0, Vec::new());
@@ -127,7 +128,7 @@ fn decode_utf8(bytes: &[u8]) -> Result<XmlText> {
     Ok(XmlText { text: as_utf8(&text).into_owned(), notes: note.into_iter().collect() })
 }
 
-/// Where the comments are.
+/// The ranges of comments.
 fn comments(bytes: &[u8]) -> Vec<Range<usize>> {
     let (mut found, mut at) = (Vec::new(), 0);
     while let Some(open) = find(&bytes[at..], b"<!").map(|open| at + open) {
@@ -145,17 +146,17 @@ fn comments(bytes: &[u8]) -> Vec<Range<usize>> {
     found
 }
 
-/// The error of a file without text.
+/// The error for an empty file.
 pub(super) fn empty() -> Error {
     Error::new(ErrorKind::Syntax, "the file is empty; give a description")
 }
 
-/// The line, from 1, of the byte at `offset`.
+/// The line, counted from 1, of the byte at `offset`.
 pub(super) fn line_at(bytes: &[u8], offset: usize) -> usize {
     1 + bytes[..offset].iter().filter(|&&byte| byte == b'\n').count()
 }
 
-/// The first place of `wanted` in `bytes`.
+/// The position of the first occurrence of `wanted` in `bytes`.
 fn find(bytes: &[u8], wanted: &[u8]) -> Option<usize> {
     bytes.windows(wanted.len()).position(|window| window == wanted)
 }

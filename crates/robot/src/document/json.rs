@@ -1,21 +1,21 @@
-//! JSON that groebot writes and reads again: it holds an integer `format`.
+//! groebot's own JSON formats, which have an integer `format`.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use crate::{Error, ErrorKind, Result};
 
-/// A kind of JSON, and the number of its form.
+/// A JSON format with its version number.
 pub struct JsonFormat {
-    /// What it is, such as `certificate`.
+    /// Its name, such as `certificate`.
     pub what: &'static str,
-    /// The `format` that is written and read.
+    /// The `format` that is written and accepted.
     pub number: u32,
-    /// How to make a new one of an old one.
+    /// Advice to convert an old version.
     pub renew: &'static str,
 }
 
-/// What tells the format; before formats had numbers, the crate's version stood there.
+/// The field with the version. Before formats had numbers, it was the crate's version.
 #[derive(Deserialize)]
 struct Head {
     format: Option<u32>,
@@ -27,8 +27,8 @@ impl JsonFormat {
     /// Reads `text`.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is no such JSON, with the line; [`ErrorKind::Unsupported`] for that of another format,
-    /// with what makes it new.
+    /// [`ErrorKind::Syntax`] for text that is not JSON of this format, with the line; [`ErrorKind::Unsupported`] for
+    /// another version, with advice to convert it.
     pub fn read<T: DeserializeOwned>(&self, text: &str) -> Result<T> {
         let syntax = |error: serde_json::Error| {
             Error::new(ErrorKind::Syntax, format!("this is no {} in JSON: {error}", self.what))

@@ -1,7 +1,7 @@
-//! TOML text with line numbers: cursors that read numbers exactly and refuse what a format does not know.
+//! TOML with line numbers: cursors that read numbers exactly and refuse unknown keys.
 //!
-//! [`Document`] holds the parsed text, [`Table`] and [`Node`] are cheap cursors into it. Numbers are read from
-//! their text, so `0.1029` is 1029/10000. Every error stands at a line and says what is allowed.
+//! [`Document`] is the parsed text. [`Table`] and [`Node`] are cheap cursors into it. Numbers are read from their text,
+//! so `0.1029` is 1029/10000. Every error has a line and the allowed values.
 //!
 //! ```
 //! # use groebot_robot::document::Document;
@@ -34,7 +34,7 @@ pub use text::open;
 pub use text::{is_stdin, read_text, read_xml, unix_lines};
 pub use text::{read_bytes, text_of};
 
-/// The size limit that our own readers give to [`read_text`]: one megabyte.
+/// The size limit of groebot's readers for [`read_text`]: one megabyte.
 pub const TEXT_LIMIT: u64 = limits::DESCRIPTION_BYTES;
 
 /// A parsed TOML document, borrowing its text.
@@ -92,7 +92,7 @@ impl<'d> Table<'d> {
         self.name
     }
 
-    /// An error of `kind` at this table's line.
+    /// Builds an error of `kind` at this table's line.
     pub fn error(&self, kind: ErrorKind, message: impl Into<String>) -> Error {
         Error::new(kind, message).at_line(self.line)
     }
@@ -121,7 +121,7 @@ impl<'d> Table<'d> {
         entries.into_iter().map(|(key, value)| self.node(key, value)).collect()
     }
 
-    /// Accepts the table only when all its keys are among `allowed`.
+    /// Checks that all keys of the table are among `allowed`.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownKey`] at the line of the first unknown key, with the nearest allowed name.
@@ -151,7 +151,7 @@ pub struct Node<'d> {
 }
 
 impl<'d> Node<'d> {
-    /// The line at which the value's key stands, or the array element itself.
+    /// The line of the value's key, or of the array element.
     pub fn line(&self) -> usize {
         self.line
     }
@@ -161,12 +161,12 @@ impl<'d> Node<'d> {
         self.name
     }
 
-    /// An error of `kind` at this line, with the key in front of `message`.
+    /// Builds an error of `kind` at this line, with the key before `message`.
     pub fn error(&self, kind: ErrorKind, message: impl Into<String>) -> Error {
         self.place(Error::new(kind, message))
     }
 
-    /// `error` at this line, with the key in front of its message.
+    /// Adds this line to `error`, and the key before its message.
     pub fn place(&self, error: Error) -> Error {
         error.with_context(format_args!("`{}`", shown(self.name))).at_line(self.line)
     }
@@ -179,7 +179,7 @@ impl<'d> Node<'d> {
         self.value.as_str().ok_or_else(|| self.wrong("a string such as \"name\""))
     }
 
-    /// The value that `choices` lists beside the text of this string.
+    /// The value in `choices` for the text of this string.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`], listing the choices, for another text or another type.
@@ -196,7 +196,7 @@ impl<'d> Node<'d> {
     /// The exact value of an integer, a float (by its text) or a string such as `"1029/10000"` or `"0.1029"`.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for nan, infinities and other types; [`ErrorKind::Syntax`] for a string that is no
+    /// [`ErrorKind::BadValue`] for nan, infinities and other types; [`ErrorKind::Syntax`] for a string that is not a
     /// number and for more than 4096 digits.
     pub fn exact(&self) -> Result<BigRational> {
         let text = match self.value {
@@ -224,7 +224,7 @@ impl<'d> Node<'d> {
     /// The double that is nearest to [`Node::exact`].
     ///
     /// # Errors
-    /// As [`Node::exact`]; [`ErrorKind::BadValue`] beyond the range of doubles.
+    /// Those of [`Node::exact`]; [`ErrorKind::BadValue`] outside the range of doubles.
     pub fn float(&self) -> Result<f64> {
         let value = self.exact()?.to_f64().filter(|value| value.is_finite());
         value.ok_or_else(|| self.error(ErrorKind::BadValue, "the number is too large; give at most 1.7e308"))
@@ -233,7 +233,7 @@ impl<'d> Node<'d> {
     /// The value of a non-negative integer.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for another type, a negative integer or one that does not fit.
+    /// [`ErrorKind::BadValue`] for another type, a negative integer or one that is too large.
     pub fn count(&self) -> Result<usize> {
         let integer = matches!(self.value, DeValue::Integer(_)).then(|| self.exact()).transpose()?;
         integer.and_then(|n| n.to_integer().to_usize()).ok_or_else(|| self.wrong("a non-negative integer"))
@@ -272,7 +272,7 @@ impl<'d> Node<'d> {
     /// The exact values of an array of exactly `N` numbers.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for another type or length, and as [`Node::exact`].
+    /// [`ErrorKind::BadValue`] for another type or length; those of [`Node::exact`].
     pub fn exact_vector<const N: usize>(&self) -> Result<[BigRational; N]> {
         let values: Vec<_> = self.numbers(N)?.iter().map(Node::exact).collect::<Result<_>>()?;
         values.try_into().map_err(|_| self.wrong(&format!("an array of {N} numbers")))
@@ -281,7 +281,7 @@ impl<'d> Node<'d> {
     /// The doubles of an array of exactly `N` numbers.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for another type or length, and as [`Node::float`].
+    /// [`ErrorKind::BadValue`] for another type or length; those of [`Node::float`].
     pub fn float_vector<const N: usize>(&self) -> Result<[f64; N]> {
         let values: Vec<_> = self.numbers(N)?.iter().map(Node::float).collect::<Result<_>>()?;
         values.try_into().map_err(|_| self.wrong(&format!("an array of {N} numbers")))
@@ -333,7 +333,8 @@ pub fn one_among(name: &str, allowed: &[&str]) -> String {
     format!("{}; allowed: {}", did_you_mean(name, allowed), quoted(allowed))
 }
 
-/// The text as a word that every language takes as a name: letters, digits and `_`, with a letter first. Other characters become `_`.
+/// Converts the text to an identifier of every target language: letters, digits and `_`, with a letter first. Other
+/// characters become `_`.
 pub fn word(text: &str) -> String {
     let body: String = text.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     if body.starts_with(|c: char| c.is_ascii_alphabetic()) { body } else { format!("x{body}") }

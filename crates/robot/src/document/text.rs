@@ -1,4 +1,4 @@
-//! Files as text: [`read_text`], [`read_xml`], and the line ends of tables, [`unix_lines`].
+//! Files as text: [`read_text`], [`read_xml`], and normalised line ends, [`unix_lines`].
 
 use std::borrow::Cow;
 use std::fs::File;
@@ -10,34 +10,36 @@ use super::encoding::{XmlText, decode_xml, empty, line_at};
 use crate::files::refuse_unfinished;
 use crate::{Error, ErrorKind, Result};
 
-/// Whether `path` is `-`: standard input, in place of a file.
+/// Whether `path` is `-`, which means standard input.
 pub fn is_stdin(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// The text of `path`, or of standard input for `-`, which must be UTF-8, not empty and at most `limit` bytes long. Standard input can be read
-/// once: after that it is empty.
+/// Reads the text of `path`, or of standard input for `-`. It must be UTF-8, not empty and at most `limit` bytes long.
+/// Standard input can be read only once.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] for a missing file, a directory or a failed read; [`ErrorKind::BadValue`] for a file that is
-/// too long; [`ErrorKind::Syntax`] for an empty file or one that is not UTF-8 (with its line). All name the file.
+/// [`ErrorKind::Io`] for a missing file, a directory or a failed read; [`ErrorKind::BadValue`] for a file that is too
+/// long; [`ErrorKind::Syntax`] for an empty file or one that is not UTF-8 (with its line). All name the file.
 pub fn read_text(path: &Path, limit: u64) -> Result<String> {
     text_of(read_bytes(path, limit)?).map_err(|error| error.in_file(path))
 }
 
-/// The text of the XML file `path`, at most `limit` bytes long, in the encoding that its byte-order mark or its declaration names.
+/// Reads the text of the XML file `path`, at most `limit` bytes long, in the encoding of its byte-order mark or its
+/// declaration.
 ///
 /// # Errors
-/// As [`read_text`] and [`decode_xml`]; [`ErrorKind::Unsupported`] for an archive or another binary file. All name the file.
+/// Those of [`read_text`] and [`decode_xml`]; [`ErrorKind::Unsupported`] for an archive or another binary file. All
+/// name the file.
 pub fn read_xml(path: &Path, limit: u64) -> Result<XmlText> {
     let bytes = read_bytes(path, limit)?;
     refuse_binary(&bytes).and_then(|()| decode_xml(&bytes)).map_err(|error| error.in_file(path))
 }
 
-/// The bytes of `path`, or of standard input for `-`, at most `limit` of them.
+/// Reads the bytes of `path`, or of standard input for `-`, at most `limit` of them.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] and [`ErrorKind::BadValue`] as [`read_text`]. All name the file.
+/// [`ErrorKind::Io`] and [`ErrorKind::BadValue`] as in [`read_text`]. All name the file.
 pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
     let fail = |kind, message: String| Err(Error::new(kind, message).in_file(path));
     let io = |error: std::io::Error| Error::io(path, &error);
@@ -60,10 +62,11 @@ pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Opens a file for reading: what every reader of files begins with.
+/// Opens a file for reading. Every reader of files uses this function.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] for a missing file, a directory, and a file of a set whose writing was interrupted. All name the file.
+/// [`ErrorKind::Io`] for a missing file, a directory, and a file of a set whose writing was interrupted. All name the
+/// file.
 pub fn open(path: &Path) -> Result<File> {
     refuse_unfinished(path)?;
     let io = |error: std::io::Error| Error::io(path, &error);
@@ -74,10 +77,10 @@ pub fn open(path: &Path) -> Result<File> {
     Ok(file)
 }
 
-/// `bytes` as UTF-8 text that is not empty.
+/// Converts `bytes` to nonempty UTF-8 text.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] as [`read_text`].
+/// [`ErrorKind::Syntax`] as in [`read_text`].
 pub fn text_of(bytes: Vec<u8>) -> Result<String> {
     let text = String::from_utf8(bytes).map_err(|error| {
         let line = line_at(error.as_bytes(), error.utf8_error().valid_up_to());
@@ -86,7 +89,7 @@ pub fn text_of(bytes: Vec<u8>) -> Result<String> {
     if text.trim().is_empty() { Err(empty()) } else { Ok(text) }
 }
 
-/// `text` with `\n` at the end of each line, also where lines end in `\r\n` or in `\r` alone: what tables are read from.
+/// Replaces the line ends `\r\n` and `\r` by `\n`, for readers of tables.
 pub fn unix_lines(text: &str) -> Cow<'_, str> {
     if text.contains('\r') { Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")) } else { Cow::Borrowed(text) }
 }

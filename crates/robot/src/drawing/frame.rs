@@ -1,15 +1,15 @@
-//! A frame with ticks on both axes. Main type: [`Frame`].
+//! A diagram frame with ticks on both axes. Main type: [`Frame`].
 
 use super::svg::Svg;
 
-/// The least distance between two ticks, of the lower and of the left axis \[px\].
+/// Minimum distance between two ticks of the lower and of the left axis \[px\].
 const APART: (f64, f64) = (60.0, 18.0);
-/// The most ticks of an axis.
+/// Maximum number of ticks of an axis.
 const MOST: f64 = 16.0;
-/// What the numbers below a frame take of the page \[px\].
+/// Height of the numbers below a frame \[px\].
 pub const BELOW: f64 = 18.0;
 
-/// A rectangle of the page, and what its sides stand for: the first axis goes to the right, the second one up.
+/// A rectangle of the page with the values at its sides. The first axis points right, the second one up.
 pub struct Frame {
     /// The upper left corner \[px\].
     pub corner: (f64, f64),
@@ -22,7 +22,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Where a pair of values is on the page \[px\].
+    /// The position of a pair of values on the page \[px\].
     pub fn at(&self, (x, y): (f64, f64)) -> (f64, f64) {
         let share = |value: f64, low: f64, high: f64| (value - low) / (high - low);
         (
@@ -31,12 +31,12 @@ impl Frame {
         )
     }
 
-    /// Where the frame and its numbers end, downwards \[px\].
+    /// The lower end of the frame and its numbers \[px\].
     pub fn end(&self) -> f64 {
         self.corner.1 + self.size.1 + BELOW
     }
 
-    /// Draws the frame with lines and numbers at round values; the last number of each axis has its unit.
+    /// Draws the frame with grid lines and numbers at round values. The last number of each axis has its unit.
     pub fn draw(&self, units: (&str, &str), svg: &mut Svg) {
         let bottom = self.corner.1 + self.size.1;
         let right = self.corner.0 + self.size.0;
@@ -63,7 +63,8 @@ fn labelled(number: &str, unit: &str, is_last: bool) -> String {
     if is_last { format!("{number} {unit}") } else { number.to_owned() }
 }
 
-/// The multiples of 1, 2 or 5 times a power of ten from `low` to `high`, at most `most` and one of them, with the decimals that they need.
+/// The multiples of 1, 2 or 5 times a power of ten from `low` to `high`, at most `most` plus one, with the necessary
+/// decimals.
 fn ticks(low: f64, high: f64, most: f64) -> Vec<(f64, String)> {
     let wanted = (high - low) / most.max(1.0);
     if !(wanted.is_finite() && wanted > 0.0) {
@@ -78,6 +79,6 @@ fn ticks(low: f64, high: f64, most: f64) -> Vec<(f64, String)> {
         return Vec::new();
     }
     let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
-    // Whole numbers have no negative zero.
+    // Integers have no negative zero.
     (first..=last).map(|count| (count as f64 * step, format!("{:.decimals$}", count as f64 * step))).collect()
 }

@@ -1,4 +1,4 @@
-//! Pictures in SVG: shapes ([`svg`]) and frames with numbers on their axes ([`frame`]).
+//! SVG pictures: shapes ([`svg`]) and frames with numbers on their axes ([`frame`]).
 
 pub mod frame;
 pub mod svg;

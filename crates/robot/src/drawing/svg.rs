@@ -1,24 +1,24 @@
-//! An SVG text that grows. Main type: [`Svg`].
+//! A writer of SVG text. Main type: [`Svg`].
 
 use std::fmt::Write;
 
-/// What stands before an entry of a legend.
+/// Symbol before an entry of a legend.
 #[derive(Clone, Copy)]
 pub enum Swatch {
-    /// A piece of line.
+    /// A line segment.
     Line,
     /// A small rectangle.
     Area,
-    /// Nothing: words alone.
+    /// No symbol.
     None,
 }
 
-/// The width of a letter of ordinary text, on the safe side \[px\].
+/// Upper bound of the width of a letter of normal text \[px\].
 const LETTER: f64 = 6.7;
-/// What a swatch takes of a line, with the room on both its sides \[px\].
+/// Width of a swatch with the space on both sides \[px\].
 const SWATCH: f64 = 50.0;
 
-/// The elements of a picture, without its head.
+/// The elements of a picture, without its header.
 #[derive(Default)]
 pub struct Svg(String);
 
@@ -35,7 +35,7 @@ impl Svg {
         self.add(format_args!(r#"<polyline class="{class}" points="{}"/>"#, listed(points)));
     }
 
-    /// Adds a polygon, the more solid the greater `opacity`, up to 1.
+    /// Adds a polygon with an opacity up to 1.
     pub fn polygon(&mut self, class: &str, opacity: f64, points: impl IntoIterator<Item = (f64, f64)>) {
         let points = listed(points);
         self.add(format_args!(r#"<polygon class="{class}" opacity="{opacity:.2}" points="{points}"/>"#));
@@ -48,13 +48,14 @@ impl Svg {
         ));
     }
 
-    /// Adds text at the left end of its base line; classes `middle` and `end` let it stand about or before that point.
+    /// Adds text at the left end of its baseline. The classes `middle` and `end` centre it at this point or end it
+    /// there.
     pub fn text(&mut self, class: &str, (x, y): (f64, f64), text: &str) {
         let text = text.replace('&', "&amp;").replace('<', "&lt;");
         self.add(format_args!(r#"<text class="{class}" x="{x:.1}" y="{y:.1}">{text}</text>"#));
     }
 
-    /// Adds a legend on one line: swatches of a class, each with its words.
+    /// Adds a legend on one line: swatches of a class, each with its text.
     pub fn legend(&mut self, (mut x, y): (f64, f64), entries: &[(Swatch, &str, &str)]) {
         for (swatch, class, words) in entries {
             match swatch {
@@ -67,7 +68,7 @@ impl Svg {
         }
     }
 
-    /// The picture, of this width and height \[px\].
+    /// The whole picture with this width and height \[px\].
     pub fn finish(self, width: f64, height: f64) -> String {
         let size = format!(r#"width="{width:.0}" height="{height:.0}" viewBox="0 0 {width:.0} {height:.0}""#);
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" {size}>\n{STYLE}\n{}</svg>\n", self.0)
@@ -78,7 +79,7 @@ fn listed(points: impl IntoIterator<Item = (f64, f64)>) -> String {
     points.into_iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect::<Vec<_>>().join(" ")
 }
 
-/// Left is blue and right is orange, which most eyes tell apart.
+/// Left is blue and right is orange, which most people with colour blindness can distinguish.
 const STYLE: &str = "<style>
 text { font: 12px sans-serif; fill: #333 }
 polyline { fill: none; stroke-width: 1.5 }

@@ -1,17 +1,19 @@
-//! A robot on two legs as chains that stand on its feet, RH0 3.2 and 3.4.3.
+//! A biped as two chains from its feet, RH0 3.2 and 3.4.3.
 //!
-//! The sagittal plane cuts it into halves, each with a leg, what hangs on that side, and half of what is common to both: `Model::halves`. A chain leads from a foot to the
-//! trunk and on: `Model::rooted_at`.
+//! The sagittal plane divides the robot into two halves ([`Model::halves`]): each has a leg, the limbs of that side,
+//! and half of the parts common to both. A chain starts at a foot and leads to the trunk and further
+//! ([`Model::rooted_at`]).
 
 use nalgebra::{Point3, Vector3};
 
 use super::model::Model;
 use crate::spatial::{Inertia, Pose};
 
-/// As a share of the way from the middle to a foot: what stands nearer to the sagittal plane is common to both halves.
+/// Threshold as a fraction of the distance from the middle to a foot. Bodies closer to the sagittal plane are common to
+/// both halves.
 const COMMON: f64 = 0.1;
 
-/// The half that a body belongs to.
+/// The half of a body.
 #[derive(Clone, Copy, PartialEq)]
 enum Half {
     Common,
@@ -19,15 +21,16 @@ enum Half {
 }
 
 impl Model {
-    /// The halves of a robot with these feet, by their links' places in the robot: the left one and the right one, of joints as the whole has them. What leads to a foot
-    /// is of that half; a limb that hangs on the trunk is of the half where it hangs; what hangs in the middle is common, and weighs half as much in each.
+    /// Divides a robot into its left and right half. `feet` are the indices of the feet's links in the robot. Each half
+    /// keeps all joints. The path to a foot belongs to that half, and a limb to the side where it is attached to the
+    /// trunk. Bodies in the middle are common, with half of their mass in each half.
     ///
     /// # Panics
     /// When there is no such link.
     pub fn halves(&self, feet: [usize; 2]) -> [Model; 2] {
         let places = feet.map(|foot| self.link(foot).1.translation.vector);
         let (middle, across) = ((places[0] + places[1]) / 2.0, (places[0] - places[1]) / 2.0);
-        // Where it is of the way from the middle to the left foot.
+        // Position as a fraction of the distance from the middle to the left foot.
         let side = |place: &Vector3<f64>| (place - middle).dot(&across) / across.norm_squared();
         let legs = feet.map(|foot| self.path(self.link(foot).0));
         let mut halves = vec![Half::Common; self.bodies.len()];
@@ -54,27 +57,27 @@ impl Model {
         })
     }
 
-    /// Where the first link of a body stands in the base frame at the zero configuration.
+    /// Position of the first link of a body in the base frame at the zero configuration.
     fn place_of(&self, body: usize) -> Vector3<f64> {
         let link = self.links.iter().find(|(of, _)| *of == body);
         link.map_or_else(Vector3::zeros, |(_, base_from_link)| base_from_link.translation.vector)
     }
 
-    /// The same, each body so many times as heavy.
+    /// Same model, but with each body's mass multiplied by its factor.
     fn weighing(&self, shares: &[f64]) -> Model {
         let mut model = self.clone();
         for (body, share) in model.bodies.iter_mut().zip(shares) {
             *body = match share * body.mass() {
-                0.0 => Inertia::told(0.0, Point3::origin(), body.rotational() * *share),
-                mass => Inertia::told(mass, body.centre_of_mass(), body.rotational() * *share),
+                0.0 => Inertia::unchecked(0.0, Point3::origin(), body.rotational() * *share),
+                mass => Inertia::unchecked(mass, body.centre_of_mass(), body.rotational() * *share),
             };
         }
         model.mass = model.bodies.iter().map(Inertia::mass).sum();
         model
     }
 
-    /// The same robot seen from another link: the base is the body of that link, in the link's frame, and joints between the two bases carry what carried them. Values of
-    /// joints mean what they mean in the robot.
+    /// Same robot, but rooted at another link: the base is the body of that link, in the link's frame. The joints
+    /// between the two bases are reversed. Joint values keep their meaning.
     ///
     /// # Panics
     /// When there is no such link.
@@ -83,7 +86,8 @@ impl Model {
         let (target, base_from_link) = self.link(link);
         let link_from_base = base_from_link.inverse();
         let path = self.path(target);
-        // By body of this model, what it is in the other one: behind a joint of the path is what was before it.
+        // For each body of this model, its index in the new one. After a joint of the path comes the body that was
+        // before it.
         let mut named: Vec<usize> = (0..self.bodies.len()).collect();
         for &joint in &path {
             named[self.joints()[joint].parent] = joint + 1;

@@ -1,13 +1,14 @@
-//! Which links of a robot touch one another. Main type: [`Clearance`].
+//! Self-collision: which links of a robot touch one another. Main type: [`Clearance`].
 //!
-//! Bodies are capsules: spheres and capsules as they are, cylinders and boxes as the longest capsule inside. Meshes are left out.
+//! Bodies are capsules: spheres and capsules exactly, cylinders and boxes by their longest inner capsule. Meshes are
+//! ignored.
 
 use nalgebra::{Point3, Vector3};
 
 use super::{Model, Placed};
 use crate::model::{Robot, Shape, Solid};
 
-/// A part of a link, in the base frame at the zero configuration.
+/// A capsule of a link, in the base frame at the zero configuration.
 #[derive(Clone, Debug, PartialEq)]
 struct Capsule {
     link: usize,
@@ -20,14 +21,14 @@ struct Capsule {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Touch {
-    /// The links, by their places in the robot.
+    /// The indices of the links in the robot.
     pub links: [usize; 2],
-    /// How deep they are in one another \[m\].
+    /// Penetration depth \[m\].
     pub depth: f64,
 }
 
-/// The capsules of a robot and the pairs of them that may touch: not those of one body, nor of bodies between which there is no other one with
-/// a capsule.
+/// The capsules of a robot and the pairs that are tested. Pairs of one body are not tested, nor pairs of bodies without
+/// another capsule between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clearance {
     capsules: Vec<Capsule>,
@@ -35,7 +36,7 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// The capsules of all that collides on `robot`, whose mechanics is `model`.
+    /// Builds the capsules of all collision shapes of `robot`. `model` is its mechanical model.
     pub fn new(robot: &Robot, model: &Model) -> Self {
         let mut capsules = Vec::new();
         for (link, described) in robot.links().iter().enumerate() {
@@ -51,7 +52,8 @@ impl Clearance {
         Clearance { pairs: pairs.collect(), capsules }
     }
 
-    /// The links that touch where `placed` is, deepest first; of two links the deepest place.
+    /// The links that touch in the configuration `placed`, deepest first. For each pair of links only the deepest
+    /// contact is returned.
     pub fn touching(&self, placed: &Placed<'_>) -> Vec<Touch> {
         let at = |capsule: &Capsule| capsule.ends.map(|end| placed.motion(capsule.body) * end);
         let moved: Vec<[Point3<f64>; 2]> = self.capsules.iter().map(at).collect();
@@ -74,7 +76,7 @@ impl Clearance {
     }
 }
 
-/// The capsule of a shape, in the frame of its link; none of a mesh.
+/// The capsule of a shape in the frame of its link; `None` for a mesh.
 fn capsule(shape: &Shape) -> Option<([Point3<f64>; 2], f64)> {
     let (axis, half, radius) = match shape.solid {
         Solid::Sphere { radius } => (2, 0.0, radius),
@@ -94,7 +96,7 @@ fn capsule(shape: &Shape) -> Option<([Point3<f64>; 2], f64)> {
     Some(([-along, along].map(|end| shape.pose() * Point3::from(end)), radius))
 }
 
-/// Whether two bodies are one, or on the way between them there is no other that has a capsule.
+/// Whether two bodies are equal, or no other body on the path between them has a capsule.
 fn are_neighbours(model: &Model, is_shaped: &[bool], a: usize, b: usize) -> bool {
     let bodies = |body: usize| {
         let path = model.path(body);
@@ -102,9 +104,9 @@ fn are_neighbours(model: &Model, is_shaped: &[bool], a: usize, b: usize) -> bool
     };
     let (one, other) = (bodies(a), bodies(b));
     let shared = one.iter().zip(&other).take_while(|(a, b)| a == b).count();
-    // The last body that both paths share is on the way, too.
-    let way = one[shared..].iter().chain(&other[shared..]).chain(&one[shared - 1..shared]);
-    way.filter(|body| **body != a && **body != b).all(|body| !is_shaped[*body])
+    // The last body that both paths share belongs to the path too.
+    let path = one[shared..].iter().chain(&other[shared..]).chain(&one[shared - 1..shared]);
+    path.filter(|body| **body != a && **body != b).all(|body| !is_shaped[*body])
 }
 
 /// The distance of two segments (Ericson 2005, 5.1.9).

@@ -7,20 +7,21 @@ use crate::Result;
 use crate::spatial::{Pose, Twist, pose};
 
 impl Model {
-    /// The inertia matrix `M(q)`, n x n, symmetric: half of `q'. M q'` is the kinetic energy on a base that stands still, RH0 (2-38), (2-39).
+    /// The inertia matrix `M(q)`, n x n, symmetric: half of `q'. M q'` is the kinetic energy on a fixed base, RH0
+    /// (2-38), (2-39).
     ///
     /// # Errors
-    /// [`crate::ErrorKind::BadValue`] when `q` has not one finite value per joint.
+    /// [`crate::ErrorKind::BadValue`] unless `q` has one finite value per joint.
     pub fn inertia(&self, q: &[f64]) -> Result<DMatrix<f64>> {
         let n = self.joints().len();
         (0..=n).try_fold(DMatrix::zeros(n, n), |sum, body| Ok(sum + self.body_inertia(body, q)?))
     }
 
-    /// What a body adds to the inertia matrix at `q`, n x n: `J' mu J` with its body Jacobian, RH0 (2-39). Body 0 is the base, `k + 1` is moved
-    /// by joint `k`.
+    /// The contribution of a body to the inertia matrix at `q`, n x n: `J' mu J` with its body Jacobian, RH0 (2-39).
+    /// Body 0 is the base, `k + 1` is moved by joint `k`.
     ///
     /// # Errors
-    /// As [`Model::body_jacobian`].
+    /// Those of [`Model::body_jacobian`].
     pub fn body_inertia(&self, body: usize, q: &[f64]) -> Result<DMatrix<f64>> {
         let jacobian = self.body_jacobian(body, &Pose::identity(), q)?;
         let weighted = self.transformed_inertia(body)? * &jacobian;
@@ -36,11 +37,11 @@ impl Model {
         Ok(self.bodies[body].generalised())
     }
 
-    /// The manipulator adjoint `A_ij` at `q`, 6x6, RH0 (2-44), for joints i and j: the inverse adjoint of the motion of the joints behind `j` up
-    /// to `i`; the identity when `i = j`, zero when `j` does not carry `i`.
+    /// The manipulator adjoint `A_ij` at `q`, 6x6, RH0 (2-44), for joints i and j: the inverse adjoint of the motion of
+    /// the joints after `j` up to `i`. It is the identity when `i = j`, and zero when `j` does not move `i`.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::BadValue`] when there is no such joint, or `q` has not one finite value per joint.
+    /// [`crate::ErrorKind::BadValue`] when there is no such joint, or unless `q` has one finite value per joint.
     pub fn adjoint(&self, i: usize, j: usize, q: &[f64]) -> Result<Matrix6<f64>> {
         self.check(q)?;
         self.check_body(i.max(j) + 1)?;
@@ -51,11 +52,11 @@ impl Model {
         Ok(pose::adjoint_inverse(&moved))
     }
 
-    /// The Coriolis matrix `C(q, q')`, n x n, RH0 (2-42), by Christoffel symbols: `M' - 2 C` is skew, and `C q'` holds the centrifugal and the
-    /// Coriolis torques of the Lagrange equations (2-37).
+    /// The Coriolis matrix `C(q, q')`, n x n, RH0 (2-42), with Christoffel symbols: `M' - 2 C` is skew-symmetric, and
+    /// `C q'` are the centrifugal and Coriolis torques of the Lagrange equations (2-37).
     ///
     /// # Errors
-    /// [`crate::ErrorKind::BadValue`] when `q` or `velocity` has not one finite value per joint.
+    /// [`crate::ErrorKind::BadValue`] unless `q` and `velocity` have one finite value per joint.
     pub fn coriolis(&self, q: &[f64], velocity: &[f64]) -> Result<DMatrix<f64>> {
         self.check(velocity).map_err(|error| error.with_context("velocity"))?;
         let slopes = self.inertia_derivatives(q)?;
@@ -67,7 +68,7 @@ impl Model {
     /// The partial derivatives of the inertia matrix at `q`, RH0 (2-43): for each joint k the n x n matrix `dM / dq_k`.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::BadValue`] when `q` has not one finite value per joint.
+    /// [`crate::ErrorKind::BadValue`] unless `q` has one finite value per joint.
     pub fn inertia_derivatives(&self, q: &[f64]) -> Result<Vec<DMatrix<f64>>> {
         self.check(q)?;
         let n = q.len();
@@ -78,8 +79,8 @@ impl Model {
         Ok(slopes)
     }
 
-    /// Adds the terms of a body in the sum of RH0 (2-43). Its `A_lk [A_ki x_i, x_k]`, zero unless i < k, is taken as `[A_li x_i, A_lk x_k]`:
-    /// an adjoint keeps brackets. `A_li x_i` is column i of a body Jacobian.
+    /// Adds the terms of a body in the sum of RH0 (2-43). Its `A_lk [A_ki x_i, x_k]`, zero unless i < k, is computed as
+    /// `[A_li x_i, A_lk x_k]`, because an adjoint preserves brackets. `A_li x_i` is column i of a body Jacobian.
     fn add_slopes_of(&self, body: usize, q: &[f64], slopes: &mut [DMatrix<f64>]) -> Result<()> {
         let carried = self.body_jacobian(body, &Pose::identity(), q)?;
         let mass = self.transformed_inertia(body)?;

@@ -1,4 +1,4 @@
-//! Masses that no body has: [`check_masses`].
+//! Check of physically impossible inertias: [`check_masses`].
 
 use super::Model;
 use crate::document::shown;
@@ -6,25 +6,26 @@ use crate::model::{Link, Robot};
 use crate::spatial::{Inertia, NEGLIGIBLE};
 use crate::{Error, ErrorKind, Result};
 
-/// Refuses what no body has: of the links that are fixed to one another the first that has it alone is named, else the first of all. Notes tell what was taken for rounding.
+/// Refuses physically impossible masses and inertias. The error names the first of the fixed links that is impossible
+/// by itself, else the first link. Returns notes about values that were treated as rounding errors.
 pub(super) fn check_masses(robot: &Robot, model: &Model) -> Result<Vec<String>> {
-    // Less is what rounding has left of nothing.
+    // A smaller value is zero up to rounding.
     let least = NEGLIGIBLE * model.mass().abs();
     let weighs = |inertia: &Inertia| inertia.generalised().iter().any(|entry| entry.abs() > least);
     let fault = |inertia: &Inertia, least: f64| inertia.check(least).err().filter(|_| weighs(inertia));
-    let told = |link: &Link, error: Error| error.with_context(format!("link `{}`", shown(&link.name)));
+    let located = |link: &Link, error: Error| error.with_context(format!("link `{}`", shown(&link.name)));
     let mut notes = Vec::new();
     for (body, inertia) in model.bodies.iter().enumerate() {
         let links =
             || (0..robot.links().len()).filter(|&link| model.link(link).0 == body).map(|link| &robot.links()[link]);
         if let Some(link) = links().find(|link| link.inertia().mass() < 0.0) {
             let text = format!("mass {} kg: give one that is not below zero", link.inertia().mass());
-            return Err(told(link, Error::new(ErrorKind::BadValue, text)));
+            return Err(located(link, Error::new(ErrorKind::BadValue, text)));
         }
         let named = |error: Error, least: f64| {
-            let alone = links().find_map(|link| fault(&link.inertia(), least).map(|error| told(link, error)));
+            let alone = links().find_map(|link| fault(&link.inertia(), least).map(|error| located(link, error)));
             let first = links().find(|link| weighs(&link.inertia()));
-            alone.or_else(|| Some(told(first?, error.clone()))).unwrap_or(error)
+            alone.or_else(|| Some(located(first?, error.clone()))).unwrap_or(error)
         };
         if let Some(error) = fault(inertia, least) {
             return Err(named(error, least));

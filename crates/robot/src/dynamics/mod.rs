@@ -1,7 +1,10 @@
-//! Dynamics of robots by Lie groups, RH0 2.4: the matrices `M` and `C` of `M q'' + C q' + N = torques`, (2-41), centre of mass and momentum.
+//! Rigid-body dynamics: inertia matrix (CRBA), inverse dynamics (RNEA), forward dynamics (ABA), Coriolis matrix,
+//! regressor, identification.
 //!
-//! A [`Model`] is a [`Robot`](crate::model::Robot) in doubles: a base, which may move freely, and a body behind each joint. [`Placed`] is a
-//! model in a configuration: where its bodies and its centre of mass are, and its [`Momentum`]. [`Clearance`] tells which links touch.
+//! [`Equations`] has all of these for a robot with a fixed or a floating base. [`Model`] is a robot in doubles: a base
+//! and a body behind each joint, with the matrices of `M q'' + C q' + N = torques` by Lie groups, RH0 2.4, (2-41).
+//! [`Placed`] is a model in a configuration: its poses, its centre of mass and its [`Momentum`]. [`Clearance`] finds
+//! links that touch one another.
 
 mod chains;
 mod clearance;
@@ -22,6 +25,6 @@ pub use model::{Model, ModelJoint};
 pub use momentum::Momentum;
 pub use placed::Placed;
 pub use recursions::{
-    Articulation, Body, Cause, Data, Derivatives, Divisible, Drive, Dual, Energy, Frame, Freedom, Mass, Massless,
+    ArticulatedBodies, Body, Cause, Data, Derivatives, Divisible, Drive, Dual, Energy, Frame, Freedom, Mass, Massless,
     Matrices, Motion, Place, Scalar, Six, Tree,
 };

@@ -1,6 +1,7 @@
-//! A robot as mechanics sees it: bodies, each behind a joint of one freedom, in doubles. Main type: [`Model`].
+//! The mechanical model of a robot: bodies, each moved by a joint with one degree of freedom, in doubles. Main type:
+//! [`Model`].
 //!
-//! The motion of a body is the product of exponentials along its path, as in RH0 (2-20), behind the pose of the base.
+//! The motion of a body is the product of exponentials along its path, as in RH0 (2-20), after the pose of the base.
 
 use crate::kinematics::jacobian::{self, Jacobian};
 use crate::model::{self, JointType, Robot};
@@ -8,26 +9,27 @@ use crate::spatial::exact::normalized;
 use crate::spatial::{Inertia, Pose, Screw};
 use crate::{Error, ErrorKind, Result};
 
-/// A joint of a model: what moves one body against another.
+/// A joint of a model, which moves a body relative to its parent.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ModelJoint {
     /// Its name in the robot.
     pub name: String,
-    /// The body that carries it; 0 is the base, `k + 1` the body behind joint `k`.
+    /// The parent body; 0 is the base, `k + 1` the body of joint `k`.
     pub parent: usize,
-    /// How it moves, in the base frame at the zero configuration.
+    /// Its screw, in the base frame at the zero configuration.
     pub screw: Screw,
 }
 
-/// A robot's mechanics: the base, which is its root link with all that is fixed to it, and a body behind each joint that turns or slides.
-/// Body `k + 1` is moved by joint `k`; joints stand in the order of [`Robot::moving`]. Metres, kilograms, radians. It never changes.
+/// The mechanical model of a robot in metres, kilograms and radians. The base is the root link with all links fixed to
+/// it. Each revolute or prismatic joint moves a body: joint `k` moves body `k + 1`. Joints are in the order of
+/// [`Robot::moving`]. The model is immutable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub(super) joints: Vec<ModelJoint>,
-    /// The joints, each behind those that carry it.
+    /// The joints, sorted so that parents come first.
     pub(super) order: Vec<usize>,
-    /// What the bodies weigh, in the base frame at the zero configuration.
+    /// The inertia of each body, in the base frame at the zero configuration.
     pub(super) bodies: Vec<Inertia>,
     /// The body of each link of the robot, and the link's frame in the base frame at the zero configuration.
     pub(super) links: Vec<(usize, Pose)>,
@@ -35,10 +37,10 @@ pub struct Model {
 }
 
 impl Model {
-    /// The mechanics of `robot`. Floating and planar joints stand still.
+    /// Builds the model of `robot`. Floating and planar joints are fixed.
     ///
     /// # Errors
-    /// As [`Robot::check`]; [`ErrorKind::BadValue`] when a frame or mass is beyond doubles.
+    /// Those of [`Robot::check`]; [`ErrorKind::BadValue`] when a frame or mass is outside the range of doubles.
     pub fn new(robot: &Robot) -> Result<Self> {
         robot.check()?;
         let moving = robot.moving();
@@ -66,7 +68,8 @@ impl Model {
         Err(Error::new(ErrorKind::BadValue, "a mass or a frame is beyond the range of doubles; give smaller numbers"))
     }
 
-    /// Places the link below the joint at `place` of the robot, whose parent stands already; `moving` are the places of the joints that move.
+    /// Appends the child link of the robot's joint `place`. Its parent is already in the model. `moving` has the
+    /// indices of the movable joints.
     fn append(&mut self, robot: &Robot, place: usize, moving: &[usize]) -> Result<()> {
         let joint = &robot.joints()[place];
         let (parent, child) = robot.ends(place);
@@ -87,16 +90,17 @@ impl Model {
         &self.joints
     }
 
-    /// The place of the joint `name` in a configuration `q`.
+    /// The index of the joint `name` in a configuration `q`.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] when no joint that turns or slides has that name.
+    /// [`ErrorKind::UnknownName`] when no revolute or prismatic joint has this name.
     pub fn joint(&self, name: &str) -> Result<usize> {
         let unknown = || Error::new(ErrorKind::UnknownName, format!("no joint `{name}` turns or slides"));
         self.joints.iter().position(|joint| joint.name == name).ok_or_else(unknown)
     }
 
-    /// What the body weighs, in the base frame at the zero configuration: 0 is the base, `k + 1` is moved by joint `k`.
+    /// The inertia of a body, in the base frame at the zero configuration: 0 is the base, `k + 1` is moved by joint
+    /// `k`.
     ///
     /// # Panics
     /// When there is no such body.
@@ -117,7 +121,7 @@ impl Model {
         self.mass
     }
 
-    /// The joints from the base to a body, in that order.
+    /// The joints from the base to a body, in this order.
     ///
     /// # Panics
     /// When there is no such body.
@@ -128,11 +132,11 @@ impl Model {
         path
     }
 
-    /// The body Jacobian of a frame of `body` that stands at `base_from_frame` at the zero configuration, at `q`, RH0 (2-24): 6xn, zero in the
-    /// columns of the joints that do not move it.
+    /// The body Jacobian at `q` of a frame of `body`, RH0 (2-24): 6 x n, zero in the columns of joints that do not move
+    /// it. `base_from_frame` is the pose of the frame at the zero configuration.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when there is no such body, or `q` has not one finite value per joint.
+    /// [`ErrorKind::BadValue`] when there is no such body, or unless `q` has one finite value per joint.
     pub fn body_jacobian(&self, body: usize, base_from_frame: &Pose, q: &[f64]) -> Result<Jacobian> {
         self.check(q)?;
         self.check_body(body)?;
@@ -153,7 +157,7 @@ impl Model {
         if body <= most { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text())) }
     }
 
-    /// Fails unless `q` has one finite value for each joint.
+    /// Checks that `q` has one finite value for each joint.
     pub(super) fn check(&self, q: &[f64]) -> Result<()> {
         let text = if q.len() != self.joints.len() {
             format!("{} joint values are given; the robot has {} joints", q.len(), self.joints.len())
@@ -166,7 +170,7 @@ impl Model {
     }
 }
 
-/// The screw of a joint that turns or slides, whose frame stands at `base_from_joint`.
+/// The screw of a revolute or prismatic joint with the frame `base_from_joint`.
 fn screw(joint: &model::Joint, base_from_joint: &Pose) -> Result<Screw> {
     let direction = base_from_joint.rotation * normalized(&joint.axis).into_inner();
     let screw = match joint.kind {

@@ -1,4 +1,4 @@
-//! Where the bodies of a model are: their poses, the centre of mass and the momentum. Main type: [`Placed`].
+//! A model in a configuration: poses of the bodies, centre of mass and momentum. Main type: [`Placed`].
 
 use nalgebra::{Matrix3xX, Point3, Vector3};
 
@@ -7,19 +7,19 @@ use super::{Model, ModelJoint};
 use crate::Result;
 use crate::spatial::{Inertia, Pose, Twist};
 
-/// A [`Model`] in a configuration, its base somewhere in the world.
+/// A [`Model`] in a configuration, with its base at a pose in the world frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed<'m> {
     model: &'m Model,
-    /// Of the base and of each body behind it: its motion since the zero configuration with the base at the origin.
+    /// For the base and each body: its displacement from the zero configuration with the base at the origin.
     motions: Vec<Pose>,
 }
 
 impl Model {
-    /// Where everything is when the base is at `world_from_base` and the joints are at `q`.
+    /// Places the model: the base at `world_from_base` and the joints at `q`.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::BadValue`] when `q` has not one finite value per joint.
+    /// [`crate::ErrorKind::BadValue`] unless `q` has one finite value per joint.
     pub fn place(&self, world_from_base: &Pose, q: &[f64]) -> Result<Placed<'_>> {
         self.check(q)?;
         let mut motions = vec![*world_from_base; self.bodies.len()];
@@ -32,13 +32,14 @@ impl Model {
 }
 
 impl Placed<'_> {
-    /// The pose of the base in the world.
+    /// The pose of the base in the world frame.
     pub fn world_from_base(&self) -> Pose {
         self.motions[0]
     }
 
-    /// The motion of a body since the zero configuration with the base at the origin: it takes what is fixed to the body from its place in
-    /// the base frame at the zero configuration to its place in the world. Body 0 is the base, `k + 1` is moved by joint `k`.
+    /// The displacement of a body from the zero configuration with the base at the origin. It maps a point of the body
+    /// from the base frame at the zero configuration to the world frame. Body 0 is the base, `k + 1` is moved by joint
+    /// `k`.
     ///
     /// # Panics
     /// When there is no such body.
@@ -46,7 +47,7 @@ impl Placed<'_> {
         self.motions[body]
     }
 
-    /// The pose of the frame of a link of the robot in the world.
+    /// The pose of a link of the robot in the world frame.
     ///
     /// # Panics
     /// When there is no such link.
@@ -55,14 +56,14 @@ impl Placed<'_> {
         self.motion(body) * base_from_link
     }
 
-    /// The centre of mass in the world \[m\].
+    /// The centre of mass in the world frame \[m\].
     pub fn centre_of_mass(&self) -> Point3<f64> {
         let moment = self.bodies().map(|(inertia, motion)| (motion * inertia.centre_of_mass()).coords * inertia.mass());
         Point3::from(moment.sum::<Vector3<f64>>() / self.model.mass())
     }
 
-    /// How the centre of mass moves, 3 x (6 + n): its velocity is the matrix times the twist (v, w) of the base, in the world frame, and
-    /// below it the rates of the joints.
+    /// The Jacobian of the centre of mass, 3 x (6 + n). Its velocity is the matrix times the twist (v, w) of the base
+    /// in the world frame, followed by the joint velocities.
     pub fn centre_of_mass_jacobian(&self) -> Matrix3xX<f64> {
         let mut jacobian = Matrix3xX::zeros(6 + self.model.joints().len());
         let (carried, centres) = self.carried();
@@ -76,10 +77,11 @@ impl Placed<'_> {
         jacobian
     }
 
-    /// The momentum at the twist `base` of the base \[m/s, rad/s\], in the world frame, and the rates of the joints.
+    /// The momentum for the twist `base` of the base in the world frame \[m/s, rad/s\] and the joint velocities
+    /// `rates`.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::BadValue`] when `rates` has not one finite value per joint.
+    /// [`crate::ErrorKind::BadValue`] unless `rates` has one finite value per joint.
     pub fn momentum(&self, base: &Twist, rates: &[f64]) -> Result<Momentum> {
         self.model.check(rates)?;
         let units: Vec<Twist> = self.twists().collect();
@@ -91,17 +93,17 @@ impl Placed<'_> {
         Ok(parts.sum())
     }
 
-    /// Each body with its motion, the base first.
+    /// Each body with its displacement, the base first.
     fn bodies(&self) -> impl Iterator<Item = (&Inertia, &Pose)> {
         self.model.bodies.iter().zip(&self.motions)
     }
 
-    /// The unit twist of each joint, in the world frame.
+    /// The unit twist of each joint in the world frame.
     fn twists(&self) -> impl Iterator<Item = Twist> {
         self.model.joints().iter().map(|joint| joint.screw.twist().transform(&self.motions[joint.parent]))
     }
 
-    /// The mass that the base and each joint carry, and its centre in the world.
+    /// The mass that the base and each joint carry, and its centre in the world frame.
     fn carried(&self) -> (Vec<f64>, Vec<Vector3<f64>>) {
         let mut masses: Vec<f64> = self.model.bodies.iter().map(Inertia::mass).collect();
         let mut moments: Vec<Vector3<f64>> = self
@@ -119,7 +121,7 @@ impl Placed<'_> {
     }
 }
 
-/// What a body that is moved by `motion` has of momentum at its twist in the world.
+/// The momentum of a body at the displacement `motion` with a twist in the world frame.
 fn momentum(inertia: &Inertia, motion: &Pose, twist: &Twist) -> Momentum {
     let centre = motion * inertia.centre_of_mass();
     let linear = (twist.v + twist.w.cross(&centre.coords)) * inertia.mass();

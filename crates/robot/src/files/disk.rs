@@ -1,4 +1,4 @@
-//! What the writer asks of the file system. Main type: [`Disk`].
+//! Interface of the writer to the file system. Main type: [`Disk`].
 
 use std::fmt::Debug;
 use std::fs::{self, File};
@@ -7,15 +7,16 @@ use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-/// How the name of a temporary file begins and ends.
+/// Beginning and end of a temporary file's name.
 pub(super) const ENDS: [&str; 2] = [".groebot-", ".tmp"];
 
-/// The calls by which files are replaced. Each does what the operating system does; a test overrides them one by one to make them fail.
+/// The calls by which files are replaced. By default each one calls the operating system. Tests override single calls
+/// to make them fail.
 pub trait Disk: Debug {
-    /// A new temporary file in `folder` with the permissions that the file `like` has, or that any new file gets.
+    /// Creates a temporary file in `folder` with the permissions of the file `like`, or of a new file.
     ///
     /// # Errors
-    /// Those of the operating system; so do all calls below.
+    /// Those of the operating system, as for all calls below.
     fn create(&self, folder: &Path, like: &Path) -> io::Result<NamedTempFile> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(ENDS[0]).suffix(ENDS[1]);
@@ -29,23 +30,23 @@ pub trait Disk: Debug {
     /// Writes all `bytes` at the end of `file`.
     ///
     /// # Errors
-    /// As [`Disk::create`].
+    /// Those of [`Disk::create`].
     fn write(&self, file: &mut File, bytes: &[u8]) -> io::Result<()> {
         file.write_all(bytes)
     }
 
-    /// Brings the content of `file` to the disk.
+    /// Flushes the content of `file` to the disk.
     ///
     /// # Errors
-    /// As [`Disk::create`].
+    /// Those of [`Disk::create`].
     fn sync(&self, file: &File) -> io::Result<()> {
         file.sync_all()
     }
 
-    /// Gives the file `from` the name `to`, in place of a file that has this name.
+    /// Renames the file `from` to `to` and replaces a file with this name.
     ///
     /// # Errors
-    /// As [`Disk::create`].
+    /// Those of [`Disk::create`].
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
         fs::rename(from, to)
     }
@@ -53,27 +54,27 @@ pub trait Disk: Debug {
     /// Removes the file `path`.
     ///
     /// # Errors
-    /// As [`Disk::create`].
+    /// Those of [`Disk::create`].
     fn remove(&self, path: &Path) -> io::Result<()> {
         fs::remove_file(path)
     }
 
-    /// Brings the names in `folder` to the disk, where the operating system can.
+    /// Flushes the directory entries of `folder` to the disk, if the operating system supports it.
     ///
     /// # Errors
-    /// As [`Disk::create`].
+    /// Those of [`Disk::create`].
     fn sync_folder(&self, folder: &Path) -> io::Result<()> {
         if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
     }
 }
 
-/// The file system itself.
+/// The operating system's file system.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct System;
 
 impl Disk for System {}
 
-/// Those of the file that `path` replaces, or those that any new file gets (the umask applies to both).
+/// The permissions of the file that `path` replaces, or of a new file. The umask applies to both.
 #[cfg(unix)]
 fn permissions_of(path: &Path) -> fs::Permissions {
     use std::os::unix::fs::PermissionsExt;

@@ -1,4 +1,4 @@
-//! One writer at a time in a folder, and the note that a set of files is incomplete.
+//! Locks: one writer at a time in a folder, and the marker of an incomplete set of files.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, TryLockError};
@@ -10,21 +10,23 @@ use super::temporary::remove_left_over;
 use super::{parent, write_beside};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How often a lock is tried.
+/// Interval between attempts to lock.
 const PAUSE: Duration = Duration::from_millis(10);
 /// The file that lists the names of a set while its files are replaced one after the other.
 const UNFINISHED: &str = ".groebot-unfinished";
 
-/// A folder that no other process of groebot writes a set of files into. The kernel releases it, also from a process that is killed.
+/// The lock of a folder: no other groebot process writes a set of files to it. The kernel releases it, also when a
+/// process is killed.
 ///
-/// On a file system without locks nothing is serialised.
+/// A file system without locks gives no protection.
 #[derive(Debug)]
 pub(super) struct FolderLock {
     _file: File,
 }
 
 impl FolderLock {
-    /// Waits for the folder, and removes what killed writers left in it; `None` when it was removed or replaced meanwhile.
+    /// Waits for the lock and removes the temporary files of killed writers; `None` when the folder was removed or
+    /// replaced meanwhile.
     pub(super) fn take(folder: &Path, watch: &Watch) -> Result<Option<Self>> {
         let Ok(file) = open(folder) else { return Ok(None) };
         while let Err(TryLockError::WouldBlock) = file.try_lock() {
@@ -51,7 +53,7 @@ fn is_still(file: &File, folder: &Path) -> bool {
     matches!((file.metadata().map(id), fs::metadata(folder).map(id)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Elsewhere a folder cannot be opened: a file in it is locked instead.
+/// On other systems a folder cannot be opened: a file in it is locked instead.
 #[cfg(not(unix))]
 fn open(folder: &Path) -> std::io::Result<File> {
     fs::OpenOptions::new().create(true).write(true).truncate(false).open(folder.join(".groebot-lock"))
@@ -62,35 +64,37 @@ fn is_still(_: &File, folder: &Path) -> bool {
     folder.is_dir()
 }
 
-/// The note of a folder that files of a set are being replaced. It is on the disk before the first file changes, and goes after the last.
+/// The marker of a folder whose set of files is being replaced. It is on the disk before the first file changes and is
+/// removed after the last change.
 pub(super) struct Unfinished<'d> {
     disk: &'d dyn Disk,
     note: PathBuf,
-    /// What an earlier, interrupted writer left.
+    /// The names left by an earlier, interrupted writer.
     before: BTreeSet<String>,
     now: BTreeSet<String>,
 }
 
 impl<'d> Unfinished<'d> {
-    /// Writes the note.
+    /// Writes the marker.
     pub(super) fn begin(disk: &'d dyn Disk, folder: &Path, names: impl Iterator<Item = String>) -> Result<Self> {
         let note = folder.join(UNFINISHED);
         let (before, now) = (listed(&note), names.collect());
         let unfinished = Unfinished { disk, note, before, now };
         if let Err(error) = unfinished.put(&unfinished.before | &unfinished.now) {
-            // Nothing has changed yet. Where the note cannot be taken back either, it refuses what is still whole.
+            // Nothing has changed yet. If the marker cannot be removed either, it refuses files that are still
+            // complete.
             let _ = unfinished.undone();
             return Err(error);
         }
         Ok(unfinished)
     }
 
-    /// All files of the set are new: only those of an earlier set may be incomplete.
+    /// Completes the set: all its files are new. Only those of an earlier set may be incomplete.
     pub(super) fn done(self) -> Result<()> {
         self.put(&self.before - &self.now)
     }
 
-    /// All files of the set are as they were.
+    /// Reverts the set: all its files are unchanged.
     pub(super) fn undone(self) -> Result<()> {
         self.put(self.before.clone())
     }
@@ -107,12 +111,13 @@ impl<'d> Unfinished<'d> {
     }
 }
 
-/// The names in a note.
+/// The names in a marker.
 fn listed(note: &Path) -> BTreeSet<String> {
     fs::read_to_string(note).map_or_else(|_| BTreeSet::new(), |text| text.lines().map(str::to_owned).collect())
 }
 
-/// Fails for a file of a set that is being replaced, or whose replacement was interrupted: it may not belong to the files beside it.
+/// Refuses a file of a set that is being replaced, or whose replacement was interrupted. It may not match the other
+/// files of the set.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] with the file.

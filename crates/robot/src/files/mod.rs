@@ -1,5 +1,6 @@
-//! The one writer. Files are never half-written: everything goes to temporary files beside their targets, is brought to the disk, and only then
-//! renamed. [`StagedFolder`] does it for a set of files at once; [`refuse_foreign`] decides which files may be replaced.
+//! Atomic writing of files. A file is never half-written: its content is written to a temporary file in the same
+//! folder, flushed to the disk, and renamed. [`StagedFolder`] does this for a set of files at once. [`refuse_foreign`]
+//! decides which files may be replaced.
 
 mod disk;
 mod lock;
@@ -18,27 +19,30 @@ pub use self::own::{MARK, Target, is_marked, refuse_foreign, write_into};
 pub use self::staged::StagedFolder;
 use crate::{Error, Result, Watch};
 
-/// Held for reading by each writer from its first temporary file to its last step, so that the end of the process can wait for it.
+/// Each writer holds this for reading from its first temporary file to its last step, so that the end of the process
+/// can wait for it.
 static WRITERS: RwLock<()> = RwLock::new(());
 
-/// A writer at work.
+/// The guard of a writer.
 type Writing = RwLockReadGuard<'static, ()>;
 
 fn writing() -> Writing {
     WRITERS.read().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Waits until no file of this process is half-written, and lets no writer begin while the guard lives: for who is about to end the process.
+/// Waits until this process has no half-written file. No writer starts while the guard exists. For callers that are
+/// about to end the process.
 pub fn stop_writers() -> RwLockWriteGuard<'static, ()> {
     WRITERS.write().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Replaces the content of `path` by `bytes`: readers see the old file or the new one, nothing between.
+/// Replaces the content of `path` by `bytes` atomically: readers see the old file or the new one.
 ///
-/// The folder must exist. A symbolic link to a regular file is replaced, not followed. Into a device, a pipe or a socket the bytes are written.
+/// The folder must exist. A symbolic link to a regular file is replaced, not followed. For a device, a pipe or a socket
+/// the bytes are written to it.
 ///
 /// # Errors
-/// As [`Target::of`]; [`ErrorKind::Io`](crate::ErrorKind::Io) when the disk refuses; the old file then stays.
+/// Those of [`Target::of`]; [`ErrorKind::Io`](crate::ErrorKind::Io) when writing fails; the old file is then unchanged.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
     write_atomically_on(&System, path, bytes)
 }
@@ -46,7 +50,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<()> {
 /// Same as [`write_atomically`], but on another `disk`.
 ///
 /// # Errors
-/// As [`write_atomically`].
+/// Those of [`write_atomically`].
 pub fn write_atomically_on(disk: &dyn Disk, path: &Path, bytes: &[u8]) -> Result<()> {
     if Target::of(path)? == Target::Stream {
         return write_into(path, bytes).map_err(|error| Error::io(path, &error));
@@ -66,7 +70,7 @@ pub fn write_folder_atomically(folder: &Path, files: &[(String, Vec<u8>)], watch
     staged.commit()
 }
 
-/// A temporary file in the folder of `path` that holds `bytes`, on the disk.
+/// Writes `bytes` to a temporary file in the folder of `path`, and flushes it to the disk.
 fn write_beside(disk: &dyn Disk, path: &Path, bytes: &[u8]) -> Result<NamedTempFile> {
     let write = || {
         let mut file = temporary::create(disk, parent(path), path)?;
@@ -78,7 +82,7 @@ fn write_beside(disk: &dyn Disk, path: &Path, bytes: &[u8]) -> Result<NamedTempF
 }
 
 fn rename_onto(disk: &dyn Disk, file: NamedTempFile, target: &Path) -> Result<()> {
-    // Open, and so locked, until it has its name.
+    // The file stays open, and so locked, until it is renamed.
     let (_open, mut path) = file.into_parts();
     disk.rename(&path, target).map_err(|error| Error::io(target, &error))?;
     path.disable_cleanup(true);

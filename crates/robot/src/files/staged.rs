@@ -1,4 +1,4 @@
-//! Sets of files that are replaced together. Main type: [`StagedFolder`].
+//! Atomic replacement of sets of files. Main type: [`StagedFolder`].
 
 use std::collections::HashSet;
 use std::fs;
@@ -11,17 +11,17 @@ use super::lock::{FolderLock, Unfinished};
 use super::{Writing, parent, rename_onto, write_beside, writing};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// A set of files that is complete on the disk but still under temporary names, in a folder that no other process writes a set into.
+/// A set of files that is complete on the disk under temporary names. The folder is locked for other groebot processes.
 ///
-/// Dropped without [`commit`](Self::commit), it removes the temporary files and the folders that it created. Staging twice in one folder at the same
-/// time waits for the first.
+/// If it is dropped without [`commit`](Self::commit), it removes the temporary files and the folders that it created. A
+/// second staging in the same folder waits for the first.
 #[derive(Debug)]
 pub struct StagedFolder<'d> {
     disk: &'d dyn Disk,
     changes: Vec<Change>,
-    // After `changes`: fields drop in order, and a folder is removed only once it is empty.
+    // After `changes`, because fields are dropped in order, and a folder is removed only when it is empty.
     folders: NewFolders,
-    // Last: nobody else comes in, and the process does not end, before the folder is as it was.
+    // Last: the lock is held until the folder is restored.
     _lock: FolderLock,
     _writing: Writing,
 }
@@ -30,19 +30,19 @@ pub struct StagedFolder<'d> {
 #[derive(Debug)]
 struct Change {
     target: PathBuf,
-    /// None removes the file.
+    /// `None` removes the file.
     new: Option<NamedTempFile>,
-    /// A copy of what `target` held at the time of staging.
+    /// A copy of the content of `target` at the time of staging.
     old: Option<NamedTempFile>,
 }
 
 impl StagedFolder<'static> {
-    /// Writes every file under a temporary name in `folder`; nothing that can be seen changes.
+    /// Writes every file under a temporary name in `folder`. Existing files are unchanged.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a name that is not a plain file name, and for one of a link, a device, a pipe or a socket;
-    /// [`ErrorKind::DuplicateName`], [`ErrorKind::Io`], and those of [`Watch::check`], which is asked before each file and while another process
-    /// writes into the folder.
+    /// [`ErrorKind::BadValue`] for a name that is not a plain file name, or that is the name of a link, a device, a
+    /// pipe or a socket; [`ErrorKind::DuplicateName`], [`ErrorKind::Io`], and those of [`Watch::check`], which is
+    /// called before each file and while waiting for the lock.
     pub fn stage(folder: &Path, files: &[(String, Vec<u8>)], watch: &Watch) -> Result<Self> {
         StagedFolder::stage_on(&System, folder, files, watch)
     }
@@ -52,7 +52,7 @@ impl<'d> StagedFolder<'d> {
     /// Same as [`StagedFolder::stage`], but on another `disk`.
     ///
     /// # Errors
-    /// As [`StagedFolder::stage`].
+    /// Those of [`StagedFolder::stage`].
     pub fn stage_on(disk: &'d dyn Disk, folder: &Path, files: &[(String, Vec<u8>)], watch: &Watch) -> Result<Self> {
         check_names(folder, files)?;
         let (folders, lock) = open(folder, watch)?;
@@ -65,10 +65,10 @@ impl<'d> StagedFolder<'d> {
         Ok(staged)
     }
 
-    /// Removes the file `name`, too, if there is one.
+    /// Also removes the file `name`, if there is one.
     ///
     /// # Errors
-    /// As [`StagedFolder::stage`].
+    /// Those of [`StagedFolder::stage`].
     pub fn without(mut self, name: &str) -> Result<Self> {
         check_name(name).map_err(|error| error.in_file(&self.folders.folder))?;
         let target = self.folders.folder.join(name);
@@ -77,12 +77,13 @@ impl<'d> StagedFolder<'d> {
         Ok(self)
     }
 
-    /// Gives every file its own name. When one step fails, those before it are taken back.
+    /// Renames every file to its own name. When one step fails, the steps before it are reverted.
     ///
-    /// In a folder of a process that is killed meanwhile each file is old or new, and [`refuse_unfinished`](super::refuse_unfinished) refuses them all.
+    /// If the process is killed meanwhile, each file is old or new, and [`refuse_unfinished`](super::refuse_unfinished)
+    /// refuses them all.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`], about the file that could not be replaced or taken back.
+    /// [`ErrorKind::Io`], about the file that could not be replaced or restored.
     pub fn commit(self) -> Result<()> {
         let StagedFolder { disk, changes, folders, _lock, _writing } = self;
         let names = changes.iter().filter_map(|change| change.target.file_name());
@@ -94,7 +95,7 @@ impl<'d> StagedFolder<'d> {
             disk.sync_folder(parent(&folders.folder.join("x"))).map_err(|error| Error::io(&folders.folder, &error))
         });
         if let Err(error) = replaced {
-            take_back(disk, done)?;
+            revert(disk, done)?;
             unfinished.undone()?;
             return Err(error);
         }
@@ -104,7 +105,7 @@ impl<'d> StagedFolder<'d> {
     }
 }
 
-/// The folder, created where it is absent, and locked.
+/// Opens and locks the folder. It is created when absent.
 fn open(folder: &Path, watch: &Watch) -> Result<(NewFolders, FolderLock)> {
     loop {
         watch.check()?;
@@ -122,12 +123,12 @@ impl Change {
         Ok(Change { target, new, old })
     }
 
-    /// Replaces or removes the file, and remembers how it was.
+    /// Replaces or removes the file, and records its old content.
     fn apply(self, disk: &dyn Disk, done: &mut Vec<(PathBuf, Option<NamedTempFile>)>) -> Result<()> {
         let Change { target, new, old } = self;
         match new {
             Some(new) => rename_onto(disk, new, &target)?,
-            // It is gone already.
+            // The file is already absent.
             None if old.is_none() => return Ok(()),
             None => disk.remove(&target).map_err(|error| Error::io(&target, &error))?,
         }
@@ -136,7 +137,7 @@ impl Change {
     }
 }
 
-/// A copy of the regular file `target`; none where there is no file.
+/// A copy of the regular file `target`; `None` without a file.
 fn old_content(disk: &dyn Disk, target: &Path) -> Result<Option<NamedTempFile>> {
     let found = match fs::symlink_metadata(target) {
         Ok(found) => found,
@@ -151,8 +152,8 @@ fn old_content(disk: &dyn Disk, target: &Path) -> Result<Option<NamedTempFile>> 
     write_beside(disk, target, &content).map(Some)
 }
 
-/// Undoes changes: an old content returns, a file that was not there goes. All are tried; the first failure is reported.
-fn take_back(disk: &dyn Disk, done: Vec<(PathBuf, Option<NamedTempFile>)>) -> Result<()> {
+/// Reverts changes: old content is restored, new files are removed. All are attempted; the first failure is reported.
+fn revert(disk: &dyn Disk, done: Vec<(PathBuf, Option<NamedTempFile>)>) -> Result<()> {
     let back = |(target, old): (PathBuf, Option<NamedTempFile>)| match old {
         Some(old) => rename_onto(disk, old, &target),
         None => disk.remove(&target).map_err(|error| Error::io(&target, &error)),
@@ -161,7 +162,7 @@ fn take_back(disk: &dyn Disk, done: Vec<(PathBuf, Option<NamedTempFile>)>) -> Re
     failures.into_iter().next().map_or(Ok(()), Err)
 }
 
-/// The folders that staging had to create, outermost first; removed on drop where they are empty.
+/// The folders that staging created, outermost first. Empty ones are removed on drop.
 #[derive(Debug)]
 struct NewFolders {
     folder: PathBuf,
@@ -177,7 +178,7 @@ impl NewFolders {
         for path in absent {
             match fs::create_dir(&path) {
                 Ok(()) => folders.created.push(path),
-                // Another process was faster: the folder is there, and not ours to remove.
+                // Another process created the folder first: it is not removed.
                 Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(Error::io(&path, &error)),
             }
@@ -193,7 +194,7 @@ impl NewFolders {
 impl Drop for NewFolders {
     fn drop(&mut self) {
         for path in self.created.iter().rev() {
-            // Not ours any more when someone else put a file there: `remove_dir` then refuses.
+            // If another process put a file there, `remove_dir` refuses.
             let _ = fs::remove_dir(path);
         }
     }

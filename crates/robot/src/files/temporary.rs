@@ -1,4 +1,5 @@
-//! Temporary files. Each is locked by its writer while it is open, so one that is not locked was left by a process that was killed.
+//! Temporary files. A writer locks its temporary file while it is open, so an unlocked one was left by a killed
+//! process.
 
 use std::ffi::OsStr;
 use std::fs::{self, DirEntry, File, TryLockError};
@@ -9,11 +10,12 @@ use tempfile::NamedTempFile;
 
 use super::disk::{Disk, ENDS};
 
-/// A new temporary file in `folder` as [`Disk::create`] makes it, locked until it is closed; on a file system without locks it is not.
+/// Creates a temporary file in `folder` with [`Disk::create`]. It is locked until it is closed, if the file system
+/// supports locks.
 pub(super) fn create(disk: &dyn Disk, folder: &Path, like: &Path) -> io::Result<NamedTempFile> {
     loop {
         let file = disk.create(folder, like)?;
-        // Another process may have taken it for a left-over one before it was locked.
+        // Another process may have removed it as a left-over file before it was locked.
         let is_taken = matches!(file.as_file().try_lock(), Err(TryLockError::WouldBlock));
         if !is_taken && file.path().exists() {
             return Ok(file);
@@ -21,7 +23,7 @@ pub(super) fn create(disk: &dyn Disk, folder: &Path, like: &Path) -> io::Result<
     }
 }
 
-/// Removes the temporary files in `folder` that nobody has locked. One that cannot be removed is left to the next writer.
+/// Removes the unlocked temporary files in `folder`. A file that cannot be removed is left to the next writer.
 pub(super) fn remove_left_over(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten().filter(is_temporary) {
         let path = entry.path();

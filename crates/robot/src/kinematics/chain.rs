@@ -1,7 +1,7 @@
 //! The validated, immutable model of a serial chain, with exact numbers: 0.1029 is 1029/10000.
 //!
 //! [`ChainParts`] is plain data; [`Chain::new`] checks it. Axes, points and the tip are given in the base frame at the
-//! zero configuration, as the product of exponentials wants them (RH0 2.1.4).
+//! zero configuration, as in the product of exponentials (RH0 2.1.4).
 
 use std::fmt;
 
@@ -14,7 +14,7 @@ use super::validate::{self, Fault, Part};
 use super::{ExactVector, LengthUnit};
 use crate::{Error, ErrorKind, Result};
 
-/// A validated serial chain. It never changes.
+/// A validated serial chain. It is immutable.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "ChainParts", into = "ChainParts")]
 pub struct Chain {
@@ -23,15 +23,15 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// Checks `parts` and makes them a chain.
+    /// Validates `parts` and builds the chain.
     ///
     /// # Errors
     /// [`crate::ErrorKind::BadValue`] for no or more than 12 joints, an axis of zero, inverted or infinite limits, a
-    /// coordinate beyond 10^12, a tip matrix that is no rotation, a joint that leaves the plane of a planar task by more than 0.1 rad, a
-    /// direction of zero, values given of all joints, an incomplete order, an empty name, or a symbol that is not 1 to 16
-    /// ASCII letters and digits;
-    /// [`crate::ErrorKind::DuplicateName`] for joint names, symbols, given joints or unknowns of `order` named twice;
-    /// [`crate::ErrorKind::UnknownName`] for an unknown or a given joint that is none of the chain's.
+    /// coordinate above 10^12, a tip matrix that is not a rotation, a joint that leaves the plane of a planar task by
+    /// more than 0.1 rad, a direction of zero, all joints given, an incomplete order, an empty name, or a symbol that
+    /// is not 1 to 16 ASCII letters and digits; [`crate::ErrorKind::DuplicateName`] for joint names, symbols, given
+    /// joints or unknowns of `order` named twice; [`crate::ErrorKind::UnknownName`] for an unknown or a given joint
+    /// that does not belong to the chain.
     pub fn new(parts: ChainParts) -> Result<Self> {
         Chain::assemble(parts).map_err(|fault| fault.error)
     }
@@ -42,11 +42,11 @@ impl Chain {
         Ok(Chain { parts, numeric })
     }
 
-    /// The same mechanism with another task: what is asked of its tip, the direction of the tip frame that `ray` and
-    /// `direction` aim, and the joints whose values the user gives. The order and the choice are kept.
+    /// Same mechanism, but with another task, another direction of the tip frame for the tasks `ray` and `direction`,
+    /// and other given joints. The order and the choice are kept.
     ///
     /// # Errors
-    /// As [`Chain::new`], for a direction of zero, joints that are not there, and joints that leave a task's plane.
+    /// Those of [`Chain::new`] for a zero direction, unknown joints, and joints that leave a task's plane.
     pub fn with_task(&self, task: Task, direction: ExactVector, given: Vec<String>) -> Result<Self> {
         Chain::new(ChainParts { task, direction, given, ..self.parts.clone() })
     }
@@ -76,24 +76,24 @@ impl Chain {
         &self.parts.tip
     }
 
-    /// What is asked of the tip.
+    /// The task of the tip.
     pub fn task(&self) -> Task {
         self.parts.task
     }
 
-    /// The direction in the tip frame that the tasks `ray` and `direction` aim, of any length.
+    /// The direction in the tip frame for the tasks `ray` and `direction`, of any length.
     pub fn direction(&self) -> &ExactVector {
         &self.parts.direction
     }
 
-    /// The places of the joints whose values the user gives, and of those that follow them, from the base.
+    /// The indices of the given joints and of their mimic joints, from base to tip.
     pub fn given(&self) -> Vec<usize> {
         let is_named = |name: &String| self.parts.given.contains(name);
         let is_given = |joint: &Joint| is_named(joint.mimic.as_ref().map_or(&joint.name, |mimic| &mimic.leader));
         self.joints().iter().enumerate().filter(|(_, joint)| is_given(joint)).map(|(place, _)| place).collect()
     }
 
-    /// Fails unless there is one finite value for each given joint that follows no other.
+    /// Checks that there is one finite value for each given joint that is not a mimic joint.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] with their names.
@@ -107,12 +107,12 @@ impl Chain {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// All unknowns from the greatest to the smallest, when a term order is asked for.
+    /// All unknowns from the greatest to the smallest, if a term order is requested.
     pub fn order(&self) -> Option<&[String]> {
         self.parts.order.as_deref()
     }
 
-    /// The root that is taken, when one is chosen.
+    /// The selected root, if one is selected.
     pub fn choice(&self) -> Option<&Choice> {
         self.parts.choice.as_ref()
     }
@@ -138,7 +138,7 @@ impl From<Chain> for ChainParts {
 }
 
 impl Chain {
-    /// The task in words: `planar_pose in xz`, `ray of [1, 0, 0]`, `position, ElbowYaw given`.
+    /// Describes the task: `planar_pose in xz`, `ray of [1, 0, 0]`, `position, ElbowYaw given`.
     pub fn asked(&self) -> String {
         let plane = self.task().plane().map(|plane| format!(" in {}", plane.name())).unwrap_or_default();
         let axis = self.task().axis().map(|axis| format!(" about {}", axis.name())).unwrap_or_default();
@@ -149,7 +149,7 @@ impl Chain {
     }
 }
 
-/// A short table: one line per joint.
+/// A short table, one line for each joint.
 impl fmt::Display for Chain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}: {}, lengths in {}", self.name(), self.asked(), self.length_unit().symbol())?;

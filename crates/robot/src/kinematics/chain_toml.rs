@@ -21,27 +21,28 @@ const PLANES: [(&str, Plane); 3] = [("xy", Plane::Xy), ("xz", Plane::Xz), ("yz",
 const AXES: [(&str, BaseAxis); 3] = [("x", BaseAxis::X), ("y", BaseAxis::Y), ("z", BaseAxis::Z)];
 
 impl Chain {
-    /// The chain that the file at `path` describes.
+    /// Reads a chain from the file at `path`.
     ///
     /// # Errors
-    /// As [`read_text`] and [`Chain::from_toml`], with the file.
+    /// Those of [`read_text`] and [`Chain::from_toml`], with the file.
     pub fn read(path: &Path) -> Result<Chain> {
         Chain::from_toml(&read_text(path, TEXT_LIMIT)?).map_err(|error| error.in_file(path))
     }
 
-    /// The chain that `text` describes in the format of [`crate::kinematics::chain_toml`].
+    /// Reads a chain from `text` in the format of [`crate::kinematics::chain_toml`].
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is not TOML or a string that is no number; [`ErrorKind::UnknownKey`],
-    /// [`ErrorKind::MissingKey`]; [`ErrorKind::BadValue`] for a wrong type or value; and as [`Chain::new`]. All have a line.
+    /// [`ErrorKind::Syntax`] for text that is not TOML or a string that is not a number; [`ErrorKind::UnknownKey`],
+    /// [`ErrorKind::MissingKey`]; [`ErrorKind::BadValue`] for a wrong type or value; those of [`Chain::new`]. All have
+    /// a line.
     pub fn from_toml(text: &str) -> Result<Chain> {
         Chain::from_table(Document::parse(text)?.root())
     }
 
-    /// The chain that a table describes, with the keys of a whole file.
+    /// Reads a chain from a TOML table with the keys of a whole file.
     ///
     /// # Errors
-    /// As [`Chain::from_toml`].
+    /// Those of [`Chain::from_toml`].
     pub fn from_table(root: Table<'_>) -> Result<Chain> {
         root.deny_unknown(&ROOT_KEYS)?;
         let joints = root.required("joint")?.tables()?;
@@ -55,12 +56,12 @@ impl Chain {
     }
 }
 
-/// How a file places its joints.
+/// How a file specifies its joints.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     /// Form A: points in the base frame.
     Point,
-    /// Form B: frames relative to the joint before.
+    /// Form B: frames relative to the previous joint.
     Origin,
 }
 
@@ -112,7 +113,7 @@ fn read_joints(tables: &[Table<'_>], form: Form, units: Units) -> Result<(Vec<Jo
     Ok((joints, frame))
 }
 
-/// A joint and its frame, given the frame of the joint before.
+/// Reads a joint and its frame, given the frame of the previous joint.
 fn read_joint(
     table: Table<'_>,
     index: usize,
@@ -209,7 +210,7 @@ fn read_tip(table: Table<'_>, form: Form, last: &Placement) -> Result<Tip> {
     Ok(Tip { point: placement.origin, rotation: placement.rotation.matrix() })
 }
 
-/// A task that is complete, or one that wants a plane, or an axis of the base.
+/// A complete task, or one that needs a plane or an axis of the base.
 #[derive(Clone)]
 enum TaskKind {
     Spatial(Task),
@@ -217,7 +218,7 @@ enum TaskKind {
     About(fn(BaseAxis) -> Task),
 }
 
-/// The task, and the direction in the tip frame that it aims.
+/// Reads the task and its direction in the tip frame.
 pub fn read_task(table: Table<'_>) -> Result<(Task, ExactVector)> {
     table.deny_unknown(&["kind", "plane", "axis", "direction"])?;
     let task = read_kind(table)?;
@@ -260,7 +261,7 @@ fn read_kind(table: Table<'_>) -> Result<Task> {
     Ok(task)
 }
 
-/// The names under `given`; none without it.
+/// Reads the names in the key `given`; empty without it.
 pub fn read_given(root: Table<'_>) -> Result<Vec<String>> {
     root.optional("given").map_or_else(|| Ok(Vec::new()), read_names)
 }
@@ -276,7 +277,7 @@ fn read_choice(table: Table<'_>) -> Result<Choice> {
     Ok(Choice { unknown, root })
 }
 
-/// The line of the key that a fault is about, else of its table.
+/// The line of the key that a fault belongs to, else of its table.
 pub(super) fn line_of(fault: &Fault, root: Table<'_>, joints: &[Table<'_>]) -> usize {
     let inner = |key| root.optional(key).and_then(|node: Node<'_>| node.table().ok());
     let table = match fault.part {

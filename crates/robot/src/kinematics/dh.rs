@@ -1,4 +1,4 @@
-//! Denavit-Hartenberg tables, turned into screw axes at the door. Main type: [`DhTable`].
+//! Denavit-Hartenberg tables and their conversion to screw axes. Main type: [`DhTable`].
 //!
 //! Standard: Denavit and Hartenberg 1955, as in Paul 1981. Modified: Craig 1986.
 
@@ -14,7 +14,7 @@ use crate::document::shown;
 use crate::spatial::{Axis, Relation, Screw};
 use groebot_algebra::number::BigRational;
 
-/// Where the frames of a table are.
+/// The convention of a table: where its frames are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DhConvention {
     /// Frame i is at the far end of link i: A_i = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i).
@@ -28,9 +28,9 @@ pub enum DhConvention {
 pub struct DhRow {
     /// The name of the joint.
     pub name: String,
-    /// What follows c, s or d in the names of its unknowns.
+    /// The suffix of c, s or d in the names of its unknowns.
     pub symbol: String,
-    /// How the joint moves.
+    /// The type of the joint.
     pub kind: JointKind,
     /// The angle about z at the joint value zero.
     pub theta: Turn,
@@ -40,22 +40,22 @@ pub struct DhRow {
     pub a: BigRational,
     /// The angle about x; in the modified convention, alpha_(i-1).
     pub alpha: Turn,
-    /// Least and greatest value of the joint, in radians or the table's length unit.
+    /// Minimum and maximum value of the joint, in radians or the table's length unit.
     pub limits: Option<(f64, f64)>,
 }
 
-/// A Denavit-Hartenberg table with a frame before it and one behind it.
+/// A Denavit-Hartenberg table with a base frame and a tool frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DhTable {
     /// The name of the mechanism.
     pub name: String,
-    /// What it is.
+    /// Description of the mechanism.
     pub description: Option<String>,
-    /// Where its figures come from.
+    /// Source of its numbers.
     pub source: Option<String>,
     /// The unit of every length.
     pub length_unit: LengthUnit,
-    /// Where the frames are.
+    /// The convention.
     pub convention: DhConvention,
     /// Frame 0 in the base frame.
     pub base: Placement,
@@ -63,22 +63,22 @@ pub struct DhTable {
     pub rows: Vec<DhRow>,
     /// The tip in the last frame.
     pub tool: Placement,
-    /// What is asked of the tip.
+    /// The task of the tip.
     pub task: Task,
-    /// The direction in the tip frame that the tasks `ray` and `direction` aim.
+    /// The direction in the tip frame for the tasks `ray` and `direction`.
     pub direction: ExactVector,
-    /// The names of the joints whose values the user gives.
+    /// The names of the given joints.
     pub given: Vec<String>,
 }
 
 impl DhRow {
-    /// The rotation and shift about z, with the joint at zero.
+    /// Rotation about and translation along z, with the joint at zero.
     fn about_z(&self) -> Placement {
         let turned = Placement::turned([Turn::default(), Turn::default(), self.theta]);
         turned.then(&Placement::shifted(2, self.d.clone()))
     }
 
-    /// The rotation and shift about x.
+    /// Rotation about and translation along x.
     fn about_x(&self) -> Placement {
         let turned = Placement::turned([self.alpha, Turn::default(), Turn::default()]);
         turned.then(&Placement::shifted(0, self.a.clone()))
@@ -116,8 +116,9 @@ impl DhConvention {
 }
 
 impl DhTable {
-    /// Why the table that `text` holds may be one of the other convention: two neighbouring joints turn about one line, and with the other
-    /// convention none do. The last row of a standard table has `a` and `alpha` zero, as the first row of a modified one has.
+    /// The reason to suspect that the table in `text` has the other convention, if there is one. Two neighbouring
+    /// joints are coaxial, and with the other convention none are. The last row of a standard table has zero `a` and
+    /// `alpha`, and so has the first row of a modified one.
     pub fn doubt_of(text: &str) -> Option<String> {
         let table = DhTable::from_toml(text).ok()?;
         let first = table.coincident()?;
@@ -136,7 +137,7 @@ impl DhTable {
         ))
     }
 
-    /// The place of the first joint that turns about the same line as the next one.
+    /// The index of the first revolute joint that is coaxial with the next one.
     fn coincident(&self) -> Option<usize> {
         let chain = self.chain().ok()?;
         let tolerance = TOLERANCE * chain.reach();
@@ -148,27 +149,27 @@ impl DhTable {
         axes.windows(2).position(is_one)
     }
 
-    /// The joints and the tip from a base frame, and whether the joints' axes are rational.
+    /// The joints and the tip, computed from a base frame, and whether the joints' axes are rational.
     fn walk_from(&self, base: Frame) -> ((Vec<Joint>, Frame), Rationality) {
-        let (mut joints, mut frame, mut told) = (Vec::new(), base.then(&self.base), Rationality::default());
+        let (mut joints, mut frame, mut rational) = (Vec::new(), base.then(&self.base), Rationality::default());
         for row in &self.rows {
             if self.convention == DhConvention::Modified {
                 frame = frame.then(&row.about_x());
             }
             joints.push(row.joint(&frame));
-            told.add(frame.rationality(&along_z()));
+            rational.add(frame.rationality(&along_z()));
             frame = frame.then(&row.about_z());
             if self.convention == DhConvention::Standard {
                 frame = frame.then(&row.about_x());
             }
         }
-        ((joints, frame.then(&self.tool)), told)
+        ((joints, frame.then(&self.tool)), rational)
     }
 
-    /// Same mechanism in screw axes, its numbers as described.
+    /// Converts the table to a chain with screw axes. Its numbers are those of the description.
     ///
     /// # Errors
-    /// As [`Chain::new`].
+    /// Those of [`Chain::new`].
     pub fn chain(&self) -> Result<Chain> {
         self.assemble().map_err(|fault| fault.error)
     }
@@ -185,7 +186,7 @@ impl DhTable {
             description: self.description.clone(),
             source: self.source.clone(),
             length_unit: self.length_unit,
-            meant: Meant::unless_told(meant, tip_meant, (&joints, &tip)),
+            meant: Meant::unless_described(meant, tip_meant, (&joints, &tip)),
             joints,
             tip,
             task: self.task,

@@ -20,18 +20,18 @@ const CONVENTIONS: [(&str, DhConvention); 2] =
     [("standard", DhConvention::Standard), ("modified", DhConvention::Modified)];
 
 impl DhTable {
-    /// The table that the file at `path` holds.
+    /// Reads a table from the file at `path`.
     ///
     /// # Errors
-    /// As [`read_text`] and [`DhTable::from_toml`], with the file.
+    /// Those of [`read_text`] and [`DhTable::from_toml`], with the file.
     pub fn read(path: &Path) -> Result<DhTable> {
         DhTable::from_toml(&read_text(path, TEXT_LIMIT)?).map_err(|error| error.in_file(path))
     }
 
-    /// The table that `text` holds in the format of [`crate::kinematics::dh_toml`].
+    /// Reads a table from `text` in the format of [`crate::kinematics::dh_toml`].
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is not TOML or a string that is no number; [`ErrorKind::UnknownKey`],
+    /// [`ErrorKind::Syntax`] for text that is not TOML or a string that is not a number; [`ErrorKind::UnknownKey`],
     /// [`ErrorKind::MissingKey`]; [`ErrorKind::BadValue`] for a wrong type or value. All have a line.
     pub fn from_toml(text: &str) -> Result<DhTable> {
         read_table(Document::parse(text)?.root())
@@ -39,10 +39,11 @@ impl DhTable {
 }
 
 impl Chain {
-    /// The chain of the Denavit-Hartenberg table that `text` holds in the format of [`crate::kinematics::dh_toml`].
+    /// Reads a Denavit-Hartenberg table from `text` and converts it to a chain. The format is that of
+    /// [`crate::kinematics::dh_toml`].
     ///
     /// # Errors
-    /// As [`DhTable::from_toml`] and [`Chain::new`], with the line.
+    /// Those of [`DhTable::from_toml`] and [`Chain::new`], with the line.
     pub fn from_dh_toml(text: &str) -> Result<Chain> {
         let document = Document::parse(text)?;
         let root = document.root();
@@ -79,7 +80,7 @@ fn read_table(root: Table<'_>) -> Result<DhTable> {
     })
 }
 
-/// The frame under `key`; none means no motion.
+/// Reads the frame in `key`; the identity without it.
 fn read_placement(root: Table<'_>, key: &str, units: Units) -> Result<Placement> {
     let mut placement = Placement::identity();
     let Some(node) = root.optional(key) else { return Ok(placement) };

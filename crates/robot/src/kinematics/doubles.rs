@@ -45,7 +45,7 @@ impl Joint {
     }
 }
 
-/// The length of a zigzag over these points.
+/// The length of the polyline through these points.
 fn length(points: impl Iterator<Item = Point3<f64>>) -> f64 {
     let points: Vec<Point3<f64>> = points.collect();
     points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()

@@ -7,12 +7,12 @@ use crate::spatial::{Pose, Screw};
 use crate::{Error, ErrorKind, Result};
 
 impl Chain {
-    /// The unit vector, in the tip frame, of the direction that the tasks `ray` and `direction` aim.
+    /// The unit vector in the tip frame of the direction for the tasks `ray` and `direction`.
     pub fn aim(&self) -> Unit<Vector3<f64>> {
         self.numeric.aim
     }
 
-    /// The joints' screws from base to tip, in the base frame at the zero configuration and the chain's length unit.
+    /// The joints' screws from base to tip, in the base frame at the zero configuration, in the chain's length unit.
     pub fn screws(&self) -> &[Screw] {
         &self.numeric.screws
     }
@@ -22,12 +22,12 @@ impl Chain {
         self.numeric.base_from_tip
     }
 
-    /// The pose base_from_tip of the tip, in the chain's length unit, for the joint values `q`, base to tip: radians
-    /// (revolute) or the chain's length unit (prismatic). `e^(S1 q1) ... e^(Sn qn) M`, RH0 (2-20) and (2-27); limits
-    /// are not looked at.
+    /// Computes the pose base_from_tip, in the chain's length unit, for the joint values `q` from base to tip: radians
+    /// (revolute) or the chain's length unit (prismatic). It is `e^(S1 q1) ... e^(Sn qn) M`, RH0 (2-20) and (2-27).
+    /// Joint limits are not checked.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when `q` has not one finite value per joint.
+    /// [`ErrorKind::BadValue`] unless `q` has one finite value per joint.
     pub fn forward(&self, q: &[f64]) -> Result<Pose> {
         let screws = self.screws();
         if q.len() != screws.len() {
@@ -42,8 +42,8 @@ impl Chain {
         Ok(steps.fold(self.base_from_tip(), |pose, (screw, &q)| screw.exp(q) * pose))
     }
 
-    /// The length of the zigzag from the first joint's point over the other joints' points to the tip, in the chain's
-    /// length unit. While prismatic joints are at zero, the tip is never further from the first joint's point.
+    /// The length of the polyline from the first joint's point over the other joints' points to the tip, in the chain's
+    /// length unit. It bounds the tip's distance from the first joint's point while prismatic joints are at zero.
     pub fn reach(&self) -> f64 {
         self.numeric.reach
     }

@@ -1,6 +1,7 @@
-//! How the joint axes of a chain lie to each other: what makes it solvable by hand. Main type: [`Geometry`].
+//! Relations between the joint axes of a chain, which make it solvable in closed form. Main type: [`Geometry`].
 //!
-//! Relations of neighbours, runs of parallel axes and axes through one point hold at every configuration when they hold at zero.
+//! Relations of neighbours, runs of parallel axes and axes through one point hold in every configuration if they hold
+//! at zero.
 
 use std::fmt;
 
@@ -9,48 +10,50 @@ use nalgebra::{Point3, Unit, Vector3};
 use super::{Chain, LengthUnit};
 use crate::spatial::{Axis, Relation, Screw};
 
-/// Distances up to this part of the reach count as none.
+/// Distances up to this fraction of the reach count as zero.
 pub const TOLERANCE: f64 = 1e-9;
 
 /// Two neighbouring joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Neighbours {
-    /// The place of the first one; the other follows it.
+    /// The index of the first joint. The other one is next.
     pub first: usize,
     /// The angle between the lines of the axes, in \[0, pi/2\] \[rad\].
     pub angle: f64,
-    /// How the axes lie to each other, in the chain's length unit; none when one of them is prismatic and has no place.
+    /// The relation of the axes, with distances in the chain's length unit; `None` when one of them is prismatic and
+    /// has no position.
     pub relation: Option<Relation>,
 }
 
-/// Consecutive revolute joints whose axes meet in one point.
+/// Consecutive revolute joints whose axes intersect in one point.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Meeting {
-    /// The places of the joints: two or more.
+    /// The indices of the joints, two or more.
     pub joints: std::ops::Range<usize>,
     /// The point in the base frame at the zero configuration, in the chain's length unit.
     pub point: Point3<f64>,
 }
 
-/// The relations among the axes of a chain.
+/// Relations between the axes of a chain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Geometry {
     /// The names of the joints.
     pub names: Vec<String>,
     /// The unit of lengths.
     pub length_unit: LengthUnit,
-    /// Each joint with the next one.
+    /// Each pair of neighbouring joints.
     pub neighbours: Vec<Neighbours>,
-    /// The places of two or more consecutive revolute joints with parallel axes; as long as possible.
+    /// Maximal ranges of two or more consecutive revolute joints with parallel axes.
     pub parallel: Vec<std::ops::Range<usize>>,
-    /// Two or more consecutive revolute joints, not all parallel, with axes through one point; as long as possible.
+    /// Maximal ranges of two or more consecutive revolute joints, not all parallel, with axes through one point.
     pub meeting: Vec<Meeting>,
 }
 
 impl Geometry {
-    /// The geometry of `chain`: distances up to 1e-9 of its reach count as none, angles up to 1e-9 rad as parallel.
+    /// Computes the geometry of `chain`. Distances up to 1e-9 of its reach count as zero, and angles up to 1e-9 rad as
+    /// parallel.
     pub fn of(chain: &Chain) -> Self {
         let screws = chain.screws();
         let tolerance = TOLERANCE * size(chain);
@@ -66,7 +69,7 @@ impl Geometry {
     }
 }
 
-/// The reach, or the distance from the base where the whole chain is one point.
+/// The reach, or the distance from the base if the whole chain is one point.
 fn size(chain: &Chain) -> f64 {
     let far = chain.joints().iter().map(|joint| joint.location().coords.norm()).fold(0.0, f64::max);
     if chain.reach() > 0.0 { chain.reach() } else { far }
@@ -90,7 +93,7 @@ fn relate(first: usize, a: &Screw, b: &Screw, tolerance: f64) -> Neighbours {
     Neighbours { first, angle, relation }
 }
 
-/// The longest runs of two or more consecutive joints of which all neighbours belong together.
+/// Maximal ranges of two or more consecutive joints in which all neighbours satisfy `together`.
 fn runs(count: usize, together: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usize>> {
     let (mut runs, mut start) = (Vec::new(), 0);
     for next in 1..=count {
@@ -111,7 +114,7 @@ fn parallel_runs(screws: &[Screw]) -> Vec<std::ops::Range<usize>> {
     })
 }
 
-/// Around each pair that meets, all consecutive axes through its point.
+/// For each pair of intersecting axes, all consecutive axes through the point of intersection.
 fn meetings(screws: &[Screw], neighbours: &[Neighbours], tolerance: f64) -> Vec<Meeting> {
     let mut meetings: Vec<Meeting> = Vec::new();
     for pair in neighbours {
@@ -127,7 +130,7 @@ fn meetings(screws: &[Screw], neighbours: &[Neighbours], tolerance: f64) -> Vec<
     meetings
 }
 
-/// A number without noise: twelve significant digits at most, zero for what is below `tiny`.
+/// Formats a number with at most twelve significant digits; zero below `tiny`.
 fn tidy(value: f64, tiny: f64) -> String {
     if value.abs() <= tiny {
         return "0".to_owned();
@@ -138,7 +141,7 @@ fn tidy(value: f64, tiny: f64) -> String {
 }
 
 impl Geometry {
-    /// `1-2`, joints counted from 1.
+    /// Formats a range as `1-2`, with joints counted from 1.
     fn label(range: &std::ops::Range<usize>) -> String {
         format!("{}-{}", range.start + 1, range.end)
     }
@@ -151,7 +154,7 @@ impl Geometry {
         format!("{} {}", tidy(value, 0.0), self.length_unit.symbol())
     }
 
-    /// How a pair lies, in words.
+    /// Describes the relation of a pair.
     fn words(&self, pair: &Neighbours) -> String {
         let degrees = tidy(pair.angle.to_degrees(), 1e-9);
         let crossing = match degrees.as_str() {
@@ -168,7 +171,7 @@ impl Geometry {
         }
     }
 
-    /// Each joint with the next one: label, names, relation.
+    /// Each pair of neighbours: label, names, relation.
     fn pairs(&self) -> Vec<[String; 3]> {
         let row = |pair: &Neighbours| {
             let range = pair.first..pair.first + 2;
@@ -177,7 +180,7 @@ impl Geometry {
         self.neighbours.iter().map(row).collect()
     }
 
-    /// The groups of three and more, and the pairs that meet: label, names, what they share.
+    /// Groups of three and more joints, and pairs that intersect: label, names, what they share.
     fn groups(&self) -> Vec<[String; 3]> {
         let group = |joints, shared| [Geometry::label(joints), self.list(joints), shared];
         let parallel = self.parallel.iter().map(|run| group(run, "parallel axes".to_owned()));
@@ -189,7 +192,7 @@ impl Geometry {
     }
 }
 
-/// Neighbours, then groups, one a line; joints counted from 1.
+/// Neighbours, then groups, one line each. Joints are counted from 1.
 impl fmt::Display for Geometry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (pairs, groups) = (self.pairs(), self.groups());

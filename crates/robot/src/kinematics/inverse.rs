@@ -1,4 +1,4 @@
-//! What every inverse-kinematics solver is: [`InverseKinematics`], and what it answers: [`Solution`].
+//! The trait of all inverse-kinematics solvers, [`InverseKinematics`], and their result, [`Solution`].
 
 use std::fmt;
 
@@ -7,22 +7,25 @@ use serde::Serialize;
 use super::Target;
 use crate::Result;
 
-/// One answer: joint values that bring the tip to its target.
+/// One inverse-kinematics solution: joint values that move the tip to its target.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Solution {
     /// The joint values, base to tip: radians in (-pi, pi], lengths in the solver's unit; zero for a free joint.
     pub q: Vec<f64>,
-    /// The largest miss, measured at `q`: of the equations of a derived solver, in their own unit; of other solvers the distance of the tip
-    /// from its target in the chain's unit, or its angle \[rad\]. [`Target::missed`] gives both.
+    /// The largest residual at `q`. For a derived solver it is that of its equations, in their own unit. For other
+    /// solvers it is the tip's distance from its target in the chain's unit, or its angle \[rad\]. [`Target::missed`]
+    /// returns both.
     pub residual: f64,
-    /// Which roots of which equations it comes from: a branch keeps its number from target to target.
+    /// Branch number: which roots of which equations were used. A branch keeps its number from target to target.
     pub branch: usize,
-    /// The joints, from 0, for which every value does it (the others changing along with it) at this singular pose.
+    /// Free joints (indices from 0) of a singular pose: every value of them has a solution, with other values of the
+    /// other joints.
     pub free: Vec<usize>,
-    /// Whether the source of the mechanism would choose this one.
+    /// Whether the source of the mechanism would select this solution.
     pub chosen: bool,
-    /// False where the steps of polishing that the target may take were spent before all work was done
-    /// ([`MOST_STEPS`](groebot_runtime::tolerances::MOST_STEPS)). All its answers say so: others may be missing, and the residual tells how well each holds.
+    /// False if the polishing steps permitted for a target were used up before the end
+    /// (`MOST_STEPS` of groebot-runtime). All solutions of this target are marked. Others may
+    /// be missing, and the residual shows the accuracy of each.
     pub settled: bool,
 }
 
@@ -32,13 +35,13 @@ impl Default for Solution {
     }
 }
 
-/// A solver of inverse kinematics: derived, printed, by screw theory or by search.
+/// An inverse-kinematics solver: derived, generated, by screw theory or by numeric search.
 pub trait InverseKinematics: fmt::Debug + Send + Sync {
-    /// Puts all joint values that bring the tip to `target` into `out`, in place of what is there; none when it is out of reach. `given` are the
-    /// values of the joints whose values the user gives. Joint limits are not looked at.
+    /// Writes all solutions for `target` to `out`, which is cleared first. There are none when the target is out of
+    /// reach. `given` are the values of the given joints. Joint limits are not checked.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) for a target of another task than the solver's, with a number that is not finite or a
-    /// rotation that is none, and unless each given joint has a finite value.
+    /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) for a target of another task than the solver's, with a
+    /// number that is not finite or a matrix that is not a rotation, and unless each given joint has a finite value.
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()>;
 }

@@ -1,4 +1,4 @@
-//! Manipulator Jacobians of serial chains, from their screws alone: spatial RH0 (2-21), (2-22), body (2-23), (2-24).
+//! Manipulator Jacobians of serial chains, computed from their screws: spatial RH0 (2-21), (2-22), body (2-23), (2-24).
 //!
 //! Rows are (v, w), columns the joints from base to tip. `v` is in the length unit of the screws per unit of the joint.
 
@@ -11,11 +11,11 @@ use crate::{Error, ErrorKind, Result};
 /// Six rows (v, w), one column for each joint.
 pub type Jacobian = Matrix6xX<f64>;
 
-/// The spatial Jacobian at `q`, RH0 (2-22): column i is the twist of joint i where the joints before it have moved it,
-/// in the base frame. Times the joint velocities it is the tip's spatial velocity `g' g^-1`, RH0 (2-21).
+/// Computes the spatial Jacobian at `q`, RH0 (2-22). Column i is the twist of joint i in the base frame, moved by the
+/// joints before it. Multiplied by the joint velocities it is the tip's spatial velocity `g' g^-1`, RH0 (2-21).
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when `q` has not one finite value per screw.
+/// [`ErrorKind::BadValue`] unless `q` has one finite value per screw.
 pub fn spatial(screws: &[Screw], q: &[f64]) -> Result<Jacobian> {
     check(screws, q)?;
     let mut base_from_moved = Pose::identity();
@@ -27,13 +27,13 @@ pub fn spatial(screws: &[Screw], q: &[f64]) -> Result<Jacobian> {
     Ok(columns(&twists))
 }
 
-/// The body Jacobian at `q`, RH0 (2-24): column i is the twist of joint i at its place, in the frame of the tip.
-/// Times the joint velocities it is the tip's body velocity `g^-1 g'`, RH0 (2-23).
+/// Computes the body Jacobian at `q`, RH0 (2-24). Column i is the twist of joint i in the tip frame. Multiplied by the
+/// joint velocities it is the tip's body velocity `g^-1 g'`, RH0 (2-23).
 ///
 /// `base_from_tip` is the pose of the tip at the zero configuration.
 ///
 /// # Errors
-/// As [`spatial`].
+/// Those of [`spatial`].
 pub fn body(screws: &[Screw], base_from_tip: &Pose, q: &[f64]) -> Result<Jacobian> {
     check(screws, q)?;
     let mut moved_from_tip = *base_from_tip;
@@ -47,27 +47,28 @@ pub fn body(screws: &[Screw], base_from_tip: &Pose, q: &[f64]) -> Result<Jacobia
 }
 
 impl Chain {
-    /// The spatial Jacobian at the joint values `q`, 6xn with rows (v, w) in the base frame: [`spatial`].
+    /// The spatial Jacobian at the joint values `q`, 6 x n with rows (v, w) in the base frame: [`spatial`].
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when `q` has not one finite value per joint.
+    /// [`ErrorKind::BadValue`] unless `q` has one finite value per joint.
     pub fn spatial_jacobian(&self, q: &[f64]) -> Result<Jacobian> {
         spatial(self.screws(), q)
     }
 
-    /// The body Jacobian at the joint values `q`, 6xn with rows (v, w) in the frame of the tip: [`body`].
+    /// The body Jacobian at the joint values `q`, 6 x n with rows (v, w) in the tip frame: [`body`].
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when `q` has not one finite value per joint.
+    /// [`ErrorKind::BadValue`] unless `q` has one finite value per joint.
     pub fn body_jacobian(&self, q: &[f64]) -> Result<Jacobian> {
         body(self.screws(), &self.base_from_tip(), q)
     }
 }
 
 impl Chain {
-    /// What the chain's task sees of the motions of its joints at `q`: a row for each number that the task determines, in the order position,
-    /// turn, a column for each joint. Positions and slides are in reaches, angles in radians; an aimed direction has two rows, across it. The
-    /// columns of the joints `held` are zero.
+    /// Computes the Jacobian of the chain's task at `q`. It has one row for each number that the task determines,
+    /// positions first, then rotations, and one column for each joint. Positions and displacements are in units of the
+    /// reach, angles in radians. A direction has two rows, perpendicular to it. The columns of the joints `held` are
+    /// zero.
     ///
     /// # Panics
     /// When `q` has fewer values than the chain has joints.
@@ -95,8 +96,8 @@ impl Chain {
 }
 
 impl Chain {
-    /// The same as [`Chain::task_jacobian`], but joints that follow others move with these: the columns of leaders hold what their followers do
-    /// too, those of followers are zero.
+    /// Same as [`Chain::task_jacobian`], but mimic joints move with their leaders: their columns are added to those of
+    /// the leaders and set to zero.
     ///
     /// # Panics
     /// When `q` has fewer values than the chain has joints.
@@ -107,7 +108,8 @@ impl Chain {
         jacobian
     }
 
-    /// Adds the columns of followers to those of their leaders and makes them zero. `unit` is what a joint's column is a derivative by.
+    /// Adds the columns of mimic joints to those of their leaders and sets them to zero. `unit` is the unit of a
+    /// joint's column.
     fn fold_followers(&self, jacobian: &mut DMatrix<f64>, unit: impl Fn(usize) -> f64) {
         for joint in 0..jacobian.ncols() {
             let Some((leader, mimic)) = self.leader(joint) else { continue };
@@ -118,8 +120,9 @@ impl Chain {
         }
     }
 
-    /// How well the tip moves at the joint values `q`, in what the task determines: Yoshikawa's measure `sqrt(det(J J'))` (Manipulability of robotic mechanisms, IJRR 4, 1985), by metres and radians, whatever the chain's unit. Of fewer joints than
-    /// the task determines numbers, `sqrt(det(J' J))`. Joints that follow others move with them.
+    /// Yoshikawa's manipulability `sqrt(det(J J'))` of the task at the joint values `q` (Manipulability of robotic
+    /// mechanisms, IJRR 4, 1985), in metres and radians. With fewer joints than task numbers it is `sqrt(det(J' J))`.
+    /// Mimic joints move with their leaders.
     ///
     /// # Panics
     /// When `q` has fewer values than the chain has joints.
@@ -130,10 +133,10 @@ impl Chain {
         jacobian.rows_mut(0, self.task().lengths()).scale_mut(reach);
         let slides = |joint: usize| matches!(self.screws()[joint], Screw::Prismatic(_));
         for joint in (0..jacobian.ncols()).filter(|joint| slides(*joint)) {
-            // A slide is in reaches, too.
+            // A displacement is in units of the reach too.
             jacobian.column_mut(joint).unscale_mut(reach);
         }
-        // What follows moves with its leader, and is no joint of its own.
+        // A mimic joint moves with its leader and has no column of its own.
         let followers: Vec<usize> = (0..jacobian.ncols()).filter(|joint| self.leader(*joint).is_some()).collect();
         self.fold_followers(&mut jacobian, |joint| if slides(joint) { unit } else { 1.0 });
         let jacobian = jacobian.remove_columns_at(&followers);
@@ -149,7 +152,8 @@ impl Chain {
 }
 
 impl Task {
-    /// What a task sees of a motion of the tip, by `v` and turning with `w`, where it aims along the unit vector `aim`.
+    /// The task's components of a tip motion with the linear velocity `v` and the angular velocity `w`. `aim` is the
+    /// unit vector of the task's direction.
     fn sees(self, v: &Vector3<f64>, w: &Vector3<f64>, aim: &Vector3<f64>) -> Vec<f64> {
         let across = || {
             let least = Vector3::ith(aim.iamin(), 1.0);
@@ -181,7 +185,7 @@ fn columns(twists: &[Twist]) -> Jacobian {
     jacobian
 }
 
-/// Whether `q` has one finite value per screw.
+/// Checks that `q` has one finite value per screw.
 pub(crate) fn check(screws: &[Screw], q: &[f64]) -> Result<()> {
     let message = if q.len() != screws.len() {
         format!("{} joint values are given; there are {} joints", q.len(), screws.len())

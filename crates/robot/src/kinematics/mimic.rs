@@ -1,7 +1,7 @@
-//! Joints of a chain that follow others of it, as the fingers of a gripper do, by a [`Mimic`].
+//! Mimic joints of a chain, which follow other joints by a [`Mimic`], for example the fingers of a gripper.
 //!
-//! A joint that follows is given where its leader is: one value is one unknown. What slides with another one is merged into it when a chain
-//! is cut out of a [robot](crate::model::Robot::chain).
+//! A mimic joint is given when its leader is given, because both have one unknown. Prismatic joints that move together
+//! are merged when a chain is extracted from a [robot](crate::model::Robot::chain).
 
 use super::{Chain, JointKind, Mimic};
 use crate::document::shown;
@@ -9,19 +9,19 @@ use crate::spatial::angle;
 use crate::{Error, ErrorKind, Result};
 
 impl Chain {
-    /// The place of the joint that the joint at `place` follows, and by what law.
+    /// The index of the leader of the joint at `place`, and the law.
     pub fn leader(&self, place: usize) -> Option<(usize, &Mimic)> {
         let mimic = self.joints()[place].mimic.as_ref()?;
         let leader = self.joints().iter().position(|joint| joint.name == mimic.leader)?;
         Some((leader, mimic))
     }
 
-    /// The places of the joints whose values are numbers of a target, from the base: those that are given and follow no other.
+    /// The indices of the given joints that are inputs: those that are not mimic joints, from base to tip.
     pub fn given_inputs(&self) -> Vec<usize> {
         self.given().into_iter().filter(|&place| self.joints()[place].mimic.is_none()).collect()
     }
 
-    /// The values of all given joints, from the base, by those of [`Chain::given_inputs`].
+    /// The values of all given joints, from base to tip, for the values of [`Chain::given_inputs`].
     pub fn given_values(&self, inputs: &[f64]) -> Vec<f64> {
         let places = self.given_inputs();
         let input = |place: usize| places.iter().zip(inputs).find(|(own, _)| **own == place).map_or(0.0, |(_, q)| *q);
@@ -30,7 +30,7 @@ impl Chain {
         self.given().into_iter().map(value).collect()
     }
 
-    /// `q` with the joints that follow others where these bring them.
+    /// Sets the mimic joints in `q` to the values given by their leaders.
     pub fn follow(&self, q: &mut [f64]) {
         for place in 0..self.joints().len() {
             if let Some((leader, mimic)) = self.leader(place) {
@@ -39,13 +39,14 @@ impl Chain {
         }
     }
 
-    /// The places of the joints that are not given and follow no other, from the base: what a task has to determine.
+    /// The indices of the independent joints, which are neither given nor mimic joints, from base to tip. The task must
+    /// determine these.
     pub fn independent(&self) -> Vec<usize> {
         let given = self.given();
         (0..self.joints().len()).filter(|place| !given.contains(place) && self.leader(*place).is_none()).collect()
     }
 
-    /// The names of the joints that are not given and that others follow by a law of which no closed form is derived, each once.
+    /// The names of leaders that are not given and whose law has no closed form, each once.
     pub fn open_leaders(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for (leader, _) in self.unfit_followers() {
@@ -57,7 +58,7 @@ impl Chain {
         names
     }
 
-    /// The joints that are not given and follow others by a law that is no polynomial in cosines and sines: each behind its leader.
+    /// Mimic joints that are not given and whose law is not a polynomial in cosines and sines: each after its leader.
     fn unfit_followers(&self) -> Vec<(usize, usize)> {
         let given = self.given();
         let unfit = |place: usize| {
@@ -69,8 +70,8 @@ impl Chain {
         (0..self.joints().len()).filter_map(unfit).collect()
     }
 
-    /// The largest difference of a joint from where the one that it follows brings it, angles the way round that is shorter: radians, or the
-    /// length unit.
+    /// The largest difference between a mimic joint and the value given by its leader, in radians or the length unit.
+    /// For angles it is the shorter rotation.
     ///
     /// # Panics
     /// When `q` has fewer values than the chain has joints.
@@ -84,11 +85,11 @@ impl Chain {
         (0..self.joints().len()).filter_map(strays).fold(0.0, f64::max)
     }
 
-    /// Fails where a joint that is not given is followed by another one by a fraction of a turn, or by one of the other kind: a closed form takes
-    /// slides that follow slides, and turns that follow turns by whole numbers up to eight.
+    /// Checks that all mimic laws of joints that are not given have a closed form. Prismatic joints may follow
+    /// prismatic joints. Revolute joints may follow revolute joints by integers up to eight.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] with both joints and what helps.
+    /// [`ErrorKind::Unsupported`] with both joints and a remedy.
     pub fn check_leaders(&self) -> Result<()> {
         let Some((leader, follower)) = self.unfit_followers().into_iter().next() else { return Ok(()) };
         let law = self.joints()[follower].mimic.as_ref().map(Mimic::to_string).unwrap_or_default();

@@ -1,7 +1,10 @@
-//! Kinematics of serial chains: the validated exact model [`Chain`] and what is asked of it ([`Task`]), its file formats
-//! ([`chain_toml`], [`dh_toml`], [URDF](crate::model::urdf)), forward kinematics ([`fk`]), how axes lie ([`geometry`]) or almost lie ([`ideal`]), the
-//! screw solver ([`screw`]) and a numeric inverse ([`oracle`], [`numeric`]).
+//! Kinematics of serial chains. [`Chain`] is the validated exact model, and [`Task`] specifies the target of its tip.
+//!
+//! File formats are [`chain_toml`], [`dh_toml`] and [URDF](crate::model::urdf). [`fk`] is forward kinematics,
+//! [`jacobian`] has the Jacobians, [`geometry`] the relations of joint axes, and [`ideal`] the nearest ideal robot.
+//! Inverse kinematics: the screw solver ([`screw`]) and a numeric search ([`oracle`], [`numeric`]).
 
+mod assumptions;
 mod ball;
 pub mod chain;
 pub mod chain_toml;
@@ -14,7 +17,6 @@ pub mod geometry;
 pub mod ideal;
 mod inverse;
 pub mod jacobian;
-mod kept;
 mod mimic;
 pub mod numeric;
 pub mod oracle;

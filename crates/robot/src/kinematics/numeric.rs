@@ -1,7 +1,7 @@
-//! Inverse kinematics by search, for chains that nothing solves in closed form: damped least squares from many starts. Main type:
-//! [`NumericSolver`].
+//! Numeric inverse kinematics for chains without a closed form: damped least squares from many starting points. Main
+//! type: [`NumericSolver`].
 //!
-//! Every answer is checked by forward kinematics; nothing tells whether they are all.
+//! Every solution is checked by forward kinematics. It is not known whether all solutions are found.
 
 use std::cmp::Ordering;
 
@@ -9,24 +9,26 @@ use super::oracle::{Oracle, Unknown};
 use super::{Chain, InverseKinematics, JointKind, Solution, Target};
 use crate::{Error, ErrorKind, Result};
 
-/// Starting points: three times those of the checks, so that what is seldom reached is found too.
+/// Number of starting points: three times that of the checks, so that solutions with small basins of attraction are
+/// found too.
 const SEEDS: usize = 300;
 
-/// A search for the joint values of one chain.
+/// A numeric solver for one chain.
 #[derive(Clone, Debug)]
 pub struct NumericSolver {
     chain: Chain,
-    /// The joints that are not given and follow no others.
+    /// The joints that are neither given nor mimic joints.
     unknown: Vec<usize>,
-    /// The reach, or one for a chain that only turns its tip.
+    /// The reach, or one for a chain without translation of its tip.
     length: f64,
 }
 
 impl NumericSolver {
-    /// The search in `chain` for its task.
+    /// Builds the solver of `chain` for its task.
     ///
     /// # Errors
-    /// [`ErrorKind::PositiveDimensional`] when there are more unknown joints than the task asks for numbers; as [`Chain::check_base`].
+    /// [`ErrorKind::PositiveDimensional`] when there are more unknown joints than task numbers; those of
+    /// [`Chain::check_base`].
     pub fn new(chain: &Chain) -> Result<Self> {
         chain.check_base(None)?;
         let given = chain.given();
@@ -45,16 +47,18 @@ impl NumericSolver {
         Ok(NumericSolver { chain: chain.clone(), unknown, length: if reach > 0.0 { reach } else { 1.0 } })
     }
 
-    /// Joint values that bring the tip to `target` within 1e-11 of the reach and 1e-11 rad, with the values `given` of the given joints from
-    /// the base \[rad or the chain's unit\]: those that are found, by the first joint's value. Where the target leaves a joint free there are
-    /// about as many as starting points. Joint limits only say where slides are sought.
+    /// Searches joint values for `target`, within 1e-11 of the reach and 1e-11 rad. `given` are the values of the given
+    /// joints from base to tip \[rad or the chain's unit\]. Solutions are sorted by the first joint's value. If the
+    /// target leaves a joint free, there are about as many as starting points. Joint limits are used only as starting
+    /// ranges of prismatic joints.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a target of another task's kind, or not finite, and unless each given joint has a finite value.
+    /// [`ErrorKind::BadValue`] for a target of another task's kind, or not finite, and unless each given joint has a
+    /// finite value.
     pub fn solve(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
         target.check(&self.chain)?;
         self.chain.check_given(given)?;
-        let unknowns: Vec<Unknown> = self.unknown.iter().map(|&joint| self.sought(joint)).collect();
+        let unknowns: Vec<Unknown> = self.unknown.iter().map(|&joint| self.unknown_of(joint)).collect();
         let mut start = vec![0.0; self.chain.joints().len()];
         self.chain.given_inputs().into_iter().zip(given).for_each(|(joint, value)| start[joint] = *value);
         let whole = |values: &[f64]| {
@@ -73,8 +77,8 @@ impl NumericSolver {
         Ok(answers)
     }
 
-    /// How a joint is sought: a slide within its limits, or within the reach.
-    fn sought(&self, joint: usize) -> Unknown {
+    /// The type of a joint's unknown and its starting range: a displacement within its limits, or within the reach.
+    fn unknown_of(&self, joint: usize) -> Unknown {
         let joint = &self.chain.joints()[joint];
         match (joint.kind, joint.limits) {
             (JointKind::Revolute, _) => Unknown::Angle,
@@ -85,7 +89,7 @@ impl NumericSolver {
         }
     }
 
-    /// What the tip at `q` misses: lengths as shares of the reach, then what turns. Not finite where `q` is not.
+    /// The residual of the tip at `q`: lengths as fractions of the reach, then rotations. Not finite if `q` is not.
     fn misses(&self, target: &Target, q: &[f64]) -> Vec<f64> {
         let Ok(reached) = Target::reached(&self.chain, q) else { return vec![f64::NAN] };
         let (position, rotation) = reached.difference(target);

@@ -1,7 +1,8 @@
-//! A numeric inverse-kinematics oracle: damped least squares (Levenberg 1944, Marquardt 1963) from many seeds.
+//! A numeric inverse-kinematics oracle: damped least squares (Levenberg 1944, Marquardt 1963) from many starting
+//! points.
 //!
-//! It knows only a residual function, so it can witness for or against any solver. It proves nothing: an answer that no
-//! seed leads to is not found.
+//! It uses only a residual function, so it can verify any solver. It does not prove completeness: a solution without a
+//! starting point that converges to it is not found.
 
 use std::f64::consts::TAU;
 
@@ -13,32 +14,32 @@ use crate::{Error, ErrorKind, Result};
 /// Settings of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Oracle {
-    /// Number of starting points, spread evenly and always the same.
+    /// Number of starting points. They are evenly spread and always the same.
     pub seeds: usize,
-    /// Steps from each starting point at most.
+    /// Maximum number of steps from each starting point.
     pub iterations: usize,
-    /// Largest Euclidean norm of the residual that counts as zero, in the residual's own unit.
+    /// Maximum Euclidean norm of the residual of a solution, in the residual's own unit.
     pub tolerance: f64,
-    /// Answers are the same when each angle differs by at most this much \[rad\], modulo whole turns, and each
-    /// displacement by at most this share of its starting range.
+    /// Solutions are equal when each angle differs by at most this value \[rad\], modulo whole turns, and each
+    /// displacement by at most this fraction of its starting range.
     pub distinct: f64,
 }
 
-/// What the oracle looks for, one for each joint.
+/// Type of an unknown, one for each joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Unknown {
-    /// An angle \[rad\]; the residual has the period 2 pi in it.
+    /// An angle \[rad\]. The residual has the period 2 pi in it.
     Angle,
-    /// A displacement; the search starts between these two values and may leave them.
+    /// A displacement. The search starts between these two values and may leave them.
     Displacement {
-        /// The lower end of the starting points.
+        /// The lower end of the starting range.
         low: f64,
-        /// The upper end of the starting points.
+        /// The upper end of the starting range.
         high: f64,
     },
 }
 
-/// An answer of the oracle.
+/// A solution of the oracle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// The joint values; each angle in (-pi, pi] \[rad\].
@@ -48,7 +49,7 @@ pub struct Solution {
 }
 
 impl Default for Oracle {
-    /// 100 seeds, 200 steps, residual 1e-11, angles 1e-6 rad.
+    /// 100 starting points, 200 steps, residual 1e-11, angles 1e-6 rad.
     fn default() -> Self {
         Oracle { seeds: 100, iterations: 200, tolerance: 1e-11, distinct: 1e-6 }
     }
@@ -62,10 +63,11 @@ struct State {
 }
 
 impl Oracle {
-    /// The distinct zeros of `residual`, a smooth function of `joints` angles \[rad\] with period 2 pi in each.
+    /// Searches the distinct zeros of `residual`, a smooth function of `joints` angles \[rad\] with period 2 pi in
+    /// each.
     ///
-    /// `residual` returns a vector of the same length every time; entries that are not finite end the search from
-    /// that seed. A continuum of zeros shows as about as many answers as seeds.
+    /// `residual` always returns a vector of the same length. Entries that are not finite end the search from that
+    /// starting point. A continuum of zeros gives about as many solutions as starting points.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when `joints` is zero.
@@ -73,7 +75,7 @@ impl Oracle {
         self.search(&vec![Unknown::Angle; joints], residual)
     }
 
-    /// The same for angles and displacements.
+    /// Same as [`Oracle::solve`], but for angles and displacements.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when there is no unknown, or a range is empty or not finite.
@@ -93,7 +95,7 @@ impl Oracle {
         Ok(found)
     }
 
-    /// Adds `answer` to `found`, or lets it replace a less accurate equal one.
+    /// Adds `answer` to `found`, or replaces an equal, less accurate one.
     fn keep(&self, found: &mut Vec<Solution>, unknowns: &[Unknown], answer: Solution) {
         let same = |other: &&mut Solution| {
             let mut pairs = unknowns.iter().zip(answer.q.iter().zip(&other.q));
@@ -106,7 +108,7 @@ impl Oracle {
         }
     }
 
-    /// The zero that the descent from `start` ends in, if it does.
+    /// The zero to which the descent from `start` converges, if it does.
     fn descend(
         &self,
         start: DVector<f64>,
@@ -135,7 +137,7 @@ impl Unknown {
         }
     }
 
-    /// How far apart two values are: \[rad\], or as a share of the starting range.
+    /// The difference of two values: \[rad\], or as a fraction of the starting range.
     fn difference(self, a: f64, b: f64) -> f64 {
         match self {
             Unknown::Angle => angle::difference(a, b).abs(),
@@ -150,7 +152,7 @@ impl Unknown {
         }
     }
 
-    /// The value at `share` in \[0, 1) of the starting range.
+    /// The value at the fraction `share` in \[0, 1) of the starting range.
     fn start(self, share: f64) -> f64 {
         match self {
             Unknown::Angle => angle::wrap(TAU * share),
@@ -160,14 +162,14 @@ impl Unknown {
 }
 
 impl State {
-    /// `None` when the residual is not finite at `q`.
+    /// A state at `q`; `None` when the residual is not finite.
     fn new(q: DVector<f64>, residual: &impl Fn(&[f64]) -> Vec<f64>) -> Option<State> {
         let residual = DVector::from_vec(residual(q.as_slice()));
         let norm = residual.norm();
         norm.is_finite().then_some(State { q, residual, norm })
     }
 
-    /// A state with a smaller residual, one damped step away; `damping` adapts to how well that works.
+    /// A state with a smaller residual after one damped step. `damping` is adapted to the success of the step.
     fn improve(&self, damping: &mut f64, residual: &impl Fn(&[f64]) -> Vec<f64>) -> Option<State> {
         const MOST: f64 = 1e8;
         const LEAST: f64 = 1e-15;
@@ -188,7 +190,8 @@ impl State {
         None
     }
 
-    /// Central differences of the residual, one column per joint; `None` when it changes its length.
+    /// The Jacobian of the residual by central differences, one column per joint; `None` when the residual changes its
+    /// length.
     fn jacobian(&self, residual: &impl Fn(&[f64]) -> Vec<f64>) -> Option<DMatrix<f64>> {
         // The cube root of the machine precision balances truncation and rounding.
         let step = f64::EPSILON.cbrt();
@@ -206,7 +209,7 @@ impl State {
 }
 
 /// `count` points spread evenly over the starting ranges: the Kronecker sequence whose steps are the powers of 1/x,
-/// x^(n + 1) = x + 1 for n unknowns (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+/// where x^(n + 1) = x + 1 for n unknowns (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
 fn seeds(unknowns: &[Unknown], count: usize) -> impl Iterator<Item = DVector<f64>> + '_ {
     let joints = unknowns.len();
     let root = (0..64).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / (joints as f64 + 1.0)));

@@ -1,4 +1,4 @@
-//! What a serial chain is made of, with exact numbers: joints, tip, and what is asked of it. Main type: [`ChainParts`].
+//! The parts of a serial chain in exact numbers: joints, tip and task. Main type: [`ChainParts`].
 
 use num_traits::{One, ToPrimitive, Zero};
 use serde::{Deserialize, Serialize};
@@ -7,39 +7,39 @@ use super::task::Task;
 use super::{ExactMatrix, ExactVector, LengthUnit, Mimic, exact_serde};
 use groebot_algebra::number::BigRational;
 
-/// What holds within this is meant, unless another tolerance is asked for: radians, and shares of the reach.
+/// Default tolerance of the idealisation: radians, and fractions of the reach.
 pub const TOLERANCE: f64 = 1e-6;
-/// The greatest tolerance that may be asked for.
+/// Maximum tolerance of the idealisation.
 pub const WIDEST: f64 = 0.1;
 
-/// How a joint moves.
+/// Type of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKind {
-    /// It turns about its axis, right-handed, by an angle in radians.
+    /// Rotates about its axis, right-handed, by an angle in radians.
     Revolute,
-    /// It slides along the unit vector of its axis by a distance in the chain's length unit.
+    /// Translates along the unit vector of its axis by a distance in the chain's length unit.
     Prismatic,
 }
 
 /// One joint: a screw in the base frame at the zero configuration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
-    /// The name in the robot's own documents; unique in the chain.
+    /// The joint's name in the robot's documents, unique in the chain.
     pub name: String,
-    /// What follows c, s or d in the names of its unknowns; ASCII letters and digits, unique in the chain.
+    /// The suffix of c, s or d in the names of its unknowns: ASCII letters and digits, unique in the chain.
     pub symbol: String,
-    /// How it moves.
+    /// The type of the joint.
     pub kind: JointKind,
-    /// The direction of the axis as given: not zero, of any length.
+    /// The direction of the axis as given: nonzero, of any length.
     #[serde(with = "exact_serde::vector")]
     pub axis: ExactVector,
     /// A point on the axis.
     #[serde(with = "exact_serde::vector")]
     pub point: ExactVector,
-    /// Least and greatest value, in radians (revolute) or the chain's length unit (prismatic).
+    /// Minimum and maximum value, in radians (revolute) or the chain's length unit (prismatic).
     pub limits: Option<(f64, f64)>,
-    /// The joint of the chain that it follows, if it does.
+    /// The leader of a mimic joint.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mimic: Option<Mimic>,
 }
@@ -66,16 +66,17 @@ pub struct Tip {
     pub rotation: ExactMatrix,
 }
 
-/// The axes and the tip that a description's rounded numbers mean, 1.5708 for a quarter turn, where these differ from what they say.
+/// The exact axes and tip that the rounded numbers of a description stand for, where these differ: 1.5708 stands for a
+/// quarter turn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Meant {
-    /// The joints: those of the chain, but for axes and points.
+    /// The joints. Only their axes and points differ from the chain's.
     pub joints: Vec<Joint>,
     /// The tip.
     pub tip: Tip,
 }
 
-/// Which root of a quadratic is taken.
+/// Selection of a root of a quadratic equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Root {
@@ -85,23 +86,23 @@ pub enum Root {
     Plus,
 }
 
-/// A choice among the solutions: one root of the quadratic in one unknown.
+/// A selection among the solutions: one root of the quadratic equation in one unknown.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Choice {
-    /// The unknown whose quadratic it is.
+    /// The unknown of the quadratic equation.
     pub unknown: String,
-    /// The root that is taken.
+    /// The selected root.
     pub root: Root,
 }
 
-/// The plain data of a [`Chain`](super::Chain), not yet checked.
+/// The plain data of a [`Chain`](super::Chain), not yet validated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChainParts {
     /// The name of the mechanism.
     pub name: String,
-    /// What it is.
+    /// Description of the mechanism.
     pub description: Option<String>,
-    /// Where its figures come from.
+    /// Source of its numbers.
     pub source: Option<String>,
     /// The unit of every length.
     pub length_unit: LengthUnit,
@@ -109,36 +110,37 @@ pub struct ChainParts {
     pub joints: Vec<Joint>,
     /// The tip frame.
     pub tip: Tip,
-    /// What joints and tip mean, where that is something else than they say: what [`Chain::ideal`](super::Chain::ideal) begins with.
+    /// The exact joints and tip, where they differ from the described ones. [`Chain::ideal`](super::Chain::ideal)
+    /// starts from these.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub meant: Option<Box<Meant>>,
-    /// What is asked of the tip.
+    /// The task of the tip.
     pub task: Task,
-    /// The direction in the tip frame that the tasks `ray` and `direction` aim: not zero, of any length.
+    /// The direction in the tip frame for the tasks `ray` and `direction`: nonzero, of any length.
     #[serde(with = "exact_serde::vector", default = "along_z")]
     pub direction: ExactVector,
-    /// The names of the joints whose values the user gives: each once, and not all of them.
+    /// The names of the given joints: each once, and not all joints.
     #[serde(default)]
     pub given: Vec<String>,
-    /// All unknowns from the greatest to the smallest, when a term order is asked for.
+    /// All unknowns from the greatest to the smallest, if a term order is requested.
     pub order: Option<Vec<String>>,
-    /// The root that is taken, when one is chosen.
+    /// The selected root, if one is selected.
     pub choice: Option<Choice>,
 }
 
-/// The direction that is aimed when none is named: the tip's z axis.
+/// The default direction: the tip's z axis.
 pub fn along_z() -> ExactVector {
     [BigRational::zero(), BigRational::zero(), BigRational::one()]
 }
 
 impl Meant {
-    /// `joints` and `tip`, unless they are those of the description.
-    pub(super) fn unless_told(joints: Vec<Joint>, tip: Tip, told: (&[Joint], &Tip)) -> Option<Box<Meant>> {
-        (joints != told.0 || tip != *told.1).then(|| Box::new(Meant { joints, tip }))
+    /// `joints` and `tip`, unless they are equal to the described ones.
+    pub(super) fn unless_described(joints: Vec<Joint>, tip: Tip, described: (&[Joint], &Tip)) -> Option<Box<Meant>> {
+        (joints != described.0 || tip != *described.1).then(|| Box::new(Meant { joints, tip }))
     }
 }
 
-/// `[1/2, 0, 1]`.
+/// Formats a vector as `[1/2, 0, 1]`.
 pub(super) fn show(vector: &ExactVector) -> String {
     let [x, y, z] = vector.each_ref().map(|entry| match entry.to_string() {
         short if short.len() <= 24 => short,

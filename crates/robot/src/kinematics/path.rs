@@ -1,4 +1,5 @@
-//! Chains between two links of a robot, down from the base and, where the tip is on another branch, first up.
+//! Chains between two links of a robot: from the base towards the leaves, and first towards the root if the tip is on
+//! another branch.
 
 use std::collections::{HashMap, HashSet};
 
@@ -14,31 +15,31 @@ use crate::model::{self, Fault, JointType, Part, Robot, some_among};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// The longest path, fixed joints included.
+/// Maximum number of joints of a path, including fixed ones.
 const MAX_PATH: usize = groebot_algebra::limits::PATH_JOINTS;
-/// The most characters of a chain's name.
+/// Maximum number of characters of a chain's name.
 const MAX_NAME: usize = 64;
 
 /// The path through a robot from one link to another.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LinkPath {
-    /// The name of the link where it starts.
+    /// The name of the first link.
     pub base: String,
-    /// The name of the link where it ends.
+    /// The name of the last link.
     pub tip: String,
-    /// The joints on the way, as places in [`Robot::joints`], each with whether it is passed upwards, from child to parent.
+    /// The joints of the path, as indices in [`Robot::joints`], each with whether it is passed from child to parent.
     pub joints: Vec<(usize, bool)>,
-    /// How the tip was chosen.
+    /// How the tip link was chosen.
     pub choice: TipChoice,
 }
 
 impl Robot {
-    /// The path from the link `base` (by default the root) to the link `tip` (by default the only leaf, else the only link named `tool0`,
-    /// `flange`, `tcp` or `ee_link`, in that order: [`TipChoice`]).
+    /// Finds the path from the link `base` (by default the root) to the link `tip` (by default the only leaf, else the
+    /// only link named `tool0`, `flange`, `tcp` or `ee_link`, in that order: [`TipChoice`]).
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for names of no link; [`ErrorKind::MissingKey`] without `tip` where none is the only one;
-    /// [`ErrorKind::BadValue`] for more than 64 joints on the path.
+    /// [`ErrorKind::UnknownName`] for unknown links; [`ErrorKind::MissingKey`] without `tip` when the default is not
+    /// unique; [`ErrorKind::BadValue`] for more than 64 joints on the path.
     pub fn path(&self, base: Option<&str>, tip: Option<&str>) -> Result<LinkPath> {
         let base = self.find("base", base.unwrap_or(self.root()))?;
         let (tip, choice) = match tip {
@@ -59,7 +60,8 @@ impl Robot {
         Ok(LinkPath { base, tip, joints, choice })
     }
 
-    /// The joints from the link at the place `base` to the one at `tip`, each with whether it is passed upwards.
+    /// The joints from the link with the index `base` to the one with the index `tip`, each with whether it is passed
+    /// from child to parent.
     pub(super) fn between(&self, base: usize, tip: usize) -> Vec<(usize, bool)> {
         let (mut up, mut down) = (self.ancestry(base), self.ancestry(tip));
         while up.last().is_some() && up.last() == down.last() {
@@ -70,23 +72,25 @@ impl Robot {
         up.chain(down.into_iter().rev().map(|joint| (joint, false))).collect()
     }
 
-    /// The name of the link on `path` that carries its first moving joint: the base link with the shortest chain to the same joints. The base
-    /// where nothing moves.
+    /// The name of the link on `path` that carries its first moving joint. A chain from this link is the shortest one
+    /// with the same joints. Without moving joints it is the base.
     pub fn carrier<'p>(&'p self, path: &'p LinkPath) -> &'p str {
         let moving = path.joints.iter().find(|(joint, _)| self.joints()[*joint].kind != JointType::Fixed);
         let carrier = moving.map(|(joint, is_up)| (self.ends(*joint), is_up));
         carrier.map_or(&path.base, |((parent, child), is_up)| &self.links()[if *is_up { child } else { parent }].name)
     }
 
-    /// The chain from the link `base` to the link `tip` (defaults as in [`Robot::path`]), in the frame of `base`, with the task
-    /// `pose`, in metres. Fixed joints are merged into the joints around them. A joint that is passed upwards has its axis
-    /// reversed, so that its values and limits stay its own. Joints that move together by `mimic` are one unknown: slides along one direction, as
-    /// of a telescope, become one joint whose value is their sum; any other follows its leader, or, where that is not on the way, the first that
-    /// moves with it. Its numbers are those of the description; [`Chain::ideal`] is what they mean.
+    /// Extracts the chain from the link `base` to the link `tip` (defaults as in [`Robot::path`]), in the frame of
+    /// `base`, with the task `pose`, in metres. Fixed joints are merged into their neighbours. A joint that is passed
+    /// from child to parent has its axis reversed, so that its values and limits are unchanged. Joints coupled by
+    /// `mimic` are one unknown. Prismatic joints along one direction, as in a telescope, become one joint whose value
+    /// is their sum. Any other mimic joint follows its leader or, if that is not on the path, the first joint coupled
+    /// to it. The chain's numbers are those of the description; [`Chain::ideal`] is the ideal robot.
     ///
     /// # Errors
-    /// As [`Robot::path`]; that of a [fault](Robot::faults) of a joint or link on the way; [`ErrorKind::Unsupported`] for a floating or planar joint on the
-    /// way; [`ErrorKind::BadValue`] when nothing moves on the way, and as [`Chain::new`].
+    /// Those of [`Robot::path`]; that of a [fault](Robot::faults) of a joint or link on the path;
+    /// [`ErrorKind::Unsupported`] for a floating or planar joint on the path; [`ErrorKind::BadValue`] for a path
+    /// without moving joints; those of [`Chain::new`].
     pub fn chain(&self, base: Option<&str>, tip: Option<&str>) -> Result<Chain> {
         self.chain_along(&self.path(base, tip)?)
     }
@@ -114,7 +118,7 @@ impl Robot {
             description: Some(format!("from link {} to link {}", path.base, path.tip)),
             source: None,
             length_unit: LengthUnit::Metre,
-            meant: Meant::unless_told(meant, tip_meant, (&joints, &tip)),
+            meant: Meant::unless_described(meant, tip_meant, (&joints, &tip)),
             joints,
             tip,
             task: Task::Pose,
@@ -125,14 +129,15 @@ impl Robot {
         })
     }
 
-    /// Faults of the robot off the path, and what the reader ignored: nothing of it touches the chain along `path`.
+    /// Faults of the robot outside the path, and parts that the reader ignored. None of them affects the chain along
+    /// `path`.
     pub fn ignored(&self, path: &LinkPath) -> Vec<String> {
         let beside = self.faults().iter().filter(|fault| !self.is_on(path, fault));
         let beside = beside.map(|fault| format!("ignored, as it is not in the chain: {}", fault.error));
         self.parts().notes.iter().cloned().chain(beside).collect()
     }
 
-    /// Whether the part that has the fault is on the path.
+    /// Whether the part with the fault is on the path.
     fn is_on(&self, path: &LinkPath, fault: &Fault) -> bool {
         let is_end = |joint: usize, name: &str| {
             let (parent, child) = self.ends(joint);
@@ -145,8 +150,8 @@ impl Robot {
         }
     }
 
-    /// What a user of the chain along `path` should know: numbers that were taken for others, joints that follow or lead, joints
-    /// that are passed upwards, and what is [ignored](Robot::ignored).
+    /// Notes for a user of the chain along `path`: numbers that were replaced, mimic joints and their leaders, joints
+    /// that are passed from child to parent, and [ignored](Robot::ignored) parts.
     pub fn notes(&self, path: &LinkPath) -> Vec<String> {
         let mut notes = Vec::new();
         let mimics = self.mimics(path);
@@ -186,8 +191,8 @@ impl Robot {
         })
     }
 
-    /// The joints on the way that move with others of it, and how they follow: the one that leads them all, or where that is not on the way the
-    /// first of them.
+    /// The joints of the path that are coupled to others of it, with their laws. The leader is the common one or, if
+    /// that is not on the path, the first of them.
     fn mimics(&self, path: &LinkPath) -> Vec<(&str, Mimic)> {
         let moving = path.joints.iter().map(|(index, _)| &self.joints()[*index]);
         let laws = moving.filter(|joint| self.moves(joint)).map(|joint| (joint, self.law(joint)));
@@ -212,16 +217,20 @@ impl Robot {
         followers.collect()
     }
 
-    /// The symbols of the moving joints on the way: those of the source, where each has its own, else 1, 2, 3.
+    /// The symbols of the moving joints on the path: those of the source if each has its own, else 1, 2, 3.
     fn symbols(&self, path: &LinkPath) -> Vec<String> {
         let moving: Vec<&model::Joint> =
             path.joints.iter().map(|(index, _)| &self.joints()[*index]).filter(|joint| self.moves(joint)).collect();
-        let told: Vec<String> = moving.iter().filter_map(|joint| joint.symbol.clone()).collect();
-        let distinct: HashSet<&String> = told.iter().collect();
-        if distinct.len() == moving.len() { told } else { (1..=moving.len()).map(|place| place.to_string()).collect() }
+        let own_symbols: Vec<String> = moving.iter().filter_map(|joint| joint.symbol.clone()).collect();
+        let distinct: HashSet<&String> = own_symbols.iter().collect();
+        if distinct.len() == moving.len() {
+            own_symbols
+        } else {
+            (1..=moving.len()).map(|place| place.to_string()).collect()
+        }
     }
 
-    /// Whether a joint moves in a chain: it is not fixed, and follows no other by a multiplier of zero.
+    /// Whether a joint moves in a chain: it is neither fixed nor a mimic joint with a multiplier of zero.
     fn moves(&self, joint: &model::Joint) -> bool {
         joint.kind != JointType::Fixed && self.constant(joint).is_none()
     }
@@ -231,9 +240,9 @@ impl Robot {
         Frame::walked(reading, |base| self.walk_from(base, path)).map(|(joints, frame)| (joints, frame.tip()))
     }
 
-    /// The same from a base frame, and whether the joints' axes are rational.
+    /// Same as `walk`, but from a given base frame. Also returns whether the joints' axes are rational.
     fn walk_from(&self, base: Frame, path: &LinkPath) -> Result<((Vec<Joint>, Frame), Rationality)> {
-        let (mut joints, mut frame, mut told) = (Vec::new(), base, Rationality::default());
+        let (mut joints, mut frame, mut own_symbols) = (Vec::new(), base, Rationality::default());
         let (mimics, symbols) = (self.mimics(path), self.symbols(path));
         for (index, is_up) in &path.joints {
             let joint = &self.joints()[*index];
@@ -245,7 +254,7 @@ impl Robot {
                 frame = frame.then(&held(kind, &joint.axis, &if *is_up { -value } else { value }));
             } else if let Some(kind) = kind {
                 let axis = frame.direction(&joint.axis);
-                told.add(frame.rationality(&joint.axis));
+                own_symbols.add(frame.rationality(&joint.axis));
                 joints.push(Joint {
                     name: joint.name.clone(),
                     symbol: symbols[joints.len()].clone(),
@@ -260,11 +269,11 @@ impl Robot {
                 frame = frame.before(&joint.origin.placement);
             }
         }
-        Ok(((joints, frame), told))
+        Ok(((joints, frame), own_symbols))
     }
 }
 
-/// The motion of a joint at a value that never changes: right to rounding.
+/// The motion of a joint at a constant value, within rounding.
 fn held(kind: JointKind, axis: &ExactVector, value: &BigRational) -> Placement {
     match kind {
         JointKind::Prismatic => Placement::shifted_along(axis, value),
@@ -272,7 +281,7 @@ fn held(kind: JointKind, axis: &ExactVector, value: &BigRational) -> Placement {
     }
 }
 
-/// How a joint moves in a chain; none when it is fixed.
+/// The type of a joint in a chain; `None` when it is fixed.
 fn kind_of(joint: &model::Joint) -> Result<Option<JointKind>> {
     match joint.kind {
         JointType::Fixed => Ok(None),

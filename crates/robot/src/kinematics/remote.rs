@@ -1,4 +1,4 @@
-//! Chains far from the frame in which their targets are given: rounding hides their solutions.
+//! Check for chains far from the frame of their targets, whose solutions are lost by rounding.
 
 use nalgebra::Point3;
 
@@ -7,22 +7,25 @@ use crate::document::shown;
 use crate::spatial::Screw;
 use crate::{Error, ErrorKind, Result};
 
-/// The greatest distance from the base frame, in reaches of the chain, at which it is solved. There the coordinates of a target in doubles are
-/// rounded by 1e-13 of the reach, a tenth of what answers may miss; from about three times as far solutions are lost.
+/// Maximum distance from the base frame, in units of the chain's reach. There the coordinates of a target in doubles
+/// are rounded by 1e-13 of the reach, a tenth of the tolerance of solutions. At about three times this distance
+/// solutions are lost.
 const FAR: f64 = 1e3;
 
 impl Chain {
-    /// The distance of the joint axis that is farthest from the origin of the base frame, in reaches; zero without an axis or a reach.
+    /// The largest distance of a joint axis from the origin of the base frame, in units of the reach; zero without an
+    /// axis or a reach.
     pub fn remoteness(&self) -> f64 {
         let axes = self.screws().iter().filter_map(Screw::axis);
         let distance = axes.map(|axis| axis.distance_to(&Point3::origin())).fold(0.0, f64::max);
         if self.reach() > 0.0 { distance / self.reach() } else { 0.0 }
     }
 
-    /// Fails where the chain is more than a thousand of its reaches from the base frame; `near` is a link that is nearer, where there are links.
+    /// Checks that the chain is at most a thousand times its reach away from the base frame. `near` is a closer link,
+    /// if there are links.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] with the distance and what to choose instead.
+    /// [`ErrorKind::Unsupported`] with the distance and a remedy.
     pub fn check_base(&self, near: Option<&str>) -> Result<()> {
         let far = self.remoteness();
         if far <= FAR {

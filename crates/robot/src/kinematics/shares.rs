@@ -1,7 +1,8 @@
-//! How much of each joint's range has solutions, of a chain with more joints than its task determines: [`Chain::shares`].
+//! Fraction of each joint's range that has solutions, for a redundant chain: [`Chain::shares`].
 //!
-//! Where the tip does not move, the joints can still move: the self-motion. A joint that is swept through all of its range on the way may be
-//! given any value; an elbow, whose angle follows from the distance that is to be bridged, hardly moves.
+//! The joints of a redundant chain can move while the tip is fixed: the self-motion. A joint that moves through its
+//! whole range in the self-motion can be given any value. An elbow, whose angle follows from the distance to the
+//! target, moves little.
 
 use std::f64::consts::{PI, TAU};
 
@@ -10,20 +11,20 @@ use nalgebra::DVector;
 use super::screw::ScrewSolver;
 use super::{Chain, JointKind, Target};
 
-/// Random poses that are tried.
+/// Number of random poses that are followed.
 const POSES: usize = 16;
-/// Random poses of which a share is counted.
+/// Number of random poses for a counted fraction.
 const COUNTED: usize = 250;
-/// How far the joint moves in a step \[rad, or reaches\].
+/// Step of the joint \[rad, or units of the reach\].
 const STEP: f64 = 0.05;
-/// The farthest that any joint moves in a step.
+/// Maximum motion of any joint in a step.
 const LONGEST: f64 = 0.2;
-/// A joint turns back where it has less than this share of the self-motion that moves it most.
+/// A joint reverses where its component of the self-motion that moves it most is below this value.
 const TURNS_BACK: f64 = 0.02;
-/// A singular value below this share of the greatest is zero.
+/// A singular value below this fraction of the greatest counts as zero.
 const RANK: f64 = 1e-6;
 
-/// Values of a chain's joints, one after the other.
+/// Random values of a chain's joints.
 struct Draws<'a> {
     chain: &'a Chain,
     state: u64,
@@ -37,7 +38,7 @@ impl Draws<'_> {
         q
     }
 
-    /// A value of a joint's range, by the generator of Park and Miller 1988.
+    /// A random value in a joint's range, by the generator of Park and Miller 1988.
     fn value(&mut self, joint: usize) -> f64 {
         self.state = self.state * 48_271 % 2_147_483_647;
         let (low, high) = self.chain.range(joint);
@@ -46,9 +47,10 @@ impl Draws<'_> {
 }
 
 impl Chain {
-    /// For each joint the share of its range, between its limits or all round, that it is swept through while the tip stands still and the
-    /// joints `held` do too: the mean of random reachable poses, each followed to where the joint turns back. Zero for the joints that are held or follow others.
-    /// It is measured by walking: values that no way leads to do not count.
+    /// For each joint the fraction of its range that the self-motion covers while the tip and the joints `held` are
+    /// fixed. The range is between the limits, or a whole turn. It is the mean over random reachable poses, each
+    /// followed until the joint reverses. It is zero for held joints and mimic joints. Values that no continuous motion
+    /// reaches are not counted.
     pub fn shares(&self, held: &[usize]) -> Vec<f64> {
         let mut shares = vec![0.0; self.joints().len()];
         let is_free = |joint: &usize| !held.contains(joint) && self.leader(*joint).is_none();
@@ -62,7 +64,7 @@ impl Chain {
         shares
     }
 
-    /// The values that a joint may have: between its limits, all round, or a reach to either side.
+    /// The range of a joint: between its limits, a whole turn, or the reach in both directions.
     fn range(&self, joint: usize) -> (f64, f64) {
         let joint = &self.joints()[joint];
         let reach = self.reach();
@@ -74,8 +76,8 @@ impl Chain {
         }
     }
 
-    /// The share of random values of `joint`, of its range, and of random reachable poses with the joints `given`, that have solutions; none
-    /// where screw theory does not find them.
+    /// The fraction of random values of `joint`, and of random reachable poses with the joints `given`, that have
+    /// solutions; `None` when the screw solver does not support the chain.
     pub fn counted_share(&self, given: &[usize], joint: usize) -> Option<f64> {
         let leads = |place: &usize| self.leader(*place).is_none();
         let mut places: Vec<usize> = given.iter().copied().chain([joint]).filter(leads).collect();
@@ -95,15 +97,15 @@ impl Chain {
         Some(solved as f64 / COUNTED as f64)
     }
 
-    /// Values of the joints' ranges, always the same.
+    /// Random values in the joints' ranges, always the same.
     fn draws(&self) -> Draws<'_> {
         Draws { chain: self, state: 1 }
     }
 
-    /// The share of its range that `joint` is swept through from `q`.
+    /// The fraction of its range that `joint` covers from `q`.
     fn swept(&self, q: &[f64], joint: usize, held: &[usize]) -> f64 {
         let (low, high) = self.range(joint);
-        let [back, forth] = [-1.0, 1.0].map(|way| self.driven(q, joint, way, held));
+        let [back, forth] = [-1.0, 1.0].map(|direction| self.driven(q, joint, direction, held));
         let (start, end) = (q[joint] - back, q[joint] + forth);
         let overlap = |turn: f64| (end.min(high + turn) - start.max(low + turn)).max(0.0);
         let turns = if self.joints()[joint].kind == JointKind::Revolute { &[-TAU, 0.0, TAU][..] } else { &[0.0] };
@@ -111,33 +113,35 @@ impl Chain {
         (covered / (high - low)).min(1.0)
     }
 
-    /// How far `joint` can be moved from `q` in one direction while the tip stands still: a turn at most, or two reaches.
-    fn driven(&self, q: &[f64], joint: usize, way: f64, held: &[usize]) -> f64 {
+    /// The distance that `joint` can move from `q` in one direction while the tip is fixed: at most a turn, or twice
+    /// the reach.
+    fn driven(&self, q: &[f64], joint: usize, direction: f64, held: &[usize]) -> f64 {
         let unit = self.unit(joint);
         let most = if self.joints()[joint].kind == JointKind::Revolute { TAU } else { 2.0 * unit };
         let (mut at, mut gone) = (q.to_vec(), 0.0);
         while gone < most {
-            // The midpoint rule: what is left of the tip's motion does not matter to a share.
-            let middle = self.self_motion(&at, joint, held).map(|motion| self.stepped(&at, &motion, joint, 0.5 * way));
+            // The midpoint rule. The remaining motion of the tip does not affect the fraction.
+            let middle =
+                self.self_motion(&at, joint, held).map(|motion| self.stepped(&at, &motion, joint, 0.5 * direction));
             let Some(motion) = middle.and_then(|middle| self.self_motion(&middle, joint, held)) else { break };
-            let next = self.stepped(&at, &motion, joint, way);
+            let next = self.stepped(&at, &motion, joint, direction);
             gone += (next[joint] - at[joint]).abs();
             at = next;
         }
         gone.min(most)
     }
 
-    /// `q` behind a step of `motion` in which `joint` moves by `way` steps, less where others would move too far.
-    fn stepped(&self, q: &[f64], motion: &DVector<f64>, joint: usize, way: f64) -> Vec<f64> {
+    /// `q` after a step of `motion` in which `joint` moves by `direction` steps, or less where others would move too far.
+    fn stepped(&self, q: &[f64], motion: &DVector<f64>, joint: usize, direction: f64) -> Vec<f64> {
         let length = (STEP / motion[joint]).min(LONGEST / motion.amax());
-        let step = |(i, value): (usize, &f64)| value + way * length * motion[i] * self.unit(i);
+        let step = |(i, value): (usize, &f64)| value + direction * length * motion[i] * self.unit(i);
         let mut next: Vec<f64> = q.iter().enumerate().map(step).collect();
         self.follow(&mut next);
         next
     }
 
-    /// The unit motion of all joints (radians, and reaches) that leaves the tip and the joints `held` where they are and moves `joint` most,
-    /// forwards; none where it hardly moves it.
+    /// The unit motion of all joints (radians, and units of the reach) that leaves the tip and the joints `held` fixed
+    /// and moves `joint` most, forwards; `None` where it moves it too little.
     fn self_motion(&self, q: &[f64], joint: usize, held: &[usize]) -> Option<DVector<f64>> {
         let svd = self.coupled_jacobian(q, held).svd(false, true);
         let greatest = svd.singular_values.amax();

@@ -1,4 +1,4 @@
-//! What a solver is asked for: [`Target`].
+//! The target of a solver: [`Target`].
 
 use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
@@ -6,10 +6,10 @@ use super::{Chain, Task};
 use crate::spatial::{Pose, angle, pitch_and_roll, vertical};
 use crate::{Error, ErrorKind, Result};
 
-/// How far from one the length of a quaternion or a direction may be.
+/// Tolerance of the length of a unit quaternion or a unit vector.
 const UNIT: f64 = 1e-9;
 
-/// Where the tip is to be, in the base frame; lengths in the chain's unit.
+/// The target of the tip in the base frame, with lengths in the chain's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// The pose base_from_tip.
@@ -20,14 +20,14 @@ pub enum Target {
     PlanarPosition([f64; 2]),
     /// The position in the task's plane and the angle \[rad\] about its normal, right-handed, from the zero configuration.
     PlanarPose([f64; 3]),
-    /// The position of the tip, and where the task's direction points.
+    /// The position of the tip, and the direction of the task's direction vector.
     Ray {
         /// The position.
         point: Point3<f64>,
-        /// The direction, of length one.
+        /// The direction, a unit vector.
         direction: Vector3<f64>,
     },
-    /// Where the task's direction points: a vector of length one.
+    /// The direction of the task's direction vector, a unit vector.
     Direction(Vector3<f64>),
     /// The rotation base_from_tip.
     Rotation(UnitQuaternion<f64>),
@@ -40,7 +40,7 @@ pub enum Target {
         /// The roll.
         roll: f64,
     },
-    /// The position of the tip, and the angle \[rad\] about the task's axis at which its direction points.
+    /// The position of the tip, and the angle \[rad\] of its direction about the task's axis.
     PositionYaw {
         /// The position.
         point: Point3<f64>,
@@ -50,10 +50,10 @@ pub enum Target {
 }
 
 impl Target {
-    /// What the tip of `chain` reaches at `q`, in the form of its task.
+    /// Computes the target that the tip of `chain` reaches at `q`, in the form of its task.
     ///
     /// # Errors
-    /// As [`Chain::forward`].
+    /// Those of [`Chain::forward`].
     pub fn reached(chain: &Chain, q: &[f64]) -> Result<Target> {
         let pose = chain.forward(q)?;
         let tip = pose.translation.vector;
@@ -82,10 +82,11 @@ impl Target {
         })
     }
 
-    /// The target of `task` with these numbers, in the order of a derived solver: a position, then a rotation by rows, a direction, or angles.
+    /// Builds the target of `task` from these numbers, in the order of a derived solver: a position, then a rotation
+    /// row by row, a direction, or angles.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for another count of numbers than the task has.
+    /// [`ErrorKind::BadValue`] for a wrong number of entries.
     pub fn from_numbers(task: Task, target: &[f64]) -> Result<Target> {
         Ok(match (task, target) {
             (Task::Position, &[x, y, z]) => Target::Position([x, y, z].into()),
@@ -128,7 +129,7 @@ impl Target {
         }
     }
 
-    /// Whether a number of this kind of target is called `name` in a derived solver: `px`, `r11`, `d1`, `phi`, `pitch`, `yaw`.
+    /// Whether a derived solver has an input `name` for this kind of target: `px`, `r11`, `d1`, `phi`, `pitch`, `yaw`.
     pub fn has(&self, name: &str) -> bool {
         let (position, rest) =
             (name.starts_with('p') && name.len() == 2, name.chars().skip(1).all(|c| c.is_ascii_digit()));
@@ -144,10 +145,10 @@ impl Target {
         }
     }
 
-    /// Fails unless the target is of the kind of `chain`'s task and finite.
+    /// Checks that the target belongs to `chain`'s task and is finite.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] then, and for a quaternion or a direction that is not of norm one.
+    /// [`ErrorKind::BadValue`] otherwise, and for a quaternion or a direction whose norm is not one.
     pub fn check(&self, chain: &Chain) -> Result<()> {
         let task = chain.task();
         let is_of_task = matches!(
@@ -175,7 +176,7 @@ impl Target {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// What is not of length one though it should be, its length, and what it should be.
+    /// A quantity whose length should be one but is not: its name, its length, and the requirement.
     fn not_of_length_one(&self) -> Option<(&'static str, f64, &'static str)> {
         let (what, norm, whole) = match self {
             Target::Pose(Pose { rotation, .. }) | Target::Rotation(rotation) => {
@@ -186,12 +187,12 @@ impl Target {
             }
             _ => return None,
         };
-        // A norm that is no number is not near one.
+        // A NaN norm is not near one.
         (norm.is_nan() || (norm - 1.0).abs() > UNIT).then_some((what, norm, whole))
     }
 
-    /// How far the tip of `chain` at `q` is from this target: the distance, in the chain's unit, and the angle \[rad\]; zero for what is not
-    /// asked. Not finite where `q` is not, or the target is of another task.
+    /// The error of the tip of `chain` at `q`: the distance in the chain's unit, and the angle \[rad\]; zero for
+    /// numbers that the task does not have. Not finite if `q` is not, or if the target belongs to another task.
     pub fn missed(&self, chain: &Chain, q: &[f64]) -> [f64; 2] {
         let norm = |part: &[f64]| part.iter().map(|miss| miss * miss).sum::<f64>().sqrt();
         match Target::reached(chain, q) {
@@ -203,8 +204,8 @@ impl Target {
         }
     }
 
-    /// What this target differs by from `target`, which is of the same kind: lengths, then numbers that for small turns have the angle \[rad\] as
-    /// their norm.
+    /// The difference from `target`, which is of the same kind: lengths, then numbers whose norm is the angle \[rad\]
+    /// for small rotations.
     pub(super) fn difference(&self, target: &Target) -> (Vec<f64>, Vec<f64>) {
         let turn = |a: &UnitQuaternion<f64>, b: &UnitQuaternion<f64>| {
             let difference = a.to_rotation_matrix().matrix() - b.to_rotation_matrix().matrix();
@@ -237,7 +238,7 @@ impl Target {
     }
 }
 
-/// The rotation with nine entries, by rows.
+/// The rotation with nine entries, row by row.
 fn rotation(entries: &[f64]) -> UnitQuaternion<f64> {
     let matrix = Rotation3::from_matrix_unchecked(Matrix3::from_row_slice(entries));
     UnitQuaternion::from_rotation_matrix(&matrix)

@@ -1,4 +1,4 @@
-//! What is asked of the tip of a chain. Main type: [`Task`].
+//! The task of a chain's tip. Main type: [`Task`].
 
 use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ pub enum Plane {
 }
 
 impl Plane {
-    /// The coordinate (0, 1, 2 for x, y, z) along its normal.
+    /// The index (0, 1, 2 for x, y, z) of the coordinate along its normal.
     pub fn normal(self) -> usize {
         match self {
             Plane::Xy => 2,
@@ -28,7 +28,7 @@ impl Plane {
         }
     }
 
-    /// Its two coordinates, in the order of its name.
+    /// The indices of its two coordinates, in the order of its name.
     pub fn coordinates(self) -> [usize; 2] {
         match self {
             Plane::Xy => [0, 1],
@@ -60,15 +60,15 @@ pub enum BaseAxis {
 }
 
 impl BaseAxis {
-    /// All of them.
+    /// All base axes.
     pub const ALL: [BaseAxis; 3] = [BaseAxis::X, BaseAxis::Y, BaseAxis::Z];
 
-    /// Its coordinate: 0, 1, 2 for x, y, z.
+    /// The index of its coordinate: 0, 1, 2 for x, y, z.
     pub fn coordinate(self) -> usize {
         self as usize
     }
 
-    /// The coordinate axis from which an angle about this one is counted, and the one to which a quarter turn leads.
+    /// The coordinate axis from which an angle about this axis is measured, and the one at a quarter turn.
     pub fn across(self) -> [usize; 2] {
         [1, 2].map(|step| (self.coordinate() + step) % 3)
     }
@@ -79,13 +79,13 @@ impl BaseAxis {
     }
 }
 
-/// What is asked of the tip.
+/// The task: which numbers of the tip's pose a target specifies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Task {
     /// The position: three numbers.
     Position,
-    /// The position in a plane in which the whole chain moves: two numbers.
+    /// The position in a plane that the whole chain does not leave: two numbers.
     PlanarPosition {
         /// The plane.
         plane: Plane,
@@ -97,16 +97,17 @@ pub enum Task {
     },
     /// Position and orientation.
     Pose,
-    /// The position, and where [`super::Chain::direction`] points: five numbers.
+    /// The position, and the direction of [`super::Chain::direction`]: five numbers.
     Ray,
-    /// Where [`super::Chain::direction`] points: two numbers.
+    /// The direction of [`super::Chain::direction`]: two numbers.
     Direction,
     /// The orientation: three numbers.
     Rotation,
-    /// The position, and pitch and roll of the tip, whatever its yaw, in R = Rz(yaw) Ry(pitch) Rx(roll): five numbers.
+    /// The position, and pitch and roll of the tip for any yaw, in R = Rz(yaw) Ry(pitch) Rx(roll): five numbers.
     PositionPitchRoll,
-    /// The position, and the angle about an axis of the base at which [`super::Chain::direction`] points: four numbers, of a tip that turns about that axis
-    /// only and a direction at right angles to it. The angle is counted from x about z, from y about x, from z about y.
+    /// The position, and the angle of [`super::Chain::direction`] about an axis of the base: four numbers. The tip
+    /// rotates about this axis only, and the direction is perpendicular to it. The angle is measured from x about z,
+    /// from y about x, from z about y.
     PositionYaw {
         /// The axis.
         axis: BaseAxis,
@@ -122,7 +123,7 @@ impl Task {
         }
     }
 
-    /// The axis of a position with the angle about it.
+    /// The axis of a position with an angle about it.
     pub fn axis(self) -> Option<BaseAxis> {
         match self {
             Task::PositionYaw { axis } => Some(axis),
@@ -130,13 +131,13 @@ impl Task {
         }
     }
 
-    /// The direction in the tip frame that is aimed when none is named: z, or the axis from which an angle about an axis is counted.
+    /// The default direction in the tip frame: z, or the axis from which an angle about an axis is measured.
     pub fn usual_direction(self) -> ExactVector {
         let along = self.axis().map_or(2, |axis| axis.across()[0]);
         std::array::from_fn(|i| if i == along { BigRational::one() } else { BigRational::zero() })
     }
 
-    /// The most joints that it determines: its number of independent values.
+    /// The number of independent values: the maximum number of joints that the task determines.
     pub fn freedoms(self) -> usize {
         match self {
             Task::Pose => 6,
@@ -147,7 +148,7 @@ impl Task {
         }
     }
 
-    /// How many of its numbers are lengths; they come first.
+    /// The number of lengths among its numbers. They come first.
     pub fn lengths(self) -> usize {
         match self {
             Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => 3,
@@ -156,7 +157,7 @@ impl Task {
         }
     }
 
-    /// The names of the numbers of a target, in the order of a derived solver: `px`, `r11` by rows, `dx`, `phi`, `pitch`.
+    /// The names of a target's numbers, in the order of a derived solver: `px`, `r11` row by row, `dx`, `phi`, `pitch`.
     pub fn numbers(self) -> Vec<String> {
         let along = |prefix: &str, axes: &[usize]| -> Vec<String> {
             axes.iter().map(|&axis| format!("{prefix}{}", ["x", "y", "z"][axis])).collect()
@@ -178,7 +179,7 @@ impl Task {
         }
     }
 
-    /// Whether it aims a direction of the tip frame.
+    /// Whether it uses a direction of the tip frame.
     pub fn aims(self) -> bool {
         matches!(self, Task::Ray | Task::Direction | Task::PositionYaw { .. })
     }

@@ -1,4 +1,4 @@
-//! Slides that move together along one direction: [`Telescope`]. They are one joint, whose value is their sum.
+//! Coupled prismatic joints along one direction: [`Telescope`]. They become one joint whose value is their sum.
 
 use num_traits::{One, ToPrimitive, Zero};
 
@@ -6,19 +6,19 @@ use crate::document::shown;
 use crate::kinematics::{Joint, JointKind, Mimic};
 use groebot_algebra::number::BigRational;
 
-/// Directions this near are one: the length of a sum then is the sum of the lengths, in doubles.
+/// Directions within this angle are equal. Then the length of a sum is the sum of the lengths, in doubles.
 const PARALLEL: f64 = 1e-8;
-/// The most characters of a joint's name.
+/// Maximum number of characters of a joint's name.
 const MAX_NAME: usize = 64;
 
-/// Slides of a chain that move together, with no turn between them.
+/// Prismatic joints of a chain that move together, without a revolute joint between them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Telescope {
-    /// The place of the one that leads.
+    /// The index of the leader.
     leader: usize,
-    /// The places of the others, and whether they slide the same way.
+    /// The indices of the followers, and whether they move in the leader's direction.
     followers: Vec<(usize, bool)>,
-    /// The sum, where the leader is one: not zero.
+    /// The sum for a leader's value of one: nonzero.
     stride: BigRational,
 }
 
@@ -28,7 +28,7 @@ impl Telescope {
         (0..joints.len()).filter_map(|leader| Telescope::led_by(leader, joints)).collect()
     }
 
-    /// All that follows the joint at `leader`, when all of it slides as a telescope does.
+    /// The telescope of the joint at `leader`, if all joints that follow it are prismatic and parallel.
     fn led_by(leader: usize, joints: &[Joint]) -> Option<Telescope> {
         let follows =
             |place: &usize| joints[*place].mimic.as_ref().is_some_and(|mimic| mimic.leader == joints[leader].name);
@@ -54,7 +54,7 @@ impl Telescope {
         (!stride.is_zero()).then_some(Telescope { leader, followers, stride })
     }
 
-    /// The name of the sum: `a + b - c`, or where that is too long `a + .. - c`.
+    /// The name of the sum: `a + b - c`, or `a + .. - c` if that is too long.
     fn name(&self, joints: &[Joint]) -> String {
         let signed =
             |(place, same): &(usize, bool)| format!(" {} {}", if *same { '+' } else { '-' }, joints[*place].name);
@@ -65,7 +65,7 @@ impl Telescope {
         if whole.chars().count() <= MAX_NAME { whole } else { ends().chars().take(MAX_NAME).collect() }
     }
 
-    /// The share of the sum that each of the joints has.
+    /// The fraction of the sum for each of the joints.
     fn shares<'j>(&self, joints: &'j [Joint]) -> Vec<(&'j str, BigRational)> {
         let factor = |mimic: &Mimic| &mimic.multiplier / &self.stride;
         let followers = self.followers.iter().map(|(place, _)| &joints[*place]);
@@ -73,7 +73,7 @@ impl Telescope {
         [(joints[self.leader].name.as_str(), self.stride.recip())].into_iter().chain(shares).collect()
     }
 
-    /// What a user should know of it.
+    /// Notes for the user.
     pub fn notes(&self, joints: &[Joint]) -> Vec<String> {
         let share = |(name, share): (&str, BigRational)| {
             format!("{} is {} of it", shown(name), share.to_f64().unwrap_or(f64::NAN))
@@ -86,7 +86,7 @@ impl Telescope {
         )]
     }
 
-    /// The sum as a joint, in the place of the leader.
+    /// The sum as a joint, at the position of the leader.
     fn joint(&self, joints: &[Joint]) -> Joint {
         let leader = &joints[self.leader];
         let stride = self.stride.to_f64().unwrap_or(f64::NAN);
@@ -94,7 +94,7 @@ impl Telescope {
             let (a, b) = (low * stride, high * stride);
             (a.min(b), a.max(b))
         };
-        // A joint's limits as those of the sum.
+        // A joint's limits, converted to the sum.
         let of_sum = |(joint, share): (&Joint, &BigRational)| {
             let factor = share.to_f64()?;
             let (a, b) = joint.limits.map(|(low, high)| (low / factor, high / factor))?;

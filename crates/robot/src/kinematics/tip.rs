@@ -1,15 +1,15 @@
-//! The tip link of a chain where none is given: [`TipChoice`].
+//! The default tip link of a chain: [`TipChoice`].
 
 use std::fmt;
 
 use crate::model::{JointType, Robot, listing};
 use crate::{Error, ErrorKind, Result};
 
-/// Names of tip frames, the preferred one first: `tool0` and `flange` are ROS-Industrial's.
+/// Names of tip frames, the preferred one first. `tool0` and `flange` are those of ROS-Industrial.
 const FRAMES: [&str; 4] = ["tool0", "flange", "tcp", "ee_link"];
-/// A name that is suggested after those, and never taken by default: most robots with feet have several.
+/// A name that is suggested after those, but never used by default, because most robots with feet have several.
 const FOOT: &str = "foot";
-/// Words of a name that belongs to one of several limbs.
+/// Words in the names of links that belong to one of several limbs.
 const SIDES: [&str; 4] = ["left", "right", "l", "r"];
 /// Characters between the words of a name.
 const SEPARATORS: [char; 5] = ['_', '-', '.', '/', ':'];
@@ -18,11 +18,11 @@ const SEPARATORS: [char; 5] = ['_', '-', '.', '/', ':'];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TipChoice {
-    /// By its name.
+    /// By name.
     Given,
-    /// It is the only link without links below it.
+    /// It is the only leaf link.
     OnlyLeaf,
-    /// It is the only link with this name of a tip frame, a prefix aside: `tool0`, `robot_tool0`.
+    /// It is the only link with this name of a tip frame, apart from a prefix: `tool0`, `robot_tool0`.
     OnlyFrame(&'static str),
 }
 
@@ -38,12 +38,12 @@ impl fmt::Display for TipChoice {
 }
 
 impl Robot {
-    /// The tip link of chains from the link `base` where none is given: the only leaf, else the only link named `tool0`, `flange`, `tcp` or
-    /// `ee_link`, in that order, with or without a prefix. A name of which there are several, or with `left` or `right` in its prefix, ends the
-    /// search: the robot has several tips.
+    /// The default tip link of chains from the link `base`: the only leaf, else the only link named `tool0`, `flange`,
+    /// `tcp` or `ee_link`, in that order, with or without a prefix. A name that occurs several times, or with `left` or
+    /// `right` in its prefix, ends the search, because the robot has several tips.
     ///
     /// # Errors
-    /// [`ErrorKind::MissingKey`] with [suggestions](Robot::suggested_tips) where none is the only one.
+    /// [`ErrorKind::MissingKey`] with [suggestions](Robot::suggested_tips) when the default is not unique.
     pub(super) fn default_tip(&self, base: usize) -> Result<(usize, TipChoice)> {
         if let [leaf] = self.leaves().as_slice() {
             return Ok((self.link(leaf)?, TipChoice::OnlyLeaf));
@@ -65,8 +65,9 @@ impl Robot {
         }
     }
 
-    /// The links at which a chain from the link at the place `base` may end, the likeliest first: leaves that move. Where a tip frame carries
-    /// something that moves, such as the fingers of a gripper, the chain ends at the frame. All leaves where none moves.
+    /// The possible tip links of a chain from the link with the index `base`, the likeliest first: leaves that move. If
+    /// a tip frame carries moving links, such as the fingers of a gripper, the chain ends at the frame. If no leaf
+    /// moves, all leaves are returned.
     pub fn suggested_tips(&self, base: usize) -> Vec<&str> {
         let leaves = self.leaves();
         let moved: Vec<usize> = (0..self.links().len()).filter(|&link| self.is_moved(base, link)).collect();
@@ -81,7 +82,7 @@ impl Robot {
         if tips.is_empty() { leaves } else { tips.into_iter().map(|link| self.links()[link].name.as_str()).collect() }
     }
 
-    /// Where the name of a link is among those of tip frames.
+    /// The rank of a link's name among those of tip frames.
     fn rank(&self, link: usize) -> usize {
         let names = || FRAMES.iter().chain([&FOOT]);
         names().position(|name| self.is_called(link, name)).unwrap_or(names().count())
@@ -91,7 +92,7 @@ impl Robot {
         self.rank(link) < FRAMES.len()
     }
 
-    /// Whether the name of a link is `word`, or ends in it after a prefix.
+    /// Whether the name of a link is `word`, or a prefix followed by it.
     fn is_called(&self, link: usize, word: &str) -> bool {
         let name = self.links()[link].name.to_ascii_lowercase();
         name.strip_suffix(word).is_some_and(|prefix| prefix.is_empty() || prefix.ends_with(SEPARATORS))
@@ -108,13 +109,13 @@ impl Robot {
         (0..self.joints().len()).any(|joint| moves(joint) && self.is_below(self.ends(joint).1, link))
     }
 
-    /// Whether `link` is carried by the link `above`.
+    /// Whether the link `above` carries `link`.
     fn is_below(&self, link: usize, above: usize) -> bool {
         self.ancestry(link).into_iter().any(|joint| self.ends(joint).0 == above)
     }
 }
 
-/// Whether a word of the name says that the link belongs to one of several limbs.
+/// Whether a word of the name shows that the link belongs to one of several limbs.
 fn has_side(name: &str) -> bool {
     name.split(SEPARATORS).any(|word| SIDES.iter().any(|side| word.eq_ignore_ascii_case(side)))
 }

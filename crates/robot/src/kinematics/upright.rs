@@ -1,11 +1,12 @@
-//! A position with pitch and roll, whatever the yaw, for an arm whose first axis is vertical: [`Chain::upright`]. Main type: [`Upright`].
+//! A position with pitch and roll, for any yaw, of an arm whose first axis is vertical: [`Chain::upright`]. Main type:
+//! [`Upright`].
 //!
-//! With T = (p, Rz(yaw) Ry(pitch) Rx(roll)) the loop is E1 E2 .. En M = T. The first joint and the unknown yaw both turn about verticals, so that
-//! from p = o + Rz(azimuth) (radius, 0, height), o on the first axis, it follows that
+//! With T = (p, Rz(yaw) Ry(pitch) Rx(roll)) the loop is E1 E2 .. En M = T. The first joint and the unknown yaw both
+//! rotate about vertical axes, so from p = o + Rz(azimuth) (radius, 0, height), o on the first axis, it follows that
 //!
 //! E2 .. En M Rx(-roll) Ry(-pitch) Rz(azimuth - yaw) Sx(-radius) Sz(-height) Rz(q1 - azimuth) = 1 shifted by o:
 //!
-//! the loop of a chain with four given joints and a target that never changes.
+//! the loop of a chain with four given joints and a constant target.
 
 use num_traits::{ToPrimitive, Zero};
 
@@ -16,27 +17,28 @@ use crate::spatial::{Pose, angle};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// What is given of a target: the roll, the pitch, the way from the first axis and the height.
+/// The given numbers of a target: roll, pitch, distance from the first axis, and height.
 pub const GIVEN: [&str; 4] = ["roll", "pitch", "radius", "height"];
 
 /// The loop of a chain for its task `position_pitch_roll`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Upright {
-    /// The joints behind the first one, roll, pitch, a turn about the vertical, radius, height, and last the first joint, counted from the target's
-    /// azimuth, with its own name; the task is the pose, which is to be the identity.
+    /// The joints: those after the first one, roll, pitch, a rotation about the vertical, radius, height, and last the
+    /// first joint with its own name. The first joint is measured from the target's azimuth. The task is a pose, and
+    /// its target is the identity.
     pub chain: Chain,
-    /// Where the first axis is, seen from above, in the chain's unit.
+    /// The position of the first axis in the horizontal plane, in the chain's unit.
     pub axis: [BigRational; 2],
     /// Whether the first axis points down.
     pub is_down: bool,
 }
 
 impl Chain {
-    /// The loop for the task `position_pitch_roll`.
+    /// Builds the loop for the task `position_pitch_roll`.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] unless the first joint is not given and turns about an axis along the base's z.
+    /// [`ErrorKind::Unsupported`] if the first joint is given, or does not rotate about an axis along the base's z.
     pub fn upright(&self) -> Result<Upright> {
         let unsupported = |text: &str| Err(Error::new(ErrorKind::Unsupported, text.to_owned()));
         let [first, others @ ..] = self.joints() else { return unsupported("the chain has no joint") };
@@ -86,7 +88,7 @@ impl Chain {
         Ok(Upright { chain, axis, is_down: first.axis[2] < BigRational::zero() })
     }
 
-    /// `name`, or where a joint has it `name` with a number behind it.
+    /// `name`, or `name` with a number appended if a joint already has it.
     fn free(&self, name: &str, of: impl Fn(&Joint) -> &String) -> String {
         let is_free = |name: &String| !self.joints().iter().any(|joint| of(joint) == name);
         let numbered = (2..).map(|k| format!("{name}{k}"));
@@ -95,7 +97,8 @@ impl Chain {
 }
 
 impl Upright {
-    /// The target of the loop and the values of its given joints, for a target of the task and the values of the chain's own given joints.
+    /// Converts a target of the task and the values of the chain's given joints to the target of the loop and the
+    /// values of its given joints.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a target of another task.
@@ -112,7 +115,7 @@ impl Upright {
         Ok((Target::Pose(Pose::identity()), values))
     }
 
-    /// The joint values of the chain for those of the loop.
+    /// Converts joint values of the loop to those of the chain.
     pub fn answer(&self, target: &Target, values: &[f64]) -> Vec<f64> {
         let Target::PositionPitchRoll { point, .. } = *target else { return Vec::new() };
         let [x, y] = self.seen_from_above();
@@ -123,7 +126,7 @@ impl Upright {
         [first].into_iter().chain(values[..own].iter().copied()).collect()
     }
 
-    /// The place in the chain of a joint of the loop; none for one that is only of the loop.
+    /// The index in the chain of a joint of the loop; `None` for a joint that only the loop has.
     pub fn place(&self, joint: usize) -> Option<usize> {
         let count = self.chain.joints().len();
         let own = count - GIVEN.len() - 2;

@@ -1,5 +1,5 @@
-//! What [`Chain::new`](super::Chain::new) demands of its parts. Each fault knows the part and key that it is about, so
-//! that the reader of files can name the line.
+//! Validation of the parts of [`Chain::new`](super::Chain::new). Each fault has its part and key, so that a file reader
+//! can report the line.
 
 use num_traits::{One, Signed, Zero};
 
@@ -18,7 +18,7 @@ const MAX_NAME: usize = limits::NAME_CHARACTERS;
 const MAX_TEXT: usize = limits::TEXT_CHARACTERS;
 const MAX_SYMBOL: usize = limits::SYMBOL_CHARACTERS;
 
-/// The part of a chain that a fault is about.
+/// The part of a chain that has a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     Chain,
@@ -28,7 +28,7 @@ pub enum Part {
     Task,
 }
 
-/// A mistake, with its part and key.
+/// A fault with its part and key.
 #[derive(Debug)]
 pub struct Fault {
     pub part: Part,
@@ -38,7 +38,7 @@ pub struct Fault {
 
 type Checked = Result<(), Fault>;
 
-/// Checks everything; the first fault is returned.
+/// Checks everything. Returns the first fault.
 pub fn check(parts: &ChainParts) -> Checked {
     check_texts(parts)?;
     check_count(parts.joints.len())?;
@@ -63,7 +63,7 @@ fn fault(part: Part, key: &'static str, kind: ErrorKind, message: String) -> Fau
     Fault { part, key, error: Error::new(kind, message) }
 }
 
-/// A fault of a joint, with its name in front.
+/// A fault of a joint, with its name in the message.
 fn joint_fault(index: usize, joint: &Joint, key: &'static str, kind: ErrorKind, message: &str) -> Fault {
     fault(Part::Joint(index), key, kind, joint_message(&joint.name, message))
 }
@@ -88,7 +88,7 @@ fn check_texts(parts: &ChainParts) -> Checked {
     Ok(())
 }
 
-/// Refuses no joints and too many.
+/// Refuses an empty chain and too many joints.
 pub fn check_count(joints: usize) -> Checked {
     if (1..=MAX_JOINTS).contains(&joints) {
         return Ok(());
@@ -123,7 +123,7 @@ fn check_joint(index: usize, joint: &Joint) -> Checked {
     }
 }
 
-/// Whether doubles hold every sum of the coordinates.
+/// Whether every sum of the coordinates is in the range of doubles.
 fn is_near(point: &ExactVector) -> bool {
     let bound = BigRational::from_integer(BigInt::from(limits::COORDINATE));
     point.iter().all(|x| x.abs() <= bound)
@@ -147,7 +147,8 @@ fn check_unique(index: usize, joints: &[Joint]) -> Checked {
     Ok(())
 }
 
-/// In a planar task revolute axes are normal to the plane and prismatic axes lie in it, as far as a description may be off (`within`, in radians).
+/// Checks that, in a planar task, revolute axes are normal to the plane and prismatic axes are in it, within the
+/// tolerance `within` \[rad\].
 pub(super) fn check_plane(index: usize, joint: &Joint, plane: Plane, within: f64) -> Checked {
     let normal = ["x", "y", "z"][plane.normal()];
     let off = match joint.kind {
@@ -206,7 +207,7 @@ fn check_direction(parts: &ChainParts) -> Checked {
     Err(fault(Part::Task, "direction", ErrorKind::BadValue, message))
 }
 
-/// A leader must be another joint of the chain that follows none; a factor must not be zero.
+/// Checks that a leader is another joint of the chain, is not a mimic joint, and that the factor is not zero.
 fn check_mimics(parts: &ChainParts) -> Checked {
     for (index, joint) in parts.joints.iter().enumerate() {
         let Some(mimic) = &joint.mimic else { continue };
@@ -237,7 +238,7 @@ fn check_mimics(parts: &ChainParts) -> Checked {
     Ok(())
 }
 
-/// Joints with given values must be there, once each, and leave one to solve for.
+/// Checks that given joints exist, are listed once, and leave at least one joint to solve for.
 fn check_given(parts: &ChainParts) -> Checked {
     let bad = |kind, message| Err(fault(Part::Chain, "given", kind, format!("`given`: {message}")));
     let names: Vec<&str> = parts.joints.iter().map(|joint| joint.name.as_str()).collect();

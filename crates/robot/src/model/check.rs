@@ -1,4 +1,4 @@
-//! What [`Robot::new`](super::Robot::new) demands of its parts.
+//! Validation of the parts of [`Robot::new`](super::Robot::new).
 
 use std::collections::{HashMap, HashSet};
 
@@ -10,12 +10,12 @@ use groebot_algebra::escape::is_hidden;
 use groebot_algebra::limits;
 use groebot_algebra::number::BigRational;
 
-/// How many joints may follow in turn.
+/// Maximum length of a chain of mimic joints.
 const MAX_FOLLOWERS: usize = limits::FOLLOWERS;
-/// How many names a message lists.
+/// Maximum number of names in a message.
 const LISTED: usize = 12;
 
-/// Names for a message: all of them, or some and how many more.
+/// Names for a message: all, or some with the number of the others.
 pub(crate) fn listing<'n>(names: impl ExactSizeIterator<Item = &'n str>) -> String {
     let more = names.len().saturating_sub(LISTED);
     let names: Vec<String> = names.take(LISTED).map(|name| format!("`{}`", shown(name))).collect();
@@ -29,13 +29,14 @@ pub(crate) fn some_among<'n>(name: &str, allowed: impl Iterator<Item = &'n str>)
     format!("{}; allowed: {}", did_you_mean(name, &allowed), listing(allowed.into_iter()))
 }
 
-/// Whether `text` has at most `limit` characters and no control characters but line ends and tabs.
+/// Whether `text` has at most `limit` characters and no control characters except line ends and tabs.
 pub(crate) fn is_plain(text: &str, limit: usize) -> bool {
     text.chars().count() <= limit && !text.chars().any(|c| is_hidden(c) && c != '\n' && c != '\t')
 }
 
-/// Checks all but how the links hang together; the places of the parent and the child link of each joint. What is wrong with a single joint or actuator is
-/// added to the faults: such a joint follows no other, such an actuator is left out.
+/// Checks everything except the tree structure. Returns the indices of the parent and the child link of each joint.
+/// Errors of a single joint or actuator are added to the faults. Such a joint loses its mimic law, and such an actuator
+/// is removed.
 pub fn parts(parts: &mut RobotParts) -> Result<Vec<(usize, usize)>> {
     check_name(&parts.name, None, "robot")?;
     let links = index_links(&parts.links)?;
@@ -71,7 +72,7 @@ pub fn parts(parts: &mut RobotParts) -> Result<Vec<(usize, usize)>> {
     Ok(ends)
 }
 
-/// The place of `name` among `names`.
+/// The index of `name` in `names`.
 ///
 /// # Errors
 /// [`ErrorKind::UnknownName`] with the nearest name.
@@ -155,7 +156,8 @@ fn check_motion(joint: &Joint) -> Result<()> {
     }
 }
 
-/// The joint's leader must exist, and following leaders must come to an end, be it at one whose own leader does not exist.
+/// Checks that the joint's leader exists and that the chain of leaders ends. It may end at a joint whose own leader
+/// does not exist.
 fn check_mimic(joint: &Joint, joints: &[Joint], index: &HashMap<&str, usize>) -> Result<()> {
     let (mut follower, mut steps) = (joint, 0);
     while let Some(mimic) = &follower.mimic {
@@ -189,7 +191,7 @@ fn ends_of(joint: &Joint, links: &[Link], index: &HashMap<&str, usize>) -> Resul
     Ok((find("parent", &joint.parent)?, find("child", &joint.child)?))
 }
 
-/// The joint above each link; a link with two is in a loop.
+/// The parent joint of each link. A link with two is in a loop.
 pub fn parents(parts: &RobotParts, ends: &[(usize, usize)]) -> Result<Vec<Option<usize>>> {
     let joints = &parts.joints;
     let mut above: Vec<Option<usize>> = vec![None; parts.links.len()];
@@ -204,7 +206,7 @@ pub fn parents(parts: &RobotParts, ends: &[(usize, usize)]) -> Result<Vec<Option
     Ok(above)
 }
 
-/// The link that hangs on none.
+/// The link without a parent joint.
 pub fn root(links: &[Link], above: &[Option<usize>]) -> Result<usize> {
     let roots: Vec<usize> = (0..links.len()).filter(|link| above[*link].is_none()).collect();
     match roots.as_slice() {

@@ -1,4 +1,4 @@
-//! What is wrong with one part of a description while the rest is sound. Main type: [`Fault`].
+//! Faults: errors of single parts of a description that is otherwise usable. Main type: [`Fault`].
 
 use crate::Error;
 
@@ -9,15 +9,16 @@ pub enum Part {
     Link(String),
     /// A joint.
     Joint(String),
-    /// An actuator, which is left out.
+    /// An actuator, which is ignored.
     Actuator(String),
 }
 
-/// A fault of one part. Who uses the part refuses it with this error; a chain elsewhere in the robot is sound, and has a note.
+/// A fault of one part. A caller that uses the part gets this error. A chain elsewhere in the robot is usable and gets
+/// a note.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The part.
     pub part: Part,
-    /// What is wrong, with the name of the part and its line.
+    /// The error, with the name of the part and its line.
     pub error: Error,
 }

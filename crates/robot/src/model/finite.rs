@@ -1,4 +1,4 @@
-//! Whether doubles hold the numbers of a link or a joint: descriptions have exact numbers, and 1e400 is one.
+//! Checks that numbers of a link or a joint are in the range of doubles. Descriptions have exact numbers such as 1e400.
 
 use num_traits::ToPrimitive;
 
@@ -7,20 +7,20 @@ use crate::document::shown;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// Fails for a link with a number that no double holds.
+/// Checks that the numbers of a link are in the range of doubles.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] with the link, what the number is of, and the line.
+/// [`ErrorKind::BadValue`] with the link, the quantity and the line.
 pub fn check_link(link: &Link) -> Result<()> {
     let mass = link.mass.iter().flat_map(|mass| [("mass", masses(mass)), ("centre of mass", frame(&mass.origin))]);
     let shapes = link.visuals.iter().chain(&link.collisions).map(|shape| ("shape", shape_numbers(shape)));
     check(mass.chain(shapes)).map_err(|what| fault("link", &link.name, what, link.line))
 }
 
-/// Fails for a joint with a number that no double holds.
+/// Checks that the numbers of a joint are in the range of doubles.
 ///
 /// # Errors
-/// As [`check_link`].
+/// Those of [`check_link`].
 pub fn check_joint(joint: &Joint) -> Result<()> {
     let limits = joint.limits.map_or(Vec::new(), |(lower, upper)| vec![lower, upper]);
     let law = joint.mimic.iter().flat_map(|mimic| [double(&mimic.multiplier), double(&mimic.offset)]);
@@ -36,26 +36,26 @@ pub fn check_joint(joint: &Joint) -> Result<()> {
     check(numbers).map_err(|what| fault("joint", &joint.name, what, joint.line))
 }
 
-/// Fails for a link of which doubles do not hold the inertia in its own frame.
+/// Checks that a link's inertia in its own frame is in the range of doubles.
 ///
 /// # Errors
-/// As [`check_link`].
+/// Those of [`check_link`].
 pub fn check_inertia(link: &Link) -> Result<()> {
     let inertia = link.inertia();
     let numbers = inertia.rotational().iter().chain(inertia.centre_of_mass().iter()).copied().collect();
     check([("inertia", numbers)]).map_err(|what| fault("link", &link.name, what, link.line))
 }
 
-/// Fails for a joint of which doubles do not hold the law by which it follows one that leads itself.
+/// Checks that a joint's mimic law relative to its independent leader is in the range of doubles.
 ///
 /// # Errors
-/// As [`check_link`].
+/// Those of [`check_link`].
 pub fn check_law(joint: &Joint, law: &Mimic) -> Result<()> {
     let found = check([("law by its leaders", law.law().to_vec())]);
     found.map_err(|what| fault("joint", &joint.name, what, joint.line))
 }
 
-/// What has a number that is not finite.
+/// The name of the first quantity with a number that is not finite, as an error.
 fn check<'w>(numbers: impl IntoIterator<Item = (&'w str, Vec<f64>)>) -> std::result::Result<(), &'w str> {
     let is_bad = |(_, numbers): &(&str, Vec<f64>)| !numbers.iter().all(|number| number.is_finite());
     numbers.into_iter().find(is_bad).map_or(Ok(()), |(what, _)| Err(what))

@@ -1,4 +1,4 @@
-//! Joints of a robot, what places them and what moves them. Main type: [`Joint`].
+//! Joints of a robot, with their frames, limits and actuators. Main type: [`Joint`].
 
 use std::fmt;
 
@@ -11,28 +11,28 @@ use crate::spatial::{Pose, rotation};
 use crate::{Error, ErrorKind};
 use groebot_algebra::number::BigRational;
 
-/// The most turns of a joint for one of its leader, where both are found.
+/// Maximum integer multiplier of a mimic joint for which both joints are solved.
 const MOST_TURNS: i32 = 8;
 
-/// How a joint of a robot moves.
+/// Type of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointType {
-    /// Not at all.
+    /// Fixed.
     Fixed,
-    /// It turns about its axis, between limits.
+    /// Rotates about its axis, with limits.
     Revolute,
-    /// It turns about its axis without limits.
+    /// Rotates about its axis without limits.
     Continuous,
-    /// It slides along its axis.
+    /// Translates along its axis.
     Prismatic,
-    /// In all six directions; no chain can have one.
+    /// Six degrees of freedom. It cannot be in a chain.
     Floating,
-    /// In a plane; no chain can have one.
+    /// Moves in a plane. It cannot be in a chain.
     Planar,
 }
 
 impl JointType {
-    /// All of them.
+    /// All joint types.
     pub const ALL: [JointType; 6] = [
         JointType::Revolute,
         JointType::Continuous,
@@ -59,23 +59,23 @@ impl JointType {
         !matches!(self, JointType::Fixed | JointType::Floating)
     }
 
-    /// Whether one number says where it is: it turns or slides.
+    /// Whether it has one degree of freedom: it is revolute or prismatic.
     pub fn is_single(self) -> bool {
         matches!(self, JointType::Revolute | JointType::Continuous | JointType::Prismatic)
     }
 }
 
-/// A frame in another one, and how a file gives its rotation.
+/// A frame in another one, with the form of its rotation in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Origin {
     /// The frame, exactly.
     pub placement: Placement,
-    /// Roll, pitch and yaw as given \[rad\]; `None` where the rotation is given in another form.
+    /// Roll, pitch and yaw as given \[rad\]; `None` if the rotation is given in another form.
     pub rpy: Option<ExactVector>,
 }
 
 impl Origin {
-    /// The outer frame itself.
+    /// The identity.
     pub fn identity() -> Self {
         Placement::identity().into()
     }
@@ -85,7 +85,7 @@ impl Origin {
         self.placement.pose()
     }
 
-    /// Roll, pitch and yaw \[rad\]: those that are given, else such that the rotation is the same.
+    /// Roll, pitch and yaw \[rad\]: the given ones, or angles of the same rotation.
     pub fn angles(&self) -> [f64; 3] {
         match &self.rpy {
             Some(rpy) => rpy.each_ref().map(|angle| angle.to_f64().unwrap_or(f64::NAN)),
@@ -105,40 +105,40 @@ impl From<Placement> for Origin {
 pub struct Joint {
     /// Its name, unique in the robot.
     pub name: String,
-    /// How it moves.
+    /// The type of the joint.
     pub kind: JointType,
-    /// The link that it hangs on.
+    /// The parent link.
     pub parent: String,
-    /// The link that it moves; the frame of that link is the joint's.
+    /// The child link. Its frame is the joint's frame.
     pub child: String,
     /// Its frame in the parent's frame, at the value zero.
     pub origin: Origin,
-    /// The direction of its axis in its own frame, of any length; not looked at when it has none.
+    /// The direction of its axis in its own frame, of any length; ignored for a joint without an axis.
     pub axis: ExactVector,
-    /// Its symbol in the source's formulas: `q3` there is `3` here.
+    /// Its symbol in the source's formulas: `3` if the source writes `q3`.
     pub symbol: Option<String>,
-    /// Least and greatest value \[rad or m\].
+    /// Minimum and maximum value \[rad or m\].
     pub limits: Option<(f64, f64)>,
-    /// The greatest rate \[rad/s or m/s\].
+    /// Maximum velocity \[rad/s or m/s\].
     pub speed: Option<f64>,
-    /// The greatest torque or force \[N m or N\].
+    /// Maximum torque or force \[N m or N\].
     pub effort: Option<f64>,
     /// Viscous friction \[N m s/rad or N s/m\].
     pub damping: f64,
     /// Coulomb friction \[N m or N\].
     pub friction: f64,
-    /// The inertia of the rotor, seen from the joint \[kg m^2 or kg\].
+    /// The rotor inertia reflected to the joint \[kg m^2 or kg\].
     pub armature: f64,
-    /// The joint that it follows.
+    /// The law of a mimic joint.
     pub mimic: Option<Mimic>,
-    /// What the reader made of its numbers.
+    /// Notes of the reader about its numbers.
     pub notes: Vec<String>,
     /// Its line in the file.
     pub line: Option<usize>,
 }
 
 impl Joint {
-    /// A joint with its frame at that of `parent`, its axis along x and nothing else known of it.
+    /// A joint with the frame of `parent`, its axis along x, and default values.
     pub fn new(name: &str, kind: JointType, parent: &str, child: &str) -> Self {
         Joint {
             name: name.to_owned(),
@@ -167,48 +167,48 @@ impl Joint {
     }
 }
 
-/// An actuator, and the joints that it moves: NAO's two hips are turned by one.
+/// An actuator and the joints that it moves. For example NAO has one actuator for two hip joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Actuator {
     /// Its name, unique in the robot.
     pub name: String,
-    /// The joints that it moves, each with the turns of the actuator for one of the joint.
+    /// The joints that it moves, each with the actuator's rotation for a unit rotation of the joint.
     pub joints: Vec<(String, f64)>,
 }
 
-/// That a joint follows another one: value = multiplier * leader + offset, as `<mimic>` says in a URDF.
+/// The law of a mimic joint: value = multiplier * leader + offset, as in URDF's `<mimic>`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mimic {
-    /// The joint that is followed.
+    /// The leader joint.
     pub leader: String,
-    /// The factor.
+    /// The multiplier.
     #[serde(with = "exact_serde::number")]
     pub multiplier: BigRational,
-    /// The summand, in radians or the length unit.
+    /// The offset, in radians or the length unit.
     #[serde(with = "exact_serde::number")]
     pub offset: BigRational,
 }
 
 impl Mimic {
-    /// The factor and the summand.
+    /// The multiplier and the offset.
     pub fn law(&self) -> [f64; 2] {
         [&self.multiplier, &self.offset].map(|number| number.to_f64().unwrap_or(f64::NAN))
     }
 
-    /// The value of the joint where its leader has the value `leader`.
+    /// The value of the joint for the value `leader` of its leader.
     pub fn value(&self, leader: f64) -> f64 {
         let [factor, summand] = self.law();
         factor * leader + summand
     }
 
-    /// The factor, when it is a whole number of a few turns at most.
+    /// The multiplier, if it is a small integer.
     pub fn whole(&self) -> Option<i32> {
         let factor = self.multiplier.is_integer().then(|| self.multiplier.to_i32()).flatten()?;
         (factor.abs() <= MOST_TURNS).then_some(factor)
     }
 
-    /// That of a joint that follows the one that this is about by `outer`.
+    /// The composed law of a joint that follows this joint by `outer`.
     #[must_use]
     pub fn then(&self, outer: &Mimic) -> Mimic {
         let offset = &outer.multiplier * &self.offset + &outer.offset;

@@ -1,4 +1,4 @@
-//! Links of a robot: what they weigh and what shape they have. Main type: [`Link`].
+//! Links of a robot: inertia and shapes. Main type: [`Link`].
 
 use std::fmt;
 
@@ -9,33 +9,34 @@ use super::Origin;
 use crate::spatial::{Inertia, Pose};
 use groebot_algebra::number::BigRational;
 
-/// How many points stand for a circle.
+/// Number of points that approximate a circle.
 const ROUND: usize = 16;
 
-/// One rigid body. Its frame is the frame of the joint above it.
+/// One rigid body. Its frame is the frame of its parent joint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Link {
     /// Its name, unique in the robot.
     pub name: String,
-    /// What it weighs; a link without mass is a frame.
+    /// Its inertia; a link without mass is a frame.
     pub mass: Option<Mass>,
-    /// What it looks like.
+    /// Visual shapes.
     pub visuals: Vec<Shape>,
-    /// What it collides with.
+    /// Collision shapes.
     pub collisions: Vec<Shape>,
-    /// What the reader left out, and why.
+    /// Notes: shapes that the reader ignored, with the reason.
     pub notes: Vec<String>,
     /// Its line in the file.
     pub line: Option<usize>,
 }
 
 impl Link {
-    /// A link without mass and shape.
+    /// A link without mass and shapes.
     pub fn new(name: &str) -> Self {
         Link { name: name.to_owned(), ..Link::default() }
     }
 
-    /// What it looks like, else what it collides with, of what `show` can show; and whether it has a shape and none of them can be shown.
+    /// The visual shapes that `show` supports, else the collision shapes that it supports. Also returns whether there
+    /// are shapes but none is supported.
     pub fn seen<T>(&self, mut show: impl FnMut(&Shape) -> Option<T>) -> (Vec<T>, bool) {
         let mut all = |shapes: &[Shape]| -> Vec<T> { shapes.iter().filter_map(&mut show).collect() };
         let visuals = all(&self.visuals);
@@ -44,13 +45,13 @@ impl Link {
         (seen, hidden)
     }
 
-    /// What it weighs, in doubles and its own frame.
+    /// Its inertia in doubles, in its own frame.
     pub fn inertia(&self) -> Inertia {
         self.mass.as_ref().map_or(Inertia::none(), Mass::inertia)
     }
 }
 
-/// Mass, centre of mass and inertia of a link, exactly as described.
+/// Mass, centre of mass and inertia tensor of a link, exactly as described.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mass {
     /// The mass \[kg\].
@@ -62,32 +63,33 @@ pub struct Mass {
 }
 
 impl Mass {
-    /// The same in doubles, in the link's frame. No check is made whether a body can have it: [`Inertia::new`] tells.
+    /// The inertia in doubles, in the link's frame. It is not checked for physical consistency: [`Inertia::new`] does
+    /// that.
     pub fn inertia(&self) -> Inertia {
         let double = |exact: &BigRational| exact.to_f64().unwrap_or(f64::NAN);
         let [xx, xy, xz, yy, yz, zz] = self.moments.each_ref().map(double);
         let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-        Inertia::told(double(&self.mass), Point3::origin(), tensor).placed(&self.origin.pose())
+        Inertia::unchecked(double(&self.mass), Point3::origin(), tensor).placed(&self.origin.pose())
     }
 }
 
-/// A body that is seen, or that collides. Metres and radians.
+/// A visual or a collision shape. Metres and radians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// Its name, if it has one.
+    /// Its name, if there is one.
     pub name: Option<String>,
     /// The origin of its frame in the link's frame.
     pub xyz: [f64; 3],
     /// Roll, pitch and yaw of its frame in the link's frame, as in a URDF.
     pub rpy: [f64; 3],
-    /// The body, in its frame.
+    /// The solid, in its frame.
     pub solid: Solid,
     /// Red, green, blue and opacity, from 0 to 1.
     pub colour: Option<[f64; 4]>,
 }
 
 impl Shape {
-    /// A shape without a name and a colour, at the link's frame.
+    /// A shape without name and colour, with the link's frame.
     pub fn new(solid: Solid) -> Self {
         Shape { name: None, xyz: [0.0; 3], rpy: [0.0; 3], solid, colour: None }
     }
@@ -99,44 +101,44 @@ impl Shape {
     }
 }
 
-/// A solid body. Metres.
+/// A solid. Metres.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Solid {
-    /// A box about the origin.
+    /// A box centred at the origin.
     Box {
-        /// Its whole sides along x, y and z.
+        /// Its side lengths along x, y and z.
         size: [f64; 3],
     },
-    /// A cylinder about the z axis, its middle at the origin.
+    /// A cylinder along the z axis, centred at the origin.
     Cylinder {
         /// Its radius.
         radius: f64,
         /// Its height.
         length: f64,
     },
-    /// A ball about the origin.
+    /// A sphere centred at the origin.
     Sphere {
         /// Its radius.
         radius: f64,
     },
-    /// A cylinder about the z axis with half balls at both ends, its middle at the origin.
+    /// A capsule along the z axis, centred at the origin: a cylinder with half spheres at both ends.
     Capsule {
         /// Its radius.
         radius: f64,
-        /// The height of the cylinder, without the half balls.
+        /// The length of the cylinder, without the half spheres.
         length: f64,
     },
-    /// What a file of triangles holds.
+    /// A triangle mesh in a file.
     Mesh {
-        /// The file, as the description names it: a path, or `package://name/path`.
+        /// The file as named in the description: a path, or `package://name/path`.
         path: String,
-        /// Factors along x, y and z.
+        /// Scale factors along x, y and z.
         scale: [f64; 3],
     },
 }
 
 impl Solid {
-    /// The name of the kind: `box`, `cylinder`, `sphere`, `capsule` or `mesh`.
+    /// The name of its type: `box`, `cylinder`, `sphere`, `capsule` or `mesh`.
     pub fn name(&self) -> &'static str {
         match self {
             Solid::Box { .. } => "box",
@@ -147,7 +149,8 @@ impl Solid {
         }
     }
 
-    /// Points whose hull is the solid, or nearly so, in its frame \[m\]; none of a mesh, whose points are in a file: see [`Meshes::points`](super::Meshes::points).
+    /// Points whose convex hull is approximately the solid, in its frame \[m\]. Empty for a mesh, whose points are in a
+    /// file: see [`Meshes::points`](super::Meshes::points).
     pub fn points(&self) -> Vec<Point3<f64>> {
         let signs = [-0.5, 0.5];
         let circle = |radius: f64, z: f64| {

@@ -1,4 +1,4 @@
-//! Files of triangles that shapes name: where they are, and their points. Main type: [`Meshes`].
+//! Mesh files of shapes: their location and their triangles. Main type: [`Meshes`].
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -10,20 +10,20 @@ use crate::document::{read_bytes, shown};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 
-/// The longest file that is read, in bytes.
+/// Maximum size of a mesh file in bytes.
 pub const MESH_LIMIT: u64 = limits::MESH_BYTES;
 
-/// The triangles of a mesh, as places among its points.
+/// A triangle mesh with indexed points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
     /// The points \[m\].
     pub points: Vec<Point3<f64>>,
-    /// The corners of each triangle.
+    /// The indices of each triangle's corners.
     pub triangles: Vec<[u32; 3]>,
 }
 
 impl Surface {
-    /// Whether all points are on a plane, up to a share `within` of how far they are apart.
+    /// Whether all points are in a plane, up to the fraction `within` of their extent.
     pub(super) fn is_flat(&self, within: f64) -> bool {
         let Some(a) = self.points.first() else { return true };
         let farthest = |distance: &dyn Fn(&Point3<f64>) -> f64| {
@@ -39,21 +39,21 @@ impl Surface {
     }
 }
 
-/// The folders in which the files of meshes are looked for.
+/// The folders in which mesh files are searched.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Meshes {
     folders: Vec<PathBuf>,
 }
 
 impl Meshes {
-    /// Beside the description at `file`, and in all folders above it: `package://name/path` is `path` in one that is called `name`, or
-    /// `name/path` in any.
+    /// Searches in the folder of the description `file` and in all folders above it. `package://name/path` is `path` in
+    /// a folder with the name `name`, or `name/path` in any folder.
     pub fn beside(file: &Path) -> Self {
         let full = std::path::absolute(file).unwrap_or(file.to_owned());
         Meshes { folders: full.ancestors().skip(1).map(Path::to_owned).collect() }
     }
 
-    /// The file that a description calls `path`; `None` where there is none.
+    /// The file for the description's `path`; `None` if it does not exist.
     pub fn find(&self, path: &str) -> Option<PathBuf> {
         let plain = path.strip_prefix("file://").unwrap_or(path);
         let Some(rest) = plain.strip_prefix("package://").or(plain.strip_prefix("model://")) else {
@@ -68,20 +68,21 @@ impl Meshes {
         self.folders.iter().flat_map(inside).flatten().find(|file| file.is_file())
     }
 
-    /// Points whose hull is the solid, or nearly so, in its frame \[m\]: of a mesh the corners of its triangles.
+    /// Points whose convex hull is approximately the solid, in its frame \[m\]. For a mesh they are the corners of its
+    /// triangles.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] for a file that is not there or cannot be read; [`ErrorKind::Unsupported`] for another format than STL;
-    /// [`ErrorKind::Syntax`] for a file that is no STL, with the line or the triangle; [`ErrorKind::BadValue`] beyond a hundred megabytes, for a corner
-    /// that is not finite, and for a file without triangles.
+    /// [`ErrorKind::Io`] for a missing or unreadable file; [`ErrorKind::Unsupported`] for a format other than STL;
+    /// [`ErrorKind::Syntax`] for a file that is not STL, with the line or the triangle; [`ErrorKind::BadValue`] above a
+    /// hundred megabytes, for a corner that is not finite, and for a file without triangles.
     pub fn points(&self, solid: &Solid) -> Result<Vec<Point3<f64>>> {
         if let Solid::Mesh { .. } = solid { Ok(self.triangles(solid)?.points) } else { Ok(solid.points()) }
     }
 
-    /// The triangles of a mesh, in its frame; those of another solid, which has none, are empty.
+    /// The triangles of a mesh, in its frame; empty for another solid.
     ///
     /// # Errors
-    /// As [`Meshes::points`].
+    /// Those of [`Meshes::points`].
     pub fn triangles(&self, solid: &Solid) -> Result<Surface> {
         let Solid::Mesh { path, scale } = solid else {
             return Ok(Surface { points: Vec::new(), triangles: Vec::new() });
@@ -95,7 +96,7 @@ impl Meshes {
         read_stl(&file, *scale).map_err(|error| error.in_file(&file))
     }
 
-    /// The triangles of a mesh; where they cannot be read the reason joins `notes`, once.
+    /// The triangles of a mesh. If they cannot be read, the reason is added to `notes`, once.
     pub fn triangles_or_note(&self, solid: &Solid, notes: &mut Vec<String>) -> Option<Surface> {
         self.triangles(solid)
             .map_err(|error| {
@@ -108,7 +109,7 @@ impl Meshes {
     }
 }
 
-/// Whether a mesh in STL is a text.
+/// Whether an STL mesh is a text file.
 pub(super) fn is_text(file: &Path) -> bool {
     read_bytes(file, MESH_LIMIT).is_ok_and(|bytes| stl::is_text(&bytes))
 }
@@ -123,7 +124,7 @@ fn read_stl(file: &Path, scale: [f64; 3]) -> Result<Surface> {
     }
     let (mut points, mut places) = (Vec::new(), HashMap::new());
     let mut place = |corner: [f32; 3]| {
-        // A file of at most a hundred megabytes has fewer corners than 2^32.
+        // A file of at most a hundred megabytes has fewer than 2^32 corners.
         *places.entry(corner.map(f32::to_bits)).or_insert_with(|| {
             points.push(Point3::from(std::array::from_fn(|axis| f64::from(corner[axis]) * scale[axis])));
             points.len() as u32 - 1

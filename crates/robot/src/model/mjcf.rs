@@ -1,7 +1,8 @@
 //! Writing of robots as MJCF, the format of MuJoCo: [`Robot::to_mjcf`].
 //!
-//! Every link is a body, every joint that turns or slides a joint with a position servo, and what collides a geom that touches the floor and no other
-//! part of the robot. Joints that follow others are tied to them by equations. The root moves freely over a floor.
+//! Every link becomes a body, and every revolute or prismatic joint a joint with a position servo. Collision shapes
+//! become geoms that touch the floor but no other part of the robot. Mimic joints become equality constraints. The root
+//! is floating above a floor.
 
 use std::path::Path;
 
@@ -14,26 +15,28 @@ use crate::Result;
 use crate::document::shown;
 use crate::spatial::Pose;
 
-/// The deepest level whose lines begin further to the right than those above.
+/// Maximum depth with increasing indentation.
 const MOST_STEMS: usize = 60;
-/// The least half of a solid's side \[m\]: MuJoCo takes no solid of size zero, such as a sphere that stands for a point.
+/// Minimum half side of a solid \[m\]. MuJoCo refuses solids of size zero, such as a sphere that represents a point.
 const LEAST_SIZE: f64 = 1e-6;
-/// The least range of a joint, as a share of its size or of one \[rad or m\]: MuJoCo takes none of equal ends.
+/// Minimum range of a joint, relative to its magnitude or to one \[rad or m\]. MuJoCo refuses an empty range.
 const LEAST_RANGE: f64 = 1e-9;
-/// How thick a mesh is at least, as a share of its length: MuJoCo takes the hull of its points.
+/// Minimum thickness of a mesh relative to its length. MuJoCo computes the convex hull of its points.
 const LEAST_THICKNESS: f64 = 1e-6;
-/// The most triangles of a binary file in STL that MuJoCo reads; it reads no text.
+/// Maximum number of triangles of a binary STL file in MuJoCo. It does not read text STL.
 const MOST_TRIANGLES: usize = 200_000;
-/// By this share of its trace an inertia is raised that is singular to rounding.
+/// Relative increase, by the trace, of an inertia that is singular up to rounding.
 const RAISED: f64 = 1e-12;
 
 impl Robot {
-    /// The robot as MJCF, with its meshes: the names of their files, or the triangles of texts, which MuJoCo does not read. Meshes that `meshes` does not
-    /// find, that are damaged or flat, or in other formats than STL and OBJ are left out; `notes` says so of each. Masses that no body has are made
-    /// possible here, with a note, and by MuJoCo's compiler. [`Robot::check`] reports whether all of the robot was understood.
+    /// Writes the robot as MJCF. Meshes are referenced by file name, or embedded as triangles for text STL, which
+    /// MuJoCo does not read. Meshes that are missing, damaged, flat, or in a format other than STL and OBJ are omitted
+    /// with a note. Physically impossible masses are corrected here, with a note, and by MuJoCo's compiler.
+    /// [`Robot::check`] reports the faults of the robot.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) for a link or a joint with a number that no double holds.
+    /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) for a link or a joint with a number outside the range of
+    /// doubles.
     pub fn to_mjcf(&self, meshes: &Meshes, notes: &mut Vec<String>) -> Result<String> {
         self.check_doubles()?;
         let root = unlike("root", |name| self.joints().iter().any(|joint| joint.name == name));
@@ -54,7 +57,7 @@ impl Robot {
         ))
     }
 
-    /// Fails for a number that no double holds, and for one that follows from such.
+    /// Checks that all numbers, and numbers computed from them, are in the range of doubles.
     fn check_doubles(&self) -> Result<()> {
         for link in self.links() {
             finite::check_link(link).and_then(|()| finite::check_inertia(link))?;
@@ -65,7 +68,7 @@ impl Robot {
         Ok(())
     }
 
-    /// The joints that lead themselves.
+    /// The independent joints.
     fn leaders(&self) -> impl Iterator<Item = &Joint> {
         self.joints().iter().filter(|joint| joint.kind.is_single() && self.law(joint).leader == joint.name)
     }
@@ -92,23 +95,23 @@ impl Robot {
     }
 }
 
-/// What is written on the way through the tree.
+/// State of the writer during the traversal of the tree.
 struct Writer<'r> {
     robot: &'r Robot,
     meshes: &'r Meshes,
     assets: Vec<String>,
     notes: &'r mut Vec<String>,
-    /// The names of the joint by which the root moves, and of a link whose name MuJoCo keeps for the world.
+    /// The names of the root's joint, and of a link whose name MuJoCo reserves for the world.
     root: String,
     world: String,
 }
 
 impl Writer<'_> {
-    /// All bodies, each within the one that carries it.
+    /// All bodies, each inside its parent.
     fn bodies(&mut self) -> String {
         let (robot, children) = (self.robot, self.robot.children());
         let (mut text, mut depth) = (String::new(), 2);
-        // What is still to be written, the next one last: a link and the joint above it, or the end of a body.
+        // Stack of pending items: a link with its parent joint, or the end of a body.
         let mut open = vec![Some((robot.root_place(), None))];
         while let Some(next) = open.pop() {
             let Some((link, joint)) = next else {
@@ -125,7 +128,7 @@ impl Writer<'_> {
         text
     }
 
-    /// The body of a link below `joint`, but for what hangs on it and its end.
+    /// Writes the body of a link with the parent joint `joint`, without its children and its end.
     fn opened(&mut self, link: &Link, joint: Option<&Joint>, stem: &str) -> String {
         let at = joint.map(|joint| placed(&joint.origin.pose())).unwrap_or_default();
         let free = || format!("{stem}  <freejoint name=\"{}\"/>\n", self.root);
@@ -146,7 +149,7 @@ impl Writer<'_> {
         text
     }
 
-    /// The solid and the colour of a geom; none for a mesh that MuJoCo cannot read.
+    /// The solid and the colour of a geom; `None` for a mesh that MuJoCo cannot read.
     fn geom(&mut self, shape: &Shape) -> Option<String> {
         let sizes = |kind: &str, all: &[f64]| {
             let all: Vec<f64> = all.iter().map(|size| size.max(LEAST_SIZE)).collect();
@@ -168,7 +171,8 @@ impl Writer<'_> {
         Some(solid + &colour)
     }
 
-    /// The mesh as attributes: its file, or its triangles where MuJoCo does not read the file; none, with a note, where it takes no such mesh.
+    /// The mesh as attributes: its file, or its triangles if MuJoCo does not read the file; `None`, with a note, for an
+    /// unsupported mesh.
     fn asset(&mut self, solid: &Solid, path: &str, scale: &[f64; 3]) -> Option<String> {
         let of_file = |file: &Path| {
             let file = escaped(&file.to_string_lossy());
@@ -192,17 +196,18 @@ impl Writer<'_> {
     }
 }
 
-/// Whether a mesh is in a format that MuJoCo reads and groebot does not.
+/// Whether a mesh has a format that MuJoCo reads but groebot does not.
 fn is_obj(file: &Path) -> bool {
     file.extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"))
 }
 
-/// The blanks before what is `depth` levels deep; beyond [`MOST_STEMS`] they grow no further, so that a very deep tree stays of linear size.
+/// The indentation at a depth. Beyond [`MOST_STEMS`] it is constant, so that the text of a very deep tree has linear
+/// size.
 fn stem(depth: usize) -> String {
     "  ".repeat(depth.min(MOST_STEMS))
 }
 
-/// The joint of a body; nothing where it is fixed.
+/// The joint of a body; empty for a fixed joint.
 fn moving(joint: &Joint, stem: &str) -> String {
     let kind = match joint.kind {
         JointType::Revolute | JointType::Continuous => "hinge",
@@ -213,11 +218,11 @@ fn moving(joint: &Joint, stem: &str) -> String {
     let range = joint.limits.filter(|_| joint.kind != JointType::Continuous);
     let range = range.map(|(low, high)| (low, high.max(low + LEAST_RANGE * low.abs().max(1.0))));
     let range = range.map(|(low, high)| format!(" limited=\"true\" range=\"{low} {high}\"")).unwrap_or_default();
-    let told = [("damping", joint.damping), ("frictionloss", joint.friction), ("armature", joint.armature)];
-    let told: String =
-        told.iter().filter(|(_, value)| *value != 0.0).map(|(key, value)| format!(" {key}=\"{value}\"")).collect();
+    let dynamics = [("damping", joint.damping), ("frictionloss", joint.friction), ("armature", joint.armature)];
+    let dynamics: String =
+        dynamics.iter().filter(|(_, value)| *value != 0.0).map(|(key, value)| format!(" {key}=\"{value}\"")).collect();
     let name = escaped(&joint.name);
-    format!("{stem}  <joint name=\"{name}\" type=\"{kind}\" axis=\"{x} {y} {z}\"{range}{told}/>\n")
+    format!("{stem}  <joint name=\"{name}\" type=\"{kind}\" axis=\"{x} {y} {z}\"{range}{dynamics}/>\n")
 }
 
 fn inertial(link: &Link, stem: &str, notes: &mut Vec<String>) -> String {
@@ -239,12 +244,12 @@ fn inertial(link: &Link, stem: &str, notes: &mut Vec<String>) -> String {
     )
 }
 
-/// The tensor with the same added to all principal moments where one of them is below zero, so that none is.
+/// Adds a constant to all principal moments of a tensor if one of them is negative, so that none is.
 fn raised(tensor: &Matrix3<f64>) -> Matrix3<f64> {
     let by = |amount: f64| tensor + Matrix3::from_diagonal_element(amount);
     let without =
         |row: usize| (0..3).filter(|column| *column != row).map(|column| tensor[(row, column)].abs()).sum::<f64>();
-    // Gershgorin's circles: no principal moment is further below zero.
+    // Gershgorin's circles bound the most negative principal moment.
     let below = (0..3).map(|row| without(row) - tensor[(row, row)]).fold(0.0, f64::max);
     let slight = RAISED * tensor.trace();
     if below == 0.0 || tensor.cholesky().is_some() {
@@ -253,7 +258,7 @@ fn raised(tensor: &Matrix3<f64>) -> Matrix3<f64> {
     if by(slight).cholesky().is_some() { by(slight) } else { by(below) }
 }
 
-/// A name that none is: `wanted`, or with `_` behind it.
+/// An unused name: `wanted`, or `wanted` followed by `_`.
 fn unlike(wanted: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let mut name = wanted.to_owned();
     while is_taken(&name) {
@@ -262,7 +267,7 @@ fn unlike(wanted: &str, is_taken: impl Fn(&str) -> bool) -> String {
     name
 }
 
-/// Position and rotation as attributes; those that are zero are left out.
+/// Position and rotation as attributes. Zeros are omitted.
 fn placed(pose: &Pose) -> String {
     let (p, q) = (pose.translation.vector, pose.rotation);
     let at = if p.norm() == 0.0 { String::new() } else { format!(" pos=\"{}\"", floats(p.as_slice())) };

@@ -1,9 +1,8 @@
-//! One description of a robot: a tree of links and joints with its masses, shapes and limits. Main type: [`Robot`].
+//! The description of a robot: a tree of links and joints with masses, shapes and limits. Main type: [`Robot`].
 //!
-//! Read from URDF ([`urdf`]) or TOML ([`toml`]), written as URDF
-//! and MJCF ([`mjcf`]). Numbers that place axes and masses are exact, 0.1029 as
-//! 1029/10000, with doubles beside them. A named frame, such as a sole or a hand, is a link without mass behind a fixed joint, as in a
-//! URDF. A [`Chain`](crate::kinematics::Chain) is a path in a robot.
+//! It is read from URDF ([`urdf`]) or TOML ([`toml`]), and written as URDF and MJCF ([`mjcf`]). Positions, directions
+//! and masses are exact (0.1029 is 1029/10000), and available as doubles. A named frame, such as a sole or a hand, is a
+//! link without mass at a fixed joint, as in a URDF. A [`Chain`](crate::kinematics::Chain) is a path in a robot.
 
 mod attributes;
 mod check;

@@ -1,4 +1,4 @@
-//! A tree on paper: one line a link, indented below the link that it hangs on.
+//! The tree of a robot as text: one line for each link, indented below its parent.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use super::{Joint, JointType, Robot};
 use crate::document::shown;
 
 impl Robot {
-    /// The lines of the outline: the branch with the link's name, and how its joint moves.
+    /// The lines of the tree: the branch with the link's name, and the motion of its joint.
     pub fn outline(&self) -> Vec<(String, String)> {
         let children = self.children();
         let mut lines = vec![(shown(self.root()), String::new())];
@@ -22,7 +22,7 @@ impl Robot {
             let (branch, below) =
                 if is_last { ("\u{2514}\u{2500} ", "   ") } else { ("\u{251c}\u{2500} ", "\u{2502}  ") };
             lines.push((format!("{stem}{branch}{}", shown(&self.links()[link].name)), motion(&self.joints()[joint])));
-            // Beyond this depth the stem grows no further, so that a very deep tree stays of linear size.
+            // Beyond this depth the indentation is constant, so that the text of a very deep tree has linear size.
             let deeper = if stem.chars().count() < 120 { stem + below } else { stem };
             push(&mut open, link, &deeper);
         }
@@ -30,7 +30,7 @@ impl Robot {
     }
 }
 
-/// `LKneePitch, revolute, follows LHipPitch`; nothing for a fixed joint.
+/// `LKneePitch, revolute, follows LHipPitch`; empty for a fixed joint.
 fn motion(joint: &Joint) -> String {
     if joint.kind == JointType::Fixed {
         return String::new();
@@ -39,7 +39,7 @@ fn motion(joint: &Joint) -> String {
     format!("{}, {}{follows}", shown(&joint.name), joint.kind.name())
 }
 
-/// The outline, with the joints' names beside the links that they move.
+/// The tree, with the joints' names next to the links that they move.
 impl fmt::Display for Robot {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let lines = self.outline();

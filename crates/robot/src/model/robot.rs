@@ -1,4 +1,4 @@
-//! A robot as a tree of links and joints, checked. Main type: [`Robot`].
+//! A robot as a validated tree of links and joints. Main type: [`Robot`].
 
 use num_traits::{One, Zero};
 
@@ -10,36 +10,38 @@ use crate::spatial::exact::Placement;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// A checked tree of links and joints, with masses and shapes. It never changes.
+/// A validated tree of links and joints, with masses and shapes. It is immutable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     parts: RobotParts,
-    /// The joint above each link.
+    /// The parent joint of each link.
     above: Vec<Option<usize>>,
     /// The parent and child link of each joint.
     ends: Vec<(usize, usize)>,
     root: usize,
-    /// The joints, each behind those above it.
+    /// The joints, sorted so that parents come first.
     order: Vec<usize>,
 }
 
 impl Robot {
-    /// Checks links and joints and makes them a tree.
+    /// Validates links and joints and builds the tree.
     ///
     /// # Errors
-    /// As [`Robot::with_faults`] and [`Robot::check`].
+    /// Those of [`Robot::with_faults`] and [`Robot::check`].
     pub fn new(parts: RobotParts) -> Result<Self> {
         let robot = Robot::with_faults(parts)?;
         robot.check()?;
         Ok(robot)
     }
 
-    /// Makes links and joints a tree. What is wrong with a single joint or actuator is kept in [`Robot::faults`]: an axis of zero, missing, inverted or
-    /// infinite limits, a joint that follows none or itself in the end, an actuator of a joint that the robot does not have. A chain elsewhere is sound.
+    /// Builds the tree of links and joints. Errors of a single joint or actuator are stored in [`Robot::faults`]: a
+    /// zero axis; missing, inverted or infinite limits; a mimic joint without a leader or in a cycle; an actuator of an
+    /// unknown joint. A chain elsewhere is usable.
     ///
     /// # Errors
-    /// [`ErrorKind::DuplicateName`] for two links or joints of one name; [`ErrorKind::UnknownName`] for a joint between links that do not
-    /// exist; [`ErrorKind::BadValue`] for no or several roots, a loop, an empty name. All with name and line.
+    /// [`ErrorKind::DuplicateName`] for two links or joints of one name; [`ErrorKind::UnknownName`] for a joint between
+    /// links that do not exist; [`ErrorKind::BadValue`] for no or several roots, a loop, an empty name. All with name
+    /// and line.
     pub fn with_faults(mut parts: RobotParts) -> Result<Self> {
         let ends = check::parts(&mut parts)?;
         let above = check::parents(&parts, &ends)?;
@@ -57,10 +59,10 @@ impl Robot {
         }
     }
 
-    /// The robot whose rotations are what their numbers mean: quarter turns where 1.5708 is given.
+    /// Replaces rounded rotations by the exact ones that they stand for: quarter turns for 1.5708.
     ///
     /// # Errors
-    /// As [`Robot::with_faults`].
+    /// Those of [`Robot::with_faults`].
     pub fn as_meant(&self) -> Result<Self> {
         let mut parts = self.parts.clone();
         for joint in &mut parts.joints {
@@ -72,10 +74,10 @@ impl Robot {
         Robot::with_faults(parts)
     }
 
-    /// The robot whose joints that follow others by a multiplier of zero are fixed at their constant value: right to rounding.
+    /// Fixes mimic joints with a multiplier of zero at their constant value, within rounding.
     ///
     /// # Errors
-    /// As [`Robot::with_faults`].
+    /// Those of [`Robot::with_faults`].
     pub fn with_constants_fixed(&self) -> Result<Self> {
         let mut parts = self.parts.clone();
         for (joint, fixed) in self.parts.joints.iter().zip(&mut parts.joints) {
@@ -90,14 +92,14 @@ impl Robot {
         Robot::with_faults(parts)
     }
 
-    /// The same robot with more notes.
+    /// Adds notes to the robot.
     #[must_use]
     pub fn with_notes(mut self, notes: Vec<String>) -> Self {
         self.parts.notes.extend(notes);
         self
     }
 
-    /// The same robot, faults without a line at the line of their part.
+    /// Adds lines to faults without a line: those of their parts.
     pub(super) fn with_lines(mut self, line_of: impl Fn(&Part) -> Option<usize>) -> Self {
         for fault in &mut self.parts.faults {
             if let Some(line) = line_of(&fault.part) {
@@ -107,15 +109,15 @@ impl Robot {
         self
     }
 
-    /// What is wrong with single parts, in the order of the file.
+    /// Faults of single parts, in the order of the file.
     pub fn faults(&self) -> &[Fault] {
         &self.parts.faults
     }
 
-    /// Fails for a fault of any part: for who uses the whole robot.
+    /// Checks that no part has a fault, for callers that use the whole robot.
     ///
     /// # Errors
-    /// That of the first of [`Robot::faults`].
+    /// The error of the first of [`Robot::faults`].
     pub fn check(&self) -> Result<()> {
         self.faults().first().map_or(Ok(()), |fault| Err(fault.error.clone()))
     }
@@ -140,24 +142,24 @@ impl Robot {
         &self.parts.joints
     }
 
-    /// The link that hangs on none.
+    /// The name of the root link.
     pub fn root(&self) -> &str {
         &self.parts.links[self.root].name
     }
 
-    /// The place of the link that hangs on none.
+    /// The index of the root link.
     pub fn root_place(&self) -> usize {
         self.root
     }
 
-    /// The links that carry none, in the order of the file.
+    /// The names of the leaf links, in the order of the file.
     pub fn leaves(&self) -> Vec<&str> {
         let children = self.children();
         let leaves = self.parts.links.iter().zip(&children).filter(|(_, joints)| joints.is_empty());
         leaves.map(|(link, _)| link.name.as_str()).collect()
     }
 
-    /// The links that end a limb: moved by the joint above them, with no moving joint below.
+    /// The names of the links that end a limb: their parent joint moves, and no joint below moves.
     pub fn tips(&self) -> Vec<&str> {
         let mut moves_below = vec![false; self.parts.links.len()];
         for (index, joint) in self.parts.joints.iter().enumerate() {
@@ -177,7 +179,7 @@ impl Robot {
             .collect()
     }
 
-    /// The joints that hang on each link.
+    /// The child joints of each link.
     pub(super) fn children(&self) -> Vec<Vec<usize>> {
         let mut children = vec![Vec::new(); self.parts.links.len()];
         for (joint, (parent, _)) in self.ends.iter().enumerate() {
@@ -186,7 +188,7 @@ impl Robot {
         children
     }
 
-    /// The joints below the root, each behind those above it, in the order of the file where that leaves a choice.
+    /// The joints below the root, sorted so that parents come first, otherwise in the order of the file.
     fn descent(&self) -> Vec<usize> {
         let children = self.children();
         let (mut order, mut open) = (Vec::new(), vec![self.root]);
@@ -197,23 +199,23 @@ impl Robot {
         order
     }
 
-    /// The actuators that move several joints, or that are named.
+    /// The actuators that are named or move several joints.
     pub fn actuators(&self) -> &[Actuator] {
         &self.parts.actuators
     }
 
-    /// The places of the joints that one number moves, which turn or slide, in the order of the file: those of a configuration `q`. A joint
-    /// that follows another has its own place; [`Robot::follow`] fills it.
+    /// The indices of the joints with one degree of freedom (revolute or prismatic), in the order of the file: those of
+    /// a configuration `q`. A mimic joint has its own entry, which [`Robot::follow`] sets.
     pub fn moving(&self) -> Vec<usize> {
         (0..self.joints().len()).filter(|joint| self.joints()[*joint].kind.is_single()).collect()
     }
 
-    /// The places of all joints, each behind those above it.
+    /// The indices of all joints, sorted so that parents come first.
     pub fn order(&self) -> &[usize] {
         &self.order
     }
 
-    /// The places of all joints, each behind those above it, and a limb's joints together.
+    /// The indices of all joints, sorted so that parents come first and a limb's joints are together.
     pub fn limb_by_limb(&self) -> Vec<usize> {
         let children = self.children();
         let below = |link: usize| children[link].iter().rev();
@@ -225,7 +227,7 @@ impl Robot {
         order
     }
 
-    /// The places of the parent and the child link of a joint.
+    /// The indices of the parent and the child link of a joint.
     ///
     /// # Panics
     /// When there is no such joint.
@@ -233,7 +235,7 @@ impl Robot {
         self.ends[joint]
     }
 
-    /// The places of the joints from a link up to the root.
+    /// The indices of the joints from a link up to the root.
     ///
     /// # Panics
     /// When there is no such link.
@@ -241,7 +243,7 @@ impl Robot {
         std::iter::successors(self.above[link], |joint| self.above[self.ends[*joint].0]).collect()
     }
 
-    /// The error for a robot of which nothing is to be seen; `notes` say which meshes could not be read.
+    /// The error for a robot without a visible shape. `notes` are the meshes that could not be read.
     pub fn unseen(&self, notes: &[String]) -> Error {
         let why: String = notes.iter().map(|note| format!("; {note}")).collect();
         let text = format!(
@@ -251,7 +253,7 @@ impl Robot {
         Error::new(ErrorKind::BadValue, text)
     }
 
-    /// The place of the link `name`.
+    /// The index of the link `name`.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] with the nearest name.
@@ -259,7 +261,7 @@ impl Robot {
         check::place("link", name, self.links().iter().map(|link| link.name.as_str()))
     }
 
-    /// The place of the joint `name`.
+    /// The index of the joint `name`.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] with the nearest name.
@@ -267,7 +269,7 @@ impl Robot {
         check::place("joint", name, self.joints().iter().map(|joint| joint.name.as_str()))
     }
 
-    /// How `joint` follows the one that leads it in the end; itself when it follows none.
+    /// The mimic law of `joint` relative to its independent leader; the identity for an independent joint.
     pub fn law(&self, joint: &Joint) -> Mimic {
         let own = Mimic { leader: joint.name.clone(), multiplier: BigRational::one(), offset: BigRational::zero() };
         let leader = |mimic: &Mimic| self.joints().iter().find(|joint| joint.name == mimic.leader);
@@ -277,16 +279,16 @@ impl Robot {
         }
     }
 
-    /// The value that `joint` always has: that of one that follows another one by a multiplier of zero \[rad or m\].
+    /// The constant value of a mimic joint with a multiplier of zero \[rad or m\].
     pub fn constant(&self, joint: &Joint) -> Option<BigRational> {
         let law = self.law(joint);
         law.multiplier.is_zero().then_some(law.offset)
     }
 
-    /// Puts the joints of a configuration that follow others where these bring them.
+    /// Sets the mimic joints of a configuration from their leaders.
     ///
     /// # Panics
-    /// When `q` has fewer values than joints turn or slide.
+    /// When `q` has fewer values than there are revolute and prismatic joints.
     pub fn follow(&self, q: &mut [f64]) {
         let moving = self.moving();
         for (place, joint) in moving.iter().enumerate() {
@@ -303,11 +305,11 @@ impl Robot {
         self.links().iter().map(|link| link.inertia().mass()).sum()
     }
 
-    /// What is to be said about links: masses that no body has, and shapes that the reader left out.
+    /// Notes about links: physically impossible masses, and shapes that the reader ignored.
     pub fn doubts(&self) -> Vec<String> {
         let fault = |link: &Link| {
             let inertia = link.mass.as_ref()?.inertia();
-            // A frame may say that it weighs nothing.
+            // A frame may have an explicit mass of zero.
             let weighs = inertia.generalised().iter().any(|entry| *entry != 0.0);
             inertia.check(NEGLIGIBLE * inertia.mass().abs()).err().filter(|_| weighs)
         };

@@ -1,4 +1,4 @@
-//! The triangles of an STL file, text or binary, each mistake with its line or its triangle. Main function: [`corners`].
+//! Triangles of a binary or text STL file. Each error has its line or its triangle. Main function: [`corners`].
 
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 
@@ -6,22 +6,23 @@ use stl_io::{Triangle, create_stl_reader};
 
 use crate::{Error, ErrorKind, Result};
 
-/// The bytes before the triangles of a binary file, the last four of which count them, and those of a triangle.
+/// Size of the header of a binary file, whose last four bytes are the number of triangles, and size of a triangle.
 const HEAD: usize = 84;
 const TRIANGLE: usize = 50;
-/// How a text, and each of its solids, begins.
+/// Keyword at the beginning of a text and of each of its solids.
 const SOLID: &[u8] = b"solid";
 
-/// The corners of all triangles of a file, in its unit. A text may have several solids.
+/// Reads the corners of all triangles of a file, in its unit. A text may have several solids.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] for what is no STL, with the line of a text; a binary file has the length that its head says.
+/// [`ErrorKind::Syntax`] for a file that is not STL, with the line of a text. A binary file must have the length given
+/// in its header.
 pub fn corners(bytes: Vec<u8>) -> Result<Vec<[[f32; 3]; 3]>> {
     let triangles = if is_text(&bytes) { text(&bytes)? } else { binary(bytes)? };
     Ok(triangles.into_iter().map(|triangle| triangle.vertices.map(|corner| corner.0)).collect())
 }
 
-/// Whether a file is a text; a binary file, which has the length that its head says, may begin like one.
+/// Whether a file is a text. A binary file, whose length agrees with its header, may begin like a text.
 pub fn is_text(bytes: &[u8]) -> bool {
     begins_solid(bytes.trim_ascii_start()) && expected_length(bytes) != Some(bytes.len())
 }
@@ -34,13 +35,13 @@ fn begins_solid(bytes: &[u8]) -> bool {
     bytes.get(..SOLID.len()).is_some_and(|word| word.eq_ignore_ascii_case(SOLID))
 }
 
-/// The number of triangles that a binary file counts.
+/// The number of triangles in the header of a binary file.
 fn count(bytes: &[u8]) -> Option<usize> {
     let count = bytes.get(HEAD - 4..HEAD)?.try_into().ok()?;
     usize::try_from(u32::from_le_bytes(count)).ok()
 }
 
-/// The length of a binary file with so many triangles.
+/// The length of a binary file with this number of triangles.
 fn expected_length(bytes: &[u8]) -> Option<usize> {
     count(bytes)?.checked_mul(TRIANGLE)?.checked_add(HEAD)
 }
@@ -59,7 +60,7 @@ fn binary(mut bytes: Vec<u8>) -> Result<Vec<Triangle>> {
         let text = format!("its head counts {count} triangles, which end at byte {expected}");
         return Err(wrong(&format!("{text}; the file ends at byte {length}, {place}")));
     }
-    // What a head says must not look like a text.
+    // The header must not look like a text.
     bytes[0] = 0;
     let mut bytes = Cursor::new(bytes);
     let triangles = create_stl_reader(&mut bytes).and_then(Iterator::collect);
@@ -78,13 +79,13 @@ fn text(bytes: &[u8]) -> Result<Vec<Triangle>> {
     Ok(all)
 }
 
-/// Gives the solids of a text to a reader line by line, so that the line where it stops is known. The reader sees the first line of a solid without its
-/// name, small letters, and `?` for what is not ASCII.
+/// Passes the solids of a text to a reader line by line, so that the line of an error is known. The reader receives the
+/// first line of a solid without its name, lower-case letters, and `?` for characters outside ASCII.
 struct Lines<'b> {
     rest: &'b [u8],
-    /// The line that was given last, counted from 1.
+    /// The number of the last line, counted from 1.
     number: usize,
-    /// The first line of the solid, as `rest` and `number` were before it.
+    /// The values of `rest` and `number` before the first line of the solid.
     start: (&'b [u8], usize),
     is_within: bool,
 }
@@ -106,7 +107,7 @@ impl<'b> Lines<'b> {
         self.rest = &self.rest[length..];
     }
 
-    /// Goes to the next solid; whether there is more.
+    /// Skips to the next solid. Returns whether there is more text.
     fn skip_blank(&mut self) -> bool {
         while !self.rest.is_empty() && self.next().trim_ascii().is_empty() {
             self.pass(self.next().len());
@@ -115,7 +116,7 @@ impl<'b> Lines<'b> {
         !self.rest.is_empty()
     }
 
-    /// Whether nothing or a solid comes next.
+    /// Whether the text ends here or another solid follows.
     fn goes_on(&mut self) -> bool {
         !self.skip_blank() || begins_solid(self.next().trim_ascii_start())
     }
@@ -144,7 +145,7 @@ impl Read for Lines<'_> {
 }
 
 impl Seek for Lines<'_> {
-    /// Goes back to the first line of the solid, which is all that the reader asks for.
+    /// Returns to the first line of the solid. The reader needs no other position.
     fn seek(&mut self, _: SeekFrom) -> io::Result<u64> {
         (self.rest, self.number) = self.start;
         self.is_within = false;

@@ -23,19 +23,19 @@ const JOINT_KEYS: [&str; 14] = [
 ];
 
 impl Robot {
-    /// The robot that the TOML file at `path` describes.
+    /// Reads a robot from the TOML file at `path`.
     ///
     /// # Errors
-    /// As [`read_text`] and [`Robot::from_toml`], with the file.
+    /// Those of [`read_text`] and [`Robot::from_toml`], with the file.
     pub fn read_toml(path: &Path) -> Result<Robot> {
         Robot::from_toml(&read_text(path, TEXT_LIMIT)?).map_err(|error| error.in_file(path))
     }
 
-    /// The robot that `text` describes in the format of [`crate::model::toml`].
+    /// Reads a robot from `text` in the format of [`crate::model::toml`].
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`], [`ErrorKind::MissingKey`]; [`ErrorKind::BadValue`] for a
-    /// wrong type or value; and as [`Robot::new`]. All have a line.
+    /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`], [`ErrorKind::MissingKey`];
+    /// [`ErrorKind::BadValue`] for a wrong type or value; those of [`Robot::new`]. All have a line.
     pub fn from_toml(text: &str) -> Result<Robot> {
         let document = Document::parse(text)?;
         let root = document.root();
@@ -76,7 +76,7 @@ pub(crate) fn read_units(root: Table<'_>) -> Result<Units> {
     Ok(Units { length: length.transpose()?.unwrap_or_default(), degrees: degrees.transpose()?.unwrap_or(false) })
 }
 
-/// The joint that is followed, by default as it is.
+/// Reads the mimic law; multiplier 1 and offset 0 by default.
 pub(crate) fn read_mimic(table: Table<'_>) -> Result<Mimic> {
     table.deny_unknown(&["joint", "multiplier", "offset"])?;
     let number = |key| table.optional(key).map(|node| node.exact()).transpose();
@@ -116,7 +116,7 @@ fn read_actuator(table: Table<'_>) -> Result<Actuator> {
     Ok(Actuator { name: table.required("name")?.text()?.to_owned(), joints })
 }
 
-/// What all parts of a file have in common.
+/// Data common to all parts of a file.
 struct Reader {
     units: Units,
 }
@@ -186,7 +186,7 @@ impl Reader {
         Ok(if turns { (low.to_radians(), high.to_radians()) } else { (low * metres, high * metres) })
     }
 
-    /// A link without mass, fixed to the link that `on` names.
+    /// A link without mass, fixed to the link given by `on`.
     fn frame(&self, table: Table<'_>) -> Result<(Link, Joint)> {
         table.deny_unknown(&["name", "on", "origin", "collision"])?;
         let name = table.required("name")?.text()?;

@@ -1,47 +1,47 @@
-//! What a motion must keep: limits, speeds, jumps and margins. Main function: [`findings`].
+//! Checks of a motion: limits, speeds, jumps and margins. Main function: [`findings`].
 
 use super::{JointTrack, Trajectory};
 
-/// What is demanded of a motion.
+/// The bounds of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// The greatest share of its own speed that a joint may have.
+    /// Maximum joint velocity as a fraction of the joint's own maximum.
     pub speed_share: f64,
-    /// How far a joint whose speed is not told may go from sample to sample \[rad or m\].
+    /// Maximum step of a joint without a given speed, from sample to sample \[rad or m\].
     pub jump: f64,
-    /// The least value of the figure `margin`, where there is one \[m\].
+    /// Minimum of the figure `margin`, if there is one \[m\].
     pub margin: f64,
 }
 
 impl Default for Bounds {
-    /// Full speed, jumps of half a radian, margins that are not negative.
+    /// Full speed, steps of half a radian, nonnegative margins.
     fn default() -> Self {
         Bounds { speed_share: 1.0, jump: 0.5, margin: 0.0 }
     }
 }
 
-/// What is wrong at a sample.
+/// Violation at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
-    /// A joint is beyond its limits.
+    /// A joint exceeds its limits.
     Limit {
-        /// The joint, by its place.
+        /// The index of the joint.
         joint: usize,
         /// Its value.
         value: f64,
     },
-    /// A joint moves faster than it can.
+    /// A joint exceeds its maximum velocity.
     Speed {
-        /// The joint, by its place.
+        /// The index of the joint.
         joint: usize,
-        /// Its rate since the sample before.
+        /// Its velocity since the previous sample.
         rate: f64,
     },
-    /// A joint whose speed is not told goes far in one step.
+    /// A joint without a given speed exceeds the maximum step.
     Jump {
-        /// The joint, by its place.
+        /// The index of the joint.
         joint: usize,
-        /// How far.
+        /// The step.
         step: f64,
     },
     /// The margin is too small.
@@ -51,16 +51,16 @@ pub enum Fault {
     },
 }
 
-/// A fault at its sample.
+/// A violation with its sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding {
-    /// The sample, from 0.
+    /// The index of the sample, from 0.
     pub sample: usize,
-    /// What is wrong.
+    /// The violation.
     pub fault: Fault,
 }
 
-/// All that is wrong with `trajectory`, in the order of time, of each kind one at most for a sample.
+/// All violations of `trajectory` in the order of time, at most one of each kind for a sample.
 pub fn findings(trajectory: &Trajectory, bounds: &Bounds) -> Vec<Finding> {
     let margins = trajectory.figures.iter().find(|figure| figure.name == "margin");
     let mut found = Vec::new();
@@ -81,7 +81,7 @@ pub fn findings(trajectory: &Trajectory, bounds: &Bounds) -> Vec<Finding> {
     found
 }
 
-/// The first joint beyond its limits, by its place, with its value.
+/// The first joint that exceeds its limits, by its index, with its value.
 pub fn beyond_limit(limits: impl Iterator<Item = Option<(f64, f64)>>, q: &[f64]) -> Option<(usize, f64)> {
     let beyond =
         |(limits, value): (Option<(f64, f64)>, &f64)| limits.is_some_and(|(low, high)| *value < low || *value > high);
@@ -89,7 +89,8 @@ pub fn beyond_limit(limits: impl Iterator<Item = Option<(f64, f64)>>, q: &[f64])
     Some((joint, q[joint]))
 }
 
-/// The first joint that cannot go from `before` to `q` in `time` \[s\] at its greatest speed, by its place, with its rate.
+/// The first joint that cannot move from `before` to `q` in `time` \[s\] at its maximum velocity, by its index, with
+/// its velocity.
 pub fn too_fast(
     speeds: impl Iterator<Item = Option<f64>>,
     before: &[f64],
@@ -101,7 +102,7 @@ pub fn too_fast(
     speeds.zip(rates).map(fast).enumerate().find_map(|(joint, rate)| Some((joint, rate?)))
 }
 
-/// The first joint without a told speed that goes further than `most`.
+/// The first joint without a given speed whose step exceeds `most`.
 fn jumps(joints: &[JointTrack], before: &[f64], q: &[f64], most: f64) -> Option<Fault> {
     let far = |joint: &usize| joints[*joint].speed.is_none() && (q[*joint] - before[*joint]).abs() > most;
     let joint = (0..joints.len()).find(far)?;

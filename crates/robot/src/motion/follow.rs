@@ -1,4 +1,5 @@
-//! An arm along poses: of all solutions the branch that stays continuous, within limits. Main function: [`follow`].
+//! Path following: moves an arm along poses on a continuous branch of the solutions, within limits. Main function:
+//! [`follow`].
 
 use std::cmp::Ordering;
 
@@ -7,37 +8,38 @@ use crate::kinematics::{Chain, InverseKinematics, Joint, JointKind, Solution, Ta
 use crate::spatial::{Pose, angle};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How far a joint goes from pose to pose without a jump \[rad\], where no time says it.
+/// Maximum step of a joint from pose to pose without a jump \[rad\], if there are no times.
 const NEAR: f64 = 0.5;
-/// How near to a limit a value may be beyond it by rounding \[rad or m\].
+/// Tolerance of limits for rounding \[rad or m\].
 const ROUNDING: f64 = 1e-9;
-/// The most combinations of a solution's values that differ by whole turns; those furthest from zero are left out.
+/// Maximum number of combinations of a solution's values that differ by whole turns. Those furthest from zero are
+/// omitted.
 const MOST_STATES: usize = groebot_algebra::limits::POSE_STATES;
 
-/// How fast a path is gone.
+/// Timing of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Pace {
-    /// A pose each so many seconds: joints are as fast as they can be.
+    /// One pose every this many seconds. Joints may use their maximum velocity.
     Every(f64),
     /// At these times \[s\], ascending.
     At(Vec<f64>),
 }
 
-/// Where a path must jump from one branch to another, and why.
+/// A jump from one branch to another, with the reason.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Jump {
-    /// The pose that is jumped to, from 0.
+    /// The index of the pose after the jump, from 0.
     pub sample: usize,
-    /// The joint that goes furthest, by its place.
+    /// The index of the joint with the largest step.
     pub joint: usize,
-    /// How far \[rad or the chain's unit\].
+    /// The step \[rad or the chain's unit\].
     pub step: f64,
-    /// Why, in words.
+    /// The reason, as text.
     pub why: String,
 }
 
-/// A path, and where it jumps.
+/// A path with its jumps.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Followed {
@@ -47,24 +49,25 @@ pub struct Followed {
     pub jumps: Vec<Jump>,
 }
 
-/// A state of the arm at a pose, and the best way to it.
+/// A state of the arm at a pose, with the best path to it.
 struct State {
     q: Vec<f64>,
     branch: usize,
-    /// The number of jumps and the way of the joints up to here.
+    /// The number of jumps and the sum of squared joint steps up to this state.
     cost: (usize, f64),
-    /// The state at the pose before.
+    /// The state at the previous pose.
     from: usize,
 }
 
-/// The joint values that bring the tip of `chain` to each of `poses` in turn, by `solver`: with the fewest jumps between branches, and of these
-/// the shortest way, the sum of the squares of all joints' steps. A joint that turns is shifted by whole turns where its limits allow. A step is a
-/// jump where a joint goes further than its speed allows in the time, or, where it has none, than half a radian or a tenth of the reach.
+/// Computes joint values that move the tip of `chain` through `poses`, with `solver`. The path has the fewest jumps
+/// between branches and, among those, the least sum of squared joint steps. Revolute joints are shifted by whole turns
+/// where their limits permit. A step is a jump if a joint moves further than its maximum velocity permits in the time.
+/// Without a maximum velocity the bound is half a radian or a tenth of the reach.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for no pose, times that are not one each, and with the number of the pose for one that is out of reach, or
-/// whose solutions are all beyond limits; [`ErrorKind::Unsupported`] for a task other than the pose, and for given joints;
-/// [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
+/// [`ErrorKind::BadValue`] for an empty list and for a wrong number of times; with the number of the pose, for one that
+/// is out of reach or whose solutions all exceed limits; [`ErrorKind::Unsupported`] for a task other than a pose, and
+/// for given joints; [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
 pub fn follow(
     chain: &Chain,
     speeds: &[Option<f64>],
@@ -76,11 +79,11 @@ pub fn follow(
     follow_from(chain, speeds, solver, None, poses, pace, watch)
 }
 
-/// As [`follow`], for an arm that stands at the joint values `start`: the way from there to the first pose counts like any other, and so does
-/// a jump to it.
+/// Same as [`follow`], but the arm starts at the joint values `start`. The step from there to the first pose counts
+/// like any other, and may be a jump.
 ///
 /// # Errors
-/// As [`follow`]; [`ErrorKind::BadValue`] unless there is one finite value per joint.
+/// Those of [`follow`]; [`ErrorKind::BadValue`] unless there is one finite value per joint.
 pub fn follow_from(
     chain: &Chain,
     speeds: &[Option<f64>],
@@ -108,10 +111,10 @@ pub fn follow_from(
         let choices = path.choices(&found).map_err(named)?;
         layers.push(path.reached(sample, &choices, layers.last()));
     }
-    let ways = path.ways(&layers);
-    let later = (1..ways.len()).filter_map(|sample| path.jump(sample, &layers, &ways));
-    let jumps = path.first_jump(&layers[0][ways[0]]).into_iter().chain(later).collect();
-    let trajectory = path.trajectory(&layers, &ways);
+    let best = path.best_path(&layers);
+    let later = (1..best.len()).filter_map(|sample| path.jump(sample, &layers, &best));
+    let jumps = path.first_jump(&layers[0][best[0]]).into_iter().chain(later).collect();
+    let trajectory = path.trajectory(&layers, &best);
     trajectory.check()?;
     Ok(Followed { trajectory, jumps })
 }
@@ -132,7 +135,7 @@ fn times(pace: &Pace, count: usize) -> Result<Vec<f64>> {
     }
 }
 
-/// Fewer jumps first, then the shorter way.
+/// Compares costs: fewer jumps first, then the smaller sum of squares.
 fn cheaper(a: (usize, f64), b: (usize, f64)) -> Ordering {
     a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
 }
@@ -149,7 +152,8 @@ impl Choices {
         self.values.iter().fold(1, |count, values| count.saturating_mul(values.len()))
     }
 
-    /// The same with at most [`MOST_STATES`] combinations: the joint with the most values loses the one that is furthest from zero.
+    /// Reduces the choices to at most [`MOST_STATES`] combinations. The joint with the most values loses the one
+    /// furthest from zero.
     fn fewer(mut self) -> Self {
         while self.count() > MOST_STATES {
             let Some(most) = self.values.iter_mut().max_by_key(|values| values.len()) else { break };
@@ -160,7 +164,7 @@ impl Choices {
         self
     }
 
-    /// All combinations, the last joint's values fastest.
+    /// All combinations. The last joint's value varies fastest.
     fn states(&self) -> Vec<State> {
         let mut all = vec![Vec::new()];
         for values in &self.values {
@@ -170,7 +174,7 @@ impl Choices {
         all.into_iter().map(state).collect()
     }
 
-    /// The place among the combinations of the one that is next to `q`.
+    /// The index of the combination nearest to `q`.
     fn nearest(&self, q: &[f64]) -> usize {
         self.values.iter().zip(q).fold(0, |place, (values, before)| {
             let off = |at: &usize| (values[*at] - before).abs();
@@ -180,17 +184,17 @@ impl Choices {
     }
 }
 
-/// What all steps of a path have in common.
+/// Data common to all steps of a path.
 struct Path<'p> {
     chain: &'p Chain,
     speeds: &'p [Option<f64>],
     times: &'p [f64],
-    /// Where the arm stands before the first pose, where that is known.
+    /// The state of the arm before the first pose, if known.
     start: Option<&'p [f64]>,
 }
 
 impl Path<'_> {
-    /// The values of each solution that are within the limits, joint by joint.
+    /// The values of each solution within the limits, joint by joint.
     fn choices(&self, found: &[Solution]) -> Result<Vec<Choices>> {
         let of = |solution: &Solution| {
             let joints = self.chain.joints().iter().zip(&solution.q);
@@ -209,8 +213,8 @@ impl Path<'_> {
         }
     }
 
-    /// The states at a pose, each with the best way to it: from a state before to the values of a solution that are next to its own, or by a jump
-    /// from the best of all.
+    /// The states at a pose, each with the best path to it: from a previous state to the nearest values of a solution,
+    /// or by a jump from the best of all.
     fn reached(&self, sample: usize, choices: &[Choices], before: Option<&Vec<State>>) -> Vec<State> {
         let mut states: Vec<State> = choices.iter().flat_map(Choices::states).collect();
         let Some(before) = before else {
@@ -224,8 +228,8 @@ impl Path<'_> {
         let starts: Vec<usize> =
             choices.iter().scan(0, |start, own| Some(std::mem::replace(start, *start + own.count()))).collect();
         let mut relax = |to: usize, from: usize| {
-            let (jumps, way) = self.step(sample, &before[from].q, &states[to].q);
-            let cost = (before[from].cost.0 + usize::from(jumps), before[from].cost.1 + way);
+            let (jumps, squares) = self.step(sample, &before[from].q, &states[to].q);
+            let cost = (before[from].cost.0 + usize::from(jumps), before[from].cost.1 + squares);
             if cheaper(cost, states[to].cost).is_lt() {
                 (states[to].cost, states[to].from) = (cost, from);
             }
@@ -237,22 +241,22 @@ impl Path<'_> {
         states
     }
 
-    /// Whether a step jumps, and the sum of the squares of the joints' ways.
+    /// Whether a step is a jump, and the sum of squared joint steps.
     fn step(&self, sample: usize, before: &[f64], q: &[f64]) -> (bool, f64) {
-        let steps = (0..q.len()).map(|joint| self.way(joint, before[joint], q[joint]));
+        let steps = (0..q.len()).map(|joint| self.distance(joint, before[joint], q[joint]));
         let far = steps.clone().enumerate().any(|(joint, step)| step.abs() > self.most(sample, joint));
         (far, steps.map(|step| step * step).sum())
     }
 
-    /// How far a joint goes from one value to another: one without limits the shorter way round.
-    fn way(&self, joint: usize, from: f64, to: f64) -> f64 {
+    /// The step of a joint between two values; for a joint without limits the shorter rotation.
+    fn distance(&self, joint: usize, from: f64, to: f64) -> f64 {
         let Joint { kind, limits, .. } = &self.chain.joints()[joint];
         if *kind == JointKind::Revolute && limits.is_none() { angle::difference(to, from) } else { to - from }
     }
 
-    /// How far a joint may go to a pose without a jump.
+    /// The maximum step of a joint to a pose without a jump.
     fn most(&self, sample: usize, joint: usize) -> f64 {
-        // Nothing says how long the way to the first pose takes.
+        // The time of the step to the first pose is not given.
         let time = sample.checked_sub(1).map(|before| self.times[sample] - self.times[before]);
         match self.speeds.get(joint).copied().flatten().zip(time) {
             Some((speed, time)) => speed * time,
@@ -261,47 +265,47 @@ impl Path<'_> {
         }
     }
 
-    /// The joint that goes furthest in a step, and its way as a share of what it may go without a jump.
+    /// The joint with the largest relative step, and its step divided by the maximum without a jump.
     fn furthest(&self, sample: usize, before: &[f64], q: &[f64]) -> Option<(usize, f64)> {
-        let share = |joint: usize| self.way(joint, before[joint], q[joint]).abs() / self.most(sample, joint);
+        let share = |joint: usize| self.distance(joint, before[joint], q[joint]).abs() / self.most(sample, joint);
         (0..q.len()).map(|joint| (joint, share(joint))).max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// The state of the best path at each pose.
-    fn ways(&self, layers: &[Vec<State>]) -> Vec<usize> {
+    /// The index of the best path's state at each pose.
+    fn best_path(&self, layers: &[Vec<State>]) -> Vec<usize> {
         let last = layers.last().map_or(&[][..], |layer| layer);
         let end = (0..last.len()).min_by(|a, b| cheaper(last[*a].cost, last[*b].cost)).unwrap_or(0);
-        let mut ways = vec![end];
+        let mut best = vec![end];
         for layer in layers[1..].iter().rev() {
-            ways.push(layer[ways[ways.len() - 1]].from);
+            best.push(layer[best[best.len() - 1]].from);
         }
-        ways.reverse();
-        ways
+        best.reverse();
+        best
     }
 
-    /// The jump from where the arm stands to the first state, if there is one.
+    /// The jump from the start to the first state, if it is one.
     fn first_jump(&self, first: &State) -> Option<Jump> {
         let start = self.start?;
         let (joint, _) = self.furthest(0, start, &first.q).filter(|(_, share)| *share > 1.0)?;
-        let step = self.way(joint, start[joint], first.q[joint]);
+        let step = self.distance(joint, start[joint], first.q[joint]);
         Some(Jump { sample: 0, joint, step, why: "the path begins away from where the arm stands".to_owned() })
     }
 
-    /// The jump to a pose, if there is one, and why: what becomes of the branch that it leaves.
-    fn jump(&self, sample: usize, layers: &[Vec<State>], ways: &[usize]) -> Option<Jump> {
-        let [before, now] = [sample - 1, sample].map(|at| &layers[at][ways[at]]);
+    /// The jump to a pose, if it is one, with the reason: how the branch before it ends.
+    fn jump(&self, sample: usize, layers: &[Vec<State>], best: &[usize]) -> Option<Jump> {
+        let [before, now] = [sample - 1, sample].map(|at| &layers[at][best[at]]);
         let (joint, _) = self.furthest(sample, &before.q, &now.q).filter(|(_, share)| *share > 1.0)?;
-        let step = self.way(joint, before.q[joint], now.q[joint]);
+        let step = self.distance(joint, before.q[joint], now.q[joint]);
         let name = |joint: usize| &self.chain.joints()[joint].name;
         let goes_on = layers[sample].iter().any(|state| !self.step(sample, &before.q, &state.q).0);
         let same = layers[sample].iter().find(|state| state.branch == before.branch);
         let why = if goes_on {
-            let blocked = self.end_of_branch(sample, layers, ways);
+            let blocked = self.end_of_branch(sample, layers, best);
             format!("the branch goes on, but ends {blocked}")
         } else if let Some(same) = same {
             let (fast, _) = self.furthest(sample, &before.q, &same.q)?;
             let turns = self.chain.joints()[fast].kind == JointKind::Revolute;
-            if turns && self.way(fast, before.q[fast], same.q[fast]).abs() > std::f64::consts::PI {
+            if turns && self.distance(fast, before.q[fast], same.q[fast]).abs() > std::f64::consts::PI {
                 format!("`{}` would leave its limits; it turns back by a whole turn", name(fast))
             } else {
                 format!("the branch goes on, but `{}` would be faster than it can", name(fast))
@@ -314,9 +318,9 @@ impl Path<'_> {
         Some(Jump { sample, joint, step, why })
     }
 
-    /// At which pose all ways end that go on from the state that a jump leaves.
-    fn end_of_branch(&self, sample: usize, layers: &[Vec<State>], ways: &[usize]) -> String {
-        let mut alive = vec![ways[sample - 1]];
+    /// The pose at which all paths from the state before a jump end.
+    fn end_of_branch(&self, sample: usize, layers: &[Vec<State>], best: &[usize]) -> String {
+        let mut alive = vec![best[sample - 1]];
         for at in sample..layers.len() {
             let next: Vec<usize> = (0..layers[at].len())
                 .filter(|to| alive.iter().any(|from| !self.step(at, &layers[at - 1][*from].q, &layers[at][*to].q).0))
@@ -329,7 +333,7 @@ impl Path<'_> {
         "behind the path".to_owned()
     }
 
-    /// The joint that is next to a limit, if one is.
+    /// A joint that is near a limit, if there is one.
     fn at_limit(&self, q: &[f64]) -> Option<usize> {
         let near = |(joint, value): (&Joint, &f64)| {
             joint.limits.is_some_and(|(low, high)| (value - low).min(high - value) < 0.1 * NEAR)
@@ -337,7 +341,7 @@ impl Path<'_> {
         self.chain.joints().iter().zip(q).position(near)
     }
 
-    fn trajectory(&self, layers: &[Vec<State>], ways: &[usize]) -> Trajectory {
+    fn trajectory(&self, layers: &[Vec<State>], best: &[usize]) -> Trajectory {
         let joint = |(place, joint): (usize, &Joint)| JointTrack {
             name: joint.name.clone(),
             slides: joint.kind == JointKind::Prismatic,
@@ -348,17 +352,19 @@ impl Path<'_> {
             robot: self.chain.name().to_owned(),
             joints: self.chain.joints().iter().enumerate().map(joint).collect(),
             times: self.times.to_vec(),
-            q: self.unwound(layers.iter().zip(ways).map(|(layer, way)| &layer[*way].q)),
+            q: self.unwound(layers.iter().zip(best).map(|(layer, state)| &layer[*state].q)),
             ..Trajectory::default()
         }
     }
 
-    /// The values with joints without limits turned on from where they were.
+    /// The values with joints without limits unwound to be continuous.
     fn unwound<'q>(&self, values: impl Iterator<Item = &'q Vec<f64>>) -> Vec<Vec<f64>> {
         let mut unwound: Vec<Vec<f64>> = Vec::new();
         for q in values {
             let next = match unwound.last().map(Vec::as_slice).or(self.start) {
-                Some(last) => (0..q.len()).map(|joint| last[joint] + self.way(joint, last[joint], q[joint])).collect(),
+                Some(last) => {
+                    (0..q.len()).map(|joint| last[joint] + self.distance(joint, last[joint], q[joint])).collect()
+                }
                 None => q.clone(),
             };
             unwound.push(next);
@@ -367,7 +373,7 @@ impl Path<'_> {
     }
 }
 
-/// The values that are `value` but for whole turns, within limits; the value itself without limits.
+/// The values that differ from `value` by whole turns, within limits; without limits `value` itself.
 fn within(limits: Option<(f64, f64)>, value: f64, turns: bool) -> Vec<f64> {
     let turn = std::f64::consts::TAU;
     let Some((low, high)) = limits else { return vec![value] };

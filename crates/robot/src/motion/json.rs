@@ -12,7 +12,7 @@ use crate::spatial::Pose;
 const FORMAT: JsonFormat =
     JsonFormat { what: "trajectory", number: 1, renew: "`groebot walk` and `groebot follow` write new ones" };
 
-/// A trajectory as it is written: poses are position and quaternion xyzw.
+/// The JSON form of a trajectory. Poses are position and quaternion xyzw.
 #[derive(Serialize, Deserialize)]
 struct Written {
     format: u32,
@@ -51,8 +51,8 @@ struct WrittenFigure {
 }
 
 impl Trajectory {
-    /// The trajectory as JSON: `format` (1), `robot`, `joints` (name, slides, limits, speed), `time`, `q`, `base`, `contacts`, `points`, `figures`;
-    /// poses are position and quaternion xyzw.
+    /// Converts the trajectory to JSON: `format` (1), `robot`, `joints` (name, slides, limits, speed), `time`, `q`,
+    /// `base`, `contacts`, `points`, `figures`; poses are position and quaternion xyzw.
     pub fn to_json(&self) -> serde_json::Value {
         let poses = |poses: &[Pose]| poses.iter().map(pose_numbers).collect::<Vec<_>>();
         let contact = |own: &Contact| WrittenContact {
@@ -80,11 +80,12 @@ impl Trajectory {
         serde_json::to_value(written).expect("a trajectory holds nothing that JSON cannot say")
     }
 
-    /// The trajectory that `text` holds as [`Trajectory::to_json`] writes it; other keys beside these are ignored.
+    /// Reads a trajectory in the format of [`Trajectory::to_json`]. Other keys are ignored.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Syntax`] for text that is not such JSON, [`crate::ErrorKind::Unsupported`] for another `format`; [`crate::ErrorKind::BadValue`] for a quaternion that is not of length one;
-    /// as [`Trajectory::check`].
+    /// [`crate::ErrorKind::Syntax`] for text that is not such JSON, [`crate::ErrorKind::Unsupported`] for another
+    /// `format`; [`crate::ErrorKind::BadValue`] for a quaternion whose length is not one; those of
+    /// [`Trajectory::check`].
     pub fn from_json(text: &str) -> Result<Self> {
         let written: Written = FORMAT.read(text)?;
         let poses =

@@ -1,7 +1,7 @@
 //! Motions in time: a walk, an arm's path, a recording. Main type: [`Trajectory`].
 //!
-//! A trajectory prints as a table ([`table`]) and as JSON, and both are read back. [`findings`] checks one against limits, speeds, jumps and margins;
-//! [`follow`] makes one of poses, by the branch of the solutions that stays continuous.
+//! A trajectory is written as a CSV table ([`table`]) and as JSON, and both are read back. [`findings`] checks one for
+//! limits, speeds, jumps and margins. [`follow`] computes one through poses, on a continuous branch of the solutions.
 
 mod check;
 mod follow;

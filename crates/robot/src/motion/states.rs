@@ -1,4 +1,5 @@
-//! States of a robot as a table in CSV: what `groebot dynamics`, `identify` and `track` read. Main type: [`StateTable`].
+//! States of a robot as a CSV table, the input of `groebot dynamics`, `identify` and `track`. Main type:
+//! [`StateTable`].
 
 use std::path::Path;
 
@@ -6,25 +7,25 @@ use crate::document::{read_text, shown, unix_lines};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 
-/// The longest table, in bytes.
+/// Maximum size of a table in bytes.
 const STATES_LIMIT: u64 = limits::STATES_BYTES;
 /// The lists of numbers: configuration, velocity, acceleration, torques.
 const LISTS: [&str; 4] = ["q", "v", "a", "tau"];
 
-/// States of a robot, a row each.
+/// States of a robot, one for each row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateTable {
-    /// How many numbers a configuration has.
+    /// Length of a configuration.
     pub coordinates: usize,
-    /// How many of them are numbered. After them come those of the joints in [`StateTable::joints`].
+    /// Number of its entries in numbered columns. They are followed by those of the joints in [`StateTable::joints`].
     pub numbered: usize,
-    /// The joints that are named, in the order of each list's last numbers.
+    /// The joints in named columns, in the order of each list's last entries.
     pub joints: Vec<String>,
     /// The states; at least one.
     pub rows: Vec<StateRow>,
 }
 
-/// A state, and what else the table tells of it: metres, seconds, radians, newtons.
+/// A state and other columns of the table: metres, seconds, radians, newtons.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateRow {
     /// The time, `t`.
@@ -33,7 +34,7 @@ pub struct StateRow {
     pub q: Vec<f64>,
     /// The velocity, `v0`.. and `v:NAME`..
     pub velocity: Option<Vec<f64>>,
-    /// What it changes by, `a0`.. and `a:NAME`..
+    /// The acceleration, `a0`.. and `a:NAME`..
     pub acceleration: Option<Vec<f64>>,
     /// Torques, `tau0`.. and `tau:NAME`..
     pub torques: Option<Vec<f64>>,
@@ -47,19 +48,21 @@ impl StateRow {
 }
 
 impl StateTable {
-    /// The table of a file.
+    /// Reads a table from a file.
     ///
     /// # Errors
-    /// As [`read_text`] and [`StateTable::from_csv`], with the file.
+    /// Those of [`read_text`] and [`StateTable::from_csv`], with the file.
     pub fn read_csv(path: &Path) -> Result<Self> {
         StateTable::from_csv(&read_text(path, STATES_LIMIT)?).map_err(|error| error.in_file(path))
     }
 
-    /// The table that `text` holds: a row of names, in any order, and rows of numbers between commas. Empty lines do not count.
+    /// Reads a table from `text`: a row of names, in any order, and rows of numbers separated by commas. Empty lines
+    /// are ignored.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for other names than those of [`StateRow`], each list whole, lists that name different joints, another count of cells than names, and a cell that is no
-    /// number or is out of range; [`ErrorKind::MissingKey`] for a table without rows. With the line.
+    /// [`ErrorKind::Syntax`] for unknown or incomplete columns of [`StateRow`], lists with different joints, a wrong
+    /// number of cells, and a cell that is not a number or is out of range; [`ErrorKind::MissingKey`] for a table
+    /// without rows. With the line.
     pub fn from_csv(text: &str) -> Result<Self> {
         let text = unix_lines(text.trim_start_matches('\u{feff}'));
         let full = |(_, line): &(usize, &str)| !line.trim().is_empty();
@@ -82,10 +85,11 @@ impl StateTable {
         })
     }
 
-    /// The table whose named joints are in this order; one of numbers alone is unchanged.
+    /// Sorts the named joints in this order. A table with numbered columns only is unchanged.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for a joint that is not among them, [`ErrorKind::MissingKey`] for one of them that the table does not name.
+    /// [`ErrorKind::UnknownName`] for a joint that is not among them, [`ErrorKind::MissingKey`] for one of them that
+    /// the table does not name.
     pub fn in_order_of(mut self, joints: &[String]) -> Result<Self> {
         if self.joints.is_empty() {
             return Ok(self);
@@ -110,7 +114,7 @@ impl StateTable {
     }
 }
 
-/// What the columns of a table hold.
+/// The contents of a table's columns.
 struct Header<'a> {
     names: Vec<&'a str>,
     time: Option<usize>,
@@ -140,11 +144,7 @@ impl<'a> Header<'a> {
     fn row(&self, text: &str) -> std::result::Result<StateRow, String> {
         let found: Vec<&str> = cells(text).collect();
         if found.len() != self.names.len() {
-            return Err(format!(
-                "{} cells stand in the row; the first one has {} names",
-                found.len(),
-                self.names.len()
-            ));
+            return Err(format!("{} cells are in the row; the first one has {} names", found.len(), self.names.len()));
         }
         let number = |column: usize| {
             limits::number(found[column]).map_err(|fault| format!("column `{}`: {fault}", shown(self.names[column])))
@@ -168,7 +168,7 @@ fn cells(line: &str) -> impl Iterator<Item = &str> {
     line.split(',').map(str::trim)
 }
 
-/// The columns of a list: those that count from zero, and those of all joints; none where one of these is missing.
+/// The columns of a list: those that count from zero, and those of all joints; empty if one of these is missing.
 fn columns(names: &[&str], list: &str, joints: &[&str]) -> Vec<usize> {
     let place = |name: String| names.iter().position(|other| *other == name);
     let numbered = (0..).map_while(|index| place(format!("{list}{index}"))).map(Some);

@@ -1,17 +1,18 @@
 //! Trajectories as CSV: [`Trajectory::to_csv`], [`Trajectory::from_csv`].
 //!
-//! The first line is `# groebot trajectory 1`, the second `# robot: NAME`; then a row of names with their units and a row a sample:
+//! The first line is `# groebot trajectory 1`, the second `# robot: NAME`; then a row of names with their units, and
+//! one row for each sample:
 //!
-//! | column | what it is |
+//! | column | content |
 //! | --- | --- |
 //! | `time [s]` | the time |
-//! | `q:NAME [rad]`, `q:NAME [m]` | a joint that turns, or slides |
+//! | `q:NAME [rad]`, `q:NAME [m]` | a revolute or prismatic joint |
 //! | `base_x [m]` .. `base_qw [1]` | the pose of the base in the world, with its quaternion xyzw |
-//! | `NAME_x [m]` .. `NAME_qw [1]`, `NAME_stands [1]` | a contact: its pose, and 1 where it stands |
+//! | `NAME_x [m]` .. `NAME_qw [1]`, `NAME_stands [1]` | a contact: its pose, and 1 while it is in contact |
 //! | `NAME_x [m]`, `NAME_y [m]`, `NAME_z [m]` | a point |
 //! | `NAME [UNIT]` | a number |
 //!
-//! Numbers have nine decimals. A name with a comma or a quotation mark is quoted, as RFC 4180 has it.
+//! Numbers have nine decimals. A name with a comma or a quotation mark is quoted as in RFC 4180.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -29,16 +30,16 @@ use groebot_algebra::limits;
 const MARK: &str = "# groebot trajectory ";
 /// The version of the format.
 const FORMAT: u32 = 1;
-/// The longest file that is read, in bytes.
+/// Maximum size of a file in bytes.
 pub const TABLE_LIMIT: u64 = limits::TABLE_BYTES;
-/// How far from one the length of a quaternion may be that is written with nine decimals.
+/// Tolerance of the length of a quaternion that is written with nine decimals.
 pub(super) const ROUNDING: f64 = 1e-6;
-/// The ends of the columns of a pose, with their units.
+/// The suffixes of the columns of a pose, with their units.
 const POSE: [(&str, &str); 7] =
     [("x", "m"), ("y", "m"), ("z", "m"), ("qx", "1"), ("qy", "1"), ("qz", "1"), ("qw", "1")];
 
 impl Trajectory {
-    /// The trajectory as CSV in the format of [`table`](self).
+    /// Writes the trajectory as CSV in the format of [`table`](self).
     pub fn to_csv(&self) -> String {
         let mut text = format!("{MARK}{FORMAT}\n# robot: {}\n{}\n", escape::line(&self.robot), self.header());
         for sample in 0..self.times.len() {
@@ -49,19 +50,20 @@ impl Trajectory {
         text
     }
 
-    /// The trajectory that a file holds.
+    /// Reads a trajectory from a file.
     ///
     /// # Errors
-    /// As [`read_text`] and [`Trajectory::from_csv`], with the file.
+    /// Those of [`read_text`] and [`Trajectory::from_csv`], with the file.
     pub fn read_csv(path: &Path) -> Result<Self> {
         Trajectory::from_csv(&read_text(path, TABLE_LIMIT)?).map_err(|error| error.in_file(path))
     }
 
-    /// The trajectory that `text` holds in the format of [`table`](self). Limits and speeds of joints are not told by it.
+    /// Reads a trajectory from `text` in the format of [`table`](self). The format has no limits and speeds of joints.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that does not begin with `# groebot trajectory 1`, another version of the format, or a cell that is no
-    /// number; [`ErrorKind::MissingKey`] for a column that others ask for; as [`Trajectory::check`]. With the line.
+    /// [`ErrorKind::Syntax`] for text that does not begin with `# groebot trajectory 1`, another version of the format,
+    /// or a cell that is not a number; [`ErrorKind::MissingKey`] for a column that others require; those of
+    /// [`Trajectory::check`]. With the line.
     pub fn from_csv(text: &str) -> Result<Self> {
         let text = unix_lines(text);
         let mut lines = text.lines().enumerate().map(|(place, line)| (place + 1, line));
@@ -156,7 +158,7 @@ fn cells(line: &str) -> Vec<String> {
     cells
 }
 
-/// Fails for a column in another unit than one of `allowed`.
+/// Refuses a column with a unit that is not in `allowed`.
 fn check_unit((name, unit): (&str, &str), allowed: &[&str]) -> Result<()> {
     if allowed.contains(&unit) {
         return Ok(());
@@ -165,19 +167,19 @@ fn check_unit((name, unit): (&str, &str), allowed: &[&str]) -> Result<()> {
     Err(Error::new(ErrorKind::BadValue, text))
 }
 
-/// What the columns of a table hold.
+/// The contents of a table's columns.
 struct Header {
     columns: usize,
     joints: Vec<usize>,
     base: Option<[usize; 7]>,
-    /// The pose and whether it stands, contact by contact.
+    /// The pose and the contact flag of each contact.
     contacts: Vec<([usize; 7], usize)>,
     points: Vec<[usize; 3]>,
     figures: Vec<usize>,
 }
 
 impl Header {
-    /// Reads the row of names and makes the tracks of `trajectory`.
+    /// Reads the row of names and creates the tracks of `trajectory`.
     fn read(line: &str, trajectory: &mut Trajectory) -> Result<Self> {
         let cells = cells(line);
         limits::check_count("columns", cells.len(), limits::COLUMNS)?;
@@ -223,7 +225,7 @@ impl Header {
             }
             let stem = name.strip_suffix("_x");
             let contact = stem.and_then(|stem| Some((stem, pose(stem)?, find(&format!("{stem}_stands"))?)));
-            // Three numbers in another unit, such as a force, are no point.
+            // Three numbers in another unit, such as a force, are not a point.
             let point = stem.and_then(|stem| Some((stem, all(stem, &["x", "y", "z"])?)));
             let point = point.filter(|(_, places)| places.iter().all(|at| names[*at].1 == "m"));
             match (contact, point) {
@@ -309,7 +311,7 @@ pub fn pose_of([x, y, z, qx, qy, qz, qw]: [f64; 7], rounding: f64) -> Result<Pos
         let text = format!("a quaternion has the length {norm}; give one of length one");
         return Err(Error::new(ErrorKind::BadValue, text));
     }
-    // What is of length one but for rounding stays as it is written.
+    // A quaternion of length one up to rounding is unchanged.
     let is_unit = (norm - 1.0).abs() < 1e-14;
     let rotation =
         if is_unit { UnitQuaternion::new_unchecked(quaternion) } else { UnitQuaternion::new_normalize(quaternion) };

@@ -7,24 +7,24 @@ use crate::spatial::Pose;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits::{COLUMNS, LARGEST, check_count, check_name};
 
-/// The most samples of a trajectory.
+/// Maximum number of samples of a trajectory.
 pub const MOST_SAMPLES: usize = groebot_algebra::limits::SAMPLES;
-/// The shortest time between two samples \[s\]: tables have nine decimals.
+/// Minimum time between two samples \[s\], since tables have nine decimals.
 const LEAST_STEP: f64 = 1e-8;
 
-/// A joint of a trajectory: its name, its kind and what bounds it.
+/// A joint of a trajectory: its name, its type and its bounds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JointTrack {
     /// Its name in the robot.
     pub name: String,
-    /// Whether it slides; else it turns.
+    /// Whether it is prismatic; else it is revolute.
     #[serde(default)]
     pub slides: bool,
-    /// Least and greatest value \[rad or m\].
+    /// Minimum and maximum value \[rad or m\].
     #[serde(default)]
     pub limits: Option<(f64, f64)>,
-    /// The greatest rate \[rad/s or m/s\].
+    /// Maximum velocity \[rad/s or m/s\].
     #[serde(default)]
     pub speed: Option<f64>,
 }
@@ -36,27 +36,27 @@ impl JointTrack {
     }
 }
 
-/// A body that may touch the ground: its pose and whether it stands, one a sample.
+/// A body that may touch the ground: its pose and its contact flag at each sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
     /// Its name, such as `left`.
     pub name: String,
-    /// Its poses in the world.
+    /// Its poses in the world frame.
     pub poses: Vec<Pose>,
-    /// Whether it stands.
+    /// Whether it is in contact.
     pub stands: Vec<bool>,
 }
 
-/// A point in the world, one a sample: the centre of mass, a zero moment point.
+/// A point in the world frame at each sample, for example the centre of mass or the zero moment point (ZMP).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     /// Its name, such as `com`.
     pub name: String,
-    /// Where it is \[m\].
+    /// Its positions \[m\].
     pub at: Vec<Point3<f64>>,
 }
 
-/// A number, one a sample: a margin, a residual.
+/// A number at each sample, for example a margin or a residual.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Its name, such as `margin`.
@@ -67,33 +67,34 @@ pub struct Figure {
     pub values: Vec<f64>,
 }
 
-/// A motion: samples in time, with the values of all joints, and where there are any the pose of the base, contacts, points and figures. Seconds,
-/// metres, radians.
+/// A motion: samples in time with the values of all joints and, if present, the pose of the base, contacts, points and
+/// figures. Seconds, metres, radians.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trajectory {
     /// The robot.
     pub robot: String,
     /// The joints.
     pub joints: Vec<JointTrack>,
-    /// When the samples are, ascending.
+    /// The times of the samples, ascending.
     pub times: Vec<f64>,
     /// The joint values at each sample, in the order of the joints.
     pub q: Vec<Vec<f64>>,
-    /// The pose of the base in the world at each sample; empty for a base that stands still.
+    /// The pose of the base in the world frame at each sample; empty for a fixed base.
     pub base: Vec<Pose>,
-    /// What may touch the ground.
+    /// The contacts.
     pub contacts: Vec<Contact>,
     /// Points.
     pub points: Vec<Track>,
-    /// Numbers.
+    /// The figures.
     pub figures: Vec<Figure>,
 }
 
 impl Trajectory {
-    /// Checks that every track has a value for each sample, all finite, and that time goes on.
+    /// Checks that every track has a finite value for each sample, and that the times increase.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] with the sample and the track; [`ErrorKind::DuplicateName`] for two joints, or two other tracks, of one name.
+    /// [`ErrorKind::BadValue`] with the sample and the track; [`ErrorKind::DuplicateName`] for two joints, or two other
+    /// tracks, with one name.
     pub fn check(&self) -> Result<()> {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         let count = self.times.len();
@@ -102,7 +103,7 @@ impl Trajectory {
         }
         let is_late = |pair: &[f64]| pair[1] - pair[0] >= LEAST_STEP;
         if let Some(at) = self.times.windows(2).position(|pair| !is_late(pair)) {
-            let text = "its time is not behind the one before by 1e-8 s or more; let time go on";
+            let text = "its time is not at least 1e-8 s after the previous one; give increasing times";
             return bad(format!("sample {}: {text}", at + 2));
         }
         self.check_names()?;
@@ -159,8 +160,8 @@ impl Trajectory {
             && self.figures.iter().all(|figure| number(&figure.values[sample]))
     }
 
-    /// The rates of the joints at a sample: the slope of the parabola through it and its neighbours; at both ends that of the line to the one
-    /// neighbour \[rad/s or m/s\].
+    /// The joint velocities at a sample \[rad/s or m/s\]: the slope of the parabola through it and its neighbours. At
+    /// both ends it is the slope of the line to the neighbour.
     ///
     /// # Panics
     /// When there is no such sample.
@@ -181,7 +182,8 @@ impl Trajectory {
         (0..self.joints.len()).map(rate).collect()
     }
 
-    /// The accelerations of the joints at a sample: the curvature of the same parabola; zero at both ends \[rad/s^2 or m/s^2\].
+    /// The accelerations of the joints at a sample: the second derivative of this parabola; zero at both ends \[rad/s^2
+    /// or m/s^2\].
     ///
     /// # Panics
     /// When there is no such sample.

@@ -1,12 +1,12 @@
-//! Known robots: the humanoids NAO, RH0 and TEO as [`Robot`]s with the figures of their walks, and arms as [`Chain`]s: PUMA, Stanford, a polar
-//! robot, UR5, IRB 120. The figures stand in `data/*.toml` with their source beside them; what is inferred or assumed says so there.
+//! Robots by name: the humanoids NAO, RH0 and TEO as [`Robot`]s, and arms as [`Chain`]s: PUMA, Stanford, a polar robot,
+//! UR5, IRB 120. The numbers are in `data/*.toml` with their sources. Inferred and assumed values are marked there.
 //!
-//! All are in metres and radians. Main type: [`Known`], a chain by its name. [`walker`] is a humanoid that walks.
+//! All are in metres and radians. Main type: [`Known`], a chain by its name.
 
 use crate::kinematics::{Chain, ChainParts};
 use crate::model::Robot;
 
-/// A chain that comes with this crate: an arm, or a limb of a humanoid.
+/// A chain of this crate: an arm, or a limb of a humanoid.
 #[derive(Clone, Copy, Debug)]
 pub struct Known {
     name: &'static str,
@@ -14,7 +14,7 @@ pub struct Known {
 }
 
 impl Known {
-    /// Its name: that of its chain and its function here.
+    /// Its name, which is that of its chain and of its function in this module.
     pub fn name(&self) -> &'static str {
         self.name
     }
@@ -35,15 +35,15 @@ macro_rules! arms {
 }
 
 arms! {
-    /// The polar robot of RH0 2.7: yaw, pitch, slide. Task: position.
+    /// The polar robot of RH0 2.7: yaw, pitch, and a prismatic joint. Task: position.
     polar;
     /// The arm of PUMA type of RH0 A.2.
     puma;
-    /// The arm of Stanford type of RH0 A.1: the third joint slides.
+    /// The arm of Stanford type of RH0 A.1, whose third joint is prismatic.
     stanford;
-    /// Universal Robots UR5, from the maker's Denavit-Hartenberg parameters.
+    /// Universal Robots UR5, from the manufacturer's Denavit-Hartenberg parameters.
     ur5;
-    /// ABB IRB 120 with a tool that points down at zero.
+    /// ABB IRB 120 with a tool that points down at the zero configuration.
     irb120;
 }
 
@@ -77,19 +77,19 @@ limbs! {
     /// NAO's right leg, torso to sole.
     nao_right_leg: nao_v5, "Torso" to "r_sole", "three hip axes meet, hip, knee and ankle pitch parallel, ankle axes meet; z up";
     /// NAO's left arm, torso to hand: five joints.
-    nao_left_arm: nao_v5, "Torso" to "l_hand", "five joints: few poses are reachable, so ask for poses of forward kinematics";
+    nao_left_arm: nao_v5, "Torso" to "l_hand", "five joints: few poses are reachable, so use poses from forward kinematics";
     /// NAO's right arm, torso to hand: five joints.
-    nao_right_arm: nao_v5, "Torso" to "r_hand", "five joints: few poses are reachable, so ask for poses of forward kinematics";
+    nao_right_arm: nao_v5, "Torso" to "r_hand", "five joints: few poses are reachable, so use poses from forward kinematics";
     /// NAO's head, torso to HeadPitch: two joints.
     nao_head: nao_v5, "Torso" to "Head", "two joints whose axes meet in the tip: it reaches directions of view only";
 }
 
-/// The chain called `name`; `None` when none of [`ALL`] has that name.
+/// The chain `name`; `None` when [`ALL`] does not contain it.
 pub fn by_name(name: &str) -> Option<Chain> {
     ALL.iter().find(|known| known.name == name).map(Known::chain)
 }
 
-/// The humanoid called `name`: `nao` or `nao_v5`, `rh0` or `teo`.
+/// The humanoid `name`: `nao` or `nao_v5`, `rh0` or `teo`.
 pub fn robot(name: &str) -> Option<Robot> {
     match name {
         "nao" | "nao_v5" => Some(nao_v5()),
@@ -99,27 +99,27 @@ pub fn robot(name: &str) -> Option<Robot> {
     }
 }
 
-/// NAO V5: torso, head, arms and legs, their masses, speeds and soles.
+/// NAO V5: torso, head, arms and legs, with masses, speeds and soles.
 pub fn nao_v5() -> Robot {
     described(include_str!("data/nao_v5.toml"))
 }
 
-/// RH0 as a whole: its legs, column and arms; its mass is a point at the trunk's frame, for that of its links is not known.
+/// RH0: legs, column and arms. Its mass is a point at the trunk's frame, because the masses of its links are not known.
 pub fn rh0() -> Robot {
     described(include_str!("data/rh0.toml"))
 }
 
-/// TEO: its legs, and all that is above them as one body.
+/// TEO: its legs, and the upper body as one link.
 pub fn teo() -> Robot {
     described(include_str!("data/teo.toml"))
 }
 
-/// The robot of one of this crate's files.
+/// Reads the robot of one of this crate's files.
 fn described(text: &str) -> Robot {
     Robot::from_toml(text).expect("the crate's own data, which tests/robots reads")
 }
 
-/// The chain of a limb under a name of its own.
+/// The chain of a limb with its own name.
 fn limb(robot: &Robot, name: &str, base: &str, tip: &str, words: &str) -> Chain {
     let chain = robot.chain(Some(base), Some(tip)).expect("the crate's own data, which tests/robots reads");
     let description = Some(format!("{}, {base} to {tip}: {words}", robot.name()));

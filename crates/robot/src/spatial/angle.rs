@@ -2,14 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
-/// A radian a second in turns a minute.
+/// Converts radians per second to revolutions per minute.
 pub const RPM: f64 = 30.0 / PI;
 
 /// The angle of (-pi, pi] that differs from `angle` by whole turns of the double `TAU`, without rounding.
 ///
 /// NaN when `angle` is not finite.
 pub fn wrap(angle: f64) -> f64 {
-    // Within three half turns one turn is enough, and exact; the remainder of a division takes longer.
+    // Within three half turns one turn is enough, and exact. The remainder of a division takes longer.
     if angle.abs() <= 3.0 * PI {
         return if angle > PI {
             angle - TAU
@@ -29,7 +29,7 @@ pub fn wrap(angle: f64) -> f64 {
     }
 }
 
-/// The smallest turn that leads from `from` to `to`, in (-pi, pi]; a half turn is positive.
+/// The smallest rotation from `from` to `to`, in (-pi, pi]. A half turn is positive.
 ///
 /// NaN when either angle is not finite.
 pub fn difference(to: f64, from: f64) -> f64 {

@@ -6,13 +6,14 @@ use super::Pose;
 use super::matrix::skew;
 use crate::{Error, ErrorKind, Result};
 
-/// How far, relative to its trace, an inertia may miss what mass can make: figures in data sheets are rounded.
+/// Tolerance of the checks of an inertia tensor, relative to its trace, because numbers in data sheets are rounded.
 pub const ROUNDING: f64 = 1e-4;
 
-/// What rounding leaves of a moment that is zero: a share of the mass times a square metre. Programs for design write 1e-20 and 1e-35 kg m^2 for nothing.
+/// Threshold for a moment that is zero up to rounding, relative to the mass times one square metre. CAD programs write
+/// 1e-20 and 1e-35 kg m^2 for zero.
 pub const NEGLIGIBLE: f64 = 1e-12;
 
-/// How far, relative to its norm, a given tensor may be from symmetric.
+/// Tolerance of the symmetry of a given tensor, relative to its norm.
 pub const ASYMMETRY: f64 = 1e-9;
 
 /// Mass, centre of mass and rotational inertia of a rigid body, in the frame of its link.
@@ -24,13 +25,13 @@ pub struct Inertia {
 }
 
 impl Inertia {
-    /// A body of `mass` \[kg\] with its centre at `centre_of_mass` \[m\] in the link's frame. `rotational` \[kg m^2\]
-    /// is the inertia tensor about that centre along the axes of the link's frame.
+    /// Builds the inertia of a body of `mass` \[kg\] with its centre of mass at `centre_of_mass` \[m\] in the link's
+    /// frame. `rotational` \[kg m^2\] is the inertia tensor about that centre along the axes of the link's frame.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when the mass is not positive, a number is not finite, the tensor is not symmetric (to
-    /// [`ASYMMETRY`]), or no distribution of mass has it: a principal moment is at least zero and at most the sum of
-    /// the other two (to [`ROUNDING`]).
+    /// [`ASYMMETRY`]), or it is physically impossible: each principal moment must be at least zero and at most the sum
+    /// of the other two (to [`ROUNDING`]).
     pub fn new(mass: f64, centre_of_mass: Point3<f64>, rotational: Matrix3<f64>) -> Result<Self> {
         let rows: [[f64; 3]; 3] = rotational.transpose().into();
         let fault = if !(mass.is_finite() && mass > 0.0) {
@@ -47,15 +48,15 @@ impl Inertia {
         Err(Error::new(ErrorKind::BadValue, fault))
     }
 
-    /// The figures as they are told, whether a body can have them or not; the tensor is made symmetric.
-    pub fn told(mass: f64, centre_of_mass: Point3<f64>, rotational: Matrix3<f64>) -> Self {
+    /// Builds the inertia without checks. The tensor is made symmetric.
+    pub fn unchecked(mass: f64, centre_of_mass: Point3<f64>, rotational: Matrix3<f64>) -> Self {
         Inertia { mass, centre_of_mass, rotational: (rotational + rotational.transpose()) / 2.0 }
     }
 
-    /// Fails unless a body can have these figures, its moments within `least` \[kg m^2\], which is taken for rounding.
+    /// Checks physical consistency. `least` \[kg m^2\] is the tolerance of the moments for rounding.
     ///
     /// # Errors
-    /// As [`Inertia::new`].
+    /// Those of [`Inertia::new`].
     pub fn check(&self, least: f64) -> Result<()> {
         let lifted = self.rotational + Matrix3::from_diagonal_element(least);
         if is_distribution_of_mass(&lifted) && self.mass > 0.0 && self.mass.is_finite() {
@@ -64,7 +65,7 @@ impl Inertia {
         Inertia::new(self.mass, self.centre_of_mass, self.rotational).map(|_| ())
     }
 
-    /// No mass at all.
+    /// Zero inertia.
     pub fn none() -> Self {
         Inertia { mass: 0.0, centre_of_mass: Point3::origin(), rotational: Matrix3::zeros() }
     }
@@ -84,7 +85,7 @@ impl Inertia {
         self.rotational
     }
 
-    /// The same body in the frame in which its own frame stands at `outer_from_frame`.
+    /// Transforms the inertia to an outer frame. `outer_from_frame` is the pose of its frame there.
     #[must_use]
     pub fn placed(&self, outer_from_frame: &Pose) -> Self {
         let turn = outer_from_frame.rotation.to_rotation_matrix().into_inner();
@@ -95,12 +96,12 @@ impl Inertia {
         }
     }
 
-    /// Both bodies as one, in the frame of both.
+    /// The sum of both inertias, in their common frame.
     #[must_use]
     pub fn with(&self, other: &Inertia) -> Self {
         let mass = self.mass + other.mass;
         if mass == 0.0 {
-            return Inertia::told(0.0, Point3::origin(), self.rotational + other.rotational);
+            return Inertia::unchecked(0.0, Point3::origin(), self.rotational + other.rotational);
         }
         let centre = (self.centre_of_mass.coords * self.mass + other.centre_of_mass.coords * other.mass) / mass;
         let about = |body: &Inertia| {
@@ -111,7 +112,8 @@ impl Inertia {
     }
 
     /// The generalised inertia matrix, 6x6: half of `V' mu V` is the kinetic energy at the body velocity `V = (v, w)`
-    /// of the link's frame. With the frame at the centre of mass it is RH0 (2-40): the mass, and the tensor below it.
+    /// of the link's frame. With the frame at the centre of mass it is RH0 (2-40): block diagonal with the mass and the
+    /// tensor.
     pub fn generalised(&self) -> Matrix6<f64> {
         let lever = skew(&self.centre_of_mass.coords) * self.mass;
         let mut matrix = Matrix6::zeros();

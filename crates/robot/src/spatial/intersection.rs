@@ -1,14 +1,14 @@
-//! Where a line meets a sphere, and where the axes of two twists meet.
+//! Intersections of a line with a sphere, and of the axes of two twists.
 
 use nalgebra::Point3;
 
 use super::{Axis, Relation, Twist};
 
-/// The two points in which `line` meets the sphere, in the order of its direction; lengths in one unit.
+/// The two points of intersection of `line` and the sphere, in the order of its direction. Lengths are in one unit.
 /// RobotMan f(28).
 ///
-/// A line that passes by the sphere at up to `tolerance` touches it: both points are then its nearest point to the
-/// centre. `None` when it passes further away, when the radius is negative, and when a number is not finite.
+/// A line within `tolerance` of the sphere touches it: both points are then its point nearest to the centre. `None`
+/// when it is further away, when the radius is negative, and when a number is not finite.
 pub fn of_line_and_sphere(line: &Axis, centre: &Point3<f64>, radius: f64, tolerance: f64) -> Option<[Point3<f64>; 2]> {
     let foot = line.foot(centre);
     let distance = (foot - centre).norm();
@@ -20,10 +20,11 @@ pub fn of_line_and_sphere(line: &Axis, centre: &Point3<f64>, radius: f64, tolera
     Some([foot - step, foot + step])
 }
 
-/// The point in which the axes (2-12) of two twists meet, to `tolerance` in the unit of their pitch; RobotMan f(39).
+/// The point of intersection of the axes (2-12) of two twists, to `tolerance` in the unit of their pitch; RobotMan
+/// f(39).
 ///
-/// `None` when they do not, when they are parallel or the same line, and when a twist is zero, not finite or a pure
-/// translation, which has a direction but no place.
+/// `None` when they do not intersect, when they are parallel or coaxial, and when a twist is zero or not finite. A pure
+/// translation has no position, so it gives `None` too.
 pub fn of_twists(x: &Twist, y: &Twist, tolerance: f64) -> Option<Point3<f64>> {
     if x.pitch().is_infinite() || y.pitch().is_infinite() {
         return None;

@@ -1,28 +1,28 @@
-//! How two axes lie to each other: parallel, intersecting, skew; and the points where they come nearest.
+//! Relation of two axes: parallel, intersecting or skew, with the points where they are nearest.
 
 use nalgebra::Point3;
 
 use super::Axis;
 
-/// How far, in radians, two directions may differ and still count as parallel.
+/// Maximum angle \[rad\] between directions that count as parallel.
 pub const PARALLEL: f64 = 1e-9;
 
-/// How two lines lie to each other. Lengths in the unit of the axes' points.
+/// Relation of two lines. Lengths in the unit of the axes' points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Relation {
-    /// The same line; the directions may be opposite.
+    /// Coaxial; the directions may be opposite.
     Coincident,
     /// Parallel or antiparallel, `distance` apart.
     Parallel {
         /// The distance of the two lines.
         distance: f64,
     },
-    /// They meet in one point.
+    /// They intersect in one point.
     Intersecting {
-        /// Where they meet.
+        /// The point of intersection.
         point: Point3<f64>,
     },
-    /// Neither parallel nor meeting.
+    /// Neither parallel nor intersecting.
     Skew {
         /// The smallest distance of the two lines.
         distance: f64,
@@ -42,7 +42,7 @@ impl Axis {
         (p - self.foot(p)).norm()
     }
 
-    /// The points of this line and of `other` where the two come nearest; `None` when they are parallel.
+    /// The points of this line and of `other` where the two are nearest; `None` when they are parallel.
     pub fn nearest_points(&self, other: &Axis) -> Option<(Point3<f64>, Point3<f64>)> {
         if self.is_parallel(other) {
             return None;
@@ -54,7 +54,7 @@ impl Axis {
         Some((self.point() + w1.scale(along(&w2)), other.point() + w2.scale(along(&w1))))
     }
 
-    /// How the lines lie to each other; distances up to `tolerance` count as none, angles up to [`PARALLEL`] as parallel.
+    /// The relation of the lines. Distances up to `tolerance` count as zero, angles up to [`PARALLEL`] as parallel.
     pub fn relation(&self, other: &Axis, tolerance: f64) -> Relation {
         match self.nearest_points(other) {
             None => match self.distance_to(&other.point()) {

@@ -1,7 +1,8 @@
 //! Rigid motions and the conventions of angles, twists and screws. Metres and radians throughout.
 //!
-//! A rigid transform is a [`Pose`]; a joint is a [`Screw`]; its infinitesimal motion is a [`Twist`],
-//! linear part first, as in RH0 (2-5); what acts on it is a [`Wrench`], what weighs an [`Inertia`]. [`ScrewCoordinates`] are the geometry of both.
+//! A rigid transform is a [`Pose`]. A joint is a [`Screw`], and its infinitesimal motion is a [`Twist`], linear part
+//! first, as in RH0 (2-5). A force with a torque is a [`Wrench`]. [`ScrewCoordinates`] are axis, pitch and magnitude of
+//! twists and wrenches. A rigid body has an [`Inertia`].
 
 pub mod angle;
 pub mod exact;
@@ -30,5 +31,5 @@ pub use wrench::Wrench;
 
 /// A rigid transform of SE(3), RH0 (2-1): unit quaternion and translation \[m\].
 ///
-/// Named by its frames: `base_from_tool` takes coordinates in the tool frame to the base frame.
+/// It is named by its frames: `base_from_tool` converts coordinates from the tool frame to the base frame.
 pub type Pose = nalgebra::Isometry3<f64>;

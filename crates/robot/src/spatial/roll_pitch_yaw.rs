@@ -1,8 +1,8 @@
 //! Roll, pitch and yaw as in RobotMan (RH0, appendix D), and the six coordinates of a body that it builds with them.
 //!
-//! `R = Rx(roll) Ry(pitch) Rz(yaw)`: turns about the body's own axes x, then y, then z; in other words about the
-//! fixed axes z, then y, then x. URDF and nalgebra take the opposite order, `Rz(yaw) Ry(pitch) Rx(roll)`. In the
-//! thesis' frames y points up, so that a turn about the vertical is its pitch.
+//! `R = Rx(roll) Ry(pitch) Rz(yaw)`: rotations about the body's own axes x, then y, then z, or equivalently about the
+//! fixed axes z, then y, then x. URDF and nalgebra use the opposite order, `Rz(yaw) Ry(pitch) Rx(roll)`. In the thesis'
+//! frames y points up, so a rotation about the vertical is its pitch.
 
 use std::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::{Pose, angle, pose};
 
-/// The cosine of the pitch up to which roll and yaw turn about one line and roll is taken as zero.
+/// Maximum cosine of the pitch at which roll and yaw rotate about one line and roll is set to zero.
 pub const SINGULAR: f64 = 4.0 * f64::EPSILON;
 
 /// Angles \[rad\] with `R = Rx(roll) Ry(pitch) Rz(yaw)`.
@@ -43,7 +43,7 @@ impl RollPitchYaw {
         RollPitchYaw { roll: angle::wrap(roll), pitch: r[(0, 2)].atan2(cosine), yaw: angle::wrap(yaw) }
     }
 
-    /// The other three angles of the same rotation: pitch goes to pi - pitch, roll and yaw turn by pi; in (-pi, pi\].
+    /// The other three angles of the same rotation, in (-pi, pi\]: pi - pitch, and roll and yaw plus pi.
     #[must_use]
     pub fn other(&self) -> Self {
         RollPitchYaw {

@@ -4,9 +4,9 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
 use crate::{Error, ErrorKind, Result};
 
-/// How far `R' R` of a given rotation matrix may be from the identity (Frobenius norm).
+/// Maximum Frobenius norm of `R' R - 1` for a given rotation matrix.
 pub const ORTHONORMAL: f64 = 1e-9;
-/// How far from one the length of a given quaternion may be.
+/// Tolerance of the length of a given quaternion.
 pub const UNIT: f64 = 1e-6;
 
 /// The rotation by `angle` \[rad\] about `direction`, right-handed, by Rodrigues' formula RH0 (2-9).
@@ -15,12 +15,13 @@ pub fn rodrigues(direction: &Unit<Vector3<f64>>, angle: f64) -> Rotation3<f64> {
     Rotation3::from_matrix_unchecked(Matrix3::identity() + w * angle.sin() + w * w * versine(angle))
 }
 
-/// What the rotation by `angle` \[rad\] about `direction` adds to `x`: `R x - x`, exactly zero at angle zero.
+/// The displacement of `x` by the rotation by `angle` \[rad\] about `direction`: `R x - x`, exactly zero at angle zero.
 pub fn displacement(direction: &Unit<Vector3<f64>>, angle: f64, x: &Vector3<f64>) -> Vector3<f64> {
     displacement_by_half(direction, (angle / 2.0).sin_cos(), x)
 }
 
-/// The same by the sine and cosine of half the angle: `sin a = 2 sin(a/2) cos(a/2)`, `1 - cos a = 2 sin(a/2)^2`.
+/// Same as [`displacement`], but from the sine and cosine of half the angle: `sin a = 2 sin(a/2) cos(a/2)`, `1 - cos a
+/// = 2 sin(a/2)^2`.
 pub(super) fn displacement_by_half(
     direction: &Unit<Vector3<f64>>,
     (sine, cosine): (f64, f64),
@@ -39,9 +40,9 @@ pub fn exp(w: &Vector3<f64>) -> UnitQuaternion<f64> {
 /// The logarithm: the vector `w` with [`exp`]`(w) = rotation`, of length [`angle`] \[rad\].
 ///
 /// Accurate to a few units in the last place at all angles, small ones and those near pi included. An exact half turn
-/// (scalar part zero) has two logarithms; this is the one whose first coordinate that is not zero is positive.
+/// (scalar part zero) has two logarithms; this is the one whose first nonzero coordinate is positive.
 pub fn log(rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
-    let (cosine, vector) = short_way(rotation);
+    let (cosine, vector) = shorter_rotation(rotation);
     let sine = vector.norm();
     let tangent = sine / cosine;
     vector * if tangent < 1e-4 { (2.0 - tangent * tangent / 1.5) / cosine } else { 2.0 * sine.atan2(cosine) / sine }
@@ -52,16 +53,16 @@ pub fn angle(rotation: &UnitQuaternion<f64>) -> f64 {
     2.0 * length(&rotation.imag()).atan2(rotation.scalar().abs())
 }
 
-/// The axis about which the rotation turns by [`angle`], right-handed: the omega of RH0 (2-9). `None` for the identity.
+/// The axis of the right-handed rotation by [`angle`]: the omega of RH0 (2-9). `None` for the identity.
 ///
-/// Of the two axes of an exact half turn it is the one whose first coordinate that is not zero is positive.
+/// Of the two axes of an exact half turn it is the one whose first nonzero coordinate is positive.
 pub fn axis(rotation: &UnitQuaternion<f64>) -> Option<Unit<Vector3<f64>>> {
-    let (_, vector) = short_way(rotation);
+    let (_, vector) = shorter_rotation(rotation);
     let size = vector.amax();
     (size > 0.0).then(|| Unit::new_normalize(vector / size))
 }
 
-/// The rotation with the matrix `matrix`.
+/// Converts a rotation matrix.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] when the columns are not a right-handed orthonormal frame, to [`ORTHONORMAL`].
@@ -79,7 +80,7 @@ pub fn from_matrix(matrix: &Matrix3<f64>) -> Result<UnitQuaternion<f64>> {
     Err(Error::new(ErrorKind::BadValue, text))
 }
 
-/// The matrix by rows of the rotation that a quaternion x, y, z, w of length one describes.
+/// Converts a unit quaternion x, y, z, w to a rotation matrix, row by row.
 ///
 /// # Errors
 /// The length, when it is not one to [`UNIT`].
@@ -102,8 +103,8 @@ pub fn rows_of_quaternion(quaternion: [f64; 4]) -> std::result::Result<[f64; 9],
     ])
 }
 
-/// Cosine and vector part of the quaternion of `rotation` that turns by at most pi; at pi the one that [`log`] tells.
-fn short_way(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
+/// Cosine and vector part of the quaternion of `rotation` with an angle of at most pi; at pi the one of [`log`].
+fn shorter_rotation(rotation: &UnitQuaternion<f64>) -> (f64, Vector3<f64>) {
     let (cosine, vector) = (rotation.scalar(), rotation.imag());
     let leading = vector.iter().copied().find(|x| *x != 0.0).unwrap_or(0.0);
     let turns_back = if cosine == 0.0 { leading < 0.0 } else { cosine < 0.0 };
@@ -120,25 +121,26 @@ pub(super) fn sinc(x: f64) -> f64 {
     if x.abs() < 1e-4 { 1.0 - x * x / 6.0 } else { x.sin() / x }
 }
 
-/// The length of `x`, zero only when `x` is: the squares of its entries do not underflow or overflow.
+/// The length of `x`, zero only when `x` is zero: the squares of its entries do not underflow or overflow.
 pub(super) fn length(x: &Vector3<f64>) -> f64 {
     x.x.hypot(x.y).hypot(x.z)
 }
 
-/// Pitch and roll \[rad\] of a rotation Rz(yaw) Ry(pitch) Rx(roll): by its third row, -sin pitch, cos pitch sin roll, cos pitch cos roll.
+/// Pitch and roll \[rad\] of a rotation Rz(yaw) Ry(pitch) Rx(roll), from its third row: -sin pitch, cos pitch sin roll,
+/// cos pitch cos roll.
 pub fn pitch_and_roll(rotation: &UnitQuaternion<f64>) -> (f64, f64) {
     let matrix = rotation.to_rotation_matrix();
     let [along, across, up] = [0, 1, 2].map(|k| matrix[(2, k)]);
     ((-along).atan2(across.hypot(up)), across.atan2(up))
 }
 
-/// The third row of a rotation with this pitch and roll: where the vertical is, seen from the tip.
+/// The third row of a rotation with this pitch and roll: the vertical in the tip frame.
 pub fn vertical(pitch: f64, roll: f64) -> Vector3<f64> {
     Vector3::new(-pitch.sin(), pitch.cos() * roll.sin(), pitch.cos() * roll.cos())
 }
 
-/// Roll, pitch and yaw of a URDF \[rad\]: `R = Rz(yaw) Ry(pitch) Rx(roll)`, pitch in \[-pi/2, pi/2\]; where roll and yaw turn about one
-/// line, yaw is zero.
+/// Roll, pitch and yaw of a URDF \[rad\]: `R = Rz(yaw) Ry(pitch) Rx(roll)`, pitch in \[-pi/2, pi/2\]. Where roll and
+/// yaw rotate about one line, yaw is zero.
 pub fn rpy(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
     let r = rotation.to_rotation_matrix().into_inner();
     let level = r[(0, 0)].hypot(r[(1, 0)]);

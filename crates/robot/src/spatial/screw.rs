@@ -1,4 +1,4 @@
-//! Joint axes as lines in space, and the motions they allow.
+//! Joint axes as lines in space, and their motions.
 
 use nalgebra::{Point3, Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 
@@ -12,7 +12,7 @@ pub struct Axis {
     point: Point3<f64>,
 }
 
-/// A joint value with the sine and cosine of half of it, for a joint that is moved more than once.
+/// A joint value with the sine and cosine of half of it, for a joint that is moved several times.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Half {
     pub q: f64,
@@ -21,14 +21,14 @@ pub(crate) struct Half {
 }
 
 impl Half {
-    /// At `q`.
+    /// Computes them for `q`.
     pub fn new(q: f64) -> Self {
         let (sine, cosine) = (q / 2.0).sin_cos();
         Half { q, sine, cosine }
     }
 }
 
-/// The motion that a joint allows, in the base frame at the zero configuration.
+/// The motion of a joint, in the base frame at the zero configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Screw {
     /// A rotation \[rad\] about an axis: a screw of pitch 0.
@@ -38,7 +38,7 @@ pub enum Screw {
 }
 
 impl Axis {
-    /// The line through `point` along `direction`, which need not have length one.
+    /// Builds the line through `point` along `direction`, which may have any length.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when `direction` is zero or a coordinate is not finite.
@@ -51,10 +51,10 @@ impl Axis {
         Ok(Axis { direction: unit(direction)?, point })
     }
 
-    /// The line from `a` to `b` \[m\].
+    /// Builds the line from `a` to `b` \[m\].
     ///
     /// # Errors
-    /// As [`Axis::new`]; two equal points have no line.
+    /// Those of [`Axis::new`]; two equal points have no line.
     pub fn through(a: &Point3<f64>, b: &Point3<f64>) -> Result<Self> {
         Axis::new(b - a, *a)
     }
@@ -69,12 +69,12 @@ impl Axis {
         self.point
     }
 
-    /// The point of the axis that is nearest to `p` \[m\].
+    /// The point of the axis nearest to `p` \[m\].
     pub fn foot(&self, p: &Point3<f64>) -> Point3<f64> {
         self.point + self.direction.scale(self.direction.dot(&(p - self.point)))
     }
 
-    /// The same line, given by its point nearest to `p`.
+    /// Same line, but given by its point nearest to `p`.
     #[must_use]
     pub fn level_with(&self, p: &Point3<f64>) -> Axis {
         Axis { point: self.foot(p), ..*self }
@@ -90,7 +90,7 @@ impl Axis {
         self.rotation_by_half((angle / 2.0).sin_cos())
     }
 
-    /// The same by the sine and cosine of half the angle.
+    /// Same as [`Axis::rotation`], but from the sine and cosine of half the angle.
     fn rotation_by_half(&self, half: (f64, f64)) -> Pose {
         let translation = -rotation::displacement_by_half(&self.direction, half, &self.point.coords);
         let quaternion = Quaternion::from_parts(half.1, self.direction.scale(half.0));
@@ -102,7 +102,7 @@ impl Axis {
         Axis { direction, point: Point3::origin() }
     }
 
-    /// The axis moved by `shift` \[m\], its direction kept.
+    /// The axis translated by `shift` \[m\].
     #[must_use]
     pub fn shifted(&self, shift: &Vector3<f64>) -> Axis {
         Axis { point: self.point + shift, ..*self }
@@ -114,7 +114,7 @@ impl Axis {
         Axis { point: Point3::origin(), ..*self }
     }
 
-    /// The axis carried along by `motion`, its point too.
+    /// The axis transformed by `motion`, including its point.
     #[must_use]
     pub fn moved(&self, motion: &Pose) -> Axis {
         Axis { direction: motion.rotation * self.direction, point: motion * self.point }
@@ -122,15 +122,15 @@ impl Axis {
 }
 
 impl Screw {
-    /// A revolute joint about the line through `point` \[m\] along `direction`.
+    /// Builds a revolute joint about the line through `point` \[m\] along `direction`.
     ///
     /// # Errors
-    /// As [`Axis::new`].
+    /// Those of [`Axis::new`].
     pub fn revolute(direction: Vector3<f64>, point: Point3<f64>) -> Result<Self> {
         Ok(Screw::Revolute(Axis::new(direction, point)?))
     }
 
-    /// A prismatic joint along `direction`, which need not have length one.
+    /// Builds a prismatic joint along `direction`, which may have any length.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when `direction` is zero or not finite.
@@ -138,7 +138,7 @@ impl Screw {
         Ok(Screw::Prismatic(unit(direction)?))
     }
 
-    /// The same joint carried along by `motion`: `motion exp(q) motion^-1`.
+    /// The joint transformed by `motion`: `motion exp(q) motion^-1`.
     #[must_use]
     pub fn moved(&self, motion: &Pose) -> Screw {
         match self {
@@ -147,7 +147,7 @@ impl Screw {
         }
     }
 
-    /// The joint that moves back where this one moves ahead: `exp(-q)`.
+    /// The joint with the opposite direction of motion: `exp(-q)`.
     #[must_use]
     pub fn reversed(&self) -> Screw {
         match self {
@@ -164,7 +164,7 @@ impl Screw {
         }
     }
 
-    /// `p` \[m\] after moving the joint by `q` (\[rad\] when revolute, \[m\] when prismatic).
+    /// `p` \[m\] moved by the joint at `q` (\[rad\] when revolute, \[m\] when prismatic).
     pub fn carry(&self, q: f64, p: &Point3<f64>) -> Point3<f64> {
         match self {
             Screw::Revolute(axis) => axis.rotate(q, p),
@@ -172,7 +172,7 @@ impl Screw {
         }
     }
 
-    /// [`Screw::exp`] by a value whose sine and cosine are known.
+    /// Same as [`Screw::exp`], but with the known sine and cosine of half the value.
     pub(crate) fn exp_half(&self, value: Half) -> Pose {
         match self {
             Screw::Revolute(axis) => axis.rotation_by_half((value.sine, value.cosine)),
@@ -180,7 +180,7 @@ impl Screw {
         }
     }
 
-    /// The rigid transform of moving the joint by `q` (\[rad\] when revolute, \[m\] when prismatic), RH0 (2-7).
+    /// The rigid transform of the joint at `q` (\[rad\] when revolute, \[m\] when prismatic), RH0 (2-7).
     pub fn exp(&self, q: f64) -> Pose {
         match self {
             Screw::Revolute(axis) => axis.rotation(q),
@@ -189,7 +189,7 @@ impl Screw {
     }
 }
 
-/// `direction` at length one, whatever its magnitude.
+/// The unit vector of `direction`, of any magnitude.
 fn unit(direction: Vector3<f64>) -> Result<Unit<Vector3<f64>>> {
     let size = direction.amax();
     if direction.iter().all(|x| x.is_finite()) && size > 0.0 {

@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use super::{Axis, Twist, Wrench};
 use crate::{Error, ErrorKind, Result};
 
-/// A screw: a line, the share of what goes along it in what turns about it, and how much.
+/// A screw: a line, the pitch (translation per rotation), and the magnitude.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScrewCoordinates {
     axis: Axis,
@@ -14,7 +14,7 @@ pub struct ScrewCoordinates {
 }
 
 impl ScrewCoordinates {
-    /// The screw of any pitch about `axis`. Infinite `pitch` stands for a pure translation or a pure couple.
+    /// Builds the screw of any pitch about `axis`. An infinite `pitch` is a pure translation or a pure couple.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when `magnitude` is not finite, or `pitch` neither finite nor plus infinity.
@@ -32,7 +32,7 @@ impl ScrewCoordinates {
     /// Axis, pitch \[m/rad\] and magnitude \[rad, or m when the pitch is infinite\] of a twist.
     ///
     /// # Errors
-    /// As [`Twist::axis`].
+    /// Those of [`Twist::axis`].
     pub fn of_twist(twist: &Twist) -> Result<Self> {
         Ok(ScrewCoordinates { axis: twist.axis()?, pitch: twist.pitch(), magnitude: twist.magnitude() })
     }
@@ -40,22 +40,22 @@ impl ScrewCoordinates {
     /// Axis, pitch \[m\] and magnitude \[N, or N m when the pitch is infinite\] of a wrench.
     ///
     /// # Errors
-    /// As [`Wrench::axis`].
+    /// Those of [`Wrench::axis`].
     pub fn of_wrench(wrench: &Wrench) -> Result<Self> {
         Ok(ScrewCoordinates { axis: wrench.axis()?, pitch: wrench.pitch(), magnitude: wrench.magnitude() })
     }
 
-    /// The line.
+    /// The axis.
     pub fn axis(&self) -> Axis {
         self.axis
     }
 
-    /// What goes along the line per what turns about it; infinite for a pure translation or couple.
+    /// The pitch: translation per rotation, or torque per force; infinite for a pure translation or couple.
     pub fn pitch(&self) -> f64 {
         self.pitch
     }
 
-    /// How much.
+    /// The magnitude.
     pub fn magnitude(&self) -> f64 {
         self.magnitude
     }

@@ -17,7 +17,7 @@ pub struct Twist {
 }
 
 impl Twist {
-    /// No motion.
+    /// The zero twist.
     pub fn zero() -> Self {
         Twist { v: Vector3::zeros(), w: Vector3::zeros() }
     }
@@ -35,8 +35,8 @@ impl Twist {
 
     /// The rigid transform `exp(twist * magnitude)`, RH0 (2-7), for `w` of any length.
     ///
-    /// The translation is `u + B a x u + C a x (a x u)` with `a = w * magnitude`, `u = v * magnitude`, so that
-    /// it stays accurate when `w` is small; (2-7) as printed holds for `w` of length one only.
+    /// The translation is `u + B a x u + C a x (a x u)` with `a = w * magnitude`, `u = v * magnitude`, which is
+    /// accurate for small `w` too. Equation (2-7) as printed is valid only for `w` of length one.
     pub fn exp(&self, magnitude: f64) -> Pose {
         let (a, u) = (self.w * magnitude, self.v * magnitude);
         let angle = a.norm();
@@ -52,16 +52,16 @@ impl Twist {
         Twist { v: self.w.cross(&other.v) - other.w.cross(&self.v), w: self.w.cross(&other.w) }
     }
 
-    /// The twist, given in frame b, in frame a: `Ad_g` RH0 (2-10) applied to it, where `g` is `a_from_b`.
+    /// Transforms the twist from frame b to frame a: `Ad_g` RH0 (2-10) applied to it, where `g` is `a_from_b`.
     #[must_use]
     pub fn transform(&self, a_from_b: &Pose) -> Twist {
         let w = a_from_b.rotation * self.w;
         Twist { v: a_from_b.rotation * self.v + a_from_b.translation.vector.cross(&w), w }
     }
 
-    /// The line about and along which the twist moves, by its point nearest to the origin, RH0 (2-12).
+    /// The screw axis of the twist, by its point nearest to the origin, RH0 (2-12).
     ///
-    /// Of a pure translation: the line through the origin along `v`.
+    /// For a pure translation it is the line through the origin along `v`.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) when the twist is zero or not finite.
@@ -79,7 +79,7 @@ impl Twist {
         moment::magnitude(&self.w, &self.v)
     }
 
-    /// The twist of magnitude one of which this is a multiple; zero stays zero.
+    /// The twist of magnitude one with the same direction; zero for the zero twist.
     #[must_use]
     pub fn unit(&self) -> Twist {
         let magnitude = self.magnitude();
@@ -137,7 +137,7 @@ impl Mul<f64> for Twist {
     }
 }
 
-/// `(x - sin(x)) / x^3`; what cancels is small against the `u` it is added to.
+/// `(x - sin(x)) / x^3`. Its cancellation error is small relative to the `u` to which it is added.
 fn sine_defect(x: f64) -> f64 {
     if x.abs() < 1e-3 { 1.0 / 6.0 - x * x / 120.0 } else { (x - x.sin()) / x.powi(3) }
 }

@@ -17,7 +17,7 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// Neither force nor torque.
+    /// The zero wrench.
     pub fn zero() -> Self {
         Wrench { f: Vector3::zeros(), tau: Vector3::zeros() }
     }
@@ -38,16 +38,17 @@ impl Wrench {
         self.f.dot(&twist.v) + self.tau.dot(&twist.w)
     }
 
-    /// The wrench, given in frame b, in frame a: the dual of [`Twist::transform`], so that the power stays the same.
+    /// Transforms the wrench from frame b to frame a. It is the dual of [`Twist::transform`], so the power is
+    /// unchanged.
     #[must_use]
     pub fn transform(&self, a_from_b: &Pose) -> Wrench {
         let f = a_from_b.rotation * self.f;
         Wrench { f, tau: a_from_b.rotation * self.tau + a_from_b.translation.vector.cross(&f) }
     }
 
-    /// The line along which the force and about which the torque acts, by its point nearest to the origin, RH0 (2-18).
+    /// The axis of the wrench, along the force, by its point nearest to the origin, RH0 (2-18).
     ///
-    /// Of a pure couple: the line through the origin along `tau`.
+    /// For a pure couple it is the line through the origin along `tau`.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) when the wrench is zero or not finite.

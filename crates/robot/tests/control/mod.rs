@@ -1,4 +1,4 @@
-//! Control laws: each error dies out as its law says, in work space too, and what cannot be done is refused.
+//! Control laws: each error decays as in its law, also in workspace, and impossible requests are refused.
 
 mod two_chains;
 
@@ -25,7 +25,7 @@ fn stanford() -> Equations {
     equations(include_str!("../../../../tests/corpus/dynamics/stanford.urdf"))
 }
 
-/// `q_i = 0.3 sin(2 pi 0.4 t + i)` \[rad or m\], with rates and what these change by.
+/// `q_i = 0.3 sin(2 pi 0.4 t + i)` \[rad or m\], with velocities and accelerations.
 fn waves(count: usize) -> impl Fn(f64) -> [Vec<f64>; 3] {
     let rate = std::f64::consts::TAU * 0.4;
     move |time| {
@@ -37,7 +37,7 @@ fn waves(count: usize) -> impl Fn(f64) -> [Vec<f64>; 3] {
 
 const FREQUENCY: f64 = 20.0;
 
-/// Where an error of 0.02 should be: `e'' + 2 w e' + w^2 e = 0`.
+/// The expected value of an initial error of 0.02: `e'' + 2 w e' + w^2 e = 0`.
 fn ideal(time: f64) -> f64 {
     0.02 * (1.0 + FREQUENCY * time) * (-FREQUENCY * time).exp()
 }
@@ -58,7 +58,7 @@ fn errors(sample: &Sample) -> impl Iterator<Item = f64> {
     sample.q.iter().zip(&sample.desired).map(|(q, desired)| q - desired)
 }
 
-/// How far errors come from where they should be.
+/// The largest deviation of the errors from their expected values.
 fn deviation(samples: &[Sample]) -> f64 {
     let of = |sample: &Sample| errors(sample).map(|error| (error - ideal(sample.time)).abs()).fold(0.0, f64::max);
     samples.iter().map(of).fold(0.0, f64::max)
@@ -73,7 +73,7 @@ fn errors_die_out_as_computed_torque_says() {
     for plant in [ur5(), stanford()] {
         let law = || ComputedTorque::new(&plant, Gains::critical(6, FREQUENCY)).unwrap();
         let [coarse, fine] = [1e-3, 5e-4].map(|step| deviation(&run(&plant, law(), step, 5.0, Disturbance::default())));
-        // Torques that are held are late by half a step.
+        // Constant torques are late by half a step.
         assert!(coarse < 1e-3 && (coarse / fine - 2.0).abs() < 0.1, "{coarse:e} {fine:e}");
         let late = Disturbance { delay: 1, ..Disturbance::default() };
         let noisy = Disturbance { noise: [1e-4, 1e-3], seed: 1, ..Disturbance::default() };
@@ -82,7 +82,7 @@ fn errors_die_out_as_computed_torque_says() {
     }
 }
 
-/// Of masses that are 5 % off an error is left, which integral action takes away where the robot stands still.
+/// With masses that are 5 % wrong an error remains, which integral action removes at rest.
 #[test]
 fn integral_action_takes_wrong_masses_away() {
     let plant = ur5();
@@ -116,7 +116,7 @@ fn gravity_compensation_comes_to_rest_and_open_loop_does_not_pull_back() {
     let mut closed = ClosedLoop::new(&plant, law, 5e-4, Disturbance::default()).unwrap();
     let samples = closed.run([&[0.0; 6], &[0.0; 6]], 6.0, stand, &Watch::none()).unwrap();
     assert!(errors(samples.last().unwrap()).all(|error| error.abs() < 1e-3));
-    // Gravity alone is the right torque where the robot should stand.
+    // At rest in the desired configuration, the gravity torque is the correct one.
     let place = stand(0.0);
     let desired = Desired { q: &place[0], velocity: &place[1], acceleration: &place[2] };
     let mut law = OpenLoop::new(&plant).unwrap();
@@ -144,7 +144,8 @@ fn torques_are_cut_and_what_is_cut_is_told() {
     assert!(limited.cut().iter().any(|cut| *cut != 0.0));
 }
 
-/// `M~' - 2 C~` of the effective parameters is skew, RH0 (2-49), and the law's torques are those of the error that it wants.
+/// `M~' - 2 C~` of the effective parameters is skew-symmetric, RH0 (2-49), and the law's torques are those of the
+/// commanded error.
 #[test]
 fn work_space_is_that_of_the_thesis() {
     let robot = Robot::from_urdf(include_str!("../../../../tests/corpus/dynamics/ur5.urdf")).unwrap();
@@ -165,7 +166,7 @@ fn work_space_is_that_of_the_thesis() {
     let left = &skew + skew.transpose();
     assert!(left.amax() < 1e-6 * effective.inertia.amax().max(skew.amax()), "{}", left.amax());
 
-    // (2-50) by the effective parameters, beside what the law tells.
+    // (2-50) from the effective parameters, compared with the law's torques.
     let [place, rate, acceleration] = waves(6)(0.3);
     let desired = Desired { q: &place, velocity: &rate, acceleration: &acceleration };
     let mut room = plant.workspace();
@@ -239,7 +240,7 @@ fn trajectories_go_through_their_knots_smoothly() {
     near(&here[1], &rate, 1e-8, "rate");
     near(&here[2], &change, 1e-8, "change");
     near(&spline.at(0.0)[2], &[0.0, 0.0], 1e-14, "natural");
-    // Between knots with all three the polynomial is that of degree five.
+    // Between knots with position, velocity and acceleration the polynomial has degree five.
     let fifth = |t: f64| [vec![t.powi(5)], vec![5.0 * t.powi(4)], vec![20.0 * t.powi(3)]];
     let exact = Trajectory::new(vec![0.0, 2.0], vec![fifth(0.0), fifth(2.0)]).unwrap();
     (0..3).for_each(|which| near(&exact.at(0.7)[which], &fifth(0.7)[which], 1e-13, "fifth"));
@@ -248,7 +249,7 @@ fn trajectories_go_through_their_knots_smoothly() {
     assert!(Trajectory::through(vec![0.0, 1.0], vec![vec![f64::NAN], vec![0.0]]).is_err());
 }
 
-/// Without torques and friction the energy stays: 1e-9 over 10 s.
+/// Without torques and friction the energy is constant: within 1e-9 over 10 s.
 #[test]
 fn energy_is_kept() {
     struct Nothing(Vec<f64>);

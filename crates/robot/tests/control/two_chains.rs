@@ -1,4 +1,4 @@
-//! Two chains beside one tree: a robot on one foot, by three descriptions of it.
+//! Two chains compared with one tree: three models of a robot on one foot.
 
 use groebot_robot::control::{ClosedLoop, ComputedTorque, Desired, Disturbance, Gains, Law, TwoChains};
 use groebot_robot::dynamics::{Base, Equations, Model, State};
@@ -12,13 +12,13 @@ use crate::dynamics::samples::{Random, near};
 
 const SOLES: [&str; 2] = ["l_sole", "r_sole"];
 
-/// A robot that is fixed to the floor by a foot.
+/// A robot whose foot is fixed to the floor.
 fn standing(robot: &Robot, foot: &str) -> Equations {
     let model = Model::new(robot).unwrap().rooted_at(robot.link(foot).unwrap());
     Equations::of(robot, &model, Base::Fixed).unwrap().without_friction()
 }
 
-/// Where a link stands, and its velocity and what that changes by in its own frame.
+/// The pose of a link, and its velocity and acceleration in its own frame.
 fn moving(equations: &Equations, link: usize, state: State<'_>, acceleration: &[f64]) -> [Vec<f64>; 3] {
     let mut room = equations.workspace();
     let stands: Pose = equations.pose(&mut room, state.q, link).unwrap();
@@ -35,12 +35,12 @@ fn moving(equations: &Equations, link: usize, state: State<'_>, acceleration: &[
     [place, pair(&v, &w), pair(&(a - w.cross(&v)), &turning)]
 }
 
-/// A state on one foot, and accelerations.
+/// A state on one foot, with accelerations.
 fn random_state(random: &mut Random, count: usize) -> [Vec<f64>; 3] {
     [random.numbers(count, 0.8), random.numbers(count, 2.0), random.numbers(count, 5.0)]
 }
 
-/// The robot that a foot holds is the robot that moves freely and is pushed by what holds it.
+/// A robot with a fixed foot equals a floating robot with the contact wrench of the foot.
 #[test]
 fn a_foot_as_root_is_a_floating_base_with_a_contact_force() {
     let mut random = Random(71);
@@ -62,7 +62,7 @@ fn a_foot_as_root_is_a_floating_base_with_a_contact_force() {
                     [(place, &q), (base_velocity, &velocity), (base_acceleration, &acceleration)]
                         .map(|(base, joints)| [base, joints.clone()].concat());
                 let outside = [(link, ground)];
-                let state = State::new(&all_q, &all_v).pushed(&outside);
+                let state = State::new(&all_q, &all_v).with_wrenches(&outside);
                 let found = free.inverse(&mut free.workspace(), state, &all_a).unwrap().clone();
                 let size = torques.amax().max(ground.to_vector().amax()).max(1.0);
                 near(&found.as_slice()[..6], &[0.0; 6], 1e-11 * size, name);
@@ -72,7 +72,7 @@ fn a_foot_as_root_is_a_floating_base_with_a_contact_force() {
     }
 }
 
-/// RH0 (3-42), (3-43) with what goes through the trunk are (2-47) of the whole.
+/// RH0 (3-42), (3-43) with the wrench through the trunk equal (2-47) of the whole robot.
 #[test]
 fn coupled_chains_are_one_tree() {
     let mut random = Random(72);
@@ -89,7 +89,7 @@ fn coupled_chains_are_one_tree() {
             let state = State::new(&q, &velocity);
             let expected = one.torques(&desired, state).unwrap().to_vec();
             let size = expected.iter().fold(1.0, |size: f64, torque| size.max(torque.abs()));
-            // Friction counts in both.
+            // Friction counts in both models.
             let friction =
                 |robot: &Robot| robot.joints().iter().any(|joint| joint.friction != 0.0 || joint.damping != 0.0);
             assert!(!friction(&robot), "{name}");
@@ -121,7 +121,7 @@ fn a_chain_alone_is_that_of_its_matrices() {
     for (half, link) in halves.iter().zip(links) {
         let chain = Equations::of(&robot, &half.rooted_at(link), Base::Floating).unwrap().without_friction();
         let mut room = chain.workspace();
-        // Its root is the foot, which moves as the tree moves it.
+        // Its root is the foot, which moves as in the tree.
         let [place, base_velocity, base_acceleration] = moving(&tree, link, state, &acceleration);
         let [all_q, all_v, all_a] = [(place, &q), (base_velocity, &velocity), (base_acceleration, &acceleration)]
             .map(|(base, joints)| [base, joints.clone()].concat());
@@ -133,12 +133,13 @@ fn a_chain_alone_is_that_of_its_matrices() {
         ground += foot.rotation * forces.fixed_rows::<3>(0);
     }
     near(&found, &sum, 1e-9, "chains");
-    // Both together ask for what the floor gives to the one foot.
+    // Both chains together need the wrench that the floor transmits to the one foot.
     let whole = tree.base_wrench(&mut tree.workspace(), state, &acceleration).unwrap();
     assert!((whole.f - ground).norm() < 1e-9 * whole.f.norm(), "{whole:?} {ground}");
 }
 
-/// TEO on its right foot: coupled, each error dies out by itself; each chain on its own, the robot does not even keep its posture.
+/// TEO on its right foot. If the chains are coupled, each error decays independently. Separate chains do not even hold
+/// the posture.
 #[test]
 fn chains_that_are_not_coupled_do_not_hold_a_robot_on_one_foot() {
     let robot = robots::robot("teo").unwrap();
@@ -194,7 +195,7 @@ fn feet_must_be_two() {
     assert_eq!(new(["l_sole", "RootWaist"], 0), ErrorKind::BadValue);
     assert_eq!(new(SOLES, 2), ErrorKind::BadValue);
     assert_eq!(new(["l_sole", "tail"], 0), ErrorKind::UnknownName);
-    // Seen from a foot and back again it is the same robot.
+    // Rooting at a foot and back again gives the same robot.
     let model = Model::new(&robot).unwrap();
     let there = model.rooted_at(robot.link("l_sole").unwrap());
     let back = there.rooted_at(robot.root_place());

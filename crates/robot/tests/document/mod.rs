@@ -1,4 +1,4 @@
-//! The spanned TOML layer: exact numbers, lines, messages; nothing makes it panic.
+//! The TOML layer: exact numbers, lines, messages, and no panics.
 
 use std::path::Path;
 

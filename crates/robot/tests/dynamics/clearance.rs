@@ -1,4 +1,5 @@
-//! Links that touch: segments against a search, robots in postures that are known to touch or not.
+//! Links that touch: distances of segments compared with a search, and robots in postures that are known to touch or
+//! not.
 
 use groebot_robot::dynamics::{Clearance, Model};
 use groebot_robot::model::Robot;
@@ -7,7 +8,7 @@ use groebot_robot::spatial::Pose;
 use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
-/// Two capsules on two sliding arms of one base, with an arm between.
+/// Two capsules on two prismatic arms of one base, with an arm between.
 fn pair(ends: [[f64; 3]; 4], radii: [f64; 2]) -> Robot {
     let capsule = |from: [f64; 3], to: [f64; 3], radius: f64| {
         format!("collision = [{{ capsule = {{ radius = {radius:?}, from = {from:?}, to = {to:?} }} }}]")
@@ -37,7 +38,7 @@ fn depth(robot: &Robot, q: &[f64]) -> Option<f64> {
 proptest! {
     #![proptest_config(crate::cases(256))]
 
-    /// The distance of two segments is the least between their points, here of a fine grid.
+    /// The distance of two segments compared with the least distance of their points on a fine grid.
     #[test]
     fn capsules_are_as_deep_as_their_segments_are_near(
         ends in prop::array::uniform4(prop::array::uniform3(-1.0..1.0f64)), radii in prop::array::uniform2(0.8..1.5f64),
@@ -69,11 +70,11 @@ fn parallel_and_pointlike_capsules_are_measured() {
     assert_eq!(depth(&pair(at(0.7), [0.3, 0.3]), &[0.0; 2]), None);
     let points = [[0.0; 3], [0.0; 3], [0.4, 0.0, 0.0], [0.4, 0.0, 0.0]];
     assert!((depth(&pair(points, [0.3, 0.3]), &[0.0; 2]).unwrap() - 0.2).abs() < 1e-12);
-    // Half a turn takes one away.
+    // A half turn moves one capsule away.
     assert_eq!(depth(&pair(points, [0.3, 0.3]), &[0.0, std::f64::consts::PI]), Some(0.6 - 0.4));
 }
 
-/// NAO upright touches nothing; with both legs crossed at the hips' rolls the shanks do.
+/// NAO upright has no contact; with both legs crossed by the hip rolls the shanks touch.
 #[test]
 fn naos_legs_touch_where_they_cross() {
     let robot = robots::nao_v5();

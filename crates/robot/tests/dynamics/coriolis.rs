@@ -1,4 +1,4 @@
-//! The Coriolis matrix against differences of the inertia matrix.
+//! The Coriolis matrix compared with differences of the inertia matrix.
 
 use groebot_robot::spatial::Twist;
 use nalgebra::{DMatrix, DVector, Vector6};

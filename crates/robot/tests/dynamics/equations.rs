@@ -1,4 +1,4 @@
-//! The recursions beside the closed forms of the thesis, and beside one another.
+//! The recursions compared with the closed forms of the thesis, and with one another.
 
 use groebot_algebra::number::BigRational;
 use groebot_robot::ErrorKind;
@@ -31,7 +31,7 @@ fn matrices_are_those_of_the_thesis() {
             let [inertia, coriolis] = equations.matrices(&mut room, State::new(&q, &velocity)).unwrap();
             assert_near(inertia, &(model.inertia(&q).unwrap() + &armature), 1e-12, robot.name());
             assert_near(coriolis, &model.coriolis(&q, &velocity).unwrap(), 1e-12, robot.name());
-            // Gravity is the slope of the potential energy.
+            // The gravity torque is the gradient of the potential energy.
             let gravity = equations.gravity(&mut room, &q).unwrap();
             let placed = model.place(&Pose::identity(), &q).unwrap();
             let slopes = placed.centre_of_mass_jacobian().columns(6, count).transpose() * Vector3::new(0.0, 0.0, 9.81);
@@ -64,7 +64,7 @@ fn the_recursion_of_newton_and_euler_is_that_of_the_matrices() {
                 let [found, expected] =
                     [&torques, &summed].map(|list| DMatrix::from_column_slice(count, 1, list.as_slice()));
                 assert_near(&found, &expected, 1e-12, robot.name());
-                // Of RH0 the trunk's mass alone is told.
+                // For RH0 only the trunk's mass is given.
                 let weighs = robot.name() != "rh0";
                 match equations.forward(&mut room, state, torques.as_slice()) {
                     Ok(back) => {
@@ -78,7 +78,8 @@ fn the_recursion_of_newton_and_euler_is_that_of_the_matrices() {
     }
 }
 
-/// A free root's momentum in its own frame is the inertia matrix's first rows times the velocity; and `M' - 2 C` is skew along a motion.
+/// The momentum of a floating root in its own frame is the first rows of the inertia matrix times the velocity. `M' - 2
+/// C` is skew-symmetric along a motion.
 #[test]
 fn a_free_root_has_the_momentum_of_all_bodies() {
     let mut random = Random(3);
@@ -97,7 +98,7 @@ fn a_free_root_has_the_momentum_of_all_bodies() {
     let all = placed.momentum(&base, &velocity[6..]).unwrap();
     assert!((momentum.rows(0, 3) - all.linear).amax() < 1e-12 && (momentum.rows(3, 3) - all.angular).amax() < 1e-12);
 
-    // In the base's own frame joints alone change the inertia matrix.
+    // In the base's own frame only joints change the inertia matrix.
     let step = 1e-6;
     let mut at = |way: f64| {
         q[7..].iter_mut().zip(&velocity[6..]).for_each(|(q, rate)| *q += way * rate);
@@ -109,7 +110,7 @@ fn a_free_root_has_the_momentum_of_all_bodies() {
     assert!(left.amax() < 1e-6, "{}", left.amax());
 }
 
-/// A joint that follows another one halves its way: as if both were one joint whose inertia is summed so.
+/// A mimic joint with factor one half: the inertia is that of one joint with the sum of both motions.
 #[test]
 fn joints_that_follow_are_moved_by_their_leader() {
     let plain = ur5();
@@ -152,7 +153,7 @@ fn friction_and_rotors_are_counted_once() {
     assert!((bare[0] - torques[0] - 4.0).abs() < 1e-12);
 }
 
-/// Each robot on each base, with a state and an acceleration; of RH0 a body without mass is no matter here.
+/// Each robot with each base, with a state and an acceleration. A massless body of RH0 is irrelevant here.
 fn states(seed: u64, mut judge: impl FnMut(&Equations, &mut Workspace, &Robot, Base, [&[f64]; 3])) {
     let mut random = Random(seed);
     for robot in all() {
@@ -196,7 +197,7 @@ fn derivatives_are_finite_differences() {
     });
 }
 
-/// And they are what dual numbers give, to rounding: joints alone, at a robot without rotors and friction.
+/// They equal the derivatives by dual numbers, up to rounding: joints only, for a robot without rotors and friction.
 #[test]
 fn derivatives_are_those_of_dual_numbers() {
     let (robot, mut random) = (ur5(), Random(5));
@@ -230,7 +231,7 @@ fn derivatives_are_those_of_dual_numbers() {
     }
 }
 
-/// The power of torques, rotors included and friction left out, is the rate of the energy.
+/// The power of torques, including rotors and without friction, is the rate of the energy.
 #[test]
 fn power_is_what_the_energy_changes_by() {
     states(6, |equations, room, robot, base, [q, velocity, acceleration]| {
@@ -317,14 +318,14 @@ fn jacobians_and_momenta_are_those_of_motions() {
     });
 }
 
-/// What acts on a link from outside is taken off by its Jacobian, and forward dynamics knows of it.
+/// An external wrench on a link is subtracted by its Jacobian, and forward dynamics includes it.
 #[test]
 fn what_acts_from_outside_is_felt_by_jacobians() {
     states(9, |equations, room, robot, _, [q, velocity, acceleration]| {
         let link = robot.links().len() - 1;
         let wrench = Wrench { f: Vector3::new(1.0, -2.0, 3.0), tau: Vector3::new(0.4, 0.5, -0.6) };
         let outside = [(link, wrench), (0, wrench)];
-        let (state, pushed) = (State::new(q, velocity), State::new(q, velocity).pushed(&outside));
+        let (state, pushed) = (State::new(q, velocity), State::new(q, velocity).with_wrenches(&outside));
         let without = equations.inverse(room, state, acceleration).unwrap().clone();
         let with = equations.inverse(room, pushed, acceleration).unwrap().clone();
         let mut expected = without - &with;
@@ -368,7 +369,7 @@ fn what_no_body_has_is_refused_by_its_link() {
     let error = Equations::new(&Robot::new(parts).unwrap(), Base::Fixed).unwrap_err().to_string();
     assert!(error.contains(&name) && error.contains("mass -1"), "{error}");
 
-    // A rod of which only one moment is told is no body; fixed to another link it may be part of one.
+    // A rod with one given moment only is physically impossible. Fixed to another link it can be part of a body.
     let mut parts = plain.parts().clone();
     let zero = BigRational::default;
     let thin = [BigRational::new(1.into(), 1000.into()), zero(), zero(), zero(), zero(), zero()];

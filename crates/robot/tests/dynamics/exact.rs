@@ -1,4 +1,4 @@
-//! Equations of motion as polynomials, beside the recursions in doubles, and their certificates.
+//! Equations of motion as polynomials compared with the recursions in doubles, and their certificates.
 
 use std::collections::HashMap;
 
@@ -23,7 +23,8 @@ fn symbolic(chain: &Chain, masses: Masses<'_>) -> Symbolic {
     Symbolic::new(ExactModel::new(chain, masses, &down(), MOST_TERMS).unwrap()).unwrap()
 }
 
-/// Equations of motion of a robot from its root to a link in numbers, evaluated at a state, beside those of the recursions in doubles.
+/// Evaluates the equations of a robot from its root to a link, with numeric masses, and compares them with the
+/// recursions in doubles.
 fn agree(robot: &Robot, tip: &str) {
     let path = robot.path(None, Some(tip)).unwrap();
     let chain = robot.chain(None, Some(tip)).unwrap().ideal().0;
@@ -78,7 +79,7 @@ fn polynomials_are_what_the_recursions_compute() {
     let described = |text: &str| Robot::from_urdf(text).unwrap();
     agree(&described(include_str!("../../../../tests/corpus/dynamics/stanford.urdf")), "hand");
     agree(&described(include_str!("../../../../tests/corpus/dynamics/rrp.urdf")), "rod");
-    // A hip with roots of two, and an arm of which other limbs hang on the root.
+    // A hip with square roots of two, and an arm of a robot with other limbs at the root.
     let nao = robots::robot("nao_v5").unwrap();
     agree(&nao, "LFoot");
     agree(&nao, "LHand");
@@ -86,12 +87,12 @@ fn polynomials_are_what_the_recursions_compute() {
 
 #[test]
 fn base_parameters_are_as_many_as_others_count() {
-    // 36: M. Gautier's count for arms of this kind, as the issue tells it for the UR5.
+    // 36: the count of M. Gautier for arms of this kind.
     let chain = ur5().chain(None, Some("wrist_3_link")).unwrap().ideal().0;
     let told = symbolic(&chain, Masses::Symbols);
     let base = told.base_parameters().unwrap();
     assert_eq!(base.forms.len(), 36);
-    // By numbers: the singular values of many regressors.
+    // Numerically: the singular values of many regressors.
     let robot = ur5();
     let (equations, mut random) = (Equations::new(&robot, Base::Fixed).unwrap(), Random(12));
     let mut room = equations.workspace();
@@ -122,8 +123,8 @@ fn what_is_told_otherwise_is_not_proved() {
         ("V = -mx1*g*s1", "V = mx1*g*s1", "V"),
         ("B1 = mx1", "B1 = 2*mx1", "factor"),
         ("B2 = mz1 + mz2", "B2 = mz1", "more"),
-        ("B14 = mz3\n", "B14 = mz3\nB15 = Iyz1\n", "15 base parameters are told; there are 14"),
-        ("M33 = m3\n", "", "`M33` is not told"),
+        ("B14 = mz3\n", "B14 = mz3\nB15 = Iyz1\n", "15 base parameters are given; there are 14"),
+        ("M33 = m3\n", "", "`M33` is missing"),
         ("M33 = m3\n", "M33 = m3\nM33 = m3\n", "twice"),
         ("M33 = m3\n", "M33 = m3\nM44 = m3\n", "M44"),
     ] {

@@ -1,4 +1,4 @@
-//! What bodies weigh, found again from motions and torques.
+//! Identification of inertial parameters from motions and torques.
 
 use groebot_robot::dynamics::{Base, Equations, FindingKind, Identification, Logged, State};
 use groebot_robot::model::Robot;
@@ -10,7 +10,7 @@ fn rrp() -> Robot {
     Robot::from_urdf(include_str!("../../../../tests/corpus/dynamics/rrp.urdf")).unwrap()
 }
 
-/// A log of random motions, its torques by a function of equations, motions and noise.
+/// A log of random motions. A function of equations, motions and noise computes its torques.
 fn log(
     equations: &Equations,
     rows: usize,
@@ -41,18 +41,18 @@ fn parameters_and_friction_are_found_again() {
         });
         let found = equations.identify(&log, true).unwrap();
         for estimate in found.base.iter().chain(found.friction.iter().flatten()) {
-            assert!((estimate.value - estimate.told).abs() < 1e-9, "{estimate:?}");
+            assert!((estimate.value - estimate.described).abs() < 1e-9, "{estimate:?}");
         }
-        assert_eq!(found.friction[0][0].told, 1.5);
+        assert_eq!(found.friction[0][0].described, 1.5);
         assert!(found.consistency.is_converged && found.consistency.holds(), "{:?}", found.consistency);
         assert_eq!(found.findings, []);
         assert_eq!(found.base.len(), if robot.name() == "rrp" { 12 } else { 36 });
-        // With friction as it is told the rest is found, too.
+        // With friction from the description, the other parameters are found too.
         assert_eq!(equations.identify(&log, false).unwrap().friction.len(), 0);
     }
 }
 
-/// Of numbers from noisy torques 95 in a hundred are within their bounds.
+/// Of the parameters from noisy torques, 95 % are within their intervals.
 #[test]
 fn bounds_hold_as_often_as_they_say() {
     let robot = rrp();
@@ -63,12 +63,12 @@ fn bounds_hold_as_often_as_they_say() {
         let mut noise = Random(1000 + trial);
         let log = log(&equations, 60, |state, acceleration, _| {
             let torques = equations.inverse(&mut room, state, acceleration).unwrap();
-            // Twelve uniform numbers make one that is nearly normal; joints are measured unlike.
+            // The sum of twelve uniform numbers is nearly normal. Joints have different noise.
             let mut normal = || (0..12).map(|_| noise.number()).sum::<f64>() / 2.0;
             torques.iter().zip([0.1, 1.0, 0.01]).map(|(torque, size)| torque + size * normal()).collect()
         });
         for estimate in equations.identify(&log, false).unwrap().base {
-            within += usize::from((estimate.value - estimate.told).abs() < estimate.interval.unwrap());
+            within += usize::from((estimate.value - estimate.described).abs() < estimate.interval.unwrap());
             all += 1;
         }
     }
@@ -81,7 +81,7 @@ fn what_no_bodies_weigh_is_told() {
     let robot = rrp();
     let equations = Equations::new(&robot, Base::Fixed).unwrap();
     let mut numbers = equations.parameters();
-    // The rod slides: its mass is known for itself.
+    // The rod's joint is prismatic, so its mass is determined by itself.
     let mass = equations.parameter_names().iter().position(|name| name == "rod.m").unwrap();
     numbers[mass] = -1.0;
     let mut room = equations.workspace();
@@ -107,7 +107,7 @@ fn a_log_that_does_not_tell_is_refused() {
         row.acceleration.fill(0.0);
     });
     let error = equations.identify(&log, false).unwrap_err().to_string();
-    assert!(error.contains("the log does not tell"), "{error}");
+    assert!(error.contains("the log does not determine"), "{error}");
     log[7].torques[1] = f64::NAN;
     assert!(equations.identify(&log, false).unwrap_err().to_string().contains("row 8"));
     log[7].torques[1] = 0.0;
@@ -130,7 +130,8 @@ fn hinge() -> Robot {
     Robot::from_urdf(include_str!("../../../../tests/corpus/dynamics/faults/hinge.urdf")).unwrap()
 }
 
-/// By hand: a body of 100 kg with its centre at 2.5 mm has exactly the parameters of this log, and one of less than 0.25^2 / 0.00144 = 43.4 kg none: mx^2 <= m Iyy.
+/// By hand: a body of 100 kg with its centre at 2.5 mm has exactly the parameters of this log. A body of less than
+/// 0.25^2 / 0.00144 = 43.4 kg cannot have them: mx^2 <= m Iyy.
 #[test]
 fn bodies_are_sought_until_they_are_found() {
     let equations = Equations::new(&hinge(), Base::Fixed).unwrap();
@@ -151,7 +152,8 @@ fn bodies_are_sought_until_they_are_found() {
     assert!(mass > 43.4 && mx * mx <= mass * iyy, "{consistency:?}");
 }
 
-/// By hand: an inertia of -0.01 is nearest to one of nothing, and the other two parameters are free, for the mass is. The least squares are those of -0.01 in its deviation.
+/// By hand: an inertia of -0.01 is nearest to zero. The other two parameters are free, because the mass is. The least
+/// squares are those of -0.01 in units of its deviation.
 #[test]
 fn the_least_squares_of_bodies_are_enclosed() {
     let equations = Equations::new(&hinge(), Base::Fixed).unwrap();
@@ -167,14 +169,14 @@ fn the_least_squares_of_bodies_are_enclosed() {
     assert_eq!(inertia.name, "l1.Iyy");
     let deviation = inertia.interval.unwrap() / 1.966;
     let expected = (inertia.value / deviation).powi(2);
-    // No body has the least: its mass grows without bound.
+    // No body has the minimum: its mass grows without bound.
     assert!((consistency.least / expected - 1.0).abs() < 2e-3, "{consistency:?} beside {expected}");
     assert!(consistency.squares >= consistency.least, "{consistency:?}");
     assert!(consistency.is_refuted() && consistency.values[2] > 0.0, "{consistency:?}");
     assert_eq!(kinds(&found), [FindingKind::NoBodies]);
 }
 
-/// With two degrees of freedom left 95 % are within 4.3 deviations; 1.96 would have 81 %.
+/// With two degrees of freedom, 95 % are within 4.3 deviations; within 1.96 there are 81 %.
 #[test]
 fn few_rows_have_wide_intervals() {
     let equations = Equations::new(&hinge(), Base::Fixed).unwrap();
@@ -187,7 +189,7 @@ fn few_rows_have_wide_intervals() {
         let found = equations.identify(&log, false).unwrap();
         assert_eq!(found.freedom, 2);
         for estimate in &found.base {
-            within += usize::from((estimate.value - estimate.told).abs() < estimate.interval.unwrap());
+            within += usize::from((estimate.value - estimate.described).abs() < estimate.interval.unwrap());
             all += 1;
         }
         let none = equations.identify(&log[..3], false).unwrap();
@@ -197,7 +199,7 @@ fn few_rows_have_wide_intervals() {
     assert!((0.92..0.98).contains(&share), "{within} of {all}");
 }
 
-/// An arm that swings all its joints, a row each 20 ms, and noise of each joint of a share of its torques.
+/// An arm that swings all its joints, with one row every 20 ms. The noise of each joint is a fraction of its torques.
 fn swinging(equations: &Equations, rows: usize, seed: u64, share: f64) -> Vec<Logged> {
     let (count, mut random, mut room) = (equations.freedoms(), Random(seed), equations.workspace());
     let waves: Vec<[f64; 3]> = (0..3 * count)
@@ -241,7 +243,7 @@ fn good_logs_are_good() {
     }
 }
 
-/// Torques in another unit are those of other bodies: a cone has its multiples.
+/// Torques in another unit are those of other bodies: multiples of consistent bodies are consistent.
 #[test]
 fn bodies_of_any_mass_are_found() {
     let equations = arm();
@@ -295,7 +297,7 @@ fn bad_logs_are_told_by_their_kind() {
             *torque = if joint == 1 { torque.clamp(-60.0, 60.0) } else { *torque };
         })),
     );
-    // Torques of the row two before, 40 ms late.
+    // Torques of the row two rows earlier, 40 ms late.
     expect(
         FindingKind::Correlated,
         find(&|log: &mut Vec<Logged>| {
@@ -304,7 +306,7 @@ fn bad_logs_are_told_by_their_kind() {
             }
         }),
     );
-    // Noise that remembers 0.95 of itself: its intervals have 52 % in place of 95 %.
+    // Noise with autocorrelation 0.95: its intervals contain 52 % instead of 95 %.
     expect(
         FindingKind::Correlated,
         find(&|log: &mut Vec<Logged>| {

@@ -1,4 +1,4 @@
-//! Inertia and Coriolis matrices against the motion of point masses.
+//! Inertia and Coriolis matrices compared with the motion of point masses.
 
 mod clearance;
 mod coriolis;
@@ -21,7 +21,7 @@ pub use parts::{Part, model};
 use crate::kinematics::jacobian::screw;
 use crate::spatial::{pose, vector};
 
-/// A rigid body as point masses: (mass \[kg\], place in the link's frame \[m\]).
+/// A rigid body as point masses: (mass \[kg\], position in the link's frame \[m\]).
 #[derive(Clone, Debug)]
 pub struct Cloud(pub Vec<(f64, Vector3<f64>)>);
 

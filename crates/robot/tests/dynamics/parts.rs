@@ -6,16 +6,16 @@ use groebot_robot::kinematics::{ExactRotation, Placement};
 use groebot_robot::model::{Joint, JointType, Link, Mass, Robot, RobotParts};
 use groebot_robot::spatial::{Inertia, Pose, Screw};
 
-/// A body behind a joint.
+/// A body with its joint.
 #[derive(Clone, Copy, Debug)]
 pub struct Part {
-    /// The part that carries it; the base where there is none.
+    /// The parent part; `None` for the base.
     pub parent: Option<usize>,
     /// The joint, in the base frame at the zero configuration.
     pub screw: Screw,
     /// The frame of the body in the base frame at the zero configuration.
     pub base_from_link: Pose,
-    /// What it weighs, in that frame.
+    /// Its inertia, in this frame.
     pub inertia: Inertia,
 }
 

@@ -1,4 +1,5 @@
-//! 1,000 states a robot beside Pinocchio 4.1.0: `scripts/dynamics/states.py witness` makes the tables of tests/corpus/dynamics, of states that are made here again.
+//! Comparison with Pinocchio 4.1.0 at 1,000 states for each robot. `scripts/dynamics/states.py witness` writes the
+//! tables of tests/corpus/dynamics. The states are generated here again.
 
 use groebot_robot::dynamics::{Base, Equations, Model, State};
 use groebot_robot::model::Robot;
@@ -6,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::samples::{Random, floating};
 
-/// The place in the list is the seed of a table's states.
+/// The index in the list is the seed of a table's states.
 const TABLES: [(&str, &str, Base, &str); 6] = [
     (
         "ur5",
@@ -46,7 +47,7 @@ const TABLES: [(&str, &str, Base, &str); 6] = [
     ),
 ];
 
-/// A sum of products and the sum of their sizes.
+/// A sum of products, and the sum of their magnitudes.
 fn product(w: &[f64], matrix: &DMatrix<f64>, x: &[f64]) -> [f64; 2] {
     let mut sums = [0.0; 2];
     for (i, j) in (0..w.len()).flat_map(|i| (0..x.len()).map(move |j| (i, j))) {
@@ -86,7 +87,7 @@ fn a_thousand_states_of_each_robot_are_what_pinocchio_says() {
             found.extend([product(&w, &derivatives[0], &x), product(&w, &derivatives[1], &x)]);
             let energy = equations.energy(&mut room, state).unwrap();
             let momentum = equations.momentum(&mut room, state).unwrap();
-            // Pinocchio leaves a fixed root out.
+            // Pinocchio omits a fixed root.
             let root = *model.inertia_of(0);
             let still = if base == Base::Fixed { 9.81 * root.mass() * root.centre_of_mass().z } else { 0.0 };
             found.extend([energy.kinetic, energy.potential - still].map(|x| [x, x.abs().max(1.0)]));
@@ -98,7 +99,7 @@ fn a_thousand_states_of_each_robot_are_what_pinocchio_says() {
                 worst = worst.max(miss);
                 assert!(miss < 1e-10, "{name} row {rows} column {column}: {found} beside {told}, off by {miss:e}");
             }
-            // Forward dynamics undoes inverse dynamics, and is what the inertia matrix says.
+            // Forward dynamics is the inverse of inverse dynamics, and agrees with the inertia matrix.
             let bias = equations.bias(&mut room, state).unwrap().clone();
             let inertia = equations.inertia(&mut room, &q).unwrap().clone();
             let solved = inertia.cholesky().unwrap().solve(&(&torques - bias));

@@ -1,4 +1,4 @@
-//! A tree of bodies on a free base, against points whose places are differentiated.
+//! A tree of bodies on a floating base, compared with numerical differentiation of points.
 
 use groebot_robot::dynamics::Model;
 use groebot_robot::robots;
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 
 use super::{Part, model};
 
-/// Four points with masses, a rigid body of which inertia and centre are known by their definition.
+/// Four point masses: a rigid body whose inertia and centre of mass are known by definition.
 const CLOUD: [(f64, [f64; 3]); 4] =
     [(0.4, [0.1, 0.0, 0.02]), (0.3, [-0.05, 0.08, 0.0]), (0.2, [0.0, -0.03, 0.11]), (0.5, [0.04, 0.05, -0.06])];
 
@@ -27,7 +27,7 @@ fn frame(at: Vector3<f64>) -> Pose {
     Pose::from_parts(at.into(), UnitQuaternion::from_scaled_axis(Vector3::new(0.3, -0.2, 0.5)))
 }
 
-/// A base with two limbs, one of two joints, of which the second stands first.
+/// A base with two limbs. One has two joints, the second of which comes first in the list.
 fn parts() -> [Part; 3] {
     let part = |parent, axis: [f64; 3], at: [f64; 3]| Part {
         parent,
@@ -46,7 +46,7 @@ fn tree() -> Model {
     model(Some(&inertia()), &parts())
 }
 
-/// The places and masses of all points.
+/// The positions and masses of all points.
 fn points(tree: &Model, base: &Pose, q: &[f64]) -> Vec<(f64, Vector3<f64>)> {
     let placed = tree.place(base, q).unwrap();
     let frames = parts().into_iter().enumerate().map(|(body, part)| placed.motion(body + 1) * part.base_from_link);

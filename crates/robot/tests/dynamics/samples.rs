@@ -1,4 +1,4 @@
-//! Random states, a robot with masses, and what is near.
+//! Random states, a robot with masses, and comparison of vectors.
 
 use groebot_algebra::number::BigRational;
 use groebot_robot::dynamics::Base;
@@ -22,7 +22,7 @@ impl Random {
     }
 }
 
-/// The corpus tells no masses of it: each link weighs something else, off its axis.
+/// The UR5 of the corpus has no masses: each link gets a different mass, off its axis.
 pub fn ur5() -> Robot {
     let mut parts = Robot::from_urdf(include_str!("../../../../tests/corpus/urdf/ur5.urdf")).unwrap().parts().clone();
     let share = |numerator: i64, denominator: i64| BigRational::new(numerator.into(), denominator.into());
@@ -36,7 +36,7 @@ pub fn ur5() -> Robot {
     Robot::new(parts).unwrap()
 }
 
-/// The configuration of a free root, and of joints.
+/// The configuration of a floating root and of joints.
 pub fn floating(random: &mut Random, joints: usize) -> Vec<f64> {
     let mut q = random.numbers(7 + joints, 2.0);
     let length = DVector::from_column_slice(&q[3..7]).norm();
@@ -49,14 +49,14 @@ pub fn assert_near(found: &DMatrix<f64>, expected: &DMatrix<f64>, share: f64, wh
     assert!(miss <= share * expected.amax().max(1.0), "{what}: off by {miss:e} of {:e}", expected.amax());
 }
 
-/// Near what a test expects, as vectors of any kind.
+/// Asserts that vectors agree.
 pub fn near(found: &[f64], expected: &[f64], least: f64, what: &str) {
     let size = expected.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
     let miss = found.iter().zip(expected).fold(0.0, |miss: f64, (a, b)| miss.max((a - b).abs()));
     assert!(found.len() == expected.len() && miss <= least * size, "{what}: off by {miss:e} of {size:e}");
 }
 
-/// A configuration that is moved along a velocity for a while, a free root in its own frame.
+/// A configuration after motion with a velocity for a time. The velocity of a floating root is in its own frame.
 pub fn moved(base: Base, q: &[f64], velocity: &[f64], time: f64) -> Vec<f64> {
     let mut q = q.to_vec();
     let joints = if base == Base::Fixed { 0 } else { 7 };

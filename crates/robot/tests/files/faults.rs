@@ -1,4 +1,5 @@
-//! Every step of the writer fails in turn, once or for good: each file is old or new, and a mixed folder is known as such.
+//! Every step of the writer fails in turn, once or permanently: each file is old or new, and a mixed folder is
+//! recognised.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -14,7 +15,8 @@ use super::{content, files, map};
 
 const NOTE: &str = ".groebot-unfinished";
 
-/// A disk on which the step after so many others fails; all later ones do, too, once it is `dead`: what a killed process leaves.
+/// A disk on which one step fails after a number of others. If it is `dead`, all later steps fail too, as after a
+/// killed process.
 #[derive(Debug)]
 struct Faulty {
     left: Cell<usize>,
@@ -81,10 +83,10 @@ fn write_set(disk: &dyn Disk, folder: &Path) -> Result<()> {
     StagedFolder::stage_on(disk, folder, &files(&NEW), &Watch::none())?.without("stale.c")?.commit()
 }
 
-/// How a writing ended, what the folder has then, and the folder.
+/// The result of a write, the content of the folder afterwards, and the folder.
 type Outcome = (Result<()>, BTreeMap<String, Vec<u8>>, tempfile::TempDir);
 
-/// What each number of steps before the fault leaves, until there is no fault any more.
+/// The outcomes for each number of steps before the fault, until there is no fault.
 fn outcomes(dead: bool) -> Vec<Outcome> {
     let mut outcomes = Vec::new();
     loop {
@@ -104,12 +106,12 @@ fn outcomes(dead: bool) -> Vec<Outcome> {
 #[test]
 fn one_fault_leaves_the_old_set() {
     let outcomes = outcomes(false);
-    // Three files of three steps each, three copies, the note, four changes.
+    // Three files with three steps each, three copies, the marker, four changes.
     assert!(outcomes.len() >= 9 + 9 + 5 + 4, "{}", outcomes.len());
     for (step, (result, left, folder)) in outcomes.iter().enumerate() {
         assert!(result.is_err(), "step {step}");
         if step + 1 == outcomes.len() {
-            // The last one removes the note: it stays, and readers refuse the set.
+            // The last step removes the marker: it remains, and readers refuse the set.
             assert_eq!(left.len(), NEW.len() + 1, "{left:?}");
             assert!(NEW.iter().all(|(name, _)| refuse_unfinished(&folder.path().join(name)).is_err()));
         } else {
@@ -131,7 +133,7 @@ fn a_killed_writer_leaves_whole_files_and_a_mixed_set_is_refused() {
             assert!(names.clone().all(|path| refuse_unfinished(&path).is_err()), "step {step}: {left:?}");
             assert!(groebot_robot::document::read_text(&folder.path().join("1.txt"), 100).is_err(), "step {step}");
         }
-        // The next writer ends what was begun.
+        // The next writer completes the set.
         write_set(&System, folder.path()).unwrap();
         assert_eq!(content(folder.path()), map(&NEW), "step {step}");
     }

@@ -1,4 +1,4 @@
-//! A file or a set of files is replaced as a whole or not at all, and nothing temporary stays.
+//! A file or a set of files is replaced completely or not at all, and no temporary file remains.
 
 mod faults;
 mod own;
@@ -14,7 +14,7 @@ use groebot_robot::{ErrorKind, Watch};
 use proptest::prelude::*;
 use tempfile::tempdir;
 
-/// Every entry of `folder`, hidden ones too; a folder counts as empty content.
+/// Every entry of `folder`, including hidden ones. A folder counts as empty content.
 fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entry = |entry: std::io::Result<fs::DirEntry>| {
         let entry = entry.unwrap();
@@ -145,7 +145,7 @@ fn permissions_are_those_of_an_ordinary_file() {
     assert_eq!(mode(&ours) & 0o777, 0o640);
 }
 
-/// A temporary file that nobody has locked was left by a process that was killed.
+/// An unlocked temporary file was left by a killed process.
 #[test]
 fn what_a_killed_process_left_goes_with_the_next_set() {
     let folder = tempdir().unwrap();
@@ -165,7 +165,7 @@ fn what_a_killed_process_left_goes_with_the_next_set() {
     assert!(!at(".groebot-alive.tmp").exists());
 }
 
-/// Nobody takes the temporary file of a writer that is at work for a left-over one.
+/// The temporary file of an active writer is not removed as a left-over file.
 #[test]
 fn single_files_and_sets_are_written_into_one_folder_at_once() {
     let folder = tempdir().unwrap();

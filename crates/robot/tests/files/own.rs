@@ -1,4 +1,4 @@
-//! What may be replaced, and what is written into instead.
+//! Which files are replaced, and which are written to instead.
 
 use std::fs;
 

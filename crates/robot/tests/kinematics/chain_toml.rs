@@ -1,4 +1,4 @@
-//! Files: both forms say the same, every mistake has its kind and line, noise never panics.
+//! Chain files: both forms agree, every error has its kind and line, and random text never panics.
 
 use groebot_robot::ErrorKind;
 use groebot_robot::kinematics::{Chain, Choice, JointKind, LengthUnit, Plane, Root, Task};
@@ -85,7 +85,7 @@ fn limits_of_prismatic_joints_are_never_degrees() {
     assert_eq!(Chain::from_toml(&text).unwrap().joints()[0].limits, Some((-88.0, 27.73)));
 }
 
-/// Form A; each key stands on its own line.
+/// Form A; each key is on its own line.
 const FORM_A: &str = "\
 name = 'arm'
 length_unit = 'mm'

@@ -1,4 +1,4 @@
-//! Denavit-Hartenberg tables against their definition, the product of the rows' matrices.
+//! Denavit-Hartenberg tables compared with their definition, the product of the rows' matrices.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -49,7 +49,7 @@ fn the_documented_example() {
     assert_eq!(chain, Chain::from_dh_toml(&documented_example()).unwrap());
     assert_eq!(chain.joints()[2].kind, JointKind::Prismatic);
     assert_eq!(chain.joints()[2].limits, Some((0.0, 150.0)));
-    // From the drawing of a SCARA: the arm in the plane z = 211.5, the quill downwards.
+    // From the drawing of a SCARA: the arm in the plane z = 211.5, the quill points down.
     let (a, b, quill) = (0.3f64, -0.8f64, 40.0);
     let pose = chain.forward(&[a, b, quill, 0.1]).unwrap();
     let wanted =
@@ -111,7 +111,7 @@ proptest! {
         for other in [modified, by_axes, by_urdf] {
             prop_assert!((standard - other).norm() < 1e-14, "{}", (standard - other).norm());
         }
-        // The maker's table, multiplied out.
+        // The manufacturer's table, multiplied out.
         let alpha = [FRAC_PI_2, 0.0, 0.0, FRAC_PI_2, -FRAC_PI_2, 0.0];
         let (a, d) = ([0.0, -0.425, -0.39225, 0.0, 0.0, 0.0], [0.089159, 0.0, 0.0, 0.10915, 0.09465, 0.0823]);
         let rows = (0..6).map(|i| row_matrix(DhConvention::Standard, [q[i], d[i], a[i], alpha[i]]));

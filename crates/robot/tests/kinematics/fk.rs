@@ -1,4 +1,4 @@
-//! Forward kinematics against hand formulas and against the product of frames.
+//! Forward kinematics compared with hand formulas and with the product of frames.
 
 use std::fmt::Write;
 
@@ -46,7 +46,7 @@ fn the_ball_of_an_arm_is_what_it_reaches() {
     }
 }
 
-/// How far a point of the tip gets, one joint after the other moved to where it is the farthest away.
+/// The largest distance of a point of the tip when one joint after the other is moved to its maximum.
 fn farthest(chain: &Chain, ball: &Ball) -> f64 {
     let away = |q: &[f64]| (chain.forward(q).unwrap() * ball.point - ball.middle).norm();
     let mut q = [0.0, -0.4, 0.3, 0.5, 0.9, 0.0];
@@ -118,7 +118,7 @@ fn rounded(vector: &Vector3<f64>) -> [i64; 3] {
     [vector.x, vector.y, vector.z].map(|x| x.round() as i64)
 }
 
-/// The same chain in form A: the frames at zero, rounded, because all coordinates are integers.
+/// Same chain, but in form A: the frames at zero, rounded, because all coordinates are integers.
 fn form_a(links: &[Link]) -> String {
     let (mut text, mut base_from_joint) = (String::new(), Pose::identity());
     for (i, link) in links.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! How axes lie, against what is known of well-known arms, and in every configuration.
+//! Relations of axes, compared with known arms, and in every configuration.
 
 use groebot_robot::kinematics::{Chain, Geometry};
 use groebot_robot::model::Robot;

@@ -1,4 +1,4 @@
-//! Imperfect descriptions: what is almost there is told, and made exact; what is exact stays as it is.
+//! Imperfect descriptions: almost exact relations are reported and made exact; exact ones are unchanged.
 
 use groebot_algebra::number::BigRational;
 use groebot_robot::ErrorKind;
@@ -9,7 +9,7 @@ use proptest::prelude::*;
 
 use crate::errors::assert_error;
 
-/// ABB IRB 4600-60/2.05 by the maker's data sheet: 0.175, 0.495, 0.900, 0.175, 0.960 and 0.135 m.
+/// ABB IRB 4600-60/2.05 from the manufacturer's data sheet: 0.175, 0.495, 0.900, 0.175, 0.960 and 0.135 m.
 const IRB4600: &str =
     "name = 'irb4600'\ntask = { kind = 'pose' }\ntip = { point = [1.27, 0, 1.57], rpy_deg = [0, 90, 0] }
 [[joint]]\nname = '1'\ntype = 'revolute'\naxis = [0, 0, 1]\npoint = [0, 0, 0]
@@ -23,7 +23,7 @@ fn irb4600() -> Chain {
     Chain::from_toml(IRB4600).unwrap()
 }
 
-/// `chain` with every axis and every step from one point to the next off by at most `grain` / 10^7 a coordinate.
+/// `chain` with an error of at most `grain` / 10^7 in each coordinate of every axis and of every step between points.
 fn rounded(chain: &Chain, noise: &[i64], grain: i64) -> Chain {
     let mut noise = noise.iter().cycle();
     let mut off = |vector: &ExactVector| -> ExactVector {
@@ -40,7 +40,7 @@ fn rounded(chain: &Chain, noise: &[i64], grain: i64) -> Chain {
     Chain::new(parts).unwrap()
 }
 
-/// `chain` in a base that is turned by the quaternion `xyzw`.
+/// `chain` on a base rotated by the quaternion `xyzw`.
 fn turned(chain: &Chain, xyzw: [i64; 4]) -> Chain {
     let rotation = ExactRotation::from_quaternion(&xyzw.map(|x| BigRational::from_integer(x.into()))).unwrap();
     let mut parts: ChainParts = chain.parts().clone();
@@ -51,7 +51,7 @@ fn turned(chain: &Chain, xyzw: [i64; 4]) -> Chain {
     Chain::new(parts).unwrap()
 }
 
-/// Nothing is left that almost holds, and the same axes are parallel and meet as in `exact`.
+/// No relation almost holds, and the same axes are parallel and intersect as in `exact`.
 fn same_structure(ideal: &Chain, exact: &Chain) {
     let left = ideal.ideal_within(1e-2).unwrap().1;
     assert!(left.relations.is_empty(), "{}: {left}\n{ideal}", exact.name());
@@ -65,13 +65,13 @@ fn same_structure(ideal: &Chain, exact: &Chain) {
     }
 }
 
-/// The tolerance that is `length` metres at least.
+/// A tolerance of at least `length` metres.
 fn shared(chain: &Chain, length: f64) -> f64 {
     let distance = chain.joints()[0].location().coords.norm();
     length / (chain.reach().max(0.1 * distance) * chain.length_unit().metres()).min(1.0)
 }
 
-/// The greatest distance of the two tips, with all joints at `q`.
+/// The largest distance of the two tips, with all joints at `q`.
 fn apart(a: &Chain, b: &Chain, q: f64) -> f64 {
     let [a, b] = [a, b].map(|chain| chain.forward(&vec![q; chain.joints().len()]).unwrap());
     (a.translation.vector - b.translation.vector).norm()
@@ -104,7 +104,7 @@ fn what_is_almost_there_is_told() {
     let expected = [(1..3, RelationKind::Parallel), (3..6, RelationKind::Meeting)];
     assert_eq!(told, expected);
     assert!((near[0].by - 2e-5).abs() < 1e-14);
-    // Axis 6 passes the crossing of axes 4 and 5 at 4e-5 m in y and 3e-5 m in z.
+    // Axis 6 passes the intersection of axes 4 and 5 at 4e-5 m in y and 3e-5 m in z.
     assert!((near[1].by - 5e-5).abs() < 1e-14, "{}", near[1].by);
     let (ideal, report) = chain.ideal_within(1e-4).unwrap();
     same_structure(&ideal, &irb4600());
@@ -136,7 +136,7 @@ fn a_tolerance_out_of_range_is_refused() {
 proptest! {
     #![proptest_config(crate::cases(3))]
 
-    /// Five decimals: 5e-6 at most in each coordinate, so that neighbours differ by less than 2e-5.
+    /// Five decimals: an error of at most 5e-6 in each coordinate, so neighbours differ by less than 2e-5.
     #[test]
     fn five_decimals_are_the_exact_robot(noise in prop::collection::vec(-1000i64..1000, 53), xyzw in prop::array::uniform4(-9i64..10)) {
         prop_assume!(xyzw != [0; 4]);
@@ -153,7 +153,7 @@ proptest! {
         }
     }
 
-    /// A calibrated robot: every axis up to half a milliradian and half a millimetre off.
+    /// A calibrated robot: an error of up to half a milliradian and half a millimetre for every axis.
     #[test]
     fn a_calibrated_robot_is_the_ideal_one(noise in prop::collection::vec(-100_000i64..100_000, 53)) {
         for exact in [irb4600(), robots::ur5(), robots::nao_left_leg(), robots::puma()] {

@@ -1,4 +1,4 @@
-//! Manipulator Jacobians against differences of forward kinematics.
+//! Manipulator Jacobians compared with differences of forward kinematics.
 
 use groebot_robot::ErrorKind;
 use groebot_robot::kinematics::{Chain, jacobian};

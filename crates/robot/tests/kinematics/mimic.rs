@@ -1,5 +1,5 @@
-//! Joints that move together: telescopes become one joint, others follow; poses are those of all joints by themselves, in a URDF without
-//! `<mimic>`, where each joint is given its value by the law that the file states.
+//! Coupled joints: telescopes become one joint, others follow. Poses are compared with a URDF without `<mimic>`, where
+//! each joint has the value given by its law.
 
 use groebot_robot::ErrorKind;
 use groebot_robot::kinematics::numeric::NumericSolver;
@@ -10,7 +10,7 @@ use groebot_robot::model::Robot;
 const TELESCOPE: &str = include_str!("../../../../tests/corpus/urdf/telescope.urdf");
 const FINGER: &str = include_str!("../../../../tests/corpus/urdf/finger.urdf");
 
-/// The same robot with every joint on its own.
+/// Same robot, but with every joint independent.
 fn alone(text: &str) -> Chain {
     let lines: Vec<&str> = text.lines().filter(|line| !line.contains("<mimic")).collect();
     Robot::from_urdf(&lines.join("\n")).unwrap().chain(None, Some("tip")).unwrap()
@@ -29,13 +29,14 @@ fn slides_that_move_together_are_one_joint() {
     let whole = chain(TELESCOPE);
     let names: Vec<&str> = whole.joints().iter().map(|joint| joint.name.as_str()).collect();
     assert_eq!(names, ["lift", "first + second + third - fourth", "wrist"]);
-    // The joint's value is the sum: second is as far out as first, third twice as far, fourth slides the other way by half of it.
+    // The joint's value is the sum. The second moves as far as the first, the third twice as far, and the fourth half
+    // as far in the opposite direction.
     for (lift, first, wrist) in [(0.3, 0.1, 0.5), (1.0, -0.04, -2.0)] {
         let each = [lift, first, first, 2.0 * first, -0.5 * first, wrist];
         let sum = first * (1.0 + 1.0 + 2.0 + 0.5);
         assert!(apart(&whole, &[lift, sum, wrist], &alone(TELESCOPE), &each) < 1e-15);
     }
-    // The tightest limits are those of third, 0.15 for its 2 shares of 4.5.
+    // The tightest limits are those of the third: 0.15 for its 2 parts of 4.5.
     let (low, high) = whole.joints()[1].limits.unwrap();
     assert!(low.abs() < 1e-15 && (high - 0.15 * 4.5 / 2.0).abs() < 1e-12, "{low}..{high}");
     let tree = Robot::from_urdf(TELESCOPE).unwrap();
@@ -53,7 +54,7 @@ fn a_joint_that_turns_follows() {
     let whole = chain(FINGER);
     let mut q = vec![0.4, -0.3, 0.7, 9.0, 9.0];
     whole.follow(&mut q);
-    // The file says -1 and 1.5, and 0.25 more.
+    // The multipliers in the file are -1 and 1.5, the offset is 0.25.
     assert_eq!(q, [0.4, -0.3, 0.7, -0.7, 1.5 * -0.7 + 0.25]);
     assert!(whole.strays(&q) < 1e-15 && whole.strays(&[0.0; 5]) > 0.2);
     assert!(apart(&whole, &q, &alone(FINGER), &q) < 1e-15);
@@ -87,7 +88,7 @@ fn where_the_leader_is_given_the_others_are() {
 
 #[test]
 fn a_search_finds_a_leader_and_what_follows_it() {
-    // The position of a finger's tip: three unknown numbers, whatever the multipliers.
+    // The position of a fingertip: three unknown numbers, for any multipliers.
     let asked = chain(FINGER).with_task(Task::Position, groebot_robot::kinematics::along_z(), Vec::new()).unwrap();
     let mut q = vec![0.5, -0.4, 0.6, 0.0, 0.0];
     asked.follow(&mut q);

@@ -1,4 +1,4 @@
-//! The search for joint values, against the screw solver and forward kinematics.
+//! The numeric solver, compared with the screw solver and forward kinematics.
 
 use groebot_robot::ErrorKind;
 use groebot_robot::kinematics::numeric::NumericSolver;
@@ -7,7 +7,7 @@ use groebot_robot::kinematics::{Chain, Solution, Target, Task};
 use groebot_robot::robots;
 use groebot_robot::spatial::angle;
 
-/// Whether each answer of either list is in the other.
+/// Whether the two lists have the same solutions.
 fn are_same(chain: &Chain, a: &[Solution], b: &[Solution]) -> bool {
     let off = |joint: usize, x: f64, y: f64| {
         let turns = chain.joints()[joint].kind == groebot_robot::kinematics::JointKind::Revolute;

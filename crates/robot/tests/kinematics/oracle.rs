@@ -1,4 +1,4 @@
-//! The numeric oracle on planar arms, whose answers are known by elementary geometry.
+//! The numeric oracle on planar arms, whose solutions are known from elementary geometry.
 
 use std::f64::consts::PI;
 
@@ -15,14 +15,14 @@ fn tip(lengths: &[f64], q: &[f64]) -> [f64; 3] {
     })
 }
 
-/// What brings a two-link arm to (x, y), by the law of cosines.
+/// The joint values of a two-link arm at (x, y), by the law of cosines.
 fn two_link([l1, l2]: [f64; 2], [x, y]: [f64; 2]) -> Vec<Vec<f64>> {
     let cosine = (x * x + y * y - l1 * l1 - l2 * l2) / (2.0 * l1 * l2);
     let elbow = |q2: f64| vec![y.atan2(x) - (l2 * q2.sin()).atan2(l1 + l2 * q2.cos()), q2];
     [cosine.acos(), -cosine.acos()].map(elbow).to_vec()
 }
 
-/// Whether `found` and `expected` are the same set.
+/// Asserts that `found` and `expected` are the same set.
 fn assert_same_set(found: &[Solution], expected: &[Vec<f64>]) {
     let same = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| angle::difference(*a, *b).abs() < 1e-8);
     assert_eq!(found.len(), expected.len(), "{found:?} is not {expected:?}");
@@ -59,7 +59,7 @@ fn bad_residuals_find_nothing_and_do_not_panic() {
 
 #[test]
 fn of_equal_answers_the_most_accurate_is_kept() {
-    // One step per seed: the answers near zero differ, and more seeds can only better them.
+    // One step per starting point: the solutions near zero differ, and more starting points can only improve them.
     let rough = |seeds| {
         let oracle = Oracle { seeds, iterations: 1, tolerance: 1e-2, distinct: 0.5 };
         let found = oracle.solve(1, |q| vec![q[0].sin()]).unwrap();

@@ -1,4 +1,4 @@
-//! Joint values in limits: by whole turns, as few as can be.
+//! Joint values moved into limits by as few whole turns as possible.
 
 use std::f64::consts::{PI, TAU};
 
@@ -24,7 +24,8 @@ fn an_angle_is_turned_only_where_that_brings_it_within_its_limits() {
 proptest! {
     #![proptest_config(crate::cases(500))]
 
-    /// Against all turns that could matter: within limits exactly where one of them is, then by one of the fewest turns.
+    /// Compared with all relevant numbers of turns: within limits exactly where one of them is, then by one of the
+    /// smallest numbers of turns.
     #[test]
     fn the_fewest_turns_are_taken(angle in -PI..PI, low in -20.0f64..20.0, span in 0.0f64..9.0) {
         let limits = (low, low + span);

@@ -1,4 +1,4 @@
-//! The limits of readers hold at their borders.
+//! The limits of readers, tested at their boundaries.
 
 use groebot_algebra::limits::{self, is_name, number};
 use groebot_robot::model::Robot;

@@ -1,4 +1,4 @@
-//! Files of triangles: where they are looked for, and their points.
+//! Mesh files: their search paths and their points.
 
 use std::fs;
 
@@ -65,7 +65,7 @@ fn corners_of_triangles_are_read_and_scaled() {
     assert!(Meshes::default().points(&mesh("a.stl")).is_err());
 }
 
-/// What is wrong with a file of these bytes; none where all four corners are read.
+/// The error for a file with these bytes; `None` when all four corners are read.
 fn fault(bytes: impl AsRef<[u8]>) -> Option<groebot_robot::Error> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("part.stl");
@@ -143,11 +143,11 @@ fn damage_is_named_with_its_place() {
     assert!(infinite.message().contains("triangle 2 is not finite"), "{infinite}");
     assert!(fault("").unwrap().message().contains("this has 0"));
     assert!(fault("solid\nendsolid\n").unwrap().message().contains("no triangle"));
-    // Whatever is cut off is missed.
+    // Every truncation is detected.
     assert!((0..binary().len()).all(|length| fault(&binary()[..length]).is_some()));
 }
 
-/// The points of a solid are on its surface, and as far out along each axis as it is.
+/// The points of a solid are on its surface, and as far out along each axis as the solid.
 #[test]
 fn points_of_solids_reach_their_ends() {
     let cases = [

@@ -1,4 +1,4 @@
-//! What is written as MJCF, and what MuJoCo makes of it.
+//! MJCF output, and its interpretation by MuJoCo.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -38,7 +38,8 @@ fn every_link_is_a_body_and_every_leader_has_a_servo() {
     }
 }
 
-/// A chain of eight thousand links is no deeper for the writer than one of two, and its text is not much longer a link.
+/// A chain of eight thousand links is no deeper for the writer than one of two, and its text is not much longer per
+/// link.
 #[test]
 fn a_very_deep_robot_is_written() {
     let chain = |count: usize| {
@@ -67,8 +68,8 @@ fn what_follows_is_tied_and_meshes_that_are_not_there_are_left_out() {
     assert!(text.contains("class=\"visual\" type=\"box\" size=\"0.05 0.1 0.15\" rgba=\"1 0 0 1\""));
 }
 
-/// What MuJoCo makes of the model in `robot.xml` of a folder, its joints at these values; `None`, aloud, without MuJoCo (an error with
-/// `GROEBOT_REQUIRE_TOOLS=1`).
+/// MuJoCo's results for the model in `robot.xml` of a folder, with joints at these values. Without MuJoCo it prints a
+/// note and returns `None` (an error with `GROEBOT_REQUIRE_TOOLS=1`).
 fn mujoco(folder: &Path, values: &Value) -> Option<Value> {
     fs::write(folder.join("values.json"), values.to_string()).unwrap();
     let python = std::env::var("GROEBOT_PYTHON").unwrap_or_else(|_| "python3".to_owned());
@@ -86,7 +87,7 @@ fn mujoco(folder: &Path, values: &Value) -> Option<Value> {
     None
 }
 
-/// Values of all joints that turn or slide, those that follow where their leaders bring them.
+/// Values of all revolute and prismatic joints. Mimic joints follow their leaders.
 fn values(robot: &Robot, seed: usize) -> Vec<f64> {
     let mut q: Vec<f64> = (0..robot.moving().len()).map(|joint| (1.3 * (seed + joint) as f64 + 0.4).sin()).collect();
     robot.follow(&mut q);
@@ -110,10 +111,10 @@ fn links(robot: &Robot, q: &[f64]) -> Vec<Pose> {
     (0..robot.links().len()).map(moved).collect()
 }
 
-/// MuJoCo gives at least so much to each body, as the model asks \[kg\].
+/// MuJoCo's minimum mass of each body in the model \[kg\].
 const LEAST_MASS: f64 = 1e-4;
 
-/// Freedoms, masses, centres of mass, and where the links are in three poses.
+/// Degrees of freedom, masses, centres of mass, and poses of the links in three configurations.
 fn compare(robot: &Robot, reported: &Value, name: impl Fn(&str) -> String) {
     let leads = |joint: &&usize| robot.law(&robot.joints()[**joint]).leader == robot.joints()[**joint].name;
     let (moving, leaders) = (robot.moving().len(), robot.moving().iter().filter(leads).count());
@@ -164,7 +165,8 @@ fn mujoco_sees_the_same_robot() {
     }
 }
 
-/// What URDF allows and MuJoCo does not: its own names, equal limits, solids without size, moments below zero; meshes in text, flat and damaged ones.
+/// Features that URDF allows and MuJoCo does not: its own names, equal limits, solids without size, negative moments;
+/// text, flat and damaged meshes.
 const HARD: &str = r#"<robot name="a &amp; b">
   <link name="world"/>
   <link name="arm"><inertial><mass value="2"/><inertia ixx="1" iyy="1" izz="-0.5" ixy="0" ixz="0" iyz="0.2"/></inertial>

@@ -1,4 +1,4 @@
-//! Robots: read from URDF and TOML, written, and cut into chains.
+//! Robots: reading of URDF and TOML, writing, and extraction of chains.
 
 mod mesh;
 mod mjcf;

@@ -1,4 +1,5 @@
-//! Trees and the chains in them: NAO's five chains against the makers' figures, ways up and down, what is refused.
+//! Trees and the chains in them: NAO's five chains compared with the manufacturer's numbers, paths up and down,
+//! refusals.
 
 use groebot_robot::ErrorKind;
 use groebot_robot::kinematics::{Chain, JointKind, Mimic, Placement, Task};
@@ -18,7 +19,8 @@ fn limb(tip: &str) -> Chain {
     nao().chain(Some("torso"), Some(tip)).unwrap()
 }
 
-/// Aldebaran, NAO technical documentation 2.1: the offset of each joint from the one before, in millimetres, and its axis; left.
+/// Aldebaran, NAO technical documentation 2.1: the offset of each joint from the previous one in millimetres, and its
+/// axis; left side.
 const LEG: [(&str, [f64; 3], [f64; 3]); 6] = [
     ("HipYawPitch", [0.0, 50.0, -85.0], [0.0, std::f64::consts::FRAC_1_SQRT_2, -std::f64::consts::FRAC_1_SQRT_2]),
     ("HipRoll", [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
@@ -37,7 +39,8 @@ const ARM: [(&str, [f64; 3], [f64; 3]); 5] = [
 const HEAD: [(&str, [f64; 3], [f64; 3]); 2] =
     [("HeadYaw", [0.0, 0.0, 126.5], [0.0, 0.0, 1.0]), ("HeadPitch", [0.0, 0.0, 0.0], [0.0, 1.0, 0.0])];
 
-/// Compares a chain with its figures; `side` is -1 on the right, where y is mirrored (and the axis of HipYawPitch with it).
+/// Compares a chain with its numbers. `side` is -1 on the right, where y is mirrored (and the axis of HipYawPitch with
+/// it).
 fn compare(chain: &Chain, prefix: &str, side: f64, figures: &[(&str, [f64; 3], [f64; 3])], last: [f64; 3]) {
     assert_eq!(chain.joints().len(), figures.len());
     let mut point = Vector3::zeros();
@@ -76,7 +79,7 @@ fn naos_hip_axis_is_exact_and_its_follower_is_told() {
         "{:?}",
         tree.notes(&path)
     );
-    // From sole to sole both are on the way.
+    // From sole to sole, both joints are on the path.
     let both = tree.chain(Some("l_sole"), Some("r_sole")).unwrap();
     let places =
         ["LHipYawPitch", "RHipYawPitch"].map(|name| both.joints().iter().position(|joint| joint.name == name).unwrap());
@@ -162,7 +165,7 @@ fn what_is_no_joint_is_refused() {
     refused(links, with(&|joint| joint.mimic = follows("j")), BadValue, "mimic one another");
 }
 
-/// Joints j0 to j(n-1) from the link l0; each follows the one before.
+/// Joints j0 to j(n-1) from the link l0; each follows the previous one.
 fn followers(count: usize) -> groebot_robot::Result<Robot> {
     let links: Vec<String> = (0..=count).map(|i| format!("l{i}")).collect();
     let links: Vec<&str> = links.iter().map(String::as_str).collect();
@@ -222,7 +225,7 @@ fn too_long_a_way_is_refused() {
 proptest! {
     #![proptest_config(crate::cases(40))]
 
-    /// From hand to hand, up one arm and down the other, is the way over the torso.
+    /// The path from hand to hand, up one arm and down the other, equals the path through the torso.
     #[test]
     fn the_way_up_undoes_the_way_down(q in prop::collection::vec(-2.0f64..2.0, 10)) {
         let across = nao().chain(Some("l_hand"), Some("r_hand")).unwrap();

@@ -1,4 +1,4 @@
-//! Masses and shapes against another reader; what is written as URDF is the same robot when it is read again.
+//! Masses and shapes compared with another reader. A robot written as URDF is equal when it is read again.
 
 use groebot_robot::model::{Robot, Solid};
 use groebot_robot::robots;
@@ -7,7 +7,7 @@ use num_traits::ToPrimitive;
 
 use super::robot::NAO;
 
-/// Everything that a link, a joint and a robot may have.
+/// All features of a link, a joint and a robot.
 pub const RICH: &str = r#"<robot name="rich">
   <material name="blue"><color rgba="0 0 1 0.5"/></material>
   <link name="a">
@@ -54,7 +54,7 @@ pub const RICH: &str = r#"<robot name="rich">
   <transmission name="one"><joint name="ab"/><actuator name="actuator2"/></transmission>
 </robot>"#;
 
-/// The same without what the other reader does not know.
+/// Same robot, but without features that the other reader does not support.
 fn plain() -> String {
     let known = |line: &&str| !line.contains("<plane/>") && !line.contains("drake:");
     let lines: Vec<&str> = RICH.lines().filter(known).collect();
@@ -110,7 +110,7 @@ fn another_reader_finds_the_same_masses_shapes_and_limits() {
     assert_eq!(ours.actuators()[0].joints, [("ab".to_owned(), 50.0), ("bc".to_owned(), 1.0)]);
 }
 
-/// An inertia in a turned frame, seen from the link: the tensor of the figures, turned by a rotation that nalgebra makes.
+/// An inertia in a rotated frame, converted to the link: the given tensor, rotated by nalgebra.
 #[test]
 fn an_inertia_is_turned_into_its_link() {
     let robot = Robot::from_urdf(RICH).unwrap();
@@ -122,7 +122,8 @@ fn an_inertia_is_turned_into_its_link() {
     assert!((inertia.centre_of_mass().coords - Vector3::new(0.01, -0.02, 0.3)).amax() < 1e-17);
 }
 
-/// What is written and read again: lines and remarks are those of the new text, and a rotation that was told by a quaternion is told by angles.
+/// Writing and reading again: lines and notes are those of the new text, and a rotation given by a quaternion is given
+/// by angles.
 #[test]
 fn a_robot_is_the_same_when_it_is_written_and_read() {
     let texts = [RICH, NAO].map(|text| Robot::from_urdf(text).unwrap());

@@ -33,7 +33,7 @@ fn the_documented_example_is_read() {
     assert_eq!(tip.tip().point, ["0", "0.02", "0.0831"].map(exact));
 }
 
-/// A capsule between two points has its ends there, whichever way it lies.
+/// A capsule between two points has its ends there, in any direction.
 #[test]
 fn a_capsule_lies_between_its_ends() {
     for (from, to) in

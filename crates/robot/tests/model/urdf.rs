@@ -1,4 +1,4 @@
-//! URDF against another reader (urdf-rs) and matrices multiplied out; mistakes; damaged files.
+//! URDF compared with another reader (urdf-rs) and with matrix products; errors; damaged files.
 
 use groebot_robot::ErrorKind;
 use groebot_robot::kinematics::{Chain, JointKind};
@@ -17,7 +17,7 @@ fn example() -> String {
     page.split("```xml\n").nth(1).unwrap().split("```").next().unwrap().to_owned()
 }
 
-/// The pose of the last link, from the numbers that urdf-rs reads: the definition in URDF's own words.
+/// The pose of the last link, from the numbers that urdf-rs reads, by URDF's own definition.
 fn multiplied_out(text: &str, q: &[f64]) -> Isometry3<f64> {
     let mut values = q.iter();
     let mut pose = Isometry3::identity();
@@ -34,7 +34,7 @@ fn multiplied_out(text: &str, q: &[f64]) -> Isometry3<f64> {
     pose
 }
 
-/// Neither the text of other files nor that of the description itself is put in place of an entity.
+/// Neither the text of other files nor that of the description itself is substituted for an entity.
 #[test]
 fn entities_are_refused() {
     for entity in ["SYSTEM \"file:///etc/hostname\"", "\"text\""] {
@@ -55,11 +55,11 @@ fn the_documented_example() {
     assert_eq!(joint.point, ["0", "0.02", "0.0451"].map(exact), "exact decimals");
     assert_eq!(joint.axis, ["-1", "0", "0"].map(exact), "y, turned by 1.5708 about z");
     assert_eq!((joint.kind, joint.limits), (JointKind::Revolute, Some((-0.2, 1.4))));
-    // Bent by q about -x, the fingertip swings towards +y.
+    // Rotated by q about -x, the fingertip moves towards +y.
     let tip = chain.forward(&[0.5]).unwrap().translation.vector;
     let wanted = Vector3::new(0.0, 0.02 + 0.038 * 0.5f64.sin(), 0.0451 + 0.038 * 0.5f64.cos());
     assert!((tip - wanted).norm() < 1e-16);
-    // As described, all of that is turned by 1.5708 - pi/2 about z.
+    // As described, everything is rotated by 1.5708 - pi/2 about z.
     let off = "1.5708".parse::<f64>().unwrap() - std::f64::consts::FRAC_PI_2;
     let turned =
         nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), off) * (wanted - Vector3::new(0.0, 0.02, 0.0451));
@@ -73,7 +73,7 @@ fn the_documented_example() {
     );
 }
 
-/// The maker's numbers as they stand: a UR5's 1.5708 is no quarter turn.
+/// The manufacturer's numbers are used unchanged: a UR5's 1.5708 is not a quarter turn.
 #[test]
 fn rounded_angles_are_those_of_the_file() {
     let chain = Robot::from_urdf(UR5).unwrap().chain(None, None).unwrap();

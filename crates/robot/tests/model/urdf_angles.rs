@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use super::exact;
 
-/// A serial robot: xyz and rpy of each joint, each about its own z; the last place is the tip's.
+/// A serial robot: xyz and rpy of each joint, each about its own z. The last entry is the tip's.
 fn serial(places: &[([String; 3], [String; 3])]) -> Chain {
     let mut text = "<robot name=\"r\"><link name=\"l0\"/>".to_owned();
     for (i, (xyz, rpy)) in places.iter().enumerate() {
@@ -33,7 +33,7 @@ fn place(xyz: [&str; 3], rpy: [&str; 3]) -> ([String; 3], [String; 3]) {
     (xyz.map(String::from), rpy.map(String::from))
 }
 
-/// NAO's hip the other way round: the frame is turned by 45 degrees and back again.
+/// NAO's hip in reverse: the frame is rotated by 45 degrees and back.
 #[test]
 fn a_hip_at_45_degrees_is_exact() {
     let chain = serial(&[
@@ -50,7 +50,8 @@ fn a_hip_at_45_degrees_is_exact() {
     assert_eq!((&chain.tip().rotation, &chain.tip().point), (&identity, &["0", "0.05", "-0.185"].map(exact)));
 }
 
-/// A wrist of three axes at 60 degrees (as Kinova builds them): its points are irrational, and its parallel axes stay parallel.
+/// A wrist of three axes at 60 degrees, as in Kinova's arms: its points are irrational, and its parallel axes stay
+/// parallel.
 #[test]
 fn a_wrist_at_60_degrees_keeps_its_relations() {
     let chain = serial(&[
@@ -70,7 +71,7 @@ fn a_wrist_at_60_degrees_keeps_its_relations() {
     assert!((geometry.neighbours[0].angle - 60f64.to_radians()).abs() < 1e-15);
 }
 
-/// An axis at 30 degrees by its decimals, and one by an angle of its frame: parallel, exactly.
+/// An axis at 30 degrees given by decimals, and one given by an angle of its frame: exactly parallel.
 #[test]
 fn an_axis_of_decimals_is_the_unit_vector() {
     let text = "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='d'/>
@@ -81,13 +82,14 @@ fn an_axis_of_decimals_is_the_unit_vector() {
     let directions: Vec<_> = chain.joints().iter().map(|joint| joint.direction().into_inner()).collect();
     assert_eq!(Geometry::of(&chain).parallel.first(), Some(&(0..2)));
     assert_eq!(chain.joints()[0].axis, chain.joints()[1].axis);
-    // The robot as described is off by more, so answers are polished: the ideal direction is told in integers, within a thousandth of the tolerance.
+    // The described robot differs by more, so solutions are polished. The ideal direction has integers within a
+    // thousandth of the tolerance.
     assert!((directions[0] - nalgebra::Vector3::new(0.75f64.sqrt(), 0.0, 0.5)).norm() < 1e-9);
-    // Three places are too few.
+    // Three decimal places are too few.
     assert!((directions[2] - directions[0]).norm() > 1e-6);
 }
 
-/// A decimal angle, general or one of the known ones.
+/// A decimal angle, a general one or one of the known ones.
 fn angle() -> impl Strategy<Value = String> {
     let known = ["0", "0.785398", "-0.7853982", "0.5236", "1.0472", "-2.0944", "1.5708", "3.14159", "2.35619"];
     prop_oneof![2 => prop::sample::select(known.to_vec()).prop_map(String::from), 1 => (-30i32..30).prop_map(|n| format!("{:.1}", f64::from(n) / 10.0))]
@@ -96,7 +98,7 @@ fn angle() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(crate::cases(24))]
 
-    /// Each joint stands on the axis of the joint before, so that neighbours meet, are parallel or have one axis: exactly.
+    /// Each joint is on the axis of the previous joint, so neighbours exactly intersect, are parallel or coaxial.
     #[test]
     fn axes_that_meet_meet_exactly(places in prop::collection::vec((prop::array::uniform3(angle()), -9i32..9), 3..8)) {
         let places: Vec<_> = places.iter().map(|(rpy, d)| (["0".into(), "0".into(), format!("0.{}", d + 11)], rpy.clone())).collect();

@@ -1,4 +1,4 @@
-//! Trajectories: their table and JSON, what they must keep, and paths along poses.
+//! Trajectories: their table and JSON, checks, and paths along poses.
 
 mod states;
 mod table;
@@ -8,7 +8,7 @@ use groebot_robot::motion::{Contact, Figure, JointTrack, Track, Trajectory};
 use groebot_robot::spatial::Pose;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
-/// Three samples at uneven times with all that a trajectory may have.
+/// Three samples at uneven times with all features of a trajectory.
 pub fn sample() -> Trajectory {
     let joint =
         |name: &str, slides| JointTrack { name: name.into(), slides, limits: Some((-1.0, 1.0)), speed: Some(2.0) };

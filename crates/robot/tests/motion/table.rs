@@ -1,4 +1,4 @@
-//! What is written is read back, as CSV and as JSON; other files are refused with their line.
+//! Written trajectories are read back, as CSV and as JSON; other files are refused with their line.
 
 use groebot_robot::ErrorKind;
 use groebot_robot::motion::Trajectory;
@@ -44,7 +44,7 @@ fn json_is_read_back() {
     assert_eq!(Trajectory::from_json("{").unwrap_err().kind(), ErrorKind::Syntax);
 }
 
-/// Names as descriptions may have them; units that are not ours; a force is no point.
+/// Names as in descriptions; foreign units; a force is not a point.
 #[test]
 fn names_are_quoted_and_units_checked() {
     let mut path = sample();
@@ -67,7 +67,7 @@ fn names_are_quoted_and_units_checked() {
     assert_eq!((read.points.len(), read.figures.len(), read.figures[0].unit.as_str()), (0, 3, "N"));
 }
 
-/// What would be written as two samples at one time, or as a number that no reader takes, is refused before.
+/// Two samples that would be written with equal times, or a number that no reader accepts, are refused before writing.
 #[test]
 fn numbers_and_steps_have_limits() {
     let text = "# groebot trajectory 1\ntime [s],power [W]\n0,1\nSTEP,NUMBER\n";
@@ -107,7 +107,7 @@ fn mistakes_have_a_line() {
 proptest! {
     #![proptest_config(crate::cases(256))]
 
-    /// Whatever is read, nothing panics.
+    /// No input causes a panic.
     #[test]
     fn damaged_tables_are_read_or_refused(at in 0usize..900, what in ".{0,4}", length in 0usize..30) {
         let text = sample().to_csv();

@@ -1,11 +1,11 @@
-//! Rates and accelerations, and what a trajectory must keep.
+//! Velocities, accelerations and checks of trajectories.
 
 use groebot_robot::ErrorKind;
 use groebot_robot::motion::{Bounds, Fault, Finding, Trajectory, findings};
 
 use super::sample;
 
-/// Of a parabola both are exact inside, whatever the times.
+/// For a parabola both are exact at inner samples, for any times.
 #[test]
 fn a_parabola_has_its_slope_and_curvature() {
     let (a, b, c) = (0.3, -1.2, 0.7);

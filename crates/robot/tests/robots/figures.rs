@@ -1,5 +1,5 @@
-//! Each robot by matrices that are multiplied link by link, from the figures as their source states them: Denavit-Hartenberg
-//! rows, or offsets and coordinate axes. The chains are products of exponentials.
+//! Each robot compared with matrices multiplied link by link, from the numbers in its source: Denavit-Hartenberg rows,
+//! or offsets and coordinate axes. The chains are products of exponentials.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -27,7 +27,7 @@ fn dh(theta: f64, d: f64, a: f64, alpha: f64) -> Matrix {
     turn(Z, theta) * shift(0.0, 0.0, d) * shift(a, 0.0, 0.0) * turn(X, alpha)
 }
 
-/// Offset and turn of each joint, then the offset of the tip, all in millimetres.
+/// Offset and rotation of each joint, then the offset of the tip, all in millimetres.
 fn links(joints: &[([f64; 3], [f64; 3])], tip: [f64; 3], q: &[f64]) -> Matrix {
     let millimetres = |[x, y, z]: [f64; 3]| shift(x / 1e3, y / 1e3, z / 1e3);
     let steps = joints.iter().zip(q).map(|((offset, axis), angle)| millimetres(*offset) * turn(*axis, *angle));
@@ -44,7 +44,7 @@ fn ur5(q: &[f64]) -> Matrix {
         * dh(q[5], 0.0823, 0.0, 0.0)
 }
 
-/// The maker's csv files; the last factor gives the tip the root's axes.
+/// The manufacturer's csv files. The last factor gives the tip the root's axes.
 fn teo(q: &[f64]) -> Matrix {
     let h = FRAC_PI_2;
     let leg = dh(h, -0.092, 0.146, 0.0)
@@ -57,7 +57,8 @@ fn teo(q: &[f64]) -> Matrix {
     leg * Matrix::new(0., 0., 1., 0., 0., -1., 0., 0., 1., 0., 0., 0., 0., 0., 0., 1.)
 }
 
-/// ABB's IRB 120 by Denavit-Hartenberg rows: its own zero has the forearm's and the tool's axes in line, ours has the tool down.
+/// ABB's IRB 120 by Denavit-Hartenberg rows. In its own zero configuration the forearm's and the tool's axes are
+/// aligned; in ours the tool points down.
 fn irb120(q: &[f64]) -> Matrix {
     let h = FRAC_PI_2;
     let hand = dh(q[0], 0.29, 0.0, -h)
@@ -70,7 +71,7 @@ fn irb120(q: &[f64]) -> Matrix {
     hand * irb120_flange().try_inverse().unwrap() * at_zero
 }
 
-/// The same rows at zero, without the position: which way the last frame of the rows is turned.
+/// The orientation of the last frame of these rows at zero, without the position.
 fn irb120_flange() -> Matrix {
     let h = FRAC_PI_2;
     let rows = [(0.0, -h), (-h, 0.0), (0.0, -h), (0.0, h), (h, -h), (0.0, 0.0)];
@@ -96,7 +97,7 @@ fn nao_head(q: &[f64]) -> Matrix {
     links(&[([0.0, 0.0, 126.5], Z), ([0.0; 3], Y)], [0.0; 3], q)
 }
 
-/// RH0 with x to the left: side is 1 for the left leg. The tip stands over the base's origin at zero.
+/// RH0 with x to the left: `side` is 1 for the left leg. The tip is above the base's origin at zero.
 fn rh0_leg(side: f64, q: &[f64]) -> Matrix {
     let o = [0.0; 3];
     let joints =
@@ -115,7 +116,7 @@ fn stanford(q: &[f64]) -> Matrix {
     arm * turn(Y, q[3]) * turn(X, q[4]) * turn(Z, q[5]) * shift(0.0, 0.0, 0.2)
 }
 
-/// RH0 (2-63)-(2-65) in plain words: height, yaw, pitch, length.
+/// RH0 (2-63)-(2-65): height, yaw, pitch, length.
 fn polar(q: &[f64]) -> Matrix {
     shift(0.0, 0.66, 0.0) * turn(Y, q[0]) * turn(Z, q[1]) * shift(0.2 + q[2], 0.0, 0.0)
 }
@@ -191,8 +192,8 @@ fn limits_hold_a_posture_that_the_robot_takes() {
     assert_eq!(degrees("nao_right_arm", 3), (2.0_f64.to_radians(), 88.5_f64.to_radians()));
 }
 
-/// RH0 Fig. 5-16: knee -3.902 and ankle and hip 1.951 degrees at 0.180 s, feet at 0.112 m, no roll: the trunk is level, over the
-/// middle, and has come down by less than a millimetre.
+/// RH0 Fig. 5-16: knee -3.902 and ankle and hip 1.951 degrees at 0.180 s, feet at 0.112 m, no roll: the trunk is level,
+/// above the middle, and lower by less than a millimetre.
 #[test]
 fn rh0_crouches_as_its_table_says() {
     let q = [0.0, 1.951, -3.902, 1.951, 0.0, 0.0].map(f64::to_radians);

@@ -1,4 +1,4 @@
-//! The robots that come with the crate: their data against a second statement of the same figures.
+//! The robots of this crate: their data compared with a second statement of the same numbers.
 
 mod figures;
 

@@ -1,4 +1,4 @@
-//! RobotMan's listings (RH0, appendix D) as printed, where they lose something: the proofs of `docs/errata.md`.
+//! RobotMan's listings (RH0, appendix D) as printed, where they are inaccurate: the proofs of `docs/errata.md`.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

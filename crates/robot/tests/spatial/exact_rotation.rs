@@ -1,4 +1,4 @@
-//! Exactly orthogonal rotations: matrices that are what they claim, against sines from their power series.
+//! Exactly orthogonal rotations: their matrices compared with sines from power series.
 
 use groebot_algebra::number::{BigInt, BigRational};
 use groebot_robot::kinematics::{ExactMatrix, ExactRotation, ExactVector, Placement, Turn};
@@ -55,7 +55,7 @@ fn turns(rpy: &[BigRational; 3]) -> [Turn; 3] {
     rpy.each_ref().map(|angle| Turn::from_radians(angle).unwrap())
 }
 
-/// Decimals with the given number of digits behind the point.
+/// Decimals with the given number of digits after the point.
 fn decimal(units: i64, digits: u32) -> BigRational {
     BigRational::new(units.into(), BigInt::from(10).pow(digits))
 }
@@ -138,7 +138,7 @@ fn quarter_turns_are_whole_matrices() {
     }
 }
 
-/// 45 and 45 degrees are a quarter turn, 30 and 60 too, and -45 undoes 45: exactly.
+/// Two rotations by 45 degrees are exactly a quarter turn, so are 30 and 60, and -45 is the inverse of 45.
 #[test]
 fn sums_of_45_and_30_degrees_are_exact() {
     for axis in 0..3 {
@@ -157,7 +157,7 @@ fn sums_of_45_and_30_degrees_are_exact() {
     }
 }
 
-/// Against the power series: the rational matrix of a multiple of 15 degrees is orthogonal and within 1e-16.
+/// Compared with the power series: the rational matrix of a multiple of 15 degrees is orthogonal and within 1e-16.
 #[test]
 fn steps_have_their_sines() {
     for axis in 0..3 {

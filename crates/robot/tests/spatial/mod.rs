@@ -1,4 +1,4 @@
-//! Angles, rotations, screws and twists against matrix definitions that share no code with them.
+//! Angles, rotations, screws and twists compared with matrix definitions that share no code with them.
 
 mod errata;
 mod exact_rotation;
@@ -25,7 +25,7 @@ pub fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
     (-size..size, -size..size, -size..size).prop_map(|(x, y, z)| Vector3::new(x, y, z))
 }
 
-/// A direction that is not too short to be one.
+/// A direction that is not too short.
 pub fn direction() -> impl Strategy<Value = Vector3<f64>> {
     vector(1.0).prop_filter("short", |w| w.norm() > 0.1)
 }
@@ -54,7 +54,7 @@ pub fn wedge(twist: &Twist) -> Matrix4<f64> {
     Matrix4::new(0.0, -w.z, w.y, v.x, w.z, 0.0, -w.x, v.y, -w.y, w.x, 0.0, v.z, 0.0, 0.0, 0.0, 0.0)
 }
 
-/// How far `actual` is from `expected`, relative to the length of `expected`.
+/// The distance of `actual` from `expected`, relative to the length of `expected`.
 fn relative(actual: &Vector3<f64>, expected: &Vector3<f64>) -> f64 {
     (actual - expected).norm() / expected.norm()
 }

@@ -16,14 +16,14 @@ use super::{direction, pose, relative, series, twist, vector, wedge};
 /// A few units in the last place, of the size of the translation.
 const ULPS: f64 = 16.0 * f64::EPSILON;
 
-/// Rigid transforms whose rotations often lie near the identity or a half turn.
+/// Rigid transforms whose rotations are often near the identity or a half turn.
 fn extreme() -> impl Strategy<Value = Pose> {
     (direction(), angles(), vector(2.0)).prop_map(|(n, theta, d)| {
         Pose::from_parts(Translation3::from(d), UnitQuaternion::from_axis_angle(&Unit::new_normalize(n), theta))
     })
 }
 
-/// The twist of `matrix`, its entries read one by one.
+/// The twist of `matrix`, entry by entry.
 fn vee(matrix: &Matrix4<f64>) -> Twist {
     let m = |i: usize, j: usize| matrix[(i - 1, j - 1)];
     Twist { v: Vector3::new(m(1, 4), m(2, 4), m(3, 4)), w: Vector3::new(m(3, 2), m(1, 3), m(2, 1)) }

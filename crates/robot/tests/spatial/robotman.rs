@@ -1,9 +1,9 @@
-//! `docs/robotman.md` has all 51 functions of RobotMan, and what it names exists.
+//! `docs/robotman.md` lists all 51 functions of RobotMan, and the items that it names exist.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// One row: number, RobotMan's name, the path of ours, the path of the test.
+/// One row: number, RobotMan's name, the path in groebot, the path of the test.
 struct Row {
     number: usize,
     name: String,
@@ -38,7 +38,7 @@ fn text_below(folder: &Path) -> String {
     paths.iter().map(text).collect()
 }
 
-/// The sources in the folder `root` of the repository, in the module in which `path` starts.
+/// The sources in the folder `root` of the repository, in the module at the start of `path`.
 fn sources(root: &str, path: &str) -> String {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(root);
     let module = path.split("::").next().unwrap();

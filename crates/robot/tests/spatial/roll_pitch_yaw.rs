@@ -1,4 +1,4 @@
-//! Roll, pitch and yaw against the three matrices of RobotMan's f(2).
+//! Roll, pitch and yaw compared with the three matrices of RobotMan's f(2).
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -27,7 +27,7 @@ fn quaternion(scalar: f64, vector: Vector3<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::new_unchecked(Quaternion::from_parts(scalar, vector))
 }
 
-/// A logarithm equals `w`, or lies opposite to it where the angle is a half turn up to rounding.
+/// Whether a logarithm equals `w`, or its opposite if the angle is a half turn up to rounding.
 fn is_log(found: &Vector3<f64>, w: &Vector3<f64>) -> bool {
     let opposite = -w * ((2.0 * PI - w.norm()) / w.norm());
     relative(found, w) <= ULPS || (PI - w.norm() < 1e-15 && relative(found, &opposite) <= ULPS)

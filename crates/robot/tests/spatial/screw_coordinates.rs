@@ -1,4 +1,4 @@
-//! Screws as axis, pitch and magnitude against rotations, translations, forces and couples.
+//! Screws as axis, pitch and magnitude, compared with rotations, translations, forces and couples.
 
 use groebot_robot::ErrorKind;
 use groebot_robot::spatial::{Axis, ScrewCoordinates};
@@ -13,7 +13,7 @@ fn screw() -> impl Strategy<Value = ScrewCoordinates> {
         .prop_map(|(axis, pitch, magnitude)| ScrewCoordinates::new(axis, pitch, magnitude).unwrap())
 }
 
-/// Whether two lines with a direction are one; those of pure translations and couples have no place.
+/// Whether two directed lines are equal. Those of pure translations and couples have no position.
 fn same_line(a: &Axis, b: &Axis, has_place: bool) -> bool {
     let parallel = (a.direction().into_inner() - b.direction().into_inner()).norm() < 1e-12;
     parallel && (!has_place || a.distance_to(&b.point()) < 1e-12)

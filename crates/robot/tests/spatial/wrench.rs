@@ -1,4 +1,4 @@
-//! Wrenches: what forces and torques on a rigid body are.
+//! Wrenches: forces and torques on a rigid body.
 
 use groebot_robot::ErrorKind;
 use groebot_robot::spatial::Wrench;

@@ -1,4 +1,4 @@
-//! An independent proof that a cover is one: small, slow, and without the steps by which it was made.
+//! An independent checker of covers: small, slow, and without the construction steps.
 
 use super::emptiness::Regions;
 use super::proof::{Claims, prove_basis, refused};
@@ -7,10 +7,10 @@ use crate::number::{Field, Ring};
 use crate::poly::{Fractions, Polynomial};
 use crate::{Result, Watch};
 
-/// What [`check`] has proved.
+/// Numbers of the statements that [`check`] has proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Checked {
-    /// Strata whose bases are bases at each of their points.
+    /// Strata whose bases are Groebner bases at each of their points.
     pub strata: usize,
     /// Pairs of strata that share no point.
     pub disjoint_pairs: usize,
@@ -18,11 +18,12 @@ pub struct Checked {
     pub s_polynomials: usize,
 }
 
-/// Proves that the strata of `cover` are disjoint, that they make its whole space, and that each basis is, at every point of
-/// its stratum over every extension field, a Groebner basis of what `generators` become there.
+/// Proves that the strata of `cover` are disjoint and that their union is its whole space. Proves that each basis is a
+/// Groebner basis of the specialised `generators`, at every point of its stratum over every extension field.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Certificate`] that says what does not hold; [`crate::ErrorKind::Overflow`]; what `watch` stops with.
+/// [`crate::ErrorKind::Certificate`] with the statement that fails; [`crate::ErrorKind::Overflow`]; the error with
+/// which `watch` stops the work.
 pub fn check<F: Field>(
     cover: &Cover<F>,
     generators: &[Polynomial<<Fractions<F> as Ring>::Element>],
@@ -49,7 +50,7 @@ fn both<E: Clone>(a: &Region<E>, b: &Region<E>) -> Region<E> {
 }
 
 impl<F: Field> Regions<'_, F> {
-    /// Takes one stratum after the other out of the space.
+    /// Subtracts one stratum after the other from the space and checks that nothing is left.
     fn nothing_is_left(&self, cover: &Cover<F>) -> Result<()> {
         let exclusions = cover.space.nonzero.iter().map(|f| vec![f.clone()]).collect();
         let space = Region { equations: cover.space.equations.clone(), exclusions };
@@ -66,12 +67,12 @@ impl<F: Field> Regions<'_, F> {
             rest = left;
         }
         match rest.first() {
-            Some(region) => Err(refused(format!("no stratum contains the points {}", cover.tell_region(region)))),
+            Some(region) => Err(refused(format!("no stratum contains the points {}", cover.describe_region(region)))),
             None => Ok(()),
         }
     }
 
-    /// The number of pairs of strata, none of which shares a point.
+    /// Checks that no pair of strata shares a point. Returns the number of pairs.
     fn strata_are_disjoint(&self, cover: &Cover<F>) -> Result<usize> {
         let mut pairs = 0;
         for (index, second) in cover.strata.iter().enumerate() {
@@ -85,7 +86,7 @@ impl<F: Field> Regions<'_, F> {
         Ok(pairs)
     }
 
-    /// At each point of the stratum some representative of each element keeps its leading coefficient.
+    /// Checks that at each point of the stratum some representative of each element keeps its leading coefficient.
     fn leads_stay(&self, cover: &Cover<F>, stratum: &Stratum<F>) -> Result<()> {
         for element in &stratum.basis {
             let leads = element.representatives.iter().filter_map(|f| f.leading());
@@ -95,14 +96,14 @@ impl<F: Field> Regions<'_, F> {
             let mut failure = stratum.region.clone();
             failure.equations.extend(leads.map(|lead| lead.coefficient.numerator().clone()));
             if !self.is_empty(&failure)? {
-                return Err(refused(format!("leading coefficients vanish {}", cover.tell_region(&failure))));
+                return Err(refused(format!("leading coefficients vanish {}", cover.describe_region(&failure))));
             }
         }
         Ok(())
     }
 }
 
-/// The points of `a` that are not in `b`: off the zeros of `b`, or on one of its exclusions.
+/// The set difference `a` minus `b`: the points of `a` outside the zeros of `b`, or on one of its exclusions.
 fn difference<E: Clone>(a: &Region<E>, b: &Region<E>) -> Vec<Region<E>> {
     let mut off = a.clone();
     off.exclusions.push(b.equations.clone());

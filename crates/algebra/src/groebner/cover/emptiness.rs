@@ -1,4 +1,4 @@
-//! Whether regions of parameters are empty, by Rabinowitsch's trick with one new variable for each exclusion.
+//! Emptiness test for regions of parameters, by Rabinowitsch's trick with one new variable for each exclusion.
 
 use super::Region;
 use super::ideals::groebner;
@@ -7,15 +7,15 @@ use crate::number::{Field, Ring};
 use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::{Result, Watch};
 
-/// Questions about regions of the parameters of `ring`.
+/// Tests of regions of the parameters of `ring`.
 pub(super) struct Regions<'a, F: Field> {
     pub ring: &'a PolynomialRing<F>,
     pub watch: &'a Watch,
 }
 
 impl<F: Field> Regions<'_, F> {
-    /// Whether `region` has no point over any extension field: whichever polynomial of each exclusion is chosen, the equations
-    /// contradict that they all have inverses.
+    /// Whether `region` has no point over any extension field. The test tries each choice of one polynomial per
+    /// exclusion: the equations must contradict that all chosen polynomials are invertible.
     pub fn is_empty(&self, region: &Region<F::Element>) -> Result<bool> {
         let taken = |name: &String| self.ring.generator(name).is_some();
         let fresh = (0..).map(|k| format!("t{k}")).filter(|name| !taken(name)).take(region.exclusions.len());

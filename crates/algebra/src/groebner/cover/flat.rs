@@ -1,6 +1,7 @@
-//! The equations as polynomials in unknowns and parameters alike, and their leading coefficients in the parameters.
+//! The equations as polynomials in unknowns and parameters together, and their leading coefficients in the parameters.
 //!
-//! Source: Kapur, Sun and Wang, "A new algorithm for computing comprehensive Groebner systems", ISSAC 2010, theorem 4.3.
+//! Source: Kapur, Sun and Wang, "A new algorithm for computing comprehensive Groebner systems", ISSAC 2010, theorem
+//! 4.3.
 
 use super::ideals::{Ideal, groebner};
 use crate::groebner::normal_form;
@@ -20,25 +21,25 @@ pub(super) struct Flat<F: Field> {
     generators: Vec<Poly<F>>,
 }
 
-/// A leading monomial of the unknowns with the polynomials that lead with it: where the leading coefficient of one of them
-/// is not zero, that polynomial stands for the basis element.
+/// A leading monomial of the unknowns with all polynomials that have it. A polynomial represents the basis element
+/// where its leading coefficient is not zero.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Head<E> {
     pub monomial: Monomial,
     pub representatives: Vec<Polynomial<E>>,
 }
 
-/// A basis over unknowns and parameters, taken apart.
+/// A basis over unknowns and parameters, split by its leading monomials.
 #[derive(Clone, Debug)]
 pub(super) struct Parts<E> {
-    /// What it says about the parameters alone.
+    /// The elements in the parameters alone.
     pub conditions: Ideal<E>,
-    /// The minimal leading monomials of the rest.
+    /// The minimal leading monomials of the other elements.
     pub heads: Vec<Head<E>>,
 }
 
 impl<F: Field> Flat<F> {
-    /// The flat form of `generators`.
+    /// Builds the flat form of `generators`.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a coefficient with a denominator.
@@ -84,7 +85,7 @@ impl<F: Field> Flat<F> {
         Ok(self.ring.collect(terms))
     }
 
-    /// The reduced basis of the equations where the `conditions` on the parameters hold, taken apart.
+    /// The reduced basis of the equations under the `conditions` on the parameters, split by leading monomials.
     pub fn basis(&self, conditions: &[Poly<F>], watch: &Watch) -> Result<Parts<F::Element>> {
         let mut parts = Parts { conditions: Vec::new(), heads: Vec::new() };
         for f in groebner(&self.ring, &self.system(conditions)?, watch)? {
@@ -102,8 +103,8 @@ impl<F: Field> Flat<F> {
         Ok(parts)
     }
 
-    /// Polynomials of the parameters that multiply `f` into the ideal of the equations and the `conditions`: where one of them is
-    /// not zero, `f` lies in that ideal.
+    /// Polynomials of the parameters that multiply `f` into the ideal of the equations and the `conditions`. Where one
+    /// of them is not zero, `f` belongs to that ideal.
     pub fn multipliers(&self, conditions: &[Poly<F>], f: &Parametric<F>, watch: &Watch) -> Result<Ideal<F::Element>> {
         let f = self.flattened(f)?;
         let ideal = groebner(&self.ring, &self.system(conditions)?, watch)?;
@@ -120,7 +121,7 @@ impl<F: Field> Flat<F> {
         Ok(multipliers)
     }
 
-    /// Generators of the ideal quotient by `f`: the members of `t ideal + (1 - t) f` without `t`, divided by `f`.
+    /// Generators of the ideal quotient by `f`: the elements of `t ideal + (1 - t) f` without `t`, divided by `f`.
     fn quotient(&self, ideal: &[Poly<F>], f: &Poly<F>, watch: &Watch) -> Result<Vec<Poly<F>>> {
         if self.ring.as_constant(f).is_some() {
             return Ok(ideal.to_vec());
@@ -149,7 +150,7 @@ impl<F: Field> Flat<F> {
         Ok(system)
     }
 
-    /// The heads whose monomials no other divides: the minimal Dickson basis.
+    /// The heads whose monomials no other monomial divides: the minimal Dickson basis.
     fn minimal(&self, heads: Vec<Head<F::Element>>) -> Vec<Head<F::Element>> {
         let layout = self.unknowns.layout();
         let divided = |head: &Head<F::Element>| {
@@ -173,7 +174,7 @@ impl<F: Field> Flat<F> {
         Ok(first.expect("a basis element is not zero").coefficient.numerator().clone())
     }
 
-    /// `f` with the parameters in its coefficients.
+    /// Converts `f` to a polynomial in the unknowns with the parameters in its coefficients.
     pub fn lift(&self, f: &Poly<F>) -> Result<Parametric<F>> {
         let count = self.unknowns.variables().len();
         let mut parts: Vec<(Monomial, Vec<Term<F::Element>>)> = Vec::new();
@@ -196,7 +197,7 @@ impl<F: Field> Flat<F> {
     }
 }
 
-/// The blocks of the unknowns' order, then the parameters.
+/// The blocks of the unknowns' order, followed by the parameters.
 fn blocks<F: Field>(order: &Order, unknowns: usize, parameters: &PolynomialRing<F>) -> Vec<Block> {
     let mut blocks = match order {
         Order::Lex => vec![Block { size: unknowns, graded: false }],

@@ -1,17 +1,18 @@
-//! Ideals of the parameters: sums, saturations, intersections and a step towards the radical.
+//! Ideals of the parameters: sums, saturations, intersections and partial radicals.
 //!
-//! An ideal is its reduced basis; only its zero set matters here, so that every operation may enlarge it inside its radical.
-//! Source: Cox, Little and O'Shea, Ideals, Varieties, and Algorithms, 4th edition (2015), sections 4.2 to 4.4.
+//! An ideal is stored as its reduced basis. Only its zero set is used, so every operation may enlarge the ideal inside
+//! its radical. Source: Cox, Little and O'Shea, Ideals, Varieties, and Algorithms, 4th edition (2015), sections 4.2 to
+//! 4.4.
 
 use crate::groebner::{Options, Strategy, basis, normal_form};
 use crate::number::{Field, Ring};
 use crate::poly::{Order, Polynomial, PolynomialRing, factor, gcd, square_free_factors};
 use crate::{ErrorKind, Result, Watch};
 
-/// The reduced basis of an ideal; empty for zero, `[1]` for all.
+/// The reduced basis of an ideal; empty for the zero ideal, `[1]` for the unit ideal.
 pub(super) type Ideal<E> = Vec<Polynomial<E>>;
 
-/// The one place where the cover asks for a Groebner basis.
+/// Computes a Groebner basis. All code of the cover calls this function.
 pub(super) fn groebner<F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
@@ -22,7 +23,7 @@ pub(super) fn groebner<F: Field>(
     Ok(found.with_width(ring.layout().width())?.polynomials)
 }
 
-/// The ring of the parameters with one more variable, which eliminations add and remove.
+/// The ring of the parameters with one more variable for eliminations.
 #[derive(Clone)]
 pub(super) struct Ideals<'a, F: Field> {
     pub ring: PolynomialRing<F>,
@@ -42,8 +43,8 @@ impl<'a, F: Field> Ideals<'a, F> {
         Ok(Ideals { ring: ring.clone(), extended, watch })
     }
 
-    /// Distinct monic factors with the same zeros as `f`, as irreducible as the factorisation of `poly` makes them: the one place
-    /// where the cover asks for factors.
+    /// Distinct monic factors with the same zeros as `f`, irreducible where [`crate::poly::factor()`] supports the
+    /// field. All code of the cover calls this function.
     pub fn factors(&self, f: &Polynomial<F::Element>) -> Result<Vec<Polynomial<F::Element>>> {
         if self.ring.as_constant(f).is_some() {
             return Ok(Vec::new());
@@ -55,7 +56,7 @@ impl<'a, F: Field> Ideals<'a, F> {
         }
     }
 
-    /// Square-free factors over fields without a factorisation into irreducible ones.
+    /// Square-free factors, for fields without factorization into irreducible ones.
     fn separable_factors(&self, f: &Polynomial<F::Element>) -> Result<Vec<Polynomial<F::Element>>> {
         self.watch.check()?;
         let characteristic = self.ring.field().characteristic();
@@ -63,7 +64,7 @@ impl<'a, F: Field> Ideals<'a, F> {
         Ok(if separable { square_free_factors(&self.ring, f) } else { vec![self.ring.monic(f)] })
     }
 
-    /// Whether the ideal is the whole ring: its zero set is empty.
+    /// Whether the ideal is the unit ideal: its zero set is empty.
     pub fn is_unit(&self, ideal: &[Polynomial<F::Element>]) -> bool {
         ideal.iter().any(|f| !f.is_zero() && self.ring.as_constant(f).is_some())
     }
@@ -73,7 +74,7 @@ impl<'a, F: Field> Ideals<'a, F> {
         Ok(normal_form(&self.ring, f, ideal)?.is_zero())
     }
 
-    /// Whether the ideal contains all of `polynomials`: its zero set lies inside theirs.
+    /// Whether the ideal contains all `polynomials`: its zero set is contained in theirs.
     pub fn contains_all(
         &self,
         ideal: &[Polynomial<F::Element>],
@@ -87,7 +88,7 @@ impl<'a, F: Field> Ideals<'a, F> {
         Ok(true)
     }
 
-    /// An ideal between that of `generators` and its radical: repeated factors are dropped until none shows.
+    /// An ideal between that of `generators` and its radical. Repeated factors are removed until none is found.
     pub fn ideal(&self, generators: &[Polynomial<F::Element>]) -> Result<Ideal<F::Element>> {
         let mut ideal = self.square_free(generators)?;
         loop {
@@ -112,7 +113,7 @@ impl<'a, F: Field> Ideals<'a, F> {
         factors.iter().fold(self.ring.one(), |product, factor| self.ring.mul(&product, factor))
     }
 
-    /// The sum of two ideals: the zeros that they share.
+    /// The sum of two ideals. Its zero set is the intersection of theirs.
     pub fn sum(&self, a: &[Polynomial<F::Element>], b: &[Polynomial<F::Element>]) -> Result<Ideal<F::Element>> {
         self.ideal(&[a, b].concat())
     }
@@ -168,7 +169,7 @@ impl<'a, F: Field> Ideals<'a, F> {
         }
     }
 
-    /// An ideal whose zeros are those of all `ideals`: their intersection; `[1]` for none.
+    /// The intersection of `ideals`. Its zero set is the union of theirs; `[1]` for no ideals.
     pub fn union(&self, ideals: &[Ideal<F::Element>]) -> Result<Ideal<F::Element>> {
         let largest = self.largest(ideals.to_vec())?;
         let Some((first, rest)) = largest.split_first() else { return Ok(vec![self.ring.one()]) };

@@ -1,8 +1,9 @@
-//! Pieces with the same leading monomials put together where one basis serves them all.
+//! Merging of pieces that have the same leading monomials and a common basis.
 //!
-//! Source: Montes and Wibmer, "Groebner bases for polynomial systems with parameters", J. Symbolic Computation 45 (2010):
-//! a segment is locally closed, and an element of its basis may need several polynomials, each good on an open part;
-//! Brunat and Montes, "Computing the canonical representation of constructible sets", Math. Comput. Sci. 10 (2016).
+//! Source: Montes and Wibmer, "Groebner bases for polynomial systems with parameters", J. Symbolic Computation 45
+//! (2010): a segment is locally closed, and an element of its basis may need several polynomials, each valid on an open
+//! part; Brunat and Montes, "Computing the canonical representation of constructible sets", Math. Comput. Sci. 10
+//! (2016).
 
 use super::flat::{Flat, Head};
 use super::ideals::{Ideal, Ideals};
@@ -14,16 +15,16 @@ use crate::Result;
 use crate::number::Field;
 use crate::poly::Monomial;
 
-/// What the merging works on.
+/// Input of the merging.
 struct Merging<'a, F: Field> {
     ideals: &'a Ideals<'a, F>,
     flat: &'a Flat<F>,
     pieces: &'a [Piece<F::Element>],
-    /// Zero sets outside of the parameter space.
+    /// Zero sets outside the parameter space.
     forbidden: &'a [Ideal<F::Element>],
 }
 
-/// The strata: `pieces` with the same leading monomials, joined as far as they go.
+/// Merges `pieces` with the same leading monomials to strata as far as possible.
 pub(super) fn merged<F: Field>(
     ideals: &Ideals<'_, F>,
     flat: &Flat<F>,
@@ -53,8 +54,8 @@ impl<F: Field> Merging<'_, F> {
         groups
     }
 
-    /// All of `group` as one stratum where that works, else one piece after the other taken into the first stratum that
-    /// can take it.
+    /// Merges all of `group` to one stratum if possible. Otherwise adds one piece after the other to the first stratum
+    /// that can be merged with it.
     fn joined(&self, group: &[usize]) -> Result<Vec<Stratum<F>>> {
         if let Some(stratum) = self.stratum(group)? {
             return Ok(vec![stratum]);
@@ -105,7 +106,8 @@ impl<F: Field> Merging<'_, F> {
         Ok(Some(Stratum { region, parts, basis, kind, real: RealPoints::Unknown }))
     }
 
-    /// The union of `members` as closure and holes, unless it is not locally closed (a hole's closure meets it).
+    /// The union of `members` as closure and holes; `None` when it is not locally closed, that is, when the closure of
+    /// a hole intersects it.
     fn union(&self, members: &[usize]) -> Result<Option<Region<F::Element>>> {
         if let [single] = members {
             return Ok(Some(self.pieces[*single].region.clone()));
@@ -130,7 +132,8 @@ impl<F: Field> Merging<'_, F> {
         Ok(Some(Region { equations: closure, exclusions: holes }))
     }
 
-    /// The basis element that leads with `lead` on `members`, if the polynomials of `heads` give it everywhere.
+    /// The basis element with the leading monomial `lead` on `members`, if the polynomials of `heads` determine it
+    /// everywhere.
     fn element(&self, members: &[usize], lead: &Monomial, heads: &[Head<F::Element>]) -> Result<Option<Element<F>>> {
         let one = self.flat.unknowns().layout().one();
         if *lead == one {

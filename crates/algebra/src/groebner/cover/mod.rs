@@ -1,8 +1,8 @@
-//! Comprehensive Groebner systems: what becomes of a basis at every value of its parameters.
+//! Comprehensive Groebner systems: the Groebner basis for every value of the parameters.
 //!
-//! [`cover`] cuts the parameter space into finitely many strata and gives a basis for each ([`Cover`], [`Stratum`]). [`check`]
-//! proves that the strata are disjoint and leave nothing out; [`sample`] finds points on them. Source: Kapur, Sun and Wang,
-//! ISSAC 2010 (the splitting); Montes and Wibmer, J. Symbolic Computation 45 (2010) (few segments).
+//! [`cover`] divides the parameter space into finitely many strata with a basis for each ([`Cover`], [`Stratum`]).
+//! [`check`] proves that the strata are disjoint and complete; [`sample`] finds points on them. Source: Kapur, Sun and
+//! Wang, ISSAC 2010 (the splitting); Montes and Wibmer, J. Symbolic Computation 45 (2010) (few segments).
 
 mod check;
 mod emptiness;
@@ -35,25 +35,26 @@ use crate::{Result, Watch};
 use flat::Flat;
 use ideals::Ideals;
 
-/// Disjoint strata that together make the parameter space.
+/// Disjoint strata whose union is the parameter space.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Cover<F: Field> {
-    /// The unknowns, over the rational functions of the parameters; the bases are sorted by its order.
+    /// The ring of the unknowns over the rational functions of the parameters. The bases are sorted by its order.
     pub ring: PolynomialRing<Fractions<F>>,
-    /// The values of the parameters that were asked about, the relations of `ring` among the equations.
+    /// The set of parameter values that is covered. Its equations include the relations of `ring`.
     pub space: Space<F::Element>,
-    /// The strata, those with the fewest equations first.
+    /// The strata, sorted by the number of equations.
     pub strata: Vec<Stratum<F>>,
 }
 
-/// The cover of the parameter space for the ideal of `generators`, whose coefficients are polynomials of the parameters.
+/// Computes the cover of the parameter space for the ideal of `generators`. Their coefficients are polynomials of the
+/// parameters.
 ///
-/// Parameters that the coefficient field relates (see [`Fractions::with_square`]) keep their relations.
+/// Relations between parameters (see [`Fractions::with_square`]) are kept.
 ///
 /// # Errors
-/// [`crate::ErrorKind::BadValue`] for a coefficient with a denominator; [`crate::ErrorKind::Overflow`]; what `watch`
-/// stops with.
+/// [`crate::ErrorKind::BadValue`] for a coefficient with a denominator; [`crate::ErrorKind::Overflow`]; the error with
+/// which `watch` stops the work.
 pub fn cover<F: Field>(
     ring: &PolynomialRing<Fractions<F>>,
     generators: &[Polynomial<<Fractions<F> as Ring>::Element>],

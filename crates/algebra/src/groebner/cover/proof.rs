@@ -1,8 +1,8 @@
 //! The proof that the basis of a stratum is a Groebner basis at each of its points.
 //!
-//! Every choice of representatives is taken where their leading coefficients are not zero. There it is enough that each is a
-//! combination of the generators modulo the stratum's equations, and that generators and S-polynomials reduce to zero when
-//! they are multiplied by leading coefficients on the way (Buchberger's criterion at every point at once).
+//! Every choice of representatives is tested where their leading coefficients are not zero. Each must be a combination
+//! of the generators modulo the stratum's equations. Generators and S-polynomials must reduce to zero by
+//! pseudo-division with these leading coefficients. This is Buchberger's criterion for all points at once.
 
 use super::emptiness::Regions;
 use super::flat::Flat;
@@ -15,7 +15,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 type Parametric<F> = Polynomial<<Fractions<F> as Ring>::Element>;
 
-/// What is to be proved: `stratum` has the right basis for the ideal of `generators`.
+/// The claim: `stratum` has a Groebner basis for the ideal of `generators`.
 pub(super) struct Claims<'a, F: Field> {
     pub ring: &'a PolynomialRing<Fractions<F>>,
     pub generators: &'a [Parametric<F>],
@@ -23,7 +23,7 @@ pub(super) struct Claims<'a, F: Field> {
     pub watch: &'a Watch,
 }
 
-/// Proves the claims; the number of S-polynomials that were reduced.
+/// Proves the claims. Returns the number of reduced S-polynomials.
 pub(super) fn prove_basis<F: Field>(claims: &Claims<'_, F>) -> Result<usize> {
     claims.representatives_belong()?;
     let Claims { ring, generators, stratum, watch } = claims;
@@ -42,7 +42,8 @@ pub(super) fn prove_basis<F: Field>(claims: &Claims<'_, F>) -> Result<usize> {
 }
 
 impl<F: Field> Claims<'_, F> {
-    /// At each point of the stratum each representative lies in the ideal: a multiplier puts it there that is not zero.
+    /// Checks that each representative belongs to the ideal at each point of the stratum: some nonzero multiple of it
+    /// does.
     fn representatives_belong(&self) -> Result<()> {
         let flat = Flat::new(self.ring, self.generators)?;
         let regions = Regions { ring: self.ring.field().ring(), watch: self.watch };
@@ -58,7 +59,7 @@ impl<F: Field> Claims<'_, F> {
     }
 }
 
-/// The refusal of a claim.
+/// Builds the error for a claim that fails.
 pub(super) fn refused(text: impl Into<String>) -> Error {
     Error::new(ErrorKind::Certificate, text)
 }
@@ -74,7 +75,7 @@ fn choices<F: Field>(stratum: &Stratum<F>) -> Vec<Vec<Parametric<F>>> {
     })
 }
 
-/// Division by `basis` with coefficients modulo `closure`, leading coefficients being units.
+/// Division by `basis` with coefficients modulo `closure`. Leading coefficients are units.
 struct Reduction<'a, F: Field> {
     ring: &'a PolynomialRing<Fractions<F>>,
     closure: Vec<Polynomial<F::Element>>,

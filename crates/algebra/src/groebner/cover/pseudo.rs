@@ -1,4 +1,5 @@
-//! Division that multiplies by leading coefficients instead of dividing by them: coefficients stay polynomials.
+//! Pseudo-division: it multiplies by leading coefficients instead of dividing by them, so coefficients stay
+//! polynomials.
 
 use crate::Result;
 use crate::groebner::normal_form;
@@ -14,8 +15,8 @@ pub(super) fn lead<E>(f: &Polynomial<E>) -> &Term<E> {
     f.leading().expect("a basis element is not zero")
 }
 
-/// `b f - a n g` for the leading coefficient `b` of `g` and the coefficient `a` of `term`, a term of `f` that is `n` times the leading
-/// monomial of `g`.
+/// `b f - a n g` for the leading coefficient `b` of `g` and the coefficient `a` of `term`. `term` is a term of `f`, `n`
+/// times the leading monomial of `g`.
 pub(super) fn cancelled<F: Field>(
     ring: &Unknowns<F>,
     f: &Parametric<F>,

@@ -1,4 +1,4 @@
-//! Whether a stratum has real points: proofs that it has, proofs that it has not, and silence otherwise.
+//! Real points of a stratum: a proof that there are some, a proof that there are none, or no result.
 
 use super::ideals::{Ideal, Ideals};
 use super::region::Region;
@@ -13,10 +13,10 @@ use crate::{Result, Watch};
 type Poly = Polynomial<BigRational>;
 
 impl Cover<Rationals> {
-    /// The same cover with what could be found out about the real points of each stratum.
+    /// Adds to the cover what is known about the real points of each stratum.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Overflow`]; what `watch` stops with.
+    /// [`crate::ErrorKind::Overflow`]; the error with which `watch` stops the work.
     pub fn with_real_points(mut self, watch: &Watch) -> Result<Self> {
         let ideals = Ideals::new(self.ring.field().ring(), watch)?;
         for stratum in &mut self.strata {
@@ -41,8 +41,8 @@ fn real_points(ideals: &Ideals<'_, Rationals>, stratum: &Stratum<Rationals>) -> 
     Ok(if proved { RealPoints::Some(reason) } else { RealPoints::Unknown })
 }
 
-/// Why `region` has no real point, if that shows: on each of its parts some equation is a sum of squares that cannot vanish, or
-/// that vanishes on an exclusion only.
+/// A reason why `region` has no real point, if one is found. On each of its parts, some equation is a sum of squares
+/// that cannot vanish, or that vanishes on an exclusion only.
 fn no_real_point(ideals: &Ideals<'_, Rationals>, region: &Region<BigRational>) -> Result<Option<String>> {
     let mut open = vec![region.equations.clone()];
     let mut reasons: Vec<String> = Vec::new();
@@ -64,7 +64,8 @@ fn no_real_point(ideals: &Ideals<'_, Rationals>, region: &Region<BigRational>) -
     Ok(Some(format!("{} is zero at no real point here", reasons.join(" or "))))
 }
 
-/// An equation whose real zeros are zeros of polynomials that the equations do not say to vanish, and those polynomials.
+/// An equation whose real zeros are zeros of further polynomials, which the equations do not yet imply, and these
+/// polynomials.
 fn consequence(ideals: &Ideals<'_, Rationals>, equations: &Ideal<BigRational>) -> Result<Option<(Poly, Vec<Poly>)>> {
     let none_positive = vec![false; ideals.ring.variables().len()];
     for f in equations {
@@ -88,7 +89,7 @@ fn narrowed(
     ideals.closure_of(&part, more)
 }
 
-/// Small numbers for a free parameter, rational roots of low degree for one with a condition.
+/// Candidate values: small numbers for a free parameter, rational roots of low degree for one with a condition.
 fn rational_candidates(condition: Option<&Univariate<BigRational>>) -> Vec<BigRational> {
     match condition {
         None => [1, 2, 3, 0, -1, 4, 5, 100].iter().map(|&n| BigRational::from_integer(BigInt::from(n))).collect(),
@@ -96,7 +97,7 @@ fn rational_candidates(condition: Option<&Univariate<BigRational>>) -> Vec<BigRa
     }
 }
 
-/// The rational roots of a polynomial of degree one or two; of others the root zero only.
+/// The rational roots of a polynomial of degree one or two. For other degrees only the root zero is found.
 pub fn rational_roots(f: &Univariate<BigRational>) -> Vec<BigRational> {
     let zero = Rationals.zero();
     match f.coefficients.as_slice() {
@@ -111,10 +112,11 @@ pub fn rational_roots(f: &Univariate<BigRational>) -> Vec<BigRational> {
     }
 }
 
-/// The one equation that is left after solving for parameters that occur linearly.
+/// The only equation that remains after solving for parameters that occur linearly.
 ///
-/// Where it has no repeated factors and changes its sign, real points are dense in the zeros of one of its factors (Bochnak, Coste
-/// and Roy, Real Algebraic Geometry, 4.5.1). No part of a stratum's closure lies inside an exclusion: some are on the stratum.
+/// Where it has no repeated factors and changes its sign, real points are dense in the zeros of one of its factors
+/// (Bochnak, Coste and Roy, Real Algebraic Geometry, 4.5.1). No part of a stratum's closure is contained in an
+/// exclusion, so some real points are on the stratum.
 fn hypersurface(ring: &PolynomialRing<Rationals>, equations: &[Poly]) -> Option<Poly> {
     let count = ring.variables().len();
     let mut rest: Vec<Poly> = equations.to_vec();

@@ -1,4 +1,4 @@
-//! Locally closed sets of parameters: [`Region`] is where equations hold and exclusions do not.
+//! Locally closed sets of parameters: a [`Region`] satisfies equations and avoids exclusions.
 
 use super::ideals::{Ideal, Ideals};
 use crate::Result;
@@ -8,15 +8,15 @@ use crate::poly::{Polynomial, PolynomialRing};
 /// The zero set of `equations` without the zero sets of all `exclusions`. Plain data over the ring of the parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Region<E> {
-    /// The reduced basis of the equations; empty where nothing is required.
+    /// The reduced basis of the equations; empty when there are none.
     pub equations: Vec<Polynomial<E>>,
-    /// Of each list, not all polynomials are zero.
+    /// Lists of polynomials. In each list, at least one polynomial is not zero.
     pub exclusions: Vec<Vec<Polynomial<E>>>,
 }
 
 impl<E> Region<E> {
-    /// Whether `point`, one value a parameter of `ring`, lies in the region; `embed` takes the numbers of the region to the
-    /// field of the point.
+    /// Whether `point` belongs to the region. It has one value for each parameter of `ring`. `embed` maps the numbers
+    /// of the region to the field of the point.
     pub fn contains<F: Field<Element = E>, G: Field>(
         &self,
         ring: &PolynomialRing<F>,
@@ -30,8 +30,8 @@ impl<E> Region<E> {
 }
 
 impl<F: Field> Ideals<'_, F> {
-    /// The canonical form of a region, `None` when it is empty: the equations are those of its closure, and exclusions
-    /// that do not meet the closure, or lie inside another, are dropped.
+    /// The canonical form of a region; `None` when it is empty. The equations are those of its closure. Exclusions that
+    /// do not intersect the closure, or are contained in another one, are dropped.
     pub fn region(
         &self,
         equations: Ideal<F::Element>,
@@ -49,7 +49,8 @@ impl<F: Field> Ideals<'_, F> {
         Ok(Some(Region { equations: closure, exclusions }))
     }
 
-    /// Ideals whose zero sets make those of `ideals`, as small as factors split them, none inside another.
+    /// Ideals whose zero sets have the same union as those of `ideals`. They are split by factors, and none is
+    /// contained in another.
     pub fn components(&self, ideals: &[Ideal<F::Element>]) -> Result<Vec<Ideal<F::Element>>> {
         let mut open = ideals.to_vec();
         let mut done = Vec::new();
@@ -66,7 +67,7 @@ impl<F: Field> Ideals<'_, F> {
         self.largest(done)
     }
 
-    /// The factors of some polynomial of the list that has several.
+    /// The factors of the first reducible polynomial in the list.
     pub fn reducible(&self, list: &[Polynomial<F::Element>]) -> Result<Option<Vec<Polynomial<F::Element>>>> {
         for f in list {
             let factors = self.factors(f)?;
@@ -77,7 +78,7 @@ impl<F: Field> Ideals<'_, F> {
         Ok(None)
     }
 
-    /// The ideals whose zero sets are not empty and lie in no other's.
+    /// The ideals whose zero sets are not empty and not contained in another one.
     pub fn largest(&self, ideals: Vec<Ideal<F::Element>>) -> Result<Vec<Ideal<F::Element>>> {
         let mut kept: Vec<Ideal<F::Element>> = Vec::new();
         for ideal in ideals {
@@ -99,7 +100,7 @@ impl<F: Field> Ideals<'_, F> {
         Ok(kept)
     }
 
-    /// The same region with exclusions as simple as factors and the equations make them.
+    /// Simplifies the exclusions of a region by factors and by its equations.
     pub fn simplified(&self, region: Region<F::Element>) -> Result<Region<F::Element>> {
         let mut exclusions = Vec::new();
         for component in self.components(&region.exclusions)? {
@@ -108,7 +109,8 @@ impl<F: Field> Ideals<'_, F> {
         Ok(Region { exclusions, ..region })
     }
 
-    /// The polynomials of `ideal` that give it together with `equations`, the most complicated left out where that goes.
+    /// A subset of `ideal` that generates it together with `equations`. The most complicated polynomials are left out
+    /// first.
     fn generators_beside(
         &self,
         equations: &[Polynomial<F::Element>],
@@ -127,7 +129,7 @@ impl<F: Field> Ideals<'_, F> {
         Ok(kept)
     }
 
-    /// The part of `region` where all of `equations` hold.
+    /// The part of `region` where all `equations` hold.
     pub fn within(
         &self,
         region: &Region<F::Element>,
@@ -139,7 +141,7 @@ impl<F: Field> Ideals<'_, F> {
         self.region(self.sum(&region.equations, equations)?, &region.exclusions)
     }
 
-    /// The part of `region` outside of the zero sets of `exclusions`.
+    /// The part of `region` outside the zero sets of `exclusions`.
     pub fn outside(
         &self,
         region: &Region<F::Element>,
@@ -148,12 +150,12 @@ impl<F: Field> Ideals<'_, F> {
         self.region(region.equations.clone(), &[&region.exclusions, exclusions].concat())
     }
 
-    /// Whether some polynomial of each ideal is not zero at each point of `region`.
+    /// Whether at each point of `region` some polynomial of `ideal` is not zero.
     pub fn misses(&self, region: &Region<F::Element>, ideal: &[Polynomial<F::Element>]) -> Result<bool> {
         Ok(self.closure_of(region, ideal)?.is_none())
     }
 
-    /// The closure of the part of `region` where `equations` hold, `None` when there is none.
+    /// The closure of the part of `region` where `equations` hold; `None` when it is empty.
     pub fn closure_of(
         &self,
         region: &Region<F::Element>,

@@ -1,4 +1,4 @@
-//! Points on a region, one parameter after the other.
+//! Sample points of a region, computed one parameter at a time.
 
 use super::ideals::groebner;
 use super::region::Region;
@@ -7,18 +7,18 @@ use crate::poly::univariate::{Univariate, UnivariateRing};
 use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::{Result, Watch};
 
-/// How many values are tried before the search gives up.
+/// Maximum number of values that are tried.
 const ATTEMPTS: usize = 300;
 
-/// Gives the values to try for a parameter: the roots of a polynomial where it must satisfy one, else any.
+/// Candidate values of a parameter: the roots of a polynomial if it must satisfy one, else any values.
 pub type Candidates<'a, E> = dyn FnMut(Option<&Univariate<E>>) -> Vec<E> + 'a;
 
-/// A point of `region` (one value a parameter of `ring`) with coordinates in the field of `ring`, if one is found.
+/// Searches a point of `region` with coordinates in the field of `ring`. It has one value for each parameter of `ring`.
 ///
-/// Not finding a point proves nothing.
+/// `None` does not prove that the region is empty.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Overflow`]; what `watch` stops with.
+/// [`crate::ErrorKind::Overflow`]; the error with which `watch` stops the work.
 pub fn sample<F: Field>(
     ring: &PolynomialRing<F>,
     region: &Region<F::Element>,
@@ -43,7 +43,7 @@ struct Search<'a, 'b, F: Field> {
 }
 
 impl<F: Field> Search<'_, '_, F> {
-    /// A point whose last coordinates are `values`, which satisfies `equations`.
+    /// A point that satisfies `equations` and whose last coordinates are `values`.
     fn extend(
         &mut self,
         equations: Vec<Polynomial<F::Element>>,
@@ -77,7 +77,7 @@ impl<F: Field> Search<'_, '_, F> {
         self.exclusions.iter().all(|exclusion| !exclusion.iter().all(vanishes))
     }
 
-    /// `f` as a polynomial in `variable`, if it has no other.
+    /// `f` as a polynomial in `variable`, if it has no other variable.
     fn univariate(&self, f: &Polynomial<F::Element>, variable: usize) -> Option<Univariate<F::Element>> {
         let ring = UnivariateRing::new(self.ring.field().clone(), self.ring.variables()[variable].clone());
         let parts = self.ring.coefficients_in(f, variable);

@@ -7,8 +7,8 @@ use crate::poly::{Polynomial, PolynomialRing};
 type Ground = PolynomialRing<Rationals>;
 type Poly = Polynomial<BigRational>;
 
-/// Polynomials that share the real zeros of `f`, if `f` is seen to keep its sign where the variables that are `positive` are; the
-/// constant 1 among them: there are none.
+/// Polynomials that vanish at all real zeros of `f`, if `f` provably keeps its sign where the `positive` variables are
+/// positive. The constant 1 means that there are no real zeros.
 pub fn forced_zeros(ring: &Ground, f: &Poly, positive: &[bool]) -> Option<Vec<Poly>> {
     if let Some(g) = univariate(ring, f)
         && has_no_real_root(&g)
@@ -24,8 +24,8 @@ fn is_positive(q: &BigRational) -> bool {
     *q > Rationals.zero()
 }
 
-/// Polynomials that share exactly the real zeros of `f`, if `f` is a positive combination of squares: completing the square in one
-/// variable after the other, until only even terms are left.
+/// Polynomials whose common real zeros are those of `f`, if `f` is a positive combination of squares. The square is
+/// completed in one variable after the other until only even terms remain.
 fn squares(ring: &Ground, f: &Poly, positive: &[bool]) -> Option<Vec<Poly>> {
     if let Some(zeros) = even_terms(ring, f, positive) {
         return Some(zeros);
@@ -42,7 +42,8 @@ fn squares(ring: &Ground, f: &Poly, positive: &[bool]) -> Option<Vec<Poly>> {
     })
 }
 
-/// A sum of terms with positive coefficients, in even powers of what is not `positive`, vanishes only where each term does.
+/// The terms of `f`, if all have positive coefficients and even powers of the variables that are not `positive`. Such a
+/// sum vanishes only where each term does.
 fn even_terms(ring: &Ground, f: &Poly, positive: &[bool]) -> Option<Vec<Poly>> {
     let exponents: Vec<Vec<u32>> = f.terms().iter().map(|term| ring.layout().exponents(&term.monomial)).collect();
     let even = exponents.iter().all(|e| e.iter().zip(positive).all(|(power, positive)| *positive || power % 2 == 0));
@@ -63,7 +64,7 @@ fn univariate(ring: &Ground, f: &Poly) -> Option<Univariate<BigRational>> {
     Some(UnivariateRing::new(Rationals, "x").polynomial(coefficients))
 }
 
-/// Sturm's theorem on the whole line.
+/// Whether `f` has no real root, by Sturm's theorem on the whole line.
 fn has_no_real_root(f: &Univariate<BigRational>) -> bool {
     let ring = UnivariateRing::new(Rationals, "x");
     let mut chain = vec![f.clone(), ring.derivative(f)];
@@ -83,7 +84,7 @@ fn has_no_real_root(f: &Univariate<BigRational>) -> bool {
     variations(true) == variations(false)
 }
 
-/// Whether `f` is seen to take both signs at points with small coordinates.
+/// Whether `f` has both signs at points with small coordinates.
 pub(super) fn changes_sign(ring: &Ground, f: &Poly) -> bool {
     const VALUES: [i64; 8] = [0, 1, -1, 2, 10, -10, 1000, -1000];
     const POINTS: usize = 4096;

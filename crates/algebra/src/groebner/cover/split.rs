@@ -1,7 +1,7 @@
-//! The parameter space split into pieces with one basis each.
+//! Partition of the parameter space into pieces with one basis each.
 //!
-//! Source: Kapur, Sun and Wang, ISSAC 2010, the algorithm PGBMain; all polynomials that lead with one monomial are kept
-//! together, so that a piece ends only where all their leading coefficients vanish.
+//! Source: Kapur, Sun and Wang, ISSAC 2010, the algorithm PGBMain. All polynomials with the same leading monomial are
+//! kept together. So a piece ends only where all their leading coefficients vanish.
 
 use super::flat::{Flat, Head};
 use super::ideals::{Ideal, Ideals};
@@ -10,15 +10,15 @@ use crate::Result;
 use crate::number::Field;
 use crate::poly::Polynomial;
 
-/// A region on which the leading monomials stay the same.
+/// A region with constant leading monomials.
 #[derive(Clone, Debug)]
 pub(super) struct Piece<E> {
     pub region: Region<E>,
-    /// The basis; empty where every point is a solution, the monomial 1 where none is.
+    /// The basis; empty where every point is a solution, the monomial 1 where there is none.
     pub heads: Vec<Head<E>>,
 }
 
-/// Pieces that are pairwise disjoint and together make `space`.
+/// Pieces that are pairwise disjoint and whose union is `space`.
 pub(super) fn pieces<F: Field>(
     ideals: &Ideals<'_, F>,
     flat: &Flat<F>,
@@ -50,7 +50,7 @@ fn unit<F: Field>(flat: &Flat<F>) -> Head<F::Element> {
     Head { monomial: flat.unknowns().layout().one(), representatives: vec![flat.one()] }
 }
 
-/// Ideals whose zero sets, together, are where some head has no leading coefficient left.
+/// Ideals with the union of zero sets where some head has no nonzero leading coefficient.
 fn failures<F: Field>(
     ideals: &Ideals<'_, F>,
     flat: &Flat<F>,
@@ -72,7 +72,7 @@ fn failures<F: Field>(
     ideals.largest(failures)
 }
 
-/// The part of `region` in the first zero set, then that in the second but not in the first, and so on.
+/// The part of `region` in the first zero set, then the part in the second but not in the first, and so on.
 fn one_after_the_other<F: Field>(
     ideals: &Ideals<'_, F>,
     region: &Region<F::Element>,
@@ -87,8 +87,8 @@ fn one_after_the_other<F: Field>(
     Ok(parts)
 }
 
-/// The first representative of `head` whose leading coefficient is not zero anywhere on `region`, alone; else those that no
-/// other makes superfluous.
+/// The first representative of `head` whose leading coefficient is nowhere zero on `region`, if there is one. Otherwise
+/// the representatives that are not redundant.
 pub(super) fn sufficient<F: Field>(
     ideals: &Ideals<'_, F>,
     flat: &Flat<F>,

@@ -1,4 +1,4 @@
-//! One stratum: a region of parameters, and the basis that holds there.
+//! One stratum: a region of parameters and its basis.
 
 use super::{Cover, Region};
 use crate::groebner::{Basis, reduced_basis};
@@ -6,59 +6,59 @@ use crate::number::{BigRational, Field};
 use crate::poly::{Fraction, Fractions, Monomial, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// A region of parameters on which the leading monomials of the reduced basis stay the same.
+/// A region of parameters with constant leading monomials of the reduced basis.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Stratum<F: Field> {
-    /// Where it is.
+    /// The region.
     pub region: Region<F::Element>,
-    /// Equations of parts that together make the closure of the region, as far as factors split it; mostly one.
+    /// Equations of parts whose union is the closure of the region, as far as factors split it; usually one part.
     pub parts: Vec<Vec<Polynomial<F::Element>>>,
-    /// The basis, one element a leading monomial; empty where the equations say nothing.
+    /// The basis, one element for each leading monomial; empty where the equations are trivial.
     pub basis: Vec<Element<F>>,
-    /// What the equations amount to there.
+    /// The solutions of the equations: none, finitely many, or a family.
     pub kind: Kind,
-    /// What is known of its real points.
+    /// What is known about its real points.
     pub real: RealPoints,
 }
 
-/// A basis element on a stratum: at every point some representative keeps its leading monomial, and each that does, divided
-/// by its leading coefficient, may stand for the element.
+/// A basis element on a stratum. At every point some representative keeps its leading monomial. Each that does, divided
+/// by its leading coefficient, is the element there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Element<F: Field> {
     /// The leading monomial, of the unknowns.
     pub leading: Monomial,
-    /// Polynomials in the unknowns with that leading monomial, simplest first; mostly one, whose leading coefficient
-    /// is then zero nowhere on the stratum.
+    /// Polynomials in the unknowns with that leading monomial, simplest first. Usually there is one, and its leading
+    /// coefficient is nowhere zero on the stratum.
     pub representatives: Vec<Polynomial<Fraction<F::Element>>>,
 }
 
-/// What the equations amount to.
+/// Number of solutions of the equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// No solution, in no extension field: the unit ideal.
+    /// No solution in any extension field: the unit ideal.
     Inconsistent,
-    /// So many solutions over an algebraically closed field, counted with multiplicity.
+    /// This many solutions over an algebraically closed field, counted with multiplicity.
     Finite(usize),
-    /// Infinitely many solutions; the ideal has this dimension.
+    /// Infinitely many solutions. The ideal has this dimension.
     Family(usize),
 }
 
-/// What is known of the real points of a stratum.
+/// What is known about the real points of a stratum.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RealPoints {
-    /// There is none, for this reason.
+    /// There are none, for this reason.
     None(String),
-    /// This rational point lies on it, one value a parameter.
+    /// This rational point belongs to it; one value for each parameter.
     At(Vec<BigRational>),
-    /// There are some, for this reason.
+    /// There are real points, for this reason.
     Some(String),
-    /// Neither was asked or neither was found.
+    /// Not computed, or no result.
     Unknown,
 }
 
 impl Kind {
-    /// What an ideal with these leading monomials has.
+    /// The kind of an ideal with these leading monomials.
     pub(super) fn of<F: Field>(ring: &PolynomialRing<F>, leading: &[&Monomial]) -> Kind {
         let leads = leading.iter().map(|&monomial| ring.term(ring.field().one(), monomial.clone()));
         let basis = Basis { ring: ring.clone(), polynomials: leads.collect(), cofactors: Vec::new() };
@@ -71,8 +71,8 @@ impl Kind {
 }
 
 impl<F: Field> Cover<F> {
-    /// The stratum of `point`, one value a parameter; `None` when the point lies outside of the cover's space. `embed` takes the
-    /// numbers of the cover to the field of the point.
+    /// The stratum that contains `point`, with one value for each parameter; `None` when the point is outside the
+    /// cover's space. `embed` maps the numbers of the cover to the field of the point.
     pub fn at<G: Field>(
         &self,
         field: &G,
@@ -85,11 +85,11 @@ impl<F: Field> Cover<F> {
 }
 
 impl<F: Field> Stratum<F> {
-    /// The reduced basis at `point` (one value a parameter of `ring`) in `target`, whose variables are the unknowns and whose
-    /// field may be larger than that of the parameters: `embed` takes numbers there.
+    /// Computes the reduced basis at `point`, with one value for each parameter of `ring`. The variables of `target`
+    /// are the unknowns. Its field may be larger than that of the parameters; `embed` maps numbers to it.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the point does not lie on the stratum, as far as the leading coefficients show;
+    /// [`ErrorKind::BadValue`] when the leading coefficients show that the point is not on the stratum;
     /// [`ErrorKind::Overflow`].
     pub fn specialise<G: Field>(
         &self,

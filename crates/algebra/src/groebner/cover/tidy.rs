@@ -1,4 +1,4 @@
-//! The basis of a stratum made easy to read: tails reduced, common factors divided out where they are zero nowhere.
+//! Simplification of a stratum's basis: reduces the tails and removes common factors that are nowhere zero.
 
 use super::Element;
 use super::ideals::Ideals;
@@ -11,7 +11,7 @@ use crate::poly::{Fractions, Polynomial, PolynomialRing, gcd};
 type Unknowns<F> = PolynomialRing<Fractions<F>>;
 type Parametric<F> = Polynomial<<Fractions<F> as Ring>::Element>;
 
-/// The same basis on `region`, tidier.
+/// Simplifies a basis on `region`.
 pub(super) fn tidy<F: Field>(
     ideals: &Ideals<'_, F>,
     ring: &Unknowns<F>,
@@ -31,7 +31,7 @@ pub(super) fn tidy<F: Field>(
     Ok(basis)
 }
 
-/// The polynomial of an element that needs only one: its leading coefficient is zero nowhere.
+/// The polynomial of an element that has only one: its leading coefficient is nowhere zero.
 fn single<F: Field>(element: &Element<F>) -> Option<&Parametric<F>> {
     match element.representatives.as_slice() {
         [f] => Some(f),
@@ -39,7 +39,7 @@ fn single<F: Field>(element: &Element<F>) -> Option<&Parametric<F>> {
     }
 }
 
-/// `f` with every term but the first reduced by `divisors`.
+/// Reduces every term of `f` but the first by `divisors`.
 fn reduce_tail<F: Field>(
     ideals: &Ideals<'_, F>,
     ring: &Unknowns<F>,
@@ -61,7 +61,8 @@ fn reduce_tail<F: Field>(
     }
 }
 
-/// `f` divided by the common factor of its coefficients, if that is zero nowhere on `region`, and by the number in front.
+/// Divides `f` by the common factor of its coefficients, if that is nowhere zero on `region`, and by its numeric
+/// content.
 fn without_content<F: Field>(
     ideals: &Ideals<'_, F>,
     ring: &Unknowns<F>,

@@ -1,4 +1,4 @@
-//! A cover told to a person: where each stratum is, how many solutions it has, its basis.
+//! Text of a cover: for each stratum its region, its number of solutions and its basis.
 
 use std::fmt;
 
@@ -7,21 +7,21 @@ use crate::number::{Field, Rationals, Ring, Style};
 use crate::poly::Polynomial;
 
 impl<F: Field> fmt::Display for Cover<F> {
-    /// A line that says what is counted, then each stratum with its number, its basis indented below.
+    /// Writes a line with the numbers of strata, then each stratum with its number and its indented basis.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let parameters = self.ring.field().ring().variables().join(", ");
         let strata = count(self.strata.len(), "stratum", "strata");
         writeln!(f, "parameters {parameters}: {strata}; solutions are complex and counted with multiplicity")?;
         for (index, stratum) in self.strata.iter().enumerate() {
-            write!(f, "{}. {}", index + 1, self.tell(stratum))?;
+            write!(f, "{}. {}", index + 1, self.describe(stratum))?;
         }
         Ok(())
     }
 }
 
 impl<F: Field> Cover<F> {
-    /// `stratum`, one of this cover's, in words: a line that says where it is and what happens there, its basis below.
-    pub fn tell(&self, stratum: &Stratum<F>) -> String {
+    /// Describes a stratum of this cover: one line with its region and its solutions, then its basis.
+    pub fn describe(&self, stratum: &Stratum<F>) -> String {
         let place = self.place(&stratum.parts, &stratum.region);
         let mut text = format!("{place}: {}{}\n", self.kind(stratum), self.real(&stratum.real));
         if stratum.kind != Kind::Inconsistent {
@@ -32,7 +32,7 @@ impl<F: Field> Cover<F> {
         text
     }
 
-    /// `where pz = 0 and px != 0`; a closed set of several parts is told part by part.
+    /// Text of a region such as `where pz = 0 and px != 0`. A closed set of several parts is described part by part.
     fn place(&self, parts: &[Vec<Polynomial<F::Element>>], region: &Region<F::Element>) -> String {
         let all: Vec<String> = parts.iter().map(|part| self.zeros(part)).filter(|text| !text.is_empty()).collect();
         let zeros = match all.as_slice() {
@@ -45,8 +45,8 @@ impl<F: Field> Cover<F> {
         if conditions.is_empty() { "everywhere".to_owned() } else { format!("where {}", conditions.join(" and ")) }
     }
 
-    /// A region in words: `where pz = 0 and px != 0`.
-    pub fn tell_region(&self, region: &Region<F::Element>) -> String {
+    /// Describes a region: `where pz = 0 and px != 0`.
+    pub fn describe_region(&self, region: &Region<F::Element>) -> String {
         self.place(std::slice::from_ref(&region.equations), region)
     }
 

@@ -1,40 +1,46 @@
-//! Elimination modulo one prime, eight rows at a time.
+//! Gaussian elimination modulo one prime, eight rows at a time.
 
 use super::lanes::Instructions;
 use super::sweep::{Sparse, Sweep};
 use super::symbolic::{Row, Shape};
 use crate::{Result, Watch};
 
-/// Rows that are reduced together.
+/// Number of rows that are reduced together.
 pub(super) const LANES: usize = 8;
-/// Rows of which random combinations are taken together.
+/// Number of rows that are combined at random together.
 const BLOCK: usize = 64;
-/// A block is done when this many bits of chance say that its rest is zero.
+/// A block is finished when its rest is zero with a probability of error below two to the minus this number.
 const CERTAINTY: u32 = 50;
-/// No column.
+/// Marker for no column.
 const NOWHERE: [u32; LANES] = [u32::MAX; LANES];
 
-/// How rows are reduced.
+/// Options of the row reduction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Way {
-    /// Random combinations, as many as the rank: rows that become zero cost little. Else each row by itself, which tells
-    /// which were independent of those before them.
+pub(super) struct Elimination {
+    /// Whether to reduce random combinations, as many as the rank, so that rows that become zero cost little. Otherwise
+    /// each row is reduced by itself, which shows the rows that are independent of those before them.
     pub combinations: bool,
     pub instructions: Instructions,
 }
 
-/// The rows that a matrix adds: monic, reduced by the matrix and by one another, greatest lead first.
+/// The new rows of a matrix: monic, reduced by the matrix and by one another, greatest leading column first.
 pub(super) struct Echelon {
     pub rows: Vec<Sparse<u32>>,
-    /// Without combinations: the lower rows that were independent, and the column that each led when it was found.
+    /// Without combinations: the independent lower rows, each with its leading column when it was found.
     pub independent: Vec<(usize, u32)>,
 }
 
 /// Reduces the lower rows of `shape` modulo `p`.
-pub(super) fn eliminate(shape: &Shape, coefficients: &[Vec<u32>], p: u32, way: Way, watch: &Watch) -> Result<Echelon> {
-    let mut sweep = Sweep::<u32, LANES>::new([p; LANES], way.instructions, shape, coefficients);
+pub(super) fn eliminate(
+    shape: &Shape,
+    coefficients: &[Vec<u32>],
+    p: u32,
+    elimination: Elimination,
+    watch: &Watch,
+) -> Result<Echelon> {
+    let mut sweep = Sweep::<u32, LANES>::new([p; LANES], elimination.instructions, shape, coefficients);
     let mut independent = Vec::new();
-    let combine = way.combinations && LANES as u32 / 2 * p.ilog2() >= CERTAINTY;
+    let combine = elimination.combinations && LANES as u32 / 2 * p.ilog2() >= CERTAINTY;
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
     for (index, rows) in shape.lower.chunks(if combine { BLOCK } else { LANES }).enumerate() {
         watch.check()?;
@@ -52,7 +58,7 @@ pub(super) fn eliminate(shape: &Shape, coefficients: &[Vec<u32>], p: u32, way: W
     Ok(Echelon { rows, independent })
 }
 
-/// Adds random combinations of `rows` until their rest is zero but for chance.
+/// Adds random combinations of `rows` until their rest is zero with high probability.
 fn take_combinations(
     sweep: &mut Sweep<'_, u32, LANES>,
     rows: &[Row],
@@ -89,13 +95,14 @@ fn unit(lane: usize, p: u32) -> [u32; LANES] {
     std::array::from_fn(|l| if l == lane { p - 1 } else { 0 })
 }
 
-/// Takes what the lanes hold as new rows, reducing each by those before it: the lanes that were not zero, with their leads.
+/// Extracts the lanes as new rows. Each is reduced by those before it. Returns the lanes that were not zero with their
+/// leading columns.
 fn extract(sweep: &mut Sweep<'_, u32, LANES>, lanes: usize) -> Vec<(usize, u32)> {
     let Sparse { columns, coefficients } = sweep.take();
     let mut found: Vec<(usize, usize, Vec<u32>)> = Vec::new();
     for lane in 0..lanes {
         let mut row: Vec<u32> = coefficients.iter().map(|lanes| lanes[lane]).collect();
-        // Leads of this batch, from the left: a row found later may lead further left.
+        // Leading columns of this batch, from the left. A row found later may lead further left.
         let mut earlier: Vec<_> = found.iter().collect();
         earlier.sort_by_key(|(_, lead, _)| *lead);
         for (_, lead, other) in earlier {
@@ -124,12 +131,12 @@ fn sparse(columns: &[u32], entries: impl Iterator<Item = u32>) -> Sparse<u32> {
     Sparse { columns, coefficients }
 }
 
-/// One row a lane.
+/// The rows of one lane.
 fn apart(rows: &Sparse<[u32; LANES]>, lane: usize) -> Sparse<u32> {
     sparse(&rows.columns, rows.coefficients.iter().map(|lanes| lanes[lane]))
 }
 
-/// Reduces the found rows by one another, those with the smallest leads first.
+/// Reduces the found rows by one another, those with the smallest leading columns first.
 fn interreduce(sweep: &mut Sweep<'_, u32, LANES>, watch: &Watch) -> Result<()> {
     if sweep.rows.len() < 2 {
         return Ok(());
@@ -154,15 +161,16 @@ fn interreduce(sweep: &mut Sweep<'_, u32, LANES>, watch: &Watch) -> Result<()> {
     Ok(())
 }
 
-/// The lower rows of `shape`, reduced by its upper rows alone: one list of residues in the free columns a row.
+/// Reduces the lower rows of `shape` by its upper rows alone. Returns one list of residues in the free columns for each
+/// row.
 pub(super) fn normal_forms(
     shape: &Shape,
     coefficients: &[Vec<u32>],
     p: u32,
-    way: Way,
+    elimination: Elimination,
     watch: &Watch,
 ) -> Result<Vec<Sparse<u32>>> {
-    let mut sweep = Sweep::<u32, LANES>::new([p; LANES], way.instructions, shape, coefficients);
+    let mut sweep = Sweep::<u32, LANES>::new([p; LANES], elimination.instructions, shape, coefficients);
     let mut forms = Vec::with_capacity(shape.lower.len());
     for rows in shape.lower.chunks(LANES) {
         watch.check()?;
@@ -173,7 +181,7 @@ pub(super) fn normal_forms(
     Ok(forms)
 }
 
-/// A small generator of random residues (G. Marsaglia, "Xorshift RNGs", 2003); always the same run.
+/// A small deterministic generator of random residues (G. Marsaglia, "Xorshift RNGs", 2003).
 struct Random(u64);
 
 impl Random {

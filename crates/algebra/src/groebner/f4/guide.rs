@@ -1,37 +1,37 @@
-//! What a caller decides while a computation is learned.
+//! Decisions of a caller during a learning run of F4.
 
 use crate::Result;
 
-/// Bounds a computation by what it is worth, and tells when and with which elements it may end.
+/// Limits the cost of a computation, and decides when and with which elements it may end.
 pub(in crate::groebner) trait Guide {
-    /// Fails when so many terms are more than the computation is worth.
+    /// Fails when a computation with this many terms is too expensive.
     fn allow(&mut self, _terms: usize) -> Result<()> {
         Ok(())
     }
 
-    /// The computation may end as soon as each of these vectors begins the exponents of a leading monomial. `None`: when no pair is
-    /// left.
+    /// The computation may end as soon as each of these vectors is a prefix of the exponents of a leading monomial.
+    /// `None`: when no pair is left.
     fn goal(&self) -> Option<&[Vec<u32>]> {
         None
     }
 
-    /// Whether the tails of the elements are wanted, too.
+    /// Whether the tails of the elements are needed too.
     fn wants_tails(&self) -> bool {
         true
     }
 
-    /// Which of the elements with leading monomials of these exponents, smallest first, are wanted.
+    /// Selects the needed elements by the exponents of their leading monomials, smallest first.
     fn wanted(&self, leads: &[Vec<u32>]) -> Vec<usize> {
         (0..leads.len()).collect()
     }
 }
 
-/// The guide to the whole basis, at any price.
+/// Guide for the whole basis, without a limit.
 pub(super) struct Whole;
 
 impl Guide for Whole {}
 
-/// The guide to the leading monomials alone.
+/// Guide for the leading monomials only.
 pub(super) struct Leads;
 
 impl Guide for Leads {

@@ -1,11 +1,12 @@
 //! Arithmetic modulo word-size primes on `N` lanes at once: `N` rows of one matrix, or one row modulo `N` primes.
 //!
-//! A sum is kept below the square of the modulus: a product is subtracted, and the square is added when the difference is
-//! negative. Reduction to a residue is Barrett's (P. Barrett, CRYPTO 1986), on 32-bit factors that vector units have.
+//! A sum is kept below the square of the modulus: a product is subtracted, and the square is added when the difference
+//! is negative. Residues are computed by Barrett reduction (P. Barrett, CRYPTO 1986) with 32-bit factors, which vector
+//! units support.
 
 use crate::number::word::inverse_modulo;
 
-/// What a row's coefficients are: the same in all lanes, or one a lane.
+/// Type of a row's coefficients: equal in all lanes, or one for each lane.
 pub(super) trait Coefficient<const N: usize>: Copy {
     /// The coefficient in this lane.
     fn lane(&self, lane: usize) -> u32;
@@ -25,7 +26,7 @@ impl<const N: usize> Coefficient<N> for [u32; N] {
     }
 }
 
-/// The vector instructions of this machine.
+/// The vector instruction set of this machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Instructions {
     Portable,
@@ -36,7 +37,7 @@ pub(super) enum Instructions {
 }
 
 impl Instructions {
-    /// The best that the processor has, asked at run time.
+    /// Detects the best supported instruction set at run time.
     pub fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
@@ -51,7 +52,7 @@ impl Instructions {
     }
 }
 
-/// The moduli of the lanes with their constants; each modulus is below 2^31 and at least 2.
+/// The moduli of the lanes with their constants. Each modulus is below 2^31 and at least 2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moduli<const N: usize> {
     pub p: [u32; N],
@@ -95,7 +96,7 @@ impl<const N: usize> Moduli<N> {
         self.residue(lane, u64::from(a) * u64::from(b))
     }
 
-    /// `1 / a` modulo the lane's prime, for `a` not 0, by Euclid's algorithm.
+    /// `1 / a` modulo the lane's prime by the Euclidean algorithm, for nonzero `a`.
     pub fn inverse(&self, lane: usize, a: u32) -> u32 {
         inverse_modulo(u64::from(a), u64::from(self.p[lane])) as u32
     }

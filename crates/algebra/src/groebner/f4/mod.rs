@@ -1,8 +1,8 @@
-//! The F4 algorithm modulo word-size primes, and traces of it that replay modulo others.
+//! The F4 algorithm modulo word-size primes, and traces for replays modulo other primes.
 //!
-//! J.-C. Faugere, "A new efficient algorithm for computing Groebner bases (F4)", J. Pure Applied Algebra 139 (1999). [`f4`] computes
-//! a reduced basis in any order; [`Trace::learn`] also keeps what the computation did, so that [`Trace::replay`] repeats the
-//! arithmetic alone for other primes or other coefficients.
+//! J.-C. Faugere, "A new efficient algorithm for computing Groebner bases (F4)", J. Pure Applied Algebra 139 (1999).
+//! [`f4`] computes a reduced basis in any order; [`Trace::learn`] also stores a trace of the computation.
+//! [`Trace::replay`] repeats its arithmetic for other primes or other coefficients.
 
 mod eliminate;
 mod guide;
@@ -22,7 +22,7 @@ use crate::number::Zp;
 use crate::poly::{Monomial, Order, Polynomial, PolynomialRing, Term};
 use crate::watch::Matrix;
 use crate::{Error, ErrorKind, Result, Watch};
-use eliminate::{Way, eliminate, normal_forms};
+use eliminate::{Elimination, eliminate, normal_forms};
 use guide::{Leads, Whole};
 use lanes::Instructions;
 use packing::{Packing, words};
@@ -31,27 +31,29 @@ use sweep::Sparse;
 use symbolic::{Builder, Columns, Shape};
 use table::Table;
 
-/// The largest modulus, exclusive.
+/// Exclusive upper bound of the modulus.
 pub const MODULUS_LIMIT: u64 = 1 << 31;
 
-/// The reduced Groebner basis of the ideal of `generators` modulo a prime below 2^31, in the order of `ring`.
+/// Computes the reduced Groebner basis of the ideal of `generators` modulo a prime below 2^31, in the order of `ring`.
 ///
-/// Rows are reduced through random combinations of them: that a basis is incomplete has a probability of less than 2^-50 for
-/// each block of rows; every polynomial of it lies in the ideal without doubt. Primes below 2^13 are treated row by row.
+/// Random combinations of rows are reduced. The basis is incomplete with a probability below 2^-50 for each block of
+/// rows. Every polynomial of it certainly belongs to the ideal. Modulo primes below 2^13, each row is reduced by
+/// itself.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for a larger modulus; [`ErrorKind::Overflow`] when a degree outgrows 15 bits or the variables the
-/// widest keys; what `watch` stops with.
+/// [`ErrorKind::BadValue`] for a larger modulus; [`ErrorKind::Overflow`] when a degree overflows 15 bits or the
+/// variables the widest keys; the error with which `watch` stops the work.
 pub fn f4(ring: &PolynomialRing<Zp>, generators: &[Polynomial<u64>], watch: &Watch) -> Result<Basis<Zp>> {
     f4_with(ring, generators, Settings::default(), watch)
 }
 
-/// How [`f4_with`] works.
+/// Settings of [`f4_with`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// Reduce random combinations of rows, as many as the rank; else each row by itself, without chance.
+    /// Whether to reduce random combinations of rows, as many as the rank. Otherwise each row is reduced by itself, and
+    /// the result is certain.
     pub combinations: bool,
-    /// Use the vector instructions that the processor has; the results are the same.
+    /// Whether to use the processor's vector instructions. The results are equal.
     pub vectors: bool,
 }
 
@@ -61,10 +63,10 @@ impl Default for Settings {
     }
 }
 
-/// [`f4`] with settings.
+/// Same as [`f4`], but with settings.
 ///
 /// # Errors
-/// As [`f4`].
+/// Those of [`f4`].
 pub fn f4_with(
     ring: &PolynomialRing<Zp>,
     generators: &[Polynomial<u64>],
@@ -72,29 +74,29 @@ pub fn f4_with(
     watch: &Watch,
 ) -> Result<Basis<Zp>> {
     let instructions = if settings.vectors { Instructions::detect() } else { Instructions::Portable };
-    let way = Way { combinations: settings.combinations, instructions };
-    Ok(in_some_width(ring, generators, way, &mut Whole, watch)?.0)
+    let elimination = Elimination { combinations: settings.combinations, instructions };
+    Ok(in_some_width(ring, generators, elimination, &mut Whole, watch)?.0)
 }
 
 /// The leading monomials of the basis that [`f4`] computes, smallest first.
 ///
 /// # Errors
-/// As [`f4`].
+/// Those of [`f4`].
 pub(super) fn leading_monomials(
     ring: &PolynomialRing<Zp>,
     generators: &[Polynomial<u64>],
     watch: &Watch,
 ) -> Result<Vec<Monomial>> {
-    let way = Way { combinations: true, instructions: Instructions::detect() };
-    let (basis, _) = in_some_width(ring, generators, way, &mut Leads, watch)?;
+    let elimination = Elimination { combinations: true, instructions: Instructions::detect() };
+    let (basis, _) = in_some_width(ring, generators, elimination, &mut Leads, watch)?;
     Ok(basis.polynomials.into_iter().map(|f| f.terms()[0].monomial.clone()).collect())
 }
 
 impl Trace {
-    /// The reduced basis as [`f4`] computes it, each row by itself and without chance, and what the computation teaches.
+    /// Computes the reduced basis without random combinations, and the trace of the computation.
     ///
     /// # Errors
-    /// As [`f4`].
+    /// Those of [`f4`].
     pub fn learn(
         ring: &PolynomialRing<Zp>,
         generators: &[Polynomial<u64>],
@@ -103,19 +105,19 @@ impl Trace {
         Self::learn_guided(ring, generators, &mut Whole, watch)
     }
 
-    /// [`Trace::learn`] of the elements that `guide` wants, until it has enough. They are a basis when the guide's goal is the leading
-    /// monomials of one.
+    /// Same as [`Trace::learn`], but only for the elements that `guide` selects, until it has enough. They are a basis
+    /// when the guide's goal is the set of leading monomials of one.
     ///
     /// # Errors
-    /// As [`f4`]; what `guide` stops with.
+    /// Those of [`f4`]; the error with which `guide` stops the work.
     pub(super) fn learn_guided(
         ring: &PolynomialRing<Zp>,
         generators: &[Polynomial<u64>],
         guide: &mut dyn Guide,
         watch: &Watch,
     ) -> Result<(Basis<Zp>, Trace)> {
-        let way = Way { combinations: false, instructions: Instructions::detect() };
-        in_some_width(ring, generators, way, guide, watch)
+        let elimination = Elimination { combinations: false, instructions: Instructions::detect() };
+        in_some_width(ring, generators, elimination, guide, watch)
     }
 }
 
@@ -123,7 +125,7 @@ impl Trace {
 fn in_some_width(
     ring: &PolynomialRing<Zp>,
     generators: &[Polynomial<u64>],
-    way: Way,
+    elimination: Elimination,
     guide: &mut dyn Guide,
     watch: &Watch,
 ) -> Result<(Basis<Zp>, Trace)> {
@@ -132,8 +134,8 @@ fn in_some_width(
         let text = format!("F4 works modulo primes below 2^31, not modulo {p}");
         return Err(Error::new(ErrorKind::BadValue, text));
     }
-    match in_lanes(ring, generators, way, 8, guide, watch) {
-        Err(error) if error.kind() == ErrorKind::Overflow => in_lanes(ring, generators, way, 16, guide, watch),
+    match in_lanes(ring, generators, elimination, 8, guide, watch) {
+        Err(error) if error.kind() == ErrorKind::Overflow => in_lanes(ring, generators, elimination, 16, guide, watch),
         outcome => outcome,
     }
 }
@@ -142,19 +144,19 @@ fn in_some_width(
 fn in_lanes(
     ring: &PolynomialRing<Zp>,
     generators: &[Polynomial<u64>],
-    way: Way,
+    elimination: Elimination,
     bits: u32,
     guide: &mut dyn Guide,
     watch: &Watch,
 ) -> Result<(Basis<Zp>, Trace)> {
     let words = words(ring.layout().order(), ring.variables().len(), bits);
     match words {
-        1 => Run::<1>::new(ring, bits, way).basis(generators, guide, watch),
-        2 => Run::<2>::new(ring, bits, way).basis(generators, guide, watch),
-        3 => Run::<3>::new(ring, bits, way).basis(generators, guide, watch),
-        4 => Run::<4>::new(ring, bits, way).basis(generators, guide, watch),
-        5..=6 => Run::<6>::new(ring, bits, way).basis(generators, guide, watch),
-        7..=8 => Run::<8>::new(ring, bits, way).basis(generators, guide, watch),
+        1 => Run::<1>::new(ring, bits, elimination).basis(generators, guide, watch),
+        2 => Run::<2>::new(ring, bits, elimination).basis(generators, guide, watch),
+        3 => Run::<3>::new(ring, bits, elimination).basis(generators, guide, watch),
+        4 => Run::<4>::new(ring, bits, elimination).basis(generators, guide, watch),
+        5..=6 => Run::<6>::new(ring, bits, elimination).basis(generators, guide, watch),
+        7..=8 => Run::<8>::new(ring, bits, elimination).basis(generators, guide, watch),
         _ => {
             let text = format!("{} variables are more than the keys of F4 hold", ring.variables().len());
             Err(Error::new(ErrorKind::Overflow, text))
@@ -166,25 +168,25 @@ fn in_lanes(
 struct Run<'a, const W: usize> {
     ring: &'a PolynomialRing<Zp>,
     p: u32,
-    way: Way,
-    /// Whether the order looks at the degree first: pairs then go by the degree of their common multiple.
+    elimination: Elimination,
+    /// Whether the order compares degrees first. Pairs are then sorted by the degree of their least common multiple.
     graded: bool,
     running: Running<W>,
     coefficients: Vec<Vec<u32>>,
     table: Table<W>,
     trace: Trace,
-    /// Matrices that were reduced.
+    /// Number of reduced matrices.
     round: usize,
 }
 
 impl<'a, const W: usize> Run<'a, W> {
-    fn new(ring: &'a PolynomialRing<Zp>, bits: u32, way: Way) -> Self {
+    fn new(ring: &'a PolynomialRing<Zp>, bits: u32, elimination: Elimination) -> Self {
         let graded = *ring.layout().order() == Order::GrevLex;
         let packing = Packing::new(ring.layout().order(), ring.variables().len(), bits);
         Run {
             ring,
             p: ring.field().modulus() as u32,
-            way,
+            elimination,
             graded,
             running: Running::new(packing, graded),
             coefficients: Vec::new(),
@@ -195,7 +197,7 @@ impl<'a, const W: usize> Run<'a, W> {
     }
 
     /// The algorithm: reduce the generators by one another; then select pairs, complete them to a matrix by symbolic
-    /// preprocessing, eliminate, and adjoin the new rows, until no pair is left; reduce the tails.
+    /// preprocessing, eliminate, and adjoin the new rows, until no pair is left. Then reduce the tails.
     fn basis(
         mut self,
         generators: &[Polynomial<u64>],
@@ -208,7 +210,7 @@ impl<'a, const W: usize> Run<'a, W> {
             if selected.is_empty() || self.trace.unit || guide.goal().is_some_and(|goal| self.has_reached(goal)) {
                 return self.finish(guide, watch);
             }
-            // In an order by degree the sugar of a round is its degree.
+            // In a degree order, the sugar of a round is its degree.
             let sugar = selected[0].sugar;
             let bound = if self.graded { u32::MAX } else { sugar };
             let mut builder = Builder::new(&self.running, &mut self.table, bound);
@@ -219,7 +221,7 @@ impl<'a, const W: usize> Run<'a, W> {
         }
     }
 
-    /// Whether each of these vectors begins the exponents of a leading monomial.
+    /// Whether each of these vectors is a prefix of the exponents of a leading monomial.
     fn has_reached(&self, goal: &[Vec<u32>]) -> bool {
         let packing = &self.running.packing;
         let begins =
@@ -227,7 +229,7 @@ impl<'a, const W: usize> Run<'a, W> {
         goal.iter().all(|part| self.running.lead_keys().any(|key| begins(key, part)))
     }
 
-    /// The generators, reduced by one another without multiplying any.
+    /// Reduces the generators by one another without multiplying any.
     fn begin(&mut self, generators: &[Polynomial<u64>], guide: &mut dyn Guide, watch: &Watch) -> Result<()> {
         let mut raw = Running::new(self.running.packing.clone(), true);
         for (index, f) in generators.iter().enumerate().filter(|(_, f)| !f.is_zero()) {
@@ -263,14 +265,14 @@ impl<'a, const W: usize> Run<'a, W> {
         watch.check_terms(terms)?;
         guide.allow(terms)?;
         watch.check_memory(self.bytes() + shape.bytes())?;
-        self.tell(&shape, 0, sugar, watch);
-        let echelon = eliminate(&shape, &self.coefficients, self.p, self.way, watch)?;
-        self.tell(&shape, echelon.rows.len(), sugar, watch);
+        self.report(&shape, 0, sugar, watch);
+        let echelon = eliminate(&shape, &self.coefficients, self.p, self.elimination, watch)?;
+        self.report(&shape, echelon.rows.len(), sugar, watch);
         self.round += 1;
-        if !self.way.combinations {
+        if !self.elimination.combinations {
             self.trace.record(shape, &echelon);
         }
-        // The smallest lead first: what makes another redundant then comes before it.
+        // The smallest leading monomial first, so that an element precedes those that it makes redundant.
         for row in echelon.rows.into_iter().rev() {
             watch.check()?;
             let keys: Vec<_> = row.columns.iter().map(|&column| columns[column as usize]).collect();
@@ -283,8 +285,8 @@ impl<'a, const W: usize> Run<'a, W> {
         Ok(())
     }
 
-    /// Reports the matrix; `fresh` of its lower rows are known to be independent.
-    fn tell(&self, shape: &Shape, fresh: usize, degree: u32, watch: &Watch) {
+    /// Reports the matrix. `fresh` of its lower rows are known to be independent.
+    fn report(&self, shape: &Shape, fresh: usize, degree: u32, watch: &Watch) {
         let (rows, rank) = (shape.upper.len() + shape.lower.len(), shape.upper.len() + fresh);
         let matrix = Matrix { degree: degree as usize, rows, columns: shape.columns, rank };
         watch.report_matrix("F4", self.round, self.running.open(), matrix);
@@ -296,7 +298,7 @@ impl<'a, const W: usize> Run<'a, W> {
         self.table.bytes() + terms * (4 + size_of::<packing::Key<W>>()) + self.trace.bytes()
     }
 
-    /// The reduced basis: the wanted ones of the live elements with their tails reduced, smallest lead first.
+    /// The reduced basis: the selected live elements with reduced tails, smallest leading monomial first.
     fn finish(mut self, guide: &dyn Guide, watch: &Watch) -> Result<(Basis<Zp>, Trace)> {
         let live = self.wanted(guide);
         let (tails, columns) = if guide.wants_tails() { self.tails(&live, watch)? } else { Default::default() };
@@ -316,13 +318,13 @@ impl<'a, const W: usize> Run<'a, W> {
             }
             polynomials.push(self.ring.descending(terms));
         }
-        if !self.way.combinations {
+        if !self.elimination.combinations {
             self.trace.supports = tails.into_iter().map(|tail| tail.columns.into()).collect();
         }
         Ok((Basis { ring: self.ring.clone(), polynomials, cofactors: Vec::new() }, self.trace))
     }
 
-    /// The live elements that `guide` wants, smallest lead first.
+    /// The live elements that `guide` selects, smallest leading monomial first.
     fn wanted(&self, guide: &dyn Guide) -> Vec<u32> {
         let packing = &self.running.packing;
         let lead = |element: &u32| &self.running.elements[*element as usize][0];
@@ -343,8 +345,8 @@ impl<'a, const W: usize> Run<'a, W> {
         builder.take_elements(elements, 1)?;
         builder.close(watch)?;
         let (shape, columns) = builder.finish();
-        let tails = normal_forms(&shape, &self.coefficients, self.p, self.way, watch)?;
-        if !self.way.combinations {
+        let tails = normal_forms(&shape, &self.coefficients, self.p, self.elimination, watch)?;
+        if !self.elimination.combinations {
             self.trace.last = trace::pruned(&shape);
         }
         Ok((tails, columns))

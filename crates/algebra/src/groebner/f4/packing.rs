@@ -1,7 +1,7 @@
-//! Monomials as fixed arrays of words whose lanes add under multiplication and compare as numbers in any order.
+//! Monomials as fixed arrays of words. Multiplication adds lanes, and comparison in any order compares numbers.
 //!
-//! A lane holds an exponent or the degree of a block of variables, greatest significance first. Orders that look at an
-//! exponent the other way round (graded reverse) flip its lane before the words are compared: one exclusive or a word.
+//! A lane holds an exponent or the degree of a block of variables, greatest significance first. Orders that compare an
+//! exponent in reverse (graded reverse) flip its lane before the comparison: one exclusive or per word.
 
 use std::cmp::Ordering;
 
@@ -29,7 +29,7 @@ enum Lane {
     Degree { from: usize, to: usize },
 }
 
-/// Where the lanes stand, and how keys compare.
+/// Positions of the lanes, and the comparison of keys.
 #[derive(Clone, Debug)]
 pub(super) struct Packing<const W: usize> {
     bits: u32,
@@ -41,7 +41,7 @@ pub(super) struct Packing<const W: usize> {
     total: (usize, u32),
 }
 
-/// How many words `variables` variables in `order` take with lanes of `bits` bits.
+/// The number of words for `variables` variables in `order` with lanes of `bits` bits.
 pub(super) fn words(order: &Order, variables: usize, bits: u32) -> usize {
     lanes(order, variables).len().div_ceil((64 / bits) as usize)
 }
@@ -75,7 +75,7 @@ fn lanes(order: &Order, variables: usize) -> Vec<Lane> {
 }
 
 impl<const W: usize> Packing<W> {
-    /// The packing of `variables` variables, greatest first, in `order`, which takes at most `W` words.
+    /// Builds the packing of `variables` variables, greatest first, in `order`. It takes at most `W` words.
     pub fn new(order: &Order, variables: usize, bits: u32) -> Self {
         let per_word = (64 / bits) as usize;
         let mask = u64::MAX >> (64 - bits);
@@ -151,7 +151,7 @@ impl<const W: usize> Packing<W> {
         self.lane(key, self.total)
     }
 
-    /// The key as it compares: word by word, as numbers.
+    /// The key in the form that is compared: word by word, as numbers.
     pub fn rank(&self, key: &Key<W>) -> Key<W> {
         std::array::from_fn(|word| key[word] ^ self.flip[word])
     }
@@ -167,7 +167,7 @@ impl<const W: usize> Packing<W> {
         (0..W).all(|word| ((b[word] | self.guard[word]) - a[word]) & self.guard[word] == self.guard[word])
     }
 
-    /// Whether a product outgrew its lanes.
+    /// Whether a product overflows its lanes.
     pub fn overflows(&self, key: &Key<W>) -> bool {
         (0..W).any(|word| key[word] & self.guard[word] != 0)
     }
@@ -191,7 +191,7 @@ impl<const W: usize> Packing<W> {
     }
 }
 
-/// `a b`; the caller looks for overflow.
+/// `a b`. The caller checks for overflow.
 #[inline]
 pub(super) fn product<const W: usize>(a: &Key<W>, b: &Key<W>) -> Key<W> {
     std::array::from_fn(|word| a[word].wrapping_add(b[word]))

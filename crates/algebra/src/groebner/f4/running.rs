@@ -1,4 +1,4 @@
-//! The running basis: elements, their leading monomials and the pairs between them.
+//! The running basis: elements, their leading monomials and the critical pairs.
 
 use super::packing::{Key, Packing, quotient};
 use crate::{Error, ErrorKind, Result};
@@ -9,16 +9,16 @@ pub(super) struct Pair<const W: usize> {
     pub lcm: Key<W>,
     pub left: u32,
     pub right: u32,
-    /// The degree that it would have had if the generators had been homogenised: its sugar.
+    /// The sugar degree: the degree of the S-polynomial if the generators had been homogenised.
     pub sugar: u32,
 }
 
-/// A leading monomial that may divide others.
+/// A leading monomial as a possible divisor.
 #[derive(Clone, Copy, Debug)]
 struct Lead<const W: usize> {
     key: Key<W>,
     element: u32,
-    /// By how much its sugar exceeds the degree of its lead; the same for all its multiples.
+    /// Sugar minus degree of the leading monomial. It is equal for all multiples.
     excess: u32,
 }
 
@@ -27,34 +27,35 @@ struct Lead<const W: usize> {
 #[derive(Clone, Debug)]
 pub(super) struct Running<const W: usize> {
     pub packing: Packing<W>,
-    /// The monomials of each element, greatest first; the coefficients are kept apart, so that replays share the rest.
+    /// The monomials of each element, greatest first. The coefficients are stored separately, so that replays share the
+    /// monomials.
     pub elements: Vec<Vec<Key<W>>>,
-    /// The leads of the elements that are not redundant, in the order of their coming.
+    /// The leading monomials of the elements that are not redundant, in the order of insertion.
     leads: Vec<Lead<W>>,
-    /// All leads, in an order that does not go by degree: there redundant elements reduce too. They are older, and their
-    /// multiples have less sugar.
+    /// All leading monomials, for orders that do not compare degrees first. There redundant elements are used as
+    /// reducers too: they are older, and their multiples have less sugar.
     all: Option<Vec<Lead<W>>>,
     pairs: Vec<Pair<W>>,
 }
 
-/// The error that makes the caller try again with wider lanes.
+/// The error after which the caller tries again with wider lanes.
 pub(super) fn overflow() -> Error {
     Error::new(ErrorKind::Overflow, "a monomial's degree exceeds what the widest lanes hold")
 }
 
 impl<const W: usize> Running<W> {
-    /// Without elements; `by_degree` tells whether the order looks at the degree first.
+    /// An empty running basis. `by_degree` says whether the order compares degrees first.
     pub fn new(packing: Packing<W>, by_degree: bool) -> Self {
         let all = (!by_degree).then(Vec::new);
         Running { packing, elements: Vec::new(), leads: Vec::new(), all, pairs: Vec::new() }
     }
 
-    /// The pairs that are still open.
+    /// The number of open pairs.
     pub fn open(&self) -> usize {
         self.pairs.len()
     }
 
-    /// The elements whose leads no other lead divides.
+    /// The elements that are not redundant.
     pub fn live(&self) -> Vec<u32> {
         self.leads.iter().map(|lead| lead.element).collect()
     }
@@ -64,8 +65,7 @@ impl<const W: usize> Running<W> {
         self.leads.iter().map(|lead| &lead.key)
     }
 
-    /// The first element, in the order of coming, whose leading monomial divides `key` and whose multiple's sugar is at most
-    /// `bound`.
+    /// The first inserted element whose leading monomial divides `key` and whose multiple's sugar is at most `bound`.
     #[inline]
     pub fn divisor(&self, key: &Key<W>, bound: u32) -> Option<u32> {
         let room = bound.saturating_sub(self.packing.degree(key));
@@ -73,7 +73,7 @@ impl<const W: usize> Running<W> {
         self.all.as_ref().unwrap_or(&self.leads).iter().find(reduces).map(|lead| lead.element)
     }
 
-    /// Takes all pairs of the smallest sugar, grouped by their common multiple.
+    /// Removes and returns all pairs of the smallest sugar, grouped by their least common multiple.
     pub fn select(&mut self) -> Vec<Pair<W>> {
         let Some(sugar) = self.pairs.iter().map(|pair| pair.sugar).min() else { return Vec::new() };
         let (mut selected, rest) =
@@ -83,7 +83,7 @@ impl<const W: usize> Running<W> {
         selected
     }
 
-    /// Adds an element: old pairs that it makes superfluous go, those with it that no criterion drops come.
+    /// Adds an element. Removes old pairs that it makes redundant and adds its own pairs that no criterion excludes.
     pub fn adjoin(&mut self, keys: Vec<Key<W>>, sugar: u32) -> Result<()> {
         let lead = keys[0];
         let element = self.elements.len() as u32;
@@ -105,7 +105,8 @@ impl<const W: usize> Running<W> {
         Ok(())
     }
 
-    /// Criterion B: a pair goes when the new lead divides its multiple strictly on both sides.
+    /// Criterion B: removes a pair when the new leading monomial divides its least common multiple strictly on both
+    /// sides.
     fn drop_covered(&mut self, lead: &Key<W>) {
         let (packing, elements) = (&self.packing, &self.elements);
         let differs =
@@ -115,7 +116,7 @@ impl<const W: usize> Running<W> {
         });
     }
 
-    /// Criteria M and F and the product criterion among the pairs with the new element.
+    /// The pairs with the new element that pass criteria M and F and the product criterion.
     fn fresh_pairs(&self, lead: &Key<W>, element: u32, excess: u32) -> Result<Vec<Pair<W>>> {
         let mut candidates = Vec::with_capacity(self.leads.len());
         for old in &self.leads {
@@ -125,7 +126,7 @@ impl<const W: usize> Running<W> {
             let pair = Pair { lcm, left: old.element, right: element, sugar: degree + excess.max(old.excess) };
             candidates.push((degree, pair, coprime));
         }
-        // Of equal multiples a coprime pair comes first: it drops the others, then goes itself.
+        // Among equal least common multiples a coprime pair comes first: it removes the others and is then removed.
         candidates.sort_by(|(d, a, x), (e, b, y)| {
             d.cmp(e).then(a.lcm.cmp(&b.lcm)).then(y.cmp(x)).then(a.sugar.cmp(&b.sugar)).then(a.left.cmp(&b.left))
         });
@@ -138,7 +139,7 @@ impl<const W: usize> Running<W> {
         Ok(kept.into_iter().filter(|(_, coprime)| !coprime).map(|(pair, _)| pair).collect())
     }
 
-    /// The multiplier that lifts `element` to `multiple`.
+    /// The monomial by which `element` is multiplied to have the leading monomial `multiple`.
     pub fn multiplier(&self, element: u32, multiple: &Key<W>) -> Key<W> {
         quotient(multiple, &self.elements[element as usize][0])
     }

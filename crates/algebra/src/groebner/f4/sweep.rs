@@ -1,4 +1,4 @@
-//! One pass of elimination over `N` lanes: sums in all columns, cleared from the left by the rows that lead there.
+//! One elimination pass over `N` lanes: sums in all columns, cleared from the left by the rows that lead there.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use super::lanes::{Coefficient, Instructions, Moduli};
 use super::symbolic::{Row, Shape};
 use crate::{Result, Watch};
 
-/// A monic sparse row: columns ascending, coefficients none zero in all lanes.
+/// A monic sparse row: columns ascending, no coefficient zero in all lanes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Sparse<C> {
     pub columns: Vec<u32>,
@@ -14,25 +14,25 @@ pub(super) struct Sparse<C> {
 }
 
 const NONE: u32 = u32::MAX;
-/// Entries of a small row: what a list has room for from the start.
-const ROOM: usize = 32;
-/// Columns that are cleared before the watch is asked.
+/// Initial capacity of a row's lists.
+const CAPACITY: usize = 32;
+/// Number of columns that are cleared between two checks of the watch.
 const PART: usize = 1024;
 
-/// The workspace: the sums of the lanes, and the rows that were found so far with the columns that they lead.
+/// The working memory: the sums of the lanes, and the found rows with their leading columns.
 pub(super) struct Sweep<'a, C, const N: usize> {
     pub moduli: Moduli<N>,
     instructions: Instructions,
     shape: &'a Shape,
-    /// The coefficients of the elements, by element.
+    /// The coefficients of each element.
     coefficients: &'a [Vec<C>],
     pub sums: Vec<[u64; N]>,
-    /// Which row of `rows` leads a column, from the first free column on.
+    /// The index in `rows` of the row that leads a column, from the first free column on.
     leaders: Vec<u32>,
     pub rows: Vec<Sparse<C>>,
 }
 
-/// Clears the columns of the reducers, then those of the rows found so far; `own[l]` is a column that lane `l` keeps.
+/// Clears the columns of the reducers, then those of the found rows. Lane `l` keeps the column `own[l]`.
 #[inline(always)]
 fn clear<C: Coefficient<N>, const N: usize>(sweep: &mut Sweep<'_, C, N>, part: Range<usize>, own: &[u32; N]) {
     let free = sweep.shape.upper.len();
@@ -115,7 +115,8 @@ macro_rules! dispatch {
         fn avx512<$($generic)*>($($name: $type),*) { $body($($name),*) }
         match $instructions {
             Instructions::Portable => $body($($name),*),
-            // Sound: `Instructions::detect` found these on this processor; nothing else of the functions is unsafe.
+            // Sound: `Instructions::detect` found these instructions on this processor. Nothing else in the functions
+            // is unsafe.
             #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
             Instructions::Avx2 => unsafe { avx2($($name),*) },
@@ -158,7 +159,7 @@ impl<'a, C: Coefficient<N>, const N: usize> Sweep<'a, C, N> {
             (sweep: &mut Sweep<'_, C, N>, row: &Sparse<C>, factor: &[u32; N]), load);
     }
 
-    /// Clears all columns from `from` on that some row leads; lane `l` keeps the column `own[l]`.
+    /// Clears all columns from `from` on that some row leads. Lane `l` keeps the column `own[l]`.
     pub fn clear(&mut self, from: usize, own: &[u32; N], watch: &Watch) -> Result<()> {
         let end = self.shape.columns;
         for start in (from..end).step_by(PART) {
@@ -177,16 +178,16 @@ impl<'a, C: Coefficient<N>, const N: usize> Sweep<'a, C, N> {
             (moduli: &Moduli<N>, target: &mut [u32], row: &[u32], factor: u32), dense);
     }
 
-    /// Takes a row in: from now on it clears the column that it leads.
+    /// Adds a row. From now on it clears its leading column.
     pub fn adopt(&mut self, row: Sparse<C>) {
         let free = self.free();
         self.leaders[row.columns[0] as usize - free] = self.rows.len() as u32;
         self.rows.push(row);
     }
 
-    /// What the lanes hold in the free columns; all sums are zero afterwards.
+    /// Returns the lanes' residues in the free columns. All sums are zero afterwards.
     pub fn take(&mut self) -> Sparse<[u32; N]> {
-        let mut rows = Sparse { columns: Vec::with_capacity(ROOM), coefficients: Vec::with_capacity(ROOM) };
+        let mut rows = Sparse { columns: Vec::with_capacity(CAPACITY), coefficients: Vec::with_capacity(CAPACITY) };
         let (sweep, taken) = (self, &mut rows);
         dispatch!(sweep.instructions, [C: Coefficient<N>, const N: usize],
             (sweep: &mut Sweep<'_, C, N>, taken: &mut Sparse<[u32; N]>), take);

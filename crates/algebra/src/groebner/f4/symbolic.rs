@@ -1,4 +1,4 @@
-//! Symbolic preprocessing: which multiples of which elements a round's matrix holds, and in which columns.
+//! Symbolic preprocessing: the multiples of elements in a round's matrix, and their columns.
 
 use std::cmp::Reverse;
 
@@ -7,17 +7,17 @@ use super::running::{Pair, Running, overflow};
 use super::table::Table;
 use crate::{Result, Watch};
 
-/// A row: a multiple of an element. Its entries stand in the element's order of terms.
+/// A row: a multiple of an element. Its entries are in the element's order of terms.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
     pub element: u32,
-    /// Where the columns of its terms stand among the entries of the shape.
+    /// Position of its columns among the entries of the shape.
     pub from: usize,
     pub to: usize,
 }
 
-/// The shape of a round's matrix. The first `upper.len()` columns are the leads of the reducers, one each, in the same order;
-/// in both parts columns descend in the monomial order.
+/// The shape of a round's matrix. The first `upper.len()` columns are the leading columns of the reducers, in the order
+/// of the rows. In both parts, columns descend in the monomial order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Shape {
     pub columns: usize,
@@ -33,27 +33,27 @@ impl Shape {
         &self.entries[row.from..row.to]
     }
 
-    /// Bytes that the shape takes.
+    /// Size of the shape in bytes.
     pub fn bytes(&self) -> usize {
         4 * self.entries.capacity() + size_of::<Row>() * (self.upper.capacity() + self.lower.capacity())
     }
 }
 
-/// What the columns of a shape stand for.
+/// The monomials of a shape's columns.
 pub(super) type Columns<const W: usize> = Vec<Key<W>>;
 
 const UNSEEN: u32 = u32::MAX;
-/// Monomials of a small matrix: what the lists have room for from the start.
-const ROOM: usize = 64;
+/// Initial capacity of a matrix' lists of monomials.
+const CAPACITY: usize = 64;
 
-/// What a monomial of the matrix is, while the matrix grows.
+/// Role of a monomial in the growing matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
-    /// Nobody looked for a reducer yet.
+    /// No reducer has been searched yet.
     Open,
-    /// It has this upper row.
+    /// This upper row reduces it.
     Upper(u32),
-    /// Nothing reduces it.
+    /// There is no reducer for it.
     Free,
 }
 
@@ -63,34 +63,34 @@ pub(super) struct Builder<'a, const W: usize> {
     table: &'a mut Table<W>,
     /// Indices of the monomials in the matrix.
     monomials: Vec<u32>,
-    /// The place in `monomials`, by index of the table.
+    /// The position in `monomials` for each index of the table.
     place: Vec<u32>,
     roles: Vec<Role>,
     upper: Vec<Row>,
     lower: Vec<Row>,
     entries: Vec<u32>,
-    /// No reducer's sugar exceeds this.
+    /// Upper bound of a reducer's sugar.
     bound: u32,
 }
 
 impl<'a, const W: usize> Builder<'a, W> {
     pub fn new(running: &'a Running<W>, table: &'a mut Table<W>, bound: u32) -> Self {
-        let mut place = Vec::with_capacity(table.len() + ROOM);
+        let mut place = Vec::with_capacity(table.len() + CAPACITY);
         place.resize(table.len(), UNSEEN);
         Builder {
             running,
             table,
-            monomials: Vec::with_capacity(ROOM),
+            monomials: Vec::with_capacity(CAPACITY),
             place,
-            roles: Vec::with_capacity(ROOM),
-            upper: Vec::with_capacity(ROOM / 4),
-            lower: Vec::with_capacity(ROOM / 4),
-            entries: Vec::with_capacity(4 * ROOM),
+            roles: Vec::with_capacity(CAPACITY),
+            upper: Vec::with_capacity(CAPACITY / 4),
+            lower: Vec::with_capacity(CAPACITY / 4),
+            entries: Vec::with_capacity(4 * CAPACITY),
             bound,
         }
     }
 
-    /// The place of a monomial, which is taken in when it is new.
+    /// The position of a monomial. A new monomial is added.
     #[inline]
     fn place_of(&mut self, key: Key<W>) -> u32 {
         let index = self.table.index(key) as usize;
@@ -105,7 +105,7 @@ impl<'a, const W: usize> Builder<'a, W> {
         self.place[index]
     }
 
-    /// The row `multiplier * element`, `skip` leading terms left out.
+    /// The row `multiplier * element` without its first `skip` terms.
     fn row(&mut self, element: u32, multiplier: &Key<W>, skip: usize) -> Result<Row> {
         let running = self.running;
         let keys = &running.elements[element as usize][skip..];
@@ -121,7 +121,8 @@ impl<'a, const W: usize> Builder<'a, W> {
         if over { Err(overflow()) } else { Ok(Row { element, from, to: self.entries.len() }) }
     }
 
-    /// The rows of the selected pairs: of each common multiple, the first row is its reducer, the others are to be reduced.
+    /// Adds the rows of the selected pairs. For each least common multiple, the first row is the reducer and the others
+    /// are to be reduced.
     pub fn take_pairs(&mut self, selected: &[Pair<W>]) -> Result<()> {
         for group in selected.chunk_by(|a, b| a.lcm == b.lcm) {
             let lcm = group[0].lcm;
@@ -142,7 +143,7 @@ impl<'a, const W: usize> Builder<'a, W> {
         Ok(())
     }
 
-    /// The elements themselves, `skip` leading terms left out, as rows to be reduced.
+    /// Adds the elements themselves, without their first `skip` terms, as rows to be reduced.
     pub fn take_elements(&mut self, elements: &[u32], skip: usize) -> Result<()> {
         for &element in elements {
             let row = self.row(element, &[0; W], skip)?;
@@ -151,7 +152,7 @@ impl<'a, const W: usize> Builder<'a, W> {
         Ok(())
     }
 
-    /// Finds a reducer for each monomial that has one, the monomials of the reducers included.
+    /// Searches a reducer for each monomial, including those of the reducers.
     pub fn close(&mut self, watch: &Watch) -> Result<()> {
         let mut next = 0;
         while next < self.monomials.len() {
@@ -175,7 +176,7 @@ impl<'a, const W: usize> Builder<'a, W> {
         Ok(())
     }
 
-    /// Puts the columns in order: those with a reducer first, each part descending.
+    /// Sorts the columns: those with a reducer first, each part descending.
     pub fn finish(self) -> (Shape, Columns<W>) {
         let packing = &self.running.packing;
         let (mut order, mut free): (Vec<_>, Vec<_>) = (0..self.monomials.len() as u32)

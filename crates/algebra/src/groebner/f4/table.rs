@@ -1,4 +1,4 @@
-//! All monomials that the run met, each once: open addressing from keys to indices.
+//! Table of all monomials in a run, each once: open addressing from keys to indices.
 
 use super::packing::{Key, hash};
 
@@ -6,7 +6,7 @@ use super::packing::{Key, hash};
 #[derive(Clone, Debug)]
 pub(super) struct Table<const W: usize> {
     keys: Vec<Key<W>>,
-    /// Index plus one; zero is free. Its length is a power of two, at least twice the number of keys.
+    /// Index plus one; zero is a free slot. The length is a power of two, at least twice the number of keys.
     slots: Vec<u32>,
     shift: u32,
 }
@@ -25,7 +25,7 @@ impl<const W: usize> Table<W> {
         &self.keys[index as usize]
     }
 
-    /// The index of `key`, which is taken in when it is new.
+    /// The index of `key`. A new key is added.
     #[inline]
     pub fn index(&mut self, key: Key<W>) -> u32 {
         let mask = self.slots.len() - 1;
@@ -61,7 +61,7 @@ impl<const W: usize> Table<W> {
         }
     }
 
-    /// Bytes that the table takes.
+    /// Size of the table in bytes.
     pub fn bytes(&self) -> usize {
         self.keys.capacity() * W * 8 + self.slots.len() * 4
     }

@@ -1,5 +1,5 @@
-//! What one run teaches: the matrices without the rows that came to nothing, and the supports of what came out. A replay repeats
-//! the arithmetic for `N` other coefficient vectors at once and looks at no monomial (C. Traverso, "Groebner trace
+//! Trace of one run: the matrices without the rows that became zero, and the supports of the results. A replay repeats
+//! the arithmetic for `N` other coefficient vectors at once and processes no monomials (C. Traverso, "Groebner trace
 //! algorithms", ISSAC 1988).
 
 use super::eliminate::Echelon;
@@ -12,28 +12,28 @@ use crate::{Error, ErrorKind, Result, Watch};
 #[derive(Clone, Debug)]
 pub(super) struct Round {
     shape: Shape,
-    /// The column that each lower row leads once the rows before it have reduced it.
+    /// The leading column of each lower row after reduction by the rows before it.
     leads: Vec<u32>,
-    /// The columns of each new row, greatest lead first.
+    /// The columns of each new row, greatest leading column first.
     supports: Vec<Box<[u32]>>,
 }
 
-/// A computation that can be repeated modulo other primes, or with other coefficients: what [`Trace::learn`] gives.
+/// A computation that can be repeated modulo other primes or with other coefficients. [`Trace::learn`] creates it.
 ///
 /// [`Trace::learn`]: super::Trace::learn
 #[derive(Clone, Debug, Default)]
 pub struct Trace {
-    /// The number of terms of each generator that is not zero, with its index.
+    /// The index and the number of terms of each nonzero generator.
     pub(super) generators: Vec<(usize, usize)>,
     pub(super) rounds: Vec<Round>,
-    /// Tails of the basis elements, to be reduced; the elements, and the columns that stay of each.
+    /// Tails of the basis elements to be reduced; the elements, and the remaining columns of each.
     pub(super) last: Shape,
     pub(super) supports: Vec<Box<[u32]>>,
     pub(super) unit: bool,
 }
 
 impl Trace {
-    /// Keeps of a round what led to new rows.
+    /// Records the part of a round that led to new rows.
     pub(super) fn record(&mut self, shape: Shape, echelon: &Echelon) {
         let lower = echelon.independent.iter().map(|(index, _)| shape.lower[*index]).collect();
         let shape = pruned(&Shape { lower, ..shape });
@@ -47,23 +47,25 @@ impl Trace {
         self.rounds.iter().map(|round| round.shape.entries.len()).sum::<usize>() + self.last.entries.len()
     }
 
-    /// Bytes that the trace takes.
+    /// Size of the trace in bytes.
     pub fn bytes(&self) -> usize {
         let supports = |list: &[Box<[u32]>]| list.iter().map(|s| 4 * s.len()).sum::<usize>();
         let rounds: usize = self.rounds.iter().map(|round| round.shape.bytes() + supports(&round.supports)).sum();
         rounds + self.last.bytes() + supports(&self.supports)
     }
 
-    /// Repeats the run for `N` coefficient vectors at once: `generators[i][j][l]` is the coefficient of term `j` (greatest first)
-    /// of generator `i` in lane `l`, modulo `moduli[l]`, a prime below 2^31.
+    /// Repeats the run for `N` coefficient vectors at once: `generators[i][j][l]` is the coefficient of term `j`
+    /// (greatest first) of generator `i` in lane `l`, modulo `moduli[l]`, a prime below 2^31.
     ///
-    /// Gives of each lane the coefficients of the basis polynomials in the order of terms of the learned basis, monic; `None`
-    /// for a lane that is seen to go another way than the learned one: its prime or its parameters are unlucky, or those of
-    /// the learned run were. Rows that came to nothing in the learned run are not looked at again: where they should not have, the
-    /// answer lies in the ideal but is no basis of it. Callers guard against that by a prime or point that they compute afresh.
+    /// Returns for each lane the coefficients of the monic basis polynomials, in the order of terms of the learned
+    /// basis. A lane is `None` when it differs from the learned run: its prime or its parameters are unlucky, or those
+    /// of the learned run were. Rows that became zero in the learned run are not computed again. If one is not zero
+    /// here, the result belongs to the ideal but is not a basis of it. Callers guard against that with a separate
+    /// computation at another prime or point.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the generators have not the learned numbers of terms; what `watch` stops with.
+    /// [`ErrorKind::BadValue`] when the numbers of terms of the generators differ from the learned ones; the error with
+    /// which `watch` stops the work.
     pub fn replay<const N: usize>(
         &self,
         moduli: [u32; N],
@@ -115,7 +117,7 @@ impl Trace {
     }
 }
 
-/// The same matrix without the reducers that no lower row can need; they leave an empty row behind.
+/// The matrix without the reducers that no lower row needs. Their rows are empty.
 pub(super) fn pruned(shape: &Shape) -> Shape {
     let mut touched = vec![false; shape.columns];
     let mut entries = Vec::new();
@@ -136,7 +138,7 @@ pub(super) fn pruned(shape: &Shape) -> Shape {
 }
 
 impl Round {
-    /// The coefficients of the round's new elements; lanes that go another way are struck from `alive`.
+    /// The coefficients of the round's new elements. Lanes that differ from the learned run are removed from `alive`.
     fn replay<const N: usize>(
         &self,
         moduli: [u32; N],
@@ -161,13 +163,13 @@ impl Round {
             sweep.clear(lead as usize, &[lead; N], watch)?;
             sweep.rows[row] = sweep.take();
         }
-        // As they were adjoined: the smallest lead first.
+        // In the order of insertion: the smallest leading monomial first.
         let rows = order.iter().map(|&row| &sweep.rows[row]);
         Ok(rows.zip(self.supports.iter().rev()).map(|(row, support)| on_support(row, support, alive)).collect())
     }
 }
 
-/// A row of the matrix, reduced by all rows that lead a column so far.
+/// A row of the matrix, reduced by all rows with a leading column so far.
 fn reduced<const N: usize>(sweep: &mut Sweep<'_, [u32; N], N>, row: &Row, watch: &Watch) -> Result<Sparse<[u32; N]>> {
     watch.check()?;
     sweep.accumulate(row, &sweep.moduli.p.map(|p| p - 1));
@@ -175,7 +177,7 @@ fn reduced<const N: usize>(sweep: &mut Sweep<'_, [u32; N], N>, row: &Row, watch:
     Ok(sweep.take())
 }
 
-/// Makes `row` begin in the column `lead`: lanes with something further left are struck out.
+/// Makes `row` begin in the column `lead`. Lanes with an entry further left are removed from `alive`.
 fn start_at<const N: usize>(row: &mut Sparse<[u32; N]>, lead: u32, alive: &mut [bool; N]) {
     let left = row.columns.partition_point(|&column| column < lead);
     for coefficients in row.coefficients.drain(..left) {
@@ -188,7 +190,8 @@ fn start_at<const N: usize>(row: &mut Sparse<[u32; N]>, lead: u32, alive: &mut [
     }
 }
 
-/// Divides each lane by its leading coefficient; lanes where it is zero are struck out, and lead with one all the same.
+/// Divides each lane by its leading coefficient. Lanes where it is zero are removed from `alive`; their leading
+/// coefficient is set to one.
 fn make_monic<const N: usize>(sweep: &Sweep<'_, [u32; N], N>, row: &mut Sparse<[u32; N]>, alive: &mut [bool; N]) {
     let lead = row.coefficients[0];
     strike(alive, |l| lead[l] == 0);
@@ -199,7 +202,7 @@ fn make_monic<const N: usize>(sweep: &Sweep<'_, [u32; N], N>, row: &mut Sparse<[
     row.coefficients[0] = [1; N];
 }
 
-/// The coefficients of `row` in the columns of `support`; lanes with anything elsewhere are struck out.
+/// The coefficients of `row` in the columns of `support`. Lanes with an entry elsewhere are removed from `alive`.
 fn on_support<const N: usize>(row: &Sparse<[u32; N]>, support: &[u32], alive: &mut [bool; N]) -> Vec<[u32; N]> {
     let mut coefficients = vec![[0; N]; support.len()];
     let mut place = 0;

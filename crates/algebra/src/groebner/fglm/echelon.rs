@@ -1,4 +1,4 @@
-//! Vectors in echelon form that remember how they combine the vectors put in.
+//! Vectors in echelon form with their combinations of the inserted vectors.
 
 use std::collections::BTreeMap;
 
@@ -7,21 +7,22 @@ use crate::groebner::division::inverse;
 use crate::number::Field;
 use crate::poly::PolynomialRing;
 
-/// An independent vector: its pivot, its entries (one at the pivot), and how it combines the independent vectors put in.
+/// An independent vector: its pivot, its entries (one at the pivot), and its combination of the inserted independent
+/// vectors.
 struct Row<E> {
     pivot: usize,
     entries: Vec<E>,
     combination: BTreeMap<usize, E>,
 }
 
-/// The independent vectors put in so far.
+/// The independent vectors inserted so far.
 pub(super) struct Echelon<'r, F: Field> {
     ring: &'r PolynomialRing<F>,
     rows: Vec<Row<F::Element>>,
 }
 
 impl<'r, F: Field> Echelon<'r, F> {
-    /// No vector; `ring` gives the field and names it in errors.
+    /// An empty echelon form. `ring` has the field, and names it in errors.
     pub fn new(ring: &'r PolynomialRing<F>) -> Self {
         Echelon { ring, rows: Vec::new() }
     }
@@ -31,8 +32,8 @@ impl<'r, F: Field> Echelon<'r, F> {
         self.rows.len()
     }
 
-    /// Takes `vector` in when it is independent. Else returns the factors `c` with `vector + sum of c[k] * (k-th independent
-    /// vector) = 0`.
+    /// Inserts `vector` when it is independent. Otherwise returns the factors `c` with `vector + sum of c[k] * (k-th
+    /// independent vector) = 0`.
     ///
     /// # Errors
     /// [`crate::ErrorKind::BadValue`] when a nonzero coefficient has no inverse.
@@ -47,7 +48,7 @@ impl<'r, F: Field> Echelon<'r, F> {
         Ok(None)
     }
 
-    /// `vector` with zeros at all pivots, and the combination added to it.
+    /// `vector` with zeros at all pivots, and the combination that was added.
     fn reduce(&self, vector: &[F::Element]) -> (Vec<F::Element>, BTreeMap<usize, F::Element>) {
         let field = self.ring.field();
         let mut entries = vector.to_vec();

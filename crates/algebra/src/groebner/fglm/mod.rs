@@ -1,7 +1,7 @@
 //! The quotient ring of a zero-dimensional ideal by linear algebra: change of order, elimination, minimal polynomials.
 //!
-//! [`Quotient`] works over any field; [`WordQuotient`] does the same modulo primes below 2^31 on machine words, and
-//! [`change_order`] picks the best way there.
+//! [`Quotient`] works over any field; [`WordQuotient`] does the same modulo primes below 2^31 on machine words.
+//! [`change_order`] chooses the fastest algorithm there.
 //!
 //! J.-C. Faugere, P. Gianni, D. Lazard, T. Mora, "Efficient computation of zero-dimensional Groebner bases by change of
 //! ordering", J. Symbolic Computation 16 (1993).
@@ -33,7 +33,7 @@ pub struct Quotient<F: Field> {
 }
 
 impl<F: Field> Quotient<F> {
-    /// The multiplication matrices of the quotient ring by `basis`.
+    /// Computes the multiplication matrices of the quotient ring by `basis`.
     ///
     /// # Errors
     /// [`ErrorKind::PositiveDimensional`] or [`ErrorKind::Inconsistent`] when the quotient is not finite or is zero;
@@ -80,12 +80,13 @@ impl<F: Field> Quotient<F> {
         result
     }
 
-    /// The reduced Groebner basis in the order of `target`, a ring over the same field in the same variables. In fewer
-    /// variables, it is the basis of the elimination ideal.
+    /// Computes the reduced Groebner basis in the order of `target`, a ring over the same field in the same variables.
+    /// If `target` has fewer variables, it is the basis of the elimination ideal.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for a variable that the quotient ring lacks; [`ErrorKind::BadValue`] for another field, or
-    /// when a nonzero coefficient has no inverse; [`ErrorKind::Overflow`]; what `watch` stops with.
+    /// [`ErrorKind::UnknownName`] for a variable that the quotient ring lacks; [`ErrorKind::BadValue`] for another
+    /// field, or when a nonzero coefficient has no inverse; [`ErrorKind::Overflow`]; the error with which `watch` stops
+    /// the work.
     pub fn basis_in(&self, target: &PolynomialRing<F>, watch: &Watch) -> Result<Basis<F>> {
         let sources = sources(&self.ring, target)?;
         let mut walk = Walk::new(target);
@@ -108,12 +109,12 @@ impl<F: Field> Quotient<F> {
         Ok(Basis { ring: target.clone(), polynomials, cofactors: Vec::new() })
     }
 
-    /// The monic polynomial of least degree that vanishes at `f` in the quotient ring: over an algebraically closed field its roots
-    /// are the values of `f` at the solutions.
+    /// The minimal polynomial of `f` in the quotient ring. Over an algebraically closed field its roots are the values
+    /// of `f` at the solutions.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when `f` is no polynomial of the ring of the basis, or when a nonzero coefficient has no inverse;
-    /// what `watch` stops with.
+    /// [`ErrorKind::BadValue`] when `f` is not a polynomial of the ring of the basis, or when a nonzero coefficient has
+    /// no inverse; the error with which `watch` stops the work.
     pub fn minimal_polynomial(&self, f: &Polynomial<F::Element>, watch: &Watch) -> Result<Univariate<F::Element>> {
         let field = self.ring.field();
         let columns = self.multiplication(f, watch)?;
@@ -172,7 +173,7 @@ fn indices(standard: &[Monomial]) -> HashMap<&Monomial, usize> {
     standard.iter().enumerate().map(|(index, monomial)| (monomial, index)).collect()
 }
 
-/// The normal form of the leading monomial of a basis polynomial: its tail, unless the basis was not reduced.
+/// The normal form of the leading monomial of a basis polynomial: its negated tail, if the basis is reduced.
 fn lead_tail<F: Field>(
     basis: &Basis<F>,
     index: usize,

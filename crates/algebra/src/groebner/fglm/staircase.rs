@@ -1,8 +1,8 @@
-//! The monomials outside a leading ideal, their multiples by one variable, and the walk to those of another order.
+//! The standard monomials of an ideal, their multiples by one variable, and the enumeration for another order.
 //!
 //! J.-C. Faugere, P. Gianni, D. Lazard, T. Mora, "Efficient computation of zero-dimensional Groebner bases by change of
-//! ordering", J. Symbolic Computation 16 (1993), section 2: a product of a variable and a standard monomial is standard, or a
-//! leading monomial, or a variable times a smaller product.
+//! ordering", J. Symbolic Computation 16 (1993), section 2: a product of a variable and a standard monomial is
+//! standard, or a leading monomial, or a variable times a smaller product.
 
 use std::collections::HashMap;
 
@@ -20,7 +20,7 @@ pub(super) enum Product {
     Border(usize),
 }
 
-/// How the normal form of a border monomial comes about.
+/// Computation of the normal form of a border monomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
     /// It is the leading monomial of this basis polynomial.
@@ -32,7 +32,7 @@ pub(super) enum Origin {
 /// The standard monomials of a zero-dimensional ideal and their border.
 #[derive(Clone, Debug)]
 pub(super) struct Staircase {
-    /// By degree, 1 first.
+    /// The standard monomials by degree, 1 first.
     pub standard: Vec<Monomial>,
     /// `products[v][j]`: variable `v` times standard monomial `j`.
     pub products: Vec<Vec<Product>>,
@@ -41,7 +41,7 @@ pub(super) struct Staircase {
 }
 
 impl Staircase {
-    /// The staircase of a zero-dimensional basis that is not that of the unit ideal.
+    /// Builds the staircase of a zero-dimensional basis. The ideal is not the unit ideal.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Overflow`] when a product does not fit the lanes of the ring.
@@ -62,9 +62,10 @@ impl Staircase {
         Ok(stairs)
     }
 
-    /// Sorts the products of the standard monomials of one degree into standard and border; returns the new border, by monomial.
+    /// Sorts the products of the standard monomials of one degree into standard and border; returns the new border, by
+    /// monomial.
     ///
-    /// A product is standard when it is reached from each of its divisors of this degree and is no leading monomial.
+    /// A product is standard when it is reached from each of its divisors of this degree and is not a leading monomial.
     fn climb<F: Field>(
         &mut self,
         ring: &PolynomialRing<F>,
@@ -93,7 +94,8 @@ impl Staircase {
         Ok(border)
     }
 
-    /// Each standard monomial but 1 as `(its index, a variable, the index of a smaller one)`, whose product it is, by degree.
+    /// Each standard monomial except 1 as `(its index, a variable, the index of a smaller standard monomial)`: it is
+    /// their product. Sorted by degree.
     pub fn descents(&self) -> Vec<(usize, usize, usize)> {
         let mut descents = vec![None; self.standard.len()];
         for (variable, products) in self.products.iter().enumerate() {
@@ -118,7 +120,7 @@ impl Staircase {
     }
 }
 
-/// Distinct products with the number of times that each comes, and the place of every product among them.
+/// Distinct products with their multiplicities, and the position of every product among them.
 type Reached = (Vec<(Monomial, usize)>, Vec<usize>);
 
 /// The products of `monomials` and `steps`, monomial by monomial.
@@ -156,7 +158,7 @@ fn support_size<F: Field>(ring: &PolynomialRing<F>, monomial: &Monomial) -> usiz
     (0..ring.variables().len()).filter(|&v| ring.layout().exponent(monomial, v) > 0).count()
 }
 
-/// A variable and a border monomial one degree below whose product is `monomial`.
+/// A variable and a border monomial of one degree less whose product is `monomial`.
 fn multiple_of<F: Field>(
     ring: &PolynomialRing<F>,
     steps: &[Monomial],
@@ -170,16 +172,17 @@ fn multiple_of<F: Field>(
     steps.iter().enumerate().find_map(divided).expect("a product that is not standard, nor a lead, has such a divisor")
 }
 
-/// The walk through the monomials of the target ring from the smallest, past the multiples of leading monomials.
+/// Enumeration of the monomials of the target ring from the smallest. Multiples of leading monomials are skipped.
 ///
-/// The multiples of the standard monomials by one variable ascend as these do, so that one queue a variable is sorted by itself.
+/// The multiples of the standard monomials by one variable have the same order as these. So one queue for each variable
+/// is already sorted.
 #[derive(Debug)]
 pub(super) struct Walk<'r, F: Field> {
     ring: &'r PolynomialRing<F>,
     steps: Vec<Monomial>,
     /// The standard monomials found so far, smallest first.
     pub standard: Vec<Monomial>,
-    /// The next standard monomial that each variable has to multiply, and that product.
+    /// For each variable, the next standard monomial to multiply by it, and the product.
     next: Vec<(usize, Option<Monomial>)>,
 }
 
@@ -192,14 +195,14 @@ pub(super) struct Candidate {
 }
 
 impl<'r, F: Field> Walk<'r, F> {
-    /// The walk that starts after 1, which is standard.
+    /// Starts the enumeration after the standard monomial 1.
     pub fn new(ring: &'r PolynomialRing<F>) -> Self {
         let steps = variables(ring);
         let next = vec![(0, None); steps.len()];
         Walk { ring, steps, standard: vec![ring.layout().one()], next }
     }
 
-    /// The next monomial that may be standard; the caller pushes it to [`Walk::standard`] when it is.
+    /// The next candidate for a standard monomial. If it is standard, the caller pushes it to [`Walk::standard`].
     ///
     /// # Errors
     /// [`crate::ErrorKind::Overflow`] when a product does not fit the lanes of the ring.
@@ -227,7 +230,7 @@ impl<'r, F: Field> Walk<'r, F> {
         Ok(best)
     }
 
-    /// Takes `monomial` out of all queues; returns how many had it.
+    /// Removes `monomial` from all queues. Returns the number of queues that had it.
     fn advance(&mut self, monomial: &Monomial) -> usize {
         let ahead = self.next.iter_mut().filter(|(_, product)| product.as_ref() == Some(monomial));
         ahead.map(|slot| *slot = (slot.0 + 1, None)).count()

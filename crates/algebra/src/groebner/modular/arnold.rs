@@ -1,4 +1,4 @@
-//! The proof that a basis from primes is the basis: homogenisation and Arnold's criterion.
+//! The proof that a modular basis is the reduced basis over Q: homogenisation and Arnold's criterion.
 
 use std::collections::HashSet;
 
@@ -12,24 +12,26 @@ use crate::number::{BigRational, Rationals, Ring, residue};
 use crate::poly::{Monomial, Order, Polynomial, PolynomialRing};
 use crate::{Result, Watch};
 
-/// Proves that `found` is the reduced Groebner basis of the ideal of `generators`, which are polynomials of `ring`; gives
+/// Proves that `found` is the reduced Groebner basis of the ideal of `generators`, polynomials of `ring`. Sets
 /// [`Status::Proved`].
 ///
-/// With cofactors, [`verify`] proves it. Without:
+/// With cofactors, [`verify`] proves it. Without cofactors, the steps are:
 ///
-/// 1. The homogenised generators `F` (a last variable, graded reverse order) get a basis `H` by [`super::basis`].
-/// 2. Over Q, `F` and the S-pairs of `H` reduce to zero by `H`; modulo one prime, the leading monomials of `H` are those of the ideal
-///    of `F`. Then `<H> = <F>` (Arnold 2003): the Hilbert function of `F` modulo the prime bounds that of `F` over Q from
-///    above, that of `H` bounds it from below.
-/// 3. With the last variable put to one, `H` is a basis `B` of the ideal of the generators in graded reverse order. In that order, the
-///    elements of `found` reduce to zero by `B` and have the same leading monomials. In another order, the generators and the
-///    S-pairs of `found` reduce to zero by `found`; its elements do by `B`, or the quotient rings have the same finite dimension.
+/// 1. The homogenised generators `F` (a last variable, graded reverse order) have a basis `H` from [`super::basis`].
+/// 2. Over Q, `F` and the S-pairs of `H` reduce to zero by `H`; modulo one prime, the leading monomials of `H` are
+///    those of the ideal of `F`. Then `<H> = <F>` (Arnold 2003): the Hilbert function of `F` modulo the prime bounds
+///    that of `F` over Q from above, that of `H` bounds it from below.
+/// 3. With the last variable put to one, `H` is a basis `B` of the ideal of the generators in graded reverse order. In
+///    that order, the elements of `found` reduce to zero by `B` and have the same leading monomials. In another order,
+///    the generators and the S-pairs of `found` reduce to zero by `found`; its elements do by `B`, or the quotient
+///    rings have the same finite dimension.
 ///
-/// What reduces to zero over Q does so by a bound on its coefficients and enough primes. All that is taken on trust is that the
-/// polynomials which F4 finds modulo the prime of step 2 lie in the ideal there: they are sums of multiples of its input.
+/// Reductions to zero over Q are proved by a bound on the coefficients and enough primes. The only assumption is that
+/// the polynomials of F4 modulo the prime of step 2 belong to the ideal there: they are sums of multiples of its input.
 ///
 /// # Errors
-/// [`Certificate`](crate::ErrorKind::Certificate) when `found` is not the basis, or is not reduced; those of [`super::basis`].
+/// [`Certificate`](crate::ErrorKind::Certificate) when `found` is not a basis of the ideal, or is not reduced; those of
+/// [`super::basis`].
 pub fn prove(
     found: &Modular,
     ring: &PolynomialRing<Rationals>,
@@ -51,7 +53,7 @@ pub fn prove(
     prove_by(&graded, &basis.ring, &basis.polynomials, &generators, watch)
 }
 
-/// Monic, sorted from the smallest, none reducible by another.
+/// Checks that the basis is monic, sorted from the smallest, and that no element reduces another.
 fn check_reduced(ring: &PolynomialRing<Rationals>, basis: &[Polynomial<BigRational>]) -> Result<()> {
     let monic = |f: &Polynomial<BigRational>| f.leading().is_some_and(|t| ring.field().is_one(&t.coefficient));
     if !basis.iter().all(|f| ring.is_well_formed(f) && monic(f)) {
@@ -71,7 +73,7 @@ fn check_reduced(ring: &PolynomialRing<Rationals>, basis: &[Polynomial<BigRation
     Err(refuse("the basis is not reduced, or not sorted by leading monomial from the smallest"))
 }
 
-/// The same polynomials in another ring.
+/// Converts polynomials to another ring.
 fn transferred(
     from: &PolynomialRing<Rationals>,
     list: &[Polynomial<BigRational>],
@@ -85,7 +87,8 @@ fn integral(list: &[Polynomial<BigRational>]) -> Vec<Integral> {
     nonzero.map(|(index, f)| Integral::new(index, f)).collect()
 }
 
-/// Arnold's criterion: the homogeneous `generators` and `basis` generate the same ideal, and `basis` is a Groebner basis.
+/// Proves by Arnold's criterion that the homogeneous `generators` and `basis` generate the same ideal, and that `basis`
+/// is a Groebner basis.
 fn prove_homogeneous(
     ring: &PolynomialRing<Rationals>,
     basis: &[Polynomial<BigRational>],
@@ -99,8 +102,8 @@ fn prove_homogeneous(
     divisors.prove_basis(watch)
 }
 
-/// Modulo `p`, which divides no coefficient of `generators` and no leading coefficient of `basis`, the leading monomials are
-/// those of `basis`.
+/// Checks that the leading monomials modulo `p` are those of `basis`. The prime divides no coefficient of `generators`
+/// and no leading coefficient of `basis`.
 fn check_leads(
     ring: &PolynomialRing<Rationals>,
     basis: &[Integral],
@@ -120,7 +123,7 @@ fn check_leads(
     Err(refuse(format!("modulo {p} the leading monomials are others")))
 }
 
-/// A basis, not reduced, of the ideal of `generators` in graded reverse order, proved.
+/// A proved basis of the ideal of `generators` in graded reverse order. It is not reduced.
 struct Graded {
     ring: PolynomialRing<Rationals>,
     basis: Vec<Polynomial<BigRational>>,
@@ -142,7 +145,7 @@ fn graded_basis(
     Ok(Graded { basis: minimal(&ring, basis), ring })
 }
 
-/// A name that none of `names` has.
+/// A name that is not in `names`.
 fn fresh_name(names: &[String]) -> String {
     let mut name = "h".to_owned();
     while names.contains(&name) {
@@ -151,7 +154,7 @@ fn fresh_name(names: &[String]) -> String {
     name
 }
 
-/// The elements whose leading monomials no other divides, smallest first.
+/// The elements whose leading monomials no other leading monomial divides, smallest first.
 fn minimal(ring: &PolynomialRing<Rationals>, mut basis: Vec<Polynomial<BigRational>>) -> Vec<Polynomial<BigRational>> {
     basis.retain(|f| !f.is_zero());
     basis.sort_by(|f, g| ring.layout().compare(lead(f), lead(g)));
@@ -203,7 +206,7 @@ fn dimension(ring: &PolynomialRing<Rationals>, basis: &[Polynomial<BigRational>]
     Basis { ring: ring.clone(), polynomials: basis.to_vec(), cofactors: Vec::new() }.quotient_dimension()
 }
 
-/// The elements of `basis` lie in the ideal of the graded one.
+/// Proves that the elements of `basis` belong to the ideal of the graded basis.
 fn prove_members(
     graded: &Graded,
     ring: &PolynomialRing<Rationals>,

@@ -8,7 +8,7 @@ use crate::number::{Rationals, Zp};
 use crate::poly::{Monomial, PolynomialRing, Term};
 use crate::{Result, Watch};
 
-/// How the graded basis is computed modulo further primes.
+/// Computation of the graded basis modulo further primes.
 pub(super) struct ByDegree {
     trace: Trace,
     ring: PolynomialRing<Rationals>,
@@ -16,7 +16,7 @@ pub(super) struct ByDegree {
 }
 
 impl ByDegree {
-    /// The basis in the order of `target` modulo its prime, and how the graded one came about; `None` when the ideal is
+    /// The basis in the order of `target` modulo its prime, and the trace of the graded basis; `None` when the ideal is
     /// positive-dimensional there.
     pub(super) fn learn(
         graded: &System,
@@ -32,7 +32,8 @@ impl ByDegree {
         Ok(Some((found, ByDegree { trace, ring, supports })))
     }
 
-    /// The bases in the order of `target` modulo further primes; `None` where the graded one goes another way.
+    /// The bases in the order of `target` modulo further primes; `None` where the graded computation differs from the
+    /// trace.
     pub(super) fn replay<const N: usize>(
         &self,
         graded: &System,

@@ -1,4 +1,4 @@
-//! Candidates for the shape of the basis, the images that each has gathered, and the lift of one to Q.
+//! Candidates for the shape of the basis, the images for each, and the lift of one candidate to Q.
 
 use super::super::Basis;
 use super::learned::{Input, LANES, Learned};
@@ -9,23 +9,23 @@ use crate::number::{BigRational, Rationals, Ring};
 use crate::poly::{Polynomial, PolynomialRing, Term, Width};
 use crate::{Result, Watch};
 
-/// The number of primes grows by one in so many before the next attempt to lift.
+/// The number of primes grows by one part in this many before the next attempt to lift.
 const PATIENCE: usize = 16;
 
-/// Every prime that was learned afresh has one vote.
+/// Votes on the shape. Every prime with a full computation has one vote.
 #[derive(Default)]
 pub(super) struct Ballot {
     candidates: Vec<Candidate>,
 }
 
-/// One shape, with the images that agree with it.
+/// One shape with its images.
 pub(super) struct Candidate {
     learned: Learned,
     votes: usize,
     unlucky: usize,
     primes: Vec<u32>,
     images: Vec<Image>,
-    /// One of each polynomial, as far as there are.
+    /// One witness for each polynomial, as far as computed.
     witnesses: Vec<BigRational>,
 }
 
@@ -38,7 +38,8 @@ pub(super) struct Lift {
 }
 
 impl Ballot {
-    /// Counts the vote, whose way replaces an earlier one to the same shape; the candidate with most votes, the latest of several.
+    /// Counts a vote. It replaces an earlier computation of the same shape. Returns the candidate with the most votes,
+    /// the latest among equals.
     pub(super) fn enter(&mut self, learned: Learned) -> &mut Candidate {
         match self.candidates.iter_mut().find(|candidate| candidate.learned.seen.shape == learned.seen.shape) {
             Some(candidate) => {
@@ -51,7 +52,7 @@ impl Ballot {
         self.candidates.iter_mut().max_by_key(|candidate| candidate.votes).expect("there is one at least")
     }
 
-    /// The primes that went another way than their candidate, or belong to a candidate that was given up.
+    /// The number of primes that differed from their candidate, or belong to a rejected candidate.
     pub(super) fn unlucky(&self) -> usize {
         let last = self.candidates.iter().max_by_key(|candidate| candidate.votes);
         let kept = last.map_or(0, |candidate| candidate.primes.len());
@@ -72,7 +73,7 @@ impl Candidate {
         }
     }
 
-    /// Gathers images until the coefficients stand over Q; `None` when a whole batch of primes goes another way.
+    /// Computes images until the coefficients over Q are determined; `None` when a whole batch of primes differs.
     pub(super) fn lift(
         &mut self,
         input: &Input,
@@ -93,7 +94,7 @@ impl Candidate {
         }
     }
 
-    /// Takes the images modulo the next primes; how many there are.
+    /// Computes the images modulo the next primes. Returns their number.
     fn gather(&mut self, input: &Input, primes: &mut impl Iterator<Item = u32>, watch: &Watch) -> Result<usize> {
         watch.check()?;
         watch.report("primes", self.primes.len(), self.learned.seen.shape.supports.len() - self.witnesses.len());
@@ -111,7 +112,7 @@ impl Candidate {
         Ok(self.primes.len() - before)
     }
 
-    /// All coefficients over Q, as soon as each polynomial has its witness.
+    /// All coefficients over Q, as soon as each polynomial has a witness.
     fn vectors(&mut self, watch: &Watch) -> Result<Option<Vec<Vector>>> {
         let count = self.learned.seen.shape.supports.len();
         let mut tables = Tables::new(&self.primes)?;
@@ -142,12 +143,12 @@ fn rows(images: &[Image], index: usize) -> Vec<&[u32]> {
 }
 
 impl Lift {
-    /// The number of primes that it was made from.
+    /// The number of primes that were used.
     pub(super) fn primes(&self) -> usize {
         self.primes
     }
 
-    /// Whether this is, modulo the prime of `seen`, what was computed there.
+    /// Whether this basis agrees with `seen` modulo its prime.
     pub(super) fn agrees_with(&self, seen: &Seen) -> bool {
         let same = |(vector, image): (&Vector, &Vec<u32>)| vector.modulo(seen.prime).as_ref() == Some(image);
         self.shape == seen.shape && self.vectors.iter().zip(&seen.image).all(same)
@@ -173,7 +174,7 @@ impl Lift {
     }
 }
 
-/// The cofactors of the generators as they were given, from those of their integral multiples.
+/// The cofactors of the given generators, from those of their integer multiples.
 fn widen(
     ring: &PolynomialRing<Rationals>,
     system: &System,

@@ -1,18 +1,18 @@
-//! Polynomials to divide by modulo primes: [`Divisors`], with the images that the primes so far gave.
+//! Divisors for division modulo primes: [`Divisors`], with their images modulo the primes so far.
 
 use super::system::{Integral, modulo, no_primes, refuse};
 use crate::Result;
 use crate::number::{BigInt, BigRational, Field, Rationals, primes_below, residue};
 use crate::poly::{Polynomial, PolynomialRing};
 
-/// How many primes are divided by at once.
+/// Number of primes for which a division is done at once.
 pub(super) const LANES: usize = 8;
 
-/// Polynomials to divide by, and their images modulo as many primes as were needed so far.
+/// Divisors and their images modulo as many primes as needed so far.
 pub(super) struct Divisors<'a> {
     pub ring: &'a PolynomialRing<Rationals>,
     pub elements: Vec<Integral>,
-    /// The greatest coefficient of each.
+    /// The greatest coefficient of each divisor.
     pub heights: Vec<BigInt>,
     pub batches: Vec<Batch>,
 }
@@ -27,14 +27,14 @@ pub(super) struct Batch {
 }
 
 impl<'a> Divisors<'a> {
-    /// Divisors that are not zero.
+    /// Builds the divisors from nonzero polynomials.
     pub(super) fn new(ring: &'a PolynomialRing<Rationals>, basis: &[Polynomial<BigRational>]) -> Self {
         let elements: Vec<_> = basis.iter().enumerate().map(|(index, f)| Integral::new(index, f)).collect();
         let heights = elements.iter().map(Integral::height).collect();
         Divisors { ring, elements, heights, batches: Vec::new() }
     }
 
-    /// Takes the next primes that divide no leading coefficient, too.
+    /// Adds the next primes that divide no leading coefficient.
     ///
     /// # Errors
     /// [`Budget`](crate::ErrorKind::Budget) when there are none.

@@ -1,4 +1,4 @@
-//! What one prime teaches: the basis there, and how to compute it modulo other primes.
+//! Result for one prime: the basis, and the method to compute it modulo other primes.
 
 use super::super::prime_field::by_degree_first;
 use super::super::{Options, Trace, basis, f4};
@@ -9,29 +9,29 @@ use crate::number::{BigRational, Rationals};
 use crate::poly::{Order, Polynomial, PolynomialRing};
 use crate::{Result, Watch};
 
-/// How many primes a replay takes at once.
+/// Number of primes of one replay.
 pub(super) const LANES: usize = 4;
 
 /// A basis modulo a prime and how it was computed.
 pub(super) struct Learned {
     pub seen: Seen,
-    way: Way,
+    method: ImageMethod,
 }
 
-/// How further images are made.
-enum Way {
-    /// By the trace of the first.
+/// Method for further images.
+enum ImageMethod {
+    /// Replay of the first prime's trace.
     Replay(Trace),
-    /// By the trace of the first graded basis, and a change of order.
+    /// Replay of the first graded basis' trace, and a change of order.
     Reorder(ByDegree),
-    /// Afresh, with cofactors: the choices of the engine depend on monomials alone.
+    /// A full computation with cofactors. The choices of the engine depend on monomials alone.
     Afresh,
 }
 
-/// The generators of a basis, and how to compute it.
+/// The generators of a basis, and options of the computation.
 pub(super) struct Input {
     pub system: System,
-    /// The generators by degree, where the basis may be reached from the graded one.
+    /// The generators in a degree order, if the basis may be computed from the graded one.
     graded: Option<System>,
     options: Options,
 }
@@ -49,19 +49,19 @@ impl Input {
         Ok(Input { system: System::new(ring, generators), graded, options: *options })
     }
 
-    /// The basis modulo `p`, and the way to it.
+    /// The basis modulo `p`, with the method for further primes.
     pub(super) fn learn(&self, p: u32, watch: &Watch) -> Result<Learned> {
         if self.options.cofactors {
-            return Ok(Learned { seen: self.look(p, watch)?, way: Way::Afresh });
+            return Ok(Learned { seen: self.look(p, watch)?, method: ImageMethod::Afresh });
         }
         let (ring, generators) = self.system.image(p)?;
         if let Some(graded) = &self.graded
-            && let Some((found, way)) = ByDegree::learn(graded, &ring, watch)?
+            && let Some((found, computation)) = ByDegree::learn(graded, &ring, watch)?
         {
-            return Ok(Learned { seen: Seen::new(p, &found), way: Way::Reorder(way) });
+            return Ok(Learned { seen: Seen::new(p, &found), method: ImageMethod::Reorder(computation) });
         }
         let (found, trace) = Trace::learn(&ring, &generators, watch)?;
-        Ok(Learned { seen: Seen::new(p, &found), way: Way::Replay(trace) })
+        Ok(Learned { seen: Seen::new(p, &found), method: ImageMethod::Replay(trace) })
     }
 
     /// The basis modulo `p` alone.
@@ -77,12 +77,12 @@ impl Input {
 }
 
 impl Learned {
-    /// The images modulo further primes; `None` where the computation goes another way.
+    /// The images modulo further primes; `None` where the computation differs.
     pub(super) fn images(&self, input: &Input, primes: [u32; LANES], watch: &Watch) -> Result<[Option<Image>; LANES]> {
-        match (&self.way, &input.graded) {
-            (Way::Replay(trace), _) => trace.replay(primes, &input.system.lanes(primes), watch),
-            (Way::Reorder(way), Some(graded)) => {
-                let lanes = way.replay(graded, &input.system.ring, primes, watch)?;
+        match (&self.method, &input.graded) {
+            (ImageMethod::Replay(trace), _) => trace.replay(primes, &input.system.lanes(primes), watch),
+            (ImageMethod::Reorder(computation), Some(graded)) => {
+                let lanes = computation.replay(graded, &input.system.ring, primes, watch)?;
                 Ok(lanes.map(|found| found.and_then(|found| self.seen.shape.image(&found))))
             }
             _ => {

@@ -1,5 +1,5 @@
-//! The division of some polynomials by others as linear algebra: the monomials that occur on the way, each with the
-//! multiple of a divisor that cancels it (the symbolic preprocessing of F4).
+//! Division of polynomials as linear algebra: the monomials that occur, each with the multiple of a divisor that
+//! cancels it (the symbolic preprocessing of F4).
 
 use std::collections::HashMap;
 
@@ -22,7 +22,7 @@ struct Reducer {
 }
 
 impl Matrix {
-    /// All that the division of `targets` may meet.
+    /// Builds the matrix for the division of `targets`.
     pub(super) fn new(divisors: &Divisors<'_>, targets: &[Integral], watch: &Watch) -> Result<Self> {
         let layout = divisors.ring.layout();
         let mut rows: HashMap<Monomial, Option<(usize, Monomial)>> = HashMap::new();
@@ -54,15 +54,15 @@ impl Matrix {
         Ok(Matrix { columns, reducers })
     }
 
-    /// The divisor that belongs to each quotient of [`Matrix::divide`].
+    /// The divisor for each quotient of [`Matrix::divide`].
     pub(super) fn divisors(&self) -> impl Iterator<Item = usize> {
         self.reducers.iter().flatten().map(|reducer| reducer.element)
     }
 
-    /// The quotients by the integer multiples of the divisors, one vector a prime.
+    /// The quotients by the integer multiples of the divisors, one vector for each prime.
     ///
     /// # Errors
-    /// [`ErrorKind::Certificate`] when something is left.
+    /// [`ErrorKind::Certificate`] when the remainder is not zero.
     pub(super) fn divide(&self, target: &Integral, batch: &Batch) -> Result<Vec<Vec<u32>>> {
         let primes = batch.primes.map(u64::from);
         let squares = primes.map(|p| p * p);
@@ -91,7 +91,7 @@ impl Matrix {
     }
 }
 
-/// Adds `factor` times a row; the sums stay below the squares of the primes.
+/// Adds `factor` times a row. The sums stay below the squares of the primes.
 fn subtract(
     sums: &mut [[u64; LANES]],
     columns: &[u32],
@@ -108,7 +108,7 @@ fn subtract(
     }
 }
 
-/// The first divisor whose leading monomial divides `monomial`, and what it is to be multiplied by.
+/// The first divisor whose leading monomial divides `monomial`, and its monomial factor.
 fn reducer(layout: &Layout, elements: &[Integral], monomial: &Monomial) -> Option<(usize, Monomial)> {
     elements.iter().enumerate().find_map(|(index, f)| Some((index, layout.checked_div(monomial, f.lead())?)))
 }

@@ -1,9 +1,9 @@
-//! Groebner bases over Q by many primes.
+//! Groebner bases over Q by computations modulo many primes.
 //!
-//! The computation is learned modulo one prime and replayed modulo others (Traverso 1988); the coefficients are rebuilt by Chinese
-//! remainders and rational reconstruction, and one more prime, learned afresh, confirms them (Arnold, "Modular algorithms for
-//! computing Groebner bases", J. Symbolic Computation 35 (2003)). [`basis`] gives a [`Modular`], whose [`Status`] says
-//! whether the result is only probable; [`prove`] settles that.
+//! The computation is learned modulo one prime and replayed modulo others (Traverso 1988); the coefficients are
+//! reconstructed by Chinese remaindering and rational reconstruction. A separate computation modulo one more prime
+//! confirms them (Arnold, "Modular algorithms for computing Groebner bases", J. Symbolic Computation 35 (2003)).
+//! [`basis`] returns a [`Modular`] whose [`Status`] says whether the result is only probable. [`prove`] proves it.
 
 mod arnold;
 mod by_degree;
@@ -28,37 +28,38 @@ use candidate::{Ballot, Lift};
 use learned::Input;
 use system::no_primes;
 
-/// What is known of a basis that came from primes.
+/// Certainty of a basis that was computed modulo primes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// It agrees with a computation modulo a prime that it was not made from.
+    /// It agrees with a computation modulo a prime that was not used for it.
     Probable,
-    /// It is the reduced basis: there is a proof over Q.
+    /// There is a proof over Q that it is the reduced basis.
     Proved,
 }
 
-/// A reduced Groebner basis over Q, rebuilt from its images modulo primes.
+/// A reduced Groebner basis over Q, reconstructed from its images modulo primes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modular {
-    /// The basis, with cofactors when they were asked for.
+    /// The basis, with cofactors on request.
     pub basis: Basis<Rationals>,
-    /// How sure it is.
+    /// Whether the basis is probable or proved.
     pub status: Status,
-    /// The number of primes that it was rebuilt from.
+    /// The number of primes that were used.
     pub primes: usize,
-    /// The number of primes that were thrown away, because their computation went another way.
+    /// The number of primes that were discarded because their computation differed.
     pub unlucky: usize,
     /// The prime that confirmed it.
     pub confirmed_by: u32,
 }
 
-/// The reduced Groebner basis over Q of the ideal of `generators` in the order of `ring`, by many primes.
+/// Computes the reduced Groebner basis over Q of the ideal of `generators` in the order of `ring`, modulo many primes.
 ///
-/// The result is [`Status::Probable`]: it agrees with the basis modulo a prime that it was not made from. That prime and the one
-/// that the computation is learned from are scattered over those of 31 bits; until they agree, further ones are
-/// learned from, each with one vote on what the monomials of the basis are. In other orders than the graded reverse one, the basis of a
-/// zero-dimensional ideal comes from the graded one modulo each prime, by [`super::change_order`]. With [`Options::cofactors`] the cofactors are rebuilt in the
-/// same way, [`verify`] proves the basis by them, and the result is [`Status::Proved`]; that is for small systems.
+/// The result is [`Status::Probable`]: it agrees with the basis modulo a prime that was not used. This prime and the
+/// one of the learned computation are chosen from the 31-bit primes by a hash of the coefficients. Until they agree,
+/// further primes are learned, each with one vote on the monomials of the basis. For orders other than grevlex, the
+/// basis of a zero-dimensional ideal is converted from the grevlex one modulo each prime, by [`super::change_order`].
+/// With [`Options::cofactors`] the cofactors are reconstructed too, [`verify`] proves the basis with them, and the
+/// result is [`Status::Proved`]. This is suitable for small systems.
 ///
 /// # Errors
 /// Those of [`super::basis`] and [`super::f4()`]; [`Budget`](crate::ErrorKind::Budget) when no primes are left.
@@ -88,7 +89,7 @@ pub fn basis(
     Err(no_primes())
 }
 
-/// The same, proved: cofactors multiply out, generators and S-pairs reduce to zero.
+/// Same as [`basis`], but proved: cofactors multiply out, generators and S-pairs reduce to zero.
 fn proved_by_cofactors(
     found: Modular,
     generators: &[Polynomial<num_rational::BigRational>],

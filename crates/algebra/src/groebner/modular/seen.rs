@@ -7,7 +7,7 @@ use crate::poly::{Monomial, Polynomial, Width};
 /// The coefficients of all polynomials of a [`Shape`] modulo one prime.
 pub(super) type Image = Vec<Vec<u32>>;
 
-/// The monomials of the basis polynomials and, behind them, of their cofactors, row by row.
+/// The monomials of the basis polynomials, followed by those of their cofactors, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Shape {
     pub supports: Vec<Vec<Monomial>>,
@@ -25,7 +25,7 @@ pub(super) struct Seen {
 }
 
 impl Shape {
-    /// The coefficients of `basis` on the supports; `None` when it has other leading monomials, or a term elsewhere.
+    /// The coefficients of `basis` on the supports; `None` when it has other leading monomials, or a term outside.
     pub(super) fn image(&self, basis: &Basis<Zp>) -> Option<Image> {
         let fits = basis.polynomials.len() == self.supports.len();
         let rows = basis.polynomials.iter().zip(&self.supports).map(|(f, support)| on_support(f, support));
@@ -43,7 +43,7 @@ fn on_support(f: &Polynomial<u64>, support: &[Monomial]) -> Option<Vec<u32>> {
 }
 
 impl Seen {
-    /// What `basis` shows modulo `prime`.
+    /// Builds the record of `basis` modulo `prime`.
     pub(super) fn new(prime: u32, basis: &Basis<Zp>) -> Self {
         let all = || basis.polynomials.iter().chain(basis.cofactors.iter().flatten());
         let support = |f: &Polynomial<u64>| f.terms().iter().map(|term| term.monomial.clone()).collect();

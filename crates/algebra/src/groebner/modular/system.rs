@@ -10,26 +10,26 @@ use crate::number::{BigInt, BigRational, Rationals, Zp, primes_below, residue};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, Term};
 use crate::{Error, ErrorKind, Result};
 
-/// The generators that are not zero, as primitive polynomials over the integers.
+/// The nonzero generators, as primitive polynomials over the integers.
 pub(super) struct System {
     pub ring: PolynomialRing<Rationals>,
     pub generators: Vec<Integral>,
-    /// The number of generators given, zeros included.
+    /// The number of generators, including zeros.
     pub given: usize,
 }
 
-/// A polynomial with integer coefficients and its place in a list.
+/// A polynomial with integer coefficients and its position in a list.
 pub(super) struct Integral {
-    /// The index of the polynomial that it is a multiple of.
+    /// The index of the polynomial of which it is a multiple.
     pub index: usize,
-    /// What that one was multiplied by.
+    /// The factor by which that polynomial was multiplied.
     pub factor: BigRational,
     /// Greatest first.
     pub terms: Vec<(Monomial, BigInt)>,
 }
 
 impl Integral {
-    /// The primitive multiple of a polynomial that is not zero.
+    /// The primitive multiple of a nonzero polynomial.
     pub(super) fn new(index: usize, f: &Polynomial<BigRational>) -> Self {
         let denominator = f.terms().iter().fold(BigInt::one(), |lcm, term| lcm.lcm(term.coefficient.denom()));
         let whole = |term: &Term<BigRational>| term.coefficient.numer() * (&denominator / term.coefficient.denom());
@@ -77,7 +77,7 @@ impl System {
         System { ring: ring.clone(), generators: integral, given: generators.len() }
     }
 
-    /// The same generators in the graded reverse order.
+    /// The generators in graded reverse order.
     ///
     /// # Errors
     /// [`ErrorKind::Overflow`] when a degree does not fit.
@@ -92,7 +92,8 @@ impl System {
         primes_below(1 << 31).map(|p| p as u32).filter(|&p| self.is_good(p))
     }
 
-    /// A good prime above 2^30 that all coefficients and `round` decide: not one that a system is likely to be special modulo.
+    /// A good prime above 2^30, chosen by a hash of all coefficients and `round`. So no particular prime is likely to
+    /// be unlucky for many systems.
     ///
     /// # Errors
     /// [`ErrorKind::Budget`] when there is none.
@@ -115,14 +116,14 @@ impl System {
         Ok((ring, images))
     }
 
-    /// The coefficients of the generators in `N` lanes, one a prime.
+    /// The coefficients of the generators in `N` lanes, one for each prime.
     pub(super) fn lanes<const N: usize>(&self, primes: [u32; N]) -> Vec<Vec<[u32; N]>> {
         let lanes = |(_, c): &(Monomial, BigInt)| primes.map(|p| residue(c, p));
         self.generators.iter().map(|f| f.terms.iter().map(lanes).collect()).collect()
     }
 }
 
-/// The sum of products of a polynomial, an integer and a monomial; it may be zero.
+/// The sum of products of a polynomial, an integer and a monomial. It may be zero.
 pub(super) fn combination(
     ring: &PolynomialRing<Rationals>,
     parts: &[(&Integral, BigInt, Monomial)],
@@ -141,14 +142,14 @@ pub(super) fn combination(
     Ok(Integral { index: 0, factor: BigRational::one(), terms })
 }
 
-/// The same ring modulo a prime.
+/// Same ring, but modulo a prime.
 pub(super) fn modulo(ring: &PolynomialRing<Rationals>, p: u32) -> Result<PolynomialRing<Zp>> {
     let layout = ring.layout();
     let image = PolynomialRing::new(Zp::new(u64::from(p))?, ring.variables(), layout.order().clone())?;
     Ok(image.with_width(layout.width()))
 }
 
-/// All bits of the result depend on all bits of `n` (the finaliser of splitmix64; Steele, Lea and Flood 2014).
+/// A hash: all bits of the result depend on all bits of `n` (the finaliser of SplitMix64; Steele, Lea and Flood 2014).
 fn scatter(n: u64) -> u64 {
     let n = n.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let n = (n ^ (n >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -156,12 +157,12 @@ fn scatter(n: u64) -> u64 {
     n ^ (n >> 31)
 }
 
-/// What ends a search for primes.
+/// The error when no primes are left.
 pub(super) fn no_primes() -> Error {
     Error::new(ErrorKind::Budget, "there are no more primes below 2^31 to compute modulo")
 }
 
-/// The refusal of a claim.
+/// Builds the error for a claim that fails.
 pub(super) fn refuse(text: impl Into<String>) -> Error {
     Error::new(ErrorKind::Certificate, text)
 }

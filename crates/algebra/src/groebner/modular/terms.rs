@@ -1,7 +1,7 @@
 //! A vector of fractions over one denominator, each in lowest terms.
 //!
-//! One greatest common divisor a vector tells which part of the denominator numerators have in common with it; that part mostly
-//! is a product of small primes, and is kept as words without a common prime, so that the rest is arithmetic of words.
+//! One gcd per vector finds the part of the denominator that has common factors with numerators. Usually it is a
+//! product of small primes. It is stored as coprime words, so that the remaining arithmetic uses words.
 
 use num_integer::Integer;
 use num_traits::{One, Zero};
@@ -9,7 +9,7 @@ use num_traits::{One, Zero};
 use super::vectors::Vector;
 use crate::number::{BigInt, BigRational, primes_below};
 
-/// Primes below this are searched for in denominators.
+/// Upper bound of the primes that are searched in denominators.
 const SMALL: u64 = 1 << 10;
 
 impl Vector {
@@ -26,7 +26,7 @@ impl Vector {
         self.numerators.iter().map(entry).collect()
     }
 
-    /// The part of the denominator made of primes that it has in common with some numerator.
+    /// The part of the denominator whose primes divide some numerator too.
     fn common_part(&self) -> BigInt {
         let nonzero = self.numerators.iter().filter(|n| !n.is_zero());
         let product = nonzero.fold(BigInt::one(), |product, n| product * n % &self.denominator);
@@ -41,7 +41,7 @@ impl Vector {
     }
 }
 
-/// A number as a product of words and a rest, no two with a common prime.
+/// A number as a product of words and a cofactor, pairwise coprime.
 struct Common {
     words: Vec<u64>,
     rest: BigInt,
@@ -76,7 +76,7 @@ impl Common {
     }
 }
 
-/// The greatest power of `q` that divides `number`, which is divided by it.
+/// Divides `number` by the greatest power of `q` that divides it. Returns this power.
 fn take_power(number: &mut BigInt, q: u64) -> BigInt {
     let mut power = BigInt::one();
     loop {

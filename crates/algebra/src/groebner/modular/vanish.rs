@@ -1,9 +1,10 @@
-//! A proof over Q that polynomials reduce to zero, by arithmetic modulo primes alone.
+//! A proof over Q that polynomials reduce to zero, by arithmetic modulo primes only.
 //!
-//! Let `G_j` be the primitive integer multiples of the divisors. Modulo primes that divide no leading coefficient of theirs, a
-//! target `S` is divided; the quotients `n_j / D` are rebuilt over Q. The polynomial `D S - sum n_j m_j G_j` has integer coefficients
-//! which vanish modulo the product `M` of all those primes. Once `M` exceeds twice the bound `D |S| + sum |n_j| |G_j|` on
-//! them, they are zero: `S` reduces to zero over Q. A remainder modulo one such prime shows that it does not.
+//! Let `G_j` be the primitive integer multiples of the divisors. A target `S` is divided modulo primes that divide none
+//! of their leading coefficients. The quotients `n_j / D` are reconstructed over Q. The polynomial `D S - sum n_j m_j
+//! G_j` has integer coefficients which vanish modulo the product `M` of all those primes. Once `M` exceeds twice the
+//! bound `D |S| + sum |n_j| |G_j|` on them, they are zero, so `S` reduces to zero over Q. A nonzero remainder modulo
+//! one such prime disproves it.
 
 use num_traits::Signed;
 
@@ -16,12 +17,12 @@ use crate::number::BigInt;
 use crate::poly::Monomial;
 use crate::{Result, Watch};
 
-/// How many targets share one matrix.
+/// Number of targets that share one matrix.
 const TARGETS: usize = 64;
 
 impl Divisors<'_> {
-    /// Proves that the S-pairs which the criteria of Buchberger and of Gebauer and Moeller leave reduce to zero: the divisors
-    /// are a Groebner basis of the ideal that they generate.
+    /// Proves that the divisors are a Groebner basis of their ideal. All S-pairs that pass Buchberger's criteria and
+    /// the Gebauer-Moeller criteria reduce to zero.
     ///
     /// # Errors
     /// [`Certificate`](crate::ErrorKind::Certificate) when one does not.
@@ -64,7 +65,7 @@ impl Divisors<'_> {
         Ok(())
     }
 
-    /// Divides modulo more and more primes until each target is settled.
+    /// Divides modulo more and more primes until each target is decided.
     fn prove_chunk(&mut self, matrix: &Matrix, targets: &[Integral], watch: &Watch) -> Result<()> {
         let mut open: Vec<usize> = (0..targets.len()).collect();
         let mut quotients: Vec<Vec<Vec<u32>>> = vec![Vec::new(); targets.len()];
@@ -95,7 +96,7 @@ impl Divisors<'_> {
         Ok(())
     }
 
-    /// Whether the quotients stand over Q and the primes exceed the bound.
+    /// Whether the quotients are determined over Q and the primes exceed the bound.
     fn is_settled(&self, matrix: &Matrix, target: &Integral, rows: &[&[u32]], tables: &mut Tables<'_>) -> Result<bool> {
         let Some(witness) = tables.witness(rows) else { return Ok(false) };
         let Some(Vector { numerators, denominator }) = tables.vector(rows, &witness)? else { return Ok(false) };

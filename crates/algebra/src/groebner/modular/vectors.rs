@@ -1,29 +1,29 @@
-//! Vectors of rational numbers with a common denominator, rebuilt from their residues.
+//! Vectors of rational numbers with a common denominator, reconstructed from their residues.
 //!
-//! A random combination of the entries tells when there are enough primes, and the denominator; then each entry times the
-//! denominator is an integer, rebuilt without any division.
+//! A random combination of the entries, the witness, shows when there are enough primes, and gives the denominator.
+//! Then each entry times the denominator is an integer, reconstructed without divisions.
 
 use num_traits::Zero;
 
 use crate::Result;
 use crate::number::{BigInt, BigRational, Chinese, reconstruct, residue};
 
-/// By how many bits a number must be smaller than the modulus to be believed.
+/// Number of bits by which a number must be smaller than the modulus to be accepted.
 const SURPLUS: u32 = 32;
 
 /// A vector of rational numbers: integers over one denominator.
 #[derive(Clone, Debug)]
 pub(super) struct Vector {
     pub numerators: Vec<BigInt>,
-    /// Positive.
+    /// The positive common denominator.
     pub denominator: BigInt,
 }
 
-/// The tables of Chinese remainders for the first of some primes.
+/// The tables of Chinese remaindering for the first of some primes.
 pub(super) struct Tables<'a> {
     primes: &'a [u32],
     full: Chinese,
-    /// For the numerators, which are smaller than fractions.
+    /// Tables for the numerators, which need fewer primes than fractions.
     short: Option<Chinese>,
 }
 
@@ -49,7 +49,8 @@ impl<'a> Tables<'a> {
         rows.iter().zip(self.primes).all(|(row, &p)| vector.modulo(p).is_some_and(|image| image == *row))
     }
 
-    /// A combination of the entries whose residues modulo `primes[l]` are `rows[l]`; `None` when there are not enough primes.
+    /// The witness: a combination of the entries whose residues modulo `primes[l]` are `rows[l]`; `None` when there are
+    /// not enough primes.
     pub(super) fn witness(&self, rows: &[&[u32]]) -> Option<BigRational> {
         let residues: Vec<u32> = rows.iter().zip(self.primes).map(|(row, &p)| combination(row, p)).collect();
         reconstruct(&self.full.lift(&residues, self.full.factors()), self.full.modulus(), SURPLUS)
@@ -68,7 +69,7 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// Takes as many primes for the short table as numbers of `bits` bits need.
+    /// Selects as many primes for the short table as numbers of `bits` bits need.
     fn choose(&mut self, bits: u64) -> Result<()> {
         let count = (bits as usize / 30 + 1).next_multiple_of(4).min(self.primes.len());
         if self.short.as_ref().is_none_or(|short| short.primes().len() != count) {
@@ -103,10 +104,10 @@ impl<'a> Tables<'a> {
     }
 }
 
-/// What became of the numerators for a denominator.
+/// Result of the reconstruction of numerators for a denominator.
 enum Attempt {
     Whole(Vec<BigInt>),
-    /// The denominator lacks this factor.
+    /// The denominator must be multiplied by this factor.
     Lacks(BigInt),
     Fails,
 }

@@ -1,4 +1,4 @@
-//! Elements over Q in unknowns and parameters, read over the rational functions of the parameters.
+//! Elements over Q in unknowns and parameters, converted to polynomials over the rational functions of the parameters.
 
 use std::collections::VecDeque;
 
@@ -38,7 +38,7 @@ impl Element {
         Ok(Element { parts })
     }
 
-    /// The element with these coefficients.
+    /// The element with the given coefficients.
     fn with_values(self, ring: &Ring, values: &mut impl Iterator<Item = BigRational>) -> Result<Parts> {
         let part = |(exponents, monomials): (Vec<u32>, Vec<Monomial>)| {
             let terms = monomials.into_iter().zip(values.by_ref());
@@ -49,7 +49,7 @@ impl Element {
     }
 }
 
-/// Multiplies polynomials, not all zero, by the number that makes their coefficients integers without a common divisor.
+/// Multiplies polynomials, not all zero, by a number that makes their coefficients coprime integers.
 fn make_integral(ground: &PolynomialRing<Rationals>, mut polynomials: Vec<&mut Ground>) {
     let numbers = || polynomials.iter().flat_map(|f| f.terms()).map(|term| &term.coefficient);
     let multiple = numbers()
@@ -68,7 +68,7 @@ fn make_integral(ground: &PolynomialRing<Rationals>, mut polynomials: Vec<&mut G
     }
 }
 
-/// The reduced basis of elements with these coefficients, smallest first.
+/// Builds the reduced basis of elements with these coefficients, smallest first.
 pub(super) fn assemble(
     ring: &Ring,
     elements: impl Iterator<Item = Result<Element>>,
@@ -94,7 +94,7 @@ fn embedded(ring: &Ring, parts: Parts) -> Poly {
     ring.collect(parts.into_iter().map(|(monomial, c)| Term { coefficient: ring.field().embed(&c), monomial }))
 }
 
-/// Whether no leading monomial divides one in another tail.
+/// Whether no leading monomial divides a monomial in another tail.
 fn are_reduced(ring: &Ring, elements: &[Parts]) -> bool {
     elements.iter().enumerate().all(|(index, f)| !elements[..index].iter().any(|g| reduces(ring, g, f)))
 }
@@ -104,7 +104,7 @@ fn reduces(ring: &Ring, g: &Parts, f: &Parts) -> bool {
     f[1..].iter().any(|(monomial, _)| ring.layout().divides(&g[0].0, monomial))
 }
 
-/// Reduces all tails, smallest element first, on integer coefficients.
+/// Reduces all tails, smallest element first, with integer coefficients.
 fn reduce_tails(ring: &Ring, line: &Line, elements: Vec<Parts>, watch: &Watch) -> Result<Vec<Parts>> {
     let mut done: Vec<Parts> = Vec::with_capacity(elements.len());
     let takes_part = |(index, f): (usize, &Parts)| {
@@ -148,7 +148,7 @@ fn reduce_tail(ring: &Ring, line: &Line, f: Parts, smaller: &[Parts]) -> Result<
     Ok(if scales.is_empty() { done } else { without_content(ring, line, done, &scales) })
 }
 
-/// What to multiply by, if not one, and how often to subtract a reducer with the coefficient `lead` to make `c` vanish.
+/// The factor for `f`, if not one, and the factor for a reducer with the coefficient `lead`, so that `c` vanishes.
 fn cross_factors(ring: &Ring, lead: &Ground, c: Ground) -> (Option<Ground>, Ground) {
     let ground = ring.field().ring();
     if ground.is_one(lead) {
@@ -179,7 +179,7 @@ fn subtract(ring: &Ring, parts: &mut VecDeque<(Monomial, Ground)>, monomial: Mon
     }
 }
 
-/// The parts without what divides all of them, which mostly is a product of these `scales`.
+/// Divides the parts by their common divisor, which is usually a product of these `scales`.
 fn without_content(ring: &Ring, line: &Line, mut parts: Parts, scales: &[Ground]) -> Parts {
     let ground = ring.field().ring();
     let mut bound = line.content_bound(ring, &parts).unwrap_or(usize::MAX);

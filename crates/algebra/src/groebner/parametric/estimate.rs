@@ -1,4 +1,4 @@
-//! An estimate of the points that interpolation takes, as far as the caller wants to know it.
+//! Estimate of the number of points for interpolation, up to the caller's limit.
 
 use super::learn::{MOST_NODES, weight_vectors};
 use super::line::Nodes;
@@ -6,24 +6,24 @@ use super::pattern::{Functions, distinct_units, points_on_lines};
 use super::prime::{Prime, SmoothPrime, Stream};
 use crate::{Result, Watch};
 
-/// Nodes that are looked at together.
+/// Number of nodes that are evaluated together.
 const STEP: usize = 8;
 
-/// The values of all functions on one line, at as many nodes as were asked for.
+/// The values of all functions on one line, at the nodes evaluated so far.
 pub(super) struct Estimate {
     field: Prime,
     nodes: Vec<u64>,
     weights: Vec<u32>,
     direction: Vec<u64>,
     values: Vec<Vec<u64>>,
-    /// The function that showed last that there were not enough nodes.
+    /// The function that last showed that there were not enough nodes.
     hardest: usize,
-    /// The nodes that all functions need, when it is known.
+    /// The number of nodes for all functions, once it is known.
     needed: Option<usize>,
 }
 
 impl Estimate {
-    /// Nothing is known yet of functions of so many parameters.
+    /// An empty estimate for functions of this many parameters.
     pub fn new(parameters: usize) -> Self {
         let [prime, ..] = SmoothPrime::all();
         let (field, mut stream) = (prime.field, Stream(0));
@@ -33,11 +33,11 @@ impl Estimate {
         Estimate { field, nodes, weights, direction, values: Vec::new(), hardest: 0, needed: None }
     }
 
-    /// Twice the square of the nodes that one line takes, for as many lines as a line has nodes settle the functions, half of the time
-    /// with other weights. Where that is `enough` or more: at least so many.
+    /// Twice the square of the number of nodes on one line. As many lines as a line has nodes usually determine the
+    /// functions, half of the time with other weights. If the estimate reaches `enough`, the result is a lower bound.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error with which `watch` stops the work.
     pub fn points(&mut self, functions: &impl Functions, enough: usize, watch: &Watch) -> Result<usize> {
         let most = enough.div_ceil(2).isqrt().saturating_add(1).min(MOST_NODES);
         while self.needed.is_none() && self.values.len() < most && functions.count() > 0 {
@@ -49,7 +49,7 @@ impl Estimate {
         Ok(2 * count * count)
     }
 
-    /// Looks at more nodes; `false` where a function has no value.
+    /// Evaluates more nodes; `false` where a function has no value.
     fn extend(&mut self, functions: &impl Functions, watch: &Watch) -> Result<bool> {
         let (first, ones) = (self.values.len(), vec![1; self.weights.len()]);
         let next = if first < 4 * STEP { first + STEP } else { 2 * first };
@@ -63,7 +63,7 @@ impl Estimate {
         Ok(true)
     }
 
-    /// The nodes that all functions need; `None` when there are not enough.
+    /// The number of nodes that all functions need; `None` when there are not enough.
     fn nodes_needed(&mut self, count: usize) -> Option<usize> {
         let nodes = Nodes::new(self.field, self.nodes[..self.values.len()].to_vec());
         let mut needed = 1;

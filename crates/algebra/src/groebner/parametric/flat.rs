@@ -1,4 +1,4 @@
-//! The system with the parameters as variables of the lowest block: unknowns first, each compared as before.
+//! The system with the parameters as variables of the lowest block. The unknowns come first, in their own order.
 
 use super::lift::image;
 use super::prime::Prime;
@@ -13,7 +13,7 @@ pub(super) type Equations = Vec<Vec<Term<BigRational>>>;
 /// The ring of unknowns and parameters over `field`.
 ///
 /// # Errors
-/// As [`PolynomialRing::new`].
+/// Those of [`PolynomialRing::new`].
 pub(super) fn flat_ring<F: Field>(ring: &Ring, field: F) -> Result<PolynomialRing<F>> {
     let parameters = ring.field().ring().variables();
     let names: Vec<&String> = ring.variables().iter().chain(parameters).collect();
@@ -28,10 +28,10 @@ pub(super) fn flat_ring<F: Field>(ring: &Ring, field: F) -> Result<PolynomialRin
     PolynomialRing::new(field, &names, Order::Block(blocks))
 }
 
-/// The generators without denominators, and the relations of the parameters, greatest terms first.
+/// The generators without denominators and the relations of the parameters, greatest terms first.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Overflow`] when a degree outgrows the flat ring.
+/// [`crate::ErrorKind::Overflow`] when a degree overflows the flat ring.
 pub(super) fn equations<F: Field>(ideal: &Ideal<'_>, flat: &PolynomialRing<F>) -> Result<Equations> {
     let field = ideal.ring.field();
     let ground = field.ring();

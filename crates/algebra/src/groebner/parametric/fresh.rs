@@ -1,7 +1,7 @@
-//! The leading monomials, computed afresh at another point modulo another prime.
+//! Check of the leading monomials by a full computation at another point modulo another prime.
 //!
-//! A replay looks at no row again that came to nothing when the trace was learned. Where it should not have, because the prime or the
-//! point was an unlucky one, the replays agree with each other and all miss an element.
+//! A replay skips the rows that became zero when the trace was learned. If this was due to an unlucky prime or point,
+//! all replays agree and all miss an element.
 
 use super::flat::{Equations, admit, flat_ring, image_of};
 use super::lift::{Primes, image};
@@ -12,10 +12,11 @@ use crate::number::{BigRational, Zp};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, Term};
 use crate::{Result, Watch};
 
-/// How many primes may divide what they should not.
+/// Maximum number of primes that may divide a coefficient.
 const ATTEMPTS: usize = 10;
 
-/// Whether the basis at a random point modulo the next prime has the leading monomials `leads`, smallest first; the parameters are free.
+/// Whether the basis at a random point modulo the next prime has the leading monomials `leads`, smallest first. The
+/// parameters have no relations.
 ///
 /// # Errors
 /// Those of [`crate::groebner::f4()`].
@@ -39,7 +40,7 @@ pub(super) fn has_leads<'a>(
     Ok(false)
 }
 
-/// Whether the basis with the parameters as variables has the leading monomials of `basis` modulo the next prime, too.
+/// Whether the basis with the parameters as variables has the leading monomials of `basis` modulo the next prime too.
 ///
 /// # Errors
 /// Those of [`crate::groebner::f4()`].

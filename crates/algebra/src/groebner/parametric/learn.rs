@@ -1,8 +1,9 @@
-//! Sparse interpolation of rational functions modulo one prime: the supports.
+//! Sparse interpolation of rational functions modulo one prime: computation of the supports.
 //!
-//! On lines `p[j] = v[j] t^w[j]` a function is a quotient in `t`. Its coefficients, divided by one that is a single monomial in `v`,
-//! are sums of monomials of `v`; along a geometric sequence of `v` they are sums of powers (Ben-Or and Tiwari), whose bases give the
-//! exponents through logarithms: the prime is chosen so that these are cheap, and the exponents are the digits of one number.
+//! On lines `p[j] = v[j] t^w[j]` a function is a quotient in `t`. Its coefficients, divided by one that is a single
+//! monomial in `v`, are sums of monomials of `v`; Along a geometric sequence of `v` they are sums of powers (Ben-Or and
+//! Tiwari). Logarithms of the bases of these powers give the exponents. The prime is chosen so that logarithms are
+//! cheap, and the exponents are the digits of one number.
 
 use std::collections::HashMap;
 
@@ -12,13 +13,13 @@ use super::prime::{Prime, SmoothPrime, Stream};
 use super::sequence::{distinct_roots, factors, minimal_polynomial};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The shortest sequences, and the longest that are tried.
+/// The lengths of the shortest and of the longest sequences that are tried.
 const SHORTEST: usize = 4;
 const MOST_LINES: usize = 1 << 14;
-/// The most nodes on a line.
+/// Maximum number of nodes on a line.
 pub(super) const MOST_NODES: usize = 256;
 
-/// What the first prime taught: a pattern and its factors for each function.
+/// Result for the first prime: a pattern and its factors for each function.
 #[derive(Clone, Debug)]
 pub(super) struct Learned {
     pub field: Prime,
@@ -29,10 +30,10 @@ pub(super) struct Learned {
 /// The pattern of a function, and its factors modulo the prime.
 type Settled = (Pattern, Vec<Vec<u64>>);
 
-/// The supports of all functions.
+/// Computes the supports of all functions.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] when the functions are too dense; what `watch` stops with.
+/// [`ErrorKind::Unsupported`] when the functions are too dense; the error with which `watch` stops the work.
 pub(super) fn learn(functions: &impl Functions, watch: &Watch) -> Result<Learned> {
     let primes = SmoothPrime::all().into_iter().filter(|prime| functions.admit(prime.field));
     for (seed, prime) in primes.enumerate() {
@@ -63,7 +64,7 @@ struct Search<'a, S: Functions> {
     stream: Stream,
     settled: Vec<Option<Settled>>,
     probe: (Vec<u64>, Vec<u64>),
-    /// Logarithms found so far: the same monomials come again and again.
+    /// Logarithms computed so far. The same monomials occur repeatedly.
     logarithms: HashMap<u64, i64>,
 }
 
@@ -80,7 +81,7 @@ impl<'a, S: Functions> Search<'a, S> {
         }
     }
 
-    /// Evaluates the functions at the point that later tests them.
+    /// Evaluates the functions at the point of the later test.
     fn probe(&mut self, watch: &Watch) -> Result<bool> {
         let point = distinct_units(self.prime.field, &mut self.stream, self.functions.parameters());
         let values = self.functions.values(self.prime.field, std::slice::from_ref(&point), watch)?;
@@ -93,7 +94,7 @@ impl<'a, S: Functions> Search<'a, S> {
         self.settled.iter().all(Option::is_some)
     }
 
-    /// Longer and longer sequences, for more and more weights: the later weights get the shorter sequences.
+    /// Tries longer and longer sequences for more and more weights. Later weights get shorter sequences.
     fn run(&mut self, watch: &Watch) -> Result<bool> {
         let mut waiting = weight_vectors(self.functions.parameters()).into_iter();
         let mut open: Vec<Lines> = Vec::new();
@@ -114,7 +115,7 @@ impl<'a, S: Functions> Search<'a, S> {
         Ok(self.is_done())
     }
 
-    /// The next weights that look good on a few lines.
+    /// The next weights that are promising on a few lines.
     fn next_promising(&mut self, waiting: &mut impl Iterator<Item = Vec<u32>>, watch: &Watch) -> Result<Option<Lines>> {
         for weights in waiting {
             let mut lines = self.lines(weights);
@@ -125,7 +126,7 @@ impl<'a, S: Functions> Search<'a, S> {
         Ok(None)
     }
 
-    /// No lines yet, with random offsets and the bases that encode exponents as digits.
+    /// Empty lines with random offsets and with bases that encode exponents as digits.
     fn lines(&mut self, weights: Vec<u32>) -> Lines {
         let field = self.prime.field;
         let pivot = pivot(&weights);
@@ -144,7 +145,7 @@ impl<'a, S: Functions> Search<'a, S> {
         Lines { weights, nodes: None, offsets, bases, radix, quotients: vec![Vec::new(); self.functions.count()] }
     }
 
-    /// Makes the sequences `count` long; `false` when the weights are no good.
+    /// Extends the sequences to length `count`; `false` when the weights are not suitable.
     fn extend(&mut self, lines: &mut Lines, count: usize, watch: &Watch) -> Result<bool> {
         if lines.nodes.is_none() && !self.find_degrees(lines, watch)? {
             return Ok(false);
@@ -171,7 +172,7 @@ impl<'a, S: Functions> Search<'a, S> {
         Ok(true)
     }
 
-    /// The first line, with as many nodes as its degrees ask for.
+    /// Evaluates the first line with as many nodes as its degrees require.
     fn find_degrees(&mut self, lines: &mut Lines, watch: &Watch) -> Result<bool> {
         let field = self.prime.field;
         let all = distinct_units(field, &mut self.stream, MOST_NODES);
@@ -198,7 +199,7 @@ impl<'a, S: Functions> Search<'a, S> {
         Ok(false)
     }
 
-    /// Whether each function has, in numerator and denominator, outer coefficients whose ratio is a monomial.
+    /// Whether, for each function, outer coefficients in numerator and denominator have a monomial as their ratio.
     fn is_promising(&self, lines: &Lines) -> bool {
         let field = self.prime.field;
         let geometric = |a: Place, b: Place, line: &[Quotient]| {
@@ -218,7 +219,7 @@ impl<'a, S: Functions> Search<'a, S> {
         })
     }
 
-    /// Takes every function whose sequences are long enough.
+    /// Determines every function whose sequences are long enough.
     fn settle_all(&mut self, lines: &Lines, watch: &Watch) -> Result<()> {
         for f in 0..self.settled.len() {
             watch.check()?;
@@ -243,7 +244,7 @@ impl<'a, S: Functions> Search<'a, S> {
         Ok(None)
     }
 
-    /// Whether the function has the right value at the probe.
+    /// Whether the function has the correct value at the probe point.
     fn passes(&self, f: usize, pattern: &Pattern, factors: &[Vec<u64>]) -> bool {
         let (numerator, denominator) = pattern.value(self.prime.field, factors, &self.probe.0);
         denominator != 0 && numerator == self.prime.field.mul(denominator, self.probe.1[f])
@@ -314,7 +315,7 @@ fn pivot(weights: &[u32]) -> usize {
     weights.iter().position(|&w| w == 1).expect("every weight vector has a one")
 }
 
-/// The largest odd base whose `digits` digits stay below `p - 1`.
+/// The largest odd base such that a number with `digits` digits stays below `p - 1`.
 fn radix(field: Prime, digits: usize) -> i64 {
     let fits = |radix: u64| (0..digits).try_fold(1u64, |n, _| n.checked_mul(radix)).is_some_and(|n| n < field.p - 1);
     let (mut low, mut high) = (1u64, 1 << 20);
@@ -345,8 +346,8 @@ fn outer_places(quotient: &Quotient) -> Vec<Place> {
     [ends(false), ends(true)].concat()
 }
 
-/// Weights in the order in which they are tried: single variables when there are few; else different weights for all variables, which
-/// mostly single out a corner of every support; then larger ones at random.
+/// Weights in the order of trial. First single variables, if there are few. Else different weights for all variables,
+/// which usually isolate a corner of every support. Then larger random weights.
 pub(super) fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
     let mut stream = Stream(1);
     if parameters <= 2 {
@@ -369,7 +370,7 @@ pub(super) fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
     vectors
 }
 
-/// Weights below `height`, one of them a one.
+/// Random weights below `height`; one of them is one.
 fn random_weights(parameters: usize, height: u64, stream: &mut Stream) -> Vec<u32> {
     let mut weights: Vec<u32> = (0..parameters).map(|_| (stream.word() % height) as u32).collect();
     weights[stream.word() as usize % parameters] = 1;

@@ -1,4 +1,4 @@
-//! From residues modulo primes to rational functions over Q: Chinese remainders and rational reconstruction.
+//! Rational functions over Q from residues modulo primes: Chinese remaindering and rational reconstruction.
 
 use std::ops::{Add, Mul};
 
@@ -14,10 +14,10 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 type Ground = PolynomialRing<Rationals>;
 
-/// The functions as elements of `field`, whose parameters are theirs.
+/// Reconstructs the functions as elements of `field`, which has their parameters.
 ///
 /// # Errors
-/// As [`learn`]; [`ErrorKind::Unsupported`] when too many primes are unlucky; [`ErrorKind::Overflow`].
+/// Those of [`learn`]; [`ErrorKind::Unsupported`] when too many primes are unlucky; [`ErrorKind::Overflow`].
 pub(super) fn interpolate(
     functions: &impl Functions,
     field: &Fractions<Rationals>,
@@ -65,7 +65,7 @@ fn next_factors(
     Err(Error::new(ErrorKind::Unsupported, text))
 }
 
-/// Whether the rational functions have the right values at a random point modulo a fresh prime.
+/// Whether the rational functions have the correct values at a random point modulo another prime.
 fn holds(
     functions: &impl Functions,
     patterns: &[Pattern],
@@ -97,7 +97,7 @@ pub(super) fn image(field: Prime, q: &BigRational) -> u64 {
     defined_image(field, q).unwrap_or(0)
 }
 
-/// A rational number modulo a prime; `None` when that divides its denominator.
+/// A rational number modulo a prime; `None` when the prime divides its denominator.
 pub(super) fn defined_image(field: Prime, q: &BigRational) -> Option<u64> {
     let integer = |n: &BigInt| {
         let magnitude = match n.magnitude().to_u64() {
@@ -154,7 +154,7 @@ impl Support {
     }
 }
 
-/// All factors in one row, each function with leading coefficient one in its denominator.
+/// All factors in one row. The leading coefficient of each denominator is one.
 fn normalised(field: Prime, supports: &[Support], factors: &[Vec<Vec<u64>>]) -> Vec<u64> {
     let mut row = Vec::new();
     for (support, factors) in supports.iter().zip(factors) {
@@ -165,13 +165,14 @@ fn normalised(field: Prime, supports: &[Support], factors: &[Vec<Vec<u64>>]) -> 
     row
 }
 
-/// The values of each function apart.
+/// The values, split by function.
 fn split(supports: &[Support], values: Vec<BigRational>) -> Vec<Vec<BigRational>> {
     let mut rest = values.into_iter();
     supports.iter().map(|support| rest.by_ref().take(support.monomials.len()).collect()).collect()
 }
 
-/// A row of numbers by their residues, in mixed radix: digit `k` counts the product of the first `k` primes.
+/// A row of numbers by their residues, in mixed radix. Digit `k` is the coefficient of the product of the first `k`
+/// primes.
 #[derive(Default)]
 pub(super) struct Residues {
     primes: Vec<Prime>,
@@ -179,7 +180,7 @@ pub(super) struct Residues {
 }
 
 impl Residues {
-    /// Takes the residues modulo one more prime (Garner, 1959).
+    /// Adds the residues modulo one more prime (Garner, 1959).
     pub fn push(&mut self, field: Prime, residues: &[u64]) {
         self.digits.resize(residues.len(), Vec::new());
         let product = self.primes.iter().fold(1, |product, prime| field.mul(product, prime.p % field.p));
@@ -192,7 +193,7 @@ impl Residues {
         self.primes.push(field);
     }
 
-    /// Trials become rarer as the numbers grow.
+    /// Whether an attempt is due. Attempts become rarer as the numbers grow.
     pub fn is_worth_a_trial(&self) -> bool {
         let count = self.primes.len();
         count <= 4 || count.is_multiple_of(count / 4)
@@ -203,8 +204,8 @@ impl Residues {
         self.primes.len()
     }
 
-    /// All numbers as rationals that are `seen` modulo another prime, each from as few primes as it takes; `None` when one is
-    /// not small yet.
+    /// All numbers as rationals that have the residues `seen` modulo another prime, each from as few primes as
+    /// possible; `None` when one is not determined yet.
     pub fn rationals_like(&self, field: Prime, seen: &[u64]) -> Option<Vec<BigRational>> {
         if self.primes.len() > 4 {
             let values = self.rationals()?;
@@ -226,7 +227,7 @@ impl Residues {
         self.digits.iter().zip(seen).map(number).collect()
     }
 
-    /// All numbers as small rationals; `None` when one is not small yet.
+    /// All numbers as small rationals; `None` when one is not determined yet.
     fn rationals(&self) -> Option<Vec<BigRational>> {
         if self.primes.len() <= 4 {
             let modulus: u128 = self.primes.iter().map(|prime| u128::from(prime.p)).product();
@@ -264,7 +265,7 @@ fn rational(value: BigInt, modulus: &BigInt, bound: &BigInt) -> Option<BigRation
     (t.magnitude() <= bound.magnitude() && t.sign() != Sign::NoSign).then(|| BigRational::new(b, t))
 }
 
-/// [`rational`] in machine words.
+/// Same as [`rational`], but in machine words.
 fn short_rational(value: u128, modulus: u128, bound: u128) -> Option<BigRational> {
     short_fraction(value, modulus, bound).map(|(n, d)| BigRational::new(n.into(), d.into()))
 }
@@ -280,20 +281,20 @@ fn short_fraction(value: u128, modulus: u128, bound: u128) -> Option<(i64, i64)>
     (t != 0 && u128::from(t.unsigned_abs()) <= bound).then(|| (b as i64 * t.signum(), t.abs()))
 }
 
-/// Whether `n / d` is in lowest terms as far as the prime can tell, and `residue` modulo it.
+/// Whether `n / d` is in lowest terms as far as the prime can show, and has this `residue`.
 fn is_residue(field: Prime, residue: u64, n: i64, d: i64) -> bool {
     let small = |n: i64| n.rem_euclid(field.p as i64) as u64;
     small(d) != 0 && field.mul(small(d), residue) == small(n)
 }
 
-/// The primes below 2^31 from the greatest, those of [`SmoothPrime`] left out.
+/// The primes below 2^31 in descending order, without those of [`SmoothPrime`].
 pub(super) struct Primes {
     count: usize,
     last: u32,
 }
 
 impl Primes {
-    /// The first ones, so that small problems need no test.
+    /// The first primes, so that small problems need no primality test.
     const FIRST: [u32; 16] = [
         2147483629, 2147483587, 2147483579, 2147483563, 2147483549, 2147483543, 2147483497, 2147483489, 2147483477,
         2147483423, 2147483399, 2147483353, 2147483323, 2147483269, 2147483249, 2147483237,
@@ -311,7 +312,7 @@ impl Primes {
         self.count += 1;
         Prime::new(self.last)
     }
-    /// The next prime that `admit` takes; all but finitely many are.
+    /// The next prime that `admit` accepts. It rejects finitely many.
     pub fn next_that(&mut self, admit: impl Fn(Prime) -> bool) -> Prime {
         loop {
             let field = self.next_prime();

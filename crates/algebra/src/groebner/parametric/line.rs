@@ -1,7 +1,7 @@
 //! Rational functions of one variable modulo a prime, from their values.
 //!
-//! Interpolation, then the extended Euclidean algorithm; unknown degrees show as the step with the largest quotient (M. Monagan,
-//! "Maximal quotient rational reconstruction", ISSAC 2004).
+//! Interpolation, then the extended Euclidean algorithm. The step with the largest quotient gives unknown degrees (M.
+//! Monagan, "Maximal quotient rational reconstruction", ISSAC 2004).
 
 use super::prime::Prime;
 
@@ -19,7 +19,7 @@ impl Quotient {
     }
 }
 
-/// Distinct points of the line with what interpolation needs of them.
+/// Distinct points of the line with the constants of interpolation.
 #[derive(Clone, Debug)]
 pub(super) struct Nodes {
     field: Prime,
@@ -31,7 +31,7 @@ pub(super) struct Nodes {
 }
 
 impl Nodes {
-    /// `nodes` are distinct.
+    /// Builds the tables for distinct `nodes`.
     pub fn new(field: Prime, nodes: Vec<u64>) -> Self {
         let master = product_of_roots(field, &nodes);
         let cofactors: Vec<Vec<u64>> = nodes.iter().map(|&node| divide_by_root(field, &master, node)).collect();
@@ -55,7 +55,8 @@ impl Nodes {
         trimmed(sum)
     }
 
-    /// The function of least degrees with these values; `None` when they do not determine it with a value to spare.
+    /// The function of least degrees with these values; `None` when they do not determine it with one value left for a
+    /// check.
     pub fn quotient(&self, values: &[u64]) -> Option<Quotient> {
         let mut best = None;
         let mut largest = 1;
@@ -83,8 +84,9 @@ impl Nodes {
         found
     }
 
-    /// The remainders and cofactors of Euclid's algorithm for `master` and the interpolating polynomial, each with the degree of the
-    /// quotient that follows: their degrees and it add up to the number of nodes. Ends when `visit` says so.
+    /// Enumerates the remainders and cofactors of the Euclidean algorithm for `master` and the interpolating
+    /// polynomial, each with the degree of the next quotient. These degrees add up to the number of nodes. It ends when
+    /// `visit` returns false.
     fn walk(&self, values: &[u64], mut visit: impl FnMut(usize, &[u64], &[u64]) -> bool) {
         let (mut before, mut remainder) = (self.master.clone(), self.interpolate(values));
         let (mut cofactor_before, mut cofactor) = (Vec::new(), vec![1]);

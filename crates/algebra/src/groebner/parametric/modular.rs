@@ -1,8 +1,9 @@
 //! The basis with the parameters as variables of the lowest block, by F4 modulo primes.
 //!
-//! One prime teaches the computation, others repeat it in lanes (C. Traverso, "Groebner trace algorithms", ISSAC 1988). Only the
-//! elements that count over the rational functions are rebuilt: those whose leading monomial in the unknowns is minimal. Each
-//! coefficient is rebuilt from as few primes as it takes and agrees with the first prime, from which it was not made.
+//! The computation is learned modulo one prime and replayed modulo others in lanes (C. Traverso, "Groebner trace
+//! algorithms", ISSAC 1988). Only the elements that are needed over the rational functions are reconstructed: those
+//! whose leading monomial in the unknowns is minimal. Each coefficient is reconstructed from as few primes as possible.
+//! It must agree with the first prime, which is not used for it.
 
 use super::assemble::{Element, assemble};
 use super::flat::{Equations, admit, equations, flat_ring, image_of};
@@ -16,15 +17,16 @@ use crate::number::{BigRational, Rationals, Zp};
 use crate::poly::{Fractions, Polynomial, Term};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How many primes are tried at once.
+/// Number of primes of one replay.
 const LANES: usize = 4;
-/// How many primes may teach the computation before the search is given up.
+/// Maximum number of primes for learning.
 const TEACHERS: usize = 4;
 
-/// The reduced basis over the rational functions.
+/// Computes the reduced basis over the rational functions.
 ///
 /// # Errors
-/// Those of F4; [`ErrorKind::Unsupported`] when too many primes are unlucky; what `pilot` stops with.
+/// Those of F4; [`ErrorKind::Unsupported`] when too many primes are unlucky; the error with which `pilot` stops the
+/// work.
 pub(super) fn rebuilt_basis(
     ideal: &Ideal<'_>,
     pilot: &mut Pilot<'_>,
@@ -58,15 +60,15 @@ pub(super) fn rebuilt_basis(
             }
         }
     }
-    Err(Error::new(ErrorKind::Unsupported, "the computations modulo too many primes differ; take another way"))
+    Err(Error::new(ErrorKind::Unsupported, "the computations modulo too many primes differ; take another method"))
 }
 
 fn coefficients(chosen: &[usize], basis: &[Polynomial<u64>]) -> Vec<u64> {
     chosen.iter().flat_map(|&index| basis[index].terms().iter().map(|term| term.coefficient)).collect()
 }
 
-/// The coefficients of the chosen elements over Q, which must be `seen` modulo the prime that taught; `None` when most primes
-/// go another way.
+/// The coefficients of the chosen elements over Q. They must be `seen` modulo the learned prime; `None` when most
+/// primes differ.
 fn rebuild(
     equations: &Equations,
     trace: &Trace,

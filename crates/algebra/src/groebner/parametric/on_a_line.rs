@@ -1,4 +1,4 @@
-//! Polynomials in the parameters on a random line modulo a prime, where they show that they have little in common.
+//! Restriction of polynomials in the parameters to a random line modulo a prime, which bounds their common factors.
 
 use super::lift::defined_image;
 use super::prime::{Prime, Stream};
@@ -8,7 +8,7 @@ use crate::poly::{Monomial, Polynomial, Term};
 
 type Ground = Polynomial<BigRational>;
 
-/// The parameters on a line `offset + t direction` modulo a prime, on which polynomials show that they are coprime.
+/// The parameters on a line `offset + t direction` modulo a prime, for coprimality tests.
 pub(super) struct Line {
     field: Prime,
     points: Vec<[u64; 2]>,
@@ -22,7 +22,7 @@ impl Line {
         Line { field, points: parameters.iter().map(|_| [stream.unit(field), stream.unit(field)]).collect() }
     }
 
-    /// The element over its first coefficient.
+    /// Divides the element by its first coefficient.
     pub fn divide_by_first(&self, ring: &Ring, mut parts: Vec<(Monomial, Ground)>) -> Poly {
         let (field, ground) = (ring.field(), ring.field().ring());
         let lead = parts[0].1.leading().expect("a leading coefficient is not zero").coefficient.clone();
@@ -49,8 +49,8 @@ impl Line {
         ring.descending(terms)
     }
 
-    /// A bound of the degree of what divides all parts; `None` when the line tells nothing. It keeps its degree on the line when the first
-    /// part does, and divides all parts there.
+    /// A bound on the degree of a common divisor of all parts; `None` when the line gives no information. A divisor
+    /// keeps its degree on the line if the first part does, and it divides all parts there.
     pub fn content_bound(&self, ring: &Ring, parts: &[(Monomial, Ground)]) -> Option<usize> {
         let degree = ring.field().ring().degree(&parts[0].1) as usize;
         let mut gcd = self.restrict(ring, &parts[0].1).filter(|f| f.len() == degree + 1)?;
@@ -63,12 +63,12 @@ impl Line {
         Some(gcd.len() - 1)
     }
 
-    /// Whether nothing divides both; a common factor of polynomials would show here when `a` keeps its degree on the line.
+    /// Whether no factor divides both. A common factor would appear on the line if `a` keeps its degree there.
     fn are_coprime(&self, a: &[u64], b: impl FnOnce() -> Option<Vec<u64>>) -> bool {
         a.len() == 1 || b().is_some_and(|b| shared(self.field, a.to_vec(), b).len() == 1)
     }
 
-    /// The polynomial in `t` that `f` is on the line; `None` when the prime divides a denominator.
+    /// Restricts `f` to the line, as a polynomial in `t`; `None` when the prime divides a denominator.
     fn restrict(&self, ring: &Ring, f: &Ground) -> Option<Vec<u64>> {
         let ground = ring.field().ring();
         let length = ground.degree(f) as usize + 1;
@@ -97,7 +97,8 @@ impl Line {
     }
 }
 
-/// A greatest common divisor of `a`, not zero, and `b`: Euclid's algorithm with multiplications instead of inverses.
+/// A greatest common divisor of a nonzero `a` and `b`, by the Euclidean algorithm with multiplications instead of
+/// inverses.
 fn shared(field: Prime, mut a: Vec<u64>, mut b: Vec<u64>) -> Vec<u64> {
     while !b.is_empty() {
         if b.len() == 1 {

@@ -1,19 +1,19 @@
-//! The support of a rational function, found once, and its coefficients modulo any prime.
+//! The support of a rational function, computed once, and its coefficients modulo any prime.
 
 use super::line::{Nodes, Quotient};
 use super::prime::{Prime, Stream};
 use super::sequence;
 use crate::{Result, Watch};
 
-/// Rational functions of parameters that are known by their values.
+/// Rational functions of parameters that can be evaluated.
 pub(super) trait Functions {
     /// Number of parameters.
     fn parameters(&self) -> usize;
     /// Number of functions.
     fn count(&self) -> usize;
-    /// Whether the prime divides no number that the functions are made of; all but finitely many do not.
+    /// Whether the prime divides none of the numbers in the functions. All but finitely many primes qualify.
     fn admit(&self, field: Prime) -> bool;
-    /// The values of all functions at each point; `None` where one of them is not defined.
+    /// The values of all functions at each point; `None` where one is not defined.
     fn values(&self, field: Prime, points: &[Vec<u64>], watch: &Watch) -> Result<Vec<Option<Vec<u64>>>>;
 }
 
@@ -37,9 +37,9 @@ pub(super) struct Slot {
     pub exponents: Vec<Vec<i32>>,
 }
 
-/// The support of one function. At the normal place numerator or denominator has a single monomial, so that coefficients divided by
-/// the one there belong together on all lines (J. van der Hoeven and G. Lecerf, "On sparse interpolation of rational functions and
-/// gcds", ACM Communications in Computer Algebra 55, 2021, have this way to fix the scale).
+/// The support of one function. At the normal place, numerator or denominator has a single monomial. Coefficients
+/// divided by the one there have a common scale on all lines (J. van der Hoeven and G. Lecerf, "On sparse interpolation
+/// of rational functions and gcds", ACM Communications in Computer Algebra 55, 2021, fix the scale by this method).
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Pattern {
     pub weights: Vec<u32>,
@@ -56,7 +56,7 @@ impl Pattern {
         Pattern { weights: weights.to_vec(), degrees: (0, 0), normal, slots }
     }
 
-    /// The largest number of monomials at one place: so many lines are needed.
+    /// The largest number of monomials at one place, which is the number of lines needed.
     pub fn lines(&self) -> usize {
         self.slots.iter().map(|slot| slot.exponents.len()).max().unwrap_or(1)
     }
@@ -66,7 +66,7 @@ impl Pattern {
         self.degrees.0 + self.degrees.1 + 1
     }
 
-    /// The numerator and the denominator at `point`; `factors[s][i]` belongs to monomial `i` of slot `s`.
+    /// The numerator and the denominator at `point`. `factors[s][i]` is the factor of monomial `i` of slot `s`.
     pub fn value(&self, field: Prime, factors: &[Vec<u64>], point: &[u64]) -> (u64, u64) {
         let (mut numerator, mut denominator) = (0, 0);
         for (slot, factors) in self.slots.iter().zip(factors) {
@@ -78,7 +78,7 @@ impl Pattern {
         (numerator, denominator)
     }
 
-    /// The factors of all monomials from the function on `lines` whose directions are the powers of `bases`.
+    /// The factors of all monomials, from the function on `lines` whose directions are the powers of `bases`.
     fn solve(&self, field: Prime, bases: &[u64], lines: &[Quotient], watch: &Watch) -> Result<Option<Vec<Vec<u64>>>> {
         let lines = &lines[..self.lines()];
         let scales: Vec<u64> = lines.iter().map(|line| self.normal.of(line)).collect();

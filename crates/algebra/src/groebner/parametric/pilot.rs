@@ -1,7 +1,8 @@
-//! How far a computation with the parameters as variables may go, and when it has got far enough.
+//! Limit and end of a computation with the parameters as variables.
 //!
-//! The basis at a random point has the leading monomials of the basis over the rational functions. As soon as elements with these are found,
-//! they are that basis: the pairs that are left only say where it specialises.
+//! The basis at a random point has the leading monomials of the basis over the rational functions. As soon as elements
+//! with these leading monomials are found, they are this basis. The remaining pairs only determine where it
+//! specialises.
 
 use super::estimate::Estimate;
 use super::system::System;
@@ -10,44 +11,44 @@ use crate::groebner::f4::Guide;
 use crate::poly::Monomial;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The guide of a computation that begins without knowing anything, and looks at points when it gets long.
+/// The guide of a computation without prior knowledge. It evaluates points when the computation becomes long.
 pub(super) struct Pilot<'a> {
     ideal: &'a Ideal<'a>,
     watch: &'a Watch,
     is_free: bool,
-    /// Whether the computation ends when interpolation is worth more.
+    /// Whether the computation ends when interpolation is cheaper.
     is_bounded: bool,
     system: Option<(System, Estimate)>,
     goal: Option<Vec<Vec<u32>>>,
-    /// So many terms are worth it, and perhaps more.
+    /// The computation is worth this many terms, possibly more.
     worth: usize,
     is_refused: bool,
 }
 
 impl<'a> Pilot<'a> {
-    /// A pilot that goes on to the end.
+    /// A guide without a limit.
     pub fn unbounded(ideal: &'a Ideal<'a>, watch: &'a Watch) -> Self {
         let is_free = is_free(ideal);
         let (system, goal) = (None, None);
         Pilot { ideal, watch, is_free, is_bounded: false, system, goal, worth: FEW_TERMS, is_refused: false }
     }
 
-    /// A pilot that refuses what takes longer than interpolation; the parameters are free.
+    /// A guide that refuses a computation longer than interpolation. The parameters have no relations.
     pub fn bounded(ideal: &'a Ideal<'a>, watch: &'a Watch) -> Self {
         Pilot { is_bounded: true, ..Pilot::unbounded(ideal, watch) }
     }
 
-    /// The leading monomials of the basis, smallest first, if points were looked at: two random ones agree.
+    /// The leading monomials of the basis, smallest first, if points were evaluated. Two random points agree on them.
     pub fn leads(&self) -> Option<impl Iterator<Item = &Monomial> + Clone> {
         self.system.as_ref().map(|(system, _)| system.leads())
     }
 
-    /// The system, when the computation was refused.
+    /// The system, if the computation was refused.
     pub fn into_refused(self) -> Option<System> {
         self.system.filter(|_| self.is_refused).map(|(system, _)| system)
     }
 
-    /// Looks at points, once.
+    /// Evaluates points, once.
     fn system(&mut self) -> Result<&mut (System, Estimate)> {
         if self.system.is_none() {
             let system = System::new(self.ideal, self.watch)?;
@@ -59,7 +60,7 @@ impl<'a> Pilot<'a> {
         Ok(self.system.as_mut().expect("it was filled"))
     }
 
-    /// Looks at points for the goal alone: where they do not agree there is none.
+    /// Evaluates points only for the goal. If they do not agree, there is no goal.
     fn look_ahead(&mut self) -> Result<()> {
         self.worth = usize::MAX;
         match self.system() {
@@ -97,9 +98,9 @@ impl Guide for Pilot<'_> {
     }
 }
 
-/// Of elements with leading monomials of these exponents, smallest first: those without any of the `unknowns` first variables, which relations
-/// of the parameters reduce to zero or which make the ideal the whole ring, and of the others those whose leading monomial in the
-/// unknowns no smaller one divides.
+/// Selects elements by the exponents of their leading monomials, smallest first. It takes those without any of the
+/// first `unknowns` variables: relations of the parameters, or elements of the unit ideal. Among the others it takes
+/// those whose leading monomial in the unknowns is minimal.
 pub(super) fn minimal(unknowns: usize, leads: &[Vec<u32>]) -> Vec<usize> {
     let mut chosen: Vec<usize> = Vec::with_capacity(leads.len());
     for (index, lead) in leads.iter().enumerate() {

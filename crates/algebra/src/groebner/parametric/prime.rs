@@ -4,7 +4,7 @@ use crate::number::word::inverse_modulo;
 
 pub(super) use crate::number::word::Prime;
 
-/// A deterministic stream of numbers that look random (Steele, Lea and Flood, SplitMix64, OOPSLA 2014).
+/// A deterministic pseudorandom number generator (Steele, Lea and Flood, SplitMix64, OOPSLA 2014).
 #[derive(Clone, Debug)]
 pub(super) struct Stream(pub u64);
 
@@ -17,13 +17,13 @@ impl Stream {
         z ^ (z >> 31)
     }
 
-    /// An element of `1..p`.
+    /// A random element of `1..p`.
     pub fn unit(&mut self, field: Prime) -> u64 {
         1 + self.word() % (field.p - 1)
     }
 }
 
-/// A prime whose multiplicative group has only small prime factors: logarithms are cheap there.
+/// A prime whose multiplicative group has an order with small prime factors only, so that logarithms are cheap.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SmoothPrime {
     pub field: Prime,
@@ -63,7 +63,7 @@ impl SmoothPrime {
         result
     }
 
-    /// The logarithm of `a` to the base `g` of order `prime^exponent`, by halves.
+    /// The logarithm of `a` to the base `g` of order `prime^exponent`, by recursive halving of the exponent.
     fn logarithm_in_group(&self, (a, g): (u64, u64), prime: u64, exponent: u32) -> u64 {
         let field = self.field;
         if exponent == 1 {

@@ -1,16 +1,16 @@
-//! Sums of powers: `a(n) = sum of c[i] * r[i]^n` from its first values, modulo a prime.
+//! Sums of powers: recovers `a(n) = sum of c[i] * r[i]^n` from its first values, modulo a prime.
 //!
-//! M. Ben-Or and P. Tiwari, "A deterministic algorithm for sparse multivariate polynomial interpolation", STOC 1988, with the
-//! algorithms of Berlekamp and Massey and of Cantor and Zassenhaus.
+//! M. Ben-Or and P. Tiwari, "A deterministic algorithm for sparse multivariate polynomial interpolation", STOC 1988,
+//! with the algorithms of Berlekamp and Massey and of Cantor and Zassenhaus.
 
 use super::line::{divide, divide_by_root, product_of_roots};
 use super::prime::{Prime, Stream};
 use crate::{Result, Watch};
 
-/// The monic polynomial whose roots are the bases `r[i]`, when it is determined with two values to spare.
+/// The monic polynomial whose roots are the bases `r[i]`, when it is determined with two values left for a check.
 ///
 /// # Errors
-/// What `watch` stops with, as with all functions of this file.
+/// The error with which `watch` stops the work, as in all functions of this file.
 pub(super) fn minimal_polynomial(field: Prime, values: &[u64], watch: &Watch) -> Result<Option<Vec<u64>>> {
     let mut connection = connection_polynomial(field, values, watch)?;
     connection.reverse();

@@ -10,7 +10,7 @@ use crate::number::{BigRational, Ring as _, Zp};
 use crate::poly::{Monomial, Polynomial};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How many points are evaluated at once.
+/// Number of points that are evaluated at once.
 pub(super) const LANES: usize = 8;
 
 /// A system of equations with polynomial coefficients and the trace of its basis at a random point.
@@ -18,7 +18,7 @@ pub(super) struct System {
     parameters: usize,
     equations: Vec<Equation>,
     trace: Trace,
-    /// The supports of the basis, greatest monomials first; the first coefficient is one.
+    /// The supports of the basis, greatest monomials first. The first coefficient is one.
     pub supports: Vec<Vec<Monomial>>,
 }
 
@@ -26,11 +26,12 @@ pub(super) struct System {
 type Equation = Vec<Coefficient>;
 /// Exponents of the parameters with their factor.
 type Coefficient = Vec<(Vec<u32>, BigRational)>;
-/// The same modulo a prime.
+/// Same as [`Coefficient`], but modulo a prime.
 type Residue = Vec<(Vec<u32>, u64)>;
 
 impl System {
-    /// Clears denominators and learns the basis at a random point modulo a prime; another point must give the same leading monomials.
+    /// Clears denominators and learns the basis at a random point modulo a prime. Another point must have the same
+    /// leading monomials.
     ///
     /// # Errors
     /// Those of the engine.
@@ -67,13 +68,13 @@ impl System {
         self.supports.iter().map(|support| &support[0])
     }
 
-    /// The terms that the basis at one point takes.
+    /// The number of terms for the basis at one point.
     pub fn terms(&self) -> usize {
         self.trace.terms()
     }
 }
 
-/// The coefficients of `f` times `multiple`, which all their denominators divide.
+/// The coefficients of `f` times `multiple`, a common multiple of their denominators.
 fn equation(ring: &Ring, f: &super::Poly, multiple: &Polynomial<BigRational>) -> Equation {
     let ground = ring.field().ring();
     let coefficient = |term: &crate::poly::Term<crate::poly::Fraction<BigRational>>| {
@@ -117,7 +118,7 @@ fn learn(
 /// The coefficients of the equations modulo one prime.
 struct Evaluator {
     field: Prime,
-    /// For each parameter the highest exponent that occurs.
+    /// The highest exponent of each parameter.
     tops: Vec<u32>,
     equations: Vec<Vec<Residue>>,
 }
@@ -134,7 +135,7 @@ impl Evaluator {
         Evaluator { field, tops, equations }
     }
 
-    /// The coefficients at up to [`LANES`] points; missing lanes repeat the first.
+    /// The coefficients at up to [`LANES`] points. Missing lanes repeat the first point.
     fn values(&self, points: &[Vec<u64>]) -> Vec<Vec<[u32; LANES]>> {
         let powers: [Vec<Vec<u64>>; LANES] = std::array::from_fn(|lane| self.powers(&points[lane % points.len()]));
         let value = |coefficient: &Residue| -> [u32; LANES] {

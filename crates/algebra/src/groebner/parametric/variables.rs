@@ -13,7 +13,7 @@ use crate::{Result, Watch};
 /// The reduced basis over the rational functions, from one over Q.
 ///
 /// # Errors
-/// As [`basis`].
+/// Those of [`basis`].
 pub(super) fn basis_with_variables(ideal: &Ideal<'_>, watch: &Watch) -> Result<Basis<Fractions<Rationals>>> {
     let flat = flat_ring(ideal.ring, Rationals)?;
     let system: Vec<_> = equations(ideal, &flat)?.into_iter().map(|terms| flat.collect(terms)).collect();
@@ -30,7 +30,7 @@ pub(super) fn reduced(ring: &Ring, basis: Vec<Poly>, watch: &Watch) -> Result<Ba
     Ok(found)
 }
 
-/// `f` read over the rational functions; zero when it is a relation of the parameters.
+/// `f` as a polynomial over the rational functions; zero when it is a relation of the parameters.
 pub fn lift(flat: &PolynomialRing<Rationals>, ring: &Ring, f: &Polynomial<BigRational>) -> Result<Poly> {
     let (field, count) = (ring.field(), ring.variables().len());
     let ground = field.ring();

@@ -1,13 +1,15 @@
 //! The proof of a representation over Q.
 //!
-//! 1. `sum form[v] g_v = T f' - deg(f) f`: the form takes the value `t` at the point of the root `t`, so the points are distinct.
-//! 2. Every generator, made homogeneous and evaluated at `(g, f')` in exact integers, is divisible by `f`: each point is a solution.
-//! 3. As many points as the dimension of the quotient ring: there is no further one, and all are simple. Else
-//!    `f(t)` and `f'(t) x_v - g_v(t)` are shown to be nilpotent in the quotient ring: they vanish modulo primes whose product
-//!    exceeds a bound on the numerators of their powers. So every solution is one of the points.
+//! 1. `sum form[v] g_v = T f' - deg(f) f`: the form has the value `t` at the point of the root `t`, so the points are
+//!    distinct.
+//! 2. Every generator, made homogeneous and evaluated at `(g, f')` in exact integers, is divisible by `f`: each point
+//!    is a solution.
+//! 3. If there are as many points as the dimension of the quotient ring, there is no further point, and all are simple.
+//!    Otherwise `f(t)` and `f'(t) x_v - g_v(t)` are shown to be nilpotent in the quotient ring: they vanish modulo
+//!    primes whose product exceeds a bound on the numerators of their powers. So every solution is one of the points.
 //!
-//! `f` is square-free, and the multiplicities are right, because a lucky prime showed both: distinct roots modulo `p` are images
-//! of distinct roots, and the characteristic polynomial of `t` keeps their multiplicities.
+//! `f` is square-free and the multiplicities are correct, because a lucky prime shows both: distinct roots modulo `p`
+//! are images of distinct roots, and the characteristic polynomial of `t` keeps their multiplicities.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -24,10 +26,10 @@ use crate::number::{BigRational, Rationals};
 use crate::poly::Polynomial;
 use crate::{Result, Watch};
 
-/// Whether `representation` is that of `generators`.
+/// Whether `representation` represents the solutions of `generators`.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Overflow`]; what `watch` stops with.
+/// [`crate::ErrorKind::Overflow`]; the error with which `watch` stops the work.
 pub(super) fn holds(
     representation: &UnivariateRepresentation,
     basis: &Basis<Rationals>,
@@ -103,8 +105,8 @@ fn no_further_point(representation: &UnivariateRepresentation, staircase: &Stair
     Ok(false)
 }
 
-/// A bound on the bits of `d^r f(t)` and `d^r (f'(t) x_v - g_v(t))` as integer matrices, in the norm of column sums; `r` is the
-/// degree of `f` and `d` a common denominator of the multiplication matrices.
+/// A bound on the bits of `d^r f(t)` and `d^r (f'(t) x_v - g_v(t))` as integer matrices, in the column-sum norm. `r` is
+/// the degree of `f`, and `d` is a common denominator of the multiplication matrices.
 fn element_bits(
     representation: &UnivariateRepresentation,
     staircase: &Staircase,
@@ -121,7 +123,8 @@ fn element_bits(
     Ok(coefficients.bits() + representation.count() as u64 * per_degree)
 }
 
-/// The largest column sum of absolute values in all multiplication matrices of variables, made integral by one denominator.
+/// The largest column sum of absolute values in the multiplication matrices of all variables, made integral by one
+/// denominator.
 fn multiplication_norm(staircase: &Staircase, border: &Border, watch: &Watch) -> Result<BigInt> {
     let lead = |row: &Row| {
         let mut form = vec![BigRational::zero(); staircase.dimension()];

@@ -18,7 +18,7 @@ pub(super) fn derivative(a: &[BigInt]) -> Vec<BigInt> {
     a.iter().enumerate().skip(1).map(|(i, c)| c * BigInt::from(i)).collect()
 }
 
-/// `target += factor a`; zeros may trail.
+/// `target += factor a`. The result may have trailing zeros.
 pub(super) fn add_scaled(target: &mut Vec<BigInt>, factor: &BigInt, a: &[BigInt]) {
     if target.len() < a.len() {
         target.resize(a.len(), BigInt::zero());
@@ -39,7 +39,7 @@ pub(super) fn norm(a: &[BigInt]) -> BigInt {
     a.iter().map(Signed::abs).sum()
 }
 
-/// The product by Kronecker substitution: one product of long integers.
+/// The product by Kronecker substitution: one multiplication of long integers.
 pub(super) fn product(a: &[BigInt], b: &[BigInt]) -> Vec<BigInt> {
     if a.is_empty() || b.is_empty() {
         return Vec::new();
@@ -84,7 +84,7 @@ fn unpack(value: &BigInt, words: usize, length: usize) -> Vec<BigInt> {
 /// Whether the primitive polynomial `b` divides `a`: by Gauss's lemma the quotient is integral.
 ///
 /// # Errors
-/// What `watch` stops with.
+/// The error with which `watch` stops the work.
 pub(super) fn divides(b: &[BigInt], a: &[BigInt], watch: &Watch) -> Result<bool> {
     let (low, lead) = (&b[..b.len() - 1], &b[b.len() - 1]);
     let mut rest = a.to_vec();

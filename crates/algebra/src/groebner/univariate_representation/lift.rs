@@ -1,6 +1,7 @@
-//! From residues modulo many primes to rational numbers with one common denominator.
+//! Rational numbers with one common denominator from residues modulo many primes.
 //!
-//! Chinese remaindering and rational reconstruction: von zur Gathen and Gerhard, Modern Computer Algebra (2013), section 5.10.
+//! Chinese remaindering and rational reconstruction: von zur Gathen and Gerhard, Modern Computer Algebra (2013),
+//! section 5.10.
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -10,10 +11,10 @@ use super::modular::Modular;
 use super::residues::Residues;
 use super::shape::Shape;
 
-/// A reconstruction must be this many bits shorter than the modulus to be believed; the proof comes later.
+/// Number of bits by which a reconstruction must be shorter than the modulus to be accepted. The proof follows later.
 const MARGIN: u64 = 40;
 
-/// The coefficients of a representation modulo a growing product of lucky primes, and what they may be over Q.
+/// The coefficients of a representation modulo a growing product of lucky primes, and the candidate over Q.
 #[derive(Clone, Debug)]
 pub(super) struct Lift {
     shape: Shape,
@@ -40,7 +41,8 @@ impl Lift {
         self.primes
     }
 
-    /// The coefficients modulo a new prime; `None` when it is unlucky. When the primes so far were, the lift starts afresh.
+    /// The coefficients modulo a new prime; `None` when it is unlucky. If the earlier primes were unlucky, the lift
+    /// starts again.
     pub(super) fn lucky_residues(&mut self, modular: &Modular) -> Option<Vec<u32>> {
         if self.shape.is_unlucky(modular) {
             *self = Lift::new(Shape::of(modular));
@@ -48,12 +50,12 @@ impl Lift {
         (self.shape == Shape::of(modular)).then(|| self.shape.flatten(modular))
     }
 
-    /// Takes the candidate over Q out; it is lost unless it has these residues modulo a new prime.
+    /// Returns the candidate over Q if it has these residues modulo a new prime. Otherwise it is discarded.
     pub(super) fn confirmed(&mut self, residues: &[u32], prime: u32) -> Option<Vec<BigInt>> {
         self.candidate.take().filter(|values| agrees(values, residues, prime))
     }
 
-    /// Takes in the residues modulo a new prime, and looks for a candidate; attempts become rarer as the numbers grow.
+    /// Adds the residues modulo a new prime and searches for a candidate. Attempts become rarer as the numbers grow.
     pub(super) fn add(&mut self, prime: u32, residues: &[u32]) {
         let field = Residues::new(prime);
         let inverse = field.inverse(residue(&self.modulus, prime));
@@ -69,7 +71,7 @@ impl Lift {
         }
     }
 
-    /// Numerators over one positive common denominator, the last entry; `None` when the modulus is too small yet.
+    /// Numerators and, as the last entry, one positive common denominator; `None` when the modulus is still too small.
     fn rationals(&self) -> Option<Vec<BigInt>> {
         let mut denominator = BigInt::one();
         for value in &self.values {
@@ -107,12 +109,12 @@ impl Lift {
     }
 }
 
-/// `n` modulo a prime, from 0.
+/// The residue of `n` modulo a prime, in `0..prime`.
 pub(super) fn residue(n: &BigInt, prime: u32) -> u32 {
     n.mod_floor(&BigInt::from(prime)).to_u32().unwrap_or(0)
 }
 
-/// Whether fractions over a common denominator, which stands last, have these residues.
+/// Whether fractions over a common denominator, the last entry, have these residues.
 fn agrees(values: &[BigInt], residues: &[u32], prime: u32) -> bool {
     let field = Residues::new(prime);
     let Some((denominator, numerators)) = values.split_last() else { return false };

@@ -1,10 +1,11 @@
 //! The rational univariate representation of a zero-dimensional ideal over Q: [`UnivariateRepresentation`].
 //!
-//! F. Rouillier, "Solving zero-dimensional systems through the rational univariate representation", AAECC 9 (1999);
-//! A. Bostan, B. Salvy, E. Schost, "Fast algorithms for zero-dimensional polynomial systems using duality", AAECC 14 (2003).
+//! F. Rouillier, "Solving zero-dimensional systems through the rational univariate representation", AAECC 9 (1999); A.
+//! Bostan, B. Salvy, E. Schost, "Fast algorithms for zero-dimensional polynomial systems using duality", AAECC 14
+//! (2003).
 //!
-//! Computed modulo primes, lifted, then proved over Q ([`certify`]): nothing probable is left, given that the dimension of the
-//! quotient ring by the basis is right (and, for ideals with multiple points, the basis itself).
+//! It is computed modulo primes, lifted, then proved over Q ([`certify`]). The proof assumes that the dimension of the
+//! quotient ring by the basis is correct. For ideals with multiple points it assumes that the basis is correct.
 
 mod certify;
 mod integral;
@@ -33,23 +34,25 @@ use crate::{Error, ErrorKind, Result, Watch};
 pub struct UnivariateRepresentation {
     /// The names of the unknowns.
     pub variables: Vec<String>,
-    /// The separating linear form: `t = sum form[v] x_v` takes another value at each solution.
+    /// The separating linear form: `t = sum form[v] x_v` has a different value at each solution.
     pub form: Vec<i64>,
-    /// `f`, square-free, of degree the number of distinct complex solutions.
+    /// The polynomial `f`: square-free, with the number of distinct complex solutions as its degree.
     pub polynomial: Univariate<BigInt>,
-    /// `g_v`, one a variable, of degree below that of `f`.
+    /// The numerators `g_v`, one for each variable, of degree below that of `f`.
     pub numerators: Vec<Univariate<BigInt>>,
     /// Primitive polynomials whose product is `f` up to a constant, each with the multiplicity of the solutions at its roots.
     pub multiplicities: Vec<(usize, Univariate<BigInt>)>,
 }
 
-/// The representation of the solutions of `generators`, of whose ideal `basis` is the reduced Groebner basis in any order.
+/// Computes the rational univariate representation of the solutions of `generators`. `basis` is the reduced Groebner
+/// basis of their ideal, in any order.
 ///
-/// Proved over Q: the generators vanish at `g / f'` modulo `f`, the points are distinct, and there is no further one.
+/// It is proved over Q that the generators vanish at `g / f'` modulo `f`, that the points are distinct, and that there
+/// is no further one.
 ///
 /// # Errors
-/// [`ErrorKind::Inconsistent`] for the unit ideal, [`ErrorKind::PositiveDimensional`]; [`ErrorKind::BadValue`] when the basis
-/// is not that of the generators; [`ErrorKind::Overflow`]; what `watch` stops with.
+/// [`ErrorKind::Inconsistent`] for the unit ideal, [`ErrorKind::PositiveDimensional`]; [`ErrorKind::BadValue`] when the
+/// basis does not belong to the generators; [`ErrorKind::Overflow`]; the error with which `watch` stops the work.
 pub fn univariate_representation(
     basis: &Basis<Rationals>,
     generators: &[Polynomial<BigRational>],
@@ -80,10 +83,10 @@ pub fn univariate_representation(
     Err(foreign_basis())
 }
 
-/// So many candidates that agree with a fresh prime are not wrong by chance.
+/// Maximum number of candidates that agree with a new prime but fail the proof. More are not due to chance.
 const MAX_REFUTED: usize = 3;
 
-/// So many primes without a separating form mean that the multiplications do not commute.
+/// Maximum number of primes without a separating form. More mean that the multiplications do not commute.
 const MAX_SEARCH: usize = 16;
 
 fn foreign_basis() -> Error {
@@ -103,8 +106,8 @@ fn modulo(staircase: &Staircase, border: &Border, prime: u32, form: &[i64], watc
     }
 }
 
-/// A linear form that separates the solutions modulo some prime, and what its representation looks like there. It proves to
-/// separate those over Q when the representation is certified.
+/// A linear form that separates the solutions modulo some prime, with the shape of its representation there. The
+/// certificate of the representation proves that it separates the solutions over Q.
 fn separating_form(staircase: &Staircase, watch: &Watch) -> Result<(Vec<i64>, Shape)> {
     let border = staircase.border(0..staircase.variables())?;
     let reduced = |prime| QuotientModulo::new(staircase, &border, prime, watch).transpose();
@@ -128,7 +131,7 @@ fn separating_form(staircase: &Staircase, watch: &Watch) -> Result<(Vec<i64>, Sh
     Err(foreign_basis())
 }
 
-/// Single variables, the last one first, then small coefficients that grow slowly.
+/// The candidate forms: single variables, the last one first, then small coefficients that grow slowly.
 fn linear_forms(variables: usize) -> impl Iterator<Item = Vec<i64>> {
     let unit = move |v: usize| (0..variables).map(|w| i64::from(v == w)).collect();
     let mixed = move |k: usize| {
@@ -149,11 +152,11 @@ impl UnivariateRepresentation {
         univariate(integral::derivative(&self.polynomial.coefficients))
     }
 
-    /// The integer polynomial `P` with `h = P(t) / (c f'(t)^d)` at the solutions, `d` the total degree of `h` and `c` the
-    /// returned positive integer; `ring` has the variables of the representation, in its order.
+    /// The integer polynomial `P` with `h = P(t) / (c f'(t)^d)` at the solutions. `d` is the total degree of `h`, and
+    /// `c` is the returned positive integer. `ring` has the variables of the representation, in its order.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when `ring` has other variables; what `watch` stops with.
+    /// [`ErrorKind::BadValue`] when `ring` has other variables; the error with which `watch` stops the work.
     pub fn substitute(
         &self,
         ring: &PolynomialRing<Rationals>,

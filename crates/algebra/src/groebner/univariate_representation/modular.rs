@@ -1,14 +1,15 @@
 //! The representation modulo one prime: Krylov sequences of a multiplication matrix, Berlekamp-Massey, numerators.
 //!
-//! Bostan, Salvy and Schost 2003, sections 3 and 4. Multiple points: with `mu` the minimal polynomial of `t`, `f` its
-//! square-free part and `l` a random linear form on the quotient ring, `l((mu/f)(t) x t^i)` has simple poles only.
+//! Bostan, Salvy and Schost 2003, sections 3 and 4. For multiple points, let `mu` be the minimal polynomial of `t`, `f`
+//! its square-free part and `l` a random linear form on the quotient ring. Then `l((mu/f)(t) x t^i)` has simple poles
+//! only.
 
 use super::residues::{Residues, trim};
 use super::staircase::{Border, Coordinate, Place, Row, Staircase};
 use crate::number::{BigInt, Field, Ring, Zp};
 use crate::{Result, Watch};
 
-/// A representation modulo `p`; polynomials have their constant term first.
+/// A representation modulo `p`. Polynomials have their constant term first.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Modular {
     /// The degree of the minimal polynomial of the separating form.
@@ -17,7 +18,7 @@ pub(super) struct Modular {
     pub(super) polynomial: Vec<u32>,
     /// `g_v`, of degree below that of `f`, with `x_v = g_v / f'`.
     pub(super) numerators: Vec<Vec<u32>>,
-    /// The factors of `f` by the multiplicity of their points, when there are multiple points; else empty.
+    /// The factors of `f` by the multiplicity of their points; empty when all points are simple.
     pub(super) classes: Vec<(usize, Vec<u32>)>,
 }
 
@@ -38,10 +39,10 @@ enum Column<'a> {
 }
 
 impl<'a> QuotientModulo<'a> {
-    /// `None` when a leading coefficient of the basis is zero modulo `prime`.
+    /// Builds the quotient ring; `None` when a leading coefficient of the basis is zero modulo `prime`.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error with which `watch` stops the work.
     pub(super) fn new(staircase: &'a Staircase, border: &'a Border, prime: u32, watch: &Watch) -> Result<Option<Self>> {
         let field = Residues::new(prime);
         let reduce = Zp::new(u64::from(prime))?;
@@ -90,7 +91,7 @@ impl<'a> QuotientModulo<'a> {
     /// The representation by the linear form `sum form[v] x_v`; `None` when some point of a root has no numerator.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error with which `watch` stops the work.
     pub(super) fn representation(&self, form: &[i64], watch: &Watch) -> Result<Option<Modular>> {
         let field = &self.field;
         let columns = self.columns(form);
@@ -134,21 +135,21 @@ impl<'a> QuotientModulo<'a> {
         Ok(sequences)
     }
 
-    /// The number of distinct solutions modulo the prime, as a random linear form tells them apart.
+    /// The number of distinct solutions modulo the prime, counted by a random linear form.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error with which `watch` stops the work.
     pub(super) fn count_points(&self, watch: &Watch) -> Result<Option<usize>> {
         let random = random_vector(&self.field, self.staircase.variables() + 1);
         let form: Vec<i64> = random[1..].iter().map(|&c| i64::from(c)).collect();
         Ok(self.representation(&form, watch)?.map(|modular| modular.polynomial.len() - 1))
     }
 
-    /// Whether `x_v = g_v(t) / f'(t)` at all points, for a form that separates them: `(mu/f)(t)`, which is zero in no local
-    /// ring, times `f'(t) x_v - g_v(t)` is zero.
+    /// Whether `x_v = g_v(t) / f'(t)` at all points, for a separating form. The test is that `(mu/f)(t)`, which is zero
+    /// in no local ring, times `f'(t) x_v - g_v(t)` is zero.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error with which `watch` stops the work.
     pub(super) fn represents(&self, form: &[i64], modular: &Modular, watch: &Watch) -> Result<bool> {
         let columns = self.columns(form);
         let field = &self.field;
@@ -213,7 +214,7 @@ impl<'a> QuotientModulo<'a> {
         result
     }
 
-    /// The characteristic polynomial of multiplication by the separating form, split by multiplicity.
+    /// The factors by multiplicity of the characteristic polynomial of multiplication by the separating form.
     fn classes(&self, columns: &[Column<'_>], watch: &Watch) -> Result<Vec<(usize, Vec<u32>)>> {
         let dense = |column: &Column<'_>| {
             let mut sum = vec![0; self.dimension()];
@@ -252,7 +253,7 @@ fn polar_numerator(field: &Residues, f: &[u32], sequence: &[u32]) -> Vec<u32> {
     trim((0..sequence.len()).map(|k| field.dot(&f[k + 1..], sequence)).collect())
 }
 
-/// Entries of a fixed pseudo-random stream (Steele, Lea and Flood 2014), which depends on the prime.
+/// Entries of a fixed pseudorandom stream (Steele, Lea and Flood 2014) that depends on the prime.
 fn random_vector(field: &Residues, length: usize) -> Vec<u32> {
     let mut state = u64::from(field.prime());
     let mut next = || {

@@ -12,7 +12,7 @@ pub(super) struct Residues {
 }
 
 impl Residues {
-    /// Arithmetic modulo the prime `p < 2^31`.
+    /// Builds the arithmetic modulo the prime `p < 2^31`.
     pub(super) fn new(p: u32) -> Self {
         Residues { prime: Prime::new(p) }
     }
@@ -46,7 +46,7 @@ impl Residues {
         self.prime.inverse(u64::from(a)) as u32
     }
 
-    /// The inner product; the halves of the products are summed apart, so nothing overflows.
+    /// The inner product. The halves of the products are summed separately, so nothing overflows.
     pub(super) fn dot(&self, a: &[u32], b: &[u32]) -> u32 {
         let (mut low, mut high) = (0u64, 0u64);
         for (&x, &y) in a.iter().zip(b) {
@@ -180,11 +180,11 @@ impl Residues {
         connection
     }
 
-    /// The monic characteristic polynomial of a square matrix, given by its columns, through Hessenberg's form
+    /// The monic characteristic polynomial of a square matrix, given by its columns, by reduction to Hessenberg form
     /// (Cohen, A Course in Computational Algebraic Number Theory, algorithm 2.2.9).
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error with which `watch` stops the work.
     pub(super) fn characteristic_polynomial(&self, columns: Vec<Vec<u32>>, watch: &Watch) -> Result<Vec<u32>> {
         let h = self.hessenberg(columns, watch)?;
         let mut minors: Vec<Vec<u32>> = vec![vec![1]];

@@ -1,4 +1,4 @@
-//! What a representation looks like modulo every lucky prime, and how its coefficients stand in one vector.
+//! The shape of a representation modulo every lucky prime, and the layout of its coefficients in one vector.
 
 use num_bigint::BigInt;
 
@@ -25,7 +25,7 @@ impl Shape {
         }
     }
 
-    /// Whether the primes before `modular` were unlucky: degrees only drop modulo a prime.
+    /// Whether the primes before `modular` were unlucky. Degrees can only drop modulo a prime.
     pub(super) fn is_unlucky(&self, modular: &Modular) -> bool {
         let other = Shape::of(modular);
         (self.degree, self.minimal) < (other.degree, other.minimal)
@@ -35,7 +35,7 @@ impl Shape {
         self.degree * (1 + self.variables) + self.classes.iter().map(|(_, degree)| degree).sum::<usize>()
     }
 
-    /// All coefficients but the leading ones of monic polynomials.
+    /// All coefficients except the leading ones of monic polynomials.
     pub(super) fn flatten(&self, modular: &Modular) -> Vec<u32> {
         let mut residues = modular.polynomial[..self.degree].to_vec();
         for (index, numerator) in modular.numerators.iter().enumerate() {
@@ -46,9 +46,10 @@ impl Shape {
         residues
     }
 
-    /// The representation of what [`Shape::flatten`] became over Q: numerators, then their common denominator.
+    /// The inverse of [`Shape::flatten`] over Q: builds the representation from numerators followed by their common
+    /// denominator.
     pub(super) fn assemble(&self, variables: &[String], form: &[i64], values: &[BigInt]) -> UnivariateRepresentation {
-        let (denominator, values) = values.split_last().expect("a denominator stands last");
+        let (denominator, values) = values.split_last().expect("the denominator is last");
         let (represented, mut rest) = values.split_at(self.degree * (1 + self.variables));
         let mut parts = represented.chunks(self.degree).map(<[BigInt]>::to_vec);
         let monic = |low: &[BigInt]| low.iter().chain([denominator]).cloned().collect::<Vec<_>>();

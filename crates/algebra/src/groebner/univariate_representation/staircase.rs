@@ -1,5 +1,5 @@
-//! The quotient ring of a zero-dimensional ideal: which products of variables and standard monomials are standard,
-//! and how the others are rewritten. What depends on the field comes in as the rows of the basis.
+//! The quotient ring of a zero-dimensional ideal: which products of variables and standard monomials are standard, and
+//! how the others are reduced. The rows of the basis carry all data that depend on the field.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -10,30 +10,30 @@ use crate::{Error, ErrorKind, Result, Watch};
 use num_integer::Integer;
 use num_traits::One;
 
-/// A product of a variable and a standard monomial.
+/// Position of a product of a variable and a standard monomial.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Place {
-    /// It is the standard monomial of this index.
+    /// The standard monomial with this index.
     Standard(usize),
-    /// It is the border monomial of this index.
+    /// The border monomial with this index.
     Border(usize),
 }
 
-/// How the normal form of a border monomial comes about.
+/// Computation of the normal form of a border monomial.
 #[derive(Clone, Copy, Debug)]
 enum Step {
-    /// The tail of the basis polynomial of this index.
+    /// The tail of the basis polynomial with this index.
     Lead(usize),
     /// The variable times an earlier border monomial.
     Product(usize, usize),
 }
 
-/// Where a variable itself stands in the quotient ring.
+/// Representation of a variable itself in the quotient ring.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Coordinate {
-    /// It is the standard monomial of this index.
+    /// The standard monomial with this index.
     Standard(usize),
-    /// It leads the (linear) basis polynomial of this index.
+    /// The leading monomial of the (linear) basis polynomial with this index.
     Lead(usize),
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Row {
     pub(super) tail: Vec<(usize, BigInt)>,
 }
 
-/// The standard monomials, the border as far as some variables need it, and the basis polynomials as rows.
+/// The standard monomials, the border for some variables, and the basis polynomials as rows.
 #[derive(Clone, Debug)]
 pub(super) struct Staircase {
     pub(super) standard: Vec<Monomial>,
@@ -53,7 +53,7 @@ pub(super) struct Staircase {
     leads: HashMap<Monomial, usize>,
 }
 
-/// The border monomials of some variables, smallest first, and where each of their products stands.
+/// The border monomials of some variables, smallest first, and the position of each of their products.
 #[derive(Clone, Debug)]
 pub(super) struct Border {
     steps: Vec<Step>,
@@ -95,7 +95,7 @@ impl Staircase {
         self.ring.variables().len()
     }
 
-    /// Where each variable itself stands.
+    /// The representation of each variable itself.
     pub(super) fn coordinates(&self) -> Vec<Coordinate> {
         let coordinate = |v: usize| {
             let variable = self.ring.variable(v);
@@ -112,7 +112,7 @@ impl Staircase {
         self.standard.binary_search_by(|m| self.ring.layout().compare(m, monomial)).ok()
     }
 
-    /// The border that multiplication by `variables` needs, with all that it rests on.
+    /// The border for multiplication by `variables`, with all border monomials that it depends on.
     ///
     /// # Errors
     /// [`ErrorKind::Overflow`].
@@ -150,7 +150,7 @@ impl Staircase {
         Ok(border)
     }
 
-    /// The variables whose quotient of `monomial` is in the border too.
+    /// The variables by which `monomial` can be divided to give another border monomial.
     fn divisors<'a>(&'a self, monomial: &'a Monomial) -> impl Iterator<Item = (usize, Monomial)> + 'a {
         (0..self.variables()).filter_map(|v| {
             let variable = self.ring.variable(v);
@@ -159,7 +159,7 @@ impl Staircase {
         })
     }
 
-    /// A variable that must be added before every border monomial is a lead or a product of known ones.
+    /// A variable that must be added so that every border monomial is a leading monomial or a product of known ones.
     fn missing(&self, monomials: &[Monomial], needed: &BTreeSet<usize>) -> Option<usize> {
         let composed = monomials.iter().filter(|m| !self.leads.contains_key(*m));
         composed
@@ -193,11 +193,11 @@ impl Staircase {
 }
 
 impl Border {
-    /// The normal forms of the border monomials, from those of the leading monomials. `add_scaled(target, factor, row)` adds
-    /// `factor row` to the front of `target`.
+    /// The normal forms of the border monomials, from those of the leading monomials. `add_scaled(target, factor, row)`
+    /// adds `factor row` to the first entries of `target`.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error with which `watch` stops the work.
     pub(super) fn normal_forms<E: Clone + PartialEq>(
         &self,
         leads: &[Vec<E>],

@@ -1,4 +1,4 @@
-//! Polynomials at the points of a representation: `h(g_1 / f', ..., g_n / f') = P / (c f'^d)`.
+//! Evaluation of polynomials at the points of a representation: `h(g_1 / f', ..., g_n / f') = P / (c f'^d)`.
 
 use std::collections::HashMap;
 use std::rc::Rc;
@@ -27,7 +27,7 @@ impl<'a> Substitution<'a> {
     /// The integer polynomial `P` and the positive integer `c`; `d` is the total degree of `h`.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error with which `watch` stops the work.
     pub(super) fn apply(
         &mut self,
         ring: &PolynomialRing<Rationals>,

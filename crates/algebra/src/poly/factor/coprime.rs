@@ -1,4 +1,4 @@
-//! Splitting polynomials into coprime square-free factors, as the strata of a parametric basis need them.
+//! Coprime square-free factors of polynomials, as the strata of a parametric basis need them.
 
 use crate::Watch;
 use crate::number::{Field, Ring};
@@ -6,7 +6,7 @@ use crate::poly::gcd::{content, gcd, split_monomial};
 use crate::poly::ring::{Polynomial, PolynomialRing};
 
 /// Pairwise coprime, monic, square-free, non-constant factors with the same zero set as `f`, over a field of
-/// characteristic zero: single variables, contents in each variable, and the square-free rest.
+/// characteristic zero: single variables, contents in each variable, and the remaining square-free part.
 pub fn square_free_factors<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -37,8 +37,8 @@ fn square_free_part<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Elemen
     ring.monic(&ring.exact_div(f, &repeated).expect("a gcd divides"))
 }
 
-/// Pairwise coprime, monic, non-constant polynomials whose products give every polynomial of `polynomials` up to
-/// constants and multiplicities: a gcd-free basis (Bach, Driscoll and Shallit 1993, the simple quadratic form).
+/// Pairwise coprime, monic, non-constant polynomials such that every polynomial of `polynomials` is a product of their
+/// powers, up to constants: a gcd-free basis (Bach, Driscoll and Shallit 1993, the simple quadratic form).
 pub fn refine_factors<F: Field>(
     ring: &PolynomialRing<F>,
     polynomials: &[Polynomial<F::Element>],

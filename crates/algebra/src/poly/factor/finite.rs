@@ -1,11 +1,11 @@
-//! Univariate factorisation over a finite field by distinct and equal degrees (Cantor and Zassenhaus 1981; von zur
-//! Gathen and Gerhard, Modern Computer Algebra, chapter 14).
+//! Univariate factorization over a finite field: distinct-degree and equal-degree factorization (Cantor and Zassenhaus
+//! 1981; von zur Gathen and Gerhard, Modern Computer Algebra, chapter 14).
 
 use crate::poly::words::dense::{self, Dense};
 use crate::poly::words::{Random, WordField};
 use crate::{Result, Watch};
 
-/// The monic irreducible factors of a square-free polynomial, by degree and coefficients.
+/// The monic irreducible factors of a square-free polynomial, sorted by degree and coefficients.
 pub fn factors<K: WordField>(field: &K, f: &[u64], watch: &Watch) -> Result<Vec<Dense>> {
     let mut random = Random::new(1);
     let mut factors = Vec::new();

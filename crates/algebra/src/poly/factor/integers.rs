@@ -1,5 +1,6 @@
-//! Univariate factorisation over the integers (Zassenhaus 1969; von zur Gathen and Gerhard, Modern Computer Algebra,
-//! algorithms 15.10, 15.17 and 15.19): factors modulo a prime, lifted to a power of it, and recombined.
+//! Univariate factorization over the integers: factors modulo a prime, Hensel lifting to a power of it, and
+//! recombination (Zassenhaus 1969; von zur Gathen and Gerhard, Modern Computer Algebra, algorithms 15.10, 15.17 and
+//! 15.19).
 
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
@@ -14,10 +15,10 @@ use crate::{Result, Watch};
 /// A dense polynomial over the integers, constant term first, the last coefficient not zero.
 pub type Integers = Vec<BigInt>;
 
-/// Among how many primes the one with the fewest factors is chosen.
+/// Number of primes from which the one with the fewest factors is chosen.
 const PRIMES: usize = 7;
 
-/// The primitive irreducible factors of a square-free primitive polynomial that is not constant.
+/// The primitive irreducible factors of a square-free, primitive, non-constant polynomial.
 pub fn factors(f: &Integers, watch: &Watch) -> Result<Vec<Integers>> {
     let (field, local) = few_factors(f, watch)?;
     if local.len() == 1 {
@@ -38,7 +39,8 @@ pub fn factors(f: &Integers, watch: &Watch) -> Result<Vec<Integers>> {
     recombine(f.clone(), &lifted, &modulus, watch)
 }
 
-/// A prime modulo which `f` stays square-free and of its degree, and the factors there: the fewest of some primes.
+/// Chooses a prime modulo which `f` stays square-free and keeps its degree, and returns the factors there. Of several
+/// primes it takes the one with the fewest factors.
 fn few_factors(f: &Integers, watch: &Watch) -> Result<(Prime, Vec<Dense>)> {
     let mut best: Option<(Prime, Vec<Dense>)> = None;
     let mut found = 0;
@@ -132,7 +134,7 @@ fn lift(
     lift(field, &h, right, steps, lifted, watch)
 }
 
-/// Algorithm 15.10: from `f = g h` and `s g + t h = 1` modulo `m` to the same modulo `m^2 = modulus`.
+/// Hensel step, algorithm 15.10: lifts `f = g h` and `s g + t h = 1` from modulo `m` to modulo `m^2 = modulus`.
 fn hensel_step(f: &[BigInt], [g, h, s, t]: [Integers; 4], modulus: &BigInt) -> [Integers; 4] {
     let times = |a: &[BigInt], b: &[BigInt]| multiplied(a, b, modulus);
     let error = added(f, &times(&g, &h), -1, modulus);
@@ -147,7 +149,7 @@ fn hensel_step(f: &[BigInt], [g, h, s, t]: [Integers; 4], modulus: &BigInt) -> [
     [g, h, s, t]
 }
 
-/// The true factors among the products of the lifted ones, small products first.
+/// Finds the true factors among the products of the lifted ones, products of few factors first.
 fn recombine(mut f: Integers, lifted: &[Integers], modulus: &BigInt, watch: &Watch) -> Result<Vec<Integers>> {
     let mut open: Vec<usize> = (0..lifted.len()).collect();
     let (mut factors, mut size) = (Vec::new(), 1);
@@ -175,7 +177,8 @@ fn symmetric(c: BigInt, modulus: &BigInt) -> BigInt {
     if &c + &c > *modulus { c - modulus } else { c }
 }
 
-/// The factor of `f` that the `chosen` lifted factors multiply to, and its cofactor; its constant term decides first.
+/// The factor of `f` that is the product of the `chosen` lifted factors, and its cofactor. The constant term is tested
+/// first.
 fn true_factor(f: &Integers, lifted: &[Integers], chosen: &[usize], modulus: &BigInt) -> Option<(Integers, Integers)> {
     let lead = &f[f.len() - 1];
     let constants = chosen.iter().fold(lead.clone(), |product, &i| (product * &lifted[i][0]).mod_floor(modulus));

@@ -1,9 +1,10 @@
-//! Lifting the factors of an image in one variable to all variables, one after the other (Monagan and Tuncer, Using
-//! sparse interpolation in Hensel lifting, 2016).
+//! Multivariate Hensel lifting: extends the factors of an image in one variable to all variables, one variable at a
+//! time (Monagan and Tuncer, Using sparse interpolation in Hensel lifting, 2016).
 //!
-//! Every factor is given the leading coefficient of the whole polynomial, so that its coefficients are polynomials; its
-//! content is taken out at the end. At each point of the variables before, the factors are lifted in the next variable
-//! alone ([`SeriesFactors`]); their coefficients are interpolated along the monomials known from the variables before.
+//! Every factor is scaled to the leading coefficient of the whole polynomial, so that its coefficients are polynomials.
+//! Its content is removed at the end. At each point of the variables lifted before, the factors are lifted in the next
+//! variable alone ([`SeriesFactors`]). Their coefficients are interpolated with the monomials known from the variables
+//! before.
 
 use super::series::SeriesFactors;
 use crate::poly::gcd::modular::Search;
@@ -12,7 +13,7 @@ use crate::poly::words::skeleton::{Orbit, Rows, Skeleton, base_point};
 use crate::poly::words::{Flat, Packing, Random, WordField};
 use crate::{Result, Watch};
 
-/// A polynomial and the point where its factors are known: everything that stays while its factors are lifted.
+/// A polynomial and the point where its factors are known: the invariant data of a lifting.
 pub struct Lifting<'a, K> {
     field: &'a K,
     packing: &'a Packing,
@@ -24,8 +25,8 @@ pub struct Lifting<'a, K> {
 }
 
 impl<'a, K: WordField> Lifting<'a, K> {
-    /// The polynomial `f`, primitive in `main`, at the point `anchor` of the variables `others`; `None` when its degree
-    /// in `main` falls there or its image has multiple factors.
+    /// Starts the lifting of `f`, primitive in `main`, from the point `anchor` of the variables `others`. Returns
+    /// `None` when the degree in `main` drops there or the image has multiple factors.
     pub fn new(
         field: &'a K,
         packing: &'a Packing,
@@ -45,12 +46,12 @@ impl<'a, K: WordField> Lifting<'a, K> {
         (square_free && !lifting.leads[0].is_zero()).then_some(lifting)
     }
 
-    /// The image in the main variable.
+    /// The univariate image in the main variable.
     pub fn line(&self) -> Dense {
         self.levels[0].dense(self.packing, self.main)
     }
 
-    /// The finest partition of the factors of the image whose parts belong to factors in one more variable.
+    /// The finest partition of the factors of the image in which each part belongs to a factor in one more variable.
     pub fn partition(&self, factors: &[Dense], watch: &Watch) -> Result<Option<Vec<Vec<usize>>>> {
         let rows = |f: &Flat| Orbit::new(self.field, self.packing, f, &[], [self.main, self.others[0]]).rows();
         let (f, lead) = (rows(&self.levels[1]), rows(&self.leads[1]));
@@ -70,7 +71,7 @@ impl<'a, K: WordField> Lifting<'a, K> {
         Ok(Some(parts))
     }
 
-    /// The monic factors of `f` over the factors of its image; `None` when the point was unlucky.
+    /// Lifts the factors of the image to the monic factors of `f`; `None` when the point was unlucky.
     pub fn factors(&self, images: &[Dense], random: &mut Random, watch: &Watch) -> Result<Option<Vec<Flat>>> {
         let lead = self.leads[0].values.first().copied().unwrap_or(0);
         let scaled = |image: &Dense| {
@@ -91,7 +92,7 @@ impl<'a, K: WordField> Lifting<'a, K> {
         Ok(primitive)
     }
 
-    /// The scaled factors in one more variable.
+    /// Lifts the scaled factors to one more variable.
     fn extended(&self, level: usize, known: &[Flat], random: &mut Random, watch: &Watch) -> Result<Option<Vec<Flat>>> {
         let (field, packing) = (self.field, self.packing);
         let pair = [self.main, self.others[level]];
@@ -117,7 +118,7 @@ impl<'a, K: WordField> Lifting<'a, K> {
     }
 }
 
-/// The first subset of `size` of the `open` indices that `accept` takes, in lexicographic order.
+/// The first subset of `size` of the `open` indices that `accept` accepts, in lexicographic order.
 pub fn first_subset(
     open: &[usize],
     size: usize,

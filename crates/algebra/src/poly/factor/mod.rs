@@ -1,8 +1,8 @@
-//! Splitting polynomials into coprime, square-free and irreducible factors.
+//! Factorization of polynomials into coprime, square-free and irreducible factors.
 //!
-//! [`factor`] works over Q and GF(p): powers are split off by derivatives ([`square_free`]), contents by gcds, and
-//! square-free primitive polynomials by lifting the factors of an image in one variable ([`lift`]), which come from
-//! [`finite`] (Cantor and Zassenhaus) or [`integers`] (Zassenhaus).
+//! [`factor`] works over Q and GF(p). It separates powers by derivatives ([`square_free`]) and contents by gcds.
+//! Square-free primitive polynomials are factored by Hensel lifting ([`lift`]) of the factors of an image in one
+//! variable. These come from [`finite`] (Cantor and Zassenhaus) or [`integers`] (Zassenhaus).
 
 mod coprime;
 mod finite;
@@ -31,13 +31,13 @@ use crate::{Error, ErrorKind, Result, Watch};
 pub struct Factorisation<E> {
     /// The leading coefficient of the polynomial.
     pub unit: E,
-    /// Monic irreducible polynomials, pairwise different, each with its multiplicity; by multiplicity, degree, number
-    /// of terms, and text.
+    /// Monic irreducible polynomials, pairwise different, each with its multiplicity. They are sorted by multiplicity,
+    /// degree, number of terms, and text.
     pub factors: Vec<(Polynomial<E>, u32)>,
 }
 
 impl<E: Clone> Factorisation<E> {
-    /// The product: the polynomial that was factored.
+    /// The product of the factors: the polynomial that was factored.
     pub fn product<F: Field<Element = E>>(&self, ring: &PolynomialRing<F>) -> Polynomial<E>
     where
         E: std::fmt::Debug + PartialEq,
@@ -47,11 +47,12 @@ impl<E: Clone> Factorisation<E> {
     }
 }
 
-/// The irreducible factors of a nonzero `f` over Q or GF(p).
+/// Factors a nonzero `f` over Q or GF(p) into irreducible polynomials.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for zero; [`ErrorKind::Unsupported`] over other fields, and over one with too few points for the degrees of `f`; [`ErrorKind::Overflow`] when the
-/// exponents of a term do not fit 128 bits; what `watch` stops with.
+/// [`ErrorKind::BadValue`] for zero; [`ErrorKind::Unsupported`] over other fields, and over one with too few points for
+/// the degrees of `f`; [`ErrorKind::Overflow`] when the exponents of a term do not fit 128 bits; the error with which
+/// `watch` stops the work.
 pub fn factor<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -109,8 +110,8 @@ fn inseparable_part<F: Field>(
     gcd_within(ring, f, &ring.derivative(f, variable), watch)
 }
 
-/// Of the variables in which `f` has a derivative the one of degree one, or else with the shortest leading coefficient;
-/// `None` for a constant.
+/// Chooses the main variable: of degree one, else the one with the shortest leading coefficient. The derivative in it
+/// is not zero. `None` for a constant.
 fn main_variable<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>) -> Option<usize> {
     let separable = (0..ring.variables().len()).filter(|&v| !ring.derivative(f, v).is_zero());
     separable.min_by_key(|&v| {

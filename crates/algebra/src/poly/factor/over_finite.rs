@@ -1,7 +1,8 @@
 //! Factors of a square-free polynomial over GF(p), in one or several variables.
 //!
-//! Where GF(p) has too few points the work is done over GF(p^k) for a prime `k`, best above a degree of the polynomial: one
-//! that is irreducible over GF(p) either stays so or splits into `k` conjugates. Factors that are not over GF(p) are refused.
+//! If GF(p) has too few points, the work is done over GF(p^k) for a prime `k`, preferably above a degree of the
+//! polynomial. A polynomial that is irreducible over GF(p) either stays irreducible there or splits into `k`
+//! conjugates. Factors with coefficients outside GF(p) are refused.
 
 use super::finite;
 use super::lift::Lifting;
@@ -9,7 +10,7 @@ use crate::poly::words::dense::Dense;
 use crate::poly::words::{Extension, Flat, Packing, Prime, Random, WordField, dense};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How many points are tried in one field.
+/// Maximum number of points that are tried in one field.
 const POINTS: usize = 40;
 
 /// The monic irreducible factors over GF(p) of a square-free `f` that is primitive in `main`.
@@ -39,7 +40,7 @@ fn is_prime(k: u32) -> bool {
     k > 1 && (2..k).all(|d| !k.is_multiple_of(d))
 }
 
-/// The factors by points of one field; `None` when all points that were tried are unlucky.
+/// The factors, from points of one field; `None` when all points that were tried are unlucky.
 ///
 /// Each point begins with another variable: `x^3 + y^3 z` splits at every point of `z` where all elements are cubes.
 fn split_in<K: WordField>(
@@ -79,7 +80,7 @@ fn product<K: WordField>(field: &K, factors: &[Dense], chosen: &[usize]) -> Dens
     chosen.iter().fold(vec![1], |product, &i| dense::mul(field, &product, &factors[i]))
 }
 
-/// Whether `factors`, all over GF(p), multiply to `f` up to a constant.
+/// Whether the product of `factors` is `f` up to a constant and all factors are over GF(p).
 fn is_product<K: WordField>(field: &K, packing: &Packing, f: &Flat, factors: &[Flat]) -> bool {
     let over_prime = factors.iter().all(|factor| factor.values.iter().all(|&value| value < field.characteristic()));
     let rest = factors.iter().try_fold(f.clone(), |rest, factor| rest.exact_div(field, packing, factor));

@@ -1,8 +1,8 @@
 //! Factors of a square-free polynomial over the integers, in one or several variables.
 //!
-//! Small integers are put for all variables but the main one; the factors of that image over the integers are lifted
-//! modulo word-size primes, and the coefficients rebuilt. Exact division proves the product; a factor is irreducible
-//! because no part of its image's factors lifts.
+//! All variables but the main one are replaced by small integers. The integer factors of this image are lifted modulo
+//! word-size primes, and the coefficients are reconstructed. Exact division proves the product. A factor is irreducible
+//! because no proper subset of its image's factors lifts.
 
 use num_traits::{One, Pow, Zero};
 
@@ -13,10 +13,10 @@ use crate::poly::words::dense::{self, Dense};
 use crate::poly::words::{Images, Integral, Packing, Prime, Random, primes, residue};
 use crate::{Result, Watch};
 
-/// Among how many points the one whose image has the fewest factors is chosen.
+/// Number of points from which the one whose image has the fewest factors is chosen.
 const POINTS: usize = 3;
 
-/// The polynomial to split and its variables.
+/// The polynomial to factor and its variables.
 struct Task<'a> {
     f: &'a Integral,
     packing: &'a Packing,
@@ -54,7 +54,7 @@ pub fn split_over_integers(packing: &Packing, f: &Integral, main: usize, watch: 
 }
 
 impl Task<'_> {
-    /// `f` with integers for the other variables, dense in the main one.
+    /// Substitutes integers for the other variables. The result is dense in the main variable.
     fn image_at(&self, point: &[i64]) -> Integers {
         let mut line = Integers::new();
         for (&key, value) in self.f.keys.iter().zip(&self.f.values) {
@@ -69,7 +69,7 @@ impl Task<'_> {
         line
     }
 
-    /// A point with coordinates up to about `range` where `f` keeps its degree and stays square-free.
+    /// Chooses a point with coordinates up to about `range` where `f` keeps its degree and stays square-free.
     fn choose_anchor(&self, range: u64, random: &mut Random) -> Result<Anchor> {
         let field = Prime::new(primes().next().expect("there are primes below 2^61"));
         let (mut best, mut found, mut tries): (Option<Anchor>, _, _) = (None, 0, 0);
@@ -129,7 +129,7 @@ impl Task<'_> {
         Ok(None)
     }
 
-    /// More bits than numerator and denominator of a factor's coefficient can have (Gelfond's bound, doubled).
+    /// An upper bound of the bits of numerator and denominator of a factor's coefficient (Gelfond's bound, doubled).
     fn enough_bits(&self) -> u64 {
         let degrees = (0..self.packing.variables())
             .map(|v| self.f.keys.iter().map(|&key| u64::from(self.packing.exponent(key, v))).max().unwrap_or(0));
@@ -153,7 +153,7 @@ fn primitive(line: Integers) -> Integers {
     part.values.into_iter().rev().collect()
 }
 
-/// The factors that the images stand for, when their product is `f`.
+/// Reconstructs the factors from their images, if their product is `f`.
 fn proved(f: &Integral, packing: &Packing, images: &[Images]) -> Option<Vec<Integral>> {
     let factors = images.iter().map(Images::rational).collect::<Option<Vec<_>>>()?;
     let rest = factors.iter().try_fold(f.clone(), |rest, factor| rest.quotient(packing, factor))?;

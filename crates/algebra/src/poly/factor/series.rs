@@ -1,5 +1,5 @@
-//! Lifting a factorisation in the main variable to one in power series of the inner variable (Hensel; von zur Gathen
-//! and Gerhard, Modern Computer Algebra, chapter 15), and from there to polynomials with a known leading coefficient.
+//! Hensel lifting of a factorization in the main variable to power series in the inner variable (von zur Gathen and
+//! Gerhard, Modern Computer Algebra, chapter 15), and conversion to polynomials with a known leading coefficient.
 
 use crate::poly::words::WordField;
 use crate::poly::words::dense::{self, Dense};
@@ -7,7 +7,7 @@ use crate::poly::words::skeleton::Rows;
 
 /// A polynomial in two variables as `lead` times monic power series in `y = inner - centre`, modulo `y^precision`.
 ///
-/// The precision exceeds the degree of `lead f`, so that a product of two polynomials of matching degrees is decided.
+/// The precision exceeds the degree of `lead f`, so it determines a product of two polynomials of matching degrees.
 pub struct SeriesFactors<'a, K> {
     field: &'a K,
     centre: u64,
@@ -18,8 +18,8 @@ pub struct SeriesFactors<'a, K> {
 }
 
 impl<'a, K: WordField> SeriesFactors<'a, K> {
-    /// The lift of the coprime `factors` of `f` at `inner = centre`; `lead` is the leading coefficient of `f`. `None`
-    /// when `lead` vanishes there or the factors are not coprime.
+    /// Lifts the coprime `factors` of `f` from `inner = centre`. `lead` is the leading coefficient of `f`. Returns
+    /// `None` when `lead` vanishes there or the factors are not coprime.
     pub fn new(field: &'a K, f: &Rows, lead: &Rows, factors: &[Dense], centre: u64) -> Option<Self> {
         let precision = f.len() + lead.len() - 1;
         let (degree, lead_degree) = (f.len() - 1, lead.len() - 1);
@@ -34,7 +34,7 @@ impl<'a, K: WordField> SeriesFactors<'a, K> {
         Some(SeriesFactors { field, centre, degree, lead_degree, lead, factors })
     }
 
-    /// `lead` times the product of the series in `chosen`, cut off.
+    /// `lead` times the product of the series in `chosen`, truncated.
     fn product(&self, chosen: &[usize]) -> Rows {
         let precision = self.degree + self.lead_degree + 1;
         let product = chosen
@@ -43,7 +43,7 @@ impl<'a, K: WordField> SeriesFactors<'a, K> {
         trimmed(product)
     }
 
-    /// Whether the series in `chosen` multiply to a factor: a polynomial whose cofactor is one too.
+    /// Whether the product of the series in `chosen` is a factor: it is a polynomial, and so is its cofactor.
     pub fn is_factor(&self, chosen: &[usize]) -> bool {
         let rest: Vec<usize> = (0..self.factors.len()).filter(|i| !chosen.contains(i)).collect();
         let length = |chosen: &[usize]| self.product(chosen).len() - 1;
@@ -105,7 +105,7 @@ fn divide_series<K: WordField>(field: &K, f: &[Dense], lead: &[Dense], precision
     Some(quotient)
 }
 
-/// The monic series whose product is `f` and whose constant terms are `factors`, one order after the other.
+/// The monic series whose product is `f` and whose constant terms are `factors`, computed order by order.
 fn lift<K: WordField>(field: &K, f: &[Dense], factors: Vec<Dense>) -> Option<Vec<Rows>> {
     let inverses = (0..factors.len()).map(|i| cofactor_inverse(field, &factors, i)).collect::<Option<Vec<_>>>()?;
     let mut prefixes = prefix_products(field, &factors);
@@ -145,7 +145,7 @@ fn prefix_products<K: WordField>(field: &K, factors: &[Dense]) -> Vec<Rows> {
     factors.iter().map(&mut next).collect()
 }
 
-/// For each prefix product what its coefficient `k` owes to lower orders alone.
+/// The part of coefficient `k` of each prefix product that depends on lower orders alone.
 fn middles<K: WordField>(field: &K, prefixes: &[Rows], series: &[Rows], k: usize) -> Vec<Dense> {
     let pairs = (0..series.len()).map(|i| i.checked_sub(1).map(|before| (&prefixes[before], &series[i])));
     pairs.map(|pair| pair.map_or_else(Dense::new, |(prefix, rows)| coefficient(field, prefix, rows, k, 1..k))).collect()

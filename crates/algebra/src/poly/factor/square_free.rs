@@ -8,11 +8,11 @@ use crate::{Result, Watch};
 /// Polynomials with their multiplicities.
 type Powers<F> = Vec<(Polynomial<<F as Ring>::Element>, u32)>;
 
-/// Square-free, pairwise coprime, non-constant polynomials with multiplicities, whose powers multiply to `f` up to a
-/// constant, over a prime field or one of characteristic zero.
+/// Square-free, pairwise coprime, non-constant polynomials with multiplicities, such that `f` is the product of their
+/// powers up to a constant. The field is a prime field or has characteristic zero.
 ///
 /// # Errors
-/// What `watch` stops with.
+/// The error with which `watch` stops the work.
 pub fn powers<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, watch: &Watch) -> Result<Powers<F>> {
     let (monomial, rest) = split_monomial(ring, f);
     let exponents = (0..ring.variables().len()).map(|v| (ring.variable(v), ring.degree_in(&monomial, v)));
@@ -31,7 +31,7 @@ pub fn powers<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>, wa
     Ok(parts)
 }
 
-/// The parts whose multiplicity the characteristic does not divide, and the rest: a power of the characteristic.
+/// The parts whose multiplicity is not divisible by the characteristic, and the remaining factor, a `p`-th power.
 fn powers_by_derivatives<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,

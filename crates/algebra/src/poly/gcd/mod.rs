@@ -1,7 +1,7 @@
 //! Greatest common divisors of multivariate polynomials over a field.
 //!
-//! Over Q and GF(p) by images at points and modulo primes ([`modular`], [`rational`]), proved by division; over other
-//! fields, and where a small field has too few points, by primitive remainder sequences ([`reference`]).
+//! Over Q and GF(p) the gcd is computed from images at points and modulo primes ([`modular`], [`rational`]) and proved
+//! by division. Other fields, and small fields with too few points, use primitive remainder sequences ([`reference`]).
 
 pub(super) mod modular;
 pub(super) mod rational;
@@ -15,10 +15,10 @@ use crate::{Result, Watch};
 
 pub(super) use reference::split_monomial;
 
-/// Where GF(p) has fewer points than that, it is extended: first a little, then more.
+/// Sizes of extensions of GF(p) in which points are chosen when GF(p) has too few, in the order of trial.
 const POINTS: [u64; 3] = [1 << 8, 1 << 12, 1 << 16];
 
-/// A greatest common divisor of two polynomials and what is left of each.
+/// A greatest common divisor of two polynomials and their cofactors.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Common<T> {
     pub gcd: T,
@@ -35,7 +35,7 @@ pub fn gcd<F: Field>(
     gcd_within(ring, f, g, &Watch::none()).expect("nothing stops it")
 }
 
-/// [`gcd`], until `watch` stops it.
+/// Same as [`gcd`], but `watch` can stop it.
 pub(super) fn gcd_within<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -54,7 +54,7 @@ pub(super) fn common<F: Field>(
     common_within(ring, f, g, &Watch::none()).expect("nothing stops it")
 }
 
-/// [`common`], until `watch` stops it; the remainder sequences of small fields do not ask it.
+/// Same as [`common`], but `watch` can stop it. The remainder sequences of small fields do not check `watch`.
 pub(super) fn common_within<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -89,7 +89,7 @@ pub(super) fn content<F: Field>(
     Ok(content)
 }
 
-/// The answer where one of the two is zero or constant, or both are equal.
+/// The result when one of the two is zero or constant, or both are equal.
 fn trivial<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -109,7 +109,7 @@ fn trivial<F: Field>(
     constant.then(|| Common { gcd: ring.one(), left: f.clone(), right: g.clone() })
 }
 
-/// The answer over Q and GF(p); `None` over other fields, or when the images were unlucky again and again.
+/// The result over Q and GF(p); `None` over other fields, or when the images were unlucky repeatedly.
 fn by_images<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -128,7 +128,7 @@ fn by_images<F: Field>(
     }
 }
 
-/// The answer over GF(p). A gcd stays the same in an extension of the field.
+/// The result over GF(p). A gcd is unchanged in an extension of the field.
 fn over_prime(p: u64, packing: &Packing, [f, g]: [&Flat; 2], watch: &Watch) -> Option<Common<Flat>> {
     POINTS.iter().find_map(|&points| match (1..).find(|&k| p.saturating_pow(k) >= points)? {
         1 => Search::new(&Prime::new(p), packing, watch).repeated(f, g),
@@ -136,7 +136,7 @@ fn over_prime(p: u64, packing: &Packing, [f, g]: [&Flat; 2], watch: &Watch) -> O
     })
 }
 
-/// The monic gcd of the ring's own order, and its cofactors.
+/// The monic gcd in the ring's own order, and its cofactors.
 fn in_ring<F: Field>(
     ring: &PolynomialRing<F>,
     packing: &Packing,

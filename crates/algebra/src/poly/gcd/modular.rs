@@ -1,9 +1,9 @@
 //! The gcd over a finite field by sparse interpolation (Zippel, Probabilistic algorithms for sparse polynomials, 1979).
 //!
-//! One variable is the main one. The gcd is scaled to have a known leading coefficient in it, `scale`, which every
-//! common divisor's leading coefficient divides. Its image in the main variable alone is extended by one variable after
-//! the other: at each point of the variables before, the two polynomials have a gcd in two variables, found by dense
-//! interpolation (Brown 1971). Nothing is believed: the result divides both, and its degrees are upper bounds.
+//! One variable is the main one. The gcd is scaled to a known leading coefficient `scale` in it, a multiple of every
+//! common divisor's leading coefficient. Its image in the main variable alone is extended by one variable at a time. At
+//! each point of the variables before, the two polynomials have a gcd in two variables, found by dense interpolation
+//! (Brown 1971). The result is proved: it divides both, and its degrees are upper bounds.
 
 use super::Common;
 use crate::Watch;
@@ -11,10 +11,10 @@ use crate::poly::words::dense::{self, Dense};
 use crate::poly::words::skeleton::{Nodes, Orbit, Rows, Skeleton, base_point, value_at};
 use crate::poly::words::{Flat, Packing, Random, WordField};
 
-/// How often an unlucky choice of points is repeated.
+/// Maximum number of attempts after an unlucky choice of points.
 const ATTEMPTS: usize = 4;
 
-/// The search for gcds over one finite field.
+/// Computation of gcds over one finite field.
 pub struct Search<'a, K> {
     field: &'a K,
     packing: &'a Packing,
@@ -23,12 +23,12 @@ pub struct Search<'a, K> {
 }
 
 impl<'a, K: WordField> Search<'a, K> {
-    /// The search over `field` with exponents in `packing`; it finds nothing any more once `watch` stops it.
+    /// Starts a computation over `field` with exponents in `packing`. It returns nothing after `watch` stops it.
     pub fn new(field: &'a K, packing: &'a Packing, watch: &'a Watch) -> Self {
         Search { field, packing, random: Random::new(0), watch }
     }
 
-    /// [`Search::common`] with some more choices of points.
+    /// Repeats [`Search::common`] with other points.
     pub fn repeated(&mut self, f: &Flat, g: &Flat) -> Option<Common<Flat>> {
         (0..ATTEMPTS).find_map(|_| self.common(f, g))
     }
@@ -59,7 +59,7 @@ impl<'a, K: WordField> Search<'a, K> {
         self.completed(found)
     }
 
-    /// The gcd when what was found may lack a factor: that is shared by the cofactors.
+    /// The complete gcd if the found divisor may lack a factor. The cofactors then share this factor.
     fn completed(&mut self, found: Common<Flat>) -> Option<Common<Flat>> {
         if found.gcd.is_constant() {
             return None;
@@ -68,8 +68,8 @@ impl<'a, K: WordField> Search<'a, K> {
         Some(Common { gcd: found.gcd.mul(self.field, &rest.gcd), ..rest })
     }
 
-    /// A bound on the gcd's degree in each variable, by numbers in place of the others: the degree of a gcd cannot fall
-    /// where a leading coefficient stays nonzero.
+    /// A bound on the gcd's degree in each variable, from random values of the other variables. The degree of a gcd
+    /// cannot drop where a leading coefficient stays nonzero.
     fn degree_bounds(&mut self, f: &Flat, g: &Flat) -> Option<Vec<u32>> {
         let tops: Vec<u32> = (0..self.packing.variables())
             .map(|v| f.degree_in(self.packing, v).max(g.degree_in(self.packing, v)))
@@ -106,7 +106,7 @@ impl<'a, K: WordField> Search<'a, K> {
         lines
     }
 
-    /// The gcd when it is free of the variables `absent`: numbers may stand for them.
+    /// The gcd when it is free of the variables `absent`. These are replaced by random values.
     fn without(&mut self, f: &Flat, g: &Flat, absent: &[usize]) -> Option<Common<Flat>> {
         let (mut a, mut b) = (f.clone(), g.clone());
         for &v in absent {
@@ -121,7 +121,7 @@ impl<'a, K: WordField> Search<'a, K> {
         self.cofactors(f, g, &h)
     }
 
-    /// The gcd when one of the two has no larger degree than it and divides the other.
+    /// The gcd when one of the two polynomials divides the other and has a degree that is not larger.
     fn divisor_of_the_other(
         &self,
         f: &Flat,
@@ -139,7 +139,7 @@ impl<'a, K: WordField> Search<'a, K> {
         Some(Common { gcd: h.clone(), left, right })
     }
 
-    /// The monic gcd of `f` and `g` without a content in the main variable, if the points are lucky.
+    /// The monic gcd of `f` and `g` without its content in the main variable, if the points are lucky.
     fn interpolated(&mut self, f: &Flat, g: &Flat, bounds: &[u32]) -> Option<Flat> {
         let present = (0..bounds.len()).filter(|&v| bounds[v] > 0);
         let leads = |v: usize| [f, g].map(|h| h.leading_in(self.packing, v));
@@ -160,7 +160,7 @@ impl<'a, K: WordField> Search<'a, K> {
         Some(self.primitive_part(&known, &scale, main)?.monic(self.field))
     }
 
-    /// `f` with numbers for all of `others`, then for all but the first, and so on up to `f` itself.
+    /// `f` with values for all of `others`, then for all but the first, and so on up to `f` itself.
     pub fn restrictions(&self, f: &Flat, others: &[usize], anchor: &[u64]) -> Vec<Flat> {
         let mut chain = vec![f.clone()];
         for (&v, &x) in others.iter().zip(anchor).rev() {
@@ -170,7 +170,7 @@ impl<'a, K: WordField> Search<'a, K> {
         chain
     }
 
-    /// The scaled gcd in one more variable, `inner`; `known` is its image without it.
+    /// Extends the scaled gcd to one more variable, `inner`. `known` is its image without this variable.
     fn extended(
         &mut self,
         [f, g, scale]: [&Flat; 3],
@@ -198,7 +198,7 @@ impl<'a, K: WordField> Search<'a, K> {
         Some(skeleton.solve(field, packing, &images, [main, inner]))
     }
 
-    /// `h` without its content in `main`; the leading coefficient of `h` is a constant times `lead`.
+    /// Divides `h` by its content in `main`. The leading coefficient of `h` is a constant times `lead`.
     pub fn primitive_part(&mut self, h: &Flat, lead: &Flat, main: usize) -> Option<Flat> {
         if lead.is_constant() {
             return Some(h.clone());
@@ -214,13 +214,13 @@ impl<'a, K: WordField> Search<'a, K> {
     }
 }
 
-/// One is the gcd.
+/// The result for coprime polynomials: the gcd is one.
 fn coprime(f: &Flat, g: &Flat) -> Common<Flat> {
     Common { gcd: Flat::constant(1), left: f.clone(), right: g.clone() }
 }
 
-/// The gcd of two polynomials in two variables with the leading coefficient `scale`, by dense interpolation.
-/// `degrees`: of both in the main variable, and of the gcd.
+/// The gcd of two polynomials in two variables with the leading coefficient `scale`, by dense interpolation. `degrees`
+/// has the degrees in the main variable of `f`, `g` and the gcd.
 fn gcd_rows<K: WordField>(field: &K, nodes: &Nodes, [f, g, scale]: [Rows; 3], degrees: [u32; 3]) -> Option<Rows> {
     let [f_length, g_length, length] = degrees.map(|degree| degree as usize + 1);
     let value = |&x: &u64| {

@@ -1,5 +1,5 @@
-//! The gcd over Q from gcds modulo word-size primes: Chinese remainders, rational reconstruction, and a proof by exact
-//! division over the integers (Brown 1971; von zur Gathen and Gerhard, Modern Computer Algebra, chapter 6).
+//! The gcd over Q from gcds modulo word-size primes: Chinese remaindering, rational reconstruction, and a proof by
+//! exact division over the integers (Brown 1971; von zur Gathen and Gerhard, Modern Computer Algebra, chapter 6).
 
 use num_traits::One;
 
@@ -10,7 +10,7 @@ use crate::number::{BigInt, BigRational, Field};
 use crate::poly::words::{Images, Integral, Packing, Prime, convert, primes};
 use crate::poly::{Polynomial, PolynomialRing};
 
-/// How many primes are tried before the caller takes another way.
+/// Maximum number of primes before the caller uses another method.
 const PRIMES: usize = 1000;
 
 /// The monic gcd of two nonzero polynomials over Q and its cofactors.

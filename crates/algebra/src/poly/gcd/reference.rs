@@ -1,5 +1,5 @@
-//! Greatest common divisors of multivariate polynomials over a field, by primitive remainder sequences
-//! (Knuth, The Art of Computer Programming 2, 4.6.1) with an evaluation test that finds most coprime pairs.
+//! Greatest common divisors of multivariate polynomials over a field, by primitive remainder sequences (Knuth, The Art
+//! of Computer Programming 2, 4.6.1) with an evaluation test that detects most coprime pairs.
 
 use crate::number::{BigInt, Field, Ring};
 use crate::poly::ring::{Polynomial, PolynomialRing, Term};
@@ -27,7 +27,7 @@ fn leading<E>(f: &Polynomial<E>) -> &Term<E> {
     f.leading().expect("a nonzero polynomial has a leading term")
 }
 
-/// Splits `f` into the greatest monomial that divides it, and the rest.
+/// Splits `f` into the greatest monomial that divides it and the cofactor.
 pub(in crate::poly) fn split_monomial<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -150,8 +150,8 @@ fn pseudo_remainder<F: Field>(
     rest
 }
 
-/// Proves that the gcd has degree 0 in `main` by putting numbers for the other variables: the degree of
-/// a gcd cannot fall where a leading coefficient stays nonzero. `false` means that nothing was proved.
+/// Proves that the gcd has degree 0 in `main` by evaluating the other variables. The degree of a gcd cannot drop where
+/// a leading coefficient stays nonzero. `false` means that nothing was proved.
 fn coprime_at_a_point<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -169,7 +169,7 @@ fn coprime_at_a_point<F: Field>(
     })
 }
 
-/// The coefficients in `main`, low degree first, with small numbers put for the other variables.
+/// The coefficients in `main`, low degree first, with small numbers substituted for the other variables.
 fn restrict<F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
@@ -198,7 +198,7 @@ fn trim<F: Field>(field: &F, line: &mut Vec<F::Element>) {
     }
 }
 
-/// The degree of the gcd of two nonzero dense univariate polynomials, by Euclid.
+/// The degree of the gcd of two nonzero dense univariate polynomials, by the Euclidean algorithm.
 fn dense_gcd_degree<F: Field>(field: &F, mut a: Vec<F::Element>, mut b: Vec<F::Element>) -> usize {
     while let Some(lead) = b.last() {
         let inverse = field.inverse(lead).expect("a leading coefficient is not zero");

@@ -1,4 +1,4 @@
-//! From what was written to polynomials of a ring.
+//! Expansion of expressions to polynomials of a ring.
 
 use super::words::At;
 use super::{Given, Heading, PolynomialSystem};
@@ -7,34 +7,36 @@ use crate::number::Field;
 use crate::poly::{Expression, Polynomial, PolynomialRing};
 use crate::{ErrorKind, Result, Watch};
 
-/// The most terms that the expansion of one polynomial may take.
+/// Maximum number of terms of one expanded polynomial.
 pub const MAX_TERMS: f64 = limits::EXPANSION_TERMS;
-/// The most bits that a coefficient of an expanded summand may take.
+/// Maximum number of bits of a coefficient in an expanded summand.
 pub const MAX_BITS: f64 = limits::EXPANSION_BITS;
-/// The highest total degree of an expanded summand.
+/// Maximum total degree of an expanded summand.
 pub const MAX_DEGREE: u64 = limits::EXPANSION_DEGREE;
-/// The highest degree of a summand in the parameters, numerator and denominator together.
+/// Maximum degree of a summand in the parameters: numerator and denominator together.
 pub const MAX_PARAMETER_DEGREE: u64 = limits::EXPANSION_PARAMETER_DEGREE;
-/// The highest sum of the degrees of all denominators of one polynomial.
+/// Maximum sum of the degrees of all denominators of one polynomial.
 pub const MAX_DENOMINATOR_DEGREE: u64 = limits::EXPANSION_DENOMINATOR_DEGREE;
 
 impl Heading {
-    /// The ring of these variables over `field`, which has the parameters as generators.
+    /// Builds the ring of these variables over `field`. The parameters are generators of the field.
     ///
     /// # Errors
-    /// As [`PolynomialRing::new`].
+    /// Those of [`PolynomialRing::new`].
     pub fn ring<F: Field>(&self, field: F) -> Result<PolynomialRing<F>> {
         PolynomialRing::new(field, &self.variables, self.order.clone())
     }
 }
 
 impl PolynomialSystem {
-    /// The polynomials, expanded, in `ring`: one over [`Rationals`](crate::number::Rationals) or [`Zp`](crate::number::Zp), or over
-    /// the [`Fractions`](crate::poly::Fractions) of the parameters, that has the system's variables in any order.
+    /// Expands the polynomials in `ring`: a ring over [`Rationals`](crate::number::Rationals) or
+    /// [`Zp`](crate::number::Zp), or over the [`Fractions`](crate::poly::Fractions) of the parameters, with the
+    /// system's variables in any order.
     ///
     /// # Errors
-    /// With line and column: [`ErrorKind::BadValue`] for a division by zero (modulo p) and for an expansion beyond the limits of
-    /// size; [`ErrorKind::UnknownName`] for a name that `ring` lacks. What `watch` stops with, which is asked before each polynomial.
+    /// With line and column: [`ErrorKind::BadValue`] for a division by zero (modulo p) and for an expansion beyond the
+    /// limits of size; [`ErrorKind::UnknownName`] for a name that `ring` lacks. The error with which `watch` stops the
+    /// work; it is checked before each polynomial.
     pub fn expand<F: Field>(&self, ring: &PolynomialRing<F>, watch: &Watch) -> Result<Vec<Polynomial<F::Element>>> {
         let expand = |given: &Given| {
             watch.check()?;
@@ -44,7 +46,7 @@ impl PolynomialSystem {
         self.polynomials.iter().map(expand).collect()
     }
 
-    /// Fails when a polynomial divides by one of the variables.
+    /// Checks that no polynomial divides by a variable.
     pub(super) fn check_divisors(&self) -> Result<()> {
         let variables: std::collections::HashSet<&str> = self.heading.variables.iter().map(String::as_str).collect();
         for given in &self.polynomials {

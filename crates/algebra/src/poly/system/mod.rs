@@ -1,6 +1,7 @@
-//! Systems of polynomials in files: plain text, Singular's and msolve's, read and printed.
+//! Polynomial systems in files: reading and printing plain text and the formats of Singular and msolve.
 //!
-//! A [`PolynomialSystem`] is a [`Heading`] (field, variables, order) and what was [`Given`], each polynomial with its place.
+//! A [`PolynomialSystem`] is a [`Heading`] (field, variables, order) and a list of [`Given`] polynomials with their
+//! locations in the file.
 //!
 //! ```
 //! use groebot_algebra::poly::system::{Format, PolynomialSystem};
@@ -31,21 +32,21 @@ use words::At;
 
 pub use order::parse_order;
 
-/// The longest system that is read, in bytes.
+/// Maximum size of a system in bytes.
 pub const MAX_SYSTEM_LENGTH: usize = limits::SYSTEM_BYTES;
-/// The most words (numbers, names, signs) of one polynomial.
+/// Maximum number of tokens (numbers, names, signs) of one polynomial.
 pub const MAX_WORDS: usize = limits::POLYNOMIAL_WORDS;
-/// The most variables and parameters together.
+/// Maximum number of variables and parameters together.
 pub const MAX_NAMES: usize = limits::SYSTEM_NAMES;
 
-/// How a system is written.
+/// File format of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
-    /// Our own: lines `variables: x, y`, `order: lex`, then one polynomial or equation a line.
+    /// groebot's own format: lines `variables: x, y`, `order: lex`, then one polynomial or equation per line.
     Plain,
-    /// A ring and an ideal of Singular.
+    /// A ring and an ideal in Singular's syntax.
     Singular,
-    /// msolve: a line of variables, the characteristic, then polynomials with commas between them.
+    /// msolve's format: a line of variables, the characteristic, then polynomials with commas between them.
     Msolve,
 }
 
@@ -59,12 +60,12 @@ impl fmt::Display for Format {
     }
 }
 
-/// Where the polynomials of a system live: field, names, order.
+/// The ring of a system's polynomials: field, names, order.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Heading {
     /// 0 for the rationals, else the prime p of GF(p).
     pub characteristic: u64,
-    /// The names whose rational functions are the coefficients; without any, coefficients are numbers.
+    /// The parameters: coefficients are rational functions of them. Without parameters, coefficients are numbers.
     pub parameters: Vec<String>,
     /// The variables, greatest first.
     pub variables: Vec<String>,
@@ -73,7 +74,7 @@ pub struct Heading {
 }
 
 impl Heading {
-    /// The same with another order.
+    /// Same heading, but with another order.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when its blocks do not cover the variables.
@@ -82,10 +83,11 @@ impl Heading {
         Ok(Heading { order, ..self })
     }
 
-    /// The same modulo the prime `p`.
+    /// Same heading, but modulo the prime `p`.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when `p` is not a prime that [`Zp`] takes, or when the characteristic is another prime already.
+    /// [`ErrorKind::BadValue`] when `p` is not a prime that [`Zp`] takes, or when the characteristic is another prime
+    /// already.
     pub fn modulo(self, p: u64) -> Result<Self> {
         Zp::new(p)?;
         if ![0, p].contains(&self.characteristic) {
@@ -96,18 +98,18 @@ impl Heading {
     }
 }
 
-/// One polynomial as it was written.
+/// One polynomial as written in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Given {
-    /// What is zero.
+    /// The expression that is equal to zero.
     pub expression: Expression,
-    /// The line where it starts, from 1.
+    /// The line where it starts, counted from 1.
     pub line: usize,
-    /// The column where it starts, in characters, from 1.
+    /// The column where it starts, in characters, counted from 1.
     pub column: usize,
 }
 
-/// A system of polynomials as it was read. The names of its polynomials are among those of its heading.
+/// A polynomial system as read from a file. All names in its polynomials are declared in the heading.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PolynomialSystem {
     /// Field, names, order.
@@ -117,19 +119,20 @@ pub struct PolynomialSystem {
 }
 
 impl PolynomialSystem {
-    /// The format that the content of `text` shows: [`Format::Singular`] when it starts with `ring` or one of Singular's comments,
-    /// [`Format::Msolve`] when its first line is a list of names and the second a number alone, else [`Format::Plain`].
+    /// Detects the format of `text` from its content. It is [`Format::Singular`] when it starts with `ring` or one of
+    /// Singular's comments. It is [`Format::Msolve`] when its first line is a list of names and the second a number
+    /// alone. Else it is [`Format::Plain`].
     pub fn format_of(text: &str) -> Format {
         detect::format_of(text.strip_prefix('\u{feff}').unwrap_or(text))
     }
 
-    /// Reads a system, in the format that its content shows unless `format` says it.
+    /// Reads a system in the given format, or in the format that [`PolynomialSystem::format_of`] detects.
     ///
     /// # Errors
     /// With line and column: [`ErrorKind::Syntax`]; [`ErrorKind::UnknownName`], [`ErrorKind::DuplicateName`];
-    /// [`ErrorKind::BadValue`] for a characteristic that is no prime and for an order that does not cover the variables;
-    /// [`ErrorKind::Unsupported`] for a statement of Singular beyond one ring and its polynomials. Without them: a text of more than
-    /// [`MAX_SYSTEM_LENGTH`] bytes.
+    /// [`ErrorKind::BadValue`] for a characteristic that is not a prime and for an order that does not cover the
+    /// variables; [`ErrorKind::Unsupported`] for a statement of Singular beyond one ring and its polynomials. Without
+    /// them: a text of more than [`MAX_SYSTEM_LENGTH`] bytes.
     pub fn read(text: &str, format: Option<Format>) -> Result<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         if text.len() > MAX_SYSTEM_LENGTH {
@@ -143,10 +146,10 @@ impl PolynomialSystem {
         }
     }
 
-    /// As [`PolynomialSystem::read`], from the bytes of a file.
+    /// Same as [`PolynomialSystem::read`], but from the bytes of a file.
     ///
     /// # Errors
-    /// Those of [`PolynomialSystem::read`]; [`ErrorKind::Syntax`] for what is not UTF-8.
+    /// Those of [`PolynomialSystem::read`]; [`ErrorKind::Syntax`] for text that is not UTF-8.
     pub fn read_bytes(bytes: &[u8], format: Option<Format>) -> Result<Self> {
         match std::str::from_utf8(bytes) {
             Ok(text) => Self::read(text, format),
@@ -165,7 +168,7 @@ fn check_characteristic(p: u64, at: At) -> Result<()> {
     if p == 0 { Ok(()) } else { Zp::new(p).map(drop).map_err(|error| at.place(&error)) }
 }
 
-/// The system of `polynomials`, at least one.
+/// Builds the system from at least one polynomial.
 fn assemble(heading: Heading, polynomials: Vec<Given>, end: At) -> Result<PolynomialSystem> {
     if polynomials.is_empty() {
         return Err(end.error(ErrorKind::Syntax, "there is no polynomial; give at least one"));

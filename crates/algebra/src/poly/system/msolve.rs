@@ -1,4 +1,4 @@
-//! msolve's files: variables, characteristic, polynomials with commas between them.
+//! msolve's file format: variables, characteristic, polynomials with commas between them.
 
 use super::reader::{Names, Reader};
 use super::{Format, Heading, PolynomialSystem, assemble, check_characteristic};
@@ -6,7 +6,7 @@ use crate::Result;
 use crate::poly::Order;
 use crate::poly::token::Kind;
 
-/// Reads msolve's format; the order, which it does not tell, is the graded reverse one.
+/// Reads msolve's format. The format does not contain the order, which is grevlex.
 pub(super) fn read(text: &str) -> Result<PolynomialSystem> {
     let mut reader = Reader::new(text, Format::Msolve)?;
     let (mut names, mut variables) = (Names::default(), Vec::new());

@@ -9,8 +9,8 @@ use crate::{Error, ErrorKind, Result};
 
 const ALLOWED: &str = "`lex`, `grevlex`, `block:2,3` or blocks such as `grevlex(2), lex(3)`";
 
-/// Reads an order: `lex`, `grevlex`, `block:2,3` (graded blocks of these sizes) or blocks such as `grevlex(2), lex(3)`. A [`Display`]ed
-/// [`Order`] is read back.
+/// Parses a monomial order: `lex`, `grevlex`, `block:2,3` (graded blocks of these sizes) or blocks such as `grevlex(2),
+/// lex(3)`. It reads the [`Display`] text of an [`Order`] back.
 ///
 /// [`Display`]: std::fmt::Display
 ///
@@ -25,7 +25,7 @@ pub fn parse_order(text: &str) -> Result<Order> {
     }
 }
 
-/// The order at the next word.
+/// Parses the order at the next token.
 pub(super) fn order(reader: &mut Reader<'_>) -> Result<Order> {
     let (name, at) = reader.name(ALLOWED)?;
     let graded = match name.as_str() {
@@ -65,12 +65,12 @@ fn sizes(reader: &mut Reader<'_>) -> Result<Order> {
     Ok(Order::Block(blocks))
 }
 
-/// [`fit`] for an order that stands at `at`.
+/// Same as [`fit`], but the error has the location `at`.
 pub(super) fn fitted(order: Order, variables: usize, at: At) -> Result<Order> {
     fit(order, variables).map_err(|error| at.place(&error))
 }
 
-/// `order` for so many variables: a single block is no block order.
+/// Fits `order` to a number of variables. A single block becomes a plain order.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] when the blocks do not cover the variables.

@@ -1,4 +1,4 @@
-//! Plain text: header lines, then one polynomial or equation a line.
+//! Plain-text format: header lines, then one polynomial or equation per line.
 //!
 //! ```text
 //! # comment
@@ -20,7 +20,7 @@ use crate::{ErrorKind, Result};
 
 const KEYS: &str = "`variables`, `parameters`, `characteristic` and `order`";
 
-/// What the header lines say.
+/// Contents of the header lines.
 #[derive(Default)]
 struct Header {
     keys: Vec<String>,
@@ -41,7 +41,7 @@ pub(super) fn read(text: &str) -> Result<PolynomialSystem> {
             Kind::Delimiter(_) => drop(reader.advance()?),
             Kind::Name(_) if reader.second()? == Kind::Symbol(':') => {
                 if !polynomials.is_empty() {
-                    return Err(reader.error("a header line stands above the first polynomial; move it up"));
+                    return Err(reader.error("header lines must be before the first polynomial; move it up"));
                 }
                 header.line(&mut reader)?;
             }
@@ -53,7 +53,7 @@ pub(super) fn read(text: &str) -> Result<PolynomialSystem> {
 }
 
 impl Header {
-    /// `key: value`.
+    /// Reads a header line `key: value`.
     fn line(&mut self, reader: &mut Reader<'_>) -> Result<()> {
         let (key, at) = reader.name(KEYS)?;
         reader.expect(':')?;
@@ -81,7 +81,7 @@ impl Header {
         }
     }
 
-    /// Names with commas between them.
+    /// Reads names with commas between them.
     fn list(&mut self, reader: &mut Reader<'_>) -> Result<Vec<String>> {
         let mut list = Vec::new();
         loop {
@@ -116,7 +116,7 @@ impl Header {
         Ok(Heading { characteristic: self.characteristic, parameters: self.parameters, variables, order })
     }
 
-    /// The names of `polynomials` that are no parameters, in the order of their appearance.
+    /// The names in `polynomials` that are not parameters, in the order of appearance.
     fn appearing(&mut self, polynomials: &[Given], end: At) -> Result<Vec<String>> {
         let mut variables = Vec::new();
         for given in polynomials {

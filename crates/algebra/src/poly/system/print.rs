@@ -1,4 +1,4 @@
-//! Systems and bases as text that the readers read back, and that Singular and msolve read.
+//! Printing of systems and bases in the formats of the readers, so that Singular and msolve can read them too.
 
 use super::{Format, Heading, PolynomialSystem};
 use crate::number::{Field, Rationals, Ring, Style, Zp};
@@ -6,7 +6,7 @@ use crate::poly::{Block, Fractions, Order, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
 impl PolynomialSystem {
-    /// The system with its polynomials expanded.
+    /// Prints the system with expanded polynomials.
     ///
     /// # Errors
     /// Those of [`PolynomialSystem::expand`] and [`Heading::print`].
@@ -27,11 +27,11 @@ impl PolynomialSystem {
 }
 
 impl Heading {
-    /// `polynomials` of `ring` under this heading, whose ring it is; for none the zero polynomial. msolve's format has no place for the
-    /// order: it is left out.
+    /// Prints `polynomials` of `ring` after this heading, which describes `ring`. An empty list is printed as the zero
+    /// polynomial. msolve's format cannot express the order.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for parameters in msolve's format, which has none, and for a name with `_` in front in Singular's.
+    /// [`ErrorKind::Unsupported`] for parameters in msolve's format, and for a name that begins with `_` in Singular's.
     pub fn print<F: Field>(
         &self,
         format: Format,

@@ -1,4 +1,4 @@
-//! What the readers of all formats share: a look at the next word, names and numbers, one polynomial.
+//! Common parts of the readers of all formats: lookahead, names and numbers, one polynomial.
 
 use std::collections::HashSet;
 use std::fmt;
@@ -12,10 +12,10 @@ use crate::poly::token::{Kind, Token};
 use crate::poly::{Expression, is_identifier};
 use crate::{Error, ErrorKind, Result};
 
-/// Puts what a word means behind the words of a polynomial.
+/// Appends the meaning of a token to the tokens of a polynomial.
 pub(super) type Resolve<'r, 'a> = dyn FnMut(&mut Reader<'a>, Token<'a>, &mut Vec<Token<'a>>) -> Result<()> + 'r;
 
-/// Reads a text word by word.
+/// Reads a text token by token.
 pub(super) struct Reader<'a> {
     words: Words<'a>,
     next: Token<'a>,
@@ -32,12 +32,12 @@ impl<'a> Reader<'a> {
         &self.next.kind
     }
 
-    /// The word behind the next one.
+    /// The token after the next one.
     pub(super) fn second(&self) -> Result<Kind<'a>> {
         Ok(self.words.clone().next()?.kind)
     }
 
-    /// Where the next word stands.
+    /// The location of the next token.
     pub(super) fn at(&self) -> At {
         place(&self.next)
     }
@@ -59,7 +59,7 @@ impl<'a> Reader<'a> {
         if self.take(symbol)? { Ok(()) } else { Err(self.unexpected(format!("`{symbol}`"))) }
     }
 
-    /// The error that something else than `wanted` stands here.
+    /// The error for an unexpected token, where `wanted` was required.
     pub(super) fn unexpected(&self, wanted: impl fmt::Display) -> Error {
         self.error(format!("{wanted} expected, found `{}`", self.peek()))
     }
@@ -68,7 +68,7 @@ impl<'a> Reader<'a> {
         self.at().error(ErrorKind::Syntax, message)
     }
 
-    /// A name, which `what` describes.
+    /// Reads a name. `what` describes it in the error message.
     pub(super) fn name(&mut self, what: &str) -> Result<(String, At)> {
         let at = self.at();
         let name = match self.peek() {
@@ -80,7 +80,7 @@ impl<'a> Reader<'a> {
         Ok((name, at))
     }
 
-    /// A number of digits alone, which `what` describes.
+    /// Reads a number made of digits only. `what` describes it in the error message.
     pub(super) fn integer(&mut self, what: &str) -> Result<(u64, At)> {
         let at = self.at();
         let value = match self.peek() {
@@ -92,7 +92,7 @@ impl<'a> Reader<'a> {
         Ok((value, at))
     }
 
-    /// The number of variables of a block of an order.
+    /// Reads the number of variables of a block of an order.
     pub(super) fn size(&mut self) -> Result<usize> {
         let wanted = format!("a number of variables from 1 to {MAX_NAMES}");
         match self.integer(&wanted)? {
@@ -101,7 +101,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The words up to the next of `ends`, the end of a line or of the text, which stays; names pass through `resolve`.
+    /// Reads the tokens up to the next of `ends`, the end of a line or of the text, which is not consumed. Names pass
+    /// through `resolve`.
     fn words_until(&mut self, ends: &[char], resolve: &mut Resolve<'_, 'a>) -> Result<Vec<Token<'a>>> {
         let mut tokens = Vec::new();
         loop {
@@ -127,14 +128,14 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The polynomial up to the next of `ends`, which stays.
+    /// Reads the polynomial up to the next of `ends`, which is not consumed.
     pub(super) fn polynomial(&mut self, ends: &[char], resolve: &mut Resolve<'_, 'a>) -> Result<Given> {
         let at = self.at();
         let tokens = self.words_until(ends, resolve)?;
         Ok(given(at, Parser::new(tokens, Dialect::Text).whole()?))
     }
 
-    /// The polynomial or equation up to the end of the line.
+    /// Reads the polynomial or equation up to the end of the line.
     pub(super) fn equation(&mut self, resolve: &mut Resolve<'_, 'a>) -> Result<Given> {
         let at = self.at();
         let tokens = self.words_until(&[], resolve)?;
@@ -146,7 +147,7 @@ fn given(at: At, expression: Expression) -> Given {
     Given { expression, line: at.line, column: at.column }
 }
 
-/// Where `token` stands.
+/// The location of `token`.
 pub(super) fn place(token: &Token<'_>) -> At {
     At { line: token.line.unwrap_or(1), column: token.column }
 }
@@ -169,7 +170,7 @@ impl Names {
         }
         check_name("variable", name).map_err(|error| at.error(error.kind(), error.message()))?;
         if !self.known.insert(name.to_owned()) {
-            let text = format!("`{}` is declared already; each name stands for one thing", shown(name));
+            let text = format!("`{}` is declared already; give each name once", shown(name));
             return Err(at.error(ErrorKind::DuplicateName, text));
         }
         Ok(())
@@ -189,7 +190,7 @@ impl Names {
         at.error(ErrorKind::UnknownName, text)
     }
 
-    /// Lets declared names pass.
+    /// Accepts declared names only.
     pub(super) fn resolve<'a>(&self, token: Token<'a>, tokens: &mut Vec<Token<'a>>) -> Result<()> {
         if let Kind::Name(name) = &token.kind
             && !self.contains(name)

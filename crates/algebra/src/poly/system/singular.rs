@@ -1,4 +1,4 @@
-//! Singular's files: one ring, then one ideal or polynomials.
+//! Singular's file format: one ring, then one ideal or polynomials.
 //!
 //! ```text
 //! ring r = 32003,(x,y,z(1..3)),(dp(2),lp(3));     // also 0 or QQ; (0,a,b) with parameters
@@ -6,7 +6,8 @@
 //! ideal i = f, x^2 + z(1)*z(3);
 //! ```
 //!
-//! `z(1)` becomes `z1`. A word of one-letter names and digits is a monomial, and one factor: `2x^2` is `(2*x)^2`, as in Singular.
+//! `z(1)` becomes `z1`. A word of one-letter names and digits is a monomial and counts as one factor: `2x^2` is
+//! `(2*x)^2`, as in Singular.
 
 use std::collections::{HashMap, HashSet};
 
@@ -33,12 +34,12 @@ pub(super) fn read(text: &str) -> Result<PolynomialSystem> {
     assemble(heading, polynomials, end)
 }
 
-/// What was read so far.
+/// State of the reader.
 #[derive(Default)]
 struct File {
     heading: Option<Heading>,
     names: Names,
-    /// Names that stand with an index: `z` of `z(1)`.
+    /// Names that are used with an index: `z` of `z(1)`.
     indexed: HashSet<String>,
     polynomials: Vec<(String, Given)>,
     positions: HashMap<String, usize>,
@@ -86,7 +87,7 @@ impl File {
         Ok(())
     }
 
-    /// `0`, `QQ`, `p`, or one of these in parentheses with parameters behind it.
+    /// `0`, `QQ`, `p`, or one of these in parentheses followed by parameters.
     fn field(&mut self, reader: &mut Reader<'_>) -> Result<(u64, Vec<String>)> {
         let mut parameters = Vec::new();
         let open = reader.take('(')?;
@@ -150,14 +151,14 @@ impl File {
         reader.expect(';')?;
         let taken = self.names.contains(&name);
         if self.positions.insert(name.clone(), self.polynomials.len()).is_some() || taken {
-            let text = format!("`{}` stands for something already; give each polynomial its own name", shown(&name));
+            let text = format!("`{}` is already defined; give each polynomial its own name", shown(&name));
             return Err(at.error(ErrorKind::DuplicateName, text));
         }
         self.polynomials.push((name, given));
         Ok(())
     }
 
-    /// `NAME = POLYNOMIAL, ...;`, where a polynomial may be the name of one above.
+    /// `NAME = POLYNOMIAL, ...;`, where a polynomial may be the name of an earlier one.
     fn ideal(&mut self, reader: &mut Reader<'_>) -> Result<()> {
         reader.name("the ideal's name")?;
         reader.expect('=')?;
@@ -176,7 +177,7 @@ impl File {
         Ok(())
     }
 
-    /// The polynomial whose name stands here alone.
+    /// The polynomial whose name is used alone.
     fn known(&self, reader: &mut Reader<'_>) -> Result<Option<Given>> {
         let Kind::Word(word) = *reader.peek() else { return Ok(None) };
         let alone = matches!(reader.second()?, Kind::Symbol(',' | ';'));
@@ -224,14 +225,17 @@ impl File {
 
     fn unknown(&self, word: &str, at: At) -> Error {
         if self.positions.contains_key(word) {
-            let text = format!("the polynomial `{}` may stand alone in the ideal, but in no expression", shown(word));
+            let text = format!(
+                "the polynomial `{}` may be an element of the ideal, but not a part of an expression",
+                shown(word)
+            );
             return at.error(ErrorKind::Unsupported, text);
         }
         self.names.unknown(word, at)
     }
 }
 
-/// `1/3x2y` as `(1/3*x^2*y)`; nothing when the word is not made like that.
+/// `1/3x2y` as `(1/3*x^2*y)`; `None` when the word has another form.
 fn monomial(word: &str) -> Option<Vec<Kind<'_>>> {
     let letters = word.find(|c: char| c.is_ascii_alphabetic())?;
     let (coefficient, mut rest) = word.split_at(letters);
@@ -258,7 +262,7 @@ fn monomial(word: &str) -> Option<Vec<Kind<'_>>> {
     Some(factors)
 }
 
-/// `dp`, `lp`, or blocks of them in parentheses; the orders `c` and `C` of module components say nothing here.
+/// `dp`, `lp`, or blocks of them in parentheses. The orders `c` and `C` of module components are ignored.
 fn order(reader: &mut Reader<'_>, variables: usize) -> Result<Order> {
     let mut blocks = Vec::new();
     if !reader.take('(')? {
@@ -278,7 +282,7 @@ fn order(reader: &mut Reader<'_>, variables: usize) -> Result<Order> {
     Ok(Order::Block(blocks))
 }
 
-/// One block, over all variables that are `left` when it has no size; none for `c` and `C`.
+/// One block. Without a size it has all variables that are `left`. `None` for `c` and `C`.
 fn block(reader: &mut Reader<'_>, left: usize) -> Result<Option<Block>> {
     let (name, at) = reader.name("an order such as `dp` or `lp`")?;
     let graded = match name.as_str() {

@@ -1,32 +1,33 @@
-//! The words of a system's text, each with its line and column.
+//! Tokens of a system's text, each with its line and column.
 
 use super::Format;
 use crate::poly::parse::{continues_name, number, starts_name};
 use crate::poly::token::{Cursor, Kind, Token};
 use crate::{Error, ErrorKind, Result};
 
-/// A place in the text.
+/// A location in the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct At {
-    /// From 1.
+    /// Line, counted from 1.
     pub(super) line: usize,
-    /// In characters, from 1.
+    /// Column in characters, counted from 1.
     pub(super) column: usize,
 }
 
 impl At {
-    /// An error of `kind` at this place.
+    /// Builds an error of `kind` at this location.
     pub(super) fn error(self, kind: ErrorKind, message: impl std::fmt::Display) -> Error {
         Error::new(kind, format!("column {}: {message}", self.column)).at_line(self.line)
     }
 
-    /// `error`, which knows no place, at this one.
+    /// Adds this location to `error`, which has none.
     pub(super) fn place(self, error: &Error) -> Error {
         self.error(error.kind(), error.message())
     }
 }
 
-/// Cuts a text into words, one at a time. In plain text the end of a line is a word; elsewhere it separates, as a space does.
+/// Splits a text into tokens, one at a time. In plain text the end of a line is a token. Elsewhere it is a separator,
+/// like a space.
 #[derive(Clone)]
 pub(super) struct Words<'a> {
     format: Format,
@@ -46,7 +47,7 @@ impl<'a> Words<'a> {
         At { line: self.line, column: self.cursor.column() }
     }
 
-    /// The next word.
+    /// The next token.
     ///
     /// # Errors
     /// [`ErrorKind::Syntax`] for a character without meaning and for a comment that is not closed.
@@ -74,7 +75,7 @@ impl<'a> Words<'a> {
         true
     }
 
-    /// Skips blanks and comments; a comment to the end of its line stops there.
+    /// Skips blanks and comments. A comment up to the end of its line ends before the line end.
     fn skip_comments(&mut self) -> Result<()> {
         while let Some(c) = self.cursor.peek_after_space() {
             let singular = self.format == Format::Singular;

@@ -1,4 +1,4 @@
-//! Between the polynomials of a ring over a prime field and those on machine words.
+//! Conversions between polynomials of a ring over a prime field and polynomials on machine words.
 
 use std::cmp::Reverse;
 
@@ -10,7 +10,7 @@ use super::integral::Integral;
 use crate::number::{BigInt, BigRational, Field, PrimeElement};
 use crate::poly::{Polynomial, PolynomialRing, Term};
 
-/// A packing in which products of the given polynomials with themselves fit.
+/// A packing that is wide enough for products of the given polynomials with themselves.
 pub fn packing<F: Field>(ring: &PolynomialRing<F>, polynomials: &[&Polynomial<F::Element>]) -> Option<Packing> {
     let degree = |v: usize| polynomials.iter().map(|f| ring.degree_in(f, v)).max().unwrap_or(0);
     let bounds = (0..ring.variables().len()).map(|v| degree(v).checked_mul(2));
@@ -58,7 +58,7 @@ pub fn to_integral<F: Field>(
     Some((primitive, BigRational::new(content, denominator)))
 }
 
-/// Back into the ring, coefficients by `map`.
+/// Converts back to the ring. `map` converts the coefficients.
 fn unpack<F: Field, C>(
     ring: &PolynomialRing<F>,
     packing: &Packing,
@@ -76,7 +76,7 @@ fn unpack<F: Field, C>(
     Polynomial { terms }
 }
 
-/// The polynomial over GF(p) that `f` stands for.
+/// Converts a polynomial over GF(p) back to the ring.
 pub fn from_flat<F: Field>(ring: &PolynomialRing<F>, packing: &Packing, f: &Flat) -> Polynomial<F::Element> {
     unpack(ring, packing, f.terms(), |value| ring.field().from_integer(&BigInt::from(value)))
 }

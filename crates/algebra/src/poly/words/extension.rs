@@ -1,11 +1,11 @@
-//! Finite fields of `p^k` elements by tables of logarithms, for primes too small to give enough points.
+//! Finite fields of `p^k` elements by tables of logarithms, for primes with too few points.
 
 use super::field::{Random, WordField};
 
-/// The largest field that gets tables.
+/// Maximum size of a field with tables.
 const LIMIT: u64 = 1 << 20;
 
-/// GF(p^k): an element is the number whose digits to the base `p` are its coefficients.
+/// GF(p^k). An element is the number whose digits to the base `p` are its coefficients.
 #[derive(Clone, Debug)]
 pub struct Extension {
     p: u64,
@@ -29,7 +29,7 @@ impl Extension {
     }
 }
 
-/// All powers of `x` as numbers, where `x^k` is the element `top`, if they are all `size - 1` nonzero elements: then
+/// All powers of `x` as numbers, where `x^k` is the element `top`, if they are all `size - 1` nonzero elements. Then
 /// `x^k - top` is a primitive polynomial.
 fn powers_of_x(p: u64, size: u64, top: u64) -> Option<Vec<u32>> {
     let multiples: Vec<u64> =
@@ -46,7 +46,7 @@ fn powers_of_x(p: u64, size: u64, top: u64) -> Option<Vec<u32>> {
     (power == 1).then_some(powers)
 }
 
-/// The sum digit by digit to the base `p`.
+/// The sum, digit by digit to the base `p`.
 fn add_digits(p: u64, mut a: u64, mut b: u64) -> u64 {
     if p == 2 {
         return a ^ b;

@@ -2,7 +2,7 @@
 
 use crate::number::word::inverse_modulo;
 
-/// A finite field of `q` elements, as a value; its elements are the words `0..q`, with 0 and 1 as themselves.
+/// A finite field of `q` elements, as a value. Its elements are the words `0..q`; 0 and 1 are zero and one.
 pub trait WordField: Clone {
     /// The number of elements.
     fn size(&self) -> u64;
@@ -23,7 +23,7 @@ pub trait WordField: Clone {
     }
 }
 
-/// The integers modulo a prime `p < 2^61`, multiplied by Barrett's reduction.
+/// The integers modulo a prime `p < 2^61`, with Barrett reduction.
 #[derive(Clone, Copy, Debug)]
 pub struct Prime {
     p: u64,
@@ -92,17 +92,17 @@ pub fn inverses<K: WordField>(field: &K, values: &[u64]) -> Option<Vec<u64>> {
     Some(result)
 }
 
-/// A deterministic source of numbers that look random (Steele, Lea and Flood 2014, SplitMix).
+/// A deterministic pseudorandom number generator (Steele, Lea and Flood 2014, SplitMix).
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
 impl Random {
-    /// A source that always gives the same numbers for the same `seed`.
+    /// A generator. The numbers depend on `seed` alone.
     pub fn new(seed: u64) -> Self {
         Random(seed)
     }
 
-    /// A number below `limit`.
+    /// A random number below `limit`.
     pub fn below(&mut self, limit: u64) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -111,7 +111,7 @@ impl Random {
         (z ^ (z >> 31)) % limit
     }
 
-    /// A nonzero element of `field`.
+    /// A random nonzero element of `field`.
     pub fn unit<K: WordField>(&mut self, field: &K) -> u64 {
         1 + self.below(field.size() - 1)
     }

@@ -1,4 +1,4 @@
-//! Sparse multivariate polynomials over a finite field: sorted packed exponents beside a vector of words.
+//! Sparse multivariate polynomials over a finite field: sorted packed exponents and a parallel vector of words.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -6,8 +6,8 @@ use std::collections::BinaryHeap;
 use super::dense::Dense;
 use super::field::WordField;
 
-/// Where the exponent of each variable stands in a 128-bit key. Keys compare lexicographically, variable 0 first; the
-/// top bit of each lane is free, so that divisibility is one subtraction.
+/// The position of each variable's exponent in a 128-bit key. Keys compare lexicographically, variable 0 first. The top
+/// bit of each lane is zero, so divisibility is one subtraction.
 #[derive(Clone, Debug)]
 pub struct Packing {
     lanes: Vec<Lane>,
@@ -21,7 +21,7 @@ struct Lane {
 }
 
 impl Packing {
-    /// Lanes for exponents up to `bounds`, one a variable; `None` when they need more than 128 bits.
+    /// Lanes for exponents up to `bounds`, one for each variable; `None` when they need more than 128 bits.
     pub fn new(bounds: &[u32]) -> Option<Self> {
         let width = |bound: u32| if bound == 0 { 0 } else { 33 - bound.leading_zeros() };
         let mut shift = bounds.iter().map(|&bound| width(bound)).sum::<u32>();
@@ -54,7 +54,7 @@ impl Packing {
         u128::from(exponent) << self.lanes[variable].shift
     }
 
-    /// `key` without `variable`.
+    /// `key` with exponent 0 for `variable`.
     pub fn without(&self, key: u128, variable: usize) -> u128 {
         let lane = self.lanes[variable];
         key & !(lane.mask << lane.shift)
@@ -65,7 +65,7 @@ impl Packing {
         ((b | self.guards) - a) & self.guards == self.guards
     }
 
-    /// The largest exponents that a quotient of `f` by `g` can have; `None` when `g` has a larger degree.
+    /// The largest possible exponents of a quotient of `f` by `g`; `None` when `g` has a larger degree.
     fn room(&self, f: &Flat, g: &Flat) -> Option<u128> {
         let mut room = 0;
         for v in 0..self.variables() {
@@ -74,7 +74,7 @@ impl Packing {
         Some(room)
     }
 
-    /// The product of powers that `key` stands for, without the variables of which `tables` has nothing.
+    /// Evaluates the monomial of `key`. Variables without an entry in `tables` are omitted.
     pub fn value<K: WordField>(&self, field: &K, tables: &[Vec<u64>], key: u128) -> u64 {
         let known = tables.iter().enumerate().filter(|(_, table)| !table.is_empty());
         known.fold(1, |product, (v, table)| match self.exponent(key, v) {
@@ -90,7 +90,7 @@ pub fn powers<K: WordField>(field: &K, x: u64, top: u32) -> Vec<u64> {
     std::iter::successors(Some(1), next).take(top as usize + 1).collect()
 }
 
-/// A polynomial: keys in descending order, with nonzero values beside them.
+/// A polynomial: keys in descending order, and a parallel vector of nonzero values.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Flat {
     pub keys: Vec<u128>,
@@ -103,7 +103,7 @@ impl Flat {
         if c == 0 { Flat::default() } else { Flat { keys: vec![0], values: vec![c] } }
     }
 
-    /// Terms in any order, like terms collected.
+    /// Builds a polynomial from terms in any order. Like terms are collected.
     pub fn collect<K: WordField>(field: &K, mut terms: Vec<(u128, u64)>) -> Self {
         terms.sort_unstable_by_key(|term| Reverse(term.0));
         let mut result = Flat { keys: Vec::with_capacity(terms.len()), values: Vec::with_capacity(terms.len()) };
@@ -114,7 +114,7 @@ impl Flat {
         result
     }
 
-    /// Adds a term whose key is not above the last.
+    /// Adds a term. Its key is at most the last one.
     fn push<K: WordField>(&mut self, field: &K, key: u128, value: u64) {
         if self.keys.last() == Some(&key) {
             let last = self.values.last_mut().expect("as many values as keys");
@@ -180,7 +180,7 @@ impl Flat {
         Flat::collect(field, terms)
     }
 
-    /// The coefficients as a polynomial in one variable: `result[k]` belongs to its `k`-th power.
+    /// The coefficients as a polynomial in one variable: `result[k]` is the coefficient of the `k`-th power.
     pub fn coefficients_in(&self, packing: &Packing, variable: usize) -> Vec<Flat> {
         let mut parts = vec![Flat::default(); self.degree_in(packing, variable) as usize + 1];
         for (key, value) in self.terms() {
@@ -196,7 +196,7 @@ impl Flat {
         self.coefficients_in(packing, variable).pop().unwrap_or_default()
     }
 
-    /// `f` with the element `x` put for one variable.
+    /// Substitutes the element `x` for one variable.
     pub fn evaluate<K: WordField>(&self, field: &K, packing: &Packing, variable: usize, x: u64) -> Self {
         let table = powers(field, x, self.degree_in(packing, variable));
         let image = |(key, value)| {
@@ -220,7 +220,7 @@ impl Flat {
         Flat { keys, values }
     }
 
-    /// `f / g` if `g` divides `f`, by a heap of the products of quotient and divisor (Monagan and Pearce 2011).
+    /// `f / g` if `g` divides `f`, with a heap of the products of quotient and divisor (Monagan and Pearce 2011).
     pub fn exact_div<K: WordField>(&self, field: &K, packing: &Packing, divisor: &Flat) -> Option<Self> {
         let (&lead, inverse) = (divisor.keys.first()?, field.inverse(*divisor.values.first()?)?);
         let room = packing.room(self, divisor)?;

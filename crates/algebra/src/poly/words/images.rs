@@ -1,4 +1,4 @@
-//! From images modulo several primes to integers and rational numbers: Chinese remainders and rational reconstruction
+//! Integers and rational numbers from images modulo several primes: Chinese remaindering and rational reconstruction
 //! (Wang, Guy and Davenport 1982).
 
 use num_integer::Integer;
@@ -19,7 +19,7 @@ pub fn primes() -> impl Iterator<Item = u64> {
     known.chain((0..below).rev().filter(|&n| Zp::new(n).is_ok()))
 }
 
-/// The polynomial that the images seen so far have in common, modulo the product of their primes.
+/// The polynomial determined by the images so far, modulo the product of their primes.
 #[derive(Debug, Default)]
 pub struct Images {
     modulus: BigInt,
@@ -28,7 +28,7 @@ pub struct Images {
 }
 
 impl Images {
-    /// Joins the image modulo one more prime.
+    /// Adds the image modulo one more prime.
     pub fn add(&mut self, field: &Prime, image: Flat) {
         if self.modulus.is_zero() {
             self.modulus = BigInt::from(field.modulus());
@@ -56,15 +56,15 @@ impl Images {
         self.modulus.bits()
     }
 
-    /// The integers of least absolute value.
+    /// The integer coefficients of least absolute value.
     pub fn symmetric(&self) -> Integral {
         let half = &self.modulus / 2;
         let lift = |value: &BigInt| if value > &half { value - &self.modulus } else { value.clone() };
         Integral { keys: self.keys.clone(), values: self.values.iter().map(lift).collect() }
     }
 
-    /// The primitive integer polynomial proportional to rational numbers with small numerators and denominators;
-    /// `None` when there are no such numbers.
+    /// The primitive integer polynomial proportional to the rational one with small numerators and denominators; `None`
+    /// when there is none.
     pub fn rational(&self) -> Option<Integral> {
         let limit = BigInt::sqrt(&(&self.modulus / 2));
         let mut denominator = BigInt::one();
@@ -99,7 +99,7 @@ impl Images {
     }
 }
 
-/// The same on words.
+/// Same as `denominator`, but on machine words.
 fn small_denominator(m: i64, a: i64, limit: i64) -> Option<i64> {
     let (mut r, mut s) = ((m, a), (0, 1));
     while r.1 > limit {

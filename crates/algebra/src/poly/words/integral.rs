@@ -1,4 +1,5 @@
-//! Sparse polynomials with integer coefficients, on the keys of a [`Packing`](super::Packing): what images modulo primes stand for.
+//! Sparse polynomials with integer coefficients on the keys of a [`Packing`](super::Packing). Images modulo primes are
+//! computed from them and combined to them.
 
 use num_integer::Integer;
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -7,7 +8,7 @@ use super::field::Prime;
 use super::flat::Flat;
 use crate::number::BigInt;
 
-/// A polynomial over the integers: keys in descending order, with nonzero values beside them.
+/// A polynomial over the integers: keys in descending order, and a parallel vector of nonzero values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Integral {
     pub keys: Vec<u128>,
@@ -30,7 +31,8 @@ impl Integral {
         Flat { keys, values }
     }
 
-    /// Without the common divisor of the coefficients, with a positive leading one; and the factor taken out.
+    /// Divides by the gcd of the coefficients, with a sign that makes the leading one positive. Also returns the factor
+    /// that was removed.
     pub fn primitive(mut self) -> (Self, BigInt) {
         let mut content = self.values.iter().fold(BigInt::zero(), |content, value| content.gcd(value));
         if self.values.first().is_some_and(Signed::is_negative) {

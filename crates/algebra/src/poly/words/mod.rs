@@ -1,5 +1,5 @@
 //! Polynomials on machine words: finite fields, dense univariate and packed sparse multivariate polynomials over them,
-//! and the way from the rationals there and back. The ground on which the modular gcd and the factorisation stand.
+//! and conversions from and to the rationals. The modular gcd and the factorization use them.
 
 pub mod convert;
 pub mod dense;

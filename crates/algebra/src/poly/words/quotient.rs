@@ -1,4 +1,4 @@
-//! Exact division of integer polynomials: found modulo primes, proved by the size of the numbers.
+//! Exact division of integer polynomials: computed modulo primes, proved by a bound on the coefficients.
 
 use super::field::Prime;
 use super::flat::Packing;
@@ -8,8 +8,8 @@ use super::integral::Integral;
 impl Integral {
     /// `self / divisor`, if it is a polynomial over the integers and `divisor` is primitive.
     ///
-    /// The quotient is found modulo primes. It is proved when the moduli exceed every coefficient of both sides of
-    /// `self = quotient * divisor`: a congruence of such small numbers is an equality.
+    /// The quotient is computed modulo primes. It is proved when the moduli exceed every coefficient of both sides of
+    /// `self = quotient * divisor`, since a congruence of numbers below the modulus is an equality.
     pub fn quotient(&self, packing: &Packing, divisor: &Integral) -> Option<Integral> {
         let mut images = Images::default();
         let terms = (divisor.keys.len() as u64).ilog2() as u64 + 1;

@@ -1,6 +1,6 @@
-//! Sparse interpolation: a polynomial whose monomials are known from an image in fewer variables is found from as many
-//! further images as its largest coefficient has terms (Zippel 1979; the points are powers of one point, as in
-//! Ben-Or and Tiwari 1988, so that the linear systems are transposed Vandermonde systems).
+//! Sparse interpolation (Zippel 1979). The monomials of a polynomial are known from an image in fewer variables. Its
+//! coefficients are found from as many further images as its largest coefficient has terms. The points are powers of
+//! one point, as in Ben-Or and Tiwari 1988, so the linear systems are transposed Vandermonde systems.
 
 use super::dense::{self, Dense};
 use super::field::{Random, WordField, inverses};
@@ -9,7 +9,7 @@ use super::flat::{Flat, Packing, powers};
 /// A polynomial in two variables: `rows[k]` is the coefficient of the inner variable's `k`-th power, dense in the main.
 pub type Rows = Vec<Dense>;
 
-/// Powers of a random value for each of the variables in `free`, and nothing for the others.
+/// Powers of a random value for each variable in `free`; empty lists for the others.
 pub fn base_point<K: WordField>(field: &K, random: &mut Random, free: &[usize], tops: &[u32]) -> Vec<Vec<u64>> {
     let table = |v: usize| {
         if free.contains(&v) { powers(field, random.unit(field), tops[v]) } else { Vec::new() }
@@ -17,7 +17,7 @@ pub fn base_point<K: WordField>(field: &K, random: &mut Random, free: &[usize], 
     (0..tops.len()).map(table).collect()
 }
 
-/// The values of a polynomial at a point `b`, then at `b^2`, `b^3`, ...: one multiplication a term each time.
+/// The values of a polynomial at a point `b`, then at `b^2`, `b^3`, ...: one multiplication per term each time.
 pub struct Orbit {
     places: Vec<Place>,
     rows: usize,
@@ -31,7 +31,7 @@ struct Place {
 }
 
 impl Orbit {
-    /// The values of `f` where the variables in `tables` run through powers; `main` and `inner` stay variables.
+    /// Starts the evaluation of `f`. The variables in `tables` take powers; `main` and `inner` stay variables.
     pub fn new<K: WordField>(
         field: &K,
         packing: &Packing,
@@ -48,7 +48,7 @@ impl Orbit {
         Orbit { places: f.terms().map(place).collect(), rows: f.degree_in(packing, inner) as usize + 1 }
     }
 
-    /// The value at the point whose powers are all one: the polynomial itself, when it has no further variables.
+    /// The value at the point whose powers are all one. Without further variables it is the polynomial itself.
     pub fn rows(&self) -> Rows {
         let mut rows = vec![Dense::new(); self.rows];
         for place in &self.places {
@@ -81,12 +81,12 @@ fn store(row: &mut Dense, place: &Place) {
     row[place.column] = place.value;
 }
 
-/// The monomials of a polynomial, by their power of the main variable, ready to solve for their coefficients.
+/// The monomials of a polynomial, grouped by the power of the main variable, prepared to solve for their coefficients.
 pub struct Skeleton {
     groups: Vec<Group>,
 }
 
-/// The monomials beside one power of the main variable. Row `m` of `solution` times the first values of the
+/// The monomials multiplied by one power of the main variable. Row `m` of `solution` times the first values of the
 /// coefficient is the coefficient of monomial `m`.
 struct Group {
     column: usize,
@@ -95,7 +95,8 @@ struct Group {
 }
 
 impl Skeleton {
-    /// The skeleton of `known` for the point of `tables`; `None` when two monomials of a group agree at the point.
+    /// The skeleton of `known` for the point of `tables`; `None` when two monomials of a group have equal values at the
+    /// point.
     pub fn new<K: WordField>(
         field: &K,
         packing: &Packing,
@@ -112,12 +113,12 @@ impl Skeleton {
         Some(Skeleton { groups })
     }
 
-    /// How many images [`Skeleton::solve`] needs.
+    /// The number of images that [`Skeleton::solve`] needs.
     pub fn points(&self) -> usize {
         self.groups.iter().map(|group| group.keys.len()).max().unwrap_or(0)
     }
 
-    /// The polynomial with these images at the powers of the point.
+    /// The polynomial with the given images at the powers of the point.
     pub fn solve<K: WordField>(
         &self,
         field: &K,
@@ -158,14 +159,14 @@ fn invert_vandermonde<K: WordField>(field: &K, values: &[u64]) -> Option<Vec<Den
     Some(quotients.iter().zip(inverses).map(|(q, inverse)| dense::scale(field, q, inverse)).collect())
 }
 
-/// Distinct points of the inner variable, with the inverses of their differences: dense interpolation.
+/// Distinct points of the inner variable with the inverses of their differences, for dense interpolation.
 pub struct Nodes {
     points: Vec<u64>,
     inverses: Vec<Vec<u64>>,
 }
 
 impl Nodes {
-    /// `count` distinct random points; `None` when the field has too few.
+    /// Chooses `count` distinct random points; `None` when the field has too few.
     pub fn new<K: WordField>(field: &K, random: &mut Random, count: usize) -> Option<Self> {
         if field.size() / 2 <= count as u64 {
             return None;
@@ -187,7 +188,7 @@ impl Nodes {
         &self.points
     }
 
-    /// The rows whose value at each point is the given one, by Newton's divided differences.
+    /// The rows with the given value at each point, by Newton's divided differences.
     pub fn interpolate<K: WordField>(&self, field: &K, mut values: Rows) -> Rows {
         let count = values.len();
         for i in 1..count {

@@ -1,4 +1,4 @@
-//! What inverse dynamics changes by.
+//! Derivatives of inverse dynamics.
 
 use nalgebra::DMatrix;
 
@@ -7,21 +7,23 @@ use crate::Result;
 use crate::dynamics::recursions::Motion;
 
 impl Equations {
-    /// What the torques of a motion change by: with the configuration, the velocity and the acceleration (the inertia matrix), each freedoms x freedoms. The place of
-    /// a floating base changes along motions in its own frame. Of Coulomb friction, whose sign alone changes, nothing is counted; nothing acts from outside.
+    /// Computes the partial derivatives of the joint torques by the configuration, the velocity and the acceleration
+    /// (the inertia matrix). Each matrix is n x n for n degrees of freedom. The pose of a floating base is
+    /// differentiated along twists in its own frame. Coulomb friction has derivative zero, and external wrenches are
+    /// not supported.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
+    /// Those of [`Equations::inverse`].
     pub fn derivatives<'r>(
         &self,
-        room: &'r mut Workspace,
+        workspace: &'r mut Workspace,
         state: State<'_>,
         acceleration: &[f64],
     ) -> Result<&'r [DMatrix<f64>; 3]> {
         self.check(state, Some(("acceleration", acceleration)))?;
-        self.prepare(room, state, Some(acceleration));
+        self.prepare(workspace, state, Some(acceleration));
         let Workspace { data, rates, accelerations, torques, base, pull, full_derivatives: full, derivatives, .. } =
-            room;
+            workspace;
         let motion = Motion { base: base[0], base_acceleration: base[1], rates, accelerations };
         data.derivatives(&self.tree, &motion, pull, torques, full);
         for (all, into) in
@@ -35,6 +37,6 @@ impl Equations {
             let at = self.first() + drive.freedom;
             by_velocity[(at, at)] += drive.factor * drive.factor * drive.damping;
         }
-        Ok(&room.derivatives)
+        Ok(&workspace.derivatives)
     }
 }

@@ -1,14 +1,16 @@
-//! What equations of motion refuse: joints of several freedoms, drives that push, lists of the wrong length.
+//! Input checks of the equations of motion: joints with several degrees of freedom, negative friction or rotor inertia,
+//! lists of the wrong length.
 
 use super::{Base, Equations, State};
 use crate::document::shown;
 use crate::model::{JointType, Robot};
 use crate::{Error, ErrorKind, Result};
 
-/// How far the length of a quaternion may be from one.
+/// Tolerance of the length of a unit quaternion.
 const ROUNDED: f64 = 1e-3;
 
-/// Refuses planar and floating joints below the root: their freedoms would be missing. Those of the root are held at zero, with a note each.
+/// Refuses planar and floating joints below the root, since their degrees of freedom would be missing. Those at the
+/// root are held at zero, each with a note.
 pub(super) fn check_freedoms(robot: &Robot) -> Result<Vec<String>> {
     let mut notes = Vec::new();
     for (place, joint) in robot.joints().iter().enumerate() {
@@ -31,11 +33,11 @@ pub(super) fn check_freedoms(robot: &Robot) -> Result<Vec<String>> {
     Ok(notes)
 }
 
-/// Refuses damping, friction and rotors below zero: such a joint would gain energy.
+/// Refuses negative damping, friction and rotor inertia, since such a joint would gain energy.
 pub(super) fn check_drives(robot: &Robot) -> Result<()> {
     for joint in robot.joints() {
-        let told = [("damping", joint.damping), ("friction", joint.friction), ("rotor inertia", joint.armature)];
-        if let Some((name, value)) = told.into_iter().find(|(_, value)| *value < 0.0) {
+        let values = [("damping", joint.damping), ("friction", joint.friction), ("rotor inertia", joint.armature)];
+        if let Some((name, value)) = values.into_iter().find(|(_, value)| *value < 0.0) {
             let text = format!("its {name} is {value}; give one that is not below zero");
             return Err(joint.error(ErrorKind::BadValue, &text));
         }

@@ -1,24 +1,25 @@
-//! The equations of motion over other numbers than doubles: what code is printed of. Main type: [`Formal`].
+//! The equations of motion over any scalar type, for code generation. Main type: [`Formal`].
 
 use super::{Base, Equations};
 use crate::dynamics::recursions::{Data, Derivatives, Freedom, Matrices, Motion, Place, Scalar, Six, Tree};
 
-/// Equations of motion over any numbers, without friction and what acts from outside. Where a joint stands comes in as the cosine and the sine of its angle, or
-/// its way: [`Equations::values`] tells what makes them of a configuration.
+/// Equations of motion over any scalar type, without friction and external wrenches. A joint position is given as the
+/// cosine and the sine of its angle, or as its displacement. [`Equations::values`] describes how they follow from a
+/// configuration.
 #[derive(Clone, Debug)]
 pub struct Formal<S> {
-    /// The bodies.
+    /// The kinematic tree.
     pub tree: Tree<S>,
-    /// The base's freedoms: six or none.
+    /// Degrees of freedom of the base: six or none.
     pub first: usize,
     pub(crate) freedoms: usize,
     /// The acceleration of gravity \[m/s^2\].
     pub gravity: [S; 3],
-    /// The joints.
+    /// The drives of the joints.
     pub drives: Vec<FormalDrive<S>>,
 }
 
-/// How a joint is moved, and the inertia of its rotor, seen from the freedom.
+/// The drive of a joint: its degree of freedom, and its rotor inertia reflected to that degree of freedom.
 #[derive(Clone, Debug)]
 pub struct FormalDrive<S> {
     pub freedom: usize,
@@ -26,32 +27,33 @@ pub struct FormalDrive<S> {
     pub armature: S,
 }
 
-/// How the value of a joint follows from a configuration: `factor` times the number at a place, and `offset`.
+/// The value of a joint as a function of the configuration: `factor * q[place] + offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Value {
-    /// Whether it is an angle.
+    /// Whether the value is an angle or a displacement.
     pub freedom: Freedom,
-    /// The place in a configuration.
+    /// The index in the configuration.
     pub place: usize,
-    /// As told.
+    /// The factor of the configuration's entry.
     pub factor: f64,
-    /// As told.
+    /// The offset \[rad or m\].
     pub offset: f64,
 }
 
-/// Where a robot is and how it moves, in formal numbers.
+/// A state (configuration and velocity) over any scalar type.
 #[derive(Clone, Debug)]
 pub struct FormalState<S> {
-    /// By joint.
+    /// The positions of the joints.
     pub places: Vec<Place<S>>,
-    /// The quaternion x, y, z, w of a root that moves freely.
+    /// The orientation of a floating base, a quaternion x, y, z, w.
     pub turn: Option<[S; 4]>,
-    /// By freedom.
+    /// The velocity, one entry for each degree of freedom.
     pub velocity: Vec<S>,
 }
 
 impl Equations {
-    /// The same over other numbers, of which `number` makes those that do not change. What bodies weigh is told by as few numbers as go ([`Tree::lean`]).
+    /// Converts the equations to another scalar type. `number` converts constants. The inertial parameters are
+    /// regrouped so that as few as possible are nonzero ([`Tree::regrouped`]).
     pub fn formal<S: Scalar>(&self, number: impl Fn(f64) -> S + Copy) -> Formal<S> {
         let drive = |drive: &super::Drive| FormalDrive {
             freedom: drive.freedom,
@@ -59,7 +61,7 @@ impl Equations {
             armature: number(drive.armature * drive.factor * drive.factor),
         };
         Formal {
-            tree: self.tree.lean(self.base == Base::Fixed).map(|x| number(*x)),
+            tree: self.tree.regrouped(self.base == Base::Fixed).map(|x| number(*x)),
             first: self.first(),
             freedoms: self.freedoms(),
             gravity: [self.gravity.x, self.gravity.y, self.gravity.z].map(number),
@@ -67,7 +69,7 @@ impl Equations {
         }
     }
 
-    /// By joint, how its value follows from a configuration.
+    /// For each joint, its value as a function of the configuration.
     pub fn values(&self) -> Vec<Value> {
         let first = self.coordinates() - self.names.len();
         let drives = self.drives.iter().zip(&self.tree.bodies);
@@ -81,7 +83,7 @@ impl Equations {
     }
 }
 
-/// A base's motion and that of joints.
+/// The motion of the base and of the joints.
 pub(super) struct Moving<S> {
     pub(super) base: Six<S>,
     pub(super) rates: Vec<S>,
@@ -122,7 +124,7 @@ impl<S: Scalar> Formal<S> {
         all
     }
 
-    /// Inverse dynamics.
+    /// Inverse dynamics (RNEA): the joint torques.
     pub fn inverse(&self, state: &FormalState<S>, acceleration: &[S]) -> Vec<S> {
         let mut all = self.newton_euler(state, acceleration);
         for drive in &self.drives {
@@ -132,13 +134,13 @@ impl<S: Scalar> Formal<S> {
         all
     }
 
-    /// The torques against gravity; rates do not matter.
+    /// The gravity torques. The velocity is not used.
     pub fn gravity(&self, state: &FormalState<S>) -> Vec<S> {
         let still = vec![S::zero(); self.freedoms];
         self.newton_euler(&FormalState { velocity: still.clone(), ..state.clone() }, &still)
     }
 
-    /// The inertia matrix, by rows.
+    /// The inertia matrix by CRBA, in row-major order.
     pub fn inertia(&self, state: &FormalState<S>) -> Vec<S> {
         let mut matrices = Matrices::new(self.first + self.drives.len());
         self.data(state).inertia(&self.tree, &mut matrices);
@@ -150,14 +152,14 @@ impl<S: Scalar> Formal<S> {
         gathered
     }
 
-    /// The Coriolis matrix of Christoffel's symbols, by rows.
+    /// The Coriolis matrix with Christoffel symbols, in row-major order.
     pub fn coriolis(&self, state: &FormalState<S>) -> Vec<S> {
         let (moving, mut matrices) = (self.moving(&state.velocity), Matrices::new(self.first + self.drives.len()));
         self.data(state).matrices(&self.tree, &moving.base, &moving.rates, &mut matrices);
         self.gather(&matrices.coriolis, matrices.size)
     }
 
-    /// What inverse dynamics changes by with the configuration and with the velocity, each by rows.
+    /// The derivatives of inverse dynamics by the configuration and by the velocity, in row-major order.
     pub fn derivatives(&self, state: &FormalState<S>, acceleration: &[S]) -> [Vec<S>; 2] {
         let (moving, change) = (self.moving(&state.velocity), self.moving(acceleration));
         let pull = pull(&self.gravity, state.turn.as_ref());
@@ -173,7 +175,7 @@ impl<S: Scalar> Formal<S> {
         [&all.by_q, &all.by_velocity].map(|matrix| self.gather(matrix, all.size))
     }
 
-    /// A matrix of all joints, by rows, for the independent ones.
+    /// Reduces a matrix of all joints, in row-major order, to the independent ones.
     fn gather(&self, all: &[S], size: usize) -> Vec<S> {
         let freedom = |at: usize| match at.checked_sub(self.first) {
             Some(joint) => (self.first + self.drives[joint].freedom, self.drives[joint].factor.clone()),
@@ -189,7 +191,7 @@ impl<S: Scalar> Formal<S> {
     }
 }
 
-/// Minus gravity in the frame of the base, which a quaternion x, y, z, w turns.
+/// Minus gravity in the frame of the base, whose orientation is a quaternion x, y, z, w.
 pub fn pull<S: Scalar>(gravity: &[S; 3], turn: Option<&[S; 4]>) -> Six<S> {
     let [gx, gy, gz] = gravity.clone().map(|entry| -entry);
     let linear = match turn {

@@ -1,20 +1,21 @@
-//! Forward dynamics over other numbers than doubles.
+//! Forward dynamics over any scalar type.
 
 use super::formal::{Formal, FormalDrive, FormalState, pull};
-use crate::dynamics::recursions::{Articulation, Cause, Divisible, Drive, Six};
+use crate::dynamics::recursions::{ArticulatedBodies, Cause, Divisible, Drive, Six};
 use crate::{Error, ErrorKind, Result};
 
 impl<S: Divisible + PartialEq> Formal<S> {
-    /// Whether each joint is a freedom of its own.
+    /// Whether each joint is a degree of freedom of its own: no mimic joints.
     pub fn is_plain(&self) -> bool {
         let leads = |(at, drive): (usize, &FormalDrive<S>)| drive.freedom == at && drive.factor == S::one();
         self.drives.iter().enumerate().all(leads)
     }
 
-    /// Forward dynamics: by articulated bodies (ABA), and where joints follow others by the inertia matrix.
+    /// Forward dynamics: by the articulated-body algorithm (ABA), or by the inertia matrix if there are mimic joints.
+    /// Returns the accelerations.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where what moves has no mass.
+    /// [`ErrorKind::BadValue`] for a degree of freedom that moves no mass.
     pub fn forward(&self, state: &FormalState<S>, torques: &[S]) -> Result<Vec<S>> {
         if self.is_plain() { self.forward_by_bodies(state, torques) } else { self.forward_by_inertia(state, torques) }
     }
@@ -36,7 +37,7 @@ impl<S: Divisible + PartialEq> Formal<S> {
             outside: &[],
         };
         let mut changes = vec![S::zero(); self.drives.len()];
-        let found = Articulation::new(&self.tree)
+        let found = ArticulatedBodies::new(&self.tree)
             .forward(&self.tree, &mut data, &drive, |pivot, _| *pivot != S::zero(), &mut changes)
             .map_err(|_| massless())?;
         let base = (0..self.first).map(|at| found.at(at).clone() - pull.at(at).clone());
@@ -55,7 +56,8 @@ fn massless() -> Error {
     Error::new(ErrorKind::BadValue, "bodies without mass would have to move; give masses")
 }
 
-/// Solves a symmetric positive definite system, its matrix by rows, by `L D L'` without pivoting; none where a pivot is zero.
+/// Solves a symmetric positive definite system by `L D L'` factorization without pivoting. The matrix is in row-major
+/// order. `None` when a pivot is zero.
 fn solve<S: Divisible + PartialEq>(mut matrix: Vec<S>, mut right: Vec<S>) -> Option<Vec<S>> {
     let count = right.len();
     for k in 0..count {

@@ -1,4 +1,4 @@
-//! Forward dynamics: what torques change the velocity by.
+//! Forward dynamics: the accelerations that joint torques cause.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
@@ -6,14 +6,15 @@ use super::{Base, Equations, State, Workspace};
 use crate::dynamics::recursions::{self, Cause, Massless, Six};
 use crate::{Error, ErrorKind, Result};
 
-/// What rounding leaves of no inertia along a freedom, as a share of that in all directions: a point mass on the axis of its joint.
+/// Threshold for an inertia along a degree of freedom that is zero up to rounding, relative to the inertia in all
+/// directions. An example is a point mass on the axis of its joint.
 const NO_INERTIA: f64 = 1e-13;
 
 fn is_inertia(pivot: &f64, size: &f64) -> bool {
     *pivot > NO_INERTIA * size
 }
 
-/// The first freedom that moves no mass, by the factors of the inertia matrix.
+/// The first degree of freedom that moves no mass, from the Cholesky factor of the inertia matrix.
 fn massless_row(factors: &Cholesky<f64, Dyn>) -> Option<usize> {
     let lower = factors.l_dirty();
     let size = |row: usize| (0..=row).map(|column| lower[(row, column)].powi(2)).sum::<f64>();
@@ -21,24 +22,31 @@ fn massless_row(factors: &Cholesky<f64, Dyn>) -> Option<usize> {
 }
 
 impl Equations {
-    /// Forward dynamics: what torques (of a floating base first a force and a moment on it, in its own frame), and what acts from outside, change the velocity by.
+    /// Forward dynamics: computes the accelerations for given joint torques and external wrenches. For a floating base,
+    /// the first six torques are a force and a moment on it, in its own frame.
     ///
     /// # Errors
-    /// As [`Equations::inverse`], and where bodies without mass would have to move, with the names of the link and its joint.
-    pub fn forward<'r>(&self, room: &'r mut Workspace, state: State<'_>, torques: &[f64]) -> Result<&'r DVector<f64>> {
+    /// Those of [`Equations::inverse`], and an error for a degree of freedom that moves no mass, with the names of the
+    /// link and its joint.
+    pub fn forward<'r>(
+        &self,
+        workspace: &'r mut Workspace,
+        state: State<'_>,
+        torques: &[f64],
+    ) -> Result<&'r DVector<f64>> {
         self.check(state, Some(("torques", torques)))?;
         if self.is_plain {
-            self.forward_by_bodies(room, state, torques)?;
+            self.forward_by_bodies(workspace, state, torques)?;
         } else {
-            self.forward_by_inertia(room, state, torques)?;
+            self.forward_by_inertia(workspace, state, torques)?;
         }
-        Ok(&room.changes)
+        Ok(&workspace.changes)
     }
 
-    /// By articulated bodies, where each joint is on its own.
-    fn forward_by_bodies(&self, room: &mut Workspace, state: State<'_>, torques: &[f64]) -> Result<()> {
+    /// ArticulatedBody-body algorithm (ABA), when no joint is a mimic joint.
+    fn forward_by_bodies(&self, workspace: &mut Workspace, state: State<'_>, torques: &[f64]) -> Result<()> {
         let first = self.first();
-        self.prepare(room, state, None);
+        self.prepare(workspace, state, None);
         let Workspace {
             data,
             articulation,
@@ -51,7 +59,7 @@ impl Equations {
             outside,
             changes,
             ..
-        } = room;
+        } = workspace;
         for (joint, drive) in self.drives.iter().enumerate() {
             let left = torques[first + joint] - drive.friction(rates[joint]);
             (own[joint], rotors[joint]) = (left, drive.armature);
@@ -68,23 +76,23 @@ impl Equations {
         Ok(())
     }
 
-    /// By the inertia matrix, where joints follow others.
-    fn forward_by_inertia(&self, room: &mut Workspace, state: State<'_>, torques: &[f64]) -> Result<()> {
-        self.bias(room, state)?;
-        let missing = torques.iter().zip(&room.forces).map(|(torque, bias)| torque - bias);
-        room.changes.iter_mut().zip(missing).for_each(|(change, missing)| *change = missing);
-        self.inertia(room, state.q)?;
-        // The factors take the matrix's place, so that nothing is allocated.
-        let inertia = std::mem::replace(&mut room.inertia, DMatrix::zeros(0, 0));
+    /// Solution with the inertia matrix, when there are mimic joints.
+    fn forward_by_inertia(&self, workspace: &mut Workspace, state: State<'_>, torques: &[f64]) -> Result<()> {
+        self.bias(workspace, state)?;
+        let missing = torques.iter().zip(&workspace.forces).map(|(torque, bias)| torque - bias);
+        workspace.changes.iter_mut().zip(missing).for_each(|(change, missing)| *change = missing);
+        self.inertia(workspace, state.q)?;
+        // The factors use the memory of the matrix, so nothing is allocated.
+        let inertia = std::mem::replace(&mut workspace.inertia, DMatrix::zeros(0, 0));
         match Cholesky::<f64, Dyn>::new(inertia).filter(|factors| massless_row(factors).is_none()) {
             Some(factors) => {
-                factors.solve_mut(&mut room.changes);
-                room.inertia = factors.unpack_dirty();
+                factors.solve_mut(&mut workspace.changes);
+                workspace.inertia = factors.unpack_dirty();
                 Ok(())
             }
             None => {
-                room.inertia = DMatrix::zeros(self.freedoms(), self.freedoms());
-                let inertia = self.inertia(room, state.q)?;
+                workspace.inertia = DMatrix::zeros(self.freedoms(), self.freedoms());
+                let inertia = self.inertia(workspace, state.q)?;
                 let block = |at: usize| inertia.view((0, 0), (at + 1, at + 1)).into_owned();
                 let is_massless =
                     |at: usize| block(at).cholesky().is_none_or(|factors| massless_row(&factors).is_some());
@@ -97,7 +105,7 @@ impl Equations {
     fn massless(&self, joint: Option<usize>) -> Error {
         let text = match joint {
             Some(joint) => format!(
-                "link `{}` behind joint `{}` and what it carries have no mass that the joint moves, and torques would move it without limit; give masses",
+                "link `{}` of joint `{}` and the links that it carries have no mass that the joint moves, so the acceleration is infinite; give masses",
                 self.links[joint], self.names[joint]
             ),
             None => "the base and what it carries have no mass that torques move; give masses".to_owned(),

@@ -1,4 +1,4 @@
-//! Inverse dynamics: torques of a motion, of gravity, and as a matrix times what bodies weigh.
+//! Inverse dynamics (RNEA): torques of a motion, gravity torques, and the regressor.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,77 +9,80 @@ use crate::dynamics::recursions::Motion;
 use crate::spatial::Wrench;
 
 impl Equations {
-    /// Inverse dynamics: the torques (of a floating base first its force and moment, in its own frame) that a motion asks for, friction and rotors
-    /// included, less what acts from outside.
+    /// Inverse dynamics by the recursive Newton-Euler algorithm (RNEA): computes the torques of a motion with friction
+    /// and rotors, minus external wrenches. For a floating base, the first six entries are its force and moment in its
+    /// own frame.
     ///
     /// # Errors
-    /// [`BadValue`](crate::ErrorKind::BadValue) for a wrong count of numbers, one that is not finite, a quaternion whose length is not one within 1e-3, or a link that is not there.
+    /// [`BadValue`](crate::ErrorKind::BadValue) for a wrong number of entries, an entry that is not finite, a
+    /// quaternion whose length differs from one by more than 1e-3, or a link that does not exist.
     pub fn inverse<'r>(
         &self,
-        room: &'r mut Workspace,
+        workspace: &'r mut Workspace,
         state: State<'_>,
         acceleration: &[f64],
     ) -> Result<&'r DVector<f64>> {
         self.check(state, Some(("acceleration", acceleration)))?;
-        self.prepare(room, state, Some(acceleration));
-        self.newton_euler(room);
-        self.add_drives(room);
-        Ok(&room.forces)
+        self.prepare(workspace, state, Some(acceleration));
+        self.newton_euler(workspace);
+        self.add_drives(workspace);
+        Ok(&workspace.forces)
     }
 
-    /// What the torques are without any acceleration, `C q' + N + friction`, less what acts from outside.
+    /// Computes the bias torques, without acceleration: `C q' + N + friction`, minus external wrenches.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
-    pub fn bias<'r>(&self, room: &'r mut Workspace, state: State<'_>) -> Result<&'r DVector<f64>> {
+    /// Those of [`Equations::inverse`].
+    pub fn bias<'r>(&self, workspace: &'r mut Workspace, state: State<'_>) -> Result<&'r DVector<f64>> {
         self.check(state, None)?;
-        self.prepare(room, state, None);
-        self.newton_euler(room);
-        self.add_drives(room);
-        Ok(&room.forces)
+        self.prepare(workspace, state, None);
+        self.newton_euler(workspace);
+        self.add_drives(workspace);
+        Ok(&workspace.forces)
     }
 
-    /// The torques that hold the robot against gravity where it stands, `N`.
+    /// Computes the gravity torques `N` at the configuration `q`.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
-    pub fn gravity<'r>(&self, room: &'r mut Workspace, q: &[f64]) -> Result<&'r DVector<f64>> {
+    /// Those of [`Equations::inverse`].
+    pub fn gravity<'r>(&self, workspace: &'r mut Workspace, q: &[f64]) -> Result<&'r DVector<f64>> {
         self.check_place(q)?;
-        self.prepare_still(room, q);
-        self.newton_euler(room);
-        Ok(&room.forces)
+        self.prepare_still(workspace, q);
+        self.newton_euler(workspace);
+        Ok(&workspace.forces)
     }
 
-    /// What the base feels of a motion: the force and the moment, about its origin and in its own frame, that move all bodies and hold them against gravity. Of a robot that
-    /// stands on the ground it is what the ground gives.
+    /// Computes the wrench on the base for a motion: the force and the moment about its origin, in its own frame, that
+    /// move all bodies against gravity. For a robot on the ground it is the ground reaction wrench.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
-    pub fn base_wrench(&self, room: &mut Workspace, state: State<'_>, acceleration: &[f64]) -> Result<Wrench> {
+    /// Those of [`Equations::inverse`].
+    pub fn base_wrench(&self, workspace: &mut Workspace, state: State<'_>, acceleration: &[f64]) -> Result<Wrench> {
         self.check(state, Some(("acceleration", acceleration)))?;
-        self.prepare(room, state, Some(acceleration));
-        let Workspace { data, rates, accelerations, torques, base, outside, .. } = room;
+        self.prepare(workspace, state, Some(acceleration));
+        let Workspace { data, rates, accelerations, torques, base, outside, .. } = workspace;
         let motion = Motion { base: base[0], base_acceleration: base[1], rates, accelerations };
         let force = data.inverse(&self.tree, &motion, outside, torques);
         Ok(force.into())
     }
 
-    /// The regressor `Y`: without rotors, friction and what acts from outside the torques are `Y` times what the bodies weigh. Rows are freedoms; each body, that of
-    /// a floating base first, has ten columns: its mass, the mass times its centre (x, y, z), and its inertia tensor xx, xy, yy, xz, yz, zz about the origin, all in the
-    /// frame of the link behind its joint, with what is fixed to that. [`Equations::parameters`] tells them.
+    /// Computes the regressor `Y`: without rotors, friction and external wrenches, the torques are `Y` times the
+    /// inertial parameters. Rows are degrees of freedom. Each body, a floating base first, has ten columns: its mass,
+    /// the first moments (x, y, z), and its inertia tensor xx, xy, yy, xz, yz, zz about the origin. They are in the
+    /// frame of the joint's child link, and include links fixed to it. [`Equations::parameters`] returns them.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
+    /// Those of [`Equations::inverse`].
     pub fn regressor<'r>(
         &self,
-        room: &'r mut Workspace,
+        workspace: &'r mut Workspace,
         state: State<'_>,
         acceleration: &[f64],
     ) -> Result<&'r DMatrix<f64>> {
         self.check(state, Some(("acceleration", acceleration)))?;
-        self.prepare(room, state, Some(acceleration));
+        self.prepare(workspace, state, Some(acceleration));
         let first = self.first();
-        let Workspace { data, rates, accelerations, torques, base, links, full_regressor, regressor, .. } = room;
+        let Workspace { data, rates, accelerations, torques, base, links, full_regressor, regressor, .. } = workspace;
         let motion = Motion { base: base[0], base_acceleration: base[1], rates, accelerations };
         data.regressor(&self.tree, &motion, links, torques, first, full_regressor);
         regressor.fill(0.0);
@@ -87,29 +90,31 @@ impl Equations {
             let (at, factor) = self.freedom(row);
             entries.iter().enumerate().for_each(|(column, entry)| regressor[(at, column)] += factor * entry);
         }
-        Ok(&room.regressor)
+        Ok(&workspace.regressor)
     }
 
-    /// What the bodies weigh, as the columns of the regressor ask for.
+    /// The inertial parameters of the bodies, in the order of the regressor's columns.
     pub fn parameters(&self) -> Vec<f64> {
         let bodies = self.tree.bodies.iter().map(|body| &body.mass);
         let base = (self.base == Base::Floating).then_some(&self.tree.base);
-        let told_in = if base.is_some() { &self.told_in } else { &self.told_in[1..] };
-        let told = |(mass, link): (&crate::dynamics::Mass<f64>, &usize)| mass.inward(&self.frames[*link].1).numbers();
-        base.into_iter().chain(bodies).zip(told_in).flat_map(told).collect()
+        let parameter_links = if base.is_some() { &self.parameter_links } else { &self.parameter_links[1..] };
+        let numbers_of =
+            |(mass, link): (&crate::dynamics::Mass<f64>, &usize)| mass.inward(&self.frames[*link].1).numbers();
+        base.into_iter().chain(bodies).zip(parameter_links).flat_map(numbers_of).collect()
     }
 
-    /// The names of what the bodies weigh: that of the link, and which of ten numbers.
+    /// The names of the inertial parameters: the link, and which of ten parameters.
     pub fn parameter_names(&self) -> Vec<String> {
-        let told = if self.base == Base::Floating { &self.told_names } else { &self.told_names[1..] };
-        told.iter().flat_map(|link| NUMBERS.map(|number| format!("{link}.{number}"))).collect()
+        let links =
+            if self.base == Base::Floating { &self.parameter_link_names } else { &self.parameter_link_names[1..] };
+        links.iter().flat_map(|link| NUMBERS.map(|number| format!("{link}.{number}"))).collect()
     }
 
-    /// Adds what rotors and friction ask for.
-    fn add_drives(&self, room: &mut Workspace) {
+    /// Adds the torques of rotors and friction.
+    fn add_drives(&self, workspace: &mut Workspace) {
         for (joint, drive) in self.drives.iter().enumerate() {
-            let own = drive.armature * room.accelerations[joint] + drive.friction(room.rates[joint]);
-            room.forces[self.first() + drive.freedom] += drive.factor * own;
+            let own = drive.armature * workspace.accelerations[joint] + drive.friction(workspace.rates[joint]);
+            workspace.forces[self.first() + drive.freedom] += drive.factor * own;
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Inertia, Coriolis matrix, energy, momentum and Jacobians at a state.
+//! Inertia matrix, Coriolis matrix, energy, momentum and Jacobians of a state.
 
 use nalgebra::{DMatrix, Isometry3, Matrix6xX, Point3, UnitQuaternion, Vector3};
 
@@ -8,64 +8,66 @@ use crate::dynamics::recursions::{Energy, Frame, Six};
 use crate::{Error, ErrorKind, Result};
 
 impl Equations {
-    /// The inertia matrix, rotors included.
+    /// Computes the inertia matrix with rotors, n x n, by the composite-rigid-body algorithm (CRBA).
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
-    pub fn inertia<'r>(&self, room: &'r mut Workspace, q: &[f64]) -> Result<&'r DMatrix<f64>> {
+    /// Those of [`Equations::inverse`].
+    pub fn inertia<'r>(&self, workspace: &'r mut Workspace, q: &[f64]) -> Result<&'r DMatrix<f64>> {
         self.check_place(q)?;
-        self.prepare_still(room, q);
-        room.data.inertia(&self.tree, &mut room.full);
-        self.gather_symmetric(&room.full.inertia, room.full.size, &mut room.inertia);
-        self.add_rotors(&mut room.inertia);
-        Ok(&room.inertia)
+        self.prepare_still(workspace, q);
+        workspace.data.inertia(&self.tree, &mut workspace.full);
+        self.gather_symmetric(&workspace.full.inertia, workspace.full.size, &mut workspace.inertia);
+        self.add_rotors(&mut workspace.inertia);
+        Ok(&workspace.inertia)
     }
 
-    /// The Coriolis matrix of Christoffel's symbols, RH0 (2-42): `M' - 2 C` is skew.
+    /// Computes the Coriolis matrix with Christoffel symbols, n x n, RH0 (2-42): `M' - 2 C` is skew-symmetric.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
-    pub fn coriolis<'r>(&self, room: &'r mut Workspace, state: State<'_>) -> Result<&'r DMatrix<f64>> {
-        self.matrices(room, state).map(|[_, coriolis]| coriolis)
+    /// Those of [`Equations::inverse`].
+    pub fn coriolis<'r>(&self, workspace: &'r mut Workspace, state: State<'_>) -> Result<&'r DMatrix<f64>> {
+        self.matrices(workspace, state).map(|[_, coriolis]| coriolis)
     }
 
-    /// The inertia and the Coriolis matrix.
+    /// Computes the inertia and the Coriolis matrix together.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
-    pub fn matrices<'r>(&self, room: &'r mut Workspace, state: State<'_>) -> Result<[&'r DMatrix<f64>; 2]> {
+    /// Those of [`Equations::inverse`].
+    pub fn matrices<'r>(&self, workspace: &'r mut Workspace, state: State<'_>) -> Result<[&'r DMatrix<f64>; 2]> {
         self.check(state, None)?;
-        self.prepare(room, state, None);
-        room.data.matrices(&self.tree, &room.base[0], &room.rates, &mut room.full);
-        self.gather_symmetric(&room.full.inertia, room.full.size, &mut room.inertia);
-        self.gather(&room.full.coriolis, room.full.size, &mut room.coriolis);
-        self.add_rotors(&mut room.inertia);
-        Ok([&room.inertia, &room.coriolis])
+        self.prepare(workspace, state, None);
+        workspace.data.matrices(&self.tree, &workspace.base[0], &workspace.rates, &mut workspace.full);
+        self.gather_symmetric(&workspace.full.inertia, workspace.full.size, &mut workspace.inertia);
+        self.gather(&workspace.full.coriolis, workspace.full.size, &mut workspace.coriolis);
+        self.add_rotors(&mut workspace.inertia);
+        Ok([&workspace.inertia, &workspace.coriolis])
     }
 
-    /// The energy, that of turning rotors included; the potential one is nought where the centre of mass is as high as the origin of the fixed base, or of the world.
+    /// Computes the energy \[J\], including the kinetic energy of rotors. The potential energy is zero where the centre
+    /// of mass is as high as the origin of the fixed base, or of the world.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
-    pub fn energy(&self, room: &mut Workspace, state: State<'_>) -> Result<Energy<f64>> {
+    /// Those of [`Equations::inverse`].
+    pub fn energy(&self, workspace: &mut Workspace, state: State<'_>) -> Result<Energy<f64>> {
         self.check(state, None)?;
-        self.prepare(room, state, None);
-        let gravity = room.pull.linear.map(|x| -x);
-        let Energy { mut kinetic, mut potential } = room.data.energy(&self.tree, &room.base[0], &room.rates, &gravity);
-        let rotors = self.drives.iter().zip(&room.rates).map(|(drive, rate)| 0.5 * drive.armature * rate * rate);
+        self.prepare(workspace, state, None);
+        let gravity = workspace.pull.linear.map(|x| -x);
+        let Energy { mut kinetic, mut potential } =
+            workspace.data.energy(&self.tree, &workspace.base[0], &workspace.rates, &gravity);
+        let rotors = self.drives.iter().zip(&workspace.rates).map(|(drive, rate)| 0.5 * drive.armature * rate * rate);
         kinetic += rotors.sum::<f64>();
-        potential -= room.data.whole(&self.tree).mass * self.gravity.dot(&self.root_position(state.q));
+        potential -= workspace.data.whole(&self.tree).mass * self.gravity.dot(&self.root_position(state.q));
         Ok(Energy { kinetic, potential })
     }
 
-    /// The centre of mass in the world (of a fixed base: in its frame).
+    /// Computes the centre of mass in the world frame \[m\]; for a fixed base, in its frame.
     ///
     /// # Errors
-    /// As [`Equations::inverse`], and for a robot without mass.
-    pub fn centre_of_mass(&self, room: &mut Workspace, q: &[f64]) -> Result<Point3<f64>> {
+    /// Those of [`Equations::inverse`], and an error for a robot without mass.
+    pub fn centre_of_mass(&self, workspace: &mut Workspace, q: &[f64]) -> Result<Point3<f64>> {
         self.check_place(q)?;
-        self.prepare_still(room, q);
-        let whole = room.data.whole(&self.tree);
+        self.prepare_still(workspace, q);
+        let whole = workspace.data.whole(&self.tree);
         if whole.mass <= 0.0 {
             return Err(Error::new(
                 ErrorKind::BadValue,
@@ -76,88 +78,92 @@ impl Equations {
         Ok(self.world_from_root(q) * centre)
     }
 
-    /// The momentum of all bodies in the world (of a fixed base: in its frame), about its origin; [`Momentum::about`] the centre of mass it is the centroidal one.
+    /// Computes the momentum of all bodies in the world frame about its origin; for a fixed base, in its frame.
+    /// [`Momentum::about`] the centre of mass gives the centroidal momentum.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
-    pub fn momentum(&self, room: &mut Workspace, state: State<'_>) -> Result<Momentum> {
+    /// Those of [`Equations::inverse`].
+    pub fn momentum(&self, workspace: &mut Workspace, state: State<'_>) -> Result<Momentum> {
         self.check(state, None)?;
-        self.prepare(room, state, None);
-        let own = room.data.momentum(&self.tree, &room.base[0], &room.rates);
+        self.prepare(workspace, state, None);
+        let own = workspace.data.momentum(&self.tree, &workspace.base[0], &workspace.rates);
         let [linear, angular] = self.turned_to_world(state.q, &own);
         Ok(Momentum { linear, angular: angular + self.root_position(state.q).cross(&linear) })
     }
 
-    /// The centroidal momentum matrix, 6 x freedoms: times the velocity it is the linear momentum in the world, and the angular one about the centre of mass (D. E. Orin,
-    /// A. Goswami and S.-H. Lee, Autonomous Robots 35, 2013).
+    /// Computes the centroidal momentum matrix, 6 x n. Multiplied by the velocity, it gives the linear momentum in the
+    /// world frame and the angular momentum about the centre of mass (D. E. Orin, A. Goswami and S.-H. Lee, Autonomous
+    /// Robots 35, 2013).
     ///
     /// # Errors
-    /// As [`Equations::centre_of_mass`].
-    pub fn centroidal<'r>(&self, room: &'r mut Workspace, q: &[f64]) -> Result<&'r Matrix6xX<f64>> {
-        let centre = self.centre_of_mass(room, q)? - self.root_position(q);
-        room.data.momenta(&self.tree, self.first(), &mut room.momenta);
-        room.jacobian[0].fill(0.0);
-        for (at, own) in room.momenta.iter().enumerate() {
+    /// Those of [`Equations::centre_of_mass`].
+    pub fn centroidal<'r>(&self, workspace: &'r mut Workspace, q: &[f64]) -> Result<&'r Matrix6xX<f64>> {
+        let centre = self.centre_of_mass(workspace, q)? - self.root_position(q);
+        workspace.data.momenta(&self.tree, self.first(), &mut workspace.momenta);
+        workspace.jacobian[0].fill(0.0);
+        for (at, own) in workspace.momenta.iter().enumerate() {
             let (freedom, factor) = self.freedom(at);
             let [linear, angular] = self.turned_to_world(q, own);
             let about = angular - centre.coords.cross(&linear);
             for i in 0..3 {
-                room.jacobian[0][(i, freedom)] += factor * linear[i];
-                room.jacobian[0][(3 + i, freedom)] += factor * about[i];
+                workspace.jacobian[0][(i, freedom)] += factor * linear[i];
+                workspace.jacobian[0][(3 + i, freedom)] += factor * about[i];
             }
         }
-        Ok(&room.jacobian[0])
+        Ok(&workspace.jacobian[0])
     }
 
-    /// The Jacobian of the link with this place in the robot, and how it changes, 6 x freedoms each: times the velocity it is that of the link's origin and the link's angular velocity, along the axes
-    /// of the world (of a fixed base: of its frame). `J q'' + J' q'` is what both change by.
+    /// Computes the Jacobian `J` of a link and its time derivative `J'`, 6 x n each. `link` is its index in the robot.
+    /// `J` times the velocity is the velocity of the link's origin and its angular velocity, along the axes of the
+    /// world frame; for a fixed base, of its frame. Their derivatives are `J q'' + J' q'`.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
+    /// Those of [`Equations::inverse`].
     pub fn jacobian<'r>(
         &self,
-        room: &'r mut Workspace,
+        workspace: &'r mut Workspace,
         state: State<'_>,
         link: usize,
     ) -> Result<[&'r Matrix6xX<f64>; 2]> {
         self.check(state, None)?;
         self.check_link(link)?;
-        self.prepare(room, state, None);
+        self.prepare(workspace, state, None);
         let (joint, frame) = &self.frames[link];
-        room.columns.fill([Six::zero(); 2]);
-        let moving = (&room.base[0], &room.rates[..]);
-        let own = room.data.jacobian(&self.tree, moving, (*joint, frame), self.first(), &mut room.columns);
+        workspace.columns.fill([Six::zero(); 2]);
+        let moving = (&workspace.base[0], &workspace.rates[..]);
+        let own = workspace.data.jacobian(&self.tree, moving, (*joint, frame), self.first(), &mut workspace.columns);
         let world_from_link =
-            self.world_from_root(state.q).rotation * rotation(&room.data.stands(&self.tree, *joint, frame));
+            self.world_from_root(state.q).rotation * rotation(&workspace.data.stands(&self.tree, *joint, frame));
         let turning = Vector3::from(own.angular);
-        room.jacobian.iter_mut().for_each(|matrix| matrix.fill(0.0));
-        for (at, [column, change]) in room.columns.iter().enumerate() {
+        workspace.jacobian.iter_mut().for_each(|matrix| matrix.fill(0.0));
+        for (at, [column, change]) in workspace.columns.iter().enumerate() {
             let (freedom, factor) = self.freedom(at);
             for (part, start) in [(0, 0), (1, 3)] {
                 let of = |six: &Six<f64>| Vector3::from(if part == 0 { six.linear } else { six.angular });
                 let fixed = of(column);
-                // Along the axes of the world what the frame sees changes by its turning as well.
+                // Conversion to the axes of the world frame adds the rotation of the link's frame.
                 let rates = [fixed, of(change) + turning.cross(&fixed)];
-                for (matrix, rate) in room.jacobian.iter_mut().zip(rates) {
+                for (matrix, rate) in workspace.jacobian.iter_mut().zip(rates) {
                     let mut column = matrix.fixed_view_mut::<3, 1>(start, freedom);
                     column += factor * (world_from_link * rate);
                 }
             }
         }
-        let [jacobian, rate] = &room.jacobian;
+        let [jacobian, rate] = &workspace.jacobian;
         Ok([jacobian, rate])
     }
 
-    /// Where the link with this place in the robot stands in the world (for a fixed base: in its frame).
+    /// Computes the pose of a link in the world frame; for a fixed base, in its frame. `link` is its index in the
+    /// robot.
     ///
     /// # Errors
-    /// As [`Equations::inverse`].
-    pub fn pose(&self, room: &mut Workspace, q: &[f64], link: usize) -> Result<Isometry3<f64>> {
+    /// Those of [`Equations::inverse`].
+    pub fn pose(&self, workspace: &mut Workspace, q: &[f64], link: usize) -> Result<Isometry3<f64>> {
         self.check_place(q)?;
         self.check_link(link)?;
-        self.prepare_still(room, q);
+        self.prepare_still(workspace, q);
         let (joint, frame) = &self.frames[link];
-        let stands = room.data.stands(&self.tree, *joint, frame);
+        let stands = workspace.data.stands(&self.tree, *joint, frame);
         let own = Isometry3::from_parts(Vector3::from(stands.position).into(), rotation(&stands));
         Ok(self.world_from_root(q) * own)
     }
@@ -172,7 +178,7 @@ impl Equations {
         [turn * Vector3::from(own.linear), turn * Vector3::from(own.angular)]
     }
 
-    /// Adds what rotors have to do to the inertia.
+    /// Adds the rotors' inertia to the inertia matrix.
     pub(super) fn add_rotors(&self, inertia: &mut DMatrix<f64>) {
         for drive in &self.drives {
             let at = self.first() + drive.freedom;

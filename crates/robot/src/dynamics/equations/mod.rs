@@ -24,17 +24,18 @@ use crate::model::{Joint, Robot};
 use crate::spatial::{Pose, Wrench};
 use crate::{ErrorKind, Result};
 
-/// Whether the root link stands still.
+/// Whether the base is fixed or floating.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
-    /// It does. A configuration has a value for each independent joint.
+    /// Fixed base. A configuration has one value for each independent joint.
     Fixed,
-    /// It moves freely. Before the joints a configuration has the root's position (x, y, z) and orientation (a quaternion x, y, z, w) in the world, and a
-    /// velocity the root's linear and angular velocity in its own frame.
+    /// Floating base. A configuration begins with the root's position (x, y, z) and orientation (a quaternion x, y, z,
+    /// w) in the world frame. A velocity begins with the root's linear and angular velocity in its own frame.
     Floating,
 }
 
-/// How a joint is moved, and what of its own moves with it: its value is `factor` times that of a freedom, and `offset`.
+/// The drive of a joint, with rotor and friction. The joint's value is `factor` times that of a degree of freedom, plus
+/// `offset`.
 #[derive(Clone, Debug, PartialEq)]
 struct Drive {
     freedom: usize,
@@ -46,70 +47,74 @@ struct Drive {
 }
 
 impl Drive {
-    /// The torque against which the joint turns at a rate: viscous and Coulomb friction.
+    /// The friction torque at a joint velocity: viscous and Coulomb friction.
     fn friction(&self, rate: f64) -> f64 {
         self.damping * rate + self.friction * sign(rate)
     }
 }
 
-/// Which way a rate goes: nowhere at rest.
+/// The sign of a velocity; zero at rest.
 fn sign(rate: f64) -> f64 {
     if rate == 0.0 { 0.0 } else { rate.signum() }
 }
 
-/// The equations of motion of a robot: metres, kilograms, seconds, radians. They do not change, and calls write to a [`Workspace`] alone.
+/// The equations of motion of a robot in metres, kilograms, seconds and radians. They are immutable; methods write to a
+/// [`Workspace`] only.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equations {
     tree: Tree<f64>,
     base: Base,
-    /// In the frame of the root at the zero configuration.
+    /// Gravity in the frame of the root at the zero configuration.
     gravity: Vector3<f64>,
     names: Vec<String>,
-    /// By independent joint, the link behind it.
+    /// The child link of each independent joint.
     links: Vec<String>,
     drives: Vec<Drive>,
-    /// Whether each joint is a freedom, in order.
+    /// Whether each joint is a degree of freedom, in order: no mimic joints.
     is_plain: bool,
-    /// By link of the robot, the joint that moves it, if one does, and where its frame stands in the joint's body.
+    /// For each link of the robot, the joint that moves it, if any, and the link's frame in the frame of that joint's
+    /// body.
     frames: Vec<(Option<usize>, Frame<f64>)>,
-    /// The link whose frame a body's ten numbers are told in, that of the base first.
-    told_in: Vec<usize>,
-    /// Its name.
-    told_names: Vec<String>,
+    /// The link in whose frame the ten inertial parameters of each body are given, the base first.
+    parameter_links: Vec<usize>,
+    /// The names of these links.
+    parameter_link_names: Vec<String>,
     notes: Vec<String>,
 }
 
-/// What the equations are asked at: where a robot is and how it moves.
+/// A state: configuration, velocity and external wrenches.
 #[derive(Clone, Copy, Debug)]
 pub struct State<'a> {
     /// The configuration.
     pub q: &'a [f64],
     /// The velocity.
     pub velocity: &'a [f64],
-    /// What acts on links from outside, each in the frame of a link, whose place in the robot is told.
+    /// External wrenches: the index of a link in the robot, and the wrench in the frame of that link.
     pub outside: &'a [(usize, Wrench)],
 }
 
 impl<'a> State<'a> {
-    /// That of a robot on which nothing acts from outside.
+    /// Builds a state without external wrenches.
     pub fn new(q: &'a [f64], velocity: &'a [f64]) -> Self {
         State { q, velocity, outside: &[] }
     }
 
-    /// The same, and links are pushed so, each in the frame of the link with that place in the robot.
+    /// Adds external wrenches, each in the frame of the link with the given index in the robot.
     #[must_use]
-    pub fn pushed(self, outside: &'a [(usize, Wrench)]) -> Self {
+    pub fn with_wrenches(self, outside: &'a [(usize, Wrench)]) -> Self {
         State { outside, ..self }
     }
 }
 
 impl Equations {
-    /// Those of a robot. Gravity is 9.81 m/s^2 along -z of the root's frame (of a floating root: of the world). Joints that follow others by a multiplier of zero are fixed.
+    /// Builds the equations of a robot. Gravity is 9.81 m/s^2 along -z of the root's frame; for a floating base, of the
+    /// world frame. Mimic joints with a multiplier of zero are fixed.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`], with the link's name, for a mass below zero, and where links that are fixed to one another have together an inertia that no
-    /// body has: one of a mass that is not positive, or against the triangle inequality; with the joint's name for damping, friction or a rotor below zero.
-    /// [`ErrorKind::Unsupported`] for planar and floating joints that do not hang on the root.
+    /// [`ErrorKind::BadValue`], with the link's name, for a negative mass, and where links that are fixed to one
+    /// another have an impossible total inertia: a mass that is not positive, or a violation of the triangle
+    /// inequality. With the joint's name, for negative damping, friction or rotor inertia. [`ErrorKind::Unsupported`]
+    /// for planar and floating joints that are not attached to the root.
     pub fn new(robot: &Robot, base: Base) -> Result<Self> {
         let robot = robot.with_constants_fixed()?;
         check_drives(&robot)?;
@@ -120,19 +125,21 @@ impl Equations {
         Ok(equations)
     }
 
-    /// Same as [`Equations::new`], but all masses, inertias and frictions are taken unchanged, whether bodies can have them or not.
+    /// Same as [`Equations::new`], but without the checks of masses, inertias and friction coefficients.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a figure beyond doubles, [`ErrorKind::Unsupported`] as [`Equations::new`].
+    /// [`ErrorKind::BadValue`] for a number outside the range of doubles, [`ErrorKind::Unsupported`] as in
+    /// [`Equations::new`].
     pub fn as_told(robot: &Robot, base: Base) -> Result<Self> {
         let robot = robot.with_constants_fixed()?;
         Equations::of(&robot, &Model::new(&robot)?, base)
     }
 
-    /// The same of a model of the robot, which may have another root or weigh less: [`Model::rooted_at`], [`Model::halves`]. The root's frame is that of the model.
+    /// Builds the equations of a model of the robot, which may have another root or smaller masses:
+    /// [`Model::rooted_at`], [`Model::halves`]. The root's frame is that of the model.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where a joint follows one that does not move, [`ErrorKind::Unsupported`] as [`Equations::new`].
+    /// [`ErrorKind::BadValue`] where a joint mimics a fixed one, [`ErrorKind::Unsupported`] as in [`Equations::new`].
     pub fn of(robot: &Robot, model: &Model, base: Base) -> Result<Self> {
         let notes = check_freedoms(robot)?;
         let moving: Vec<&Joint> = robot.moving().into_iter().map(|place| &robot.joints()[place]).collect();
@@ -158,7 +165,7 @@ impl Equations {
             let body_from_link = joint.map_or(base_from_link, |joint| base_from_body[joint].inv_mul(&base_from_link));
             (joint, Frame::of(&body_from_link))
         };
-        // Of two links at a joint one belongs to the body behind it.
+        // Of the two links at a joint, the child belongs to the joint's body.
         let behind = |(joint, place): (usize, usize)| {
             let (parent, child) = robot.ends(place);
             if model.link(child).0 == joint + 1 { child } else { parent }
@@ -166,79 +173,80 @@ impl Equations {
         let of_base = |link: &usize| model.link(*link) == (0, Pose::identity());
         let root = Some(robot.root_place()).filter(of_base).or_else(|| (0..robot.links().len()).find(of_base));
         let behind = robot.moving().into_iter().enumerate().map(behind);
-        let told_in: Vec<usize> = std::iter::once(root.unwrap_or(robot.root_place())).chain(behind).collect();
-        let told_names: Vec<String> = told_in.iter().map(|link| robot.links()[*link].name.clone()).collect();
+        let parameter_links: Vec<usize> = std::iter::once(root.unwrap_or(robot.root_place())).chain(behind).collect();
+        let parameter_link_names: Vec<String> =
+            parameter_links.iter().map(|link| robot.links()[*link].name.clone()).collect();
         let leads = |(joint, drive): &(usize, &Drive)| names[drive.freedom] == moving[*joint].name;
         let leading = drives.iter().enumerate().filter(leads);
         Ok(Equations {
             tree,
             base,
             gravity: Vector3::new(0.0, 0.0, -9.81),
-            links: leading.map(|(joint, _)| told_names[joint + 1].clone()).collect(),
+            links: leading.map(|(joint, _)| parameter_link_names[joint + 1].clone()).collect(),
             names,
             drives,
             is_plain,
             frames: (0..robot.links().len()).map(frame_of).collect(),
-            told_names,
-            told_in,
+            parameter_link_names,
+            parameter_links,
             notes,
         })
     }
 
-    /// The same on another base.
+    /// Same equations, but with another base.
     #[must_use]
     pub fn with_base(mut self, base: Base) -> Self {
         self.base = base;
         self
     }
 
-    /// The same under another gravity \[m/s^2\].
+    /// Same equations, but with another gravity \[m/s^2\].
     #[must_use]
     pub fn with_gravity(mut self, gravity: Vector3<f64>) -> Self {
         self.gravity = gravity;
         self
     }
 
-    /// The same without the friction of joints.
+    /// Same equations, but without joint friction.
     #[must_use]
     pub fn without_friction(mut self) -> Self {
         self.drives.iter_mut().for_each(|drive| (drive.damping, drive.friction) = (0.0, 0.0));
         self
     }
 
-    /// The same without the inertia of rotors.
+    /// Same equations, but without rotor inertia.
     #[must_use]
     pub fn without_rotors(mut self) -> Self {
         self.drives.iter_mut().for_each(|drive| drive.armature = 0.0);
         self
     }
 
-    /// What was left out of the robot, or taken for rounding.
+    /// Notes: parts of the robot that were ignored, and values that were treated as rounding errors.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// The independent joints, in the order of a configuration.
+    /// The names of the independent joints, in the order of a configuration.
     pub fn joints(&self) -> &[String] {
         &self.names
     }
 
-    /// Whether the root moves freely.
+    /// Whether the base is floating.
     pub fn is_floating(&self) -> bool {
         self.base == Base::Floating
     }
 
-    /// How many numbers a velocity has.
+    /// Number of degrees of freedom: the length of a velocity.
     pub fn freedoms(&self) -> usize {
         self.names.len() + if self.base == Base::Floating { 6 } else { 0 }
     }
 
-    /// How many numbers a configuration has.
+    /// Length of a configuration.
     pub fn coordinates(&self) -> usize {
         self.names.len() + if self.base == Base::Floating { 7 } else { 0 }
     }
 
-    /// Where the joints stand among the freedoms.
+    /// Index of the first joint among the degrees of freedom.
     fn first(&self) -> usize {
         self.freedoms() - self.names.len()
     }

@@ -1,7 +1,8 @@
-//! Which combinations of what bodies weigh matter for motion. Main type: [`BaseParameters`].
+//! Base parameters: the combinations of inertial parameters on which the motion depends. Main type: [`BaseParameters`].
 //!
-//! M. Gautier and W. Khalil, Direct Calculation of Minimum Set of Inertial Parameters of Serial Robots, IEEE Trans. Robotics and Automation 6 (1990), here by linear algebra over the rational
-//! numbers: every coefficient of M and N is a linear form in what bodies weigh.
+//! M. Gautier and W. Khalil, Direct Calculation of Minimum Set of Inertial Parameters of Serial Robots, IEEE Trans.
+//! Robotics and Automation 6 (1990), here by linear algebra over the rational numbers: every coefficient of M and N is
+//! a linear form in the inertial parameters.
 
 use std::collections::HashMap;
 
@@ -12,24 +13,25 @@ use super::number::Exact;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Field, Ring, Zp};
 
-/// A prime below 2^31: forms that are independent modulo it are independent.
+/// A prime below 2^31. Forms that are independent modulo it are independent.
 const PRIME: u64 = 2_147_483_647;
 
-/// The least set of numbers that M, C and N depend on: linear forms in what the bodies weigh, each with a number of its own that none of the others has, with the factor one. The links near the base
-/// keep their numbers, where there is a choice.
+/// The minimal set of parameters on which M, C and N depend: linear forms in the inertial parameters. Each has a pivot,
+/// a parameter with factor one that no other form contains. Where there is a choice, the parameters of links near the
+/// base are pivots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BaseParameters {
-    /// By base parameter the place of its own number among ten for each body.
+    /// For each base parameter the index of its pivot among the ten parameters of each body.
     pub pivots: Vec<usize>,
-    /// By base parameter its coefficients.
+    /// For each base parameter its coefficients.
     pub forms: Vec<Vec<BigRational>>,
 }
 
 impl BaseParameters {
-    /// Those of entries of M and N, whose masses are symbols.
+    /// Computes the base parameters of entries of M and N with symbolic masses.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] where axes have roots of numbers.
+    /// [`ErrorKind::Unsupported`] where the directions of axes contain square roots.
     pub(super) fn of<'a>(model: &ExactModel, entries: impl IntoIterator<Item = &'a Exact>) -> Result<Self> {
         let count = NUMBERS.len() * model.joints.len();
         let forms = linear_forms(model, count, entries)?;
@@ -40,17 +42,17 @@ impl BaseParameters {
         Ok(base)
     }
 
-    /// Fails unless these are what entries depend on, and no fewer would do.
+    /// Proves that the entries depend on exactly these base parameters and that the set is minimal.
     pub(super) fn prove<'a>(&self, model: &ExactModel, entries: impl IntoIterator<Item = &'a Exact>) -> Result<()> {
         let count = NUMBERS.len() * model.joints.len();
         let forms = linear_forms(model, count, entries)?;
         self.covers(&forms)?;
         let rank = independent(&forms, count)?.len();
-        let text = || format!("{} base parameters are told; there are {rank}", self.forms.len());
+        let text = || format!("{} base parameters are given; there are {rank}", self.forms.len());
         if rank == self.forms.len() { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text())) }
     }
 
-    /// Fails unless each form is the sum of these, each times the form's coefficient at its own number.
+    /// Checks that each form is the sum of these forms, each times the coefficient at its pivot.
     fn covers(&self, forms: &[Form]) -> Result<()> {
         for form in forms {
             let mut left: HashMap<usize, BigRational> = form.iter().cloned().collect();
@@ -61,7 +63,7 @@ impl BaseParameters {
                 }
             }
             if left.values().any(|x| !x.is_zero()) {
-                let text = "M and N depend on more than the base parameters that are told";
+                let text = "M and N depend on more than the given base parameters";
                 return Err(Error::new(ErrorKind::BadValue, text));
             }
         }
@@ -69,17 +71,18 @@ impl BaseParameters {
     }
 }
 
-/// A linear form: places and coefficients.
+/// A linear form: indices and coefficients.
 type Form = Vec<(usize, BigRational)>;
 
-/// The coefficients of entries in what bodies weigh, which they are linear in: by entry and the rest of the monomial.
+/// The coefficients of entries with respect to the inertial parameters, in which they are linear: one form for each
+/// entry and cofactor monomial.
 fn linear_forms<'a>(
     model: &ExactModel,
     count: usize,
     entries: impl IntoIterator<Item = &'a Exact>,
 ) -> Result<Vec<Form>> {
     if model.setting.has_roots() {
-        let text = "base parameters are told of chains whose axes have rational directions";
+        let text = "base parameters exist for chains whose axes have rational directions";
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     let layout = model.setting.ring().layout();
@@ -99,7 +102,7 @@ fn linear_forms<'a>(
     Ok(forms)
 }
 
-/// As many of the forms as are independent of one another modulo a prime, and so over the rational numbers.
+/// A maximal set of forms that are independent modulo a prime, and therefore over the rational numbers.
 fn independent(forms: &[Form], count: usize) -> Result<Vec<Vec<BigRational>>> {
     let field = Zp::new(PRIME)?;
     let beyond = || Error::new(ErrorKind::Overflow, format!("a coefficient has a denominator that {PRIME} divides"));

@@ -1,4 +1,4 @@
-//! What is proved of printed equations of motion, and the proof. Main type: [`Certificate`].
+//! Certificate of generated equations of motion, and its proof. Main type: [`Certificate`].
 
 use std::collections::HashMap;
 use std::fmt;
@@ -19,7 +19,7 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, parse_rational};
 use groebot_algebra::poly::parse_long;
 
-/// What holds of the equations of motion that are printed beside it: they are those of this chain under this gravity.
+/// The claim that the generated equations of motion are those of this chain under this gravity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Certificate {
     /// The chain.
@@ -27,28 +27,28 @@ pub struct Certificate {
     claims: Claims,
 }
 
-/// What is claimed about a chain.
+/// The claims about a chain.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Claims {
-    /// Gravity in the base, as it was given.
+    /// Gravity in the base frame, as given.
     gravity: [String; 3],
-    /// By body the ten numbers of what it weighs; none where these are symbols.
+    /// For each body its ten inertial parameters; `None` when they are symbols.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     masses: Option<Vec<[String; 10]>>,
-    /// How many terms M, C and N have.
+    /// Number of terms of M, C and N.
     terms: usize,
 }
 
-/// What has been proved.
+/// Result of a proof.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Proof {
-    /// Joints.
+    /// Number of joints.
     pub joints: usize,
-    /// Terms of M, C and N.
+    /// Number of terms of M, C and N.
     pub terms: usize,
-    /// Base parameters, where they are told.
+    /// Number of base parameters, if the text has them.
     pub base_parameters: Option<usize>,
 }
 
@@ -64,32 +64,32 @@ impl fmt::Display for Proof {
 }
 
 impl Certificate {
-    /// That of equations of motion of a chain.
+    /// Builds the certificate of a chain's equations of motion.
     pub fn new(symbolic: &Symbolic, chain: &Chain, masses: Masses<'_>, gravity: &ExactVector) -> Self {
-        let told = |numbers: &[BigRational; 10]| numbers.each_ref().map(ToString::to_string);
+        let texts = |numbers: &[BigRational; 10]| numbers.each_ref().map(ToString::to_string);
         let claims = Claims {
             gravity: gravity.each_ref().map(ToString::to_string),
             masses: match masses {
                 Masses::Symbols => None,
-                Masses::Numbers(all) => Some(all.iter().map(told).collect()),
+                Masses::Numbers(all) => Some(all.iter().map(texts).collect()),
             },
             terms: symbolic.terms(),
         };
         Certificate { name: chain.name().to_owned(), claims }
     }
 
-    /// Whether what bodies weigh are numbers.
+    /// Whether the inertial parameters are numbers.
     pub fn has_numbers(&self) -> bool {
         self.claims.masses.is_some()
     }
 
-    /// Whether these are they.
+    /// Whether the inertial parameters are equal to `masses`.
     pub fn has(&self, masses: &[[BigRational; 10]]) -> bool {
-        let told = |numbers: &[BigRational; 10]| numbers.each_ref().map(ToString::to_string);
-        self.claims.masses.as_ref().is_some_and(|own| own.iter().eq(&masses.iter().map(told).collect::<Vec<_>>()))
+        let texts = |numbers: &[BigRational; 10]| numbers.each_ref().map(ToString::to_string);
+        self.claims.masses.as_ref().is_some_and(|own| own.iter().eq(&masses.iter().map(texts).collect::<Vec<_>>()))
     }
 
-    /// As JSON.
+    /// Converts the certificate to JSON.
     pub fn to_json(&self) -> String {
         document::Certificate::new(Proves::Dynamics, &self.name, self.claims.clone()).to_json()
     }
@@ -97,20 +97,21 @@ impl Certificate {
     /// Reads the certificate of the equations of motion of the chain `name`.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is none, [`ErrorKind::Unsupported`] for that of another format, [`ErrorKind::Certificate`] for one
-    /// that proves something else.
+    /// [`ErrorKind::Syntax`] for text that is not a certificate, [`ErrorKind::Unsupported`] for another format,
+    /// [`ErrorKind::Certificate`] for the certificate of something else.
     pub fn from_json(text: &str, name: &str) -> Result<Self> {
         let claims = document::Certificate::read(text, Proves::Dynamics, name)?;
         Ok(Certificate { name: name.to_owned(), claims })
     }
 
-    /// Proves again that the equations in `text`, as [`Symbolic::to_text`] prints them, are those of a chain: the inertia matrix and the potential energy by Jacobians and heights,
-    /// which share no step with the recursions that made them, and what follows from them by derivatives. The legend, and how entries are written, have to be those that
-    /// such equations have.
+    /// Proves that the equations in `text`, as printed by [`Symbolic::to_text`], are those of a chain. The inertia
+    /// matrix and the potential energy are computed from Jacobians and heights, independently of the recursions that
+    /// produced them. The other entries follow by differentiation. The legend and the notation of the entries are
+    /// compared too.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] with the entry that is not what it should be, [`ErrorKind::Syntax`] for what cannot be read, [`ErrorKind::Certificate`] with the line that
-    /// is written otherwise.
+    /// [`ErrorKind::BadValue`] with the entry that is wrong, [`ErrorKind::Syntax`] for unreadable text,
+    /// [`ErrorKind::Certificate`] with the line whose notation differs.
     pub fn prove(&self, chain: &Chain, text: &str) -> Result<Proof> {
         let vector = |words: &[String; 3]| -> Result<ExactVector> {
             let [x, y, z] = words.each_ref().map(|word| parse_rational(word));
@@ -127,7 +128,7 @@ impl Certificate {
             return fault(format!("it is about `{}`, the chain is `{}`", self.name, chain.name()));
         }
         if masses.as_ref().is_some_and(|all| all.len() != chain.joints().len()) {
-            return fault("it does not tell ten numbers for each joint".to_owned());
+            return fault("it does not have ten numbers for each joint".to_owned());
         }
         let masses = masses.as_deref().map_or(Masses::Symbols, Masses::Numbers);
         let gravity = vector(&self.claims.gravity)?;
@@ -135,18 +136,18 @@ impl Certificate {
             return fault("its gravity is not written in lowest terms".to_owned());
         }
         let model = ExactModel::new(chain, masses, &gravity, MOST_TERMS)?;
-        let told = Told::read(&model, text)?;
-        let proof = told.prove(&model)?;
+        let entries = ParsedEntries::read(&model, text)?;
+        let proof = entries.prove(&model)?;
         if proof.terms != self.claims.terms {
-            return fault(format!("it tells {} terms; {} are printed", self.claims.terms, proof.terms));
+            return fault(format!("it has {} terms; the text has {}", self.claims.terms, proof.terms));
         }
-        told.is_written(model, text)?;
+        entries.is_written(model, text)?;
         Ok(proof)
     }
 }
 
-/// Entries as they are printed.
-struct Told {
+/// The parsed entries of the text.
+struct ParsedEntries {
     inertia: Vec<Vec<Exact>>,
     coriolis: Vec<Vec<Exact>>,
     gravity: Vec<Exact>,
@@ -154,7 +155,7 @@ struct Told {
     base: Option<BaseParameters>,
 }
 
-impl Told {
+impl ParsedEntries {
     fn read(model: &ExactModel, text: &str) -> Result<Self> {
         let mut entries = HashMap::new();
         for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.starts_with('#')) {
@@ -163,12 +164,12 @@ impl Told {
             let value = parse_long(value).and_then(|value| value.evaluate(model.setting.ring()));
             let value = value.map_err(|error| error.at_line(number + 1))?;
             if entries.insert(name.to_owned(), model.setting.number(value)).is_some() {
-                return Err(syntax(&format!("`{name}` is told twice")));
+                return Err(syntax(&format!("`{name}` is given twice")));
             }
         }
         let count = model.joints.len();
         let mut take = |name: String| {
-            let missing = || Error::new(ErrorKind::MissingKey, format!("`{name}` is not told"));
+            let missing = || Error::new(ErrorKind::MissingKey, format!("`{name}` is missing"));
             entries.remove(&name).ok_or_else(missing)
         };
         let mut inertia = vec![vec![Exact::zero(); count]; count];
@@ -188,14 +189,14 @@ impl Told {
         let base =
             (model.has_symbols && !model.setting.has_roots()).then(|| base_parameters(model, &forms)).transpose()?;
         match entries.keys().min() {
-            None => Ok(Told { inertia, coriolis, gravity, potential, base }),
+            None => Ok(ParsedEntries { inertia, coriolis, gravity, potential, base }),
             Some(name) => Err(Error::new(ErrorKind::UnknownName, format!("`{name}` is none of M, C, N, V and B"))),
         }
     }
 
-    /// Fails where proved entries are written otherwise than [`Symbolic::to_text`] does, or the legend is another.
+    /// Checks that the proved entries and the legend are written exactly as [`Symbolic::to_text`] writes them.
     fn is_written(self, model: ExactModel, text: &str) -> Result<()> {
-        let Told { inertia, coriolis, gravity, potential, base } = self;
+        let ParsedEntries { inertia, coriolis, gravity, potential, base } = self;
         let expected = Symbolic { model, inertia, coriolis, gravity, potential, base }.to_text();
         if text == expected {
             return Ok(());
@@ -241,14 +242,14 @@ impl Told {
     }
 }
 
-/// Base parameters as they are told: each a linear form whose first number is its own, with the factor one.
-fn base_parameters(model: &ExactModel, told: &[Exact]) -> Result<BaseParameters> {
+/// Reads base parameters. Each is a linear form whose first parameter is its pivot, with factor one.
+fn base_parameters(model: &ExactModel, entries: &[Exact]) -> Result<BaseParameters> {
     let mut base = BaseParameters { pivots: Vec::new(), forms: Vec::new() };
-    for (at, number) in told.iter().enumerate() {
+    for (at, number) in entries.iter().enumerate() {
         let form = model.coefficients(number);
         let pivot = form.as_ref().and_then(|form| form.iter().position(|x| !x.is_zero()));
         let (Some(form), Some(pivot)) = (form, pivot) else {
-            let text = format!("`B{}` is no linear form in what bodies weigh", at + 1);
+            let text = format!("`B{}` is not a linear form in the inertial parameters", at + 1);
             return Err(Error::new(ErrorKind::BadValue, text));
         };
         base.pivots.push(pivot);
@@ -258,6 +259,6 @@ fn base_parameters(model: &ExactModel, told: &[Exact]) -> Result<BaseParameters>
     let count = base.forms.len();
     let is_own =
         (0..count).all(|k| (0..count).all(|row| if row == k { own(k, row).is_one() } else { own(k, row).is_zero() }));
-    let text = "a base parameter's first number stands in another one, or has another factor than one";
+    let text = "a base parameter's first number is part of another one, or its factor is not one";
     if is_own { Ok(base) } else { Err(Error::new(ErrorKind::BadValue, text)) }
 }

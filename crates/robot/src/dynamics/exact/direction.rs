@@ -1,4 +1,4 @@
-//! Directions over the rational numbers and roots of small primes. Main type: [`Direction`].
+//! Directions over the rational numbers and square roots of small primes. Main type: [`Direction`].
 
 use std::sync::Arc;
 
@@ -11,10 +11,10 @@ use crate::spatial::exact::ExactVector;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// The greatest prime of which roots are taken.
+/// The largest prime whose square root is used.
 const MOST_PRIME: u32 = 1000;
 
-/// A direction as its vector over its length, and how a rotation takes the z axis there.
+/// A direction as its vector divided by its length, and a rotation that maps the z axis to it.
 pub(super) struct Direction {
     vector: ExactVector,
     length: Root,
@@ -23,11 +23,11 @@ pub(super) struct Direction {
 
 /// A rotation whose last column is a direction.
 enum Upright {
-    /// Of the coordinate axes, of which the direction is one.
+    /// For a coordinate axis.
     Axes,
-    /// Its first column is across the direction: a vector over its length.
+    /// The first column is perpendicular to the direction: a vector divided by its length.
     Across(Box<ExactVector>, Root),
-    /// The half turn about the line midway between z and the direction, which is a rational unit vector.
+    /// The half turn about the bisector of z and the direction, which is a rational unit vector.
     Midway,
 }
 
@@ -74,11 +74,12 @@ impl Direction {
         std::array::from_fn(|i| [x[i].clone(), y[i].clone(), z[i].clone()])
     }
 
-    /// The first column of the half turn that takes z to a rational unit vector u: with the line w = z + u it is 2 w w' / w'w - 1.
+    /// The first column of the half turn that maps z to a rational unit vector u. With w = z + u, the half turn is 2 w
+    /// w' / w'w - 1.
     fn midway(&self) -> ExactVector {
         let unit = self.vector.each_ref().map(|x| x / &self.length.rational);
         let [x, y, z] = &unit;
-        // u has three entries that are not zero, so that 1 + z is not zero.
+        // u has three nonzero entries, so 1 + z is not zero.
         let factor = x / (BigRational::one() + z);
         [&factor * x - BigRational::one(), &factor * y, x.clone()]
     }
@@ -88,7 +89,8 @@ fn square(vector: &ExactVector) -> BigRational {
     vector.iter().map(|x| x * x).sum()
 }
 
-/// A vector across one that is along no coordinate axis: across two of its coordinates; where one of those is zero, a coordinate axis.
+/// A vector perpendicular to one that is not along a coordinate axis: in the plane of two of its coordinates, or a
+/// coordinate axis where one of them is zero.
 fn across(vector: &ExactVector) -> ExactVector {
     let last = (0..3).find(|&i| vector[i].is_zero()).unwrap_or(2);
     let mut across: ExactVector = std::array::from_fn(|_| BigRational::zero());
@@ -105,7 +107,7 @@ fn over(vector: &ExactVector, length: &Root, setting: &Arc<Setting>) -> [Exact; 
     vector.clone().map(|entry| Exact::from(entry) * inverse.clone())
 }
 
-/// The positive root of a rational number: a rational times roots of primes.
+/// The positive square root of a rational number: a rational number times square roots of primes.
 struct Root {
     rational: BigRational,
     primes: Vec<u32>,
@@ -145,7 +147,7 @@ impl Root {
         Ok(Root { rational: BigRational::new(whole * root, square.denom().clone()), primes })
     }
 
-    /// One over it.
+    /// Its reciprocal.
     fn inverse(&self, setting: &Arc<Setting>) -> Exact {
         let product = self.primes.iter().fold(BigInt::one(), |product, prime| product * prime);
         let rational = (&self.rational * BigRational::from_integer(product)).recip();

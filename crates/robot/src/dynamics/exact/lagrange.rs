@@ -1,12 +1,14 @@
-//! Inertia and potential energy the other way: by body Jacobians of products of exponentials, RH0 (2-24), (2-39), in the base's frame at zero, and by the heights of the
-//! bodies' centres. Witness of the recursions.
+//! Inertia matrix and potential energy by a second method: body Jacobians from products of exponentials, RH0 (2-24),
+//! (2-39), in the base frame at the zero configuration, and the heights of the centres of mass. It verifies the
+//! recursions.
 
 use super::model::{ExactJoint, ExactModel};
 use super::number::Exact;
 use crate::dynamics::recursions::{Frame, Mass, Matrix, Scalar, Six};
 use crate::kinematics::JointKind;
 
-/// The motion of a joint, in the base's frame: `R = 1 + s K + (1 - c) K K` by Rodrigues' formula, about the joint's point; or a way.
+/// The motion of a joint in the base frame: the rotation `R = 1 + s K + (1 - c) K K` by Rodrigues' formula about the
+/// joint's point, or a translation.
 fn exponential(model: &ExactModel, joint: &ExactJoint) -> Frame<Exact> {
     let unit = |i: usize, j: usize| if i == j { Exact::one() } else { Exact::zero() };
     let variable = |at: usize| model.setting.variable(&joint.value[at]);
@@ -31,7 +33,7 @@ fn exponential(model: &ExactModel, joint: &ExactJoint) -> Frame<Exact> {
     Frame { rotation, position }
 }
 
-/// The twist of a joint at zero, in the base's frame.
+/// The twist of a joint at the zero configuration, in the base frame.
 fn twist(joint: &ExactJoint) -> Six<Exact> {
     let zeros = || std::array::from_fn(|_| Exact::zero());
     if joint.kind == JointKind::Prismatic {
@@ -44,13 +46,14 @@ fn twist(joint: &ExactJoint) -> Six<Exact> {
     Six { linear, angular: joint.axis.clone() }
 }
 
-/// The inertia matrix, all entries by rows, and the potential energy.
+/// The inertia matrix, row by row, and the potential energy.
 pub(super) fn inertia_and_potential(model: &ExactModel) -> (Vec<Vec<Exact>>, Exact) {
     let count = model.joints.len();
     let mut inertia = vec![vec![Exact::zero(); count]; count];
     let mut potential = Exact::zero();
     let motions: Vec<Frame<Exact>> = model.joints.iter().map(|joint| exponential(model, joint)).collect();
-    // Of each joint above a body, its unit motion in the body, seen from the base's frame at zero: column of the body Jacobian.
+    // Columns of the body Jacobian: the unit twist of each joint that moves the body, in the body's frame of the zero
+    // configuration.
     let mut columns: Vec<Six<Exact>> = Vec::new();
     let mut moved = motions[0].clone();
     for (body, joint) in model.joints.iter().enumerate() {
@@ -76,7 +79,7 @@ pub(super) fn inertia_and_potential(model: &ExactModel) -> (Vec<Vec<Exact>>, Exa
     (inertia, potential)
 }
 
-/// The ten numbers of a body at zero, about the origin of the base.
+/// The ten inertial parameters of a body at the zero configuration, about the origin of the base.
 fn in_base(joint: &ExactJoint) -> Mass<Exact> {
     let unit = |i: usize, j: usize| if i == j { Exact::one() } else { Exact::zero() };
     let rotation: Matrix<Exact> = std::array::from_fn(|i| std::array::from_fn(|j| unit(i, j)));

@@ -1,4 +1,4 @@
-//! What the bodies of a chain weigh, exactly, from a robot's description.
+//! Exact inertial parameters of a chain's bodies, from a robot's description.
 
 use num_traits::Zero;
 
@@ -8,11 +8,14 @@ use crate::spatial::exact::{ExactMatrix, ExactVector, Placement};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// Ten numbers by joint of a chain along a path of a robot, in the frames of [`ExactModel`](super::ExactModel): links that the joints of the path do not move are left out, and all that hangs on
-/// a body without moving on its own, or by joints beside the path, which stand at zero, counts with it. Joints that follow others by a multiplier of zero have their constant value.
+/// Computes ten inertial parameters for each joint of a chain along a path of a robot, in the frames of
+/// [`ExactModel`](super::ExactModel). Links that the path's joints do not move are ignored. A body includes all links
+/// that are fixed to it or connected by joints outside the path, which are at zero. Mimic joints with a multiplier of
+/// zero have their constant value.
 ///
 /// # Errors
-/// As [`Robot::check`]; [`ErrorKind::Unsupported`] where the tip is not below the base, or joints of the path are one joint of the chain.
+/// Those of [`Robot::check`]; [`ErrorKind::Unsupported`] where the tip is not below the base, or several joints of the
+/// path are one joint of the chain.
 pub fn masses(robot: &Robot, path: &LinkPath, chain: &Chain) -> Result<Vec<[BigRational; 10]>> {
     robot.check()?;
     let robot = &robot.with_constants_fixed()?;
@@ -23,10 +26,10 @@ pub fn masses(robot: &Robot, path: &LinkPath, chain: &Chain) -> Result<Vec<[BigR
     let moving: Vec<usize> =
         path.joints.iter().map(|(joint, _)| *joint).filter(|joint| robot.joints()[*joint].kind.is_single()).collect();
     if moving.len() != chain.joints().len() {
-        return refused("joints on the way move as one; choose links between which each joint is on its own");
+        return refused("joints of the path are coupled; choose links between which each joint is independent");
     }
     let base = robot.link(&path.base)?;
-    // By link, where it stands in the base and the joint of the path that moves it.
+    // For each link, its pose in the base frame and the joint of the path that moves it.
     let mut places: Vec<Option<(Placement, Option<usize>)>> = vec![None; robot.links().len()];
     places[base] = Some((Placement::identity(), None));
     let zeros = || std::array::from_fn::<BigRational, 10, _>(|_| BigRational::zero());
@@ -45,7 +48,7 @@ pub fn masses(robot: &Robot, path: &LinkPath, chain: &Chain) -> Result<Vec<[BigR
     Ok(bodies)
 }
 
-/// What a link that stands so in the base weighs about a point, along the axes of the base.
+/// The inertial parameters of a link at a pose in the base frame, about a point, along the axes of the base.
 fn numbers(mass: &Mass, placed: &Placement, point: &ExactVector) -> [BigRational; 10] {
     let at = placed.then(&mass.origin.placement);
     let centre: ExactVector = std::array::from_fn(|i| &at.origin[i] - &point[i]);

@@ -1,4 +1,5 @@
-//! Dynamics in exact polynomials: of the cosines and sines of angles, and of what bodies weigh. Main type: [`Symbolic`].
+//! Dynamics in exact polynomials in the cosines and sines of joint angles and the inertial parameters. Main type:
+//! [`Symbolic`].
 
 mod base_parameters;
 mod certificate;

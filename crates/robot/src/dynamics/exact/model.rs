@@ -1,4 +1,4 @@
-//! A chain of joints as the recursions take it, exactly. Main type: [`ExactModel`].
+//! A chain in exact numbers, as input of the recursions. Main type: [`ExactModel`].
 
 use std::sync::Arc;
 
@@ -12,21 +12,21 @@ use crate::spatial::exact::ExactVector;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// The ten numbers of a body, by their names: the mass, the mass times its centre, the tensor.
+/// The names of a body's ten inertial parameters: the mass, the first moments, the inertia tensor.
 pub const NUMBERS: [&str; 10] = ["m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"];
 
-/// A chain whose bodies have symbols or numbers for masses. Each body's frame stands at its joint's point, and at zero along the axes of the base; the recursions have frames
-/// of their own there.
+/// A chain whose inertial parameters are symbols or numbers. The frame of each body has its origin at the joint's
+/// point, and at the zero configuration the axes of the base. The recursions use their own frames.
 #[derive(Clone, Debug)]
 pub struct ExactModel {
     pub(super) setting: Arc<Setting>,
-    /// Whether masses are symbols, which are then the first variables.
+    /// Whether the inertial parameters are symbols. Then they are the first variables.
     pub(super) has_symbols: bool,
     pub(super) tree: Tree<Exact>,
     pub(super) joints: Vec<ExactJoint>,
-    /// The direction of gravity, whose size is `g`.
+    /// The direction of gravity. Its magnitude is `g`.
     pub(super) down: [Exact; 3],
-    /// Gravity as it was given.
+    /// Gravity as given.
     pub(super) given_gravity: ExactVector,
 }
 
@@ -35,31 +35,32 @@ pub struct ExactModel {
 pub(super) struct ExactJoint {
     pub name: String,
     pub kind: JointKind,
-    /// The unit vector of its axis, in the base frame at zero, and a point on it.
+    /// The unit vector of its axis in the base frame at the zero configuration, and a point on it.
     pub axis: [Exact; 3],
     pub point: [Exact; 3],
-    /// What its body weighs, in its frame.
+    /// The inertial parameters of its body, in the body's frame.
     pub mass: Mass<Exact>,
-    /// The variables of its value: a cosine and a sine, or a way; and that of its rate.
+    /// The variables of its value: a cosine and a sine, or a displacement; and the variable of its velocity.
     pub value: Vec<String>,
     pub rate: String,
 }
 
-/// What is known of the bodies of a chain.
+/// Inertial parameters of a chain's bodies.
 #[derive(Clone, Copy, Debug)]
 pub enum Masses<'a> {
-    /// Ten symbols each: `m1`, `mx1` and so on.
+    /// Ten symbols for each body: `m1`, `mx1` and so on.
     Symbols,
-    /// Ten numbers each, in the frames of [`ExactModel`].
+    /// Ten numbers for each body, in the frames of [`ExactModel`].
     Numbers(&'a [[BigRational; 10]]),
 }
 
 impl ExactModel {
-    /// That of a chain under gravity in a direction of its base, of which no sum has more terms than are allowed.
+    /// Builds the model of a chain under gravity, given in the base frame. `most` is the maximum number of terms of a
+    /// sum.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for axes and directions of gravity whose lengths are no roots of numbers with small prime factors, and joints that follow others; [`ErrorKind::DuplicateName`] where
-    /// a joint's symbol makes a name that something else has.
+    /// [`ErrorKind::Unsupported`] for axes and gravity vectors whose squared lengths have large prime factors, and for
+    /// mimic joints; [`ErrorKind::DuplicateName`] where a joint's symbol gives a name that is already used.
     pub fn new(chain: &Chain, masses: Masses<'_>, gravity: &ExactVector, most: usize) -> Result<Self> {
         let directions: Vec<Direction> =
             chain.joints().iter().map(|joint| Direction::of(&joint.axis, &joint.name)).collect::<Result<_>>()?;
@@ -78,7 +79,7 @@ impl ExactModel {
             }
             let numbers = match masses {
                 Masses::Symbols => NUMBERS.map(|number| setting.variable(&format!("{number}{}", joint.symbol))),
-                Masses::Numbers(told) => told[at].clone().map(Exact::from),
+                Masses::Numbers(numbers) => numbers[at].clone().map(Exact::from),
             };
             Ok(ExactJoint {
                 name: joint.name.clone(),
@@ -117,17 +118,17 @@ impl ExactModel {
         })
     }
 
-    /// The places of the joints.
+    /// The positions of the joints.
     pub(super) fn places(&self) -> Vec<Place<Exact>> {
         let variable = |name: &String| self.setting.variable(name);
         let place = |joint: &ExactJoint| match joint.value.as_slice() {
             [cosine, sine] => Place::Turn([variable(cosine), variable(sine)]),
-            ways => Place::Slide(variable(&ways[0])),
+            names => Place::Slide(variable(&names[0])),
         };
         self.joints.iter().map(place).collect()
     }
 
-    /// A linear form in what bodies weigh as a number.
+    /// A linear form in the inertial parameters as an exact number.
     pub(super) fn linear(&self, form: &[BigRational]) -> Exact {
         let terms = form.iter().zip(self.setting.ring().variables()).filter(|(coefficient, _)| !coefficient.is_zero());
         let term = |(coefficient, name): (&BigRational, &String)| {
@@ -136,7 +137,7 @@ impl ExactModel {
         terms.map(term).fold(Exact::zero(), |sum, term| sum + term)
     }
 
-    /// The coefficients of a number that is a linear form in what bodies weigh.
+    /// The coefficients of a number that is a linear form in the inertial parameters.
     pub(super) fn coefficients(&self, number: &Exact) -> Option<Vec<BigRational>> {
         let layout = self.setting.ring().layout();
         let mut form = vec![BigRational::zero(); NUMBERS.len() * self.joints.len()];
@@ -147,17 +148,17 @@ impl ExactModel {
         Some(form)
     }
 
-    /// How a joint changes the variables: by minus the sine and by the cosine, or by one.
+    /// The derivatives of the variables by a joint's value: minus the sine and the cosine, or one.
     pub(super) fn changes(&self, joint: usize) -> Vec<(usize, Exact)> {
         let index = |name: &String| self.setting.ring().index_of(name).expect("a variable of the setting");
         let variable = |name: &String| self.setting.variable(name);
         match self.joints[joint].value.as_slice() {
             [cosine, sine] => vec![(index(cosine), -variable(sine)), (index(sine), variable(cosine))],
-            ways => vec![(index(&ways[0]), Exact::one())],
+            names => vec![(index(&names[0]), Exact::one())],
         }
     }
 
-    /// The acceleration of gravity.
+    /// The gravity vector.
     pub(super) fn gravity(&self) -> [Exact; 3] {
         let size = self.setting.variable("g");
         self.down.clone().map(|entry| entry * size.clone())
@@ -174,7 +175,7 @@ fn rate_name(joint: &Joint) -> String {
     format!("v{}", joint.symbol)
 }
 
-/// The variables: what the bodies weigh, gravity, rates, roots, and the joints' values.
+/// The variables: inertial parameters, gravity, velocities, square roots, and the joints' values.
 fn setting(chain: &Chain, masses: Masses<'_>, primes: &[u32], most: usize) -> Result<Arc<Setting>> {
     let joints = chain.joints();
     let symbols = |joint: &Joint| NUMBERS.map(|number| format!("{number}{}", joint.symbol));

@@ -1,4 +1,4 @@
-//! Numbers that are polynomials, exactly. Main type: [`Exact`].
+//! Exact numbers that are polynomials. Main type: [`Exact`].
 
 use std::ops::{Add, Mul, Neg, Sub};
 use std::sync::Arc;
@@ -11,13 +11,14 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Rationals, Ring};
 use groebot_algebra::poly::{Order, Polynomial, PolynomialRing, Term, Width};
 
-/// The variables of exact numbers, and the squares that are something else: `s^2 = 1 - c^2` of a sine and its cosine, `r2^2 = 2` of a root.
+/// The variables of exact numbers with their relations: `s^2 = 1 - c^2` for a sine and its cosine, `r2^2 = 2` for a
+/// square root.
 #[derive(Debug)]
 pub struct Setting {
     ring: PolynomialRing<Rationals>,
     squares: Vec<Square>,
     most: usize,
-    /// How many terms the longest sum would have had beyond what is allowed; 0 while none had.
+    /// Number of terms of the longest sum that exceeded the limit; 0 while none did.
     exceeded: AtomicUsize,
 }
 
@@ -25,12 +26,13 @@ pub struct Setting {
 struct Square {
     variable: usize,
     constant: BigRational,
-    /// What is subtracted: the square of this variable.
+    /// The variable whose square is subtracted in the relation.
     less: Option<usize>,
 }
 
 impl Setting {
-    /// Variables, greatest first; pairs of a sine and its cosine; and primes of which there are roots, `r2`, `r3` and so on. Sums have at most so many terms.
+    /// Builds a setting from variables, greatest first, pairs of a sine and its cosine, and primes with square roots
+    /// `r2`, `r3` and so on. `most` limits the number of terms of a sum.
     pub(super) fn new(
         variables: &[String],
         circles: &[[String; 2]],
@@ -61,14 +63,14 @@ impl Setting {
         self.squares.iter().any(|square| square.less.is_none())
     }
 
-    /// Fails when a sum has had more terms than are allowed.
+    /// Fails when a sum exceeded the limit of terms.
     pub(super) fn check(&self) -> Result<()> {
         let (most, terms) = (self.most, self.exceeded.load(Ordering::Relaxed));
         let text = || format!("a sum of {terms} terms comes up; at most {most} are allowed");
         if terms == 0 { Ok(()) } else { Err(Error::new(ErrorKind::Overflow, text())) }
     }
 
-    /// A polynomial with no square of a sine or a root.
+    /// Reduces a polynomial so that it contains no square of a sine or a square root.
     fn reduced(&self, mut f: Polynomial<BigRational>) -> Polynomial<BigRational> {
         let layout = self.ring.layout();
         for Square { variable, constant, less } in &self.squares {
@@ -80,7 +82,8 @@ impl Setting {
                 let mut exponents = layout.exponents(&term.monomial);
                 let twice = exponents[*variable] / 2;
                 exponents[*variable] %= 2;
-                // (constant - less^2)^twice by the binomial theorem; products of reduced numbers ask for 0 and 1.
+                // (constant - less^2)^twice by the binomial theorem; products of reduced numbers need the powers 0 and
+                // 1.
                 let mut coefficient = term.coefficient.clone();
                 for k in 0..=twice {
                     let left = twice - k;
@@ -109,7 +112,7 @@ impl Setting {
         }
     }
 
-    /// The number that a variable is.
+    /// A variable as a number.
     pub(super) fn variable(self: &Arc<Self>, name: &str) -> Exact {
         let index = self.ring.index_of(name).expect("a variable of the setting");
         Exact(Kind::Sum(self.clone(), self.ring.variable(index)))
@@ -129,7 +132,7 @@ impl Setting {
         }
     }
 
-    /// How a number changes with a joint's value: a sum of derivatives by variables, each times a number.
+    /// The derivative of a number by a joint's value: a sum of derivatives by variables, each times a number.
     pub(super) fn derivative(self: &Arc<Self>, number: &Exact, by: &[(usize, Exact)]) -> Exact {
         let Kind::Sum(_, f) = &number.0 else { return Exact::zero() };
         let part = |(variable, rate): &(usize, Exact)| self.admitted(self.ring.derivative(f, *variable)) * rate.clone();
@@ -137,13 +140,13 @@ impl Setting {
     }
 }
 
-/// The name of a prime's root.
+/// The variable name of a prime's square root.
 pub(super) fn root_name(prime: u32) -> String {
     format!("r{prime}")
 }
 
-/// A rational number, or a polynomial over them in the variables of a [`Setting`], without squares of sines and roots: two numbers are equal exactly when they
-/// are the same.
+/// A rational number, or a polynomial in the variables of a [`Setting`] without squares of sines and square roots.
+/// Equal numbers have equal data.
 #[derive(Clone, Debug)]
 pub struct Exact(Kind);
 
@@ -160,12 +163,12 @@ impl From<BigRational> for Exact {
 }
 
 impl Exact {
-    /// Whether it is nought.
+    /// Whether the number is zero.
     pub fn is_zero(&self) -> bool {
         matches!(&self.0, Kind::Number(number) if number.is_zero())
     }
 
-    /// How many terms it has.
+    /// Number of terms.
     pub fn terms(&self) -> usize {
         match &self.0 {
             Kind::Number(number) => usize::from(!number.is_zero()),

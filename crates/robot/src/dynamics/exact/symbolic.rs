@@ -9,26 +9,27 @@ use crate::dynamics::recursions::{Data, Matrices, Motion, Scalar, Six};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{Ring, Style};
 
-/// The most terms of M, C and N together.
+/// Maximum number of terms of M, C and N together.
 pub const MOST_TERMS: usize = groebot_algebra::limits::SYMBOLIC_TERMS;
 
-/// `M q'' + C q' + N = torques` as polynomials in cosines and sines (or ways) of the joints, their rates, and what bodies weigh. `M` is symmetric, and `C` that of
-/// Christoffel's symbols, RH0 (2-42).
+/// The equations `M q'' + C q' + N = torques` as polynomials in cosines and sines (or displacements) of the joints,
+/// their velocities, and the inertial parameters. `M` is symmetric, and `C` has Christoffel symbols, RH0 (2-42).
 #[derive(Clone, Debug)]
 pub struct Symbolic {
     pub(super) model: ExactModel,
-    /// By rows, all entries.
+    /// All entries, row by row.
     pub(super) inertia: Vec<Vec<Exact>>,
     pub(super) coriolis: Vec<Vec<Exact>>,
     pub(super) gravity: Vec<Exact>,
     pub(super) potential: Exact,
-    /// Where masses are symbols and axes rational.
+    /// Base parameters, if masses are symbols and axes are rational.
     pub(super) base: Option<BaseParameters>,
 }
 
 impl Symbolic {
-    /// Those of a model: the inertia matrix of bodies taken together, Christoffel's symbols of its derivatives, gravity by Newton and Euler, and the potential
-    /// energy, nought where the centre of mass is as high as the origin of the base.
+    /// Computes the equations of a model: the inertia matrix by CRBA, the Christoffel symbols from its derivatives,
+    /// gravity torques by RNEA, and the potential energy. This is zero where the centre of mass is as high as the
+    /// origin of the base.
     ///
     /// # Errors
     /// [`ErrorKind::Overflow`] for more than 100,000 terms, with their number.
@@ -60,7 +61,7 @@ impl Symbolic {
         Ok(symbolic)
     }
 
-    /// How many terms M (its lower triangle), C and N have.
+    /// Number of terms of M (its lower triangle), C and N.
     pub fn terms(&self) -> usize {
         let lower = self.inertia.iter().enumerate().flat_map(|(i, row)| &row[..=i]);
         lower.chain(self.coriolis.iter().flatten()).chain(&self.gravity).map(Exact::terms).sum()
@@ -76,7 +77,7 @@ impl Symbolic {
         ring.format(&self.model.setting.polynomial(number), style)
     }
 
-    /// Name and text of what is told: `M11` and so on from 1, the lower triangle of M, all of C, N and V.
+    /// Name and text of all entries: `M11` and so on from 1, the lower triangle of M, all of C, N and V.
     pub fn entries(&self) -> Vec<(String, String)> {
         let mut entries = Vec::new();
         let mut tell = |name: String, number: &Exact| entries.push((name, self.text(number, Style::Text)));
@@ -96,7 +97,7 @@ impl Symbolic {
         entries
     }
 
-    /// What the symbols mean, a line each, with formulas between dollars.
+    /// The meaning of the symbols, one line each, with formulas between dollar signs.
     pub fn legend(&self) -> Vec<String> {
         let mut lines = vec![
             "$M q'' + C q' + N$ are the torques; $M$ is symmetric, $M' - 2*C$ is skew, and $N$ are the derivatives of the potential energy $V$.".to_owned(),
@@ -109,7 +110,7 @@ impl Symbolic {
         for (at, joint) in self.model.joints.iter().enumerate() {
             let value = match joint.value.as_slice() {
                 [cosine, sine] => format!("turns by an angle with cosine ${cosine}$ and sine ${sine}$"),
-                ways => format!("slides by ${}$", ways[0]),
+                names => format!("slides by ${}$", names[0]),
             };
             let vector = |v: &[Exact; 3]| v.each_ref().map(|x| self.text(x, Style::Decimal)).join(", ");
             lines.push(format!(
@@ -135,7 +136,7 @@ impl Symbolic {
         lines
     }
 
-    /// Legend and entries as text that the parser of polynomials reads, a line each.
+    /// Legend and entries as text that the polynomial parser reads, one line each.
     pub fn to_text(&self) -> String {
         let mut text = String::new();
         for line in self.legend() {
@@ -148,7 +149,7 @@ impl Symbolic {
     }
 }
 
-/// What M and N depend on, where masses are symbols and axes rational.
+/// The base parameters of M and N, if masses are symbols and axes are rational.
 pub(super) fn base_parameters(
     model: &ExactModel,
     inertia: &[Vec<Exact>],
@@ -158,17 +159,18 @@ pub(super) fn base_parameters(
     tells.then(|| BaseParameters::of(model, dependent(inertia, gravity))).transpose()
 }
 
-/// The entries that tell what bodies weigh.
+/// The entries that contain inertial parameters.
 pub(super) fn dependent<'a>(inertia: &'a [Vec<Exact>], gravity: &'a [Exact]) -> impl Iterator<Item = &'a Exact> {
     inertia.iter().enumerate().flat_map(|(i, row)| &row[..=i]).chain(gravity)
 }
 
-/// The Coriolis matrix: of row i and column j the sum over k of half of `dM_ij/dq_k + dM_ik/dq_j - dM_kj/dq_i` times the rate of k.
+/// The Coriolis matrix. Entry (i, j) is the sum over k of half of `dM_ij/dq_k + dM_ik/dq_j - dM_kj/dq_i` times the
+/// velocity of k.
 pub(super) fn christoffel(model: &ExactModel, inertia: &[Vec<Exact>]) -> Result<Vec<Vec<Exact>>> {
     let count = inertia.len();
     let changes: Vec<_> = (0..count).map(|joint| model.changes(joint)).collect();
     let slope = |i: usize, j: usize, k: usize| model.setting.derivative(&inertia[i.max(j)][i.min(j)], &changes[k]);
-    // By entry of the lower triangle and joint.
+    // Derivatives for each entry of the lower triangle and each joint.
     let slopes: Vec<Vec<Vec<Exact>>> =
         (0..count).map(|i| (0..=i).map(|j| (0..count).map(|k| slope(i, j, k)).collect()).collect()).collect();
     let slope = |i: usize, j: usize, k: usize| slopes[i.max(j)][i.min(j)][k].clone();

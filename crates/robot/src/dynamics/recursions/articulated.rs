@@ -1,89 +1,89 @@
-//! Forward dynamics by articulated bodies. Main type: [`Articulation`].
+//! Forward dynamics by the articulated-body algorithm (ABA). Main type: [`ArticulatedBodies`].
 //!
-//! R. Featherstone, Rigid Body Dynamics Algorithms (2008), table 7.1, and section 9.2 for a base that moves freely.
+//! R. Featherstone, Rigid Body Dynamics Algorithms (2008), table 7.1, and section 9.2 for a floating base.
 
 use super::data::{Data, bias};
 use super::scalar::{Divisible, Scalar};
 use super::six::{Frame, Mass, Matrix, Six, Three, add, cross, dot, turned, turned_back};
 use super::tree::{Body, Freedom, Tree};
 
-/// What a body with all that it carries sets against a force: the momentum is `L v + H w` and `H' v + A w`.
+/// ArticulatedBody-body inertia in the frame of a body. For a motion `(v, w)` the force is `(L v + H w, H' v + A w)`.
 #[derive(Clone, Debug)]
-pub struct Resistance<S> {
-    /// `L`.
+pub struct ArticulatedInertia<S> {
+    /// The matrix `L`.
     pub linear: Matrix<S>,
-    /// `H`.
+    /// The matrix `H`.
     pub coupling: Matrix<S>,
-    /// `A`.
+    /// The matrix `A`.
     pub angular: Matrix<S>,
 }
 
-/// What a joint yields to a force on what it carries.
+/// The terms of a joint in the ABA: `U`, `D` and `u` of Featherstone's table 7.1.
 #[derive(Clone, Debug)]
-pub struct Yielding<S> {
-    /// The force that a unit acceleration of the joint asks for.
-    pub push: Six<S>,
-    /// Its part along the joint, with the rotor's.
-    pub pivot: S,
-    /// What the torque exceeds the bias by.
-    pub excess: S,
+pub struct ArticulatedJoint<S> {
+    /// `U`: the articulated-body inertia times the joint's axis.
+    pub force: Six<S>,
+    /// `D`: the component of `U` along the joint, plus the rotor inertia.
+    pub inertia: S,
+    /// `u`: the joint torque minus the component of the bias force along the joint.
+    pub torque: S,
 }
 
-/// Room for forward dynamics on one tree: it is made once, and calls allocate nothing.
+/// Working memory of the ABA for one tree. It is allocated once, and calls allocate nothing.
 #[derive(Clone, Debug)]
-pub struct Articulation<S> {
-    bodies: Vec<Articulated<S>>,
+pub struct ArticulatedBodies<S> {
+    bodies: Vec<ArticulatedBody<S>>,
 }
 
-/// What is found of a body on the way.
+/// Intermediate results of a body.
 #[derive(Clone, Debug)]
-struct Articulated<S> {
-    resistance: Resistance<S>,
-    /// The force that it asks for without any acceleration of its parent and its joint.
+struct ArticulatedBody<S> {
+    inertia: ArticulatedInertia<S>,
+    /// The articulated-body bias force.
     bias: Six<S>,
-    /// What the turning of the joint's axis adds to the acceleration.
+    /// The velocity-product acceleration: velocity times joint motion.
     turning: Six<S>,
-    yielding: Yielding<S>,
+    joint: ArticulatedJoint<S>,
     acceleration: Six<S>,
 }
 
-/// What moves a tree.
+/// Inputs of forward dynamics.
 #[derive(Clone, Debug)]
 pub struct Drive<'a, S> {
     /// The velocity of the base, in its own frame.
     pub base: Six<S>,
-    /// A base that stands still accelerates so, by minus gravity; one that moves freely is pushed by this force besides, and gravity comes with what is found.
+    /// Cause of the base's motion.
     pub base_cause: Cause<S>,
-    /// The joints' rates, and their torques.
+    /// The joint velocities.
     pub rates: &'a [S],
-    /// As `rates` tells.
+    /// The joint torques.
     pub torques: &'a [S],
-    /// What acts from outside on the bodies, in their own frames, the base first; of nothing an empty list.
+    /// External wrenches on the bodies in their own frames, the base first; empty when there are none.
     pub outside: &'a [Six<S>],
-    /// By joint, the inertia of its rotor.
+    /// The rotor inertia of each joint.
     pub rotors: &'a [S],
 }
 
-/// Why a base moves.
+/// Cause of the base's motion.
 #[derive(Clone, Debug)]
 pub enum Cause<S> {
-    /// It accelerates so, less gravity.
+    /// A prescribed acceleration minus gravity; for a fixed base, minus gravity.
     Acceleration(Six<S>),
-    /// It moves freely under this force.
+    /// A floating base under this force. Gravity is added to the resulting acceleration.
     Force(Six<S>),
 }
 
-/// A joint of which the bodies that it moves have no mass, or the base.
+/// A joint that moves no mass; `None` for the base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Massless(pub Option<usize>);
 
-impl<S: Scalar> Resistance<S> {
-    /// That of a rigid body.
+impl<S: Scalar> ArticulatedInertia<S> {
+    /// The inertia of a rigid body.
     pub fn of(mass: &Mass<S>) -> Self {
         let [x, y, z] = mass.moment.clone();
         let [xx, xy, yy, xz, yz, zz] = mass.tensor.clone();
         let diagonal = |i: usize| std::array::from_fn(|j| if i == j { mass.mass.clone() } else { S::zero() });
-        Resistance {
+        ArticulatedInertia {
             linear: std::array::from_fn(diagonal),
             coupling: [[S::zero(), z.clone(), -y.clone()], [-z, S::zero(), x.clone()], [y, -x, S::zero()]],
             angular: [[xx, xy.clone(), xz.clone()], [xy, yy, yz.clone()], [xz, yz, zz]],
@@ -99,14 +99,14 @@ impl<S: Scalar> Resistance<S> {
 
     pub(crate) fn plus(&self, other: &Self) -> Self {
         let sum = |a: &Matrix<S>, b: &Matrix<S>| std::array::from_fn(|i| add(&a[i], &b[i]));
-        Resistance {
+        ArticulatedInertia {
             linear: sum(&self.linear, &other.linear),
             coupling: sum(&self.coupling, &other.coupling),
             angular: sum(&self.angular, &other.angular),
         }
     }
 
-    /// The size of its inertia against turning or sliding: the trace.
+    /// The size of the rotational or translational inertia: the trace.
     fn size(&self, freedom: Freedom) -> S {
         let [x, y, z] = match freedom {
             Freedom::Turn => &self.angular,
@@ -115,7 +115,7 @@ impl<S: Scalar> Resistance<S> {
         x[0].clone() + y[1].clone() + z[2].clone()
     }
 
-    /// The same in the parent's frame, in which the body's stands so.
+    /// Transforms the inertia to the parent's frame. `frame` is the body's frame in the parent's.
     fn outward(&self, frame: &Frame<S>) -> Self {
         let (r, p) = (&frame.rotation, &frame.position);
         let rotated = |x: &Matrix<S>| -> Matrix<S> {
@@ -136,27 +136,28 @@ impl<S: Scalar> Resistance<S> {
             let crossed = cross(&column(&coupling, i), p);
             std::array::from_fn(|j| angular[i][j].clone() - crossed[j].clone() + above[j][i].clone())
         });
-        Resistance { linear, coupling: moved, angular }
+        ArticulatedInertia { linear, coupling: moved, angular }
     }
 }
 
-impl<S: Divisible> Resistance<S> {
-    /// Without what the joint yields to: less `U U' / pivot`.
-    fn yielding(&self, push: &Six<S>, pivot: &S) -> Self {
+impl<S: Divisible> ArticulatedInertia<S> {
+    /// The inertia without the joint's degree of freedom: minus `U U' / D`.
+    fn without_joint(&self, force: &Six<S>, inertia: &S) -> Self {
         let less = |x: &Matrix<S>, a: &Three<S>, b: &Three<S>| -> Matrix<S> {
             std::array::from_fn(|i| {
-                let share = a[i].clone() / pivot.clone();
+                let share = a[i].clone() / inertia.clone();
                 std::array::from_fn(|j| x[i][j].clone() - share.clone() * b[j].clone())
             })
         };
-        Resistance {
-            linear: less(&self.linear, &push.linear, &push.linear),
-            coupling: less(&self.coupling, &push.linear, &push.angular),
-            angular: less(&self.angular, &push.angular, &push.angular),
+        ArticulatedInertia {
+            linear: less(&self.linear, &force.linear, &force.linear),
+            coupling: less(&self.coupling, &force.linear, &force.angular),
+            angular: less(&self.angular, &force.angular, &force.angular),
         }
     }
 
-    /// The acceleration that a force gives, by elimination without pivoting: of what has mass the pivots are positive beside the size of the inertia.
+    /// Solves for the acceleration that a force causes, by elimination without pivoting. For a positive mass, all
+    /// pivots are positive relative to the size of the inertia.
     pub fn solve(&self, force: &Six<S>, is_positive: impl Fn(&S, &S) -> bool) -> Option<Six<S>> {
         let entry = |i: usize, j: usize| match (i / 3, j / 3) {
             (0, 0) => self.linear[i][j].clone(),
@@ -189,52 +190,54 @@ impl<S: Divisible> Resistance<S> {
     }
 }
 
-impl<S: Divisible> Yielding<S> {
-    /// That of a joint with a rotor under a torque, whose bodies ask for a force without acceleration.
-    pub fn of(carried: &Resistance<S>, body: &Body<S>, bias: &Six<S>, torque: &S, rotor: &S) -> Self {
-        let push = carried.times(&body.axis());
-        let pivot = body.along(&push).clone() + rotor.clone();
-        Yielding { pivot, excess: torque.clone() - body.along(bias).clone(), push }
+impl<S: Divisible> ArticulatedJoint<S> {
+    /// Computes the terms of a joint with its rotor, torque and bias force.
+    pub fn of(carried: &ArticulatedInertia<S>, body: &Body<S>, bias: &Six<S>, torque: &S, rotor: &S) -> Self {
+        let force = carried.times(&body.axis());
+        let inertia = body.along(&force).clone() + rotor.clone();
+        ArticulatedJoint { inertia, torque: torque.clone() - body.along(bias).clone(), force }
     }
 
-    /// What is left of resistance and bias for the parent, in whose frame the body's stands so.
-    pub fn hand_on(
+    /// Propagates the articulated-body inertia and the bias force to the parent. `frame` is the body's frame in the
+    /// parent's.
+    pub fn propagate(
         &self,
-        carried: &Resistance<S>,
+        carried: &ArticulatedInertia<S>,
         bias: &Six<S>,
         turning: &Six<S>,
         frame: &Frame<S>,
-    ) -> (Resistance<S>, Six<S>) {
-        let left = carried.yielding(&self.push, &self.pivot);
-        let share = self.excess.clone() / self.pivot.clone();
-        let bias = bias.add(&left.times(turning)).add(&self.push.scaled(&share));
-        (left.outward(frame), frame.force_outward(&bias))
+    ) -> (ArticulatedInertia<S>, Six<S>) {
+        let remaining = carried.without_joint(&self.force, &self.inertia);
+        let share = self.torque.clone() / self.inertia.clone();
+        let bias = bias.add(&remaining.times(turning)).add(&self.force.scaled(&share));
+        (remaining.outward(frame), frame.force_outward(&bias))
     }
 
-    /// What the joint's rate changes by where it is carried so.
-    pub fn change(&self, carried: &Six<S>) -> S {
-        (self.excess.clone() - self.push.dot(carried)) / self.pivot.clone()
+    /// The joint acceleration for the parent's acceleration `carried` in the body's frame.
+    pub fn acceleration(&self, carried: &Six<S>) -> S {
+        (self.torque.clone() - self.force.dot(carried)) / self.inertia.clone()
     }
 }
 
-impl<S: Divisible> Articulation<S> {
-    /// Room for forward dynamics on a tree.
+impl<S: Divisible> ArticulatedBodies<S> {
+    /// Allocates the working memory for a tree.
     pub fn new(tree: &Tree<S>) -> Self {
-        let body = Articulated {
-            resistance: Resistance::of(&Mass::zero()),
+        let body = ArticulatedBody {
+            inertia: ArticulatedInertia::of(&Mass::zero()),
             bias: Six::zero(),
             turning: Six::zero(),
-            yielding: Yielding { push: Six::zero(), pivot: S::zero(), excess: S::zero() },
+            joint: ArticulatedJoint { force: Six::zero(), inertia: S::zero(), torque: S::zero() },
             acceleration: Six::zero(),
         };
-        Articulation { bodies: vec![body; tree.bodies.len()] }
+        ArticulatedBodies { bodies: vec![body; tree.bodies.len()] }
     }
 
-    /// What the joints' rates change by, and the acceleration of the base less gravity; the joints stand where `data` has placed them. `is_positive` decides whether an inertia along a
-    /// freedom is one, beside the size of the inertia in all directions.
+    /// Computes the joint accelerations, and returns the acceleration of the base minus gravity. The joint positions
+    /// are those of `data`. `is_positive` decides whether an inertia along a degree of freedom is positive, relative to
+    /// the inertia in all directions.
     ///
     /// # Errors
-    /// The joint, or the base, that moves no mass.
+    /// The joint that moves no mass, or the base.
     pub fn forward(
         &mut self,
         tree: &Tree<S>,
@@ -246,30 +249,31 @@ impl<S: Divisible> Articulation<S> {
         data.move_bodies(tree, &drive.base, drive.rates);
         for (joint, (body, own)) in tree.bodies.iter().zip(&mut self.bodies).enumerate() {
             let velocity = &data.velocities[joint];
-            own.resistance = Resistance::of(&body.mass);
+            own.inertia = ArticulatedInertia::of(&body.mass);
             own.bias = bias(&body.mass, velocity, drive.outside.get(joint + 1));
             own.turning = body.turning(velocity, &drive.rates[joint]);
         }
-        let mut base = Resistance::of(&tree.base);
+        let mut base = ArticulatedInertia::of(&tree.base);
         let mut base_bias = bias(&tree.base, &drive.base, drive.outside.first());
         for &joint in tree.order.iter().rev() {
             let (body, own) = (&tree.bodies[joint], &mut self.bodies[joint]);
-            own.yielding = Yielding::of(&own.resistance, body, &own.bias, &drive.torques[joint], &drive.rotors[joint]);
-            if !is_positive(&own.yielding.pivot, &own.resistance.size(body.freedom)) {
+            own.joint =
+                ArticulatedJoint::of(&own.inertia, body, &own.bias, &drive.torques[joint], &drive.rotors[joint]);
+            if !is_positive(&own.joint.inertia, &own.inertia.size(body.freedom)) {
                 return Err(Massless(Some(joint)));
             }
-            let (outward, bias) = own.yielding.hand_on(&own.resistance, &own.bias, &own.turning, &data.frames[joint]);
-            let (resistance, below) = match body.parent {
+            let (outward, bias) = own.joint.propagate(&own.inertia, &own.bias, &own.turning, &data.frames[joint]);
+            let (inertia, below) = match body.parent {
                 None => (&mut base, &mut base_bias),
                 Some(parent) => {
-                    let Articulated { resistance, bias, .. } = &mut self.bodies[parent];
-                    (resistance, bias)
+                    let ArticulatedBody { inertia, bias, .. } = &mut self.bodies[parent];
+                    (inertia, bias)
                 }
             };
-            (*resistance, *below) = (resistance.plus(&outward), below.add(&bias));
+            (*inertia, *below) = (inertia.plus(&outward), below.add(&bias));
         }
         let base_acceleration = match &drive.base_cause {
-            Cause::Acceleration(told) => told.clone(),
+            Cause::Acceleration(given) => given.clone(),
             Cause::Force(force) => base.solve(&force.add(&base_bias.negated()), is_positive).ok_or(Massless(None))?,
         };
         for &joint in &tree.order {
@@ -277,9 +281,9 @@ impl<S: Divisible> Articulation<S> {
             let carrier = body.parent.map_or(&base_acceleration, |parent| &self.bodies[parent].acceleration);
             let carried = data.frames[joint].motion_inward(carrier).add(&self.bodies[joint].turning);
             let own = &mut self.bodies[joint];
-            let change = own.yielding.change(&carried);
+            let change = own.joint.acceleration(&carried);
             own.acceleration = carried;
-            body.quicken(&mut own.acceleration, change.clone());
+            body.add_motion(&mut own.acceleration, change.clone());
             accelerations[joint] = change;
         }
         Ok(base_acceleration)

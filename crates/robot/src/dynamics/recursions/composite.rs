@@ -1,16 +1,16 @@
-//! Bodies that move as one, and how what they weigh changes. Main type: [`Composite`].
+//! Composite rigid bodies and the rate of their inertia. Main type: [`Composite`].
 
 use super::scalar::Scalar;
 use super::six::{Frame, Mass, Six, cross, dot};
 
-/// Bodies as one, in a frame of one of them.
+/// A composite rigid body, in the frame of one of its bodies.
 #[derive(Clone, Debug)]
 pub struct Composite<S> {
-    /// Their mass, centre and moments.
+    /// Its inertia: mass, first moments and inertia tensor.
     pub mass: Mass<S>,
-    /// The time derivative of `mass`.
+    /// The time derivative of its inertia.
     pub rate: Mass<S>,
-    /// Their momentum.
+    /// Its momentum.
     pub momentum: Six<S>,
 }
 
@@ -19,7 +19,7 @@ impl<S: Scalar> Composite<S> {
         Composite { mass: Mass::zero(), rate: Mass::zero(), momentum: Six::zero() }
     }
 
-    /// That of one body at a velocity, in its own frame.
+    /// The composite of one body at a velocity, in its own frame.
     pub fn of(mass: &Mass<S>, velocity: &Six<S>) -> Self {
         let momentum = mass.times(velocity);
         Composite { mass: mass.clone(), rate: rate(mass, velocity, &momentum), momentum }
@@ -33,7 +33,7 @@ impl<S: Scalar> Composite<S> {
         }
     }
 
-    /// The same bodies in the parent's frame.
+    /// Transforms the composite to the parent's frame.
     pub fn outward(&self, frame: &Frame<S>) -> Self {
         Composite {
             mass: self.mass.outward(frame),
@@ -43,15 +43,16 @@ impl<S: Scalar> Composite<S> {
     }
 }
 
-/// How a body's ten numbers change in a frame that stands still where the body's own frame is. The second moments `P` of its mass change by `v h' + W P` and
-/// what that is transposed, where `W` is the matrix of the angular velocity and `h` the mass times its centre.
+/// The time derivative of a body's ten inertial parameters in a fixed frame that coincides with the body's frame. The
+/// second moments `P` of the mass change by `v h' + W P` plus its transpose. `W` is the matrix of the angular velocity
+/// and `h` the first moments.
 fn rate<S: Scalar>(mass: &Mass<S>, velocity: &Six<S>, momentum: &Six<S>) -> Mass<S> {
     let [xx, xy, yy, xz, yz, zz] = mass.tensor.clone();
     let half = (xx.clone() + yy.clone() + zz.clone()).half();
     let [xy, xz, yz] = [-xy, -xz, -yz];
     let second =
         [[half.clone() - xx, xy.clone(), xz.clone()], [xy, half.clone() - yy, yz.clone()], [xz, yz, half - zz]];
-    // Column j of W P is the angular velocity times column j of P, which is symmetric.
+    // Column j of W P is the angular velocity times column j of the symmetric matrix P.
     let turned: [_; 3] = std::array::from_fn(|j| cross(&velocity.angular, &second[j]));
     let pulled = |i: usize, j: usize| velocity.linear[i].clone() * mass.moment[j].clone() + turned[j][i].clone();
     let along = dot(&velocity.linear, &mass.moment);
@@ -65,12 +66,13 @@ fn rate<S: Scalar>(mass: &Mass<S>, velocity: &Six<S>, momentum: &Six<S>) -> Mass
 }
 
 impl<S: Scalar> Composite<S> {
-    /// Twice what a body's Coriolis matrix makes of a motion: `2 B x`, where `x . B x` is half the power that the rate of the inertia takes.
+    /// Twice the body-level Coriolis matrix times a motion: `2 B x`. The power `x . B x` is half of that of the
+    /// inertia's rate.
     pub(super) fn coriolis(&self, motion: &Six<S>) -> Six<S> {
         self.rate.times(motion).add(&motion.pushing(&self.momentum))
     }
 
-    /// Twice what the transpose makes of it.
+    /// Twice the transposed body-level Coriolis matrix times a motion.
     pub(super) fn coriolis_transposed(&self, motion: &Six<S>) -> Six<S> {
         self.rate.times(motion).add(&motion.pushing(&self.momentum).negated())
     }

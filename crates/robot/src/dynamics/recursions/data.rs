@@ -1,55 +1,59 @@
-//! Room for the recursions, and those that go through the bodies once: velocities, inverse dynamics, energy, momentum. Main type: [`Data`].
+//! Working memory of the recursions, and the simple recursions: velocities, inverse dynamics (RNEA), energy, momentum.
+//! Main type: [`Data`].
 //!
-//! R. Featherstone, Rigid Body Dynamics Algorithms (2008): inverse dynamics by Newton and Euler, table 5.1.
+//! R. Featherstone, Rigid Body Dynamics Algorithms (2008): inverse dynamics by the recursive Newton-Euler algorithm,
+//! table 5.1.
 
 use super::composite::Composite;
 use super::scalar::Scalar;
 use super::six::{Frame, Mass, Six, dot};
 use super::tree::{Body, Freedom, Place, Tree};
 
-/// How a robot moves: its base, whose motions stand in its own frame, and by joint its rate and what that changes by. A base that stands still under gravity
-/// `g` accelerates by `-g`.
+/// The motion of a robot: the twist of the base in its own frame, and the velocities and accelerations of the joints. A
+/// fixed base under gravity `g` has the acceleration `-g`.
 #[derive(Clone, Debug)]
 pub struct Motion<'a, S> {
     /// The velocity of the base.
     pub base: Six<S>,
-    /// Its acceleration, less that of gravity.
+    /// The acceleration of the base minus gravity.
     pub base_acceleration: Six<S>,
-    /// The joints' rates.
+    /// The joint velocities.
     pub rates: &'a [S],
-    /// What the rates change by.
+    /// The joint accelerations.
     pub accelerations: &'a [S],
 }
 
-/// Room for the recursions on one tree: it is made once, and they allocate nothing.
+/// Working memory of the recursions for one tree. It is allocated once, and the recursions allocate nothing.
 #[derive(Clone, Debug)]
 pub struct Data<S> {
-    /// By joint, where its body stands in its parent.
+    /// For each joint, its body's frame in the parent's frame.
     pub(super) frames: Vec<Frame<S>>,
     pub(super) velocities: Vec<Six<S>>,
     pub(super) accelerations: Vec<Six<S>>,
-    /// By joint, the force on what it carries.
+    /// For each joint, the force that it transmits.
     pub(super) forces: Vec<Six<S>>,
-    /// By joint, what it carries as one body.
+    /// For each joint, the composite rigid body that it carries.
     pub(super) composites: Vec<Composite<S>>,
     pub(super) masses: Vec<Mass<S>>,
-    /// By joint, how its unit motion changes, in its body's frame.
+    /// For each joint, the time derivative of its axis, in its body's frame.
     pub(super) turnings: Vec<Six<S>>,
-    /// By joint, how that of the parent's acceleration and the turning of the turning changes it.
+    /// For each joint, the derivative of its axis' contribution to the acceleration: parent's acceleration and second
+    /// rotation term.
     pub(super) bends: Vec<Six<S>>,
 }
 
 /// The energy of a robot \[J\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Energy<S> {
-    /// Half the velocity times the momentum.
+    /// The kinetic energy.
     pub kinetic: S,
-    /// The height of the centre of mass over the origin of the base (of one that moves freely: of the world), times the weight.
+    /// The potential energy: weight times the height of the centre of mass above the origin of the base, or of the
+    /// world for a floating base.
     pub potential: S,
 }
 
 impl<S: Scalar> Data<S> {
-    /// Room for the recursions on a tree.
+    /// Allocates the working memory for a tree.
     pub fn new(tree: &Tree<S>) -> Self {
         let count = tree.bodies.len();
         let sixes = || vec![Six::zero(); count];
@@ -65,25 +69,25 @@ impl<S: Scalar> Data<S> {
         }
     }
 
-    /// Puts the joints at their places.
+    /// Sets the joint positions.
     pub fn place(&mut self, tree: &Tree<S>, places: impl IntoIterator<Item = Place<S>>) {
         for ((frame, body), place) in self.frames.iter_mut().zip(&tree.bodies).zip(places) {
             *frame = body.placed(&place);
         }
     }
 
-    /// The bodies' velocities.
+    /// Computes the bodies' velocities.
     pub(super) fn move_bodies(&mut self, tree: &Tree<S>, base: &Six<S>, rates: &[S]) {
         for &joint in &tree.order {
             let body = &tree.bodies[joint];
             let velocity = body.parent.map_or(base, |parent| &self.velocities[parent]);
             let mut velocity = self.frames[joint].motion_inward(velocity);
-            body.quicken(&mut velocity, rates[joint].clone());
+            body.add_motion(&mut velocity, rates[joint].clone());
             self.velocities[joint] = velocity;
         }
     }
 
-    /// Tells each body's composite alone, once velocities are known, and how the joints' unit motions change.
+    /// Initialises each body's composite from its velocity, and computes the time derivatives of the joint axes.
     pub(super) fn compose(&mut self, tree: &Tree<S>) {
         for (joint, body) in tree.bodies.iter().enumerate() {
             let velocity = &self.velocities[joint];
@@ -92,15 +96,15 @@ impl<S: Scalar> Data<S> {
         }
     }
 
-    /// Adds what a joint carries to what carries it.
-    pub(super) fn hand_on(&mut self, tree: &Tree<S>, joint: usize, base: &mut Composite<S>) {
+    /// Adds a joint's composite to that of its parent.
+    pub(super) fn propagate(&mut self, tree: &Tree<S>, joint: usize, base: &mut Composite<S>) {
         let outward = self.composites[joint].outward(&self.frames[joint]);
         let below = tree.bodies[joint].parent.map_or(base, |parent| &mut self.composites[parent]);
         *below = below.plus(&outward);
     }
 
-    /// The forces that a motion asks for: of each joint along its freedom, and that on the base. What acts from outside on the bodies stands in their own
-    /// frames, the base first; of nothing an empty list.
+    /// Inverse dynamics (RNEA). Writes the joint torques and returns the force on the base. External wrenches are in
+    /// the bodies' own frames, the base first; the list is empty when there are none.
     pub fn inverse(&mut self, tree: &Tree<S>, motion: &Motion<'_, S>, outside: &[Six<S>], torques: &mut [S]) -> Six<S> {
         for &joint in &tree.order {
             let (body, frame) = (&tree.bodies[joint], &self.frames[joint]);
@@ -111,13 +115,13 @@ impl<S: Scalar> Data<S> {
             let mut velocity = frame.motion_inward(velocity);
             let mut acceleration = frame.motion_inward(acceleration);
             let rate = &motion.rates[joint];
-            body.quicken(&mut velocity, rate.clone());
+            body.add_motion(&mut velocity, rate.clone());
             acceleration = acceleration.add(&body.turning(&velocity, rate));
-            body.quicken(&mut acceleration, motion.accelerations[joint].clone());
-            self.forces[joint] = pushed(&body.mass, &velocity, &acceleration, outside.get(joint + 1));
+            body.add_motion(&mut acceleration, motion.accelerations[joint].clone());
+            self.forces[joint] = net_force(&body.mass, &velocity, &acceleration, outside.get(joint + 1));
             (self.velocities[joint], self.accelerations[joint]) = (velocity, acceleration);
         }
-        let mut base = pushed(&tree.base, &motion.base, &motion.base_acceleration, outside.first());
+        let mut base = net_force(&tree.base, &motion.base, &motion.base_acceleration, outside.first());
         for &joint in tree.order.iter().rev() {
             let body = &tree.bodies[joint];
             torques[joint] = body.along(&self.forces[joint]).clone();
@@ -128,7 +132,7 @@ impl<S: Scalar> Data<S> {
         base
     }
 
-    /// All bodies as one, in the base's frame.
+    /// All bodies as one composite, in the base frame.
     pub fn whole(&mut self, tree: &Tree<S>) -> Mass<S> {
         for (whole, body) in self.masses.iter_mut().zip(&tree.bodies) {
             *whole = body.mass.clone();
@@ -142,7 +146,7 @@ impl<S: Scalar> Data<S> {
         base
     }
 
-    /// The momentum of all bodies, in the base's frame and about its origin.
+    /// The momentum of all bodies, in the base frame about its origin.
     pub fn momentum(&mut self, tree: &Tree<S>, base: &Six<S>, rates: &[S]) -> Six<S> {
         self.move_bodies(tree, base, rates);
         let mut whole = tree.base.times(base);
@@ -157,7 +161,8 @@ impl<S: Scalar> Data<S> {
         whole
     }
 
-    /// The energy of the bodies under a gravity that is told in the base's frame, as far as the origin of that is level.
+    /// The energy of the bodies. Gravity is given in the base frame. The potential energy is zero at the height of its
+    /// origin.
     pub fn energy(&mut self, tree: &Tree<S>, base: &Six<S>, rates: &[S], gravity: &[S; 3]) -> Energy<S> {
         self.move_bodies(tree, base, rates);
         let own = |mass: &Mass<S>, velocity: &Six<S>| velocity.dot(&mass.times(velocity));
@@ -174,40 +179,45 @@ pub fn unit<S: Scalar>(freedom: usize) -> Six<S> {
     axis
 }
 
-/// The force that moves a body so, less what acts on it from outside.
-pub fn pushed<S: Scalar>(mass: &Mass<S>, velocity: &Six<S>, acceleration: &Six<S>, outside: Option<&Six<S>>) -> Six<S> {
+/// The force on a body with this motion, minus the external wrench.
+pub fn net_force<S: Scalar>(
+    mass: &Mass<S>,
+    velocity: &Six<S>,
+    acceleration: &Six<S>,
+    outside: Option<&Six<S>>,
+) -> Six<S> {
     mass.times(acceleration).add(&bias(mass, velocity, outside))
 }
 
-/// The force that a body asks for without any acceleration.
+/// The bias force of a body: the force without acceleration, minus the external wrench.
 pub fn bias<S: Scalar>(mass: &Mass<S>, velocity: &Six<S>, outside: Option<&Six<S>>) -> Six<S> {
     let force = velocity.pushing(&mass.times(velocity));
     outside.map_or_else(|| force.clone(), |outside| force.add(&outside.negated()))
 }
 
 impl<S: Scalar> Body<S> {
-    /// Which of six coordinates the joint moves along.
+    /// Index of the joint's axis among the six coordinates.
     fn coordinate(&self) -> usize {
         if self.freedom == Freedom::Turn { 5 } else { 2 }
     }
 
-    /// The unit motion of the joint, in the body's frame.
+    /// The joint's axis: its unit motion in the body's frame.
     pub fn axis(&self) -> Six<S> {
         unit(self.coordinate())
     }
 
-    /// Adds a motion of the joint.
-    pub fn quicken(&self, motion: &mut Six<S>, rate: S) {
+    /// Adds a velocity or acceleration along the joint's axis to a motion.
+    pub fn add_motion(&self, motion: &mut Six<S>, rate: S) {
         let entry = motion.at_mut(self.coordinate());
         *entry = entry.clone() + rate;
     }
 
-    /// The part of a force that the joint feels.
+    /// The component of a force along the joint's axis.
     pub fn along<'a>(&self, force: &'a Six<S>) -> &'a S {
         force.at(self.coordinate())
     }
 
-    /// What turning the joint's axis adds to the acceleration: the velocity times the joint's motion.
+    /// The velocity-product acceleration: velocity times the joint's motion.
     pub fn turning(&self, velocity: &Six<S>, rate: &S) -> Six<S> {
         let across = |v: &[S; 3]| [v[1].clone() * rate.clone(), -(v[0].clone() * rate.clone()), S::zero()];
         match self.freedom {
@@ -216,8 +226,8 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// How a force that is fixed to the body changes as the joint moves at unit rate.
-    pub fn swung(&self, force: &Six<S>) -> Six<S> {
+    /// The change of a force that is fixed to the body, for a unit velocity of the joint.
+    pub fn force_rate(&self, force: &Six<S>) -> Six<S> {
         let across = |f: &[S; 3]| [-f[1].clone(), f[0].clone(), S::zero()];
         match self.freedom {
             Freedom::Turn => Six { linear: across(&force.linear), angular: across(&force.angular) },
@@ -225,7 +235,7 @@ impl<S: Scalar> Body<S> {
         }
     }
 
-    /// The momentum of a mass that the joint moves at unit rate.
+    /// The momentum of a mass that moves with unit velocity along the joint's axis.
     pub fn momentum(&self, mass: &Mass<S>) -> Six<S> {
         let [x, y, _] = mass.moment.clone();
         match self.freedom {

@@ -1,4 +1,4 @@
-//! Jacobians of bodies and their rates, and how joints move the momentum.
+//! Jacobians of bodies, their time derivatives, and the momentum matrix.
 
 use super::data::{Data, unit};
 use super::scalar::Scalar;
@@ -6,8 +6,9 @@ use super::six::{Frame, Six};
 use super::tree::Tree;
 
 impl<S: Scalar> Data<S> {
-    /// The velocity of a frame in a body (none: the base) for unit rates, in that frame, and how that changes at the rates of a motion: by freedom, the base's
-    /// six first where they count. Freedoms that do not move it are left as they are.
+    /// Computes the Jacobian of a frame in a body (`None`: the base) and its time derivative for a motion, in this
+    /// frame. There is one column for each degree of freedom, the base's six first if it is floating. Columns of joints
+    /// that do not move the frame are not written.
     pub fn jacobian(
         &mut self,
         tree: &Tree<S>,
@@ -19,7 +20,7 @@ impl<S: Scalar> Data<S> {
         self.move_bodies(tree, base, rates);
         let velocity = body.map_or(base, |joint| &self.velocities[joint]);
         let own = link.motion_inward(velocity);
-        // Of what is fixed to a carrier the velocity is seen from the frame, which turns by itself.
+        // The velocity of a carrier's axis in the frame, which rotates itself.
         let seen = |frame: &Frame<S>, axis: &Six<S>, velocity: &Six<S>| {
             let column = frame.motion_inward(axis);
             let change = frame.motion_inward(velocity).add(&own.negated()).moving(&column);
@@ -35,13 +36,14 @@ impl<S: Scalar> Data<S> {
         own
     }
 
-    /// Where a frame in a body (none: the base) stands in the base.
+    /// The pose in the base of a frame in a body (`None`: the base).
     pub fn stands(&self, tree: &Tree<S>, body: Option<usize>, link: &Frame<S>) -> Frame<S> {
         let up = |joint: &usize| tree.bodies[*joint].parent;
         std::iter::successors(body, up).fold(link.clone(), |frame, joint| self.frames[joint].then(&frame))
     }
 
-    /// The momentum of all bodies for unit rates, in the base's frame and about its origin: by freedom, the base's six first where they count.
+    /// Computes the momentum matrix: the momentum of all bodies for unit velocities, in the base frame about its
+    /// origin. There is one column for each degree of freedom, the base's six first if it is floating.
     pub fn momenta(&mut self, tree: &Tree<S>, first: usize, columns: &mut [Six<S>]) {
         let base = self.whole(tree);
         (0..first).for_each(|freedom| columns[freedom] = base.times(&unit(freedom)));

@@ -1,7 +1,8 @@
-//! The inertia and the Coriolis matrix, by bodies taken together. Main type: [`Matrices`].
+//! The inertia matrix (CRBA) and the Coriolis matrix by composite rigid bodies. Main type: [`Matrices`].
 //!
-//! R. Featherstone, Rigid Body Dynamics Algorithms (2008), table 6.2. The Coriolis matrix is that of Christoffel's symbols: S. Echeandia and P. M. Wensing,
-//! J. Mechanisms and Robotics 13 (2021), here with what they sum by body, 36 numbers, as the rate of ten numbers and a momentum.
+//! R. Featherstone, Rigid Body Dynamics Algorithms (2008), table 6.2. The Coriolis matrix has Christoffel symbols: S.
+//! Echeandia and P. M. Wensing, J. Mechanisms and Robotics 13 (2021), here with their 36 numbers for each body replaced
+//! by the rate of ten inertial parameters and a momentum.
 
 use super::composite::Composite;
 use super::data::{Data, unit};
@@ -9,10 +10,10 @@ use super::scalar::Scalar;
 use super::six::{Frame, Six};
 use super::tree::{Body, Tree};
 
-/// Square matrices by rows, that of the base's six freedoms first where it moves.
+/// Square matrices in row-major order. A floating base has the first six degrees of freedom.
 #[derive(Clone, Debug)]
 pub struct Matrices<S> {
-    /// Rows and columns.
+    /// Number of rows and columns.
     pub size: usize,
     /// The inertia matrix.
     pub inertia: Vec<S>,
@@ -21,7 +22,7 @@ pub struct Matrices<S> {
 }
 
 impl<S: Scalar> Matrices<S> {
-    /// Room for the matrices of so many freedoms.
+    /// Allocates the matrices for a number of degrees of freedom.
     pub fn new(size: usize) -> Self {
         Matrices { size, inertia: vec![S::zero(); size * size], coriolis: vec![S::zero(); size * size] }
     }
@@ -32,43 +33,43 @@ impl<S: Scalar> Matrices<S> {
     }
 }
 
-/// What a joint's unit rate asks of the bodies that it carries: by inertia, and by the Coriolis matrix and its transpose.
-pub struct Pushes<S> {
-    /// By inertia.
+/// Forces on the composite body of a joint for a unit velocity: by the inertia, the Coriolis matrix and its transpose.
+pub struct UnitForces<S> {
+    /// Force by the inertia.
     pub inertia: Six<S>,
-    /// By the Coriolis matrix.
+    /// Force by the Coriolis matrix.
     pub coriolis: Six<S>,
-    /// By the transpose of the Coriolis matrix.
+    /// Force by the transposed Coriolis matrix.
     pub transposed: Six<S>,
 }
 
-impl<S: Scalar> Pushes<S> {
-    /// Those of a joint with this axis that carries the bodies `carried`.
+impl<S: Scalar> UnitForces<S> {
+    /// Computes the forces for a joint with this axis that carries the composite `carried`.
     pub fn new(carried: &Composite<S>, inertia: Six<S>, axis: &Six<S>, turning: &Six<S>) -> Self {
         let coriolis = carried.mass.times(turning).add(&carried.coriolis(axis).half());
-        Pushes { inertia, coriolis, transposed: carried.coriolis_transposed(axis).half() }
+        UnitForces { inertia, coriolis, transposed: carried.coriolis_transposed(axis).half() }
     }
 
-    /// The same forces in the parent's frame.
+    /// Transforms the forces to the parent's frame.
     pub fn outward(&self, frame: &Frame<S>) -> Self {
         let [inertia, coriolis, transposed] =
             [&self.inertia, &self.coriolis, &self.transposed].map(|push| frame.force_outward(push));
-        Pushes { inertia, coriolis, transposed }
+        UnitForces { inertia, coriolis, transposed }
     }
 
-    /// What the freedom feels of a joint that carries it, whose axis changes by `turning`.
+    /// The Coriolis entry of this degree of freedom for a carrying joint, whose axis has the rate `turning`.
     pub fn of_carrier(&self, carrier: &Body<S>, turning: &Six<S>) -> S {
         turning.dot(&self.inertia) + carrier.along(&self.transposed).clone()
     }
 
-    /// The same of one of the base's freedoms.
+    /// The Coriolis entry of this degree of freedom for one of the base.
     pub fn of_base(&self, freedom: usize, velocity: &Six<S>) -> S {
         velocity.moving(&unit(freedom)).dot(&self.inertia) + self.transposed.at(freedom).clone()
     }
 }
 
 impl<S: Scalar> Data<S> {
-    /// The inertia matrix, with the base's six freedoms, or that of joints alone.
+    /// Computes the inertia matrix (CRBA), with the base's six degrees of freedom or for the joints alone.
     pub fn inertia(&mut self, tree: &Tree<S>, out: &mut Matrices<S>) {
         let first = out.size - tree.bodies.len();
         out.inertia.iter_mut().for_each(|entry| *entry = S::zero());
@@ -102,7 +103,8 @@ impl<S: Scalar> Data<S> {
         }
     }
 
-    /// The inertia and the Coriolis matrix at a velocity of the base and rates; with the base's six freedoms, or those of joints alone. `M' - 2 C` is skew.
+    /// Computes the inertia and the Coriolis matrix for a velocity of base and joints. The base's six degrees of
+    /// freedom are included if the base is floating. `M' - 2 C` is skew-symmetric.
     pub fn matrices(&mut self, tree: &Tree<S>, velocity: &Six<S>, rates: &[S], out: &mut Matrices<S>) {
         let first = out.size - tree.bodies.len();
         out.inertia.iter_mut().chain(&mut out.coriolis).for_each(|entry| *entry = S::zero());
@@ -112,7 +114,8 @@ impl<S: Scalar> Data<S> {
         for &joint in tree.order.iter().rev() {
             let body = &tree.bodies[joint];
             let carried = &self.composites[joint];
-            let mut pushes = Pushes::new(carried, body.momentum(&carried.mass), &body.axis(), &self.turnings[joint]);
+            let mut pushes =
+                UnitForces::new(carried, body.momentum(&carried.mass), &body.axis(), &self.turnings[joint]);
             let mut at = Some(joint);
             while let Some(carrier) = at {
                 let body = &tree.bodies[carrier];
@@ -127,19 +130,19 @@ impl<S: Scalar> Data<S> {
                 at = body.parent;
             }
             out.enter_base(first, first + joint, &pushes, velocity);
-            self.hand_on(tree, joint, &mut base);
+            self.propagate(tree, joint, &mut base);
         }
         for column in 0..first {
             let (axis, turning) = (unit(column), velocity.moving(&unit(column)));
-            let pushes = Pushes::new(&base, base.mass.times(&axis), &axis, &turning);
+            let pushes = UnitForces::new(&base, base.mass.times(&axis), &axis, &turning);
             out.enter_base(column + 1, column, &pushes, velocity);
         }
     }
 }
 
 impl<S: Scalar> Matrices<S> {
-    /// Enters what the first freedoms of the base have to do for another one.
-    fn enter_base(&mut self, count: usize, carried: usize, pushes: &Pushes<S>, velocity: &Six<S>) {
+    /// Enters the coupling of a degree of freedom with the first ones of the base.
+    fn enter_base(&mut self, count: usize, carried: usize, pushes: &UnitForces<S>, velocity: &Six<S>) {
         for row in 0..count {
             self.enter_inertia(row, carried, pushes.inertia.at(row));
             if row != carried {

@@ -1,4 +1,5 @@
-//! The recursions of dynamics over whatever is added and multiplied: doubles, floats, dual numbers, polynomials, code.
+//! Recursive algorithms of rigid-body dynamics (RNEA, CRBA, ABA) over any scalar type: doubles, floats, dual numbers,
+//! polynomials, code.
 
 mod articulated;
 mod composite;
@@ -11,15 +12,15 @@ mod scalar;
 mod six;
 mod tree;
 
-pub use articulated::{Articulation, Cause, Drive, Massless};
-pub use articulated::{Resistance, Yielding};
+pub use articulated::{ArticulatedBodies, Cause, Drive, Massless};
+pub use articulated::{ArticulatedInertia, ArticulatedJoint};
 pub use composite::Composite;
 pub use data::{Data, Energy, Motion};
-pub use data::{bias, pushed, unit};
-pub use derivatives::Changes;
+pub use data::{bias, net_force, unit};
 pub use derivatives::Derivatives;
+pub use derivatives::ForceDerivatives;
 pub use matrices::Matrices;
-pub use matrices::Pushes;
+pub use matrices::UnitForces;
 pub use scalar::{Divisible, Dual, Scalar};
 pub use six::{Frame, Mass, Matrix, Six};
 pub use tree::{Body, Freedom, Place, Tree};

@@ -1,30 +1,32 @@
-//! The regressor: inverse dynamics as a matrix times what the bodies weigh.
+//! The regressor: inverse dynamics as a matrix times the inertial parameters.
 //!
-//! C. G. Atkeson, C. H. An and J. M. Hollerbach, Estimation of Inertial Parameters of Manipulator Loads and Links, Int. J. Robotics Research 5 (1986).
+//! C. G. Atkeson, C. H. An and J. M. Hollerbach, Estimation of Inertial Parameters of Manipulator Loads and Links, Int.
+//! J. Robotics Research 5 (1986).
 
-use super::data::{Data, Motion, pushed};
+use super::data::{Data, Motion, net_force};
 use super::scalar::Scalar;
 use super::six::{Frame, Mass, Six};
 use super::tree::Tree;
 
-/// How many numbers tell what a body weighs: the mass, the mass times its centre, and the inertia tensor xx, xy, yy, xz, yz, zz about the origin of a frame.
+/// Number of inertial parameters of a body: the mass, the first moments (mass times centre), and the inertia tensor xx,
+/// xy, yy, xz, yz, zz about the origin of a frame.
 pub const PARAMETERS: usize = 10;
 
 impl<S: Scalar> Mass<S> {
-    /// One of the ten numbers is one, the others are nought.
+    /// A mass with one of the ten parameters equal to one and the others zero.
     pub fn unit(parameter: usize) -> Self {
-        let told = |at: usize| if at == parameter { S::one() } else { S::zero() };
+        let entry = |at: usize| if at == parameter { S::one() } else { S::zero() };
         Mass {
-            mass: told(0),
-            moment: std::array::from_fn(|i| told(1 + i)),
-            tensor: std::array::from_fn(|i| told(4 + i)),
+            mass: entry(0),
+            moment: std::array::from_fn(|i| entry(1 + i)),
+            tensor: std::array::from_fn(|i| entry(4 + i)),
         }
     }
 }
 
 impl<S: Scalar> Data<S> {
-    /// The matrix that makes the torques of a motion of what the bodies weigh, by rows; columns are the ten numbers of each body, that of the base first where
-    /// its freedoms count. `links` are the frames, in the bodies' own, in which the numbers are told, that of the base first.
+    /// Computes the regressor in row-major order. Columns are the ten inertial parameters of each body, a floating base
+    /// first. `links` are the frames, relative to the bodies' own, in which the parameters are given, the base first.
     pub fn regressor(
         &mut self,
         tree: &Tree<S>,
@@ -62,7 +64,7 @@ impl<S: Scalar> Data<S> {
     }
 }
 
-/// The force that moves a body of which one number is one.
+/// The force on a body with a unit value of one inertial parameter.
 fn unit_force<S: Scalar>(parameter: usize, [velocity, acceleration]: &[Six<S>; 2]) -> Six<S> {
-    pushed(&Mass::unit(parameter), velocity, acceleration, None)
+    net_force(&Mass::unit(parameter), velocity, acceleration, None)
 }

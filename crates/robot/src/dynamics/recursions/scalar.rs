@@ -1,19 +1,19 @@
-//! What the recursions of dynamics compute with. Main type: [`Scalar`].
+//! Scalar types of the recursions. Main type: [`Scalar`].
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number of the recursions: a double, a [dual number](Dual), or whatever else is added and multiplied.
+/// A scalar of the recursions: a double, a [dual number](Dual), or any type with addition and multiplication.
 pub trait Scalar: Clone + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
-    /// Nought.
+    /// Zero.
     fn zero() -> Self;
     /// One.
     fn one() -> Self;
-    /// Half of it.
+    /// Half of this number.
     #[must_use]
     fn half(&self) -> Self;
 }
 
-/// A number that divides, as forward dynamics asks for.
+/// A scalar with division, for forward dynamics.
 pub trait Divisible: Scalar + Div<Output = Self> {}
 
 impl<S: Scalar + Div<Output = S>> Divisible for S {}
@@ -40,17 +40,17 @@ macro_rules! scalars {
 
 scalars!(f64 f32);
 
-/// A number and its derivative along one direction: what is computed of it carries both.
+/// A dual number: a value and its derivative along one direction. Every operation propagates both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<S> {
-    /// The number.
+    /// The value.
     pub value: S,
-    /// Its derivative.
+    /// The derivative.
     pub slope: S,
 }
 
 impl<S: Scalar> Dual<S> {
-    /// A number that does not change.
+    /// A constant: its derivative is zero.
     pub fn constant(value: S) -> Self {
         Dual { value, slope: S::zero() }
     }

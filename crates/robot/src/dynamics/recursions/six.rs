@@ -1,13 +1,13 @@
-//! Vectors of three and of six coordinates, and where one frame stands in another. Main types: [`Six`], [`Frame`], [`Mass`].
+//! Vectors with three and six coordinates, frames and inertias. Main types: [`Six`], [`Frame`], [`Mass`].
 //!
-//! Motions and forces stand in the frame of a body, linear part first, as in RH0 (2-5).
+//! Motions and forces are expressed in the frame of a body, linear part first, as in RH0 (2-5).
 
 use super::scalar::Scalar;
 use crate::spatial::Wrench;
 
-/// Three coordinates.
+/// A vector of three coordinates.
 pub type Three<S> = [S; 3];
-/// A matrix by rows.
+/// A 3 x 3 matrix, row by row.
 pub type Matrix<S> = [Three<S>; 3];
 
 pub(in crate::dynamics) fn add<S: Scalar>(a: &Three<S>, b: &Three<S>) -> Three<S> {
@@ -45,22 +45,23 @@ pub(in crate::dynamics) fn zeros<S: Scalar>() -> Three<S> {
     std::array::from_fn(|_| S::zero())
 }
 
-/// A motion (velocity or acceleration of the frame's origin, and the angular one) or a force (force, and moment about the origin).
+/// A spatial motion (velocity or acceleration of the frame's origin, and the angular one) or a spatial force (force,
+/// and moment about the origin).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Six<S> {
     /// The first three coordinates.
     pub linear: Three<S>,
-    /// The last three.
+    /// The last three coordinates.
     pub angular: Three<S>,
 }
 
 impl<S: Scalar> Six<S> {
-    /// None at all.
+    /// The zero vector.
     pub fn zero() -> Self {
         Six { linear: zeros(), angular: zeros() }
     }
 
-    /// The six numbers at the front of a list.
+    /// The first six entries of a list.
     pub fn of(list: &[S]) -> Self {
         Six { linear: std::array::from_fn(|i| list[i].clone()), angular: std::array::from_fn(|i| list[3 + i].clone()) }
     }
@@ -79,7 +80,7 @@ impl<S: Scalar> Six<S> {
         Six { linear: halved(&self.linear), angular: halved(&self.angular) }
     }
 
-    /// The opposite.
+    /// The negative.
     pub fn negated(&self) -> Self {
         let turned = |a: &Three<S>| std::array::from_fn(|i| -a[i].clone());
         Six { linear: turned(&self.linear), angular: turned(&self.angular) }
@@ -90,7 +91,7 @@ impl<S: Scalar> Six<S> {
         dot(&self.linear, &other.linear) + dot(&self.angular, &other.angular)
     }
 
-    /// How a motion that is fixed to what moves so changes.
+    /// The cross product of motions: the change of `motion`, fixed to a body that moves with this motion.
     pub fn moving(&self, motion: &Self) -> Self {
         Six {
             linear: add(&cross(&self.angular, &motion.linear), &cross(&self.linear, &motion.angular)),
@@ -98,7 +99,7 @@ impl<S: Scalar> Six<S> {
         }
     }
 
-    /// How a force that is fixed to what moves so changes.
+    /// The cross product with a force: the change of `force`, fixed to a body that moves with this motion.
     pub(crate) fn pushing(&self, force: &Self) -> Self {
         Six {
             linear: cross(&self.angular, &force.linear),
@@ -106,7 +107,7 @@ impl<S: Scalar> Six<S> {
         }
     }
 
-    /// The coordinate with this index of the six.
+    /// The coordinate with this index, 0 to 5.
     pub fn at(&self, index: usize) -> &S {
         if index < 3 { &self.linear[index] } else { &self.angular[index - 3] }
     }
@@ -128,23 +129,23 @@ impl From<Six<f64>> for Wrench {
     }
 }
 
-/// Where a body's frame stands in its parent's.
+/// A body's frame in its parent's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame<S> {
-    /// It takes directions of the body's frame to the parent's.
+    /// The rotation from the body's to the parent's axes.
     pub rotation: Matrix<S>,
-    /// The origin of the body's frame in the parent's.
+    /// The origin of the body's frame in the parent's frame.
     pub position: Three<S>,
 }
 
 impl<S: Scalar> Frame<S> {
-    /// A motion in the parent's frame as seen in the body's.
+    /// Transforms a motion from the parent's frame to the body's.
     pub fn motion_inward(&self, motion: &Six<S>) -> Six<S> {
         let linear = add(&motion.linear, &cross(&motion.angular, &self.position));
         Six { linear: turned_back(&self.rotation, &linear), angular: turned_back(&self.rotation, &motion.angular) }
     }
 
-    /// The same over other numbers.
+    /// Converts to another scalar type.
     pub fn map<T>(&self, number: impl Fn(&S) -> T + Copy) -> Frame<T> {
         Frame {
             rotation: self.rotation.each_ref().map(|row| row.each_ref().map(number)),
@@ -152,7 +153,7 @@ impl<S: Scalar> Frame<S> {
         }
     }
 
-    /// Where the parent's frame stands in the body's.
+    /// The inverse: the parent's frame in the body's.
     pub(crate) fn inverse(&self) -> Self {
         let back = turned_back(&self.rotation, &self.position);
         Frame {
@@ -161,7 +162,7 @@ impl<S: Scalar> Frame<S> {
         }
     }
 
-    /// Where a frame in the body stands in the parent.
+    /// Composes with a frame in the body: the result is in the parent.
     pub(in crate::dynamics) fn then(&self, inner: &Frame<S>) -> Self {
         let column = |j: usize| turned(&self.rotation, &std::array::from_fn(|k| inner.rotation[k][j].clone()));
         let columns: Matrix<S> = std::array::from_fn(column);
@@ -171,37 +172,37 @@ impl<S: Scalar> Frame<S> {
         }
     }
 
-    /// The parent's frame itself.
+    /// The identity.
     pub fn identity() -> Self {
         let entry = |i: usize, j: usize| if i == j { S::one() } else { S::zero() };
         Frame { rotation: std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j))), position: zeros() }
     }
 
-    /// A force in the parent's frame as seen in the body's.
+    /// Transforms a force from the parent's frame to the body's.
     pub fn force_inward(&self, force: &Six<S>) -> Six<S> {
         self.inverse().force_outward(force)
     }
 
-    /// A force in the body's frame as seen in the parent's.
+    /// Transforms a force from the body's frame to the parent's.
     pub fn force_outward(&self, force: &Six<S>) -> Six<S> {
         let (linear, angular) = (turned(&self.rotation, &force.linear), turned(&self.rotation, &force.angular));
         Six { angular: add(&angular, &cross(&self.position, &linear)), linear }
     }
 }
 
-/// What a body weighs, about the origin of its frame: ten numbers.
+/// Rigid-body inertia about the origin of the body's frame: ten inertial parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mass<S> {
     /// The mass.
     pub mass: S,
-    /// The mass times its centre.
+    /// The first moments: mass times centre of mass.
     pub moment: Three<S>,
     /// The inertia tensor about the origin: xx, xy, yy, xz, yz, zz.
     pub tensor: [S; 6],
 }
 
 impl<S: Scalar> Mass<S> {
-    /// That of ten numbers: the mass, the mass times its centre, the tensor.
+    /// Builds the inertia from ten parameters: the mass, the first moments, the inertia tensor.
     pub fn of(numbers: [S; 10]) -> Self {
         let [mass, x, y, z, tensor @ ..] = numbers;
         Mass { mass, moment: [x, y, z], tensor }
@@ -216,7 +217,7 @@ impl<S: Scalar> Mass<S> {
         std::array::from_fn(|j| self.tensor[PLACES[i][j]].clone())
     }
 
-    /// The momentum at a velocity.
+    /// The momentum for a velocity, or the force for an acceleration.
     pub fn times(&self, motion: &Six<S>) -> Six<S> {
         let turned: Three<S> = std::array::from_fn(|i| dot(&self.row(i), &motion.angular));
         Six {
@@ -225,7 +226,7 @@ impl<S: Scalar> Mass<S> {
         }
     }
 
-    /// The same over other numbers.
+    /// Converts to another scalar type.
     pub fn map<T>(&self, number: impl Fn(&S) -> T + Copy) -> Mass<T> {
         Mass {
             mass: number(&self.mass),
@@ -234,7 +235,7 @@ impl<S: Scalar> Mass<S> {
         }
     }
 
-    /// The ten numbers: the mass, the mass times its centre, the tensor.
+    /// The ten parameters: the mass, the first moments, the inertia tensor.
     pub fn numbers(&self) -> [S; 10] {
         let [x, y, z] = self.moment.clone();
         let [xx, xy, yy, xz, yz, zz] = self.tensor.clone();
@@ -249,12 +250,12 @@ impl<S: Scalar> Mass<S> {
         }
     }
 
-    /// The same in a frame that stands so in the body's.
+    /// Transforms the inertia to a frame that is given in the body's frame.
     pub(in crate::dynamics) fn inward(&self, frame: &Frame<S>) -> Self {
         self.outward(&frame.inverse())
     }
 
-    /// The same about the origin of the parent's frame, in which the body's frame stands so.
+    /// Transforms the inertia to the parent's frame. `frame` is the body's frame in the parent's.
     pub fn outward(&self, frame: &Frame<S>) -> Self {
         let (r, p) = (&frame.rotation, &frame.position);
         let moment = turned(r, &self.moment);

@@ -1,4 +1,5 @@
-//! A robot for recursions: bodies in frames of their own, whose z axes are the joints' axes. Main type: [`Tree`].
+//! The kinematic tree of the recursions: bodies with their own frames, whose z axes are the joint axes. Main type:
+//! [`Tree`].
 
 use nalgebra::{Rotation3, UnitVector3, Vector3};
 
@@ -7,50 +8,50 @@ use super::six::{Frame, Mass, Matrix, Three};
 use crate::dynamics::Model;
 use crate::spatial::{Inertia, Pose, Screw};
 
-/// How a body moves against its parent: about or along the z axis of its own frame.
+/// Type of a joint: rotation about or translation along the z axis of the body's frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Freedom {
-    /// It turns.
+    /// Revolute.
     Turn,
-    /// It slides.
+    /// Prismatic.
     Slide,
 }
 
-/// A body behind a joint.
+/// A body with its joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body<S> {
-    /// The joint that carries its parent; none where that is the base.
+    /// The joint of its parent; `None` for the base.
     pub parent: Option<usize>,
-    /// How it moves.
+    /// The type of its joint.
     pub freedom: Freedom,
-    /// Where its frame stands in its parent's when the joint is at zero.
+    /// Its frame in the parent's frame when the joint is at zero.
     pub frame: Frame<S>,
-    /// What it weighs.
+    /// Its inertia.
     pub mass: Mass<S>,
 }
 
-/// A base and bodies behind joints.
+/// A base and bodies connected by joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree<S> {
-    /// What the base weighs, in its own frame.
+    /// The inertia of the base, in its own frame.
     pub base: Mass<S>,
-    /// By joint, the body behind it.
+    /// The body of each joint.
     pub bodies: Vec<Body<S>>,
-    /// The joints, each behind those that carry it.
+    /// The joints, sorted so that parents come first.
     pub order: Vec<usize>,
 }
 
-/// What a joint's value is to the recursions.
+/// The position of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place<S> {
     /// The cosine and the sine of an angle.
     Turn([S; 2]),
-    /// A way.
+    /// A displacement.
     Slide(S),
 }
 
 impl Place<f64> {
-    /// That of a joint's value \[rad or m\].
+    /// The position for a joint's value \[rad or m\].
     pub fn of(freedom: Freedom, value: f64) -> Self {
         match freedom {
             Freedom::Turn => Place::Turn([value.cos(), value.sin()]),
@@ -60,7 +61,7 @@ impl Place<f64> {
 }
 
 impl<S: Scalar> Body<S> {
-    /// Where the body's frame stands in its parent's when the joint is at a place.
+    /// The body's frame in its parent's frame for a joint position.
     pub fn placed(&self, place: &Place<S>) -> Frame<S> {
         let (rotation, position) = (&self.frame.rotation, &self.frame.position);
         match place {
@@ -72,8 +73,8 @@ impl<S: Scalar> Body<S> {
                 };
                 Frame { rotation: std::array::from_fn(|i| row(&rotation[i])), position: position.clone() }
             }
-            Place::Slide(way) => {
-                let moved = |i: usize| position[i].clone() + rotation[i][2].clone() * way.clone();
+            Place::Slide(displacement) => {
+                let moved = |i: usize| position[i].clone() + rotation[i][2].clone() * displacement.clone();
                 Frame { rotation: rotation.clone(), position: std::array::from_fn(moved) }
             }
         }
@@ -81,7 +82,7 @@ impl<S: Scalar> Body<S> {
 }
 
 impl<S: Scalar> Tree<S> {
-    /// The same over other numbers.
+    /// Converts to another scalar type.
     pub fn map<T: Scalar>(&self, number: impl Fn(&S) -> T + Copy) -> Tree<T> {
         let body = |body: &Body<S>| Body {
             parent: body.parent,
@@ -94,12 +95,13 @@ impl<S: Scalar> Tree<S> {
 }
 
 impl Tree<f64> {
-    /// That of a model.
+    /// Builds the tree of a model.
     pub fn new(model: &Model) -> Self {
         Tree::with_poses(model).0
     }
 
-    /// The same, and by joint where its body's frame stands in the base frame at the zero configuration.
+    /// Builds the tree of a model. Also returns the frame of each joint's body in the base frame at the zero
+    /// configuration.
     pub(crate) fn with_poses(model: &Model) -> (Self, Vec<Pose>) {
         let mut frames = vec![Pose::identity(); model.joints().len()];
         let mut bodies: Vec<Option<Body<f64>>> = vec![None; model.joints().len()];
@@ -122,11 +124,13 @@ impl Tree<f64> {
 }
 
 impl Tree<f64> {
-    /// A tree that moves alike, whose bodies have as many zeros as go among their ten numbers. What of a body is the same however its joint stands counts with what
-    /// carries it: of one that turns about z its mass, that times its height along z, and the inertia across z of a thin rod on the axis; of one that slides
-    /// its inertia tensor. The base, where it is fixed, weighs nothing. (M. Gautier and W. Khalil, IEEE Trans. Robotics and Automation 6, 1990.)
+    /// Regroups the inertial parameters: an equivalent tree with as many zero parameters as possible. The part of an
+    /// inertia that does not depend on the joint's position is moved to the parent. For a revolute joint these are the
+    /// mass, its first moment along z, and the inertia of a thin rod on the axis. For a prismatic joint it is the
+    /// inertia tensor. A fixed base gets no inertia. Source: M. Gautier and W. Khalil, IEEE Trans. Robotics and
+    /// Automation 6 (1990).
     #[must_use]
-    pub fn lean(&self, is_fixed: bool) -> Self {
+    pub fn regrouped(&self, is_fixed: bool) -> Self {
         let mut tree = self.clone();
         for &joint in tree.order.iter().rev() {
             let Body { parent, freedom, frame, mass } = &mut tree.bodies[joint];
@@ -151,7 +155,8 @@ impl Tree<f64> {
     }
 }
 
-/// How a joint moves, and a frame of its body in the base frame, its z axis the joint's: turned as the parent's is as far as that goes.
+/// The type of a joint, and a frame of its body in the base frame whose z axis is the joint's axis. Its other axes are
+/// parallel to the parent's where possible.
 fn frame_of(screw: &Screw, base_from_parent: &Pose) -> (Freedom, Pose) {
     let (freedom, direction, origin) = match screw {
         Screw::Prismatic(direction) => (Freedom::Slide, *direction, base_from_parent.translation.vector),
@@ -162,7 +167,8 @@ fn frame_of(screw: &Screw, base_from_parent: &Pose) -> (Freedom, Pose) {
     (freedom, Pose::from_parts(origin.into(), rotation))
 }
 
-/// A rotation whose last column is a direction: of the coordinate axes where it is one, so that most of its entries are zero.
+/// A rotation whose last column is the given direction. For a coordinate axis its columns are coordinate axes, so that
+/// most entries are zero.
 fn upright(direction: &UnitVector3<f64>) -> Rotation3<f64> {
     let farthest = direction.iamax();
     let across = Vector3::ith((farthest + 1) % 3, 1.0);
@@ -171,29 +177,30 @@ fn upright(direction: &UnitVector3<f64>) -> Rotation3<f64> {
 }
 
 impl Frame<f64> {
-    /// That of a pose.
+    /// Converts a pose.
     pub(crate) fn of(pose: &Pose) -> Self {
         let rotation = pose.rotation.to_rotation_matrix();
         let entry = |i: usize, j: usize| rounded(rotation[(i, j)]);
         let rotation: Matrix<f64> = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
-        Frame { rotation, position: std::array::from_fn(|i| without_dust(pose.translation.vector[i], 1.0)) }
+        Frame { rotation, position: std::array::from_fn(|i| without_rounding(pose.translation.vector[i], 1.0)) }
     }
 }
 
-/// What rounding along a chain leaves of nothing: as a share of one in rotations, of a metre, of a body's greatest number.
-const DUST: f64 = 1e-13;
+/// Threshold for values that are zero up to rounding along a chain: relative to one in rotations, to a metre, and to a
+/// body's largest parameter.
+const ROUNDING: f64 = 1e-13;
 
-/// A rotation's entry, a whole one where rounding alone keeps it from that.
+/// A rotation's entry, rounded to an integer if they differ by rounding only.
 fn rounded(entry: f64) -> f64 {
-    if (entry - entry.round()).abs() <= DUST { entry.round() } else { entry }
+    if (entry - entry.round()).abs() <= ROUNDING { entry.round() } else { entry }
 }
 
-/// The same without what rounding alone has left beside a number of this size.
-fn without_dust(entry: f64, size: f64) -> f64 {
-    if entry.abs() <= DUST * size { 0.0 } else { entry }
+/// Zero if the entry is a rounding error relative to this size, else the entry.
+fn without_rounding(entry: f64, size: f64) -> f64 {
+    if entry.abs() <= ROUNDING * size { 0.0 } else { entry }
 }
 
-/// A body's ten numbers about the origin of the frame that it is told in.
+/// A body's ten inertial parameters about the origin of the frame in which they are given.
 fn mass(inertia: &Inertia) -> Mass<f64> {
     let generalised = inertia.generalised();
     let entry = |i: usize, j: usize| generalised[(3 + i, 3 + j)];
@@ -202,7 +209,7 @@ fn mass(inertia: &Inertia) -> Mass<f64> {
     let size = tensor.iter().fold(0.0, |size: f64, entry| size.max(entry.abs()));
     Mass {
         mass: inertia.mass(),
-        moment: std::array::from_fn(|i| without_dust(moment[i], inertia.mass())),
-        tensor: tensor.map(|entry| without_dust(entry, size)),
+        moment: std::array::from_fn(|i| without_rounding(moment[i], inertia.mass())),
+        tensor: tensor.map(|entry| without_rounding(entry, size)),
     }
 }

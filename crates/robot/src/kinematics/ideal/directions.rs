@@ -1,4 +1,4 @@
-//! The ideal directions, from the base: each in its relation to the one before.
+//! The ideal directions, from the base: each relative to the previous one.
 
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
@@ -7,35 +7,36 @@ use crate::kinematics::{ExactVector, Joint};
 use crate::spatial::exact::vector::{cosine, cross, dot, is_zero, scale, sine, sub};
 use groebot_algebra::number::BigRational;
 
-/// From this grain on directions are told in short numbers.
+/// From this grain on, directions are written in short numbers.
 const COARSE: f64 = 1e-4;
 
-/// The directions that are meant within `tolerance`: parallel to the one before where that is near, else perpendicular to it where that is
-/// near; of these one that an earlier joint has, or one along coordinate axes, where there is one; else as it is, but in a coordinate plane where
-/// it nearly is. What is exact already keeps its own length. Others are told in integers as short as `grain`, a share of the tolerance, allows: what is
-/// perpendicular to them, and what meets there, is told in products of theirs.
+/// The ideal directions within `tolerance`. A direction near the previous one's parallel or perpendicular becomes
+/// parallel or perpendicular. Among these, the direction of an earlier joint or along coordinate axes is preferred.
+/// Otherwise the direction is unchanged, except that it is moved to a coordinate plane if it is near one. Exact
+/// directions keep their length. Others get integers that are as short as `grain`, a fraction of the tolerance,
+/// permits, because later directions and points are products of these.
 pub(super) fn directions(joints: &[Joint], tolerance: f64, grain: f64) -> Vec<ExactVector> {
     let mut ideal: Vec<ExactVector> = Vec::new();
     for joint in joints {
         let own = &joint.axis;
         let short = if grain < COARSE { own.clone() } else { shortened(own, grain * tolerance) };
-        // What is perpendicular to the one before already is so in the numbers that it has.
+        // A direction that is already perpendicular to the previous one is so in its own numbers.
         let is_lost = |before: &ExactVector| dot(own, before).is_zero() && !dot(&short, before).is_zero();
-        let told = if ideal.last().is_some_and(is_lost) { own } else { &short };
-        let straight = straightened(told, &ideal, tolerance).filter(|straight| !is_zero(&cross(straight, own)));
+        let chosen = if ideal.last().is_some_and(is_lost) { own } else { &short };
+        let straight = straightened(chosen, &ideal, tolerance).filter(|straight| !is_zero(&cross(straight, own)));
         ideal.push(straight.unwrap_or_else(|| own.clone()));
     }
     ideal
 }
 
-/// `direction` in integers, within `angle` \[rad\].
+/// Approximates `direction` in integers, within `angle` \[rad\].
 fn shortened(direction: &ExactVector, angle: f64) -> ExactVector {
     let greatest = direction.iter().map(Signed::abs).max().unwrap_or_else(BigRational::one);
     let size = BigRational::from_float((1.0 / angle).round()).unwrap_or_else(BigRational::one);
     direction.each_ref().map(|x| (x / &greatest * &size).round())
 }
 
-/// What `own` is behind the directions `earlier`; none for itself.
+/// The ideal direction for `own` after the directions `earlier`; `None` if it is unchanged.
 fn straightened(own: &ExactVector, earlier: &[ExactVector], tolerance: f64) -> Option<ExactVector> {
     let before = earlier.last();
     if let Some(before) = before.filter(|before| sine(own, before) <= tolerance) {
@@ -51,20 +52,21 @@ fn straightened(own: &ExactVector, earlier: &[ExactVector], tolerance: f64) -> O
     let normals = normals.filter(|normal| !is_zero(normal)).map(|normal| along(&normal, own));
     let mut candidates = like.chain(simple(own)).chain(normals.filter(|_| upright_to.is_some()));
     let upright = |before: &ExactVector| {
-        // What is perpendicular already, and would not be without its small entries, keeps them.
+        // An exactly perpendicular direction that would not be perpendicular without its small entries keeps them.
         let keeps = dot(own, before).is_zero() && !dot(&flat, before).is_zero();
         if keeps { own.clone() } else { without(&flat, before) }
     };
     candidates.find(suits).or_else(|| Some(upright_to.map_or_else(|| flat.clone(), upright)))
 }
 
-/// `direction`, or its opposite, so that it points like `own`.
+/// `direction` or its negative, so that it points along `own`.
 fn along(direction: &ExactVector, own: &ExactVector) -> ExactVector {
     if dot(direction, own).is_negative() { direction.each_ref().map(|x| -x) } else { direction.clone() }
 }
 
-/// The direction in the signs of the greatest entries: `[0, 1, -1]` for `[1e-6, 0.7071, -0.7072]`. None where that is a diagonal within rounding:
-/// a rotation that was made rational leads next to one, and its axes have rational lengths.
+/// The direction given by the signs of the greatest entries: `[0, 1, -1]` for `[1e-6, 0.7071, -0.7072]`. `None` for a
+/// diagonal within rounding: a rotation that was made rational leads to a direction next to it, and its axes have
+/// rational lengths.
 fn simple(direction: &ExactVector) -> Option<ExactVector> {
     let greatest = direction.iter().map(Signed::abs).max()?;
     let half = greatest / BigRational::from_integer(2.into());
@@ -73,14 +75,14 @@ fn simple(direction: &ExactVector) -> Option<ExactVector> {
     (!is_diagonal || sine(direction, &signs) > SAME).then_some(signs)
 }
 
-/// `own` without entries that are small beside its greatest.
+/// `own` without entries that are small relative to its greatest entry.
 fn flat(own: &ExactVector, tolerance: f64) -> ExactVector {
     let greatest = own.iter().map(Signed::abs).max().unwrap_or_default();
     let small = |x: &BigRational| (x / &greatest).to_f64().is_some_and(|share| share.abs() <= 0.5 * tolerance);
     own.each_ref().map(|x| if small(x) { BigRational::zero() } else { x.clone() })
 }
 
-/// `own` without its part along `before`.
+/// The component of `own` perpendicular to `before`.
 fn without(own: &ExactVector, before: &ExactVector) -> ExactVector {
     let share = dot(own, before) / dot(before, before);
     sub(own, &scale(before, &share))

@@ -1,4 +1,4 @@
-//! Neighbouring axes that meet in one point: [`gatherings`].
+//! Neighbouring axes that intersect in one point: [`gatherings`].
 
 use std::ops::Range;
 
@@ -6,10 +6,11 @@ use super::{line, turn};
 use crate::kinematics::{ExactVector, Joint};
 use crate::spatial::exact::vector::sine;
 
-/// Directions nearer than this are taken for parallel, so that no meeting point is looked for \[rad\].
+/// Angle below which directions count as parallel and no point of intersection is computed \[rad\].
 const PARALLEL: f64 = 1e-3;
 
-/// The places of two or more revolute joints in a row whose axes pass one point, from the base. Two of them share one joint at most.
+/// Ranges of two or more consecutive revolute joints whose axes pass through one point, from the base. Two ranges share
+/// at most one joint.
 pub(super) fn gatherings(joints: &[Joint]) -> Vec<Range<usize>> {
     let mut found: Vec<(Range<usize>, ExactVector)> = Vec::new();
     for (first, pair) in joints.windows(2).enumerate() {
@@ -22,7 +23,7 @@ pub(super) fn gatherings(joints: &[Joint]) -> Vec<Range<usize>> {
     found.into_iter().map(|(places, _)| places).collect()
 }
 
-/// Where the axes of two neighbours meet, if they do.
+/// The point of intersection of two neighbours' axes, if there is one.
 fn meeting(pair: &[Joint]) -> Option<ExactVector> {
     let (a, b) = (line(&pair[0]), line(&pair[1]));
     let meets = turn(pair) && sine(&a.direction, &b.direction) > PARALLEL && a.gap(&b) == 0.0;

@@ -1,9 +1,10 @@
-//! The ideal robot that a description means: [`Chain::ideal`]. Main type: [`Report`].
+//! Idealisation: the nearest ideal robot of a description: [`Chain::ideal`]. Main type: [`Report`].
 //!
-//! A description is a measurement: exporters write 6.1e-17 for zero, 1.5707963 for a quarter turn, five decimals. Closed forms need axes that
-//! meet, are parallel or perpendicular exactly. [`Chain::ideal`] takes what holds within a tolerance for what is meant, from the base to the
-//! tip, each joint relative to the one before, so that each relation of neighbouring axes is decided once and roundings do not add up. All
-//! numbers stay rational, and a relation that holds, or fails by more, is left alone.
+//! A description is a measurement: exporters write 6.1e-17 for zero, 1.5707963 for a quarter turn, five decimals.
+//! Closed forms need axes that exactly intersect, are parallel or perpendicular. [`Chain::ideal`] makes relations exact
+//! that hold within a tolerance. It goes from base to tip, each joint relative to the previous one. So each relation of
+//! neighbouring axes is decided once, and rounding errors do not add up. All numbers stay rational. A relation that
+//! already holds, or fails by more than the tolerance, is unchanged.
 
 mod directions;
 mod meeting;
@@ -18,26 +19,29 @@ pub use report::{Moved, Relation, RelationKind, Report};
 
 use crate::spatial::exact::vector::Line;
 
-/// Where answers are polished anyway, lengths are rounded to decimals within this share of the tolerance.
+/// If solutions are polished on the described robot, lengths are rounded to decimals within this fraction of the
+/// tolerance.
 const GRAIN: f64 = 1e-3;
-/// Numbers this near to one another are the same in doubles: radians, and shares of the reach.
+/// Numbers that differ by less are equal in doubles: radians, and fractions of the reach.
 pub const SAME: f64 = 1e-15;
 
 impl Chain {
-    /// The ideal robot within [`TOLERANCE`] of this one, and what was taken for what.
+    /// Computes the ideal robot within [`TOLERANCE`] of this one, and a report of the differences.
     ///
-    /// Directions that are almost parallel to the axis before, or perpendicular to it, become so, along coordinate axes and bisectors where that
-    /// is near; axes of neighbours that almost meet do, so that three or more meet in one point where they almost do; parallel axes that are
-    /// almost one line become it; offsets along an axis that are almost zero become zero, and so does the tip's from the last axis. What the
-    /// description [means](super::Meant) by rounded numbers is taken first. A chain of which nothing is to be changed is returned as it is.
+    /// Directions that are almost parallel or perpendicular to the previous axis become so, along coordinate axes and
+    /// bisectors if these are near. Neighbouring axes that almost intersect do, also three or more in one point.
+    /// Parallel axes that are almost coaxial become coaxial. Offsets along an axis that are almost zero become zero,
+    /// also the tip's offset from the last axis. The exact values of [rounded numbers](super::Meant) are substituted
+    /// first. A chain without changes is returned unchanged.
     pub fn ideal(&self) -> (Chain, Report) {
         self.ideal_within(TOLERANCE).unwrap_or_else(|_| (self.clone(), Report::of_exact(self, TOLERANCE)))
     }
 
-    /// The same within `tolerance`, in radians and shares of the reach; with zero each digit is taken at its word.
+    /// Same as [`Chain::ideal`], but within `tolerance`, in radians and fractions of the reach. With zero, every digit
+    /// is exact.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a tolerance that is not in \[0, 0.1\]; as [`Chain::check_task`].
+    /// [`ErrorKind::BadValue`] for a tolerance that is not in \[0, 0.1\]; those of [`Chain::check_task`].
     pub fn ideal_within(&self, tolerance: f64) -> Result<(Chain, Report)> {
         if !(0.0..=WIDEST).contains(&tolerance) {
             let text = format!(
@@ -45,15 +49,15 @@ impl Chain {
             );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let told = ChainParts { meant: None, ..self.parts().clone() };
+        let described = ChainParts { meant: None, ..self.parts().clone() };
         if tolerance == 0.0 {
-            let chain = Chain::new(told)?;
+            let chain = Chain::new(described)?;
             chain.check_task()?;
             return Ok((chain, Report::of_exact(self, tolerance)));
         }
         let meant = match self.parts().meant.as_deref().cloned() {
-            Some(meant) => Chain::new(ChainParts { joints: meant.joints, tip: meant.tip, ..told })?,
-            None => Chain::new(told)?,
+            Some(meant) => Chain::new(ChainParts { joints: meant.joints, tip: meant.tip, ..described })?,
+            None => Chain::new(described)?,
         };
         let chain = self.chosen(&meant, tolerance)?;
         chain.check_task()?;
@@ -61,7 +65,8 @@ impl Chain {
         Ok((chain, report))
     }
 
-    /// What is exact stays as it is; what is off by rounding is rounded back; where answers are polished anyway, lengths may be short.
+    /// Keeps exact numbers, undoes rounding errors, and permits short lengths if solutions are polished on the
+    /// described robot.
     fn chosen(&self, meant: &Chain, tolerance: f64) -> Result<Chain> {
         let placed = |grain: f64| places::ideal(meant, tolerance, grain);
         let untouched = placed(0.0)?;
@@ -73,7 +78,8 @@ impl Chain {
         if is_same { Ok(rounded) } else { self.with_own_tip(placed(GRAIN)?) }
     }
 
-    /// `ideal`, with the tip turned as described where nothing else differs and the tip is asked for a pose: no relation of axes depends on it.
+    /// `ideal` with the described orientation of the tip, if nothing else differs and the task is a pose. No relation
+    /// of axes depends on this orientation.
     fn with_own_tip(&self, ideal: Chain) -> Result<Chain> {
         let (moved, reach) = (moved(self, &ideal), size(self));
         let is_same = |moved: &Moved| {
@@ -89,13 +95,13 @@ impl Chain {
     }
 }
 
-/// A length that is `tolerance` of the reach of `chain`, in its unit.
+/// A length equal to `tolerance` times the reach of `chain`, in its unit.
 fn lengths(chain: &Chain, tolerance: f64) -> f64 {
     tolerance * size(chain)
 }
 
-/// The reach, or a tenth of the first joint's distance from the base where that is more, as of a head whose axes meet at its tip; one for a chain
-/// that is a point there.
+/// The reach. If a tenth of the first joint's distance from the base is larger, that is used, for example for a head
+/// whose axes intersect at its tip. One for a chain that is a single point at the origin.
 fn size(chain: &Chain) -> f64 {
     let distance = chain.joints().first().map_or(0.0, |joint| joint.location().coords.norm());
     let size = chain.reach().max(0.1 * distance);
@@ -107,7 +113,7 @@ fn line(joint: &Joint) -> Line {
     Line { point: joint.point.clone(), direction: joint.axis.clone() }
 }
 
-/// Whether all of these turn.
+/// Whether all of these joints are revolute.
 fn turn(joints: &[Joint]) -> bool {
     joints.iter().all(|joint| joint.kind == JointKind::Revolute)
 }

@@ -1,5 +1,5 @@
-//! The ideal places, from the base to the tip: each axis at its offset from the one before, told by their common normal as by Denavit and
-//! Hartenberg (1955), so that what almost meets does.
+//! The ideal positions, from the base to the tip. Each axis is described by its offset from the previous one along the
+//! common normal (Denavit and Hartenberg 1955). So axes that almost intersect become intersecting axes.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -11,12 +11,12 @@ use crate::kinematics::{Chain, ChainParts, ExactMatrix, ExactVector, Joint, Join
 use crate::spatial::exact::vector::{Line, add, cosine, cross, dot, is_zero, length, scale, sine, sub};
 use groebot_algebra::number::BigRational;
 
-/// Directions nearer than this have their common normal far away; their offset is taken as that of parallel ones \[rad\].
+/// Angle below which directions have a distant common normal. Their offset is computed as for parallel axes \[rad\].
 const PARALLEL: f64 = 1e-3;
-/// The most places of a rounded length.
+/// Maximum number of decimal places of a rounded length.
 const PLACES: usize = 18;
 
-/// `chain` with what almost holds made exact, and lengths rounded to decimals within `grain` of the tolerance.
+/// Makes almost exact relations of `chain` exact, and rounds lengths to decimals within `grain` of the tolerance.
 pub(super) fn ideal(chain: &Chain, tolerance: f64, grain: f64) -> Result<Chain> {
     let directions = directions(chain.joints(), tolerance, grain);
     let length = lengths(chain, tolerance);
@@ -31,18 +31,18 @@ pub(super) fn ideal(chain: &Chain, tolerance: f64, grain: f64) -> Result<Chain> 
     Chain::new(ChainParts { joints, tip, direction, ..chain.parts().clone() })
 }
 
-/// A rotation whose entries have more bits than this is told in shorter numbers, where that much of an angle is allowed \[rad\].
+/// A rotation whose entries have more bits is approximated by shorter numbers, if this angle is permitted \[rad\].
 const LONG: u64 = 64;
 const COARSEST: f64 = 1e-12;
 
-/// An ideal axis with the point from which the next one is reached.
+/// An ideal axis with the point from which the next one is computed.
 struct Placed {
     line: Line,
     pivot: ExactVector,
 }
 
 impl Placed {
-    /// `joint` on this line: as it is when it stands there.
+    /// `joint` on this line. It is unchanged if its point is on the line.
     fn joint(&self, joint: &Joint) -> Joint {
         let Line { point, direction } = &self.line;
         let turns = joint.kind == JointKind::Revolute;
@@ -52,22 +52,22 @@ impl Placed {
     }
 }
 
-/// The axes on their way to their ideal places.
+/// State of the placement of axes.
 struct Placing {
-    /// A length that is taken for zero.
+    /// A length that counts as zero.
     tolerance: f64,
     /// A length by which coordinates may be rounded.
     grain: f64,
-    /// The pivot of the joint placed last, on its true axis.
+    /// The pivot of the previous joint, on its described axis.
     true_pivot: ExactVector,
     lines: Vec<Placed>,
 }
 
 impl Placing {
-    /// Puts the next joint where it belongs.
+    /// Places the next joint.
     fn place(&mut self, joint: &Joint, chain: &Chain, direction: ExactVector) {
         let (pivot, ideal) = match self.lines.last() {
-            // Where the robot stands is no relation of its axes.
+            // The position of the robot is not a relation of its axes.
             None => (joint.point.clone(), self.tidy(&straightened(&joint.point, lengths(chain, SAME)))),
             Some(_) if joint.kind == JointKind::Prismatic => (self.true_pivot.clone(), self.last_pivot()),
             Some(_) => self.turning(joint, &chain.joints()[self.lines.len() - 1], &direction),
@@ -86,7 +86,8 @@ impl Placing {
         self.lines.last().map(|placed| placed.pivot.clone()).unwrap_or_default()
     }
 
-    /// The pivot of a joint that turns, on its true axis and on the ideal one: the foot of the common normal with the axis before.
+    /// The pivot of a revolute joint, on its described axis and on the ideal one: the foot of the common normal with
+    /// the previous axis.
     fn turning(&self, joint: &Joint, before: &Joint, direction: &ExactVector) -> (ExactVector, ExactVector) {
         let (own, other) = (line(joint), Line { point: self.true_pivot.clone(), direction: before.axis.clone() });
         let along = self.lines.last().map(|placed| placed.line.direction.clone()).unwrap_or_default();
@@ -103,23 +104,25 @@ impl Placing {
         (pivot, add(&self.last_pivot(), &add(&shift, &gap)))
     }
 
-    /// The part of `step` along `direction`; zero when that is short.
+    /// The component of `step` along `direction`; zero when it is short.
     fn straightened_along(&self, step: &ExactVector, direction: &ExactVector) -> ExactVector {
         let along = scale(direction, &(dot(step, direction) / dot(direction, direction)));
         let tidy = self.tidy(&along);
         self.nearly_zero(if is_zero(&cross(&tidy, direction)) { tidy } else { self.short(step, direction) })
     }
 
-    /// The part of `step` along `direction`, as a multiple of it that is as short a decimal as the grain allows.
+    /// The component of `step` along `direction`, as a multiple of `direction` by a decimal that is as short as the
+    /// grain permits.
     fn short(&self, step: &ExactVector, direction: &ExactVector) -> ExactVector {
         let share = dot(step, direction) / dot(direction, direction);
-        // Of the greatest entry, which may be a long integer.
+        // Relative to the greatest entry, which may be a long integer.
         let size = direction.iter().map(Signed::abs).max().unwrap_or_else(BigRational::one);
         let most = size.to_f64().unwrap_or(1.0) / length(direction);
         scale(direction, &(shortest_decimal(&(share * &size), self.grain * most) / size))
     }
 
-    /// The part of `step` across `direction`, without short parts along coordinate axes; zero when it is short.
+    /// The component of `step` perpendicular to `direction`, without short parts along coordinate axes; zero when it is
+    /// short.
     fn straightened_across(&self, step: &ExactVector, direction: &ExactVector) -> ExactVector {
         let across = sub(step, &scale(direction, &(dot(step, direction) / dot(direction, direction))));
         let straight = self.tidy(&straightened(&across, self.tolerance));
@@ -131,7 +134,7 @@ impl Placing {
         self.nearly_zero(straight)
     }
 
-    /// `step` with its coordinates rounded to decimals, as short as the grain allows.
+    /// `step` with its coordinates rounded to decimals that are as short as the grain permits.
     fn tidy(&self, step: &ExactVector) -> ExactVector {
         step.each_ref().map(|x| shortest_decimal(x, self.grain))
     }
@@ -141,7 +144,7 @@ impl Placing {
         if length(&step) <= self.tolerance { ExactVector::default() } else { step }
     }
 
-    /// The tip at its offset from the last axis, on it when it almost is.
+    /// The tip at its offset from the last axis, or on the axis if it almost is.
     fn tip(&self, chain: &Chain, tolerance: f64) -> Tip {
         let tip = chain.tip();
         let Some(last) = self.lines.last() else { return tip.clone() };
@@ -161,11 +164,11 @@ impl Placing {
     }
 }
 
-/// The direction that a task aims, in the frame of `tip`: along the last axis, or perpendicular to it, when it almost is.
+/// The direction of a task in the frame of `tip`: along the last axis or perpendicular to it, if it almost is.
 fn aimed(chain: &Chain, tip: &Tip, placing: &Placing, tolerance: f64) -> ExactVector {
     let own = chain.direction();
     if let Some(axis) = chain.task().axis() {
-        // At right angles to the axis about which its angle is asked, when it almost is.
+        // Perpendicular to the axis of the task's angle, if it almost is.
         let normal = tip.rotation[axis.coordinate()].clone();
         let upright = cosine(own, &normal);
         let is_near = upright > 0.0 && upright <= tolerance;
@@ -184,19 +187,19 @@ fn aimed(chain: &Chain, tip: &Tip, placing: &Placing, tolerance: f64) -> ExactVe
     }
 }
 
-/// A vector across `direction`, and across the coordinate axis that is most so.
+/// A vector perpendicular to `direction` and to the coordinate axis that is most perpendicular to it.
 fn upright(direction: &ExactVector) -> ExactVector {
     let least = (0..3).min_by_key(|&i| direction[i].abs()).unwrap_or(0);
     let axis = std::array::from_fn(|i| if i == least { BigRational::one() } else { BigRational::zero() });
     cross(direction, &axis)
 }
 
-/// `step` without parts along coordinate axes that are not longer than `tolerance`.
+/// `step` without components along coordinate axes of at most `tolerance`.
 fn straightened(step: &ExactVector, tolerance: f64) -> ExactVector {
     step.each_ref().map(|x| if is_small(x, tolerance) { BigRational::zero() } else { x.clone() })
 }
 
-/// The decimal with the fewest places that is within `grain` of `x`, or `x` itself.
+/// The decimal with the fewest places within `grain` of `x`, or `x` itself.
 fn shortest_decimal(x: &BigRational, grain: f64) -> BigRational {
     let mut shift = BigRational::one();
     for _ in 0..PLACES {
@@ -213,14 +216,14 @@ fn is_small(x: &BigRational, tolerance: f64) -> bool {
     x.to_f64().is_some_and(|x| x.abs() <= tolerance)
 }
 
-/// `rotation` with all entries rounded to -1, 0 or 1, if each is within `tolerance` of that.
+/// `rotation` with all entries rounded to -1, 0 or 1, if each is within `tolerance` of the rounded value.
 fn straight(rotation: &ExactMatrix, tolerance: f64) -> ExactMatrix {
     let whole = rotation.each_ref().map(|row| row.each_ref().map(BigRational::round));
     let mut entries = rotation.iter().flatten().zip(whole.iter().flatten());
     if entries.all(|(x, whole)| is_small(&(x - whole), tolerance)) { whole } else { rotation.clone() }
 }
 
-/// The rotation of a quaternion of integers within `angle` \[rad\] of `rotation`: exactly orthogonal.
+/// An exactly orthogonal rotation from a quaternion of integers, within `angle` \[rad\] of `rotation`.
 fn shortened(rotation: &ExactMatrix, angle: f64) -> ExactMatrix {
     let matrix = Matrix3::from_fn(|i, j| rotation[i][j].to_f64().unwrap_or(0.0));
     let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));

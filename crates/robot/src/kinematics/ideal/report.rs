@@ -1,4 +1,4 @@
-//! What was taken for what: [`Report`], its [`Relation`]s and the axes that [moved](Moved).
+//! Report of an idealisation: [`Report`], its [`Relation`]s and the axes that [moved](Moved).
 
 use std::fmt;
 use std::ops::Range;
@@ -9,61 +9,61 @@ use crate::kinematics::{Chain, Joint, JointKind, LengthUnit};
 use crate::spatial::exact::vector::{Line, cosine, cross, is_zero, length, sine, sub};
 use groebot_algebra::escape::markdown;
 
-/// What joints in a row have in common.
+/// Kind of relation between consecutive joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RelationKind {
     /// The directions of two neighbours are parallel.
     Parallel,
     /// The directions of two neighbours are perpendicular.
     Perpendicular,
-    /// The axes of two or more neighbours meet in one point.
+    /// The axes of two or more neighbours intersect in one point.
     Meeting,
-    /// The axes of two neighbours are one line.
+    /// The axes of two neighbours are coaxial.
     Coincident,
-    /// The common normals of three neighbours meet: the middle one has no offset.
+    /// The common normals of three neighbours intersect: the middle joint has no offset.
     Level,
 }
 
-/// A relation that a description misses by less than the tolerance.
+/// A relation that a description fails by less than the tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Relation {
-    /// The places of the joints.
+    /// The indices of the joints.
     pub joints: Range<usize>,
-    /// What was taken to hold.
+    /// The relation that was made exact.
     pub kind: RelationKind,
-    /// By how much it does not: an angle \[rad\], or a distance in the chain's length unit.
+    /// The error of the description: an angle \[rad\], or a distance in the chain's length unit.
     pub by: f64,
 }
 
-/// How far a joint's axis is from the ideal one.
+/// The difference between a joint's axis and the ideal one.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Moved {
-    /// The name of the joint; none for the tip.
+    /// The name of the joint; `None` for the tip.
     pub joint: Option<String>,
-    /// The angle \[rad\] by which it was turned.
+    /// The angle between the axes \[rad\].
     pub angle: f64,
-    /// The distance in the chain's length unit by which it was shifted.
+    /// The distance between the axes in the chain's length unit.
     pub distance: f64,
 }
 
-/// What [`Chain::ideal`] took for what.
+/// Report of [`Chain::ideal`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// The tolerance: radians, and shares of the reach.
+    /// The tolerance: radians, and fractions of the reach.
     pub tolerance: f64,
-    /// The unit of the distances here.
+    /// The unit of the distances.
     pub length_unit: LengthUnit,
-    /// The reach, in that unit.
+    /// The reach, in the length unit.
     pub reach: f64,
-    /// The relations that were made exact, from the base.
+    /// The relations that were made exact, from base to tip.
     pub relations: Vec<Relation>,
-    /// The axes, and the tip, that were moved. Shifts of earlier joints carry the later ones along.
+    /// The axes that moved, and the tip. Shifts of earlier joints move the later ones too.
     pub moved: Vec<Moved>,
 }
 
 impl Report {
-    /// What there is to say of `ideal`, which stands for `described`.
+    /// Builds the report on `ideal`, the idealisation of `described`.
     pub(super) fn new(described: &Chain, ideal: &Chain, tolerance: f64) -> Self {
         Report {
             relations: relations(described, ideal),
@@ -72,7 +72,7 @@ impl Report {
         }
     }
 
-    /// Nothing was changed of `chain`.
+    /// The report on an unchanged chain.
     pub(super) fn of_exact(chain: &Chain, tolerance: f64) -> Self {
         let (length_unit, reach) = (chain.length_unit(), size(chain));
         Report { tolerance, length_unit, reach, relations: Vec::new(), moved: Vec::new() }
@@ -83,29 +83,32 @@ impl Report {
         self.moved.is_empty()
     }
 
-    /// How far the ideal robot is from the description at most, joint by joint: radians, or shares of the reach.
+    /// The largest difference between the ideal robot and the description, joint by joint: radians, or fractions of the
+    /// reach.
     pub fn deviation(&self) -> f64 {
         self.moved.iter().map(|moved| moved.deviation(self.reach)).fold(0.0, f64::max)
     }
 
-    /// How far the tips of the two robots can be from one another at the same joint values, whatever these are: radians, and shares of the reach.
+    /// An upper bound of the difference between the tips of the two robots for any joint values: radians, and fractions
+    /// of the reach.
     ///
-    /// A joint whose axis is turned by `a` and shifted by `d` moves what it carries as the ideal one does but for a rigid motion before and its inverse behind:
-    /// the angle differs by `2 a` at most, and the place by `2 (a r + d)`, `r` being the reach. The chain's tip is off by the sum over the joints, and its own.
+    /// A joint whose axis is rotated by `a` and shifted by `d` differs from the ideal joint by a rigid motion before
+    /// and its inverse after. So the angle differs by at most `2 a`, and the position by at most `2 (a r + d)`, where
+    /// `r` is the reach. The bound is the sum over the joints plus the tip's own difference.
     pub fn bound(&self) -> f64 {
         self.moved.iter().map(|moved| 2.0 * (moved.angle + moved.distance / self.reach)).sum()
     }
 
-    /// Whether the ideal robot is the described one in doubles.
+    /// Whether the ideal robot is equal to the described one in doubles.
     pub fn is_same(&self) -> bool {
         self.deviation() <= SAME
     }
 }
 
-/// The relations that `ideal` has exactly and `described` does not, by the place of their first joint.
+/// The relations that hold exactly in `ideal` but not in `described`, sorted by their first joint.
 fn relations(described: &Chain, ideal: &Chain) -> Vec<Relation> {
     let pairs = described.joints().windows(2).zip(ideal.joints().windows(2)).enumerate();
-    let mut found: Vec<Relation> = pairs.flat_map(|(first, (told, meant))| of_pair(first, told, meant)).collect();
+    let mut found: Vec<Relation> = pairs.flat_map(|(first, (own, meant))| of_pair(first, own, meant)).collect();
     for joints in gatherings(ideal.joints()) {
         let axes = &described.joints()[joints.clone()];
         let point = line(&axes[0]).nearest(&line(&axes[1]));
@@ -113,33 +116,33 @@ fn relations(described: &Chain, ideal: &Chain) -> Vec<Relation> {
         found.push(Relation { joints, kind: RelationKind::Meeting, by });
     }
     let triples = described.joints().windows(3).zip(ideal.joints().windows(3)).enumerate();
-    found.extend(triples.filter_map(|(first, (told, meant))| level(first, told, meant)));
+    found.extend(triples.filter_map(|(first, (own, meant))| level(first, own, meant)));
     found.retain(|relation| relation.by > 0.0);
     found.sort_by_key(|relation| (relation.joints.start, relation.joints.end));
     found
 }
 
-/// What two neighbours have in common, but for a meeting point.
-fn of_pair(first: usize, told: &[Joint], meant: &[Joint]) -> Vec<Relation> {
+/// The relations of two neighbours, except an intersection.
+fn of_pair(first: usize, own: &[Joint], meant: &[Joint]) -> Vec<Relation> {
     let is_parallel = sine(&meant[0].axis, &meant[1].axis) == 0.0;
     let is_upright = cosine(&meant[0].axis, &meant[1].axis) == 0.0;
     let is_one = is_parallel && turn(meant) && line(&meant[0]).distance(&meant[1].point) == 0.0;
     let relation = |kind, by: f64| Relation { joints: first..first + 2, kind, by };
     let mut found = Vec::new();
     if is_parallel {
-        found.push(relation(RelationKind::Parallel, sine(&told[0].axis, &told[1].axis).asin()));
+        found.push(relation(RelationKind::Parallel, sine(&own[0].axis, &own[1].axis).asin()));
     }
     if is_upright {
-        found.push(relation(RelationKind::Perpendicular, cosine(&told[0].axis, &told[1].axis).asin()));
+        found.push(relation(RelationKind::Perpendicular, cosine(&own[0].axis, &own[1].axis).asin()));
     }
     if is_one {
-        found.push(relation(RelationKind::Coincident, line(&told[0]).distance(&told[1].point)));
+        found.push(relation(RelationKind::Coincident, line(&own[0]).distance(&own[1].point)));
     }
     found
 }
 
-/// Whether the middle one of three axes, which do not meet in one point, has no offset.
-fn level(first: usize, told: &[Joint], meant: &[Joint]) -> Option<Relation> {
+/// Whether the middle one of three axes, which do not intersect in one point, has no offset.
+fn level(first: usize, own: &[Joint], meant: &[Joint]) -> Option<Relation> {
     let offset = |axes: &[Joint]| {
         let [before, own, behind] = [0, 1, 2].map(|place| line(&axes[place]));
         let bends = |other: &Line| !is_zero(&cross(&own.direction, &other.direction));
@@ -149,11 +152,11 @@ fn level(first: usize, told: &[Joint], meant: &[Joint]) -> Option<Relation> {
     let meets = |pair: &[Joint]| line(&pair[0]).gap(&line(&pair[1])) == 0.0;
     let (is_level, _) = offset(meant).filter(|_| turn(meant))?;
     let is_new = is_level && !(meets(&meant[..2]) && meets(&meant[1..]));
-    let by = offset(told).map_or(0.0, |(_, by)| by);
+    let by = offset(own).map_or(0.0, |(_, by)| by);
     is_new.then_some(Relation { joints: first..first + 3, kind: RelationKind::Level, by })
 }
 
-/// The axes, and the tip, that differ.
+/// The axes that differ, and the tip.
 pub(super) fn moved(described: &Chain, ideal: &Chain) -> Vec<Moved> {
     let joints = described.joints().iter().zip(ideal.joints());
     let axes = joints.map(|(a, b)| Moved {
@@ -179,7 +182,7 @@ impl Moved {
 }
 
 impl Relation {
-    /// In words, lengths in `unit`: `axes 4 to 6 meet in one point, which they miss by 5e-6 m`.
+    /// Describes the relation, with lengths in `unit`: `axes 4 to 6 meet in one point, which they miss by 5e-6 m`.
     pub fn words(&self, unit: LengthUnit) -> String {
         let axes = format!("axes {} to {}", self.joints.start + 1, self.joints.end);
         let pair = format!("axes {} and {}", self.joints.start + 1, self.joints.end);
@@ -198,7 +201,7 @@ impl Relation {
 }
 
 impl Report {
-    /// What a mechanism's README says of it, in Markdown.
+    /// The paragraph of a mechanism's README, in Markdown.
     pub fn paragraph(&self) -> String {
         format!(
             "The solver is derived for the ideal robot within {:e} rad, or of the reach. Each answer is polished by Newton's method on the robot as \
@@ -208,12 +211,12 @@ impl Report {
         )
     }
 
-    /// One line a relation that misses by more than rounding in doubles, then how far the axes moved.
+    /// One line for each relation whose error exceeds rounding in doubles, then the differences of the axes.
     pub fn lines(&self) -> Vec<String> {
         let is_length = |kind| !matches!(kind, RelationKind::Parallel | RelationKind::Perpendicular);
         let share = |relation: &Relation| relation.by / if is_length(relation.kind) { self.reach } else { 1.0 };
-        let (told, rounding): (Vec<_>, Vec<_>) = self.relations.iter().partition(|relation| share(relation) > SAME);
-        let mut lines: Vec<String> = told.iter().map(|relation| relation.words(self.length_unit)).collect();
+        let (reported, rounding): (Vec<_>, Vec<_>) = self.relations.iter().partition(|relation| share(relation) > SAME);
+        let mut lines: Vec<String> = reported.iter().map(|relation| relation.words(self.length_unit)).collect();
         if !rounding.is_empty() {
             let ending = if rounding.len() == 1 { "relation misses" } else { "relations miss" };
             lines.push(format!("{} {ending} by rounding of doubles only, up to 1e-15", rounding.len()));

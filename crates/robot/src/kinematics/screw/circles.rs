@@ -1,8 +1,9 @@
-//! IK-Geo's six subproblems: Elias and Wen, "IK-Geo: Unified Robot Inverse Kinematics Using Subproblem Decomposition" (2022).
+//! IK-Geo's six subproblems: Elias and Wen, "IK-Geo: Unified Robot Inverse Kinematics Using Subproblem Decomposition"
+//! (2022).
 //!
 //! Rotations R(k, q) about unit directions `k` through the origin. The first five are the subproblems of
-//! [`super::one_joint`], [`super::two_joints`] and [`super::three_joints`] in other words; the sixth has two equations in two
-//! angles. Lengths in one unit, angles in radians, tolerances as in [`super::values`].
+//! [`super::one_joint`], [`super::two_joints`] and [`super::three_joints`] in another notation. The sixth has two
+//! equations in two angles. Lengths in one unit, angles in radians, tolerances as in [`super::values`].
 
 use nalgebra::{Matrix2, Point3, Unit, Vector2, Vector3};
 
@@ -14,7 +15,7 @@ use super::two_joints::two_screws_to_point;
 use super::values::{Answers, Reach, Values};
 use crate::spatial::{Axis, Screw, angle};
 
-/// Steps of refinement.
+/// Maximum number of refinement steps.
 const STEPS: usize = 24;
 
 type Direction = Unit<Vector3<f64>>;
@@ -24,7 +25,7 @@ pub fn circle_point(k: &Direction, p1: &Vector3<f64>, p2: &Vector3<f64>, reach: 
     rotate_to_point(&Axis::central(*k), &point(p1), &point(p2), reach)
 }
 
-/// Subproblem 2, two circles: `R(k1, q1) p1 = R(k2, q2) p2`. Up to two answers.
+/// Subproblem 2, two circles: `R(k1, q1) p1 = R(k2, q2) p2`. Up to two solutions.
 pub fn two_circles(k: [&Direction; 2], p1: &Vector3<f64>, p2: &Vector3<f64>, reach: Reach) -> Answers<2> {
     let [first, second] = k.map(|k| Screw::Revolute(Axis::central(*k)));
     let found = two_screws_to_point(&second, &first, &point(p1), &point(p2), reach);
@@ -41,7 +42,7 @@ pub fn circle_plane(h: &Direction, k: &Direction, p: &Vector3<f64>, d: f64, reac
     rotate_to_plane(&Axis::central(*k), &point(p), h, &point(&h.scale(d)), reach)
 }
 
-/// Subproblem 5, three circles: `p0 + R(k1, q1) p1 = R(k2, q2) (p2 + R(k3, q3) p3)`. Up to four answers.
+/// Subproblem 5, three circles: `p0 + R(k1, q1) p1 = R(k2, q2) (p2 + R(k3, q3) p3)`. Up to four solutions.
 pub fn three_circles(k: [&Direction; 3], p: [&Vector3<f64>; 4], reach: Reach) -> Answers<3> {
     let axis = |k: &Direction, centre: &Vector3<f64>| Screw::Revolute(Axis::central(*k).shifted(centre));
     let screws = [axis(k[0], p[0]), axis(k[1], &Vector3::zeros()), axis(k[2], p[2])];
@@ -50,9 +51,10 @@ pub fn three_circles(k: [&Direction; 3], p: [&Vector3<f64>; 4], reach: Reach) ->
     found.iter().map(|[q1, q2, q3]| [q1.map(|q| -q), *q2, *q3]).collect()
 }
 
-/// Subproblem 6, four circles: `h1 . R(k1, q1) p1 + h2 . R(k2, q2) p2 = d1` and `h3 . R(k3, q1) p3 + h4 . R(k4, q2) p4 = d2`.
+/// Subproblem 6, four circles: `h1 . R(k1, q1) p1 + h2 . R(k2, q2) p2 = d1` and `h3 . R(k3, q1) p3 + h4 . R(k4, q2) p4
+/// = d2`.
 ///
-/// Up to four answers. With [`Reach::Closest`], none more: the equations have no common unit to be near in.
+/// Up to four solutions. [`Reach::Closest`] adds none, because the equations have no common unit for a distance.
 pub fn four_circles(
     h: [Vector3<f64>; 4],
     k: [Direction; 4],
@@ -70,7 +72,7 @@ pub fn four_circles(
 /// `h . R(k, q) p = constant + arm . (cos q, sin q)`.
 struct Harmonic {
     constant: f64,
-    /// In the plane z = 0.
+    /// A vector in the plane z = 0.
     arm: Vector3<f64>,
 }
 
@@ -126,7 +128,7 @@ impl Pair {
         })
     }
 
-    /// The matrix of how fast the misses change with the two angles.
+    /// The Jacobian of the residuals by the two angles.
     fn slopes(&self, q: [f64; 2]) -> Matrix2<f64> {
         let ([s1, s2], [c1, c2]) = (q.map(f64::sin), q.map(f64::cos));
         let [a, b] = [0, 1].map(|i| self.first[i].y * c1 - self.first[i].x * s1);
@@ -134,8 +136,8 @@ impl Pair {
         Matrix2::new(a, c, b, d)
     }
 
-    /// Gauss-Newton from `q`: the best answer on the way, and the larger of its two misses. Where two answers meet the miss
-    /// rises before it falls.
+    /// Gauss-Newton refinement from `q`. Returns the best solution of all steps and the larger of its two residuals.
+    /// Near a double solution the residual increases before it decreases.
     fn refine(&self, mut q: [f64; 2]) -> ([f64; 2], f64) {
         let mut miss = Vector2::from(self.misses(q));
         let mut best = (q, miss.amax());

@@ -1,4 +1,4 @@
-//! What the loop of all joints of a chain must become for its tip to reach a target.
+//! The goal of the loop of all joints for a target of the tip.
 
 use nalgebra::{Point3, Translation3, Unit, UnitQuaternion, Vector3};
 
@@ -9,10 +9,10 @@ use crate::kinematics::{Chain, Plane, Target, Task};
 use crate::spatial::Pose;
 
 impl Target {
-    /// The goal of the loop of all joints of `chain`.
+    /// Computes the goal of the loop of all joints of `chain`.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the target is not the chain's task's kind, or not finite.
+    /// [`ErrorKind::BadValue`] when the target is not of the chain's task, or not finite.
     pub(super) fn goal(&self, chain: &Chain) -> Result<Goal> {
         self.check(chain)?;
         let tip = chain.base_from_tip();
@@ -42,7 +42,7 @@ impl Target {
                 let rotation = UnitQuaternion::from_axis_angle(&normal, yaw - aim[b].atan2(aim[a])) * tip.rotation;
                 Goal::Pose(Pose::from_parts(point.coords.into(), rotation) * tip.inverse())
             }
-            // A position with pitch and roll is asked of the loop that stands for it; a planar target has a plane.
+            // A position with pitch and roll is solved with its equivalent loop. A planar target has a plane.
             (Target::PositionPitchRoll { point, .. } | Target::PositionYaw { point, .. }, _) => {
                 Goal::Point { from, to: *point }
             }
@@ -52,7 +52,7 @@ impl Target {
     }
 }
 
-/// A rotation of the tip of `chain` that points its direction along `wanted`.
+/// A rotation of the tip of `chain` that aligns its direction with `wanted`.
 fn aimed(chain: &Chain, wanted: &Vector3<f64>) -> UnitQuaternion<f64> {
     let aim = chain.aim();
     let across = aim.cross(&Vector3::ith(aim.iamin(), 1.0));
@@ -60,7 +60,7 @@ fn aimed(chain: &Chain, wanted: &Vector3<f64>) -> UnitQuaternion<f64> {
     UnitQuaternion::rotation_between(&aim.into_inner(), wanted).unwrap_or(half_turn)
 }
 
-/// The goal of a ray: a pose with a rotation that has its direction.
+/// The goal of a ray: a pose with any rotation that has its direction.
 fn ray_goal(chain: &Chain, point: &Point3<f64>, direction: &Vector3<f64>) -> Goal {
     let pose = Pose::from_parts(point.coords.into(), aimed(chain, direction));
     Goal::Pose(pose * chain.base_from_tip().inverse())

@@ -1,12 +1,13 @@
-//! Points where axes meet: [`at_meeting_points`].
+//! Points of intersection of axes: [`at_meeting_points`].
 
 use nalgebra::{Point3, Vector3};
 
 use crate::spatial::{Axis, Screw};
 
-/// The screws with each axis given by a point where it meets its neighbours: three or more of them if it does, else one.
+/// The screws, with the point of each axis at an intersection with its neighbours: with three or more of them if
+/// possible, else with one.
 ///
-/// Such points stay exact while the joints move, however parallel their axes become.
+/// Such points stay exact while the joints move, even when their axes become almost parallel.
 pub(super) fn at_meeting_points(screws: &[Screw], tolerance: f64) -> Vec<Screw> {
     let mut groups: Vec<(usize, usize, Point3<f64>)> = Vec::new();
     for start in 0..screws.len() {
@@ -31,7 +32,7 @@ pub(super) fn at_meeting_points(screws: &[Screw], tolerance: f64) -> Vec<Screw> 
     screws.iter().zip(&points).map(placed).collect()
 }
 
-/// Where all axes of the row meet.
+/// The common point of all axes of the row.
 fn meeting_point(row: &[Screw], tolerance: f64) -> Option<Point3<f64>> {
     let axes: Vec<&Axis> = row.iter().map(Screw::axis).collect::<Option<_>>()?;
     let other = axes[1..].iter().find(|axis| !axes[0].is_parallel(axis))?;

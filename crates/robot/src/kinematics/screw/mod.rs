@@ -1,7 +1,8 @@
-//! Inverse kinematics by screw theory: a witness that shares no solving code with the Groebner-derived solvers.
+//! Inverse kinematics by screw theory (Paden-Kahan subproblems). It shares no solving code with the Groebner-derived
+//! solvers and verifies them.
 //!
-//! [`ScrewSolver`] finds an order of subproblems from a chain's geometry, describes it as a [`Plan`], and solves by it; where one of its steps degenerates
-//! and the chain does not, by another order.
+//! [`ScrewSolver`] finds an order of subproblems from a chain's geometry, describes it as a [`Plan`], and solves with
+//! it. If one of its steps degenerates at a pose that is not singular, it uses another order.
 
 pub mod circles;
 mod feature;
@@ -34,24 +35,24 @@ pub use solver::ScrewSolver;
 use super::Chain;
 use crate::spatial::{Screw, angle};
 
-/// How far, relative to the reach and in radians, an answer's tip may be from its target.
+/// Maximum distance of a solution's tip from its target, relative to the reach and in radians.
 pub const ACCEPT: f64 = 2e-12;
 
-/// Two answers are one when their joints differ by at most this much \[rad, or reaches\].
+/// Two solutions are equal when their joints differ by at most this value \[rad, or units of the reach\].
 const MERGE: f64 = 1e-9;
 
 impl Chain {
-    /// The reach, in which lengths are measured; one unit where it is zero.
+    /// The reach as the unit of length; one if it is zero.
     fn scale(&self) -> f64 {
         if self.reach() > 0.0 { self.reach() } else { 1.0 }
     }
 
-    /// Whether two answers are one.
+    /// Whether two solutions are equal.
     fn are_one(&self, a: &[f64], b: &[f64]) -> bool {
         self.are_within(a, b, MERGE)
     }
 
-    /// Whether joints differ by this much at most \[rad, or reaches\].
+    /// Whether joint values differ by at most this value \[rad, or units of the reach\].
     fn are_within(&self, a: &[f64], b: &[f64], most: f64) -> bool {
         let differ = |(screw, (a, b)): (&Screw, (&f64, &f64))| match screw {
             Screw::Revolute(_) => angle::difference(*a, *b).abs(),

@@ -1,7 +1,8 @@
-//! The loop that stands for a chain's task: what is a pose or a point for the subproblems. Main type: [`Model`].
+//! The loop equivalent to a chain's task, with a pose or a point as goal for the subproblems. Main type: [`Model`].
 //!
-//! A ray is a pose with one more joint, that turns about the ray. A rotation is a pose, and a direction a point, of the chain's
-//! spherical image, in which all axes pass the origin. A given joint is absorbed before the first step.
+//! A ray is a pose with one more joint that rotates about the ray. A rotation is a pose of the chain's spherical image,
+//! in which all axes pass through the origin, and a direction is a point of it. A given joint is absorbed before the
+//! first step.
 
 use nalgebra::{Point3, Vector3};
 
@@ -12,27 +13,27 @@ use crate::kinematics::{Chain, Target, Task};
 use crate::spatial::{Half, Screw};
 use crate::{Error, ErrorKind, Result};
 
-/// A chain as the screw solver sees it.
+/// The model of a chain for the screw solver.
 #[derive(Clone, Debug)]
 pub(super) struct Model {
-    /// The joints' screws, then that of the ray.
+    /// The joints' screws, followed by the screw of the ray.
     pub screws: Vec<Screw>,
-    /// The point of the tip whose distance counts.
+    /// The point of the tip whose distance is measured.
     pub tip: Vector3<f64>,
-    /// The length that distances are measured against; one where there are only directions.
+    /// The reference length of distances; one if there are only directions.
     pub reach: f64,
-    /// The places of the joints whose values are given.
+    /// The indices of the given joints.
     pub given: Vec<usize>,
-    /// How many of the screws are joints.
+    /// The number of screws that are joints.
     pub joints: usize,
 }
 
 impl Model {
-    /// The model of `chain`.
+    /// Builds the model of `chain`.
     ///
     /// # Errors
-    /// [`ErrorKind::PositiveDimensional`] when the task leaves joints undetermined; [`ErrorKind::Unsupported`] for more joints
-    /// than the solver holds; as [`Chain::check_leaders`].
+    /// [`ErrorKind::PositiveDimensional`] when the task leaves joints undetermined; [`ErrorKind::Unsupported`] for more
+    /// joints than the solver supports; those of [`Chain::check_leaders`].
     pub fn of(chain: &Chain) -> Result<Model> {
         chain.check_leaders()?;
         let (joints, given, task) = (chain.joints().len(), chain.given(), chain.task());
@@ -72,7 +73,7 @@ impl Model {
         Ok(Model { screws, tip, reach: if image { 1.0 } else { chain.reach() }, given, joints })
     }
 
-    /// The loop towards `goal`, with the given joints at `values`.
+    /// The loop for `goal`, with the given joints at `values`.
     pub fn start(&self, goal: Goal, values: impl Iterator<Item = Half>) -> Reduced {
         let mut reduced = whole(&self.screws, goal);
         for (&joint, value) in self.given.iter().zip(values) {
@@ -83,8 +84,8 @@ impl Model {
         reduced
     }
 
-    /// The values of all screws at the joint values `q`, on the way to the goal that `q` reaches: those of `q`, then the turn about
-    /// the ray that the goal's rotation, chosen freely, leaves.
+    /// The values of all screws at the joint values `q`, and the goal that `q` reaches: the joint values, then the
+    /// rotation about the ray that remains for the goal's arbitrary rotation.
     pub fn values(&self, chain: &Chain, q: &[f64]) -> Result<(Vec<f64>, Goal)> {
         let goal = Target::reached(chain, q)?.goal(chain)?;
         let mut values = q.to_vec();
@@ -96,7 +97,7 @@ impl Model {
     }
 }
 
-/// The axes moved to the origin: their rotations are those of the chain.
+/// The axes moved to the origin. Their rotations are those of the chain.
 fn spherical_image(chain: &Chain) -> Result<Vec<Screw>> {
     let image = |(screw, joint): (&Screw, &crate::kinematics::Joint)| match screw {
         Screw::Revolute(axis) => Screw::revolute(axis.direction().into_inner(), Point3::origin()),

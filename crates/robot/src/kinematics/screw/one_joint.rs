@@ -1,22 +1,23 @@
-//! The subproblems of one joint, for any axis: Paden-Kahan 1 and 3 (RH0 2.3.3), Pardos-One (RH0 2.3.4), and rotations and
-//! translations to a plane (PG1, PG5). IK-Geo's subproblems 1, 3 and 4 are these.
+//! The subproblems of one joint, for any axis: Paden-Kahan 1 and 3 (RH0 2.3.3), Pardos-One (RH0 2.3.4), and rotations
+//! and translations to a plane (PG1, PG5). These are IK-Geo's subproblems 1, 3 and 4.
 //!
-//! Rotating a point moves what is asked for (a distance, a height over a plane) up and down between two ends, so that
-//! there are two angles, one at an end, or every angle does it. The tolerances are in [`super::values`].
+//! A rotation of a point varies the required quantity (a distance, or a height over a plane) between two extreme
+//! values. So there are two angles, one at an extreme value, or every angle is a solution. The tolerances are in
+//! [`super::values`].
 //!
-//! Lengths may have any magnitude, but an axis' point should be near the other points: rounding of the axis' direction
-//! acts at that distance.
+//! Lengths may have any magnitude. An axis' point should be near the other points, because the rounding error of the
+//! axis' direction is multiplied by that distance.
 
 use std::f64::consts::PI;
 
 use nalgebra::{Point3, Unit, Vector3};
 
-use super::values::{ROUNDING, Reach, TOLERANCE, Values, size_of_way};
+use super::values::{ROUNDING, Reach, TOLERANCE, Values, displacement_size};
 use crate::spatial::{Axis, angle};
 
 /// Paden-Kahan 1, RH0 (2-28), (2-29): the angle that rotates `p` about `axis` onto `k` \[m\].
 ///
-/// Free when both points lie on the axis and coincide; none when `k` is not on the circle of `p` or a coordinate is not
+/// Free when both points are equal and on the axis; none when `k` is not on the circle of `p` or a coordinate is not
 /// finite. Never two.
 pub fn rotate_to_point(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, reach: Reach) -> Values {
     rotate_to_distance(axis, p, k, 0.0, reach)
@@ -24,8 +25,9 @@ pub fn rotate_to_point(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, reach: Rea
 
 /// Paden-Kahan 3, RH0 (2-32), (2-33): the angles that rotate `p` about `axis` to the distance `delta` from `k` \[m\].
 ///
-/// Free when `p` or `k` lies on the axis and the distance fits; none when `delta` is out of reach, negative or NaN, or a
-/// coordinate is not finite. Of two angles, the first lies ahead of the one nearest to `k`, the second behind it.
+/// Free when `p` or `k` is on the axis and the distance fits; none when `delta` is out of reach, negative or NaN, or a
+/// coordinate is not finite. Of two angles, the first is after the angle nearest to `k` and the second before it, in
+/// the direction of rotation.
 pub fn rotate_to_distance(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, delta: f64, reach: Reach) -> Values {
     match Circle::new(axis, p, k) {
         Some(circle) if delta >= 0.0 => circle.swing(delta / circle.unit).angles(reach),
@@ -33,11 +35,11 @@ pub fn rotate_to_distance(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, delta: 
     }
 }
 
-/// The angles that rotate `p` about `axis` into the plane through `plane_point` \[m\] with this `normal`: PG5 for a point,
-/// IK-Geo's circle and plane.
+/// The angles that rotate `p` about `axis` into the plane through `plane_point` \[m\] with this `normal`: PG5 for a
+/// point, IK-Geo's circle and plane.
 ///
-/// Free when `p` lies on the axis, or the axis is normal to the plane, and `p` is in the plane; none when the circle
-/// does not reach the plane or a coordinate is not finite. Of two angles, the first lies ahead of the one that moves `p`
+/// Free when `p` is on the axis, or the axis is normal to the plane, and `p` is in the plane; none when the circle does
+/// not reach the plane or a coordinate is not finite. Of two angles, the first is after the angle that moves `p`
 /// farthest along the normal.
 pub fn rotate_to_plane(
     axis: &Axis,
@@ -67,11 +69,12 @@ pub fn rotate_to_plane(
     .angles(reach)
 }
 
-/// PG5: the angles that rotate `line` about `axis` until it lies in the plane through `plane_point` \[m\] with this `normal`.
+/// PG5: the angles that rotate `line` about `axis` into the plane through `plane_point` \[m\] with this `normal`.
 ///
-/// A line lies in a plane when its direction is normal to the plane's normal and one of its points is in the plane; the
-/// angles of the first condition that meet the second are returned. A line parallel to the axis keeps its direction:
-/// then its point alone decides. With [`Reach::Closest`]: the line becomes as parallel to the plane as it can.
+/// A line is in a plane when its direction is normal to the plane's normal and one of its points is in the plane. The
+/// angles of the first condition that satisfy the second one are returned. A line parallel to the axis keeps its
+/// direction, so only its point is tested. With [`Reach::Closest`], the line becomes as parallel to the plane as
+/// possible.
 pub fn rotate_line_to_plane(
     axis: &Axis,
     line: &Axis,
@@ -85,7 +88,7 @@ pub fn rotate_line_to_plane(
         return rotate_to_plane(axis, &line.point(), normal, plane_point, reach);
     }
     let size = (line.point() - axis.point()).norm().max((plane_point - axis.point()).norm());
-    // How far the line's direction is from the plane, and its point, and how fast both change.
+    // The residuals of the line's direction and of its point, with their derivatives.
     let misses = |q: f64| {
         let heading = axis.through_origin().rotate(q, &direction).coords;
         let (arm, w) = (axis.rotate(q, &line.point()) - axis.point(), axis.direction());
@@ -107,19 +110,20 @@ pub fn rotate_line_to_plane(
     }
 }
 
-/// The displacement along `direction` that moves `p` to `k` \[m\]; none when `k` is beside the line.
+/// The displacement along `direction` that moves `p` to `k` \[m\]; none when `k` is not on the line.
 pub fn translate_to_point(direction: &Unit<Vector3<f64>>, p: &Point3<f64>, k: &Point3<f64>, reach: Reach) -> Values {
-    let way = k - p;
-    let along = direction.dot(&way);
-    let beside = (way - direction.scale(along)).norm();
-    let is_reached = along.is_finite() && beside <= reach.slack(size_of_way(p, k));
+    let displacement = k - p;
+    let along = direction.dot(&displacement);
+    let beside = (displacement - direction.scale(along)).norm();
+    let is_reached = along.is_finite() && beside <= reach.slack(displacement_size(p, k));
     if is_reached { Values::One(along) } else { Values::None }
 }
 
-/// Pardos-One (PG3), RH0 (2-34): the displacements along `direction` that move `p` to the distance `delta` from `k` \[m\].
+/// Pardos-One (PG3), RH0 (2-34): the displacements along `direction` that move `p` to the distance `delta` from `k`
+/// \[m\].
 ///
-/// `v.(k - p) +- sqrt(delta^2 - |k - p|^2 + (v.(k - p))^2)`: RH0 (2-35) without its sign factor, which loses answers (see
-/// `docs/errata.md`). None when the line stays farther from `k` than `delta`, when `delta` is negative or NaN, or a
+/// `v.(k - p) +- sqrt(delta^2 - |k - p|^2 + (v.(k - p))^2)`: RH0 (2-35) without its sign factor, which loses solutions
+/// (see `docs/errata.md`). None when the line is farther from `k` than `delta`, when `delta` is negative or NaN, or a
 /// coordinate is not finite. Of two, the larger comes first.
 pub fn translate_to_distance(
     direction: &Unit<Vector3<f64>>,
@@ -128,11 +132,11 @@ pub fn translate_to_distance(
     delta: f64,
     reach: Reach,
 ) -> Values {
-    let way = k - p;
-    let along = direction.dot(&way);
-    let beside = (way - direction.scale(along)).norm();
-    let (size, beyond) = (size_of_way(p, k).max(delta), delta - beside);
-    if !(way.norm().is_finite() && size.is_finite() && delta >= 0.0) || -beyond > reach.slack(size) {
+    let displacement = k - p;
+    let along = direction.dot(&displacement);
+    let beside = (displacement - direction.scale(along)).norm();
+    let (size, beyond) = (displacement_size(p, k).max(delta), delta - beside);
+    if !(displacement.norm().is_finite() && size.is_finite() && delta >= 0.0) || -beyond > reach.slack(size) {
         return Values::None;
     }
     if beyond <= ROUNDING * size {
@@ -142,9 +146,11 @@ pub fn translate_to_distance(
     Values::Two(along + half, along - half)
 }
 
-/// PG1: the displacement along `direction` that moves `p` into the plane through `plane_point` \[m\] with this `normal`.
+/// PG1: the displacement along `direction` that moves `p` into the plane through `plane_point` \[m\] with this
+/// `normal`.
 ///
-/// Free when the direction is parallel to the plane and `p` in it; none when it is parallel and `p` is not.
+/// Free when the direction is parallel to the plane and `p` is in the plane; none when it is parallel and `p` is not in
+/// the plane.
 pub fn translate_to_plane(
     direction: &Unit<Vector3<f64>>,
     p: &Point3<f64>,
@@ -152,30 +158,30 @@ pub fn translate_to_plane(
     plane_point: &Point3<f64>,
     reach: Reach,
 ) -> Values {
-    let (way, slope) = (plane_point - p, normal.dot(direction));
-    let height = normal.dot(&way);
+    let (displacement, slope) = (plane_point - p, normal.dot(direction));
+    let height = normal.dot(&displacement);
     if !height.is_finite() {
         return Values::None;
     }
     if slope.abs() > TOLERANCE {
         return Values::One(height / slope);
     }
-    if height.abs() <= reach.slack(size_of_way(p, plane_point)) { Values::Free } else { Values::None }
+    if height.abs() <= reach.slack(displacement_size(p, plane_point)) { Values::Free } else { Values::None }
 }
 
-/// A quantity that swings between two ends while a joint turns once, and its target.
+/// A quantity that varies between two extreme values during one turn of a joint, with its target value.
 struct Swing {
-    /// How far the target is from the end at `bearing`; negative beyond it.
+    /// Distance of the target from the extreme value at `bearing`; negative beyond it.
     above: f64,
-    /// How far it is from the other end.
+    /// Distance of the target from the other extreme value.
     below: f64,
     /// The tangent squared of half the angle from the bearing is `above * weights.0 / (below * weights.1)`.
     weights: (f64, f64),
-    /// The distance of the two ends.
+    /// The difference of the extreme values.
     span: f64,
-    /// The size of the problem.
+    /// The size of the subproblem.
     size: f64,
-    /// The angle of the first end \[rad\].
+    /// The angle of the first extreme value \[rad\].
     bearing: f64,
 }
 
@@ -199,9 +205,9 @@ impl Swing {
     }
 }
 
-/// The circle of `p` about an axis, seen from `k`.
+/// The circle of `p` about an axis, relative to `k`.
 pub(super) struct Circle {
-    /// The unit of the lengths below \[m\]: keeps their squares in range.
+    /// The unit of the lengths below \[m\], which keeps their squares in range.
     unit: f64,
     /// The larger distance of the two points from the axis' point.
     size: f64,
@@ -209,12 +215,12 @@ pub(super) struct Circle {
     nearest: f64,
     /// The largest distance from `k`.
     farthest: f64,
-    /// The angle in (-pi, pi] that brings `p` nearest to `k`: theta_0 of RH0 (2-33).
+    /// The angle in (-pi, pi] at which `p` is nearest to `k`: theta_0 of RH0 (2-33).
     pub(super) bearing: f64,
 }
 
 impl Circle {
-    /// `None` when a coordinate, relative to the axis' point, is not finite.
+    /// Builds the circle; `None` when a coordinate relative to the axis' point is not finite.
     pub(super) fn new(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>) -> Option<Circle> {
         let w = axis.direction();
         let (u, v) = (p - axis.point(), k - axis.point());
@@ -241,7 +247,7 @@ impl Circle {
         self.farthest * self.unit
     }
 
-    /// The law of cosines RH0 (2-33), for half the angle, at `distance` in this circle's unit: its tangent squared is
+    /// The law of cosines RH0 (2-33) for half the angle, at `distance` in this circle's unit. Its squared tangent is
     /// (distance^2 - nearest^2) / (farthest^2 - distance^2).
     fn swing(&self, distance: f64) -> Swing {
         Swing {

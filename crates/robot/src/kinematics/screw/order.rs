@@ -1,8 +1,8 @@
-//! The orders of subproblems that a chain is solved by: the best one, and for each of its steps one that does without it.
+//! The orders of subproblems for a chain: the best one, and for each of its steps an alternative without this step.
 //!
-//! A step may degenerate where the chain does not: two axes, with joints between them, become parallel, and a direction along
-//! them says nothing of one joint, which other equations determine. Then an order is taken that does not solve the same joints
-//! at that place.
+//! A step may degenerate at a pose that is not singular. For example two axes with joints between them become parallel,
+//! and a direction along them does not determine a joint that other equations determine. Then an order is used that
+//! does not solve the same joints at that position.
 
 use std::sync::OnceLock;
 
@@ -25,7 +25,7 @@ pub(super) struct Order {
     pub first_branch: usize,
 }
 
-/// The best order, and for each of its steps the best one without it, which is looked for when it is first asked for.
+/// The best order, and for each of its steps the best order without it, which is computed on demand.
 #[derive(Clone, Debug)]
 pub(super) struct Orders {
     pub first: Order,
@@ -35,7 +35,7 @@ pub(super) struct Orders {
 }
 
 impl Orders {
-    /// The orders of a chain with these samples; `None` when the steps that we know do not solve it.
+    /// The orders of a chain with these samples; `None` when no order of the known subproblems solves it.
     pub fn find(samples: Vec<Sample>, scale: Scale) -> Option<Orders> {
         let found = Search::new(&samples, scale).plan()?;
         let spares = found.iter().map(|(_, does)| (*does, OnceLock::new())).collect();
@@ -43,7 +43,8 @@ impl Orders {
         Some(Orders { first, samples, scale, spares })
     }
 
-    /// The order that does not solve the same joints at the place of step number `at` of the first; `None` where there is none.
+    /// The order that does not solve the same joints at the position of step `at` of the first order; `None` if there
+    /// is none.
     pub fn without(&self, at: usize) -> Option<&Order> {
         let (avoided, spare) = &self.spares[at];
         let find = || {
@@ -57,12 +58,12 @@ impl Orders {
 impl Order {
     fn of(found: Vec<(Step, Move)>, sample: &Sample, scale: Scale, first_branch: usize) -> Order {
         let steps: Vec<Step> = found.into_iter().map(|(step, _)| step).collect();
-        let plan = tell(&steps, sample, scale);
+        let plan = described(&steps, sample, scale);
         Order { steps, plan, first_branch }
     }
 }
 
-/// Two configurations in general position.
+/// Two sample configurations in general position.
 pub(super) fn samples(chain: &Chain, model: &Model) -> Result<Vec<Sample>> {
     const TURNS: [[f64; MOST_JOINTS]; 2] = [
         [0.7391, -1.1217, 0.8713, 0.5347, -0.9241, 1.3129, 0.6173, 0.9677, 0.4519, -0.7283],
@@ -79,17 +80,17 @@ pub(super) fn samples(chain: &Chain, model: &Model) -> Result<Vec<Sample>> {
     TURNS.iter().map(sample).collect()
 }
 
-/// The steps in words.
-fn tell(steps: &[Step], sample: &Sample, scale: Scale) -> Plan {
+/// Describes the steps.
+fn described(steps: &[Step], sample: &Sample, scale: Scale) -> Plan {
     let mut reduced = sample.start.clone();
-    let mut told: Vec<PlanStep> = Vec::new();
+    let mut described_steps: Vec<PlanStep> = Vec::new();
     for step in steps {
-        told.push(describe(step, &reduced, step.most_answers(&reduced), scale));
+        described_steps.push(describe(step, &reduced, step.most_answers(&reduced), scale));
         for joint in step.solved(&reduced) {
             if let Some(place) = reduced.place(joint) {
                 reduced.absorb(place, Half::new(sample.q[joint]));
             }
         }
     }
-    Plan { steps: told }
+    Plan { steps: described_steps }
 }

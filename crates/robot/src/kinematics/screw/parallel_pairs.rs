@@ -1,7 +1,7 @@
-//! Six joints in three pairs with parallel axes, 1 and 2, 3 and 4, 5 and 6: up to sixteen answers.
+//! Six joints in three pairs with parallel axes, 1 and 2, 3 and 4, 5 and 6: up to sixteen solutions.
 //!
-//! A pair turns by the sum of its two angles. The three sums follow from the orientation like the angles of a wrist.
-//! With them known, each pair moves a point on a circle, and the three circles' vectors add up to a known one.
+//! A pair rotates by the sum of its two angles. The three sums follow from the orientation like the angles of a
+//! spherical wrist. Then each pair moves a point on a circle, and the vectors of the three circles have a known sum.
 
 use nalgebra::{Matrix3, Point3, Unit, Vector3};
 use smallvec::SmallVec;
@@ -13,13 +13,13 @@ use super::values::Reach;
 use crate::spatial::line::PARALLEL;
 use crate::spatial::{Axis, Pose, Screw, angle, rotation};
 
-/// The joint values of one answer.
+/// The joint values of one solution.
 pub(super) type Six = [f64; 6];
 
-/// Newton steps at most.
+/// Maximum number of Newton steps.
 const STEPS: usize = 8;
 
-/// Whether these are six revolute joints in three parallel pairs.
+/// Whether the row consists of six revolute joints in three parallel pairs.
 pub(super) fn fits(row: &Row) -> bool {
     let pair = |i: usize| match (row[i].screw.axis(), row[i + 1].screw.axis()) {
         (Some(a), Some(b)) => a.is_parallel(b),
@@ -50,7 +50,7 @@ pub(super) fn solve(row: &Row, pose: &Pose, reach: Reach) -> Vec<Six> {
     found
 }
 
-/// The rotation of each pair about its first axis: as the three angles of a wrist.
+/// The rotation angle of each pair about its first axis, as the three angles of a spherical wrist.
 fn sums(axes: &[Axis], pose: &Pose, reach: Reach) -> SmallVec<[[f64; 3]; 2]> {
     let central = |i: usize| Screw::Revolute(axes[i].through_origin());
     let last = axes[4].direction();
@@ -64,7 +64,7 @@ fn sums(axes: &[Axis], pose: &Pose, reach: Reach) -> SmallVec<[[f64; 3]; 2]> {
     pairs.iter().map(complete).collect()
 }
 
-/// Three vectors, each turning about an axis through the origin and normal to it, and the sum that they are to have.
+/// Three vectors, each normal to its axis through the origin and rotating about it, and the required sum.
 struct Circles {
     axes: [Unit<Vector3<f64>>; 3],
     arms: [Vector3<f64>; 3],
@@ -93,12 +93,13 @@ impl Circles {
         self.arms[i] + rotation::displacement(&self.axes[i], angle, &self.arms[i])
     }
 
-    /// The angles of the three vectors, each answer refined by Newton's method.
+    /// The angles of the three vectors, each solution refined by Newton's method.
     fn solve(&self) -> Vec<[f64; 3]> {
         let Some(common) = Unit::try_new(self.axes[0].cross(&self.axes[1]), PARALLEL) else { return Vec::new() };
         let frame = [self.axes[0].cross(&common), self.axes[1].cross(&common)];
         let (n1, n2) = (self.axes[0], self.axes[1]);
-        // For the third angle: what the first two arms must be across their common normal, and their sum along it.
+        // For the third angle: the required components of the first two vectors across their common normal, and their
+        // sum along it.
         let parts = |angle: f64| {
             let left = self.sum - self.arm(2, angle);
             (n2.dot(&left) / n2.dot(&frame[0]), n1.dot(&left) / n1.dot(&frame[1]), common.dot(&left))
@@ -126,13 +127,13 @@ impl Circles {
         found
     }
 
-    /// The angle at which arm `i` has these components along the common normal and across it.
+    /// The angle at which vector `i` has these components along the common normal and across it.
     fn bearing(&self, i: usize, common: &Vector3<f64>, along: f64, across: f64) -> f64 {
         let goal = common * along + self.axes[i].cross(common) * across;
         self.axes[i].dot(&self.arms[i].cross(&goal)).atan2(self.arms[i].dot(&goal))
     }
 
-    /// The answer near `angles`; `None` when there is none.
+    /// The solution near `angles`; `None` when there is none.
     fn refine(&self, mut angles: [f64; 3]) -> Option<[f64; 3]> {
         let size = self.arms.iter().map(Vector3::norm).sum::<f64>() + self.sum.norm();
         let miss = |angles: &[f64; 3]| self.sum - (0..3).map(|i| self.arm(i, angles[i])).sum::<Vector3<f64>>();

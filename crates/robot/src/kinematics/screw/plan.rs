@@ -1,20 +1,20 @@
-//! The order of subproblems that solves a chain, in words, like RH0 A.1, A.2 and 3.4.2.
+//! The order of subproblems that solves a chain, described in words as in RH0 A.1, A.2 and 3.4.2.
 
 use std::fmt;
 
-use super::feature::{Feature, Line, Scale, Spot, direction};
+use super::feature::{Feature, FixedPoint, Line, Scale, direction};
 use super::reduced::{Goal, Member, Reduced};
 use super::step::{Kind, Relation, Step};
 use crate::spatial::line;
 use crate::spatial::{Relation as Lines, Screw};
 
-/// The canonical subproblem that a step is.
+/// The canonical subproblem of a step.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subproblem {
     /// Rotation about one axis to a point, RH0 (2-28).
     PadenKahan1,
-    /// Two rotations about meeting axes to a point, RH0 (2-30).
+    /// Two rotations about intersecting axes to a point, RH0 (2-30).
     PadenKahan2,
     /// Rotation to a distance from a point, RH0 (2-32).
     PadenKahan3,
@@ -30,15 +30,15 @@ pub enum Subproblem {
     Pardos5,
     /// Two rotations about skew axes to a point.
     Pardos6,
-    /// A rotation and two about parallel axes, to a point.
+    /// A rotation and two rotations about parallel axes, to a point.
     Pardos7,
-    /// Three rotations about parallel axes to a pose: PG4 and what is left.
+    /// Three rotations about parallel axes to a pose: PG4 and the remaining angle.
     Pardos8,
     /// Translation to a point.
     Translation,
     /// A rotation and a translation, in either order, to a point.
     RotationAndTranslation,
-    /// Three joints to a point: IK-Geo's three circles, or translations among them.
+    /// Three joints to a point: IK-Geo's three circles, possibly with translations.
     ThreeCircles,
     /// Two equations in two angles: IK-Geo's four circles.
     FourCircles,
@@ -51,13 +51,13 @@ pub enum Subproblem {
 /// One step of a [`Plan`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanStep {
-    /// The joints that it solves, from 0.
+    /// The indices of the joints that it solves, from 0.
     pub joints: Vec<usize>,
-    /// Which subproblem it is.
+    /// The subproblem.
     pub subproblem: Subproblem,
-    /// How many answers it can have.
+    /// Maximum number of solutions.
     pub answers: usize,
-    /// What cancels and what is left, in words.
+    /// Text: what cancels and what remains.
     pub text: String,
 }
 
@@ -69,7 +69,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The most solutions that the steps can give together.
+    /// The maximum number of solutions of all steps together.
     pub fn most_solutions(&self) -> usize {
         self.steps.iter().map(|step| step.answers).product()
     }
@@ -115,7 +115,7 @@ impl fmt::Display for Plan {
     }
 }
 
-/// The step in words, where `reduced` is the loop that it finds at a sample.
+/// Describes the step. `reduced` is its loop at a sample.
 pub(super) fn describe(step: &Step, reduced: &Reduced, answers: usize, scale: Scale) -> PlanStep {
     let row = reduced.cut_at(step.end);
     let (rest, tail) = row.split_at(row.len() - step.tail);
@@ -148,7 +148,7 @@ pub(super) fn describe(step: &Step, reduced: &Reduced, answers: usize, scale: Sc
     PlanStep { joints, subproblem, answers, text }
 }
 
-/// Which subproblem carries a point by these screws.
+/// The subproblem that moves a point by these screws.
 fn to_point(screws: &[&Screw], reduced: &Reduced, scale: Scale) -> Subproblem {
     let axes: Vec<_> = screws.iter().filter_map(|screw| screw.axis()).collect();
     match (screws.len(), &axes[..]) {
@@ -167,7 +167,7 @@ fn to_point(screws: &[&Screw], reduced: &Reduced, scale: Scale) -> Subproblem {
     }
 }
 
-/// Whether three parallel joints are left for a pose.
+/// Whether three parallel joints remain for a pose.
 fn is_parallel_pose(reduced: &Reduced) -> bool {
     let [a, b, c] = &reduced.row[..] else { return false };
     let parallel = |x: &Member, y: &Member| direction(&x.screw).cross(&direction(&y.screw)).norm() <= line::PARALLEL;
@@ -199,14 +199,14 @@ fn compare(relation: &Relation, rest: &[Member], tail: &[Member]) -> String {
         (Feature::Direction(a), Feature::Direction(b)) => {
             format!("the angle between {} and {}", say_line(b, tail), say_line(a, run))
         }
-        // No other pairs are made.
+        // Other pairs do not occur.
         _ => String::new(),
     }
 }
 
-fn say_spot(spot: Spot, row: &[Member]) -> String {
+fn say_spot(spot: FixedPoint, row: &[Member]) -> String {
     match (spot, row) {
-        (Spot::Tip, _) => "the tip".to_owned(),
+        (FixedPoint::Tip, _) => "the tip".to_owned(),
         (_, [one]) => format!("a point of axis {}", one.joint + 1),
         _ => format!("the point where axes {} meet", numbers(row)),
     }

@@ -1,7 +1,8 @@
-//! Three rotations carry a plane to a plane: what three parallel axes at an end of a chain leave to the other three.
+//! Three rotations that move a plane to a plane: the problem that remains for three joints when a chain ends in three
+//! parallel axes.
 //!
-//! The first axis is cancelled by two numbers that it keeps: the component of the plane's normal along it, and the offset
-//! of a point of it from the plane. Both are linear in the cosine and sine of the second angle.
+//! The first joint is eliminated by two of its invariants: the component of the plane's normal along its axis, and the
+//! offset of a point of the axis from the plane. Both are linear in the cosine and sine of the second angle.
 
 use nalgebra::{Point3, Unit, Vector3};
 use smallvec::SmallVec;
@@ -10,10 +11,10 @@ use super::trigonometric::zeros;
 use super::turn::Turn;
 use crate::spatial::{Axis, angle, rotation};
 
-/// A plane: its unit normal and a point of it.
+/// A plane: its unit normal and one of its points.
 pub(super) type Plane = (Unit<Vector3<f64>>, Point3<f64>);
 
-/// The second and third angles with which `first`, `second` and `third` can carry `from` to `to`: up to four pairs.
+/// The second and third angles for which `first`, `second` and `third` can move `from` to `to`: up to four pairs.
 pub(super) fn carry_plane(
     first: &Axis,
     second: &Axis,
@@ -24,7 +25,7 @@ pub(super) fn carry_plane(
     let (w1, arm) = (first.direction().into_inner(), first.point() - second.point());
     let turn = Turn::new(&second.direction(), [w1, arm]);
     let products = [w1.dot(&to.0), (first.point() - to.1).dot(&to.0)];
-    // At the third angle: the normal, and its products with the two vectors once the second angle has turned it.
+    // For the third angle: the normal, and its products with the two vectors after rotation by the second angle.
     let at = |angle: f64| {
         let normal = from.0.into_inner() + rotation::displacement(&third.direction(), angle, &from.0);
         let offset = normal.dot(&(third.rotate(angle, &from.1) - second.point()));

@@ -1,5 +1,5 @@
-//! The last step of the subproblems of several joints: Gauss-Newton on `e^(S1 q1) ... e^(Sn qn) p = k`, and the check that `k`
-//! is reached.
+//! Polishing, the last step of the subproblems of several joints: Gauss-Newton on `e^(S1 q1) ... e^(Sn qn) p = k`, and
+//! the check that `k` is reached.
 
 use nalgebra::{Cholesky, Point3, SMatrix, SVector, Vector3};
 
@@ -7,23 +7,23 @@ use super::MERGE;
 use super::values::{Answers, Reach};
 use crate::spatial::{Screw, angle};
 
-/// Steps at most.
+/// Maximum number of steps.
 const STEPS: usize = 24;
 
-/// A candidate that is nearer than this, relative to the size, is left as it is.
+/// Residual, relative to the size, below which a candidate is not refined.
 const ENOUGH: f64 = 64.0 * f64::EPSILON;
 
-/// A miss that rises to more than this, relative to the size, ends the refinement.
+/// Residual, relative to the size, above which the refinement ends.
 const NEAR: f64 = 1e-3;
 
-/// The longest step of a joint \[rad, or sizes\].
-const LEAP: f64 = 0.02;
+/// The longest step of a joint \[rad, or units of the size\].
+const MAX_STEP: f64 = 0.02;
 
-/// Two answers that differ by more are two, whatever lies between them.
+/// Two solutions that differ by more than this are different.
 const NEARBY: f64 = 1e-2;
 
-/// The candidates that reach `k` after refinement, each once; with [`Reach::Closest`], when none reaches it, those that come
-/// nearest, or what a search from many starting values finds.
+/// Refines the candidates and returns those that reach `k`, each once. With [`Reach::Closest`], when none reaches it,
+/// returns those that come nearest, or the result of a search from many starting values.
 pub(super) fn polish<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,
@@ -49,8 +49,8 @@ pub(super) fn polish<const N: usize>(
     found
 }
 
-/// Whether `found` has `answer` already: its values, or values near them with nothing but answers between, as rounding leaves
-/// them where two answers meet or an axis passes near its point.
+/// Whether `found` contains `answer`: equal values, or values near them with only solutions between. Rounding separates
+/// values like this near a double solution, or where an axis passes near its point.
 fn contains<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,
@@ -77,8 +77,8 @@ fn contains<const N: usize>(
     found.iter().any(|other| within(MERGE, other) || (within(NEARBY, other) && joined(other)))
 }
 
-/// The best answer on the way of Gauss-Newton from `answer`, and how far it still is from `k`. Where two answers meet the
-/// miss rises before it falls.
+/// The best solution of a Gauss-Newton refinement from `answer`, and its distance from `k`. Near a double solution the
+/// residual increases before it decreases.
 fn refine<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,
@@ -93,9 +93,10 @@ fn refine<const N: usize>(
             break;
         }
         let Some(step) = step(screws, p, &answer, &miss, size) else { break };
-        // Candidates are near: a joint whose axis passes near its point would leap.
+        // Candidates are near a solution. Without this limit, a joint whose axis passes near its point would make a
+        // large step.
         for i in 0..N {
-            let most = LEAP * if screws[i].axis().is_some() { 1.0 } else { size };
+            let most = MAX_STEP * if screws[i].axis().is_some() { 1.0 } else { size };
             answer[i] = answer[i].map(|q| q + step[i].clamp(-most, most));
         }
         miss = k - carried(screws, &answer, p);
@@ -113,19 +114,19 @@ fn refine<const N: usize>(
     best
 }
 
-/// `e^(S1 q1) ... e^(Sn qn) p`, a free joint being at zero.
+/// `e^(S1 q1) ... e^(Sn qn) p`, with free joints at zero.
 fn carried<const N: usize>(screws: &[Screw; N], answer: &[Option<f64>; N], p: &Point3<f64>) -> Point3<f64> {
     screws.iter().zip(answer).rev().fold(*p, |x, (screw, q)| screw.carry(q.unwrap_or(0.0), &x))
 }
 
-/// How fast the carried point moves with each joint: the columns of the Jacobian; zero for a free joint. With the directions of
-/// the axes where they are then, zero for slides.
+/// The Jacobian columns of the moved point; zero for a free joint. Also returns the directions of the axes in this
+/// configuration, zero for prismatic joints.
 fn columns<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,
     answer: &[Option<f64>; N],
 ) -> [(Vector3<f64>, Vector3<f64>); N] {
-    // From the last joint on: the velocity at the joint, turned by the joints before it.
+    // From the last joint on: the velocity at the joint, rotated by the joints before it.
     let mut columns = [(Vector3::zeros(), Vector3::zeros()); N];
     let mut x = *p;
     for i in (0..N).rev() {
@@ -144,7 +145,7 @@ fn columns<const N: usize>(
     columns
 }
 
-/// The Gauss-Newton step, damped so little that it only keeps singular configurations finite.
+/// The Gauss-Newton step, with a small damping that keeps it finite at singular configurations.
 fn step<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,
@@ -153,7 +154,7 @@ fn step<const N: usize>(
     size: f64,
 ) -> Option<[f64; N]> {
     let columns = columns(screws, p, answer).map(|(column, _)| column);
-    // Each joint in its own unit: an axis may pass near its point.
+    // Each joint in its own unit, since an axis may pass near its point.
     let units = columns.map(|column| column.norm().max(1e-12 * size));
     let square = SMatrix::<f64, N, N>::from_fn(|i, j| columns[i].dot(&columns[j]) / units[i] / units[j]);
     let damping = 1e-15 * square.trace().max(f64::MIN_POSITIVE);
@@ -162,7 +163,7 @@ fn step<const N: usize>(
     Some(std::array::from_fn(|i| solved[i] / units[i]))
 }
 
-/// Newton's step to a least distance, damped; none when the distance does not curve upwards.
+/// Newton's step to a minimum distance, damped; none when the distance has no positive curvature.
 fn downhill<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,
@@ -174,7 +175,7 @@ fn downhill<const N: usize>(
     let columns = columns(screws, p, answer);
     let units = screws.each_ref().map(|screw| if screw.axis().is_some() { 1.0 } else { size });
     let hessian = SMatrix::<f64, N, N>::from_fn(|i, j| {
-        // A joint turns the velocities of those behind it.
+        // A joint rotates the velocities of the later joints.
         let (before, behind) = (i.min(j), i.max(j));
         let curvature = columns[before].1.cross(&columns[behind].0).dot(miss);
         (columns[i].0.dot(&columns[j].0) - curvature) * units[i] * units[j]
@@ -192,7 +193,7 @@ fn turn(screw: &Screw, q: f64, x: &Vector3<f64>) -> Vector3<f64> {
     }
 }
 
-/// The values whose point comes nearest to `k`, by Gauss-Newton from a grid of starting values.
+/// The values whose point is nearest to `k`, by Gauss-Newton from a grid of starting values.
 fn closest<const N: usize>(screws: &[Screw; N], p: &Point3<f64>, k: &Point3<f64>, size: f64) -> Answers<N> {
     const GRID: usize = 7;
     let mut best: Vec<([Option<f64>; N], f64)> = Vec::new();
@@ -224,7 +225,7 @@ fn closest<const N: usize>(screws: &[Screw; N], p: &Point3<f64>, k: &Point3<f64>
     found
 }
 
-/// Damped Newton (Levenberg 1944) to a least distance from `k`.
+/// Damped Newton (Levenberg 1944) to a minimum distance from `k`.
 fn descend<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,

@@ -1,8 +1,8 @@
-//! A chain whose known joints are absorbed: the loop that the screw solver makes smaller step by step.
+//! A chain with its known joints absorbed: the loop that the screw solver reduces step by step.
 //!
-//! The joints that are still unknown satisfy `e^(S1 q1) ... e^(Sm qm) = T` (a pose), or the same applied to a point. A
-//! joint that becomes known is moved to the nearer end of the product, where it changes the goal; the screws that it
-//! passes are carried along: `g e^S = e^(g S) g`.
+//! The joints that are still unknown satisfy `e^(S1 q1) ... e^(Sm qm) = T` (a pose), or this product applied to a
+//! point. A joint that becomes known is moved to the nearer end of the product, where it changes the goal. The screws
+//! that it passes are transformed: `g e^S = e^(g S) g`.
 
 use std::borrow::Cow;
 
@@ -12,11 +12,12 @@ use smallvec::SmallVec;
 use super::values::Reach;
 use crate::spatial::{Half, Pose, Screw};
 
-/// How far a step lets its target be out of reach, relative to the size of its subproblem: rounding in the joints solved
-/// before adds up, a robot as described is off the ideal one by up to 1e-6, and forward kinematics judges every answer in the end.
+/// Tolerance of a step's target out of reach, relative to the size of its subproblem. Rounding errors of the joints
+/// solved before add up, and a described robot differs from the ideal one by up to 1e-6. Forward kinematics checks
+/// every solution at the end.
 pub(super) const LOOSE: f64 = 1e-5;
 
-/// A joint that is still unknown.
+/// An unknown joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Member {
     /// Its index in the chain, from 0.
@@ -25,19 +26,19 @@ pub(super) struct Member {
     pub screw: Screw,
 }
 
-/// Joints in a row.
+/// Consecutive joints.
 pub(super) type Row = SmallVec<[Member; 6]>;
 
-/// What the product of the unknown joints must do.
+/// The required product of the unknown joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Goal {
     /// The product is this rigid transform.
     Pose(Pose),
-    /// The product takes `from` to `to`.
+    /// The product moves `from` to `to`.
     Point {
-        /// The tip, all unknown joints at zero.
+        /// The tip, with all unknown joints at zero.
         from: Point3<f64>,
-        /// Where it belongs.
+        /// The target point.
         to: Point3<f64>,
     },
 }
@@ -47,19 +48,19 @@ pub(super) enum Goal {
 pub(super) struct Reduced {
     pub row: Row,
     pub goal: Goal,
-    /// How far steps let their targets be out of reach.
+    /// Tolerance of steps whose targets are out of reach.
     pub loose: Reach,
 }
 
 impl Clone for Reduced {
-    /// Copies the row as a whole, which a small vector's own `clone` does not.
+    /// Copies the row as a block of memory, which a small vector's own `clone` does not.
     fn clone(&self) -> Self {
         Reduced { row: Row::from_slice(&self.row), goal: self.goal, loose: self.loose }
     }
 }
 
 impl Reduced {
-    /// The loop with the joint at `place` known to be at `q`.
+    /// Absorbs the joint at `place` with the known value `q`.
     pub fn absorb(&mut self, place: usize, q: Half) {
         let motion = self.row[place].screw.exp_half(q);
         let after = self.row.len() - 1 - place;
@@ -78,13 +79,13 @@ impl Reduced {
         }
     }
 
-    /// Where the chain's joint number `joint` stands in the row.
+    /// The position in the row of the chain's joint `joint`.
     pub fn place(&self, joint: usize) -> Option<usize> {
         self.row.iter().position(|member| member.joint == joint)
     }
 
-    /// The same loop cut elsewhere, so that the joints up to `end` come last: with the pose T as goal, the joints from
-    /// `end` on come first, carried by T, and the goal stays T.
+    /// The loop cut at another position, so that the joints up to `end` come last. With the pose T as goal, the joints
+    /// from `end` on come first, transformed by T, and the goal is T again.
     pub fn cut_at(&self, end: usize) -> Cow<'_, [Member]> {
         match self.goal {
             Goal::Pose(pose) if end < self.row.len() => {
@@ -95,7 +96,7 @@ impl Reduced {
         }
     }
 
-    /// The number, in the chain, of the joint at `place` of the row that is cut at `end`.
+    /// The index in the chain of the joint at `place` of the row cut at `end`.
     pub fn joint_at(&self, end: usize, place: usize) -> usize {
         self.row[(end + place) % self.row.len()].joint
     }

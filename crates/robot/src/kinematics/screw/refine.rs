@@ -1,4 +1,4 @@
-//! The last word on an answer: how far the tip is from the goal, and a Gauss-Newton step where rounding left too much.
+//! Final check of a solution: its distance from the goal, and a Gauss-Newton step where rounding errors are too large.
 
 use nalgebra::{SMatrix, SVector, Vector3};
 use smallvec::SmallVec;
@@ -6,20 +6,20 @@ use smallvec::SmallVec;
 use super::reduced::Goal;
 use crate::spatial::{Pose, Screw};
 
-/// The most joints: six for a pose, and some whose values are given.
+/// Maximum number of joints: six for a pose, plus given joints.
 pub(super) const MOST_JOINTS: usize = 10;
 
-/// Steps at most.
+/// Maximum number of steps.
 const STEPS: usize = 6;
 
-/// How far the product of exponentials misses its goal.
+/// Residual of the product of exponentials.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Miss {
-    /// Distance of the point, or of the origin carried by the pose.
+    /// Distance of the point, or of the origin moved by the pose.
     pub position: f64,
     /// Angle \[rad\].
     pub rotation: f64,
-    /// The small motion that is missing, `(v, w)` at the goal.
+    /// The twist `(v, w)` at the goal that corrects the residual.
     twist: SVector<f64, 6>,
 }
 
@@ -29,7 +29,7 @@ impl Miss {
         (self.position / reach).max(self.rotation)
     }
 
-    /// What is missing where the joints move by `motions`; `tip` is the point whose distance counts.
+    /// The residual when the joints move by `motions`. `tip` is the point whose distance is measured.
     pub fn of(motions: &[Pose], goal: &Goal, tip: &Vector3<f64>) -> Miss {
         let product = motions.iter().copied().reduce(|pose, motion| pose * motion).unwrap_or_else(Pose::identity);
         let mut twist = SVector::<f64, 6>::zeros();
@@ -45,7 +45,7 @@ impl Miss {
                 let v = (pose * nalgebra::Point3::from(*tip)) - (product * nalgebra::Point3::from(*tip));
                 twist.fixed_rows_mut::<3>(0).copy_from(&v);
                 twist.fixed_rows_mut::<3>(3).copy_from(&w);
-                // The angle is twice the arc sine of w / 2; next to none, w itself.
+                // The angle is twice the arc sine of w / 2; for small angles it is w itself.
                 let rotation = if w.norm() < 1e-5 && turn.scalar() != 0.0 { w.norm() } else { turn.angle() };
                 Miss { position: v.norm(), rotation, twist }
             }
@@ -53,8 +53,8 @@ impl Miss {
     }
 }
 
-/// `q`, which misses the goal by `miss`, improved until it misses by no more than `enough`; and by how much. Joints of `fixed`
-/// stay.
+/// Improves `q`, whose residual is `miss`, until the residual is at most `enough`. Returns it with its residual. The
+/// joints of `fixed` do not move.
 pub(super) fn refine(
     screws: &[Screw],
     goal: &Goal,
@@ -80,8 +80,8 @@ pub(super) fn refine(
     (q, miss)
 }
 
-/// Whether some joint of `free` can turn at all near `q`, as far as first derivatives tell: the others, but those of `given`, undo
-/// what it does to the tip.
+/// Whether some joint of `free` can move near `q` with a fixed tip, by first derivatives. The other joints, except
+/// those of `given`, compensate its motion.
 pub(super) fn moves_freely(
     screws: &[Screw],
     q: &[f64; MOST_JOINTS],
@@ -90,7 +90,7 @@ pub(super) fn moves_freely(
     reach: f64,
     (free, given): (&[bool; MOST_JOINTS], &[usize]),
 ) -> bool {
-    /// What is left of a joint's motion, of one radian, when the others undo it.
+    /// Threshold of the tip's motion that remains for a joint velocity of one radian after compensation by the others.
     const STILL: f64 = 1e-6;
     let fixed = std::array::from_fn(|i| given.contains(&i));
     let whole = jacobian(screws, q, goal, tip, reach, &fixed);
@@ -103,7 +103,8 @@ pub(super) fn moves_freely(
     })
 }
 
-/// The motion of the tip, `(v / reach, w)` at the goal, by each joint that is not `fixed`; its first three rows for a point.
+/// The Jacobian of the tip, `(v / reach, w)` at the goal, for each joint that is not `fixed`; only its first three rows
+/// for a point.
 fn jacobian(
     screws: &[Screw],
     q: &[f64; MOST_JOINTS],

@@ -1,8 +1,8 @@
 //! The search for an order of subproblems: which joints to solve first, from the geometry of the chain alone.
 //!
-//! The equations that exist after some joints are known depend on which they are, not on their values. So the best way on
-//! from each set of known joints is found once, by trying every step of [`super::step`] at two sample configurations.
-//! A step counts when the joint values of both samples are among its answers.
+//! The equations that exist after some joints are known depend on which they are, not on their values. So the best
+//! continuation from each set of known joints is computed once, by trying every step of [`super::step`] at two sample
+//! configurations. A step is accepted when the joint values of both samples are among its solutions.
 
 use std::collections::HashMap;
 
@@ -14,25 +14,25 @@ use super::reduced::{Goal, Reduced};
 use super::step::{Kind, Relation, Step};
 use crate::spatial::{Half, angle};
 
-/// How near a sample's own value must come to count as found \[rad, or lengths of the chain\].
+/// Tolerance for finding a sample's own value \[rad, or lengths of the chain\].
 const FOUND: f64 = 1e-6;
 
-/// A configuration, and the loop that it closes.
+/// A configuration and its loop.
 #[derive(Clone, Debug)]
 pub(super) struct Sample {
     pub q: Vec<f64>,
     pub start: Reduced,
 }
 
-/// The way on from a set of known joints.
+/// The best continuation from a set of known joints.
 #[derive(Clone)]
-struct Way {
+struct Continuation {
     cost: Cost,
     step: Option<Step>,
     next: u32,
 }
 
-/// First the number of answers that the steps can give together, then how hard they are.
+/// First the number of solutions of all steps together, then their difficulty.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 struct Cost {
     answers: usize,
@@ -44,28 +44,28 @@ pub(super) struct Search<'a> {
     pub samples: &'a [Sample],
     pub scale: Scale,
     avoided: Option<Move>,
-    ways: HashMap<u32, Option<Way>>,
+    continuations: HashMap<u32, Option<Continuation>>,
 }
 
-/// What a step does: from which set of known joints to which.
+/// The effect of a step: the sets of known joints before and after it.
 pub(super) type Move = [u32; 2];
 
 impl<'a> Search<'a> {
     pub fn new(samples: &'a [Sample], scale: Scale) -> Self {
-        Search { samples, scale, avoided: None, ways: HashMap::new() }
+        Search { samples, scale, avoided: None, continuations: HashMap::new() }
     }
 
-    /// The search that takes no step which does this.
+    /// A search that avoids steps with this effect.
     pub fn avoiding(self, avoided: Move) -> Self {
         Search { avoided: Some(avoided), ..self }
     }
 
-    /// The steps of the best plan, each with what it does; `None` when the steps that we know do not solve this chain.
+    /// The steps of the best plan with their effects; `None` when no order of the known subproblems solves this chain.
     pub fn plan(mut self) -> Option<Vec<(Step, Move)>> {
         self.explore(0)?;
         let mut steps = Vec::new();
         let mut known = 0;
-        while let Some(Some(Way { step: Some(step), next, .. })) = self.ways.get(&known) {
+        while let Some(Some(Continuation { step: Some(step), next, .. })) = self.continuations.get(&known) {
             steps.push((step.clone(), [known, *next]));
             known = *next;
         }
@@ -74,13 +74,13 @@ impl<'a> Search<'a> {
 
     /// The least cost from the set `known` to the end.
     fn explore(&mut self, known: u32) -> Option<Cost> {
-        if let Some(way) = self.ways.get(&known) {
-            return way.as_ref().map(|way| way.cost);
+        if let Some(continuation) = self.continuations.get(&known) {
+            return continuation.as_ref().map(|continuation| continuation.cost);
         }
         let loops: Vec<Reduced> = self.samples.iter().map(|sample| sample.with(known)).collect();
         let mut best = None;
         if loops[0].row.is_empty() {
-            best = Some(Way { cost: Cost { answers: 1, effort: 0 }, step: None, next: known });
+            best = Some(Continuation { cost: Cost { answers: 1, effort: 0 }, step: None, next: known });
         }
         for step in candidates(&loops[0], self.scale) {
             let next = step.solved(&loops[0]).iter().fold(known, |set, joint| set | 1 << joint);
@@ -91,11 +91,11 @@ impl<'a> Search<'a> {
             let own = step.cost(&loops[0]);
             let cost = Cost { answers: own.answers * rest.answers, effort: own.effort + rest.effort };
             if best.as_ref().is_none_or(|best| cost < best.cost) {
-                best = Some(Way { cost, step: Some(step), next });
+                best = Some(Continuation { cost, step: Some(step), next });
             }
         }
-        let cost = best.as_ref().map(|way| way.cost);
-        self.ways.insert(known, best);
+        let cost = best.as_ref().map(|continuation| continuation.cost);
+        self.continuations.insert(known, best);
         cost
     }
 
@@ -135,7 +135,7 @@ impl Sample {
 }
 
 impl Step {
-    /// How many answers it has at most, where `reduced` is a loop that it fits.
+    /// The maximum number of solutions. `reduced` is a loop that the step fits.
     pub fn most_answers(&self, reduced: &Reduced) -> usize {
         self.cost(reduced).answers
     }
@@ -163,25 +163,25 @@ impl Step {
 }
 
 impl Relation {
-    /// The places of the rest that take part: those outside the run, of which only rotations turn a direction.
+    /// The indices of the rest that are involved: those outside the run. For a direction only rotations are.
     fn outside(&self, rest: usize, turns: &[usize]) -> SmallVec<[usize; 3]> {
         let run = self.start..self.start + self.length;
         let turned = |place: &usize| !matches!(self.run, Feature::Direction(_)) || turns.contains(place);
         (0..rest).filter(|place| !run.contains(place)).filter(turned).collect()
     }
 
-    /// Whether two points are compared, as in the thesis' subproblems.
+    /// Whether the step compares two points, as in the thesis' subproblems.
     pub fn is_about_points(&self) -> bool {
         matches!((self.run, self.tail), (Feature::Point(_), Feature::Point(_)))
     }
 
-    /// Whether a point and a plane are compared.
+    /// Whether the step compares a point and a plane.
     pub fn is_about_a_plane(&self) -> bool {
         matches!(self.run, Feature::Component(_)) || matches!(self.tail, Feature::Component(_))
     }
 }
 
-/// Every step that the loop offers, whether or not it determines its joints.
+/// All candidate steps of the loop, whether or not they determine their joints.
 fn candidates(reduced: &Reduced, scale: Scale) -> Vec<Step> {
     let count = reduced.row.len();
     let mut steps = Vec::new();
@@ -216,7 +216,7 @@ fn candidates(reduced: &Reduced, scale: Scale) -> Vec<Step> {
                     _ => {}
                 }
             }
-            // A run may not reach across the cut: the pose lies there.
+            // A run may not extend across the cut, because the pose is there.
             let seam = count - end;
             let runs = (0..rest.len()).flat_map(|start| (start + 1..=rest.len()).map(move |stop| (start, stop)));
             for (start, stop) in runs.filter(|&(start, stop)| start >= seam || stop <= seam) {
@@ -239,7 +239,7 @@ fn pairs(run: &[Feature], tail: &[Feature], start: usize, length: usize) -> Vec<
     all.map(|(run, tail)| Relation { start, length, run, tail }).collect()
 }
 
-/// The steps that the relations of one run and one tail make: one joint left, or one on each side.
+/// The steps from the relations of one run and one tail: one joint remains, or one on each side.
 fn relative(rest: usize, turns: &[usize], relations: &[Relation]) -> Vec<(Kind, SmallVec<[usize; 3]>)> {
     let left: Vec<_> = relations.iter().map(|relation| relation.outside(rest, turns)).collect();
     let mut steps = Vec::new();
@@ -259,7 +259,7 @@ fn relative(rest: usize, turns: &[usize], relations: &[Relation]) -> Vec<(Kind, 
     steps
 }
 
-/// A length typical of the screws and the tip, and what counts as none.
+/// A typical length of the screws and the tip, and the length that counts as zero.
 pub(super) fn scale_of(reduced: &Reduced, reach: f64) -> Scale {
     let length = if reach > 0.0 { reach } else { 1.0 };
     let far = reduced.row.iter().filter_map(|m| m.screw.axis()).map(|axis| axis.point().coords.norm());

@@ -1,4 +1,4 @@
-//! The screw solver: all inverse-kinematics answers of a chain, by an order of subproblems that it finds itself.
+//! The screw solver: all inverse-kinematics solutions of a chain, by an order of subproblems that it finds itself.
 
 use std::ops::Range;
 
@@ -19,72 +19,75 @@ use crate::kinematics::{Chain, Geometry, InverseKinematics, Solution, Target, Ta
 use crate::spatial::{Half, Pose, Screw, angle};
 use crate::{Error, ErrorKind, Result};
 
-/// How many times as far as an answer may be off the goal a step's target may be out of reach.
+/// Factor between the tolerance of solutions and the tolerance of a step's target out of reach.
 const LEVER: f64 = 30.0;
-/// Answers that differ by more are far from each other \[rad, or reaches\].
+/// Solutions that differ by more than this are far from each other \[rad, or units of the reach\].
 const APART: f64 = 5e-2;
-/// Where the Jacobian has a smaller singular value, what comes near may be the edge of what is within reach.
+/// If the Jacobian has a smaller singular value, a nearby pose may be at the boundary of the workspace.
 const ORDINARY: f64 = 1e-3;
-/// Answers are refined while they miss by more than this.
+/// Residual above which solutions are refined.
 const ENOUGH: f64 = 2e-14;
 
 /// Inverse kinematics of a serial chain by screw theory. Lengths in the chain's unit, angles in radians.
 ///
-/// The subproblems are those of the [ideal](Chain::ideal) robot; answers are refined and measured on the chain as described.
+/// The subproblems belong to the [ideal](Chain::ideal) robot. Solutions are refined and measured on the described
+/// chain.
 #[derive(Clone, Debug)]
 pub struct ScrewSolver {
     chain: Chain,
-    /// The ideal robot, in which axes meet and are parallel exactly.
+    /// The ideal robot, whose axes intersect and are parallel exactly.
     ideal: Chain,
     model: Model,
-    /// The chain as described, where it is another.
+    /// The described chain, if it differs.
     described: Option<Model>,
     orders: Orders,
     reach: f64,
-    /// The loop that stands for the task `position_pitch_roll`, and its solver.
+    /// The loop equivalent to the task `position_pitch_roll`, and its solver.
     upright: Option<Box<(Upright, ScrewSolver)>>,
-    /// The solver of the ideal robot, where the task asks for more than the joints can do: it decides which answers there are.
-    ideally: Option<Box<Ideally>>,
+    /// The solver of the ideal robot, if the task has more numbers than the joints can control. It decides which
+    /// solutions exist.
+    ideal_solver: Option<Box<IdealSolver>>,
 }
 
-/// A partial answer on the way through the steps.
-struct Trail {
+/// A partial solution during the steps.
+struct PartialSolution {
     q: [Half; MOST_JOINTS],
-    /// What each joint's own screw does at its value.
+    /// The motion of each joint's own screw at its value.
     motions: [Pose; MOST_JOINTS],
     free: [bool; MOST_JOINTS],
-    /// The steps that left a joint free, a bit each.
+    /// Bit set of the steps that left a joint free.
     freeing: u32,
     branch: usize,
 }
 
-/// What the steps of one order find for a goal.
+/// The solutions of one order for a goal.
 struct Visit<'a> {
     order: &'a Order,
-    /// How far an answer may be from the goal: shares of the reach, and radians.
+    /// Tolerance of a solution: fractions of the reach, and radians.
     accept: f64,
-    /// What answers are measured by: the goal of the chain as described.
+    /// The goal of the described chain, which solutions are measured by.
     goal: &'a Goal,
     found: &'a mut Vec<Solution>,
-    /// The steps, a bit each, that told less than there is: that left a joint free which the other steps do not, or that have no
+    /// Bit set of the steps that were not decisive: they left a joint free that the other steps determine, or have no
     /// object here.
     doubtful: u32,
 }
 
 impl ScrewSolver {
-    /// The solver of `chain` for its task, with the plan that gives the fewest candidates.
+    /// Builds the solver of `chain` for its task, with the plan that has the fewest candidates.
     ///
     /// # Errors
-    /// [`ErrorKind::PositiveDimensional`] when the task leaves joints undetermined;
-    /// [`ErrorKind::Unsupported`] when no order of the known subproblems solves the chain; as [`Chain::check_base`].
+    /// [`ErrorKind::PositiveDimensional`] when the task leaves joints undetermined; [`ErrorKind::Unsupported`] when no
+    /// order of the known subproblems solves the chain; those of [`Chain::check_base`].
     pub fn new(chain: &Chain) -> Result<Self> {
         ScrewSolver::within(chain, TOLERANCE)
     }
 
-    /// The same by the ideal robot within `tolerance`, radians and shares of the reach; with zero each digit is taken at its word.
+    /// Same as [`ScrewSolver::new`], but with the ideal robot within `tolerance`, in radians and fractions of the
+    /// reach. With zero, every digit is exact.
     ///
     /// # Errors
-    /// As [`ScrewSolver::new`] and [`Chain::ideal_within`].
+    /// Those of [`ScrewSolver::new`] and [`Chain::ideal_within`].
     pub fn within(chain: &Chain, tolerance: f64) -> Result<Self> {
         chain.check_base(None)?;
         let (ideal, report) = chain.ideal_within(tolerance)?;
@@ -92,7 +95,7 @@ impl ScrewSolver {
             let upright = ideal.upright()?;
             let inner = ScrewSolver::within(&upright.chain, 0.0)?;
             let parts = Some(Box::new((upright, inner.clone())));
-            return Ok(ScrewSolver { chain: chain.clone(), ideal, upright: parts, ideally: None, ..inner });
+            return Ok(ScrewSolver { chain: chain.clone(), ideal, upright: parts, ideal_solver: None, ..inner });
         }
         let mut model = Model::of(&ideal)?;
         model.screws = at_meeting_points(&model.screws, 1e-9 * model.reach);
@@ -101,20 +104,31 @@ impl ScrewSolver {
         let Some(orders) = Orders::find(samples, scale) else { return Err(unsolved(&ideal)) };
         let (described, reach) = (if report.is_same() { None } else { Some(Model::of(chain)?) }, scale.length);
         let parts = (ideal.clone(), ideal.clone(), model.clone(), orders.clone());
-        let solver =
-            ScrewSolver { chain: chain.clone(), ideal, model, described, orders, reach, upright: None, ideally: None };
-        Ok(if solver.described.is_some() && asks_for_more(chain) {
+        let solver = ScrewSolver {
+            chain: chain.clone(),
+            ideal,
+            model,
+            described,
+            orders,
+            reach,
+            upright: None,
+            ideal_solver: None,
+        };
+        Ok(if solver.described.is_some() && is_overdetermined(chain) {
             let (chain, ideal, model, orders) = parts;
             let inner =
-                ScrewSolver { chain, ideal, model, described: None, orders, reach, upright: None, ideally: None };
-            ScrewSolver { ideally: Some(Box::new(Ideally { solver: inner, within: 2.0 * report.bound() })), ..solver }
+                ScrewSolver { chain, ideal, model, described: None, orders, reach, upright: None, ideal_solver: None };
+            ScrewSolver {
+                ideal_solver: Some(Box::new(IdealSolver { solver: inner, within: 2.0 * report.bound() })),
+                ..solver
+            }
         } else {
             solver
         })
     }
 
-    /// The order of subproblems. Others are taken as well where one of its steps degenerates and the chain does not, or no answer is
-    /// found.
+    /// The order of subproblems. Others are used too when one of its steps degenerates at a pose that is not singular,
+    /// or no solution is found.
     pub fn plan(&self) -> &Plan {
         &self.orders.first.plan
     }
@@ -124,23 +138,23 @@ impl ScrewSolver {
         &self.chain
     }
 
-    /// All joint values that bring the tip to `target`, each checked by forward kinematics to [`ACCEPT`], of a chain without given
+    /// Computes all solutions for `target`, each checked by forward kinematics to [`ACCEPT`]. The chain has no given
     /// joints.
     ///
-    /// None for a target out of reach. Joint limits are not looked at.
+    /// There are none for a target out of reach. Joint limits are not checked.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the target is not of the task's kind, not finite, or its quaternion or direction not of norm
-    /// one; when the chain has given joints.
+    /// [`ErrorKind::BadValue`] when the target is not of the task's kind, not finite, or its quaternion or direction
+    /// not of norm one; when the chain has given joints.
     pub fn solve(&self, target: &Target) -> Result<Vec<Solution>> {
         self.solve_given(target, &[])
     }
 
-    /// The same with the values `given` of the chain's given joints that follow no others, from the base: radians or lengths of the chain's unit.
-    /// Answers contain them unchanged.
+    /// Same as [`ScrewSolver::solve`], but with the values `given` of the chain's given joints that are not mimic
+    /// joints, from base to tip: radians or the chain's length unit. Solutions contain them unchanged.
     ///
     /// # Errors
-    /// As [`ScrewSolver::solve`]; [`ErrorKind::BadValue`] unless there is one finite value for each of these.
+    /// Those of [`ScrewSolver::solve`]; [`ErrorKind::BadValue`] unless there is one finite value for each of these.
     pub fn solve_given(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
         self.chain.check_given(given)?;
         if let Some(parts) = &self.upright {
@@ -150,15 +164,15 @@ impl ScrewSolver {
             let found = inner.solve_given(&closed, &values)?;
             return Ok(upright::on_chain(&self.chain, upright, target, found));
         }
-        if let Some(ideally) = &self.ideally {
+        if let Some(ideal_solver) = &self.ideal_solver {
             target.check(&self.chain)?;
-            let answers = ideally.solve(target, given)?;
+            let answers = ideal_solver.solve(target, given)?;
             return self.described_answers(target, answers);
         }
         self.solve_within(target, given, ACCEPT)
     }
 
-    /// The same as far as the steps lead: all joint values that miss the target by `accept` at most.
+    /// Same as [`ScrewSolver::solve_given`], but with the tolerance `accept`.
     pub(super) fn solve_within(&self, target: &Target, given: &[f64], accept: f64) -> Result<Vec<Solution>> {
         let given = &self.chain.given_values(given)[..];
         let mut start = self.model.start(target.goal(&self.ideal)?, given.iter().map(|&value| Half::new(value)));
@@ -175,7 +189,7 @@ impl ScrewSolver {
         Ok(found)
     }
 
-    /// Answers of the ideal robot where the described one comes nearest to the target, each once.
+    /// The solutions of the ideal robot, moved to where the described robot is nearest to the target, each once.
     fn described_answers(&self, target: &Target, answers: Vec<Solution>) -> Result<Vec<Solution>> {
         let Model { screws, tip, joints, .. } = self.described.as_ref().unwrap_or(&self.model);
         let (goal, mut found): (Goal, Vec<Solution>) = (target.goal(&self.chain)?, Vec::new());
@@ -199,7 +213,7 @@ impl ScrewSolver {
         Ok(found)
     }
 
-    /// Solves by one order, and tells its doubtful steps.
+    /// Solves with one order. Returns its steps that were not decisive.
     fn visit(
         &self,
         order: &Order,
@@ -208,7 +222,7 @@ impl ScrewSolver {
         given: &[f64],
         found: &mut Vec<Solution>,
     ) -> u32 {
-        let mut trail = Trail {
+        let mut partial = PartialSolution {
             q: [Half::new(0.0); MOST_JOINTS],
             motions: [Pose::identity(); MOST_JOINTS],
             free: [false; MOST_JOINTS],
@@ -216,20 +230,20 @@ impl ScrewSolver {
             branch: 0,
         };
         for (&joint, &value) in self.model.given.iter().zip(given) {
-            trail.q[joint] = Half::new(value);
-            trail.motions[joint] = self.model.screws[joint].exp_half(trail.q[joint]);
+            partial.q[joint] = Half::new(value);
+            partial.motions[joint] = self.model.screws[joint].exp_half(partial.q[joint]);
         }
         let mut visit = Visit { order, accept, goal, found, doubtful: 0 };
-        self.descend(0, start, &mut trail, &mut visit);
+        self.descend(0, start, &mut partial, &mut visit);
         visit.doubtful
     }
 
-    /// Takes step number `depth` in every way that it offers.
-    fn descend(&self, depth: usize, reduced: &Reduced, trail: &mut Trail, visit: &mut Visit) {
+    /// Computes step `depth` with each of its solutions.
+    fn descend(&self, depth: usize, reduced: &Reduced, partial: &mut PartialSolution, visit: &mut Visit) {
         let step = &visit.order.steps[depth];
         let joints = step.solved(reduced);
-        let branches = trail.branch * visit.order.plan.steps[depth].answers;
-        let freeing = trail.freeing;
+        let branches = partial.branch * visit.order.plan.steps[depth].answers;
+        let freeing = partial.freeing;
         let answers = step.solve(reduced);
         if answers.is_none() {
             visit.doubtful |= 1 << depth;
@@ -239,43 +253,47 @@ impl ScrewSolver {
             visit.doubtful |= freeing;
         }
         for (branch, answer) in answers.into_iter().enumerate() {
-            trail.branch = branches + branch;
+            partial.branch = branches + branch;
             for (&joint, value) in joints.iter().zip(&answer) {
-                (trail.q[joint], trail.free[joint]) = (Half::new(value.unwrap_or(0.0)), value.is_none());
-                trail.motions[joint] = self.model.screws[joint].exp_half(trail.q[joint]);
+                (partial.q[joint], partial.free[joint]) = (Half::new(value.unwrap_or(0.0)), value.is_none());
+                partial.motions[joint] = self.model.screws[joint].exp_half(partial.q[joint]);
             }
-            trail.freeing = freeing | u32::from(joints.iter().any(|&joint| trail.free[joint])) << depth;
+            partial.freeing = freeing | u32::from(joints.iter().any(|&joint| partial.free[joint])) << depth;
             if depth + 1 == visit.order.steps.len() {
-                self.finish(trail, visit);
+                self.finish(partial, visit);
                 continue;
             }
             let mut rest = reduced.clone();
             for &joint in &joints {
                 if let Some(place) = rest.place(joint) {
-                    rest.absorb(place, trail.q[joint]);
+                    rest.absorb(place, partial.q[joint]);
                 }
             }
-            self.descend(depth + 1, &rest, trail, visit);
+            self.descend(depth + 1, &rest, partial, visit);
         }
     }
 
-    /// Refines and checks a complete answer, and keeps it when it is new.
-    fn finish(&self, trail: &Trail, visit: &mut Visit) {
+    /// Refines and checks a complete solution, and stores it when it is new.
+    fn finish(&self, partial: &PartialSolution, visit: &mut Visit) {
         let Model { screws, tip, given, joints, .. } = self.described.as_ref().unwrap_or(&self.model);
         let goal = visit.goal;
-        let values = trail.q.map(|half| half.q);
-        let mut motions = trail.motions;
+        let values = partial.q.map(|half| half.q);
+        let mut motions = partial.motions;
         if self.described.is_some() {
-            motions.iter_mut().zip(screws).zip(&trail.q).for_each(|((motion, screw), q)| *motion = screw.exp_half(*q));
+            motions
+                .iter_mut()
+                .zip(screws)
+                .zip(&partial.q)
+                .for_each(|((motion, screw), q)| *motion = screw.exp_half(*q));
         }
         let miss = Miss::of(&motions[..screws.len()], goal, tip);
-        let fixed = std::array::from_fn(|i| trail.free[i] || given.contains(&i));
+        let fixed = std::array::from_fn(|i| partial.free[i] || given.contains(&i));
         let (mut q, miss) = refine(screws, goal, tip, self.reach, (values, miss, &fixed), ENOUGH);
         let reaches = miss.size(self.reach) <= visit.accept;
         let free =
-            trail.freeing != 0 && reaches && moves_freely(screws, &q, goal, tip, self.reach, (&trail.free, given));
+            partial.freeing != 0 && reaches && moves_freely(screws, &q, goal, tip, self.reach, (&partial.free, given));
         if !free {
-            visit.doubtful |= trail.freeing;
+            visit.doubtful |= partial.freeing;
         }
         if !reaches {
             return;
@@ -289,31 +307,31 @@ impl ScrewSolver {
         if !visit.found.iter().any(same) {
             visit.found.push(Solution {
                 q: q[..*joints].to_vec(),
-                free: (0..*joints).filter(|&i| free && trail.free[i]).collect(),
+                free: (0..*joints).filter(|&i| free && partial.free[i]).collect(),
                 residual: miss.position.max(miss.rotation),
-                branch: visit.order.first_branch + trail.branch,
+                branch: visit.order.first_branch + partial.branch,
                 ..Solution::default()
             });
         }
     }
 }
 
-/// The ideal robot of a chain whose task asks for more than its joints can do.
+/// The ideal robot of a chain whose task has more numbers than its joints can control.
 #[derive(Clone, Debug)]
-struct Ideally {
+struct IdealSolver {
     solver: ScrewSolver,
-    /// A target is one that the ideal robot reaches if it misses it by no more: shares of the reach, and radians.
+    /// Tolerance for targets that the ideal robot reaches: fractions of the reach, and radians.
     within: f64,
 }
 
-impl Ideally {
-    /// The answers to the target next to this one that the ideal robot reaches.
+impl IdealSolver {
+    /// The solutions of the nearest target that the ideal robot reaches.
     fn solve(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
         let near = self.solver.solve_within(target, given, self.within.max(ACCEPT))?;
         let Some(best) = near.iter().min_by(|a, b| a.residual.total_cmp(&b.residual)) else { return Ok(Vec::new()) };
         let reached = Target::reached(&self.solver.chain, &best.q)?;
         let mut answers = self.solver.solve_within(&reached, given, ACCEPT)?;
-        // Where the ideal robot reaches one pose in more ways than most, these part by as much as the target is off.
+        // Near a singular pose of the ideal robot, solutions separate by as much as the target differs.
         for other in near {
             let is_far = |answer: &Solution| !self.solver.chain.are_within(&answer.q, &other.q, APART);
             let held = self.solver.chain.given();
@@ -326,7 +344,7 @@ impl Ideally {
     }
 }
 
-/// The turn about the axis `ray`, behind these motions, that is left to a pose.
+/// The rotation about the axis `ray` that remains for a pose after these motions.
 fn turn_about(ray: &Screw, motions: &[Pose], goal: &Goal) -> f64 {
     let (Some(axis), Goal::Pose(pose)) = (ray.axis(), goal) else { return 0.0 };
     let rotation = motions.iter().fold(UnitQuaternion::identity(), |turned, motion| turned * motion.rotation);
@@ -334,14 +352,14 @@ fn turn_about(ray: &Screw, motions: &[Pose], goal: &Goal) -> f64 {
     2.0 * turn.imag().dot(&axis.direction()).atan2(turn.scalar())
 }
 
-/// Whether a task asks for more than the joints of `chain` can do: a planar one that the chain stays in its plane, an angle about an axis that the tip does
-/// not tilt.
-fn asks_for_more(chain: &Chain) -> bool {
+/// Whether a task has more numbers than the joints of `chain` can control: a planar task if the chain stays in its
+/// plane, an angle about an axis if the tip does not tilt.
+fn is_overdetermined(chain: &Chain) -> bool {
     let is_held = chain.task().plane().is_some() || chain.task().axis().is_some();
     is_held || chain.joints().len() - chain.given().len() < chain.task().freedoms()
 }
 
-/// What is there, and what would be needed.
+/// The error for a chain that cannot be solved: its joints, and what would be needed.
 fn unsolved(chain: &Chain) -> Error {
     let geometry = Geometry::of(chain);
     let axes = |joints: &Range<usize>, how: &str| {

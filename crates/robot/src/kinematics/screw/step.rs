@@ -1,13 +1,14 @@
 //! One step of a plan: an equation in which all but one, two or three unknown joints cancel, and its subproblem.
 //!
-//! The loop is cut so that its last joints, the *tail*, leave an object b in place; the joints before them are the *rest*.
-//! Either the rest carries b to its place `T b`. Or a run of joints in the rest leaves an object a in place, and cancels as
-//! well: then the distance (component, angle) between a and b tells the joint between them, or before both.
+//! The loop is cut so that its last joints, the *tail*, leave an object b fixed. The joints before them are the *rest*.
+//! Either the rest moves b to its position `T b`. Or a run of joints in the rest leaves an object a fixed and cancels
+//! too: then the distance (component, angle) between a and b determines the joint between them, or the joint before
+//! both.
 
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::circles::four_circles;
-use super::feature::{Feature, Line, Object, Spot};
+use super::feature::{Feature, FixedPoint, Line, Object};
 use super::one_joint::{
     rotate_to_distance, rotate_to_plane, rotate_to_point, translate_to_distance, translate_to_plane, translate_to_point,
 };
@@ -21,62 +22,62 @@ use crate::spatial::{Axis, Pose, Screw, angle};
 
 use smallvec::SmallVec;
 
-/// Values for the joints that a step solves, in the order of [`Step::solved`]; `None` when every value does it.
+/// Values for the joints of a step, in the order of [`Step::solved`]; `None` when every value is a solution.
 pub(super) type Answer = [Option<f64>; 6];
 pub(super) type Answers = SmallVec<[Answer; 2]>;
 
-/// The first entries of an answer; it has more places than most steps have joints.
+/// The first entries of an answer, which has more entries than most steps have joints.
 fn answer<const N: usize>(values: [Option<f64>; N]) -> Answer {
     std::array::from_fn(|i| values.get(i).copied().flatten())
 }
 
-/// Where the loop is cut, and what is solved there.
+/// Position of the cut, and the equations solved there.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Step {
-    /// The tail ends before this place of the reduced row.
+    /// The tail ends before this index of the reduced row.
     pub end: usize,
-    /// How many joints the tail has.
+    /// Number of joints of the tail.
     pub tail: usize,
-    /// What is solved.
+    /// The equations.
     pub kind: Kind,
-    /// The places, in the cut row, of the joints that it solves.
+    /// The indices, in the cut row, of the joints that it solves.
     pub unknown: SmallVec<[usize; 3]>,
 }
 
 /// The equations of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Kind {
-    /// The rest, one to three joints, carries the tail's point to its place.
-    ToPoint(Spot),
-    /// The revolute joints of the rest, one or two, turn the tail's direction to its place.
+    /// The rest, one to three joints, moves the tail's point to its position.
+    ToPoint(FixedPoint),
+    /// The revolute joints of the rest, one or two, rotate the tail's direction to its target.
     ToDirection(Line),
-    /// Three rotations carry a plane that the tail leaves in place; the last two of them are solved.
+    /// Three rotations move a plane that the tail leaves fixed. The last two of them are solved.
     ToPlane(Line),
-    /// One joint is left, and turns or slides to the pose.
+    /// One joint remains and moves to the pose.
     Last,
     /// All six joints, in three pairs of parallel axes.
     ThreePairs,
-    /// A run of the rest cancels as well; one joint is left.
+    /// A run of the rest cancels too. One joint remains.
     Between(Relation),
-    /// A run of the rest cancels as well; one joint before it and one behind it are left, in two equations.
+    /// A run of the rest cancels too. One joint before it and one after it remain, in two equations.
     Around([Relation; 2]),
 }
 
-/// What stays equal: the distance, offset or angle of an object of the run and an object of the tail.
+/// An invariant: the distance, offset or angle of an object of the run and an object of the tail.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Relation {
-    /// The run: its first place in the cut row.
+    /// The first index of the run in the cut row.
     pub start: usize,
-    /// How many joints the run has.
+    /// Number of joints of the run.
     pub length: usize,
-    /// What the run leaves in place.
+    /// The object that the run leaves fixed.
     pub run: Feature,
-    /// What the tail leaves in place.
+    /// The object that the tail leaves fixed.
     pub tail: Feature,
 }
 
 impl Step {
-    /// The values of the unknown joints that satisfy this step's equations; `None` where an object does not exist.
+    /// The values of the unknown joints that satisfy this step's equations; `None` when an object does not exist.
     pub fn solve(&self, reduced: &Reduced) -> Option<Answers> {
         let row = reduced.cut_at(self.end);
         let (rest, tail) = row.split_at(row.len() - self.tail);
@@ -126,7 +127,7 @@ impl Step {
         }
     }
 
-    /// The chain's numbers of the joints that it solves.
+    /// The indices in the chain of the joints that it solves.
     pub fn solved(&self, reduced: &Reduced) -> SmallVec<[usize; 3]> {
         self.unknown.iter().map(|&place| reduced.joint_at(self.end, place)).collect()
     }
@@ -147,7 +148,7 @@ fn answers(values: Values) -> Answers {
     values.choices().into_iter().map(|q| answer([q])).collect()
 }
 
-/// `p` to `k` by all joints of `rest`.
+/// Moves `p` to `k` by all joints of `rest`.
 fn carry_point(rest: &[Member], p: &Point3<f64>, k: &Point3<f64>, loose: Reach) -> Answers {
     match rest {
         [one] => answers(match &one.screw {
@@ -166,7 +167,7 @@ fn carry_point(rest: &[Member], p: &Point3<f64>, k: &Point3<f64>, loose: Reach) 
     }
 }
 
-/// The direction `x` to `y` by the rotations of one or two joints.
+/// Rotates the direction `x` to `y` by one or two joints.
 fn turn_direction(screws: &[Screw], x: &Unit<Vector3<f64>>, y: &Unit<Vector3<f64>>, loose: Reach) -> Answers {
     let (p, k) = (Point3::from(x.into_inner()), Point3::from(y.into_inner()));
     let central = |screw: &Screw| screw.axis().map(Axis::through_origin);
@@ -184,7 +185,7 @@ fn turn_direction(screws: &[Screw], x: &Unit<Vector3<f64>>, y: &Unit<Vector3<f64
     }
 }
 
-/// The value at which `screw` moves by `pose`, if it does; forward kinematics tells.
+/// The value at which `screw` moves by `pose`, if there is one. Forward kinematics checks it.
 fn last(screw: &Screw, pose: &Pose) -> Answers {
     let q = match screw {
         Screw::Revolute(axis) => {
@@ -195,8 +196,8 @@ fn last(screw: &Screw, pose: &Pose) -> Answers {
     std::iter::once(answer([Some(q)])).collect()
 }
 
-/// The one joint `screw` that is left, behind the run (`E b` is to lie to a as `T b` does) or before it (`E a` is to lie to
-/// `T b` as a to b).
+/// The single remaining joint `screw`, after the run (`E b` has the same relation to a as `T b`) or before it (`E a`
+/// has the same relation to `T b` as a to b).
 fn between(screw: &Screw, a: &Object, b: &Object, reduced: &Reduced, before: bool) -> Values {
     let loose = reduced.loose;
     let target = match &reduced.goal {
@@ -228,7 +229,8 @@ fn between(screw: &Screw, a: &Object, b: &Object, reduced: &Reduced, before: boo
     }
 }
 
-/// The joints before (first) and behind (second) the run: `E1 a` lies to `T b` as a to `E2 b`, for two pairs of objects.
+/// The joints before (first) and after (second) the run: `E1 a` has the same relation to `T b` as a to `E2 b`, for two
+/// pairs of objects.
 fn around(screws: [&Screw; 2], pairs: &[(Object, Object); 2], pose: &Pose, loose: Reach) -> Option<Answers> {
     let mut rows = [[0.0; 5]; 2];
     for (row, (a, b)) in rows.iter_mut().zip(pairs) {
@@ -262,8 +264,8 @@ impl Object {
         }
     }
 
-    /// What rigid motions of both keep: the distance of two points, the signed offset of a point and a plane, the cosine
-    /// between two directions.
+    /// The invariant of two objects under rigid motions: the distance of two points, the signed offset of a point and a
+    /// plane, the cosine between two directions.
     fn measure(&self, other: &Object) -> Option<f64> {
         match (self, other) {
             (Object::Point(p), Object::Point(k)) => Some((p - k).norm()),
@@ -271,7 +273,7 @@ impl Object {
         }
     }
 
-    /// The same, squared for points: linear in the cosine and sine of a rotation of either.
+    /// Same as `measure`, but squared for points: it is linear in the cosine and sine of a rotation of either.
     fn linear_measure(&self, other: &Object) -> Option<f64> {
         match (self, other) {
             (Object::Point(p), Object::Point(k)) => Some((p - k).norm_squared()),

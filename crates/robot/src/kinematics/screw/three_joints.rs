@@ -1,10 +1,11 @@
-//! The subproblems of three joints that carry a point to a point, `e^(S1 q1) e^(S2 q2) e^(S3 q3) p = k`, for any screws: IK-Geo's
-//! three circles, PG7, and every mixture with translations; and three rotations about parallel axes to a pose (PG8).
+//! The subproblems of three joints that carry a point to a point, `e^(S1 q1) e^(S2 q2) e^(S3 q3) p = k`, for any
+//! screws: IK-Geo's three circles, PG7, and all combinations with translations; and three rotations about parallel axes
+//! to a pose (PG8).
 //!
-//! The first joint is cancelled by two conditions that it keeps: the height along its axis and the distance from a point of
-//! it, or, when it slides, two heights across its direction. Both are linear in the second joint's cosine and sine with
-//! constant factors (see `turn.rs`), so that one equation of degree four is left for the third. Candidates are refined and
-//! kept when they reach `k`. The tolerances are in [`super::values`].
+//! The first joint is eliminated by two of its invariants. For a revolute joint these are the height along its axis and
+//! the distance from a point of it; for a prismatic joint, two heights across its direction. Both are linear in the
+//! second joint's cosine and sine with constant factors (see `turn.rs`). So one equation of degree four remains for the
+//! third joint. Candidates are refined and accepted when they reach `k`. The tolerances are in [`super::values`].
 
 use nalgebra::{Point3, Unit, Vector3};
 use smallvec::SmallVec;
@@ -21,18 +22,18 @@ use super::values::{Answers, Reach, TOLERANCE, Values};
 use crate::spatial::line::PARALLEL;
 use crate::spatial::{Axis, Pose, Screw, angle};
 
-/// How much a condition may be missed by a candidate; the point that it reaches decides.
+/// Tolerance of a condition for a candidate. The point that it reaches decides.
 const CANDIDATE: Reach = Reach::Within(1e-4);
 
-/// A target at most this far from the first axis, relative to the size, is near it.
+/// A target within this distance of the first axis, relative to the size, is near it.
 const NEAR_AXIS: f64 = 0.03;
 
 type Candidates = SmallVec<[[Option<f64>; 3]; 8]>;
 
-/// `e^(S1 q1) e^(S2 q2) e^(S3 q3) p = k` for any three screws: up to four answers.
+/// Solves `e^(S1 q1) e^(S2 q2) e^(S3 q3) p = k` for any three screws: up to four solutions.
 ///
-/// A joint is free when `p` lies on its axis and it is the third, or `k` does and it is the first. With [`Reach::Closest`] and a
-/// target out of reach: the values that come nearest.
+/// The third joint is free when `p` is on its axis, the first when `k` is on its axis. With [`Reach::Closest`] and a
+/// target out of reach, the values of the nearest point are returned.
 pub fn three_screws_to_point(screws: [&Screw; 3], p: &Point3<f64>, k: &Point3<f64>, reach: Reach) -> Answers<3> {
     let centres: SmallVec<[Point3<f64>; 3]> = screws.iter().filter_map(|s| s.axis()).map(Axis::point).collect();
     let size = size(&centres, p, k);
@@ -58,7 +59,7 @@ pub fn three_screws_to_point(screws: [&Screw; 3], p: &Point3<f64>, k: &Point3<f6
     polish(&screws.map(|screw| *screw), p, k, size, reach, candidates.into_iter())
 }
 
-/// PG7: a rotation about a skew axis behind which two rotations about parallel axes follow: up to four answers.
+/// PG7: a rotation about a skew axis followed by two rotations about parallel axes: up to four solutions.
 pub fn rotate_skew_and_two_parallel(
     skew: &Axis,
     parallel: [&Axis; 2],
@@ -70,9 +71,9 @@ pub fn rotate_skew_and_two_parallel(
     three_screws_to_point([&Screw::Revolute(*skew), &second, &third], p, k, reach)
 }
 
-/// PG8: rotations about three parallel axes whose product is `pose`: up to two answers.
+/// PG8: rotations about three parallel axes whose product is `pose`: up to two solutions.
 ///
-/// None when `pose` does not keep the planes normal to the axes, to the tolerance of `reach`.
+/// There are none when `pose` tilts the planes normal to the axes by more than the tolerance of `reach`.
 pub fn rotate_three_parallel_to_pose(axes: [&Axis; 3], pose: &Pose, reach: Reach) -> Answers<3> {
     let w = axes[0].direction();
     let keeps = (pose.rotation * w.into_inner() - w.into_inner()).norm() <= reach.slack(1.0);
@@ -89,14 +90,14 @@ pub fn rotate_three_parallel_to_pose(axes: [&Axis; 3], pose: &Pose, reach: Reach
     rotate_about_parallel_axes(axes[0], axes[1], &p, &(pose * p), reach).iter().map(complete).collect()
 }
 
-/// A rotation before two translations, by the inverse of the whole: `e^-S3 e^-S2 e^-S1 k = p`.
+/// A rotation before two translations, by the inverse problem: `e^-S3 e^-S2 e^-S1 k = p`.
 fn backwards(screws: [&Screw; 3], p: &Point3<f64>, k: &Point3<f64>) -> Candidates {
     let found = two_slides(screws[2], screws[1], screws[0], k, p);
     found.into_iter().map(|[c, b, a]| [a.map(|q| -q), b.map(|q| -q), c.map(|q| -q)]).collect()
 }
 
-/// What the first joint keeps of a point: two vectors and right sides so that `a_i . (x - origin) = b_i(x)`.
-struct Kept {
+/// Invariants of the first joint for a point: two vectors and right sides such that `a_i . (x - origin) = b_i(x)`.
+struct Invariants {
     a: [Vector3<f64>; 2],
     /// The height of `k` along the first vector, from the origin.
     first: f64,
@@ -106,31 +107,35 @@ struct Kept {
 enum Second {
     /// The height along the second vector.
     Height(f64),
-    /// The distance squared from the axis' point, which stands at the second vector.
+    /// The squared distance from the axis' point, which is the second vector.
     Distance(f64),
 }
 
-impl Kept {
-    /// By `screw`, seen from `origin`.
-    fn new(screw: &Screw, k: &Point3<f64>, origin: &Point3<f64>) -> Kept {
-        let way = k - origin;
+impl Invariants {
+    /// The invariants of `screw`, relative to `origin`.
+    fn new(screw: &Screw, k: &Point3<f64>, origin: &Point3<f64>) -> Invariants {
+        let displacement = k - origin;
         match screw {
             Screw::Revolute(axis) => {
-                // The point of the axis level with the origin keeps the numbers small.
+                // The point of the axis at the height of the origin keeps the numbers small.
                 let axis = axis.level_with(origin);
                 let (w, arm) = (axis.direction().into_inner(), axis.point() - origin);
                 let square = (k - axis.point()).norm_squared() - arm.norm_squared();
-                Kept { a: [w, arm], first: w.dot(&way), second: Second::Distance(square) }
+                Invariants { a: [w, arm], first: w.dot(&displacement), second: Second::Distance(square) }
             }
             Screw::Prismatic(direction) => {
                 let across = direction.cross(&Vector3::ith(direction.iamin(), 1.0)).normalize();
                 let other = direction.cross(&across);
-                Kept { a: [across, other], first: across.dot(&way), second: Second::Height(other.dot(&way)) }
+                Invariants {
+                    a: [across, other],
+                    first: across.dot(&displacement),
+                    second: Second::Height(other.dot(&displacement)),
+                }
             }
         }
     }
 
-    /// The right sides for `y`, the point as seen from the origin, whose length the second joint keeps.
+    /// The right sides for `y`, the point relative to the origin. The second joint preserves its length.
     fn sides(&self, y: &Vector3<f64>) -> [f64; 2] {
         match self.second {
             Second::Height(height) => [self.first, height],
@@ -139,7 +144,7 @@ impl Kept {
     }
 }
 
-/// The second joint turns.
+/// The second joint is revolute.
 fn turned(
     first: &Screw,
     second: &Axis,
@@ -149,7 +154,7 @@ fn turned(
     size: f64,
     miss: f64,
 ) -> Candidates {
-    let kept = Kept::new(first, k, &second.point());
+    let kept = Invariants::new(first, k, &second.point());
     let turn = Turn::new(&second.direction(), kept.a);
     let seen = |q: f64| third.carry(q, p) - second.point();
     let condition = |q: f64| {
@@ -178,7 +183,7 @@ fn turned(
     found
 }
 
-/// The second joint slides.
+/// The second joint is prismatic.
 fn slid(
     first: &Screw,
     second: &Unit<Vector3<f64>>,
@@ -195,7 +200,7 @@ fn slid(
     let (w, slope) = (axis.direction(), axis.direction().dot(second));
     let height = |q: f64| w.dot(&(k - third.carry(q, p)));
     let radius = (k - axis.point()).norm();
-    // Where the slide is normal to the axis it does not change the height, and the third joint alone must.
+    // If the prismatic joint is normal to the axis, it does not change the height, and the third joint alone must.
     let level = slope.abs() <= PARALLEL;
     let condition = |q: f64| {
         if level {
@@ -223,12 +228,12 @@ fn slid(
     found
 }
 
-/// The first two joints slide: the third must bring the point to its height over their plane.
+/// The first two joints are prismatic: the third must move the point to its height over their plane.
 fn two_slides(first: &Screw, second: &Screw, third: &Screw, p: &Point3<f64>, k: &Point3<f64>) -> Candidates {
     let (Screw::Prismatic(v1), Screw::Prismatic(v2)) = (first, second) else { return Candidates::new() };
     let mut found = Candidates::new();
     let Some(normal) = Unit::try_new(v1.cross(v2), PARALLEL) else {
-        // One direction twice: the second joint is free, the others are a problem of two.
+        // Two equal directions: the second joint is free, and the others are a problem of two joints.
         let two = two_screws_to_point(first, third, p, k, CANDIDATE);
         found.extend(two.iter().map(|[a, c]| [*a, None, *c]));
         return found;
@@ -245,9 +250,10 @@ fn two_slides(first: &Screw, second: &Screw, third: &Screw, p: &Point3<f64>, k: 
     found
 }
 
-/// The values of the first joint that bring `x` near `k`, the other joints moving it on a surface with this `normal`.
+/// The values of the first joint that move `x` near `k`, while the other joints move it on a surface with this
+/// `normal`.
 ///
-/// Where `k` is near the first axis, `x` hardly tells the angle. There two angles bring `k` back to the surface.
+/// If `k` is near the first axis, `x` hardly determines the angle. Then two angles move `k` back to the surface.
 fn reach_by(
     first: &Screw,
     x: &Point3<f64>,
@@ -269,7 +275,7 @@ fn reach_by(
     found
 }
 
-/// How fast `x` moves with the joint.
+/// The velocity of `x` for a unit velocity of the joint.
 fn velocity(screw: &Screw, x: &Point3<f64>) -> Vector3<f64> {
     match screw {
         Screw::Revolute(axis) => axis.direction().cross(&(x - axis.point())),

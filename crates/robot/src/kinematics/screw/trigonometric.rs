@@ -1,4 +1,4 @@
-//! The zeros of a trigonometric polynomial, by its values at equidistant angles.
+//! The zeros of a trigonometric polynomial, from its values at equidistant angles.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,27 +7,29 @@ use smallvec::SmallVec;
 use crate::spatial::angle;
 use groebot_algebra::roots::{MAX_DEGREE, TANGENT, real_roots};
 
-/// The highest degree: a polynomial in the tangent of the half angle has twice as many roots.
+/// The highest degree. A polynomial in the tangent of the half angle has twice as many roots.
 pub(super) const MOST: usize = 8;
 
-/// An extremum this near to a zero \[rad\] is no other candidate.
+/// An extremum within this distance of a zero \[rad\] is not a separate candidate.
 const APART: f64 = 1e-3;
 
-/// The angles in (-pi, pi] at which `f`, a polynomial of degree `degree` in the cosine and sine, is zero or nearly so.
+/// The angles in (-pi, pi] at which `f`, a polynomial of degree `degree` in the cosine and sine, is zero or nearly
+/// zero.
 ///
-/// Tangencies are found too, as [`real_roots`] finds them: an answer is off by up to the square root of the rounding
-/// there, and the caller refines and checks it.
+/// Tangencies are found too, as in [`real_roots`]. There the error of a zero is up to the square root of the rounding
+/// error, and the caller refines and checks it.
 pub(super) fn zeros(degree: usize, f: impl Fn(f64) -> f64) -> SmallVec<[f64; 16]> {
     zeros_to(degree, 0.0, f)
 }
 
-/// [`zeros`], and where `f` is extremal and at most `grain`: rounding may hide a tangency there, when all of `f` is small.
+/// Same as [`zeros`], but includes extrema where `|f|` is at most `grain`, since rounding may hide a tangency when all
+/// of `f` is small.
 pub(super) fn zeros_to(degree: usize, grain: f64, f: impl Fn(f64) -> f64) -> SmallVec<[f64; 16]> {
     debug_assert!(degree <= MOST);
     let count = 2 * degree + 1;
     let at = |sample: usize| angle::wrap(TAU * sample as f64 / count as f64);
     let values: SmallVec<[f64; 17]> = (0..count).map(|sample| f(at(sample))).collect();
-    // The tangent is infinite opposite the origin: there f had better be large.
+    // The tangent of the half angle is infinite opposite the origin, so `f` should be large there.
     let largest = (0..count).max_by(|&i, &j| values[i].abs().total_cmp(&values[j].abs())).unwrap_or(0);
     let origin = at(largest) - PI;
     let harmonics = harmonics(degree, &values, |sample| at(sample) - origin);
@@ -45,7 +47,7 @@ pub(super) fn zeros_to(degree: usize, grain: f64, f: impl Fn(f64) -> f64) -> Sma
     found
 }
 
-/// The angles at which a sum of harmonics, counted from `origin`, is zero.
+/// The zeros of a sum of harmonics, with angles counted from `origin`.
 fn angles(degree: usize, origin: f64, harmonics: &[(f64, f64)]) -> SmallVec<[f64; 16]> {
     let roots = real_roots::<MAX_DEGREE>(&in_half_tangent(degree, harmonics), 1.0);
     roots.as_slice().iter().map(|t| angle::wrap(origin + 2.0 * t.atan())).collect()

@@ -1,16 +1,16 @@
-//! Two equations that are linear in the cosine and sine of one angle, with constant factors: what subproblems of three
-//! joints, four circles and planes reduce to.
+//! Two equations that are linear in the cosine and sine of one angle, with constant factors. The subproblems of three
+//! joints, four circles and planes reduce to them.
 //!
 //! The equations `a_i . R(q) y = b_i`, i = 1, 2, where y and b depend on another joint, determine R(q) y. Its length
 //! must be that of y: an equation in the other joint alone, of degree two in its cosine and sine.
 
 use nalgebra::{Matrix2, Unit, Vector2, Vector3};
 
-/// The part of space that turns about an axis: two directions across it.
+/// The two equations of a rotation about an axis, in coordinates perpendicular to the axis.
 pub(super) struct Turn {
     axis: Unit<Vector3<f64>>,
     across: [Vector3<f64>; 2],
-    /// The two vectors a_i along the axis.
+    /// The components of the two vectors a_i along the axis.
     along: [f64; 2],
     /// The product of the two vectors' lengths.
     lengths: f64,
@@ -18,11 +18,11 @@ pub(super) struct Turn {
     determinant: f64,
 }
 
-/// The determinant counts as zero when it is below this share of the product of the vectors' lengths.
+/// The determinant counts as zero below this fraction of the product of the vectors' lengths.
 const SINGULAR: f64 = 1e-9;
 
 impl Turn {
-    /// For the vectors a_1, a_2 and a rotation about `axis`.
+    /// Builds the equations for the vectors a_1, a_2 and a rotation about `axis`.
     pub fn new(axis: &Unit<Vector3<f64>>, a: [Vector3<f64>; 2]) -> Turn {
         let first = axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize();
         let across = [first, axis.cross(&first)];
@@ -34,14 +34,14 @@ impl Turn {
         Turn { axis: *axis, across, along: [axis.dot(&a[0]), axis.dot(&a[1])], lengths, matrix, determinant }
     }
 
-    /// How far from zero the condition may be, for y of at most this length, by rounding or where what is asked for is missed
-    /// by the share `miss` of that length.
+    /// Tolerance of the condition for y of at most this length: rounding, and a target that is missed by the fraction
+    /// `miss` of that length.
     pub fn grain(&self, length: f64, miss: f64) -> f64 {
         let factor = if self.is_singular() { self.matrix.norm() } else { self.lengths };
         miss.max(256.0 * f64::EPSILON) * (factor * length).powi(2)
     }
 
-    /// Whether the two equations contradict or repeat each other but for their right sides.
+    /// Whether the left sides of the two equations are linearly dependent.
     pub fn is_singular(&self) -> bool {
         self.determinant == 0.0
     }
@@ -50,14 +50,14 @@ impl Turn {
         Vector2::new(self.across[0].dot(y), self.across[1].dot(y))
     }
 
-    /// What is left of the right sides once the parts along the axis are taken off.
+    /// The right sides minus the components along the axis.
     fn left(&self, y: &Vector3<f64>, b: [f64; 2]) -> Vector2<f64> {
         let height = self.axis.dot(y);
         Vector2::new(b[0] - self.along[0] * height, b[1] - self.along[1] * height)
     }
 
-    /// Zero where some angle solves both equations; a polynomial of the given degrees in what y and b are linear in.
-    /// Degree two; degree one when the equations are singular and b is linear.
+    /// Zero where some angle solves both equations. It is a polynomial in the variables in which y and b are linear: of
+    /// degree two, or of degree one when the equations are singular and b is linear.
     pub fn condition(&self, y: &Vector3<f64>, b: [f64; 2]) -> f64 {
         let left = self.left(y, b);
         if self.is_singular() {

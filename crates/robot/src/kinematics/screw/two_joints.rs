@@ -1,24 +1,26 @@
-//! The subproblems of two joints that carry a point to a point, `e^(S1 q1) e^(S2 q2) p = k`, for any axes: Paden-Kahan 2 (RH0
-//! 2.3.3), PG2, PG4, PG6, and a rotation with a translation.
+//! The subproblems of two joints that carry a point to a point, `e^(S1 q1) e^(S2 q2) p = k`, for any axes: Paden-Kahan
+//! 2 (RH0 2.3.3), PG2, PG4, PG6, and a rotation with a translation.
 //!
-//! One condition on the second joint follows by cancelling the first (a component along its axis, a distance from a point of
-//! it); the first joint then goes to the point. Candidates are refined by Gauss-Newton and kept when they reach `k`:
-//! axes that do not meet leave one of two, which a formula for meeting axes does not give. The tolerances are in
-//! [`super::values`]; the size of the problem is the largest distance of p and k from the axes' points, or from each other.
+//! Eliminating the first joint gives one condition on the second (a component along its axis, or a distance from a
+//! point of it). Then the first joint moves to the point. Candidates are refined by Gauss-Newton and accepted when they
+//! reach `k`. Skew axes have one of two solutions, which a formula for intersecting axes does not give. The tolerances
+//! are in [`super::values`]; the size of the problem is the largest distance of p and k from the axes' points, or from
+//! each other.
 
 use nalgebra::{Point3, Unit, Vector3};
 
 use super::one_joint::{rotate_to_distance, rotate_to_plane, translate_to_distance, translate_to_point};
 use super::polish::polish;
-use super::values::{Answers, Reach, TOLERANCE, Values, size_of_way};
+use super::values::{Answers, Reach, TOLERANCE, Values, displacement_size};
 use crate::spatial::{Axis, Screw};
 
-/// How much a condition may be missed by a candidate; the point that it reaches decides.
+/// Tolerance of a condition for a candidate. The point that it reaches decides.
 const CANDIDATE: f64 = 1e-6;
 
-/// `e^(S1 q1) e^(S2 q2) p = k` for any two screws: PK2, PG2, PG4, PG6, or a rotation and a translation.
+/// Solves `e^(S1 q1) e^(S2 q2) p = k` for any two screws: PK2, PG2, PG4, PG6, or a rotation and a translation.
 ///
-/// Up to two answers. With [`Reach::Closest`] and a target out of reach: the values that come nearest.
+/// Up to two solutions. With [`Reach::Closest`] and a target out of reach, the values of the nearest point are
+/// returned.
 pub fn two_screws_to_point(
     first: &Screw,
     second: &Screw,
@@ -35,7 +37,7 @@ pub fn two_screws_to_point(
     }
 }
 
-/// Paden-Kahan 2, RH0 (2-30), (2-31): rotations about axes that meet. The same as [`rotate_about_skew_axes`].
+/// Paden-Kahan 2, RH0 (2-30), (2-31): rotations about intersecting axes. Same as [`rotate_about_skew_axes`].
 pub fn rotate_about_meeting_axes(
     first: &Axis,
     second: &Axis,
@@ -46,10 +48,10 @@ pub fn rotate_about_meeting_axes(
     two_screws_to_point(&Screw::Revolute(*first), &Screw::Revolute(*second), p, k, reach)
 }
 
-/// PG6: rotations about axes that neither meet nor are parallel, at any angle.
+/// PG6: rotations about skew axes, at any angle.
 ///
-/// Up to two answers where the axes meet, up to one where they are skew: the circle of `p` and the circle of `k` then have
-/// at most one point in common.
+/// Up to two solutions for intersecting axes, up to one for skew axes. The circles of `p` and `k` about skew axes have
+/// at most one common point.
 pub fn rotate_about_skew_axes(
     first: &Axis,
     second: &Axis,
@@ -62,8 +64,8 @@ pub fn rotate_about_skew_axes(
 
 /// PG4: rotations about parallel axes.
 ///
-/// The second joint is free when the axes coincide or `p` lies on the second one, the first when `k` lies on it.
-/// No answers when `k` is not at the height of `p`, or a coordinate is not finite.
+/// The second joint is free when the axes coincide or `p` is on the second one. The first joint is free when `k` is on
+/// its axis. No solutions when `k` is not at the height of `p`, or a coordinate is not finite.
 pub fn rotate_about_parallel_axes(
     first: &Axis,
     second: &Axis,
@@ -85,7 +87,7 @@ pub fn rotate_about_parallel_axes(
     bend.choices().into_iter().filter_map(turned).collect()
 }
 
-/// The first rotation that takes what the second joint made of `p` to `k`.
+/// The rotation of the first joint that moves `p`, already moved by the second joint, to `k`.
 fn complete(
     first: &Axis,
     p: &Point3<f64>,
@@ -124,8 +126,8 @@ fn rotate_about_crossing_axes(
     polish(&screws, p, k, size, reach, candidates)
 }
 
-/// RH0 (2-31) where it is sure to hold: the axes meet in their points, well apart in direction, and the two answers are well
-/// apart from each other and from the axes. `None` elsewhere.
+/// RH0 (2-31) where it is accurate: the axes intersect, their directions are well separated, and the two solutions are
+/// well separated from each other and from the axes. `None` elsewhere.
 fn both_at_a_crossing(first: &Axis, second: &Axis, p: &Point3<f64>, k: &Point3<f64>) -> Option<Answers<2>> {
     const WELL: f64 = 0.02;
     let (w1, w2) = (first.direction(), second.direction());
@@ -153,7 +155,7 @@ fn both_at_a_crossing(first: &Axis, second: &Axis, p: &Point3<f64>, k: &Point3<f
 
 /// PG2: two translations.
 ///
-/// One answer, when `k - p` lies in the plane of the directions. Where these are parallel the second joint is free.
+/// One solution, when `k - p` is in the plane of the directions. If these are parallel the second joint is free.
 pub fn translate_twice(
     first: &Unit<Vector3<f64>>,
     second: &Unit<Vector3<f64>>,
@@ -161,22 +163,24 @@ pub fn translate_twice(
     k: &Point3<f64>,
     reach: Reach,
 ) -> Answers<2> {
-    let (way, normal) = (k - p, first.cross(second));
+    let (displacement, normal) = (k - p, first.cross(second));
     if normal.norm() <= TOLERANCE {
         return translate_to_point(first, p, k, reach).iter().map(|q| [Some(q), None]).collect();
     }
     let square = normal.norm_squared();
-    if !(way.norm().is_finite() && normal.dot(&way).abs() / square.sqrt() <= reach.slack(size_of_way(p, k))) {
+    if !(displacement.norm().is_finite()
+        && normal.dot(&displacement).abs() / square.sqrt() <= reach.slack(displacement_size(p, k)))
+    {
         return Answers::default();
     }
     let part = |a: &Vector3<f64>, b: &Vector3<f64>| a.cross(b).dot(&normal) / square;
-    std::iter::once([Some(part(&way, second)), Some(part(first, &way))]).collect()
+    std::iter::once([Some(part(&displacement, second)), Some(part(first, &displacement))]).collect()
 }
 
 /// A translation, then a rotation: `R (p + v q2) = k`.
 ///
-/// The translated point is to be as far from a point of the axis as `k` is. Where the direction is not normal to the axis,
-/// one of the two candidates reaches `k`, else both.
+/// The translated point must have the same distance from a point of the axis as `k`. If the direction is not normal to
+/// the axis, one of the two candidates reaches `k`, else both.
 fn translate_then_rotate(
     axis: &Axis,
     direction: &Unit<Vector3<f64>>,
@@ -214,9 +218,9 @@ fn rotate_then_translate(
     back.iter().map(|[turn, slide]| [slide.map(|q| -q), turn.map(|q| -q)]).collect()
 }
 
-/// The largest distance of `p` and `k` from the centres and from each other; NaN when a coordinate is.
+/// The largest distance of `p` and `k` from the centres and from each other; NaN when a coordinate is NaN.
 pub(super) fn size(centres: &[Point3<f64>], p: &Point3<f64>, k: &Point3<f64>) -> f64 {
-    let way = size_of_way(p, k);
+    let displacement = displacement_size(p, k);
     let far = |centre: &Point3<f64>| (p - centre).norm().max((k - centre).norm());
-    if way.is_nan() { way } else { centres.iter().map(far).fold(way, f64::max) }
+    if displacement.is_nan() { displacement } else { centres.iter().map(far).fold(displacement, f64::max) }
 }

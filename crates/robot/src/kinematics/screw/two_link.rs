@@ -1,7 +1,7 @@
 //! The screw solver of two revolute joints with parallel axes (hip and knee pitch, an elbow in a plane).
 //!
-//! The distance of the tip from the first axis depends on the second joint only: Paden-Kahan 3 gives q2. With
-//! q2 known, Paden-Kahan 1 gives q1. This is the reduction of RH0 (3-15)..(3-18).
+//! The distance of the tip from the first axis depends on the second joint only, so Paden-Kahan 3 gives q2. Then
+//! Paden-Kahan 1 gives q1. This is the reduction of RH0 (3-15)..(3-18).
 
 use nalgebra::{Point3, Vector3};
 
@@ -19,17 +19,17 @@ pub struct TwoLink {
     reach: f64,
 }
 
-/// One inverse-kinematics answer.
+/// One inverse-kinematics solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution {
-    /// q1 and q2 in (-pi, pi] \[rad\]; `None` for a joint whose every angle does it.
+    /// q1 and q2 in (-pi, pi] \[rad\]; `None` for a free joint.
     pub q: [Option<f64>; 2],
-    /// Distance of the tip from the target \[m\] by forward kinematics, a free joint being at zero.
+    /// Distance of the tip from the target \[m\] by forward kinematics, with free joints at zero.
     pub residual: f64,
 }
 
 impl TwoLink {
-    /// The chain that turns `tip` first about `second`, then about `first`.
+    /// Builds the chain that rotates `tip` first about `second`, then about `first`.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when the axes are not parallel (to 1e-12 rad; the directions may be opposite) or
@@ -54,16 +54,16 @@ impl TwoLink {
         self.first.rotate(q[0], &self.second.rotate(q[1], &self.tip))
     }
 
-    /// The greatest distance of the tip from the first axis \[m\]: the two link lengths together.
+    /// The greatest distance of the tip from the first axis \[m\]: the sum of the two link lengths.
     pub fn reach(&self) -> f64 {
         self.reach
     }
 
-    /// All joint angles that bring the tip to `target` \[m\]: none, one or two answers.
+    /// Computes all solutions for `target` \[m\]: none, one or two.
     ///
-    /// A target within 1e-12 of the reach from a reachable one counts as reached, and its residual tells. Two
-    /// answers merge where the arm is stretched or folded (the rounding rule of [`super::values`]). The first joint
-    /// is free when target and folded tip lie on its axis; the second when the tip lies on the second axis.
+    /// A target within 1e-12 of the reach of a reachable one counts as reached, with its residual. Two solutions merge
+    /// where the arm is stretched or folded (the rounding rule of [`super::values`]). The first joint is free when
+    /// target and folded tip are on its axis, the second when the tip is on the second axis.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when `target` is not finite.
@@ -85,7 +85,7 @@ impl TwoLink {
         }
     }
 
-    /// The answer with the second joint at `q2`.
+    /// The solution with the second joint at `q2`.
     fn complete(&self, q2: Option<f64>, target: &Point3<f64>) -> Option<Solution> {
         let elbow = q2.unwrap_or(0.0);
         let circle = Circle::new(&self.first, &self.second.rotate(elbow, &self.tip), target)?;
@@ -95,12 +95,12 @@ impl TwoLink {
     }
 }
 
-/// The length of `x`, safe from overflow and underflow.
+/// The length of `x`, without overflow or underflow.
 fn length(x: &Vector3<f64>) -> f64 {
     x.x.hypot(x.y).hypot(x.z)
 }
 
-/// Fails when a coordinate of the point called `name` is not finite.
+/// Checks that the coordinates of the point `name` are finite.
 fn check_finite(name: &str, p: &Point3<f64>) -> Result<()> {
     if p.iter().all(|x| x.is_finite()) {
         return Ok(());

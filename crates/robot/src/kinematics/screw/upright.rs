@@ -1,4 +1,4 @@
-//! The task `position_pitch_roll` by the loop that stands for it: [`on_chain`].
+//! The task `position_pitch_roll` by its equivalent loop: [`on_chain`].
 
 use nalgebra::DVector;
 
@@ -7,10 +7,11 @@ use crate::kinematics::upright::Upright;
 use crate::kinematics::{Chain, Solution, Target};
 use crate::spatial::{Screw, angle, pitch_and_roll, vertical};
 
-/// Newton steps for an answer of the ideal robot's loop on the chain as described.
+/// Newton steps for a solution of the ideal robot's loop on the described chain.
 const STEPS: usize = 8;
 
-/// All answers of `chain`, by those of the loop `upright` of its ideal robot, each polished and measured on the chain.
+/// All solutions of `chain`, from those of the loop `upright` of its ideal robot, each polished and measured on the
+/// chain.
 pub(super) fn on_chain(chain: &Chain, upright: &Upright, target: &Target, answers: Vec<Solution>) -> Vec<Solution> {
     let mut found: Vec<Solution> = Vec::new();
     for answer in answers {
@@ -26,20 +27,20 @@ pub(super) fn on_chain(chain: &Chain, upright: &Upright, target: &Target, answer
     found
 }
 
-/// What the tip at `q` misses, as the rows of [`Chain::task_jacobian`] tell it, the distance, and the angle \[rad\].
+/// The residual of the tip at `q` in the rows of [`Chain::task_jacobian`], the distance, and the angle \[rad\].
 fn miss(chain: &Chain, target: &Target, q: &[f64]) -> Option<(DVector<f64>, f64, f64)> {
     let Target::PositionPitchRoll { point, pitch, roll } = *target else { return None };
     let pose = chain.forward(q).ok()?;
     let shift = pose.translation.vector - point.coords;
     let (reached, rolled) = pitch_and_roll(&pose.rotation);
     let off = vertical(reached, rolled) - vertical(pitch, roll);
-    // What the tip is turned too far by, w, moves the vertical, seen from the tip, by R^T (z x w).
+    // An excess rotation w of the tip moves the vertical, seen from the tip, by R^T (z x w).
     let turned = pose.rotation * off;
     let v = shift / chain.scale();
     Some((DVector::from_vec(vec![v.x, v.y, v.z, turned.y, -turned.x]), shift.norm(), off.norm()))
 }
 
-/// `q` behind Newton steps, as long as they help.
+/// `q` after Newton steps, as long as they reduce the residual.
 fn polished(chain: &Chain, target: &Target, mut q: Vec<f64>) -> Vec<f64> {
     let size = |q: &[f64]| miss(chain, target, q).map_or(f64::INFINITY, |(miss, ..)| miss.norm());
     let held = chain.given();
@@ -57,7 +58,7 @@ fn polished(chain: &Chain, target: &Target, mut q: Vec<f64>) -> Vec<f64> {
     q
 }
 
-/// A joint's value less a step \[rad, or reaches\].
+/// A joint's value minus a step \[rad, or units of the reach\].
 fn moved(chain: &Chain, joint: usize, q: f64, step: f64) -> f64 {
     match chain.screws()[joint] {
         Screw::Revolute(_) => angle::wrap(q - step),

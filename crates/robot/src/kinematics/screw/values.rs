@@ -1,42 +1,44 @@
-//! What the subproblems answer: all values of one joint, or of several, and when a target counts as reached.
+//! Results of the subproblems: all values of one joint, or of several, and the tolerances for reaching a target.
 //!
-//! Tolerances are relative to the *size* of a subproblem, the largest distance between its points (1 for directions), though at
-//! least [`GRAIN`] of the distance of the moved points from the origin, where their coordinates round:
+//! Tolerances are relative to the *size* of a subproblem, the largest distance between its points (1 for directions).
+//! It is at least [`GRAIN`] times the distance of the moved points from the origin, because of the rounding of their
+//! coordinates.
 //! * a target out of reach by at most the [`Reach`] counts as reached, at the nearest end;
-//! * a joint is *free* when moving it changes what is asked for by at most [`TOLERANCE`] of the size;
-//! * two values are one where the target is within [`ROUNDING`] of the size of an end of its interval.
+//! * a joint is *free* when moving it changes the required quantity by at most [`TOLERANCE`] of the size;
+//! * two values become one where the target is within [`ROUNDING`] of the size of an end of its interval.
 //!
-//! Near an end the target hardly depends on the joint: known to a share e of the size, it leaves an angle uncertain by about
-//! sqrt(e). What the answer reaches is accurate throughout.
+//! Near an end the target hardly depends on the joint: a relative error e of the target gives an error of about sqrt(e)
+//! of the angle. The reached point is accurate in all cases.
 
 use std::ops::Deref;
 
 use nalgebra::Point3;
 use smallvec::SmallVec;
 
-/// How far out of reach, relative to the size of the problem, a target may be and still be reached.
+/// Tolerance of a target out of reach, relative to the size of the problem.
 pub const TOLERANCE: f64 = 1e-12;
 
-/// How near to an end of its interval, relative to the size of the problem, a target has one value instead of two.
+/// Distance of a target from an end of its interval, relative to the size of the problem, below which two values become
+/// one.
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// The smallest size of a problem, relative to its points' distance from the origin: its [`TOLERANCE`] is then the coordinates'
-/// [`ROUNDING`].
+/// The smallest size of a problem, relative to its points' distance from the origin. Its [`TOLERANCE`] is then the
+/// coordinates' [`ROUNDING`].
 pub const GRAIN: f64 = ROUNDING / TOLERANCE;
 
-/// The size that the rounding of these points' coordinates leaves to a problem, and no less than their distance.
-pub(super) fn size_of_way(p: &Point3<f64>, k: &Point3<f64>) -> f64 {
+/// The size of a problem from the rounding of these points' coordinates, and at least their distance.
+pub(super) fn displacement_size(p: &Point3<f64>, k: &Point3<f64>) -> f64 {
     let grain = GRAIN * p.coords.norm().max(k.coords.norm());
-    let way = (k - p).norm();
-    if way.is_nan() { way } else { way.max(grain) }
+    let displacement = (k - p).norm();
+    if displacement.is_nan() { displacement } else { displacement.max(grain) }
 }
 
-/// What to do with a target out of reach.
+/// Treatment of a target out of reach.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
-    /// Out of reach by at most this, relative to the size of the problem, counts as reached.
+    /// A target out of reach by at most this value, relative to the size of the problem, counts as reached.
     Within(f64),
-    /// However far: the values that come nearest, in the sense of least squares.
+    /// At any distance: the values of the nearest point, in the sense of least squares.
     Closest,
 }
 
@@ -44,12 +46,12 @@ impl Reach {
     /// Within [`TOLERANCE`].
     pub const EXACT: Reach = Reach::Within(TOLERANCE);
 
-    /// A reach for candidates that are checked later: at least `share` of the size.
+    /// A tolerance for candidates that are checked later: at least `share` of the size.
     pub(super) fn at_least(self, share: f64) -> Reach {
         Reach::Within(share.max(self.slack(10.0).min(1.0)))
     }
 
-    /// The largest miss that is allowed in a problem of this size.
+    /// The largest residual that is allowed in a problem of this size.
     pub(super) fn slack(self, size: f64) -> f64 {
         match self {
             Reach::Within(share) => share * size,
@@ -67,18 +69,18 @@ impl Default for Reach {
 /// All values of one joint that solve a subproblem: angles in (-pi, pi] \[rad\], or displacements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Values {
-    /// No value does it.
+    /// There is no solution.
     None,
-    /// Exactly one value does it.
+    /// Exactly one value is a solution.
     One(f64),
-    /// Two different values do it.
+    /// Two different values are solutions.
     Two(f64, f64),
-    /// Every value does it.
+    /// Every value is a solution.
     Free,
 }
 
 impl Values {
-    /// The determined values: none when there are none or when every value does it.
+    /// The determined values; none when there are none or the joint is free.
     pub fn iter(self) -> impl Iterator<Item = f64> {
         let pair = match self {
             Values::None | Values::Free => [None, None],
@@ -88,7 +90,7 @@ impl Values {
         pair.into_iter().flatten()
     }
 
-    /// The same with every value's sign changed.
+    /// The values with opposite signs.
     #[must_use]
     pub(super) fn negated(self) -> Values {
         match self {
@@ -98,7 +100,7 @@ impl Values {
         }
     }
 
-    /// The values as joint values of an answer; `None` for a free joint.
+    /// The values as joint values of a solution; `None` for a free joint.
     pub(super) fn choices(self) -> SmallVec<[Option<f64>; 2]> {
         match self {
             Values::Free => SmallVec::from_slice(&[None]),
@@ -107,8 +109,8 @@ impl Values {
     }
 }
 
-/// All answers for `N` joints. In an answer `None` is a free joint: every value of it is an answer, the other joints
-/// changing along with it; they were computed with it at zero.
+/// All solutions for `N` joints. `None` is a free joint: every value of it has a solution, with other values of the
+/// other joints. They were computed with the free joint at zero.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Answers<const N: usize> {
     list: SmallVec<[[Option<f64>; N]; 4]>,

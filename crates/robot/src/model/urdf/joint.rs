@@ -12,14 +12,14 @@ use crate::spatial::exact::{ExactRotation, ExactVector, Placement, Turn};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// The elements of a joint.
+/// The allowed child elements of a joint.
 const PARTS: [&str; 9] =
     ["parent", "child", "origin", "axis", "limit", "calibration", "dynamics", "mimic", "safety_controller"];
 
-/// The joint that a `<joint>` describes, and what is wrong with it: then only its type and links are right.
+/// Reads a `<joint>`. Returns the joint and its error, if there is one. In that case only its type and links are valid.
 ///
 /// # Errors
-/// [`ErrorKind::MissingKey`] without a name or a link, which the robot's tree rests on.
+/// [`ErrorKind::MissingKey`] without a name or a link, which the tree needs.
 pub fn read_joint(element: &Element, is_recent: bool) -> Result<(Joint, Option<Error>)> {
     let name = element.required("name")?;
     let named = |error: Error| error.with_context(format_args!("joint `{}`", shown(name))).at_line(element.line);
@@ -31,7 +31,7 @@ pub fn read_joint(element: &Element, is_recent: bool) -> Result<(Joint, Option<E
     })
 }
 
-/// The joint's name, type and links; a type that URDF does not know is `fixed`.
+/// Reads the joint's name, type and links. A type that URDF does not define is `fixed`.
 fn read_bare_joint(element: &Element, name: &str) -> Result<Joint> {
     let link = |part: &str| -> Result<&str> {
         let missing =
@@ -62,7 +62,7 @@ fn read_whole_joint(element: &Element, bare: Joint, is_recent: bool) -> Result<J
         origin,
         axis,
         limits: read_limits(element, kind, is_recent)?,
-        // Where they are not known many descriptions write nought, for the attributes must be there.
+        // Many descriptions write zero for unknown values, since the attributes are required.
         speed: limit("velocity")?.filter(|speed| *speed != 0.0),
         effort: limit("effort")?.filter(|effort| *effort != 0.0),
         damping: dynamics("damping")?,
@@ -82,7 +82,7 @@ fn read_kind(element: &Element) -> Result<JointType> {
     })
 }
 
-/// A frame, and what is to be said about its rotation.
+/// Reads a frame, and notes about its rotation.
 pub fn read_origin(element: &Element) -> Result<(Origin, Vec<String>)> {
     let xyz = element.numbers("xyz")?.unwrap_or_default();
     let (rpy, quaternion) = (element.numbers::<3>("rpy")?, element.numbers::<4>("quat_xyzw")?);
@@ -115,12 +115,12 @@ fn read_rpy(element: &Element, rpy: &ExactVector) -> Result<(Placement, Vec<Stri
             Some(degrees) => {
                 let whole = (angle / std::f64::consts::TAU - f64::from(degrees) / 360.0).round();
                 let degrees = f64::from(degrees) + 360.0 * whole;
-                let told = if turn.is_exact() {
+                let interpretation = if turn.is_exact() {
                     "exactly"
                 } else {
                     "where solvers are derived; poses are those of the number"
                 };
-                notes.push(format!("{name} {angle} rad is taken as {degrees} deg {told}"));
+                notes.push(format!("{name} {angle} rad is taken as {degrees} deg {interpretation}"));
             }
             None => {
                 let note = "has no exact sine; its rotation is exactly orthogonal, right to 1e-15";
@@ -131,7 +131,7 @@ fn read_rpy(element: &Element, rpy: &ExactVector) -> Result<(Placement, Vec<Stri
     Ok((Placement::turned(std::array::from_fn(|i| turns[i])), notes))
 }
 
-/// The direction; (1, 0, 0) when there is none.
+/// Reads the direction; (1, 0, 0) by default.
 fn read_axis(element: Option<&Element>) -> Result<ExactVector> {
     let default = || [1, 0, 0].map(|x| BigRational::from_integer(x.into()));
     let Some(element) = element else { return Ok(default()) };
@@ -139,7 +139,7 @@ fn read_axis(element: Option<&Element>) -> Result<ExactVector> {
     Ok(element.numbers("xyz")?.unwrap_or_else(default))
 }
 
-/// Limits; before version 1.2 one that is left out is zero, since then there is none.
+/// Reads the limits. Before version 1.2 a missing limit is zero; since then it is absent.
 fn read_limits(joint: &Element, kind: JointType, is_recent: bool) -> Result<Option<(f64, f64)>> {
     if !matches!(kind, JointType::Revolute | JointType::Prismatic) {
         return Ok(None);
@@ -157,10 +157,10 @@ fn read_limits(joint: &Element, kind: JointType, is_recent: bool) -> Result<Opti
     }
 }
 
-/// A limit; also an infinite one, which the robot's checks refuse.
+/// Reads a limit. An infinite limit is read too, and refused by the robot's checks.
 fn read_limit(element: &Element, name: &str) -> Result<Option<f64>> {
-    let told = element.attribute(name).and_then(|text| text.trim().parse().ok());
-    if let Some(infinite) = told.filter(|value: &f64| value.is_infinite()) {
+    let value = element.attribute(name).and_then(|text| text.trim().parse().ok());
+    if let Some(infinite) = value.filter(|value: &f64| value.is_infinite()) {
         return Ok(Some(infinite));
     }
     Ok(element.number(name)?.map(|value| value.to_f64().unwrap_or(f64::INFINITY)))

@@ -10,13 +10,13 @@ use crate::model::{Link, Mass, Origin, Shape, Solid};
 use crate::spatial::rotation;
 use crate::{Error, ErrorKind, Result};
 
-/// The elements of a link.
+/// The allowed child elements of a link.
 const PARTS: [&str; 3] = ["inertial", "visual", "collision"];
 /// The names of the moments, in the order of [`Mass::moments`].
 const MOMENTS: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
 
-/// The link that a `<link>` describes, and what is wrong with it; `colours` are those of the robot's materials. A shape that is no shape is left out, with
-/// a note.
+/// Reads a `<link>`. Returns the link and its error, if there is one. `colours` are those of the robot's materials. An
+/// invalid shape is ignored with a note.
 ///
 /// # Errors
 /// [`ErrorKind::MissingKey`] without a name.
@@ -31,13 +31,13 @@ pub fn read_link(element: &Element, colours: &HashMap<&str, [f64; 4]>) -> Result
         };
         match read_shape(child, colours) {
             Ok(shape) => shapes.extend(shape),
-            // A description that is off in what it looks like is a robot all the same.
+            // A description with an invalid visual shape is still usable.
             Err(error) => link.notes.push(format!("left out: {error}")),
         }
     }
     let mut inertials = element.children.iter().filter(|child| child.name == "inertial");
     let inertial = inertials.next();
-    // urdfdom, which most programs read URDF by, takes the first.
+    // urdfdom, the most common URDF parser, uses the first one.
     let extra = |second: &Element| format!("<inertial> of line {} is left out: the first one is taken", second.line);
     link.notes.extend(inertials.map(extra));
     let mass = || refuse_slips(element, &PARTS).and_then(|()| inertial.map(read_mass).transpose());
@@ -67,7 +67,7 @@ fn read_mass(element: &Element) -> Result<Mass> {
     Ok(Mass { mass: mass.number("value")?.unwrap_or_default(), origin, moments })
 }
 
-/// A shape; none when its geometry is an extension.
+/// Reads a shape; `None` when its geometry is an extension.
 fn read_shape(element: &Element, colours: &HashMap<&str, [f64; 4]>) -> Result<Option<Shape>> {
     let Some(geometry) = element.child("geometry")? else {
         return Err(element.error(ErrorKind::MissingKey, "has no <geometry>; it is required"));
@@ -110,7 +110,7 @@ fn read_solid(element: &Element) -> Result<Option<Solid>> {
     }))
 }
 
-/// The colour of a `<material>`, if it has one of its own.
+/// The colour of a `<material>`, if it has its own.
 pub fn colour_of(material: &Element) -> Result<Option<[f64; 4]>> {
     material.child("color")?.map_or(Ok(None), |colour| colour.floats("rgba"))
 }

@@ -21,26 +21,28 @@ use link::{colour_of, read_link};
 use transmission::{add_rotors, read_transmission};
 use xml::Element;
 
-/// The longest file that is read, in bytes.
+/// Maximum size of a URDF file in bytes.
 pub const URDF_LIMIT: u64 = limits::XML_BYTES;
 
 impl Robot {
-    /// The robot that the URDF file at `path` describes.
+    /// Reads a robot from the URDF file at `path`.
     ///
     /// # Errors
-    /// As [`read_xml`], with a limit of four megabytes, and [`Robot::from_urdf`], with the file; [`ErrorKind::Unsupported`] for JSON, YAML and tables.
+    /// Those of [`read_xml`], with a limit of four megabytes, and of [`Robot::from_urdf`], with the file;
+    /// [`ErrorKind::Unsupported`] for JSON, YAML and tables.
     pub fn read_urdf(path: &Path) -> Result<Robot> {
         let file = read_xml(path, URDF_LIMIT)?;
         let robot = Robot::from_urdf(&file.text).map_err(|error| explained(error, &file.text).in_file(path))?;
         Ok(robot.with_notes(file.notes))
     }
 
-    /// The robot that `text` describes in the format of [`crate::model::urdf`]. What is wrong with a single link or joint is kept in [`Robot::faults`]:
-    /// [`Robot::chain`] refuses it in a chain, and [`Robot::check`] in the whole robot.
+    /// Reads a robot from `text` in the format of [`crate::model::urdf`]. Errors of a single link or joint are stored
+    /// in [`Robot::faults`]: [`Robot::chain`] refuses it in a chain, and [`Robot::check`] in the whole robot.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is not XML; [`ErrorKind::MissingKey`] for links and joints without a name, and joints without links;
-    /// [`ErrorKind::BadValue`] for another root element; [`ErrorKind::Unsupported`] for xacro; and as [`Robot::with_faults`]. All have a line.
+    /// [`ErrorKind::Syntax`] for text that is not XML; [`ErrorKind::MissingKey`] for links and joints without a name,
+    /// and joints without links; [`ErrorKind::BadValue`] for another root element; [`ErrorKind::Unsupported`] for
+    /// xacro; those of [`Robot::with_faults`]. All have a line.
     pub fn from_urdf(text: &str) -> Result<Robot> {
         let root = Element::parse(text)?;
         let mut notes = xacro::unused(&root)?;
@@ -77,7 +79,7 @@ impl Robot {
     }
 }
 
-/// The colours of the robot's materials; one that is none is ignored, with a note.
+/// The colours of the robot's materials. An invalid one is ignored with a note.
 fn colours<'e>(root: &'e Element, notes: &mut Vec<String>) -> HashMap<&'e str, [f64; 4]> {
     let mut colours = HashMap::new();
     for material in root.children.iter().filter(|child| child.name == "material") {
@@ -92,7 +94,7 @@ fn colours<'e>(root: &'e Element, notes: &mut Vec<String>) -> HashMap<&'e str, [
     colours
 }
 
-/// Fails for a child whose name is nearly one of `parts`; other unknown ones are extensions.
+/// Refuses a child whose name is similar to one of `parts`, as a typing error. Other unknown children are extensions.
 fn refuse_slips(element: &Element, parts: &[&str]) -> Result<()> {
     for child in element.children.iter().filter(|child| !parts.contains(&child.name.as_str())) {
         let advice = did_you_mean(&child.name, parts);

@@ -7,12 +7,12 @@ use crate::document::shown;
 use crate::model::{Actuator, Fault, Joint, Part};
 use crate::{Error, ErrorKind, Result};
 
-/// The children of an element that have this name.
+/// The children of an element with this name.
 fn all<'e>(element: &'e Element, name: &'e str) -> impl Iterator<Item = &'e Element> {
     element.children.iter().filter(move |child| child.name == name)
 }
 
-/// An actuator of a `<transmission>` that moves several joints; those that are not of that kind are extensions.
+/// Reads a `<transmission>` whose actuator moves several joints. Others are extensions.
 pub fn read_transmission(element: &Element) -> Option<Actuator> {
     let mut actuators = all(element, "actuator");
     let actuator = actuators.next().filter(|_| actuators.next().is_none())?;
@@ -24,11 +24,11 @@ pub fn read_transmission(element: &Element) -> Option<Actuator> {
     (joints.len() > 1).then_some(Actuator { name: actuator.attribute("name")?.to_owned(), joints })
 }
 
-/// The inertia of a rotor as Drake's extension gives it, in a `<joint>` or in the `<actuator>` of a `<transmission>`: `rotor_inertia` times the square of `gear_ratio`
-/// \[kg m^2 or kg\]; nought without it.
+/// Reads the reflected rotor inertia in Drake's extension, in a `<joint>` or in the `<actuator>` of a `<transmission>`:
+/// `rotor_inertia` times the square of `gear_ratio` \[kg m^2 or kg\]; zero by default.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for what is no finite number, at its line.
+/// [`ErrorKind::BadValue`] for a value that is not a finite number, with its line.
 pub fn reflected_rotor(element: &Element) -> Result<f64> {
     let value = |name: &str| element.child(name)?.map_or(Ok(None), |child| child.float("value"));
     let ratio = value("drake:gear_ratio")?.unwrap_or(1.0);
@@ -39,7 +39,7 @@ pub fn reflected_rotor(element: &Element) -> Result<f64> {
     if reflected.is_finite() { Ok(reflected) } else { Err(beyond()) }
 }
 
-/// Adds the rotors of all transmissions to their joints. What is wrong with one is a fault of its actuator.
+/// Adds the rotor inertias of all transmissions to their joints. An error becomes a fault of the actuator.
 pub fn add_rotors<'e>(transmissions: impl Iterator<Item = &'e Element>, joints: &mut [Joint]) -> Vec<Fault> {
     let places: HashMap<String, usize> =
         joints.iter().enumerate().map(|(at, joint)| (joint.name.clone(), at)).collect();

@@ -10,8 +10,9 @@ use crate::spatial::exact::ExactVector;
 use groebot_algebra::number::BigRational;
 
 impl Robot {
-    /// The robot as a URDF. Reading it gives the same robot again: numbers are written as decimals of as many digits as they have, those that
-    /// are no decimals in doubles. Symbols are left out: URDF has no place for them. [`Robot::check`] reports whether all of it was understood.
+    /// Writes the robot as URDF. Reading the result gives an equal robot: decimal numbers keep all their digits, and
+    /// other numbers are written as doubles. Symbols are omitted, since URDF cannot express them. [`Robot::check`]
+    /// reports the faults of the robot.
     pub fn to_urdf(&self) -> String {
         let mut text = String::from("<?xml version=\"1.0\"?>\n");
         // Writing to a string cannot fail.
@@ -95,15 +96,15 @@ fn write_joint(out: &mut String, joint: &Joint) -> fmt::Result {
     }
     if joint.limits.is_some() || joint.effort.is_some() || joint.speed.is_some() {
         let range = joint.limits.map(|(lower, upper)| format!(" lower=\"{lower}\" upper=\"{upper}\""));
-        // Other readers refuse a limit without these; nought is not known.
+        // Other parsers refuse a limit without these attributes; zero means unknown.
         let [effort, velocity] = [joint.effort, joint.speed].map(Option::unwrap_or_default);
         writeln!(out, "    <limit{} effort=\"{effort}\" velocity=\"{velocity}\"/>", range.unwrap_or_default())?;
     }
-    let told = [("damping", joint.damping), ("friction", joint.friction), ("armature", joint.armature)];
-    let told: Vec<String> =
-        told.iter().filter(|(_, value)| *value != 0.0).map(|(key, value)| format!(" {key}=\"{value}\"")).collect();
-    if !told.is_empty() {
-        writeln!(out, "    <dynamics{}/>", told.concat())?;
+    let dynamics = [("damping", joint.damping), ("friction", joint.friction), ("armature", joint.armature)];
+    let dynamics: Vec<String> =
+        dynamics.iter().filter(|(_, value)| *value != 0.0).map(|(key, value)| format!(" {key}=\"{value}\"")).collect();
+    if !dynamics.is_empty() {
+        writeln!(out, "    <dynamics{}/>", dynamics.concat())?;
     }
     if let Some(Mimic { leader, multiplier, offset }) = &joint.mimic {
         let (leader, multiplier, offset) = (escaped(leader), decimal(multiplier), decimal(offset));
@@ -122,7 +123,7 @@ fn write_actuator(out: &mut String, actuator: &Actuator) -> fmt::Result {
     writeln!(out, "    <actuator name=\"{name}\"/>\n  </transmission>")
 }
 
-/// An `<origin>`; none for the outer frame itself.
+/// An `<origin>`; `None` for the identity.
 fn origin(origin: &Origin) -> Option<String> {
     let rpy = origin.rpy.as_ref().map_or_else(|| floats(&origin.angles()), decimals);
     let xyz = decimals(&origin.placement.origin);
@@ -134,7 +135,7 @@ fn decimals(numbers: &ExactVector) -> String {
     numbers.each_ref().map(decimal).join(" ")
 }
 
-/// The digits of a decimal number; the nearest double of any other.
+/// All digits of a decimal number; the nearest double of any other number.
 fn decimal(number: &BigRational) -> String {
     groebot_algebra::number::decimal_text(number).unwrap_or_else(|| number.to_f64().unwrap_or(f64::NAN).to_string())
 }

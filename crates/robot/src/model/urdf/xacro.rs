@@ -1,17 +1,17 @@
-//! What xacro leaves in a URDF, and what it would still have to do.
+//! Remains of xacro in a URDF, and unexpanded xacro.
 
 use super::xml::{EXPAND, Element};
 use crate::document::shown;
 use crate::model::listing;
 use crate::{Error, ErrorKind, Result};
 
-/// The elements that define what others use.
+/// The elements with xacro definitions.
 const DEFINITIONS: [&str; 2] = ["xacro:property", "xacro:arg"];
 
-/// A note about definitions of xacro that nothing uses.
+/// Returns a note about unused xacro definitions.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for other elements of xacro, and for `${...}` in a link or joint.
+/// [`ErrorKind::Unsupported`] for other xacro elements, and for `${...}` in a link or joint.
 pub fn unused(root: &Element) -> Result<Vec<String>> {
     let own = || root.children.iter().filter(|child| child.name.starts_with("xacro:"));
     if let Some(other) = own().find(|child| !DEFINITIONS.contains(&child.name.as_str())) {
@@ -29,7 +29,7 @@ pub fn unused(root: &Element) -> Result<Vec<String>> {
     Ok(line.map(note).into_iter().collect())
 }
 
-/// An error about what xacro would have to replace in `element`.
+/// The error for unexpanded xacro in `element`.
 fn used(element: &Element) -> Option<Error> {
     if element.name.starts_with("xacro:") {
         return Some(is_xacro(element));

@@ -1,4 +1,4 @@
-//! The outer levels of an XML text as elements that know their lines; everything deeper is only checked to be XML.
+//! The outer levels of an XML text as elements with line numbers. Deeper levels are only checked for well-formedness.
 
 use num_traits::ToPrimitive;
 use quick_xml::events::attributes::AttrError;
@@ -10,14 +10,15 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 use groebot_algebra::number::{BigRational, parse_rational};
 
-/// How many levels are kept: robot, link or joint, their parts, and two levels of these: a collision's geometry and its box.
-const KEPT: usize = 5;
-/// The most bytes of an element's text.
+/// Number of stored levels: robot, link or joint, their parts, and two levels of these, such as a collision's geometry
+/// and its box.
+const STORED_LEVELS: usize = 5;
+/// Maximum size of an element's text in bytes.
 const MOST_TEXT: usize = limits::XML_TEXT;
-/// The deepest nesting.
+/// Maximum nesting depth.
 const DEEPEST: usize = limits::XML_DEPTH;
 
-/// What to do with xacro.
+/// Advice about xacro in messages.
 pub const EXPAND: &str = "a language that makes URDF; run `xacro robot.urdf.xacro > robot.urdf` first";
 
 /// An element with its attributes and children.
@@ -26,13 +27,13 @@ pub struct Element {
     pub name: String,
     pub line: usize,
     attributes: Vec<(String, String)>,
-    /// The text in it, without the blanks at both ends.
+    /// The text of the element, without blanks at both ends.
     pub text: String,
     pub children: Vec<Element>,
 }
 
 impl Element {
-    /// The root element of `text`.
+    /// Parses `text` and returns its root element.
     ///
     /// # Errors
     /// [`ErrorKind::Syntax`] with its line for text that is not one well-formed XML element or is nested too deeply.
@@ -64,7 +65,7 @@ impl Element {
         self.attributes.iter().map(|(name, value)| (name.as_str(), value.as_str()))
     }
 
-    /// The text of an attribute that must be there.
+    /// The text of a required attribute.
     ///
     /// # Errors
     /// [`ErrorKind::MissingKey`] at the element's line.
@@ -85,10 +86,10 @@ impl Element {
         }
     }
 
-    /// The exact numbers of an attribute, blanks between them.
+    /// The exact numbers of an attribute, separated by blanks.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for another count, for nan and infinities, and for what is no decimal number.
+    /// [`ErrorKind::BadValue`] for a wrong number of entries, nan, infinities, and text that is not a decimal number.
     pub fn numbers<const N: usize>(&self, name: &str) -> Result<Option<[BigRational; N]>> {
         let Some(text) = self.attribute(name) else { return Ok(None) };
         let bad = |what: String| {
@@ -108,15 +109,15 @@ impl Element {
     /// The exact number of an attribute.
     ///
     /// # Errors
-    /// As [`Element::numbers`].
+    /// Those of [`Element::numbers`].
     pub fn number(&self, name: &str) -> Result<Option<BigRational>> {
         Ok(self.numbers::<1>(name)?.map(|[value]| value))
     }
 
-    /// The same in doubles.
+    /// Same as [`Element::numbers`], but in doubles.
     ///
     /// # Errors
-    /// As [`Element::numbers`]; also for numbers beyond doubles.
+    /// Those of [`Element::numbers`]; also for numbers outside the range of doubles.
     pub fn floats<const N: usize>(&self, name: &str) -> Result<Option<[f64; N]>> {
         let Some(exact) = self.numbers::<N>(name)? else { return Ok(None) };
         let floats = exact.each_ref().map(|number| number.to_f64().unwrap_or(f64::INFINITY));
@@ -129,7 +130,7 @@ impl Element {
     /// The double of an attribute.
     ///
     /// # Errors
-    /// As [`Element::floats`].
+    /// Those of [`Element::floats`].
     pub fn float(&self, name: &str) -> Result<Option<f64>> {
         Ok(self.floats::<1>(name)?.map(|[value]| value))
     }
@@ -140,7 +141,7 @@ impl Element {
     }
 }
 
-/// A decimal number; fractions, which XML readers do not know, are refused.
+/// Parses a decimal number. Fractions are refused, because XML parsers do not support them.
 fn decimal(word: &str) -> std::result::Result<BigRational, String> {
     let is_plain = word.bytes().all(|b| b.is_ascii_digit() || b"+-.eE".contains(&b)) && word.len() <= 400;
     let value = if is_plain { parse_rational(word).ok() } else { None };
@@ -159,10 +160,10 @@ fn shown_long(message: &str) -> String {
     message.chars().take(160).flat_map(|c| if c.is_control() { c.escape_debug().collect() } else { vec![c] }).collect()
 }
 
-/// Elements as they open and close.
+/// Builds elements while they open and close.
 struct Builder {
     decoder: Decoder,
-    /// The open elements that are kept.
+    /// The open elements that are stored.
     open: Vec<Element>,
     depth: usize,
     root: Option<Element>,
@@ -181,7 +182,7 @@ impl Builder {
                 self.end();
                 Ok(())
             }
-            Event::Text(text) if self.depth > 0 && self.depth <= KEPT && text.len() <= MOST_TEXT => {
+            Event::Text(text) if self.depth > 0 && self.depth <= STORED_LEVELS && text.len() <= MOST_TEXT => {
                 if let (Some(open), Ok(text)) = (self.open.last_mut(), text.decode()) {
                     open.text += text.trim();
                 }
@@ -203,7 +204,7 @@ impl Builder {
         }
         self.depth += 1;
         let attributes = attributes(start, self.decoder)?;
-        if self.depth <= KEPT {
+        if self.depth <= STORED_LEVELS {
             let name = String::from_utf8_lossy(start.name().as_ref()).into_owned();
             self.open.push(Element { name, line, attributes, text: String::new(), children: Vec::new() });
         }
@@ -211,7 +212,7 @@ impl Builder {
     }
 
     fn end(&mut self) {
-        let is_kept = self.depth <= KEPT;
+        let is_kept = self.depth <= STORED_LEVELS;
         self.depth = self.depth.saturating_sub(1);
         if let Some(element) = is_kept.then(|| self.open.pop()).flatten() {
             match self.open.last_mut() {

@@ -1,12 +1,12 @@
-//! Decimals and the exact numbers that they are told for.
+//! Recognition of decimals that stand for exact numbers.
 
 use num_traits::{One, Signed};
 
 use groebot_algebra::number::BigRational;
 
-/// The fewest decimals that a rounded multiple of pi/4 or pi/6 must have to be taken for the exact one.
+/// Minimum number of decimals of a rounded multiple of pi/4 or pi/6 that is replaced by the exact one.
 const DECIMALS: usize = 4;
-/// The most decimals that are looked at.
+/// Maximum number of decimals that are compared.
 const MOST_DECIMALS: usize = 40;
 
 /// Whether `given` is within 1e-15 of `exact`.
@@ -31,7 +31,7 @@ pub(super) fn is_decimal_of(given: &BigRational, exact: &BigRational) -> bool {
     false
 }
 
-/// A whole number.
+/// An integer.
 pub(super) fn integer(n: i64) -> BigRational {
     BigRational::from_integer(n.into())
 }

@@ -1,4 +1,4 @@
-//! Exact geometry: vectors and rotations in rational numbers, 0.1029 as 1029/10000, and frames made of them. Main type: [`Placement`].
+//! Exact geometry: vectors, rotations and frames in rational numbers (0.1029 is 1029/10000). Main type: [`Placement`].
 
 mod decimal;
 mod placement;
@@ -15,5 +15,5 @@ use groebot_algebra::number::BigRational;
 
 /// Three exact coordinates.
 pub type ExactVector = [BigRational; 3];
-/// An exact 3x3 matrix, by rows.
+/// An exact 3x3 matrix, row by row.
 pub type ExactMatrix = [[BigRational; 3]; 3];

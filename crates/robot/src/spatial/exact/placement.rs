@@ -1,4 +1,4 @@
-//! Exact frames: how the origins of chain files, URDF joints and DH rows reach the base frame. Main type: [`Placement`].
+//! Exact frames, for the origins of chain files, URDF joints and DH rows. Main type: [`Placement`].
 
 use nalgebra::{Matrix3, Point3, Rotation3, Unit, UnitQuaternion, Vector3};
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -12,20 +12,20 @@ use groebot_algebra::number::BigRational;
 pub struct Placement {
     /// Its rotation, outer_from_frame.
     pub rotation: ExactRotation,
-    /// The rotation that its rounded numbers mean, 1.5708 for a quarter turn, where that is another.
+    /// The exact rotation that its rounded numbers stand for, if it differs: 1.5708 stands for a quarter turn.
     pub meant: Option<ExactRotation>,
     /// Its origin, in the length unit of the description.
     pub origin: ExactVector,
 }
 
 impl Placement {
-    /// The outer frame itself.
+    /// The identity.
     pub fn identity() -> Self {
         let origin = std::array::from_fn(|_| BigRational::zero());
         Placement { rotation: ExactRotation::identity(), meant: None, origin }
     }
 
-    /// A frame that is only turned: by Rz(yaw) Ry(pitch) Rx(roll) about the outer axes, a URDF's `rpy`.
+    /// A rotation by Rz(yaw) Ry(pitch) Rx(roll) about the outer axes, as in a URDF's `rpy`.
     pub fn turned(turns: [Turn; 3]) -> Self {
         let rotation = ExactRotation::from_rpy(turns);
         let meant = turns.map(Turn::meant);
@@ -33,14 +33,14 @@ impl Placement {
         Placement { rotation, meant, ..Placement::identity() }
     }
 
-    /// A frame that is only shifted, by `distance` along a coordinate axis: 0, 1, 2 (modulo 3) for x, y, z.
+    /// A translation by `distance` along a coordinate axis: 0, 1, 2 (modulo 3) for x, y, z.
     pub fn shifted(axis: usize, distance: BigRational) -> Self {
         let mut placement = Placement::identity();
         placement.origin[axis % 3] = distance;
         placement
     }
 
-    /// A frame that is turned by `angle` \[rad\] about an axis of any length through the origin: right to rounding.
+    /// A rotation by `angle` \[rad\] about an axis of any length through the origin, within rounding.
     pub fn turned_about(axis: &ExactVector, angle: &BigRational) -> Self {
         let length = rounded_length(axis);
         let half = angle.to_f64().unwrap_or(0.0) / 2.0;
@@ -50,13 +50,13 @@ impl Placement {
         Placement { rotation, ..Placement::identity() }
     }
 
-    /// A frame that is shifted by `distance` along an axis of any length: right to rounding.
+    /// A translation by `distance` along an axis of any length, within rounding.
     pub fn shifted_along(axis: &ExactVector, distance: &BigRational) -> Self {
         let length = rounded_length(axis);
         Placement { origin: axis.each_ref().map(|entry| entry * distance / &length), ..Placement::identity() }
     }
 
-    /// The frame that stands at `inner` in this frame.
+    /// Composes with `inner`, a frame in this frame.
     #[must_use]
     pub fn then(&self, inner: &Placement) -> Self {
         let moved = self.rotation.turn(&inner.origin);
@@ -66,7 +66,7 @@ impl Placement {
         Placement { rotation: self.rotation.then(&inner.rotation), meant, origin }
     }
 
-    /// The outer frame in this frame.
+    /// The inverse: the outer frame in this frame.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.inverse();
@@ -74,7 +74,7 @@ impl Placement {
         Placement { rotation, meant: self.meant.as_ref().map(ExactRotation::inverse), origin }
     }
 
-    /// The rotation that its numbers mean.
+    /// The exact rotation that its numbers stand for.
     pub fn meant(&self) -> &ExactRotation {
         self.meant.as_ref().unwrap_or(&self.rotation)
     }
@@ -85,7 +85,7 @@ impl Placement {
     }
 }
 
-/// The length of a vector as a double; one for a vector of length zero.
+/// The length of a vector, rounded to a double; one for the zero vector.
 fn rounded_length(vector: &ExactVector) -> BigRational {
     let square: BigRational = vector.iter().map(|entry| entry * entry).sum();
     let root = BigRational::from_float(square.to_f64().unwrap_or(1.0).sqrt());
@@ -107,7 +107,7 @@ pub fn rotation(exact: &ExactMatrix) -> UnitQuaternion<f64> {
     UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix))
 }
 
-/// The unit vector along an exact vector that is not zero.
+/// The unit vector of a nonzero exact vector.
 pub fn normalized(vector: &ExactVector) -> Unit<Vector3<f64>> {
     let greatest = vector.iter().map(Signed::abs).max().unwrap_or_default();
     let [x, y, z] = vector.each_ref().map(|entry| double(&(entry / &greatest)));

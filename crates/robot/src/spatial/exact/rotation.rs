@@ -1,5 +1,5 @@
-//! Exact rotations: quaternions up to scale (Euler-Rodrigues parameters) over Q(sqrt 2, sqrt 3), so that nothing drifts however many
-//! are composed, and 45 and 45 degrees are a quarter turn. Main types: [`ExactRotation`], [`Turn`].
+//! Exact rotations: quaternions up to scale (Euler-Rodrigues parameters) over Q(sqrt 2, sqrt 3), so that compositions
+//! do not drift, and two rotations by 45 degrees are a quarter turn. Main types: [`ExactRotation`], [`Turn`].
 
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -12,27 +12,27 @@ use groebot_algebra::number::{BigInt, BigRational, parse_rational};
 
 /// pi to 60 decimals.
 const PI: &str = "3.141592653589793238462643383279502884197169399375105820974944";
-/// The most quarter turns: a million radians.
+/// Maximum number of quarter turns: a million radians.
 const GREATEST: i64 = 636_619;
-/// The bits that a quaternion is rounded to, and the tangent of half an elementary rotation's angle.
+/// Number of bits to which a quaternion, and the tangent of half an elementary rotation's angle, are rounded.
 const BITS: u64 = 60;
 
-/// The angle of an elementary rotation: whole steps of 15 degrees, which are exact, and a rest.
+/// The angle of an elementary rotation: an exact multiple of 15 degrees plus a remainder.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Turn {
     /// 0 to 23: a multiple of 2 or 3.
     steps: u8,
-    /// What is left, in \[-pi/4, pi/4\] \[rad\].
+    /// The remainder in \[-pi/4, pi/4\] \[rad\].
     rest: f64,
-    /// The steps of the angle that is meant, where it is another: one without a rest.
+    /// The steps of the exact angle that this angle stands for, if it differs. That angle has no remainder.
     meant: Option<u8>,
 }
 
 impl Turn {
-    /// The angle `degrees`; multiples of 30 and of 45 are exact.
+    /// Builds the angle `degrees`; multiples of 30 and of 45 are exact.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] beyond a million radians.
+    /// [`ErrorKind::BadValue`] above a million radians.
     pub fn from_degrees(degrees: &BigRational) -> Result<Self> {
         let turns = (degrees / integer(15)).round();
         if *degrees == &turns * integer(15) && is_step(&turns) {
@@ -43,11 +43,12 @@ impl Turn {
         Turn::new(&(quarters * integer(6)), &rest)
     }
 
-    /// The angle `radians`; within 1e-15 of a multiple of pi/4 or pi/6, as doubles are, it is that. Its rounded or truncated decimal with at
-    /// least four decimals (1.5708, 3.14159, -0.785398, 0.5236) is itself, and [means](Turn::meant) the multiple.
+    /// Builds the angle `radians`. Within 1e-15 of a multiple of pi/4 or pi/6, as in doubles, it is the multiple. A
+    /// rounded or truncated decimal of a multiple with at least four decimals (1.5708, 3.14159, -0.785398, 0.5236) is
+    /// not replaced, but [stands for](Turn::meant) the multiple.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] beyond a million radians.
+    /// [`ErrorKind::BadValue`] above a million radians.
     pub fn from_radians(radians: &BigRational) -> Result<Self> {
         let step = pi() / integer(12);
         let turns = (radians / &step).round();
@@ -55,9 +56,9 @@ impl Turn {
         if is_step(&turns) && is_double_of(radians, &exact) {
             return Turn::new(&turns, &BigRational::zero());
         }
-        let told = Turn::general(radians)?;
+        let general = Turn::general(radians)?;
         let is_rounded = is_step(&turns) && is_decimal_of(radians, &exact);
-        Ok(Turn { meant: is_rounded.then(|| whole_steps(&turns)), ..told })
+        Ok(Turn { meant: is_rounded.then(|| whole_steps(&turns)), ..general })
     }
 
     fn general(radians: &BigRational) -> Result<Self> {
@@ -67,7 +68,7 @@ impl Turn {
         Turn::new(&(quarters * integer(6)), &rest)
     }
 
-    /// The multiple of pi/4 or pi/6 of which it is the rounded decimal; itself when it is none's.
+    /// The multiple of pi/4 or pi/6 of which it is the rounded decimal; otherwise the angle itself.
     #[must_use]
     pub fn meant(self) -> Self {
         self.meant.map_or(self, |steps| Turn { steps, ..Turn::default() })
@@ -80,13 +81,13 @@ impl Turn {
         Ok(Turn { steps: whole_steps(steps), rest: rest.to_f64().unwrap_or(0.0), meant: None })
     }
 
-    /// Whether it is a multiple of 45 or of 30 degrees: its rotation is the true one. Any other rotation is exactly orthogonal too,
-    /// and within 1e-15 of the true one.
+    /// Whether it is a multiple of 45 or of 30 degrees, whose rotation is exact. Any other rotation is exactly
+    /// orthogonal too, and within 1e-15 of the true one.
     pub fn is_exact(self) -> bool {
         self.rest == 0.0
     }
 
-    /// Whether it is a whole number of quarter turns: its rotation has whole entries.
+    /// Whether it is a multiple of a quarter turn, whose rotation has integer entries.
     pub fn is_quarter(self) -> bool {
         self.is_exact() && self.steps.is_multiple_of(6)
     }
@@ -119,7 +120,7 @@ impl Turn {
     }
 }
 
-/// A whole number of steps of 15 degrees, without full turns.
+/// The number of steps of 15 degrees modulo full turns.
 fn whole_steps(steps: &BigRational) -> u8 {
     steps.to_integer().mod_floor(&BigInt::from(24)).to_u8().unwrap_or(0)
 }
@@ -130,7 +131,8 @@ fn is_step(steps: &BigRational) -> bool {
     [2, 3].iter().any(|n| (&steps % BigInt::from(*n)).is_zero())
 }
 
-/// The cosine and sine of half the angle of the direction (`cosine`, `sine`), up to scale, in integers: their quotient is within 2^-60.
+/// The cosine and sine of half the angle of the direction (`cosine`, `sine`), up to scale, in integers. Their quotient
+/// is within 2^-60.
 fn half_of(cosine: &BigRational, sine: &BigRational) -> [BigInt; 2] {
     let length = root(&(cosine.pow(2) + sine.pow(2)));
     let [c, s] = if cosine.is_negative() {
@@ -147,13 +149,13 @@ fn half_of(cosine: &BigRational, sine: &BigRational) -> [BigInt; 2] {
     }
 }
 
-/// The square root of a number that is not negative, within 2^-80 of the greater of one and itself.
+/// The square root of a nonnegative number, within 2^-80 of the larger of one and the root.
 fn root(square: &BigRational) -> BigRational {
     let scaled = (square * BigRational::from_integer(BigInt::one() << 160)).to_integer();
     BigRational::new(scaled.sqrt(), BigInt::one() << 80)
 }
 
-/// The first convergent of the continued fraction of `number` without its sign that is within 2^-60 of it, with the sign.
+/// The first convergent of the continued fraction of `number` that is within 2^-60 of it. The sign is that of `number`.
 fn shortest_fraction(number: &BigRational) -> BigRational {
     let enough = BigRational::new(BigInt::one(), BigInt::one() << BITS);
     let size = number.abs();
@@ -176,21 +178,21 @@ fn pi() -> BigRational {
     parse_rational(PI).unwrap_or_default()
 }
 
-/// The numerators of `numbers` over their least common denominator, and this.
+/// The numerators of `numbers` over their least common denominator, and this denominator.
 pub fn over_common<const N: usize>(numbers: [&BigRational; N]) -> ([BigInt; N], BigInt) {
     let common = numbers.iter().fold(BigInt::one(), |common, number| common.lcm(number.denom()));
     (numbers.map(|number| number.numer() * (&common / number.denom())), common)
 }
 
-/// A rotation, exactly: whole quarter turns, multiples of 45 and 30 degrees and rational quaternions, and all their products.
+/// An exact rotation: quarter turns, multiples of 45 and 30 degrees, rational quaternions, and all their products.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExactRotation {
-    /// w, x, y, z up to scale: their rational parts are coprime integers, and the first that is not zero is a positive integer.
+    /// w, x, y, z up to scale. Their rational parts are coprime integers, and the first nonzero one is positive.
     quaternion: [Surd; 4],
 }
 
 impl ExactRotation {
-    /// The rotation that moves nothing.
+    /// The identity.
     pub fn identity() -> Self {
         ExactRotation { quaternion: [1, 0, 0, 0].map(|n| Surd::of(n, 0, 0)) }
     }
@@ -203,7 +205,8 @@ impl ExactRotation {
         ExactRotation { quaternion }.reduced()
     }
 
-    /// Rz(yaw) Ry(pitch) Rx(roll), the rotation of a URDF `rpy`. Beside a general angle all three are made rational, one by one.
+    /// Rz(yaw) Ry(pitch) Rx(roll), the rotation of a URDF `rpy`. If one angle is general, each of the three is rounded
+    /// to a rational rotation.
     pub fn from_rpy(turns: [Turn; 3]) -> Self {
         let is_exact = turns.iter().all(|turn| turn.is_exact());
         let [roll, pitch, yaw] = turns;
@@ -234,7 +237,7 @@ impl ExactRotation {
         ExactRotation { quaternion }.reduced()
     }
 
-    /// The opposite rotation.
+    /// The inverse rotation.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let [w, x, y, z] = &self.quaternion;
@@ -255,7 +258,8 @@ impl ExactRotation {
         })
     }
 
-    /// The matrix, by rows: exactly orthogonal, and rational. It is the rotation itself when that is rational, else within 1e-17.
+    /// The matrix, row by row: exactly orthogonal and rational. It is the rotation itself if that is rational, else
+    /// within 1e-17.
     pub fn matrix(&self) -> ExactMatrix {
         let (rows, scale) =
             if self.is_rational() { self.scaled_matrix() } else { self.clone().rounded().scaled_matrix() };
@@ -267,7 +271,7 @@ impl ExactRotation {
         self.quaternion.iter().all(|part| part.rational().is_some())
     }
 
-    /// The matrix times the second value, |quaternion|^2: the formula of Euler and Rodrigues.
+    /// The matrix times the second value, |quaternion|^2, by the Euler-Rodrigues formula.
     fn scaled_matrix(&self) -> ([[Surd; 3]; 3], Surd) {
         let [w, x, y, z] = &self.quaternion;
         let [ww, xx, yy, zz] = [w, x, y, z].map(|part| part.mul(part));
@@ -285,7 +289,7 @@ impl ExactRotation {
         (rows, square([true; 3]))
     }
 
-    /// The same rotation in the form that is fixed for [`ExactRotation::quaternion`].
+    /// Normalises the quaternion to its unique form.
     fn reduced(self) -> Self {
         let first = self.quaternion.iter().find(|part| !part.is_zero()).filter(|part| part.rational().is_none());
         let factor = first.map_or(Surd::of(1, 0, 0), |first| first.adjugate().0);
@@ -299,18 +303,18 @@ impl ExactRotation {
         ExactRotation { quaternion: quaternion.map(|part| Surd { parts: part.parts.map(|part| part * &scale) }) }
     }
 
-    /// Whether its quaternion is long: the product of several general rotations.
+    /// Whether its quaternion has long numbers: the product of several general rotations.
     pub(crate) fn is_long(&self) -> bool {
         self.quaternion.iter().flat_map(|part| &part.parts).any(|part| part.numer().bits() > 2 * BITS)
     }
 
-    /// The same rotation, to 120 bits when it is long.
+    /// Rounds the quaternion to 120 bits if it is long.
     pub(crate) fn shortened(self) -> Self {
         if self.is_long() { self.to_bits(2 * BITS) } else { self }
     }
 
-    /// The same rotation when its entries are rational, else one within 1e-17 whose entries are: its roll, pitch and yaw are made so one by
-    /// one, so that an axis in a coordinate plane stays in it.
+    /// The rotation itself if its entries are rational, else a rational one within 1e-17. Roll, pitch and yaw are
+    /// rounded separately, so that an axis in a coordinate plane stays in it.
     pub(crate) fn made_rational(self) -> Self {
         if self.is_rational() {
             return self;

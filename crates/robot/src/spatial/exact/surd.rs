@@ -1,5 +1,5 @@
-//! Numbers a + b sqrt 2 + c sqrt 3 + d sqrt 6 with rational a, b, c, d: the field that holds the sines of all multiples of 15 degrees,
-//! and the tangents of their halves. Main type: [`Surd`].
+//! Numbers a + b sqrt 2 + c sqrt 3 + d sqrt 6 with rational a, b, c, d: the field with the sines of all multiples of 15
+//! degrees and the tangents of half of them. Main type: [`Surd`].
 
 use num_bigint::BigInt;
 use num_integer::Integer;
@@ -9,9 +9,10 @@ use super::ExactVector;
 use super::decimal::is_decimal_of;
 use groebot_algebra::number::BigRational;
 
-/// Roots are known to so many bits at first; an irrational number, and one with a long denominator, becomes the nearest multiple of 2^-80.
+/// Initial precision of square roots in bits. An irrational number, and one with a long denominator, is rounded to a
+/// multiple of 2^-80.
 const BITS: u64 = 80;
-/// The longest denominator that is kept, in bits.
+/// Maximum length of a denominator in bits.
 const LONGEST: u64 = 256;
 
 /// An element of Q(sqrt 2, sqrt 3).
@@ -64,7 +65,7 @@ impl Surd {
         product
     }
 
-    /// The product of the three conjugates, and the norm: their product with this number, which is rational.
+    /// The product of the three conjugates, and the norm: the rational product of this product and the number.
     pub fn adjugate(&self) -> (Surd, BigRational) {
         let [a, b, c, d] = &self.parts;
         let conjugate = |b: BigRational, c: BigRational, d: BigRational| Surd { parts: [a.clone(), b, c, d] };
@@ -75,7 +76,7 @@ impl Surd {
         (adjugate, norm)
     }
 
-    /// `self / divisor`; zero for a divisor of zero.
+    /// `self / divisor`; zero for a zero divisor.
     pub fn over(&self, divisor: &Surd) -> Surd {
         let (adjugate, norm) = divisor.adjugate();
         if norm.is_zero() {
@@ -85,7 +86,7 @@ impl Surd {
         Surd { parts: product.parts.map(|part| part / &norm) }
     }
 
-    /// The number within 2^-80 of its size, however much of the parts cancels.
+    /// The number with a relative error of 2^-80, also when its parts cancel.
     pub fn value(&self) -> BigRational {
         let irrational = self.parts[1..].iter().map(Signed::abs).sum::<BigRational>();
         let mut bits = BITS;
@@ -93,7 +94,7 @@ impl Surd {
             let unit = BigInt::one() << bits;
             let root = |n: u32| BigRational::new((BigInt::from(n) << (2 * bits)).sqrt(), unit.clone());
             let value: BigRational = self.parts.iter().zip([1, 2, 3, 6]).map(|(part, n)| part * root(n)).sum();
-            // Each root is less than a unit below the true one.
+            // Each root is less than one unit below the true one.
             if value.abs() * &unit >= &irrational * (BigInt::one() << BITS) {
                 return value;
             }
@@ -101,12 +102,12 @@ impl Surd {
         }
     }
 
-    /// The number in double precision.
+    /// The number as a double.
     pub fn double(&self) -> f64 {
         self.value().to_f64().unwrap_or(f64::NAN)
     }
 
-    /// The number itself when it is rational and its denominator not long, else a rational one within 2^-80.
+    /// The number itself if it is rational with a short denominator, else a rational one within 2^-80.
     pub fn nearby(&self) -> BigRational {
         match self.rational() {
             Some(rational) if rational.denom().bits() <= LONGEST => rational.clone(),
@@ -114,8 +115,8 @@ impl Surd {
         }
     }
 
-    /// The number itself while its denominators are not long, else a rational one within 2^-80: products of general rotations
-    /// would grow without end.
+    /// The number itself if its denominators are short, else a rational one within 2^-80. Otherwise products of general
+    /// rotations would grow without limit.
     pub fn shortened(self) -> Surd {
         let is_short = self.parts.iter().all(|part| part.denom().bits() <= LONGEST);
         if is_short { self } else { Surd::from(&nearest(&self.value())) }
@@ -140,13 +141,13 @@ impl From<&BigRational> for Surd {
 /// Three coordinates.
 pub type SurdVector = [Surd; 3];
 
-/// The same vector.
+/// Converts a rational vector.
 pub fn surds(vector: &ExactVector) -> SurdVector {
     vector.each_ref().map(Surd::from)
 }
 
-/// The unit vector of which `axis` is the decimal, to four places at least, when its entries are 0, 1/2, sqrt 2 / 2, sqrt 3 / 2 or 1
-/// up to sign and its direction is not rational.
+/// The unit vector of which `axis` is the decimal, to four places at least. Its entries must be 0, 1/2, sqrt 2 / 2,
+/// sqrt 3 / 2 or 1 up to sign, and its direction irrational.
 pub fn recognised(axis: &ExactVector) -> Option<SurdVector> {
     let half = Surd::from(&BigRational::new(1.into(), 2.into()));
     let known = [Surd::of(0, 0, 0), Surd::of(1, 0, 0), Surd::of(0, 1, 0), Surd::of(0, 0, 1), Surd::of(2, 0, 0)];
@@ -159,7 +160,7 @@ pub fn recognised(axis: &ExactVector) -> Option<SurdVector> {
     (!is_rational && square == Surd::of(1, 0, 0)).then_some(unit)
 }
 
-/// The direction of a vector that is not zero: its entries over the greatest one's magnitude.
+/// The direction of a nonzero vector: its entries divided by the magnitude of the greatest one.
 pub fn directed(vector: &SurdVector) -> SurdVector {
     let sizes = vector.each_ref().map(|entry| entry.double());
     let greatest = (0..3).max_by(|&i, &j| sizes[i].abs().total_cmp(&sizes[j].abs())).unwrap_or(0);

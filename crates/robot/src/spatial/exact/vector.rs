@@ -1,4 +1,4 @@
-//! Exact vectors: sums, products and lines, for what must be zero or not.
+//! Exact vectors: sums, products and lines, for exact zero tests.
 
 use num_traits::{ToPrimitive, Zero};
 
@@ -44,17 +44,17 @@ pub fn length(a: &ExactVector) -> f64 {
     root(&dot(a, a))
 }
 
-/// The square root of a number that is not negative.
+/// The square root of a nonnegative number.
 pub fn root(square: &BigRational) -> f64 {
     square.to_f64().unwrap_or(f64::INFINITY).sqrt()
 }
 
-/// The square root of a quotient, without its greatest divisor.
+/// The square root of a quotient that is not reduced to lowest terms.
 fn ratio(a: &BigRational, b: &BigRational) -> f64 {
     root(&BigRational::new_raw(a.numer() * b.denom(), a.denom() * b.numer()))
 }
 
-/// The sine of the angle between two vectors that are not zero, not negative; exactly zero when they are parallel.
+/// The nonnegative sine of the angle between two nonzero vectors; exactly zero when they are parallel.
 pub fn sine(a: &ExactVector, b: &ExactVector) -> f64 {
     share(a, b, |product, lengths| lengths - product)
 }
@@ -64,7 +64,8 @@ pub fn cosine(a: &ExactVector, b: &ExactVector) -> f64 {
     share(a, b, |product, _| product.clone())
 }
 
-/// The square root of `part` over |a|^2 |b|^2, given (a . b)^2 and that: in whole numbers, which need no greatest divisors.
+/// The square root of `part` divided by |a|^2 |b|^2. `part` gets (a . b)^2 and this product, in integers, which need no
+/// gcd.
 fn share(a: &ExactVector, b: &ExactVector, part: impl Fn(&BigInt, &BigInt) -> BigInt) -> f64 {
     let [a, b] = [a, b].map(|vector| over_common(vector.each_ref()).0);
     let dot = |a: &[BigInt; 3], b: &[BigInt; 3]| -> BigInt { a.iter().zip(b).map(|(x, y)| x * y).sum() };
@@ -82,19 +83,19 @@ pub struct Line {
 }
 
 impl Line {
-    /// The point of the line that is nearest to `p`.
+    /// The point of the line nearest to `p`.
     pub fn foot(&self, p: &ExactVector) -> ExactVector {
         let along = dot(&sub(p, &self.point), &self.direction) / dot(&self.direction, &self.direction);
         add(&self.point, &scale(&self.direction, &along))
     }
 
-    /// The distance of `p`; exactly zero on the line.
+    /// The distance of `p` from the line; exactly zero on the line.
     pub fn distance(&self, p: &ExactVector) -> f64 {
         let moment = cross(&sub(p, &self.point), &self.direction);
         ratio(&dot(&moment, &moment), &dot(&self.direction, &self.direction))
     }
 
-    /// The point of this line that is nearest to a line that is not parallel to it.
+    /// The point of this line nearest to another line that is not parallel.
     pub fn nearest(&self, other: &Line) -> ExactVector {
         let normal = cross(&self.direction, &other.direction);
         let apart = sub(&other.point, &self.point);
@@ -102,7 +103,7 @@ impl Line {
         add(&self.point, &scale(&self.direction, &along))
     }
 
-    /// The distance of a line that is not parallel to this one; exactly zero when they meet.
+    /// The distance from a line that is not parallel; exactly zero when they intersect.
     pub fn gap(&self, other: &Line) -> f64 {
         let normal = cross(&self.direction, &other.direction);
         let volume = dot(&sub(&other.point, &self.point), &normal);

@@ -1,4 +1,5 @@
-//! Four circles: degenerate ones, bad numbers, the number of answers by the oracle. The families are in `subproblems_record`.
+//! Four circles: degenerate cases, invalid numbers, and the number of solutions by the oracle. The families are in
+//! `subproblems_record`.
 
 use groebot_robot::kinematics::oracle::Oracle;
 use groebot_robot::kinematics::screw::circles::{four_circles, three_circles};
@@ -44,7 +45,7 @@ fn the_oracle_finds_as_many_for_four_circles() {
     }
 }
 
-/// One equation knows the first angle only: it has two values, and the other equation two for each.
+/// One equation contains the first angle only: it has two solutions, and the other equation two for each.
 #[test]
 fn equations_that_part() {
     let (x, z) = (Vector3::x(), Vector3::z_axis());

@@ -1,4 +1,4 @@
-//! The screw solver on random chains of each family that it is to solve, not only on known robots.
+//! The screw solver on random chains of each family that it must solve, not only on known robots.
 
 use groebot_algebra::number::BigRational;
 use groebot_robot::kinematics::screw::ScrewSolver;
@@ -12,7 +12,7 @@ use super::solver::{configurations, distance, matching, sigma, worst_residual};
 
 type Vector = [i64; 3];
 
-/// A vector of hundredths.
+/// A vector with entries in hundredths.
 fn vector() -> impl Strategy<Value = Vector> {
     [-100_i64..=100, -100..=100, -100..=100]
 }
@@ -26,7 +26,7 @@ fn exact(v: &Vector) -> ExactVector {
     v.map(|x| BigRational::new(x.into(), 100.into()))
 }
 
-/// A joint by its axis and a point; a prismatic one has no point.
+/// A joint with its axis and a point; a prismatic joint has no point.
 type Placed = (Vector, Option<Vector>);
 
 fn chain(joints: &[Placed], tip: Vector, task: Task) -> Chain {
@@ -63,7 +63,8 @@ fn check(name: &str, cases: u32, chains: impl Strategy<Value = Chain>, most: usi
         let q = proptest::collection::vec(configurations(&chain), 4);
         (Just(chain), q)
     });
-    // The same chains each time: next to singular poses residuals reach some 1e-12, one run in fifty beyond the limit.
+    // The same chains each time. Near singular poses residuals reach some 1e-12, and one run in fifty would exceed the
+    // limit.
     let config = Config { max_shrink_iters: 50, rng_seed: RngSeed::Fixed(5), ..Config::with_cases(cases) };
     let mut runner = TestRunner::new(config);
     let outcome = runner.run(&inputs, |(chain, configurations)| {
@@ -88,12 +89,12 @@ fn check(name: &str, cases: u32, chains: impl Strategy<Value = Chain>, most: usi
     }
 }
 
-/// `count` joints anywhere.
+/// `count` joints at any position.
 fn anywhere(count: usize) -> impl Strategy<Value = Vec<Placed>> {
     proptest::collection::vec((direction(), vector().prop_map(Some)), count)
 }
 
-/// Three joints whose axes meet.
+/// Three joints with intersecting axes.
 fn wrist() -> impl Strategy<Value = Vec<Placed>> {
     ([direction(), direction(), direction()], vector())
         .prop_filter("parallel neighbours", |(w, _)| apart(&w[0], &w[1]) && apart(&w[1], &w[2]))
@@ -113,7 +114,7 @@ fn parallel(count: usize) -> impl Strategy<Value = Vec<Placed>> {
         .prop_map(|(w, points)| points.into_iter().map(|point| (w, Some(point))).collect())
 }
 
-/// Joints that turn (true) or slide, anywhere.
+/// Joints that are revolute (true) or prismatic, at any position.
 fn mixed(kinds: Vec<bool>) -> impl Strategy<Value = Vec<Placed>> {
     let joints = kinds
         .into_iter()

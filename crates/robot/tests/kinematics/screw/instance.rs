@@ -1,4 +1,4 @@
-//! Random subproblems whose answer is known by construction, and what a solver's answers to them are worth.
+//! Random subproblems with a solution known by construction, and the quality of a solver's solutions.
 
 use groebot_robot::kinematics::oracle::{Oracle, Unknown};
 use groebot_robot::kinematics::screw::values::{Answers, Values};
@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Point3, Unit, Vector3};
 
 use super::turned;
 
-/// A stream of numbers that is the same for the same seed: splitmix64 (Steele, Lea and Flood 2014).
+/// A random stream that depends on the seed only: SplitMix64 (Steele, Lea and Flood 2014).
 pub struct Random(pub u64);
 
 impl Random {
@@ -45,7 +45,7 @@ impl Random {
         }
     }
 
-    /// A direction across `w`.
+    /// A direction perpendicular to `w`.
     pub fn across(&mut self, w: &Vector3<f64>) -> Unit<Vector3<f64>> {
         loop {
             let v = w.cross(&self.vector());
@@ -63,7 +63,7 @@ impl Random {
         Axis::central(self.direction()).shifted(&self.vector())
     }
 
-    /// A joint that turns or slides.
+    /// A revolute or prismatic joint.
     pub fn screw(&mut self, turns: bool) -> Screw {
         if turns { Screw::Revolute(self.axis()) } else { Screw::Prismatic(self.direction()) }
     }
@@ -82,28 +82,28 @@ pub fn carried(screws: &[Screw], q: &[f64], p: &Point3<f64>) -> Point3<f64> {
     screws.iter().zip(q).rev().fold(*p, |x, (screw, q)| moved(screw, *q, &x))
 }
 
-/// What a subproblem asks for.
+/// A subproblem.
 pub struct Question<'a> {
     /// The unit of each unknown: one radian, or the size of the problem for a displacement.
     pub units: &'a [f64],
     /// Which unknowns are angles.
     pub turns: &'a [bool],
-    /// What is to vanish, relative to the size of the problem.
+    /// The residuals, relative to the size of the problem.
     pub misses: &'a dyn Fn(&[f64]) -> Vec<f64>,
 }
 
-/// What the answers to a question with a known answer are worth.
+/// Quality of the solutions to a subproblem with a known solution.
 #[derive(Debug)]
 pub struct Verdict {
-    /// The relative residual of each answer.
+    /// The relative residual of each solution.
     pub residuals: Vec<f64>,
-    /// How far the known answer is from the nearest one, in the unknowns' units.
+    /// Distance of the known solution from the nearest one, in the unknowns' units.
     pub nearest: f64,
-    /// The smallest singular value of the derivative at the known answer, or less.
+    /// A lower bound of the smallest singular value of the derivative at the known solution.
     pub sigma: f64,
-    /// The smallest distance of two answers.
+    /// The smallest distance of two solutions.
     pub apart: f64,
-    /// Whether all angles lie in (-pi, pi].
+    /// Whether all angles are in (-pi, pi].
     pub in_range: bool,
 }
 
@@ -113,8 +113,8 @@ impl Question<'_> {
         (0..a.len()).map(|i| part(i).abs()).fold(0.0, f64::max)
     }
 
-    /// A lower bound of the smallest singular value of the derivative at `q`: its volume through its length. By central
-    /// differences and a QR decomposition.
+    /// A lower bound of the smallest singular value of the derivative at `q`: its volume divided by its length. By
+    /// central differences and a QR decomposition.
     pub fn sigma(&self, q: &[f64]) -> f64 {
         const STEP: f64 = 1e-5;
         let column = |i: usize| {
@@ -133,7 +133,7 @@ impl Question<'_> {
         volume / length.powi(q.len() as i32 - 1)
     }
 
-    /// Euclidean norm of what is missed.
+    /// Euclidean norm of the residual.
     pub fn residual(&self, q: &[f64]) -> f64 {
         (self.misses)(q).iter().map(|miss| miss * miss).sum::<f64>().sqrt()
     }
@@ -141,7 +141,7 @@ impl Question<'_> {
     pub fn judge(&self, known: &[f64], answers: &[Vec<Option<f64>>]) -> Verdict {
         let filled = |answer: &Vec<Option<f64>>| answer.iter().map(|q| q.unwrap_or(0.0)).collect::<Vec<_>>();
         let list: Vec<Vec<f64>> = answers.iter().map(filled).collect();
-        // An answer with a free joint stands for a curve of answers.
+        // A solution with a free joint represents a curve of solutions.
         let is_free = answers.iter().flatten().any(Option::is_none);
         let near = |a: &Vec<f64>| if is_free { 0.0 } else { self.distance(a, known) };
         let pairs = (0..list.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
@@ -157,14 +157,14 @@ impl Question<'_> {
 }
 
 impl Verdict {
-    /// Whether the known answer is not among those found. What is reached may miss by the tolerance, 1e-12 of the size: that
-    /// displaces a simple answer by 1e-12 / sigma, and two that meet, at a curvature c, by sqrt(1e-12 / c).
+    /// Whether the known solution is missing. A residual may reach the tolerance, 1e-12 of the size. It displaces a
+    /// simple solution by 1e-12 / sigma, and a double solution with curvature c by sqrt(1e-12 / c).
     pub fn is_lost(&self) -> bool {
         self.nearest > 1e-9 + (1e-12 / self.sigma).min(1e-2)
     }
 }
 
-/// One value of one joint each.
+/// The values of one joint as solutions.
 pub fn list(values: Values) -> Vec<Vec<Option<f64>>> {
     match values {
         Values::Free => vec![vec![None]],
@@ -172,7 +172,7 @@ pub fn list(values: Values) -> Vec<Vec<Option<f64>>> {
     }
 }
 
-/// Judges answers to `screws p = k`.
+/// Evaluates solutions of `screws p = k`.
 pub fn judge<const N: usize>(
     screws: &[Screw; N],
     p: &Point3<f64>,
@@ -188,14 +188,14 @@ pub fn judge<const N: usize>(
     Question { units: &units, turns: &turns, misses: &misses }.judge(known, &answers)
 }
 
-/// The size of a subproblem of several joints, as `values.rs` has it: the largest distance of p and k from the axes' points
+/// The size of a subproblem of several joints as in `values.rs`: the largest distance of p and k from the axes' points
 /// and from each other.
 pub fn size(screws: &[Screw], p: &Point3<f64>, k: &Point3<f64>) -> f64 {
     let centres = screws.iter().filter_map(|screw| screw.axis()).map(Axis::point);
     centres.map(|c| (p - c).norm().max((k - c).norm())).fold((k - p).norm(), f64::max)
 }
 
-/// The smallest distance from `k` on a grid of `steps` values of each joint, displacements up to 3.
+/// The smallest distance from `k` on a grid of `steps` values of each joint, with displacements up to 3.
 pub fn least_distance(screws: &[Screw], p: &Point3<f64>, k: &Point3<f64>, steps: usize) -> f64 {
     let value = |i: usize, number: usize| {
         let share = (number / steps.pow(i as u32) % steps) as f64 / steps as f64;
@@ -208,7 +208,7 @@ pub fn least_distance(screws: &[Screw], p: &Point3<f64>, k: &Point3<f64>, steps:
     (0..steps.pow(screws.len() as u32)).map(distance).fold(f64::INFINITY, f64::min)
 }
 
-/// How many answers the numeric oracle finds to `screws p = k`.
+/// The number of solutions of `screws p = k` that the numeric oracle finds.
 pub fn oracle_count(screws: &[Screw], p: &Point3<f64>, k: &Point3<f64>) -> usize {
     let unknown = |screw: &Screw| match screw {
         Screw::Revolute(_) => Unknown::Angle,
@@ -220,7 +220,7 @@ pub fn oracle_count(screws: &[Screw], p: &Point3<f64>, k: &Point3<f64>) -> usize
     oracle.search(&unknowns, miss).unwrap().len()
 }
 
-/// The same joint in a world `unit` times as large.
+/// Same joint, but scaled by `unit`.
 pub fn scaled(screw: &Screw, unit: f64) -> Screw {
     match screw {
         Screw::Revolute(axis) => {

@@ -18,7 +18,7 @@ mod two_link;
 use groebot_robot::spatial::{Axis, angle};
 use nalgebra::{Point3, Rotation3, Vector3};
 
-/// `p` turned about `axis`, by nalgebra's rotation: shares no code with `Axis::rotate`.
+/// `p` rotated about `axis` by nalgebra's rotation, independently of `Axis::rotate`.
 fn turned(axis: &Axis, angle: f64, p: &Point3<f64>) -> Point3<f64> {
     axis.point() + Rotation3::from_axis_angle(&axis.direction(), angle) * (p - axis.point())
 }

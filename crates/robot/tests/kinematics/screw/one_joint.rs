@@ -1,5 +1,5 @@
-//! The subproblems of one joint that turns a point: angles known by construction, answers checked by moving, both ends of the reach, and
-//! what the printed formulas lose.
+//! The subproblems of one revolute joint and a point: angles known by construction, solutions checked by rotation, both
+//! ends of the reach, and errors of the printed formulas.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -25,12 +25,13 @@ fn point(size: f64) -> impl Strategy<Value = Point3<f64>> {
     vector(size).prop_map(Point3::from)
 }
 
-/// Distance of `p` from the line.
+/// Distance of `p` from the axis.
 fn radius(axis: &Axis, p: &Point3<f64>) -> f64 {
     axis.direction().cross(&(p - axis.point())).norm()
 }
 
-/// Checks that every answer lies in (-pi, pi] and reaches `delta` within `tolerance` * size; of a free angle, some.
+/// Checks that every solution is in (-pi, pi] and reaches `delta` within `tolerance` * size; for a free angle, checks
+/// some values.
 fn check(angles: Values, axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, delta: f64, tolerance: f64) {
     let some: &[f64] = if angles == Values::Free { &[0.0, 1.0, PI, -2.0] } else { &[] };
     for angle in angles.iter().chain(some.iter().copied()) {
@@ -57,7 +58,7 @@ fn all_four_quadrants() {
 
 #[test]
 fn a_right_triangle_gives_right_angles() {
-    // Radii 3 and 4 at a distance of 5 enclose a right angle, on either side.
+    // Radii 3 and 4 at a distance of 5 enclose a right angle, on both sides.
     let (p, k) = (Point3::new(4.0, 2.0, 0.0), Point3::new(5.0, 2.0, 0.0));
     let Values::Two(ahead, behind) = rotate_to_distance(&upright(), &p, &k, 5.0) else { panic!("two angles") };
     assert!((ahead - FRAC_PI_2).abs() < 1e-15 && (behind + FRAC_PI_2).abs() < 1e-15);
@@ -122,7 +123,7 @@ fn any_magnitude_will_do() {
     }
 }
 
-/// Near an end, inside by 10^-k: two answers or the merged one; outside: none, or the end within 1e-12.
+/// Near an end, inside by 10^-k: two solutions or the merged one. Outside: none, or the end within 1e-12.
 #[test]
 fn the_boundary_is_crossed_in_order() {
     let axis = Axis::new(Vector3::new(1.0, -2.0, 0.5), Point3::new(0.3, 0.1, -0.2)).unwrap();
@@ -149,7 +150,7 @@ fn the_boundary_is_crossed_in_order() {
     }
 }
 
-/// A point leaves the axis by 10^-k: the constructing angle stays among the answers, and they stay accurate.
+/// A point moves off the axis by 10^-k: the known angle stays among the solutions, and they stay accurate.
 #[test]
 fn the_axis_is_left_in_order() {
     let k = Point3::new(1.0, 5.0, 0.0);
@@ -160,13 +161,13 @@ fn the_axis_is_left_in_order() {
         let angles = rotate_to_distance(&upright(), &p, &k, delta);
         let found = angles == Values::Free || angles.iter().any(|angle| same(angle, 0.7, 1e-14 / offset));
         assert!(found, "{exponent}: {angles:?}");
-        // The circle changes the distance by twice the offset, of a size of three metres.
+        // The circle changes the distance by twice the offset, relative to a size of three metres.
         assert_eq!(angles == Values::Free, 2.0 * offset < 3e-12, "{exponent}: {angles:?}");
         check(angles, &upright(), &p, &k, delta, if angles == Values::Free { 1e-12 } else { 1e-15 });
     }
 }
 
-/// sign(v.(k - p)) v.(p - k) +- l loses both values where k lies ahead.
+/// sign(v.(k - p)) v.(p - k) +- l loses both values where k is ahead.
 #[test]
 fn rh0_2_35_as_printed_is_wrong_along_the_direction() {
     let mut random = Random(2);
@@ -186,7 +187,7 @@ fn rh0_2_35_as_printed_is_wrong_along_the_direction() {
     }
 }
 
-/// The arc cosine of RH0 (2-33) has no value at many ends of the reach, and loses digits near them.
+/// The arc cosine of RH0 (2-33) is undefined at many ends of the reach, and loses digits near them.
 #[test]
 fn rh0_2_33_fails_at_the_ends() {
     let mut random = Random(3);
@@ -230,7 +231,7 @@ proptest! {
         let tangent = axis.direction().cross(&(on_circle - axis.point())).normalize();
         let off_circle = by - tangent * tangent.dot(&by);
         prop_assume!(off_circle.norm() > 1e-3);
-        // Steps straight across the axis and back onto the circle are not off it.
+        // Steps straight across the axis and back to the circle are not off the circle.
         let k = on_circle + off_circle;
         let height = axis.direction().dot(&(k - p));
         prop_assume!(height.hypot(radius(&axis, &k) - radius(&axis, &p)) > 1e-6);
@@ -243,7 +244,7 @@ proptest! {
         let angles = rotate_to_distance(&axis, &p, &k, delta);
         prop_assert!(angles != Values::None);
         check(angles, &axis, &p, &k, delta, 1e-14);
-        // How fast the distance changes with the angle, at the known angle.
+        // The derivative of the distance by the angle, at the known angle.
         let radial = (turned(&axis, theta, &p) - k) / delta;
         let slope = radial.dot(&axis.direction().cross(&(turned(&axis, theta, &p) - axis.point()))).abs();
         let found = angles.iter().any(|angle| same(angle, theta, (1e-14 / slope).max(1e-9)));

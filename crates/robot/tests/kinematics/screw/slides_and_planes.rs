@@ -1,4 +1,5 @@
-//! The subproblems of one joint with planes and slides: both ends of the reach, free values, and the nearest value out of reach.
+//! The subproblems of one joint with planes and prismatic joints: both ends of the reach, free values, and the nearest
+//! value out of reach.
 
 use std::f64::consts::PI;
 
@@ -64,7 +65,7 @@ fn a_line_along_the_axis_follows_its_point() {
     assert_eq!(solve(1.0).iter().count(), 2);
     assert_eq!(solve(3.0), Values::One(0.0));
     assert_eq!(solve(3.1), Values::None);
-    // The plane z = 0 never holds a line along z.
+    // The plane z = 0 never contains a line along z.
     let (n, point) = level(0.0);
     assert_eq!(one_joint::rotate_line_to_plane(&upright(), &line, &n, &point, Reach::EXACT), Values::None);
 }
@@ -98,7 +99,7 @@ fn a_slide_past_a_point_touches_its_sphere_once() {
     }
 }
 
-/// The nearest angle or displacement, against 20000 values.
+/// The nearest angle or displacement, compared with 20000 values.
 #[test]
 fn closest_is_no_farther_than_any_value_of_a_scan() {
     let mut random = Random(1);

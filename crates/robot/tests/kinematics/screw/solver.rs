@@ -1,4 +1,5 @@
-//! The screw solver on robots whose joint values are known: they are among the answers, and every answer reaches the pose.
+//! The screw solver on robots with known joint values: these are among the solutions, and every solution reaches the
+//! pose.
 
 use std::f64::consts::PI;
 
@@ -13,12 +14,12 @@ use proptest::test_runner::{Config, TestRunner};
 
 use Subproblem::{PadenKahan1, PadenKahan2, PadenKahan3, PardosOne};
 
-/// The reach, or one for a chain that only turns its tip.
+/// The reach, or one for a chain that only rotates its tip.
 pub fn reach(chain: &Chain) -> f64 {
     if chain.reach() > 0.0 { chain.reach() } else { 1.0 }
 }
 
-/// Joint values of `chain` in general: angles in (-pi, pi), displacements within 1.5 reaches.
+/// General joint values of `chain`: angles in (-pi, pi), displacements within 1.5 reaches.
 pub fn configurations(chain: &Chain) -> impl Strategy<Value = Vec<f64>> + use<> {
     let reach = reach(chain);
     let slides: Vec<bool> = chain.screws().iter().map(|screw| screw.axis().is_none()).collect();
@@ -45,7 +46,7 @@ pub fn sigma(chain: &Chain, q: &[f64], with_rotation: bool) -> f64 {
     smallest_singular_value(jacobian)
 }
 
-/// By one-sided Jacobi rotations (Hestenes 1958), which keep small singular values accurate.
+/// By one-sided Jacobi rotations (Hestenes 1958), which compute small singular values accurately.
 fn smallest_singular_value(mut a: DMatrix<f64>) -> f64 {
     for _ in 0..30 {
         for i in 0..a.ncols() {
@@ -61,7 +62,7 @@ fn smallest_singular_value(mut a: DMatrix<f64>) -> f64 {
     a.column_iter().map(|column| column.norm()).fold(f64::INFINITY, f64::min)
 }
 
-/// How far two joint vectors are apart: radians, or reaches for displacements.
+/// The distance of two joint vectors: radians, or reaches for displacements.
 pub fn distance(chain: &Chain, a: &[f64], b: &[f64]) -> f64 {
     let one = |(screw, (a, b)): (&Screw, (&f64, &f64))| match screw.axis() {
         Some(_) => angle::difference(*a, *b).abs(),
@@ -70,7 +71,7 @@ pub fn distance(chain: &Chain, a: &[f64], b: &[f64]) -> f64 {
     chain.screws().iter().zip(a.iter().zip(b)).map(one).fold(0.0, f64::max)
 }
 
-/// The largest relative residual of the answers, measured here by the chain's own forward kinematics.
+/// The largest relative residual of the solutions, measured by the chain's own forward kinematics.
 pub fn worst_residual(chain: &Chain, target: &Target, answers: &[Solution]) -> f64 {
     let miss = |answer: &Solution| {
         let reached = Target::reached(chain, &answer.q).unwrap();
@@ -93,15 +94,16 @@ pub fn worst_residual(chain: &Chain, target: &Target, answers: &[Solution]) -> f
     answers.iter().map(miss).fold(0.0, f64::max)
 }
 
-/// How near the known answer must come, as the design defines it: 1e-9 rad in general position, else by the singular value.
+/// The required distance of the known solution, as defined in the design: 1e-9 rad in general position, else by the
+/// singular value.
 pub fn matching(sigma: f64) -> f64 {
     if sigma > 1e-3 { 1e-9 } else { (1e-13 / sigma).max(1e-7) }
 }
 
-/// The subproblems of a plan, each with the joints that it solves.
+/// The subproblems of a plan, each with its joints.
 type Told = Vec<(Subproblem, Vec<usize>)>;
 
-/// All robots with the subproblems of their plans and the joints that these solve.
+/// All robots with the subproblems of their plans and the joints of each.
 fn plans() -> Vec<(Chain, Told)> {
     // RH0 A.2: ..(A-25), and in the same order RH0 (3-15)..(3-22) and (3-30)..(3-37).
     let puma =
@@ -138,7 +140,7 @@ fn plans_are_those_of_the_thesis() {
     }
 }
 
-/// Checks that `q` is among the answers for the target that it reaches, and that every answer reaches it.
+/// Checks that `q` is among the solutions for the target that it reaches, and that every solution reaches it.
 fn check(solver: &ScrewSolver, q: &[f64]) -> Result<Vec<Solution>, TestCaseError> {
     let chain = solver.chain();
     let target = Target::reached(chain, q).unwrap();
@@ -150,7 +152,7 @@ fn check(solver: &ScrewSolver, q: &[f64]) -> Result<Vec<Solution>, TestCaseError
     Ok(answers)
 }
 
-/// Checks that the answers reach the target and are no more than the plan allows, none twice.
+/// Checks that the solutions reach the target, are no more than the plan permits, and are different.
 fn check_answers(solver: &ScrewSolver, target: &Target, answers: &[Solution]) -> Result<(), TestCaseError> {
     let chain = solver.chain();
     prop_assert!(answers.len() <= solver.plan().most_solutions());
@@ -201,7 +203,7 @@ fn the_oracle_finds_as_many_answers() {
     });
 }
 
-/// The numeric oracle's answers: damped least squares on forward kinematics from many seeds.
+/// The numeric oracle's solutions: damped least squares on forward kinematics from many starting points.
 pub fn oracle(chain: &Chain, target: &Target) -> Vec<Vec<f64>> {
     let unknowns: Vec<Unknown> = chain
         .screws()
@@ -291,7 +293,7 @@ fn poses_near_singular_ones_keep_their_answers() {
 
 #[test]
 fn a_free_joint_is_told_and_any_value_of_it_does() {
-    // The wrist is stretched: theta4 and theta6 turn about one line.
+    // The wrist is stretched: theta4 and theta6 rotate about one line.
     let solver = ScrewSolver::new(&robots::puma()).unwrap();
     let mut q = vec![0.4, -0.7, 1.1, 0.6, PI / 2.0, -0.5];
     let axis = |i: usize| robots::puma().screws()[i].axis().unwrap().direction();

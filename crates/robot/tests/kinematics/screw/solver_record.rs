@@ -1,6 +1,7 @@
-//! The counts of the record: 100,000 poses a robot, and 200 of them against the numeric oracle.
+//! The counts of the record: 100,000 poses for each robot, and 200 of them compared with the numeric oracle.
 //!
-//! `cargo test --release -- --ignored screw_record --nocapture` prints the rows of `benches/record/DATE-screw-solver.csv`.
+//! `cargo test --release -- --ignored screw_record --nocapture` prints the rows of
+//! `benches/record/DATE-screw-solver.csv`.
 
 use std::f64::consts::PI;
 

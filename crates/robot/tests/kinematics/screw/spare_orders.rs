@@ -1,5 +1,5 @@
-//! Targets at which a step of the screw solver's plan degenerates and the chain does not: axes with joints between them become
-//! parallel, so that a direction along them leaves a joint free which other equations determine.
+//! Targets at which a step of the screw solver's plan degenerates although the pose is not singular. Axes with joints
+//! between them become parallel, so a direction along them leaves a joint free that other equations determine.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -8,7 +8,7 @@ use groebot_robot::kinematics::{Chain, Target, Task};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-/// A table-top arm of five joints, metres: it turns, bends three times and rolls its tool.
+/// A table-top arm of five joints, in metres: yaw, three parallel pitch joints, and a roll of the tool.
 fn arm(task: &str) -> Chain {
     let joints = [
         ("[0, 0, 1]", "[0, 0, 0.1]"),
@@ -31,13 +31,13 @@ fn arm(task: &str) -> Chain {
 const POSE: &str = "{ kind = \"pose\" }";
 const RAY: &str = "{ kind = \"ray\", direction = [1, 0, 0] }";
 
-/// How far apart two configurations are [rad].
+/// The distance of two configurations \[rad\].
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| groebot_robot::spatial::angle::difference(*a, *b).abs()).fold(0.0, f64::max)
 }
 
-/// The arm's answers: the plane of the arm has two bearings, the elbow two bends; along a ray, the tool points two ways in that
-/// plane.
+/// Numbers of the arm's solutions: the plane of the arm has two azimuths, and the elbow two solutions. For a ray, the
+/// tool has two directions in this plane.
 fn most(chain: &Chain) -> usize {
     if chain.task() == Task::Pose { 4 } else { 8 }
 }
@@ -66,7 +66,8 @@ fn an_upright_tool_leaves_no_joint_free() {
             let q4 = sum - q2 - q3 + [0.0, 1e-9, 1e-6, 1e-3][near];
             let radius = 0.033 + 0.155 * q2.sin() + 0.135 * (q2 + q3).sin();
             prop_assume!(radius.abs() > 0.01 && q3.sin().abs() > 0.01);
-            // A ray's own turn is about the tool's x axis: it must not lie along the arm's three parallel axes either.
+            // The rotation about a ray is about the tool's x axis. It must not be parallel to the arm's three parallel
+            // axes either.
             prop_assume!(task == POSE || (q5 - FRAC_PI_2).sin().abs() > 0.01);
             assert_solved(&chain, &solver, &[q1, q2, q3, q4, q5])
         };
@@ -74,7 +75,7 @@ fn an_upright_tool_leaves_no_joint_free() {
     }
 }
 
-/// With the tool upright over the first axis, the first and the last joint truly turn about one line.
+/// With the tool vertical above the first axis, the first and the last joint rotate about one line.
 #[test]
 fn an_upright_tool_over_the_base_leaves_two_joints_free() {
     let chain = arm(POSE);

@@ -1,4 +1,4 @@
-//! Every family of subproblems on instances with a known answer: by a few hundred always, by 1e5 for `benches/record`.
+//! Every family of subproblems on instances with a known solution: a few hundred always, 1e5 for `benches/record`.
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
@@ -6,7 +6,7 @@ use proptest::test_runner::{Config, RngSeed, TestRunner};
 use super::instance::{Random, Verdict};
 use super::subproblem_families::{FOUR_CIRCLES, Family, ONE_JOINT, THREE_JOINTS, TWO_JOINTS};
 
-/// What is wrong with a verdict.
+/// The problem of a verdict, if there is one.
 fn complaint(verdict: &Verdict) -> Option<&'static str> {
     let accurate = verdict.residuals.iter().all(|residual| *residual <= 1e-11);
     [
@@ -21,7 +21,8 @@ fn complaint(verdict: &Verdict) -> Option<&'static str> {
 
 fn check(families: &[Family], cases: u32) {
     for (name, instance) in families {
-        // The same instances each time: of 1e5 singular ones a few are lost (benches/record), which must not fail one run in fifty.
+        // The same instances each time. Of 1e5 singular ones a few are lost (benches/record), which must not fail one
+        // run in fifty.
         let config = Config { failure_persistence: None, rng_seed: RngSeed::Fixed(5), ..Config::with_cases(cases) };
         let outcome = TestRunner::new(config).run(&any::<u64>(), |seed| {
             let verdict = instance(&mut Random(seed));
@@ -54,10 +55,11 @@ fn four_circle_families() {
     check(FOUR_CIRCLES, 1000);
 }
 
-/// How many of the record's instances are known to be lost: two answers meet where the whole condition is small.
+/// Number of the record's instances that are known to be lost: two solutions coincide where the whole condition is
+/// small.
 const KNOWN_LOSSES: &[(&str, usize)] = &[("TTS singular", 1)];
 
-/// Prints a line of `benches/record`; what is wrong with it, if anything.
+/// Prints a line of `benches/record`. Returns its problem, if there is one.
 fn record(name: &str, verdicts: &[Verdict]) -> Option<String> {
     let mut residuals: Vec<f64> = verdicts.iter().flat_map(|verdict| &verdict.residuals).copied().collect();
     residuals.sort_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! Every described mechanism by the screw solver: rays, directions, rotations, and joints whose values are given.
+//! Every described mechanism with the screw solver: rays, directions, rotations, and given joints.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use proptest::test_runner::{Config, TestRunner};
 
 use crate::errors::assert_error;
 
-/// The chain of a folder of `derivations/`.
+/// Reads the chain of a folder in `derivations/`.
 fn described(name: &str) -> Chain {
     let file =
         Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("derivations").join(name).join("0_chain.toml");
@@ -20,10 +20,10 @@ fn described(name: &str) -> Chain {
     if text.contains("\ndh = ") { Chain::from_dh_toml(&text) } else { Chain::from_toml(&text) }.unwrap()
 }
 
-/// Each mechanism with the most answers that it has at one target. Six-joint arms with a spherical wrist, 8: Pieper 1968. NAO's
-/// arm as a ray, 8: the elbow lies on a circle about the ray and on a sphere about the shoulder (2), the shoulder's two axes place
-/// it (2), the elbow's two axes aim the forearm (2). Its position with ElbowYaw given, 4: the distance from the shoulder (2), then
-/// the shoulder's axes (2).
+/// Each mechanism with its maximum number of solutions for one target. Six-joint arms with a spherical wrist, 8: Pieper
+/// 1968. NAO's arm as a ray, 8: the elbow is on a circle about the ray and on a sphere about the shoulder (2), the
+/// shoulder's two axes move it there (2), the elbow's two axes aim the forearm (2). Its position with ElbowYaw given,
+/// 4: the distance from the shoulder (2), then the shoulder's axes (2).
 const DESCRIBED: [(&str, usize); 11] = [
     ("nao_left_arm", 8),
     ("nao_right_arm_position", 4),
@@ -38,7 +38,7 @@ const DESCRIBED: [(&str, usize); 11] = [
     ("upright_arm", 8),
 ];
 
-/// By how much the tip of `chain` at `q` misses what is asked: a length over the reach, or an angle.
+/// The residual of the tip of `chain` at `q`: a length divided by the reach, or an angle.
 fn miss(chain: &Chain, q: &[f64], target: &Target) -> f64 {
     let pose = chain.forward(q).unwrap();
     let aimed = pose.rotation * chain.aim().into_inner();
@@ -92,7 +92,7 @@ fn the_joints_that_made_a_target_are_among_its_answers() {
     }
 }
 
-/// NAO's head by hand: yaw turns about z, then pitch about y; the view is along x.
+/// NAO's head by hand: yaw rotates about z, then pitch about y. The view is along x.
 #[test]
 fn a_head_looks_two_ways() {
     let solver = ScrewSolver::new(&described("nao_head")).unwrap();

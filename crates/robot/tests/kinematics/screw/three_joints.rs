@@ -1,4 +1,5 @@
-//! The subproblems of three joints: degenerate ones by name, the nearest values, the number of answers by the oracle.
+//! The subproblems of three joints: degenerate cases by name, the nearest values, and the number of solutions by the
+//! oracle.
 
 use groebot_robot::kinematics::screw::three_joints::{
     rotate_skew_and_two_parallel, rotate_three_parallel_to_pose, three_screws_to_point,
@@ -9,7 +10,7 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use super::instance::{Random, carried, judge, least_distance, oracle_count, scaled, size};
 
-/// T for a joint that turns, in all eight orders.
+/// T is a revolute joint, in all eight combinations.
 fn kinds() -> impl Iterator<Item = [bool; 3]> + Clone {
     (0..8).map(|number| [0, 1, 2].map(|joint| number >> joint & 1 == 1))
 }
@@ -49,7 +50,7 @@ fn a_target_on_the_first_axis_leaves_it_free() {
     for turns in kinds().filter(|turns| turns[0]) {
         let mut screws = turns.map(|turns| random.screw(turns));
         let (p, q) = (random.point(), values(&mut random, turns));
-        // The first axis passes through what the others reach.
+        // The first axis passes through the point that the others reach.
         let k = carried(&screws[1..], &q[1..], &p);
         screws[0] = Screw::Revolute(Axis::central(random.direction()).shifted(&k.coords));
         let answers = solve(&screws, &p, &k, Reach::EXACT);
@@ -73,7 +74,8 @@ fn two_slides_along_one_direction_leave_the_second_free() {
     assert!(answers.iter().all(|answer| answer[1].is_none() && miss(&screws, answer, &p, &k) < 1e-12));
 }
 
-/// The third axis passes p, or the first one k, by 10^-e: the answer stays, up to where the axis counts as passing through.
+/// The third axis passes p, or the first one k, at a distance of 10^-e: the solution stays, down to the distance at
+/// which the axis counts as passing through.
 #[test]
 fn an_axis_leaves_its_point_in_order() {
     let mut random = Random(4);
@@ -104,7 +106,7 @@ fn targets_out_of_reach_have_no_answer() {
     }
 }
 
-/// An arm of lengths 1 and 1 on a turning base, 10^-e inside and outside of its longest reach.
+/// An arm with lengths 1 and 1 on a rotating base, 10^-e inside and outside its longest reach.
 #[test]
 fn the_longest_reach_is_crossed_in_order() {
     let axis = |w: Vector3<f64>, x: f64| Screw::revolute(w, Point3::new(x, 0.0, 0.0)).unwrap();

@@ -1,5 +1,5 @@
-//! The subproblems of two joints: degenerate ones by name, the border of the reach, the nearest values, and what the formulas
-//! for two axes in the literature lose.
+//! The subproblems of two joints: degenerate cases by name, the boundary of the reach, the nearest values, and errors
+//! of the literature's formulas for two axes.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -21,7 +21,7 @@ fn upright(x: f64, y: f64) -> Axis {
     Axis::new(Vector3::z(), Point3::new(x, y, 0.0)).unwrap()
 }
 
-/// The point that an answer reaches, free joints being at `free`.
+/// The point that a solution reaches, with free joints at `free`.
 fn reached(screws: &[Screw; 2], answer: &[Option<f64>; 2], p: &Point3<f64>) -> Point3<f64> {
     carried(screws, &answer.map(|q| q.unwrap_or(0.0)), p)
 }
@@ -91,7 +91,7 @@ fn a_stretched_elbow_has_one_answer() {
 fn meeting_axes_and_a_point_in_their_plane_have_one_answer() {
     let lying = Axis::new(Vector3::x(), Point3::origin()).unwrap();
     let screws = [upright(0.0, 0.0), lying].map(Screw::Revolute);
-    // The point is as high as it gets.
+    // The point is at its highest position.
     let p = Point3::new(1.0, 2.0, 0.0);
     let k = turned(&upright(0.0, 0.0), 0.3, &turned(&lying, FRAC_PI_2, &p));
     let answers = solve(&screws, &p, &k, Reach::EXACT);
@@ -122,7 +122,8 @@ fn a_short_way_far_from_the_origin_is_reached() {
     }
 }
 
-/// Off the surface that p sweeps by 10^-e of the size: none where that is more than the reach allows, an answer where less.
+/// Targets off the surface that p sweeps, by 10^-e of the size: no solution where that exceeds the tolerance, a
+/// solution where it does not.
 #[test]
 fn targets_off_the_reach_are_refused_by_the_size() {
     let mut random = Random(2);
@@ -137,7 +138,7 @@ fn targets_off_the_reach_are_refused_by_the_size() {
         let off = k + normal * (10f64.powi(-exponent) * size);
         let count = solve(&screws, &p, &off, Reach::EXACT).len();
         match exponent {
-            // Over a long way the surface may come back.
+            // Over a large distance the surface may come back.
             ..6 => {}
             6..12 => assert_eq!(count, 0, "{turns:?} {exponent}"),
             12 => {}
@@ -148,7 +149,8 @@ fn targets_off_the_reach_are_refused_by_the_size() {
     }
 }
 
-/// Inside the end of the reach of an elbow by 10^-e: always answered, within the square root of the rounding.
+/// Targets inside the end of the reach of an elbow by 10^-e: always solved, within the square root of the rounding
+/// error.
 #[test]
 fn targets_inside_the_end_are_answered() {
     let screws = [upright(0.0, 0.0), upright(1.0, 0.0)].map(Screw::Revolute);
@@ -250,7 +252,7 @@ fn the_oracle_finds_as_many() {
     }
 }
 
-/// The points c of RH0 (2-31), with the denominator of alpha and beta in the reader's hand, and whether gamma is real.
+/// The points c of RH0 (2-31), with the denominator of alpha and beta as a parameter, and whether gamma is real.
 fn printed(
     axes: &[Axis; 2],
     r: [Point3<f64>; 2],
@@ -267,7 +269,7 @@ fn printed(
     [gamma, -gamma].map(|gamma| r[1] + w1 * alpha + w2 * beta + w1.cross(&w2) * gamma).into_iter().collect()
 }
 
-/// How far a point is from being both on the circle of p about the second axis and on that of k about the first.
+/// The distance of a point from the circle of p about the second axis and from that of k about the first.
 fn off_both(axes: &[Axis; 2], p: &Point3<f64>, k: &Point3<f64>, c: &Point3<f64>) -> f64 {
     let off = |axis: &Axis, x: &Point3<f64>| {
         let height = axis.direction().dot(&(c - x));
@@ -276,8 +278,8 @@ fn off_both(axes: &[Axis; 2], p: &Point3<f64>, k: &Point3<f64>, c: &Point3<f64>)
     off(&axes[1], p).max(off(&axes[0], k))
 }
 
-/// RH0 (2-31) holds where the axes meet, in r. For skew axes no common r exists, and with the feet of the common normal for it
-/// both points are beside the circles; the one common point is found.
+/// RH0 (2-31) is valid for axes that intersect in r. Skew axes have no common r, and with the feet of the common normal
+/// both points are off the circles. The one common point is found.
 #[test]
 fn rh0_2_31_holds_for_meeting_axes_only() {
     let mut random = Random(8);
@@ -305,8 +307,8 @@ fn rh0_2_31_holds_for_meeting_axes_only() {
     }
 }
 
-/// With 1 - w1.w2 for 1 - (w1.w2)^2, as public implementations of the skew problem have it, alpha and beta are wrong unless
-/// the axes are normal to each other.
+/// With 1 - w1.w2 instead of 1 - (w1.w2)^2, as in public implementations of the skew problem, alpha and beta are wrong
+/// unless the axes are normal to each other.
 #[test]
 fn one_minus_the_product_is_not_one_minus_its_square() {
     let mut random = Random(9);
@@ -325,7 +327,7 @@ fn one_minus_the_product_is_not_one_minus_its_square() {
             points.iter().map(|c| off_both(&axes, &p, &k, c)).fold(f64::INFINITY, f64::min)
         };
         trials += 1;
-        // Where gamma is not real, no point comes of it: the fold leaves infinity.
+        // Where gamma is not real there is no point, and the infinite distance stays.
         wrong += usize::from(best(dot - 1.0) >= 1e-3);
         assert!(best(dot * dot - 1.0) < 1e-6);
         assert!(!judge(&screws, &p, &k, &q, &solve(&screws, &p, &k, Reach::EXACT)).is_lost());

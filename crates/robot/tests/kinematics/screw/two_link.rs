@@ -19,7 +19,7 @@ fn leg(thigh: f64, shank: f64) -> TwoLink {
     TwoLink::new(hip, knee, Point3::new(0.0, 0.0, -thigh - shank)).unwrap()
 }
 
-/// Two axes and a tip: the links point anywhere across the axes, the points lie anywhere along them.
+/// Two axes and a tip. The links have any direction across the axes, and the points are anywhere along them.
 #[derive(Clone, Debug)]
 struct Arm {
     first: Axis,
@@ -37,7 +37,7 @@ impl Arm {
         turned(&self.first, q[0], &turned(&self.second, q[1], &self.tip))
     }
 
-    /// The smaller singular value of the Jacobian, over the reach: |det| = L1 L2 |sin|, divided by the larger.
+    /// The smaller singular value of the Jacobian, divided by the reach: |det| = L1 L2 |sin|, divided by the larger.
     fn sigma(&self, q: [f64; 2]) -> f64 {
         let tip = self.forward(q);
         let elbow = turned(&self.first, q[0], &self.second.point());
@@ -64,7 +64,7 @@ fn arm() -> impl Strategy<Value = Arm> {
     )
 }
 
-/// Checks every answer by forward kinematics; free joints take several angles.
+/// Checks every solution by forward kinematics; free joints take several angles.
 fn check(solver: &TwoLink, target: &Point3<f64>, answers: &[Solution], tolerance: f64) {
     assert!(answers.len() <= 2);
     assert!(answers.len() < 2 || answers.iter().all(|a| a.q[0].is_some()), "a free joint counts once: {answers:?}");
@@ -154,7 +154,7 @@ fn chains_that_are_not_planar_are_refused() {
     }
 }
 
-/// Targets cross both limits by 10^-k: two answers inside, the limit within 1e-12 of the reach, none outside.
+/// Targets cross both limits by 10^-k: two solutions inside, the limit within 1e-12 of the reach, none outside.
 #[test]
 fn the_limits_are_crossed_in_order() {
     for (thigh, shank) in [(0.1, 0.1029), (0.3, 0.05), (0.28, 0.28)] {
@@ -167,7 +167,7 @@ fn the_limits_are_crossed_in_order() {
                 let answers = arm.solve(&inside).unwrap();
                 check(&arm, &inside, &answers, 1e-12);
                 assert!(answers.len() == 2 || (answers.len() == 1 && exponent > 11), "{exponent}: {answers:?}");
-                // Beyond the fold of equal links lies the other side of the ring: nothing to test.
+                // Beyond the fold of equal links is the other side of the annulus: nothing to test.
                 let outside = limit - inwards * step;
                 if outside > 0.0 {
                     let outside = Point3::from(towards * outside);
@@ -180,7 +180,7 @@ fn the_limits_are_crossed_in_order() {
     }
 }
 
-/// Equal links near the base: every target is reached, the known angles while they are determined.
+/// Equal links near the base: every target is reached, with the known angles while they are determined.
 #[test]
 fn the_base_is_approached_in_order() {
     let arm = leg(0.28, 0.28);

@@ -1,14 +1,15 @@
-//! Gaussian elimination of rows of residues that remembers how they combine the vectors put in.
+//! Gaussian elimination of rows of residues with their combinations of the inserted vectors.
 
 use super::kernel::{Modulus, Sums, padded};
 
-/// Rows of a block are reduced by each other, so that their factors do not depend on each other.
+/// Rows of a block are reduced by one another, so that their factors do not depend on one another.
 const BLOCK: usize = 4;
 
-/// The independent vectors put in so far, in echelon form.
+/// The independent vectors inserted so far, in echelon form.
 ///
-/// Row `r` of block `b = r / BLOCK` has its pivot in column `r`, zeros in the columns before its block, and combines only the first
-/// `BLOCK (b + 1)` vectors. So one row holds both: the combination, then the columns from `BLOCK b` on, `BLOCK` places to the right.
+/// Row `r` of block `b = r / BLOCK` has its pivot in column `r`, zeros in the columns before its block, and combines
+/// only the first `BLOCK (b + 1)` vectors. So one row stores both: the combination, then the columns from `BLOCK b` on,
+/// shifted `BLOCK` positions to the right.
 #[derive(Clone, Debug)]
 pub(super) struct Elimination {
     modulus: Modulus,
@@ -16,13 +17,13 @@ pub(super) struct Elimination {
     stride: usize,
     rows: Vec<u32>,
     rank: usize,
-    /// The coordinate that each column holds.
+    /// The coordinate of each column.
     columns: Vec<usize>,
     sums: Sums,
 }
 
 impl Elimination {
-    /// No vector of `dimension` coordinates.
+    /// An empty elimination for vectors with `dimension` coordinates.
     pub fn new(modulus: Modulus, dimension: usize) -> Self {
         let stride = padded(dimension + BLOCK);
         let sums = Sums::new(modulus, stride);
@@ -34,8 +35,8 @@ impl Elimination {
         self.rank
     }
 
-    /// Takes `vector` in when it is independent. Else returns the factors `c` with `vector + sum of c[k] * (k-th independent
-    /// vector) = 0`.
+    /// Inserts `vector` when it is independent. Otherwise returns the factors `c` with `vector + sum of c[k] * (k-th
+    /// independent vector) = 0`.
     pub fn insert(&mut self, vector: &[u32]) -> Option<Vec<u32>> {
         self.reduce(vector);
         let row = self.sums.residues();
@@ -48,7 +49,7 @@ impl Elimination {
         }
     }
 
-    /// Leaves in `sums` the vector with zeros at all pivots, and the combination that was added.
+    /// Computes in `sums` the vector with zeros at all pivots, and the combination that was added.
     fn reduce(&mut self, vector: &[u32]) {
         self.sums.clear(0..self.stride);
         for (lo, &coordinate) in self.sums.lo[BLOCK..].iter_mut().zip(&self.columns) {
@@ -65,7 +66,7 @@ impl Elimination {
         }
     }
 
-    /// Takes in a reduced row that is not zero in column `pivot`.
+    /// Inserts a reduced row that is not zero in column `pivot`.
     fn adjoin(&mut self, mut row: Vec<u32>, pivot: usize) {
         let (rank, block) = (self.rank, self.rank / BLOCK * BLOCK);
         row[rank] = 1;

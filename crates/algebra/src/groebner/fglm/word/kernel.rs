@@ -1,10 +1,11 @@
-//! Sums of products of residues below 2^31, with the division by the prime put off to the end.
+//! Sums of products of residues below 2^31, reduced modulo the prime at the end.
 //!
-//! Four products fit a 64-bit word. Each such sum is split into its halves, which are added up apart: `hi * 2^32 + lo`.
+//! Four products fit a 64-bit word. Each such sum is split into two halves, which are accumulated separately: `hi *
+//! 2^32 + lo`.
 
 use crate::number::word::Prime;
 
-/// Numbers of residues in a padded row are multiples of this.
+/// The length of a padded row is a multiple of this.
 pub(super) const LANES: usize = 32;
 
 const LOW: u64 = 0xffff_ffff;
@@ -14,7 +15,7 @@ pub(super) fn padded(length: usize) -> usize {
     length.next_multiple_of(LANES)
 }
 
-/// The vector instructions that this machine has.
+/// The vector instruction set of this machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Level {
     Portable,
@@ -25,7 +26,7 @@ pub(super) enum Level {
 }
 
 impl Level {
-    /// Asks the machine.
+    /// Detects the instruction set.
     pub fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         {
@@ -40,7 +41,7 @@ impl Level {
     }
 }
 
-/// One body compiled for each level; the level picks at run time.
+/// Compiles one body for each level and selects it at run time.
 macro_rules! kernel {
     ($(#[$text:meta])* fn $name:ident($($arg:ident: $type:ty),*) $(-> $result:ty)? $body:block) => {
         $(#[$text])*
@@ -115,7 +116,7 @@ kernel! {
     }
 }
 
-/// Constants of Montgomery's reduction (Mathematics of Computation 44, 1985) with R = 2^32.
+/// Constants of Montgomery reduction (Mathematics of Computation 44, 1985) with R = 2^32.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Montgomery {
     p: u64,
@@ -126,7 +127,7 @@ pub(super) struct Montgomery {
 }
 
 impl Montgomery {
-    /// For an odd `p` below 2^31.
+    /// The constants for an odd `p` below 2^31.
     fn new(p: u64) -> Self {
         let double = |inverse: u64| inverse.wrapping_mul(2u64.wrapping_sub(p.wrapping_mul(inverse)));
         let inverse = (0..5).fold(p, |inverse, _| double(inverse));
@@ -155,7 +156,7 @@ kernel! {
     }
 }
 
-/// Arithmetic modulo a prime below 2^31 with sums of products put off.
+/// Arithmetic modulo a prime below 2^31 with delayed reduction of sums of products.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Modulus {
     prime: Prime,
@@ -164,10 +165,10 @@ pub(super) struct Modulus {
 }
 
 impl Modulus {
-    /// Exclusive.
+    /// Exclusive upper bound of the modulus.
     pub const LIMIT: u64 = 1 << 31;
 
-    /// `None` when `p` is too large.
+    /// Builds the modulus; `None` when `p` is too large.
     pub fn new(p: u64) -> Option<Self> {
         (p < Self::LIMIT).then(|| Modulus {
             prime: Prime::new(p as u32),
@@ -224,7 +225,7 @@ impl Sums {
         Sums { modulus, lo: vec![0; length], hi: vec![0; length] }
     }
 
-    /// The sums that are the residues `row`, from now on.
+    /// Sets the sums to the residues `row`.
     pub fn set(&mut self, row: &[u32]) {
         self.hi.fill(0);
         self.lo.iter_mut().zip(row).for_each(|(lo, &entry)| *lo = u64::from(entry));

@@ -1,9 +1,9 @@
 //! The quotient ring modulo a prime below 2^31, on machine words.
 //!
-//! J.-C. Faugere, C. Mou, "Sparse FGLM algorithms", J. Symbolic Computation 80 (2017): when the smallest variable generates the
-//! quotient ring, its powers under a random functional give its minimal polynomial (Wiedemann 1986), and one Hankel system a
-//! variable the rest. A. Bostan, B. Salvy, E. Schost, "Fast algorithms for zero-dimensional polynomial systems using duality",
-//! AAECC 14 (2003), solve these by a product of series.
+//! J.-C. Faugere, C. Mou, "Sparse FGLM algorithms", J. Symbolic Computation 80 (2017): if the smallest variable
+//! generates the quotient ring, its powers under a random functional give its minimal polynomial (Wiedemann 1986). One
+//! Hankel system for each other variable gives the other polynomials. A. Bostan, B. Salvy, E. Schost, "Fast algorithms
+//! for zero-dimensional polynomial systems using duality", AAECC 14 (2003), solve these systems by a product of series.
 
 mod elimination;
 mod kernel;
@@ -22,14 +22,16 @@ use crate::poly::univariate::Univariate;
 use crate::poly::{Monomial, Polynomial, PolynomialRing};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// So many terms that agree with a recurrence show that the next will too, but for a chance of about `p^-AGREED`.
+/// Number of terms that must agree with a recurrence before it is accepted. A wrong one passes with a probability of
+/// about `p^-AGREED`.
 const AGREED: usize = 12;
 
-/// The reduced basis of a zero-dimensional ideal in the order of `target`, a ring over the same field in the same variables; in fewer
-/// variables, that of the elimination ideal. The answer is exact; chance decides only the time.
+/// Computes the reduced basis of a zero-dimensional ideal in the order of `target`, a ring over the same field in the
+/// same variables. If `target` has fewer variables, it is the basis of the elimination ideal. The result is exact.
+/// Random choices affect the running time only.
 ///
 /// # Errors
-/// As [`Quotient::new`] and [`Quotient::basis_in`].
+/// Those of [`Quotient::new`] and [`Quotient::basis_in`].
 pub fn change_order(basis: &Basis<Zp>, target: &PolynomialRing<Zp>, watch: &Watch) -> Result<Basis<Zp>> {
     match Modulus::new(basis.ring.field().modulus()) {
         None => Quotient::new(basis)?.basis_in(target, watch),
@@ -44,10 +46,11 @@ pub struct WordQuotient {
 }
 
 impl WordQuotient {
-    /// The multiplication matrices of the quotient ring by `basis`.
+    /// Computes the multiplication matrices of the quotient ring by `basis`.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the prime is not below 2^31; as [`Quotient::new`]; what `watch` stops with.
+    /// [`ErrorKind::BadValue`] when the prime is not below 2^31; those of [`Quotient::new`]; the error with which
+    /// `watch` stops the work.
     pub fn new(basis: &Basis<Zp>, watch: &Watch) -> Result<Self> {
         let p = basis.ring.field().modulus();
         let modulus = Modulus::new(p).ok_or_else(|| {
@@ -63,18 +66,19 @@ impl WordQuotient {
         self.table.dimension()
     }
 
-    /// As [`Quotient::basis_in`].
+    /// Same as [`Quotient::basis_in`], but on machine words.
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`Quotient::basis_in`].
     pub fn basis_in(&self, target: &PolynomialRing<Zp>, watch: &Watch) -> Result<Basis<Zp>> {
         self.table.clone().basis_in(target, watch)
     }
 
-    /// As [`Quotient::minimal_polynomial`]: of a random projection of the powers, checked; else by elimination.
+    /// Same as [`Quotient::minimal_polynomial`], but on machine words. It is computed from a random projection of the
+    /// powers and checked. If the check fails, it is computed by elimination.
     ///
     /// # Errors
-    /// As there.
+    /// Those of [`Quotient::minimal_polynomial`].
     pub fn minimal_polynomial(&self, f: &Polynomial<u64>, watch: &Watch) -> Result<Univariate<u64>> {
         require_member(&self.table.ring, f)?;
         let matrix = self.table.multiplication(f, watch)?;
@@ -98,10 +102,11 @@ impl Table {
     }
 }
 
-/// The basis `x1 - g1(xn), x2 - g2(xn), ..., P(xn)` with P of full degree, when that is what it looks like; `None` otherwise.
+/// The basis `x1 - g1(xn), x2 - g2(xn), ..., P(xn)` with P of full degree, if the ideal is in shape position; `None`
+/// otherwise.
 ///
-/// It is so exactly when the minimal polynomial of xn has full degree. The projected sequence then has a nonsingular Hankel
-/// matrix, or another projection is needed; so what is returned is exact.
+/// This is the case exactly when the minimal polynomial of xn has full degree. The projected sequence then has a
+/// nonsingular Hankel matrix, or another projection is needed. So the result is exact.
 fn shape_basis(
     table: &mut Table,
     target: &PolynomialRing<Zp>,
@@ -149,7 +154,7 @@ fn read_shape(
     Ok(polynomials)
 }
 
-/// The powers of the last variable up to the one of degree `top`; `None` when they do not fit, or are not all below the other
+/// The powers of the last variable up to degree `top`; `None` when they overflow or are not all below the other
 /// variables.
 fn powers_below_variables(target: &PolynomialRing<Zp>, top: usize) -> Option<Vec<Monomial>> {
     let count = target.variables().len();
@@ -163,7 +168,7 @@ fn powers_below_variables(target: &PolynomialRing<Zp>, top: usize) -> Option<Vec
     variables(target)[..count - 1].iter().all(above).then_some(powers)
 }
 
-/// The recurrence of the values of a random functional at the powers of what the matrix multiplies by. `visit` sees the
+/// The recurrence of the values of a random functional at the powers of the multiplied element. `visit` receives the
 /// functional composed with each power.
 fn project(
     matrix: &Matrix<'_>,
@@ -187,7 +192,7 @@ fn project(
     Ok(recurrence)
 }
 
-/// Residues by Steele, Lea and Flood's SplitMix64 (OOPSLA 2014), always the same.
+/// A deterministic row of pseudorandom residues, by SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
 fn random_row(modulus: Modulus, length: usize) -> Vec<u32> {
     let mut state = 0u64;
     let next = || {
@@ -201,7 +206,7 @@ fn random_row(modulus: Modulus, length: usize) -> Vec<u32> {
     row
 }
 
-/// Whether `polynomial` is zero at what the matrix multiplies by, by Horner's rule.
+/// Whether `polynomial` vanishes at the element of the multiplication matrix, by Horner's rule.
 fn vanishes(matrix: &Matrix<'_>, polynomial: &[u32], modulus: Modulus, watch: &Watch) -> Result<bool> {
     let mut value = vec![0; kernel::padded(matrix.dimension())];
     for &coefficient in polynomial.iter().rev() {
@@ -226,7 +231,7 @@ fn eliminate_powers(table: &Table, matrix: &Matrix<'_>, watch: &Watch) -> Result
     }
 }
 
-/// The basis by a walk through the monomials: the dense algorithm of 1993.
+/// The basis by enumeration of monomials: the dense FGLM algorithm of 1993.
 fn walk_basis(
     table: &mut Table,
     target: &PolynomialRing<Zp>,

@@ -1,4 +1,5 @@
-//! The shortest linear recurrence of a sequence, term by term, and the solution of its Hankel systems.
+//! The shortest linear recurrence of a sequence, updated term by term (Berlekamp-Massey), and the solution of its
+//! Hankel systems.
 //!
 //! J. Massey, "Shift-register synthesis and BCH decoding", IEEE Transactions on Information Theory 15 (1969).
 
@@ -8,13 +9,15 @@ use super::kernel::{Modulus, Sums, padded};
 #[derive(Clone, Debug)]
 pub(super) struct Recurrence {
     modulus: Modulus,
-    /// Room for the terms, the first at the end: term `n` and those before it stand in ascending memory.
+    /// Storage of the terms in reverse, the first at the end, so that a term and those before it are in ascending
+    /// memory.
     reversed: Vec<u32>,
     capacity: usize,
     terms: usize,
     connection: Vec<u32>,
     length: usize,
-    /// The recurrence before the last change of length, its length, and the term that it missed, by how much.
+    /// The recurrence before the last change of length, its length, the term that it failed to predict, and the
+    /// discrepancy.
     previous: Vec<u32>,
     previous_length: usize,
     missed_by: u32,
@@ -22,7 +25,7 @@ pub(super) struct Recurrence {
 }
 
 impl Recurrence {
-    /// No terms; at most `capacity` will come.
+    /// An empty recurrence for at most `capacity` terms.
     pub fn new(modulus: Modulus, capacity: usize) -> Self {
         let mut connection = vec![0; padded(capacity + 1)];
         connection[0] = 1;
@@ -45,7 +48,7 @@ impl Recurrence {
         self.length
     }
 
-    /// Takes the next term.
+    /// Adds the next term.
     pub fn push(&mut self, term: u32) {
         let n = self.terms;
         let start = self.capacity - 1 - n;
@@ -68,7 +71,7 @@ impl Recurrence {
         }
     }
 
-    /// Subtracts the multiple of the previous recurrence, shifted, that makes up for `discrepancy`.
+    /// Subtracts the shifted multiple of the previous recurrence that cancels `discrepancy`.
     fn correct(&mut self, discrepancy: u32, shift: usize) {
         let factor = self.modulus.mul(discrepancy, self.modulus.inverse(self.missed_by));
         let factor = self.modulus.neg(factor);
@@ -83,7 +86,7 @@ impl Recurrence {
         self.connection[..=self.length].iter().rev().copied().collect()
     }
 
-    /// Solves Hankel systems of the sequence, which is long enough to fix the recurrence.
+    /// The Hankel solver of the sequence, which is long enough to determine the recurrence.
     pub fn hankel(&self) -> Hankel {
         let previous = self.previous[..=self.previous_length].iter().rev();
         let scale = self.modulus.inverse(self.missed_by);
@@ -94,8 +97,8 @@ impl Recurrence {
 
 /// The Hankel matrix `H[k][j] = term[k + j]` of a sequence with characteristic polynomial P, of degree the size of H.
 ///
-/// Its generating series is N/P. The numerators of two consecutive convergents N/P and N'/P' satisfy `N P' - N' P = c`, with c the
-/// discrepancy between them; so `P'/c` is the inverse of N modulo P.
+/// Its generating series is N/P. The numerators of two consecutive convergents N/P and N'/P' satisfy `N P' - N' P = c`,
+/// where c is the discrepancy between them. So `P'/c` is the inverse of N modulo P.
 #[derive(Clone, Debug)]
 pub(super) struct Hankel {
     modulus: Modulus,

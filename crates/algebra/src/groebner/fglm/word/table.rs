@@ -10,13 +10,13 @@ use crate::number::{Ring, Zp};
 use crate::poly::{Polynomial, PolynomialRing, Term};
 use crate::{Result, Watch};
 
-/// The normal forms of the border monomials, found when they are asked for.
+/// The normal forms of the border monomials, computed on demand.
 #[derive(Clone, Debug)]
 pub(super) struct Table {
     pub modulus: Modulus,
     pub ring: PolynomialRing<Zp>,
     stairs: Staircase,
-    /// The row of each border monomial, once it is known.
+    /// The row of each border monomial, once it is computed.
     places: Vec<Option<usize>>,
     rows: Vec<u32>,
 }
@@ -46,7 +46,7 @@ impl Table {
         self.rows.extend(row);
     }
 
-    /// The normal form of the leading monomial of a basis polynomial: its negated tail, unless the basis was not reduced.
+    /// The normal form of the leading monomial of a basis polynomial: its negated tail, if the basis is reduced.
     fn lead_row(&self, basis: &Basis<Zp>, index: usize, descending: &[usize]) -> Result<Vec<u32>> {
         let (ring, f) = (&basis.ring, &basis.polynomials[index]);
         let factor = ring.field().neg(&inverse(ring, &f.terms()[0].coefficient)?);
@@ -89,7 +89,7 @@ impl Table {
         &self.rows[place * self.stride()..][..self.stride()]
     }
 
-    /// Makes multiplication by `variable` known.
+    /// Computes the multiplication by `variable`.
     pub fn learn(&mut self, variable: usize, watch: &Watch) -> Result<()> {
         for index in 0..self.dimension() {
             self.learn_product(variable, index, watch)?;
@@ -97,7 +97,7 @@ impl Table {
         Ok(())
     }
 
-    /// Makes `variable` times one standard monomial known.
+    /// Computes `variable` times one standard monomial.
     pub fn learn_product(&mut self, variable: usize, index: usize, watch: &Watch) -> Result<()> {
         match self.stairs.products[variable][index] {
             Product::Border(border) => self.resolve(border, watch),
@@ -105,7 +105,7 @@ impl Table {
         }
     }
 
-    /// Makes one border monomial known, after all those that its normal form needs: they are smaller.
+    /// Computes one border monomial, after all smaller ones that its normal form needs.
     fn resolve(&mut self, border: usize, watch: &Watch) -> Result<()> {
         let mut open = vec![border];
         while let Some(&border) = open.last() {
@@ -128,7 +128,7 @@ impl Table {
         Ok(())
     }
 
-    /// Pushes to `open` what has to be known before `variable` times the border monomial `smaller`.
+    /// Pushes to `open` the border monomials that are needed for `variable` times the border monomial `smaller`.
     fn unknown_needs(&self, variable: usize, smaller: usize, open: &mut Vec<usize>) {
         let Some(place) = self.places[smaller] else { return open.push(smaller) };
         let products = self.row(place).iter().zip(&self.stairs.products[variable]);
@@ -138,7 +138,7 @@ impl Table {
         }));
     }
 
-    /// Multiplication by `variable`, as far as it is known.
+    /// The multiplication by `variable`, as far as it is computed.
     pub fn matrix(&self, variable: usize) -> Matrix<'_> {
         let place = |product: &Product| match *product {
             Product::Border(border) => self.places[border].map_or(Column::Unknown, Column::Row),
@@ -148,7 +148,7 @@ impl Table {
         Matrix { modulus: self.modulus, columns, rows: Cow::Borrowed(&self.rows), stride: self.stride() }
     }
 
-    /// Multiplication by `f`. All variables must be known.
+    /// The multiplication by `f`. All variables must be computed.
     pub fn multiplication(&self, f: &Polynomial<u64>, watch: &Watch) -> Result<Matrix<'_>> {
         let matrices: Vec<Matrix<'_>> = (0..self.ring.variables().len()).map(|v| self.matrix(v)).collect();
         if let [term] = f.terms()
@@ -199,7 +199,7 @@ enum Column {
     Unit(usize),
     /// This row of the store.
     Row(usize),
-    /// Not asked for so far.
+    /// Not computed.
     Unknown,
 }
 
@@ -244,7 +244,7 @@ impl Matrix<'_> {
         result
     }
 
-    /// The value of `functional` at the image of one: at what the matrix multiplies by.
+    /// The value of `functional` at the image of one, which is the element that the matrix multiplies by.
     pub fn value_at_one(&self, functional: &[u32]) -> u32 {
         self.value(functional, self.columns[0])
     }

@@ -2,7 +2,7 @@
 
 use crate::codegen::dynamics::loops::Step;
 use crate::codegen::dynamics::tape::Recorded;
-use groebot_robot::dynamics::recursions::{Composite, Resistance};
+use groebot_robot::dynamics::recursions::{ArticulatedInertia, Composite};
 use groebot_robot::dynamics::{Body, Frame, Freedom, Mass, Scalar, Six};
 
 /// Where in a row of the table what a body weighs begins, and where the inertia of its rotor stands.
@@ -53,14 +53,14 @@ pub(super) fn composite_numbers(composite: &Composite<Recorded>) -> Vec<Recorded
     composite.mass.numbers().into_iter().chain(rate).chain(numbers(&composite.momentum)).collect()
 }
 
-pub(super) fn resistance(step: &mut Step, row: &str) -> Resistance<Recorded> {
+pub(super) fn articulated_inertia(step: &mut Step, row: &str) -> ArticulatedInertia<Recorded> {
     let mut matrix = |from: usize| {
         let list = step.list::<9>(row, from);
         std::array::from_fn(|i| std::array::from_fn(|j| list[3 * i + j].clone()))
     };
-    Resistance { linear: matrix(0), coupling: matrix(9), angular: matrix(18) }
+    ArticulatedInertia { linear: matrix(0), coupling: matrix(9), angular: matrix(18) }
 }
 
-pub(super) fn resistance_numbers(resistance: Resistance<Recorded>) -> impl Iterator<Item = Recorded> {
-    [resistance.linear, resistance.coupling, resistance.angular].into_iter().flatten().flatten()
+pub(super) fn inertia_numbers(inertia: ArticulatedInertia<Recorded>) -> impl Iterator<Item = Recorded> {
+    [inertia.linear, inertia.coupling, inertia.angular].into_iter().flatten().flatten()
 }

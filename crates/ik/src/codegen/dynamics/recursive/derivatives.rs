@@ -4,15 +4,15 @@ use super::Recursive;
 use super::cells::{COMPOSITE, body, composite, frame, numbers};
 use crate::codegen::dynamics::loops::{Loops, Step};
 use crate::codegen::dynamics::tape::Recorded;
-use groebot_robot::dynamics::recursions::Changes;
+use groebot_robot::dynamics::recursions::ForceDerivatives;
 
-fn changes(step: &mut Step) -> Changes<Recorded> {
+fn changes(step: &mut Step) -> ForceDerivatives<Recorded> {
     let by = [0, 6, 12].map(|from| step.six("push", from));
-    Changes { by, felt: step.six("push", 18) }
+    ForceDerivatives { by, sensitivity: step.six("push", 18) }
 }
 
-fn write(step: &mut Step, changes: &Changes<Recorded>) {
-    step.write_list("push", 0, changes.by.iter().chain([&changes.felt]).flat_map(numbers));
+fn write(step: &mut Step, changes: &ForceDerivatives<Recorded>) {
+    step.write_list("push", 0, changes.by.iter().chain([&changes.sensitivity]).flat_map(numbers));
 }
 
 fn cells(loops: &Loops<'_>, row: &str, column: &str) -> [String; 2] {
@@ -45,14 +45,14 @@ impl Recursive {
                 loops.step(|step| {
                     let (carried, own) = (composite(step, "composite[i]"), body(freedom));
                     let [turning, bend, force] = ["turning[i]", "bend[i]", "force[i]"].map(|row| step.six(row, 0));
-                    let mut new = Changes::new(&carried, &own.axis(), &turning, &bend, &turning.add(&turning));
-                    new.by[0] = new.by[0].add(&own.swung(&force));
+                    let mut new = ForceDerivatives::new(&carried, &own.axis(), &turning, &bend, &turning.add(&turning));
+                    new.by[0] = new.by[0].add(&own.force_rate(&force));
                     write(step, &new);
                 });
             });
             self.changes_of_carriers(loops);
             self.changes_with_base(loops);
-            Self::hand_on(loops);
+            Self::propagate(loops);
             loops.step(|step| {
                 let force = frame(step, "frame[i]").force_outward(&step.six("force[i]", 0));
                 step.add_list("force[p]", 0, numbers(&force));
@@ -105,7 +105,7 @@ impl Recursive {
             let rows: Vec<_> = (0..6).map(|row| cells(loops, &row.to_string(), &column.to_string())).collect();
             loops.step(|step| {
                 let (velocity, pull) = (step.six("velocity[0]", 0), self.pull(step));
-                let changes = Changes::of_base(&composite(step, "composite[0]"), column, &velocity, &pull);
+                let changes = ForceDerivatives::of_base(&composite(step, "composite[0]"), column, &velocity, &pull);
                 for (row, cells) in rows.iter().enumerate() {
                     self.enter_both(step, cells, &[], changes.by.each_ref().map(|change| change.at(row).clone()));
                 }

@@ -1,11 +1,11 @@
 //! Forward dynamics in loops.
 
 use super::Recursive;
-use super::cells::{ROTOR, WEIGHS, body, frame, mass, numbers, resistance, resistance_numbers};
+use super::cells::{ROTOR, WEIGHS, articulated_inertia, body, frame, inertia_numbers, mass, numbers};
 use crate::codegen::dynamics::loops::{Loops, Step};
 use crate::codegen::dynamics::tape::Recorded;
 use groebot_robot::dynamics::Six;
-use groebot_robot::dynamics::recursions::{Resistance, Yielding, bias};
+use groebot_robot::dynamics::recursions::{ArticulatedInertia, ArticulatedJoint, bias};
 
 impl Recursive {
     pub(super) fn forward(&self, loops: &mut Loops<'_>) {
@@ -15,7 +15,7 @@ impl Recursive {
             loops.step(|step| {
                 let own = mass(step, &format!("BODY[{index}]"), WEIGHS);
                 let velocity = step.six(&format!("velocity[{index}]"), 0);
-                step.write_list(&format!("resistance[{index}]"), 0, resistance_numbers(Resistance::of(&own)));
+                step.write_list(&format!("resistance[{index}]"), 0, inertia_numbers(ArticulatedInertia::of(&own)));
                 step.write_list(&format!("bias[{index}]"), 0, numbers(&bias(&own, &velocity, None)));
             });
         };
@@ -24,7 +24,7 @@ impl Recursive {
             resist(loops, "0");
         }
         loops.outward(|loops| {
-            self.quicken(loops);
+            self.add_motion(loops);
             resist(loops, "i");
             loops.by_freedom("i", |loops, freedom| {
                 loops.step(|step| {
@@ -36,26 +36,26 @@ impl Recursive {
         loops.inward(|loops| {
             loops.by_freedom("i", |loops, freedom| {
                 loops.step(|step| {
-                    let (carried, bias) = (resistance(step, "resistance[i]"), step.six("bias[i]", 0));
+                    let (carried, bias) = (articulated_inertia(step, "resistance[i]"), step.six("bias[i]", 0));
                     let [torque, rotor] = [self.of_joint(step, "tau"), step.read(format!("BODY[i][{ROTOR}]"))];
-                    let yields = Yielding::of(&carried, &body(freedom), &bias, &torque, &rotor);
-                    step.write_list("push[i]", 0, numbers(&yields.push));
-                    step.write("pivot[i][0]", yields.pivot);
-                    step.write("excess[i][0]", yields.excess);
+                    let joint = ArticulatedJoint::of(&carried, &body(freedom), &bias, &torque, &rotor);
+                    step.write_list("push[i]", 0, numbers(&joint.force));
+                    step.write("pivot[i][0]", joint.inertia);
+                    step.write("excess[i][0]", joint.torque);
                 });
             });
             loops.step(|step| {
-                let (carried, bias) = (resistance(step, "resistance[i]"), step.six("bias[i]", 0));
+                let (carried, bias) = (articulated_inertia(step, "resistance[i]"), step.six("bias[i]", 0));
                 let (turning, frame) = (step.six("turning[i]", 0), frame(step, "frame[i]"));
-                let (resistance, bias) = yielding(step).hand_on(&carried, &bias, &turning, &frame);
-                step.add_list("resistance[p]", 0, resistance_numbers(resistance));
+                let (inertia, bias) = articulated_joint(step).propagate(&carried, &bias, &turning, &frame);
+                step.add_list("resistance[p]", 0, inertia_numbers(inertia));
                 step.add_list("bias[p]", 0, numbers(&bias));
             });
         });
         loops.step(|step| {
             let found = if self.floats() {
                 let (torque, bias) = (step.six("tau", 0), step.six("bias[0]", 0));
-                let base = resistance(step, "resistance[0]");
+                let base = articulated_inertia(step, "resistance[0]");
                 base.solve(&torque.add(&bias.negated()), |_, _| true).unwrap_or_else(Six::zero)
             } else {
                 self.pull(step)
@@ -67,8 +67,8 @@ impl Recursive {
                 loops.step(|step| {
                     let carried = frame(step, "frame[i]").motion_inward(&step.six("acceleration[p]", 0));
                     let mut carried = carried.add(&step.six("turning[i]", 0));
-                    let change = yielding(step).change(&carried);
-                    body(freedom).quicken(&mut carried, change.clone());
+                    let change = articulated_joint(step).acceleration(&carried);
+                    body(freedom).add_motion(&mut carried, change.clone());
                     step.write_list("acceleration[i]", 0, numbers(&carried));
                     step.write("out[AT[i]]", change);
                 });
@@ -83,6 +83,10 @@ impl Recursive {
     }
 }
 
-fn yielding(step: &mut Step) -> Yielding<Recorded> {
-    Yielding { push: step.six("push[i]", 0), pivot: step.read("pivot[i][0]"), excess: step.read("excess[i][0]") }
+fn articulated_joint(step: &mut Step) -> ArticulatedJoint<Recorded> {
+    ArticulatedJoint {
+        force: step.six("push[i]", 0),
+        inertia: step.read("pivot[i][0]"),
+        torque: step.read("excess[i][0]"),
+    }
 }

@@ -4,7 +4,7 @@ use super::Recursive;
 use super::cells::{ROTOR, WEIGHS, body, frame, mass, numbers};
 use crate::codegen::dynamics::loops::Loops;
 use groebot_robot::dynamics::Six;
-use groebot_robot::dynamics::recursions::pushed;
+use groebot_robot::dynamics::recursions::net_force;
 
 impl Recursive {
     /// The velocity of the base, and its acceleration less gravity's.
@@ -15,7 +15,7 @@ impl Recursive {
                 if moves { ["v", "a"].map(|list| self.base(step, list)) } else { [Six::zero(), Six::zero()] };
             let acceleration = pull.add(&acceleration);
             if self.floats() {
-                let force = pushed(&mass(step, "BODY[0]", WEIGHS), &velocity, &acceleration, None);
+                let force = net_force(&mass(step, "BODY[0]", WEIGHS), &velocity, &acceleration, None);
                 step.write_list("force[0]", 0, numbers(&force));
             }
             if moves {
@@ -36,12 +36,12 @@ impl Recursive {
                 if moves {
                     velocity = frame.motion_inward(&step.six("velocity[p]", 0));
                     let [rate, change] = ["v", "a"].map(|list| self.of_joint(step, list));
-                    own.quicken(&mut velocity, rate.clone());
+                    own.add_motion(&mut velocity, rate.clone());
                     acceleration = acceleration.add(&own.turning(&velocity, &rate));
-                    own.quicken(&mut acceleration, change);
+                    own.add_motion(&mut acceleration, change);
                     step.write_list("velocity[i]", 0, numbers(&velocity));
                 }
-                let force = pushed(&mass(step, "BODY[i]", WEIGHS), &velocity, &acceleration, None);
+                let force = net_force(&mass(step, "BODY[i]", WEIGHS), &velocity, &acceleration, None);
                 step.write_list("acceleration[i]", 0, numbers(&acceleration));
                 step.write_list("force[i]", 0, numbers(&force));
             });

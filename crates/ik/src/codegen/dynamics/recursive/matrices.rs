@@ -5,7 +5,7 @@ use super::cells::{COMPOSITE, ROTOR, WEIGHS, body, composite, composite_numbers,
 use crate::codegen::dynamics::loops::{Loops, Step};
 use crate::codegen::dynamics::tape::Recorded;
 use groebot_robot::dynamics::Scalar;
-use groebot_robot::dynamics::recursions::{Composite, Pushes, unit};
+use groebot_robot::dynamics::recursions::{Composite, UnitForces, unit};
 
 impl Recursive {
     pub(super) fn inertia(&self, loops: &mut Loops<'_>) {
@@ -106,13 +106,13 @@ impl Recursive {
     }
 
     /// Places a body and tells its velocity.
-    pub(super) fn quicken(&self, loops: &mut Loops<'_>) {
+    pub(super) fn add_motion(&self, loops: &mut Loops<'_>) {
         self.place(loops);
         loops.by_freedom("i", |loops, freedom| {
             loops.step(|step| {
                 let mut velocity = frame(step, "frame[i]").motion_inward(&step.six("velocity[p]", 0));
                 let rate = self.of_joint(step, "v");
-                body(freedom).quicken(&mut velocity, rate);
+                body(freedom).add_motion(&mut velocity, rate);
                 step.write_list("velocity[i]", 0, numbers(&velocity));
             });
         });
@@ -129,7 +129,7 @@ impl Recursive {
     }
 
     /// Adds the composite of a body to that of its parent.
-    pub(super) fn hand_on(loops: &mut Loops<'_>) {
+    pub(super) fn propagate(loops: &mut Loops<'_>) {
         loops.step(|step| {
             let outward = composite(step, "composite[i]").outward(&frame(step, "frame[i]"));
             step.add_list("composite[p]", 0, composite_numbers(&outward));
@@ -144,14 +144,14 @@ impl Recursive {
             self.compose_body(loops, "0");
         }
         loops.outward(|loops| {
-            self.quicken(loops);
+            self.add_motion(loops);
             self.compose(loops);
         });
         let pushes = |step: &mut Step| {
             let [inertia, coriolis, transposed] = [0, 6, 12].map(|from| step.six("push", from));
-            Pushes { inertia, coriolis, transposed }
+            UnitForces { inertia, coriolis, transposed }
         };
-        let write = |step: &mut Step, pushes: Pushes<Recorded>| {
+        let write = |step: &mut Step, pushes: UnitForces<Recorded>| {
             let all = [pushes.inertia, pushes.coriolis, pushes.transposed];
             step.write_list("push", 0, all.iter().flat_map(numbers));
         };
@@ -160,7 +160,7 @@ impl Recursive {
                 loops.step(|step| {
                     let (carried, own) = (composite(step, "composite[i]"), body(freedom));
                     let turning = step.six("turning[i]", 0);
-                    write(step, Pushes::new(&carried, own.momentum(&carried.mass), &own.axis(), &turning));
+                    write(step, UnitForces::new(&carried, own.momentum(&carried.mass), &own.axis(), &turning));
                 });
             });
             loops.climb(|loops| {
@@ -193,7 +193,7 @@ impl Recursive {
                     }
                 });
             }
-            Self::hand_on(loops);
+            Self::propagate(loops);
         });
         for column in 0..self.formal.first {
             let cell = |row: usize, column: usize| loops.entry("out", &row.to_string(), &column.to_string());
@@ -201,7 +201,7 @@ impl Recursive {
             loops.step(|step| {
                 let (base, velocity) = (composite(step, "composite[0]"), step.six("velocity[0]", 0));
                 let (axis, turning) = (unit(column), velocity.moving(&unit(column)));
-                let pushes = Pushes::new(&base, base.mass.times(&axis), &axis, &turning);
+                let pushes = UnitForces::new(&base, base.mass.times(&axis), &axis, &turning);
                 for (row, [felt, on]) in cells.into_iter().enumerate() {
                     if row != column {
                         step.write(felt, pushes.of_base(row, &velocity));

@@ -5,23 +5,24 @@ use nalgebra::{DMatrix, DVector};
 use super::super::{Equations, State};
 use crate::{Error, ErrorKind, Result};
 
-/// Columns whose part across others is less than this share of themselves depend on these.
+/// Threshold for dependent columns: the part orthogonal to the other columns, relative to the column's length.
 const DEPENDENT: f64 = 1e-8;
 
-/// Which parameters stand for all: `B pi` are the base parameters.
+/// The minimal set of parameters: `B pi` are the base parameters.
 pub(super) struct Base {
     pub(super) pivots: Vec<usize>,
-    /// `B`: base parameters x ten numbers a body.
+    /// The matrix `B`: base parameters x ten inertial parameters for each body.
     pub(super) combinations: DMatrix<f64>,
 }
 
 impl Equations {
-    /// The base parameters by numbers: from the regressors of many states the first columns that are independent, and what the others are of these.
+    /// Computes base parameters numerically: the first independent columns of the regressors of many states, and the
+    /// other columns as combinations of these.
     pub(super) fn base_parameters(&self) -> Result<Base> {
         let (count, columns) = (self.freedoms(), self.parameters().len());
         let states = (3 * columns).div_ceil(count);
         let mut all = DMatrix::zeros(states * count, columns);
-        let mut room = self.workspace();
+        let mut workspace = self.workspace();
         let mut random = 1_u64;
         let mut number = || {
             random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -30,7 +31,7 @@ impl Equations {
         for state in 0..states {
             let mut list = |most: f64| (0..count).map(|_| most * number()).collect::<Vec<f64>>();
             let [q, velocity, acceleration] = [3.0, 2.0, 5.0].map(&mut list);
-            let regressor = self.regressor(&mut room, State::new(&q, &velocity), &acceleration)?;
+            let regressor = self.regressor(&mut workspace, State::new(&q, &velocity), &acceleration)?;
             all.rows_mut(state * count, count).copy_from(regressor);
         }
         let size = all.amax();
@@ -38,7 +39,7 @@ impl Equations {
         for column in 0..columns {
             let own = all.column(column).into_owned();
             let mut rest = own.clone();
-            // Twice is enough (W. Kahan and B. N. Parlett).
+            // Two passes are enough (W. Kahan and B. N. Parlett).
             for _ in 0..2 {
                 across.iter().for_each(|unit| rest -= unit * unit.dot(&rest));
             }

@@ -1,36 +1,40 @@
-//! Bodies that explain torques best. Main type: [`Nearest`].
+//! Identification with physically consistent bodies. Main type: [`Nearest`].
 //!
-//! A body's ten numbers are those of a body exactly where its pseudo-inertia, 4 x 4, has no negative eigenvalue (P. M. Wensing, S. Kim and J.-J. E. Slotine, IEEE Robotics and
-//! Automation Letters 3, 2018). The least squares over such bodies are a convex problem, solved by an interior point method: Newton's steps on the squares and `mu` times the entropic
-//! divergence from given bodies (T. Lee, P. M. Wensing and F. C. Park, IEEE Trans. Robotics 36, 2020), `mu` falling to zero. Of bodies that explain the torques alike, this chooses those near
-//! the given ones.
+//! Ten inertial parameters are physically consistent exactly when the 4 x 4 pseudo-inertia has no negative eigenvalue
+//! (P. M. Wensing, S. Kim and J.-J. E. Slotine, IEEE Robotics and Automation Letters 3, 2018). The least squares over
+//! consistent bodies are a convex problem, solved by an interior-point method. Its Newton steps minimise the squares
+//! plus `mu` times the entropic divergence from given bodies (T. Lee, P. M. Wensing and F. C. Park, IEEE Trans.
+//! Robotics 36, 2020), with `mu` decreasing to zero. Among bodies that explain the torques equally well, this selects
+//! those near the given ones.
 
 use nalgebra::{DMatrix, DVector, Matrix4};
 
-/// The squares that are left are within these of the least ones: absolutely, where a square of one is the noise, and as a share.
+/// Tolerance of the final sum of squares above its minimum: absolute, in units of the noise, and relative.
 const GAP: [f64; 2] = [1e-2, 1e-4];
-/// By how much `mu` falls at a time, how often at most, and how many steps of Newton's method each takes at most.
+/// Factor by which `mu` decreases per stage, maximum number of stages, and maximum number of Newton steps per stage.
 const FALL: f64 = 0.1;
 const STAGES: usize = 60;
 const STEPS: usize = 200;
-/// A decrement of Newton's method below which steps are full, and one at which a stage ends.
+/// Newton decrement below which full steps are taken, and the one at which a stage ends.
 const FULL: f64 = 0.25;
 const NEAR: f64 = 0.1;
-/// What a given body has at least of all bodies' mean mass and extent, so that it is inside the set of bodies.
+/// Minimum mass and extent of a given body relative to the mean of all bodies, so that it is in the interior of the
+/// feasible set.
 const LEAST: f64 = 1e-3;
 
-/// Bodies that explain torques best.
+/// Consistent bodies that explain the torques best.
 pub(super) struct Nearest {
-    /// Ten numbers a body.
+    /// Ten inertial parameters for each body.
     pub(super) parameters: Vec<f64>,
-    /// The sum of squares that they leave.
+    /// Their sum of squared residuals.
     pub(super) squares: f64,
-    /// No bodies leave less, as the fall of the squares along the central path shows.
+    /// Lower bound of the sum of squares over all consistent bodies, estimated from its decrease along the central
+    /// path.
     pub(super) least: f64,
     pub(super) is_converged: bool,
 }
 
-/// A sum of squares `|matrix pi - right|^2` over the ten numbers of each body.
+/// The least-squares problem `|matrix pi - right|^2` over the ten inertial parameters of each body.
 pub(super) struct Problem {
     pub(super) matrix: DMatrix<f64>,
     pub(super) right: DVector<f64>,
@@ -45,7 +49,7 @@ struct Point<'a> {
 }
 
 impl Problem {
-    /// The bodies near to given ones that make the sum least.
+    /// Minimises the sum over consistent bodies, with a preference for those near the given ones.
     pub(super) fn solve(&self, given: &[f64]) -> Nearest {
         let bodies = inside(given);
         let inverses: Option<Vec<Matrix4<f64>>> = bodies.iter().map(|body| body.try_inverse()).collect();
@@ -59,7 +63,7 @@ impl Problem {
             let is_centre = point.centre(mu);
             let squares = point.squares();
             if is_centre {
-                // What is left to gain is less than what this stage gained, twice.
+                // The remaining decrease is less than twice the decrease of this stage.
                 least = (squares - (mu * point.width()).max(2.0 * (before - squares))).max(0.0);
             }
             is_converged = squares - least <= GAP[0] + GAP[1] * squares;
@@ -85,13 +89,14 @@ impl Point<'_> {
         self.residual().norm_squared()
     }
 
-    /// What the squares exceed the least ones by, for `mu` of one, near the end of the path: four for each body, and what the given ones pull by.
+    /// Bound of the sum of squares above its minimum for `mu` = 1 near the end of the central path: four for each body,
+    /// plus the pull of the given bodies.
     fn width(&self) -> f64 {
         let pull: f64 = self.bodies.iter().zip(&self.given).map(|(body, given)| (given * body).trace()).sum();
         4.0 * self.bodies.len() as f64 + 2.0 * pull
     }
 
-    /// Goes to the least sum of squares and `mu` times the divergence; whether it gets there.
+    /// Minimises the sum of squares plus `mu` times the divergence. Returns whether it converged.
     fn centre(&mut self, mu: f64) -> bool {
         for _ in 0..STEPS {
             match self.step(mu) {
@@ -103,7 +108,8 @@ impl Point<'_> {
         false
     }
 
-    /// A step of Newton's method, and its decrement. In the frame of each body's own factor, `P = L (1 + S) L'`, the divergence has the Hessian one.
+    /// One Newton step. Returns its decrement. In the frame of each body's own factor, `P = L (1 + S) L'`, the
+    /// divergence has the identity as Hessian.
     fn step(&mut self, mu: f64) -> Option<f64> {
         let factors: Vec<Matrix4<f64>> =
             self.bodies.iter().map(|body| body.cholesky().map(|factor| factor.l())).collect::<Option<_>>()?;
@@ -115,7 +121,7 @@ impl Point<'_> {
             let slope = factor.transpose() * given * factor - Matrix4::identity();
             pull.rows_mut(10 * at, 10).copy_from(&coordinates(&slope));
         }
-        // Least squares |slopes x + residual|^2 + mu/2 |x + pull|^2 by the small matrix of both.
+        // Solves the least squares |slopes x + residual|^2 + mu/2 |x + pull|^2 with the smaller normal matrix.
         let mut square = &slopes * slopes.transpose();
         (0..square.nrows()).for_each(|at| square[(at, at)] += 0.5 * mu);
         let missing = &slopes * &pull - self.residual();
@@ -130,7 +136,8 @@ impl Point<'_> {
     }
 }
 
-/// The pseudo-inertia of ten numbers: the mass, that times its centre, the tensor xx, xy, yy, xz, yz, zz.
+/// The pseudo-inertia of ten inertial parameters: the mass, the first moments, the inertia tensor xx, xy, yy, xz, yz,
+/// zz.
 fn pseudo_inertia(numbers: &[f64]) -> Matrix4<f64> {
     let [m, x, y, z, xx, xy, yy, xz, yz, zz] = std::array::from_fn(|i| numbers[i]);
     let half = 0.5 * (xx + yy + zz);
@@ -144,7 +151,8 @@ fn pseudo_inertia(numbers: &[f64]) -> Matrix4<f64> {
     pseudo
 }
 
-/// Whether a sum of ten numbers a body, with these coefficients, is negative of no bodies: the matrices `Y` with the sum `trace(Y P)` have no negative eigenvalue.
+/// Whether a linear form in the inertial parameters, ten coefficients for each body, is nonnegative for all consistent
+/// bodies. This holds if the matrices `Y` of the form `trace(Y P)` have no negative eigenvalue.
 pub(super) fn is_never_negative(coefficients: &[f64]) -> bool {
     coefficients.chunks_exact(10).all(|body| {
         let [m, x, y, z, xx, xy, yy, xz, yz, zz] = std::array::from_fn(|i| body[i]);
@@ -161,7 +169,7 @@ pub(super) fn is_never_negative(coefficients: &[f64]) -> bool {
     })
 }
 
-/// The ten numbers of a pseudo-inertia.
+/// The ten inertial parameters of a pseudo-inertia.
 fn numbers(p: &Matrix4<f64>) -> [f64; 10] {
     let trace = p[(0, 0)] + p[(1, 1)] + p[(2, 2)];
     let [m, x, y, z] = [3, 0, 1, 2].map(|i| p[(i, 3)]);
@@ -169,7 +177,7 @@ fn numbers(p: &Matrix4<f64>) -> [f64; 10] {
     [m, x, y, z, xx, -p[(0, 1)], yy, -p[(0, 2)], -p[(1, 2)], zz]
 }
 
-/// The entries of a symmetric matrix whose sum of squares is that of the matrix.
+/// Coordinates of a symmetric matrix such that their sum of squares is that of the matrix' entries.
 const ENTRIES: [(usize, usize); 10] = [(0, 0), (1, 1), (2, 2), (3, 3), (0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)];
 
 fn weight((i, j): (usize, usize)) -> f64 {
@@ -189,7 +197,7 @@ fn symmetric(coordinates: &[f64]) -> Matrix4<f64> {
     matrix
 }
 
-/// The ten numbers of `L S L'` for each coordinate of `S`.
+/// The ten inertial parameters of `L S L'` for each coordinate of `S`.
 fn frame(factor: &Matrix4<f64>) -> DMatrix<f64> {
     let mut columns = DMatrix::zeros(10, 10);
     for (at, &(i, j)) in ENTRIES.iter().enumerate() {
@@ -200,12 +208,12 @@ fn frame(factor: &Matrix4<f64>) -> DMatrix<f64> {
     columns
 }
 
-/// Bodies near to the given ones whose pseudo-inertias have positive eigenvalues.
+/// Bodies near the given ones whose pseudo-inertias are positive definite.
 fn inside(given: &[f64]) -> Vec<Matrix4<f64>> {
     let all: Vec<Matrix4<f64>> = given.chunks_exact(10).map(pseudo_inertia).collect();
     let extent = |p: &Matrix4<f64>| (p[(0, 0)] + p[(1, 1)] + p[(2, 2)]).max(0.0);
     let mass: f64 = all.iter().map(|p| p[(3, 3)].max(0.0)).sum();
-    // Without any mass, of a kilogram and a decimetre.
+    // Without any mass: a kilogram and a decimetre.
     let (mean, square) = if mass > 0.0 {
         let spread: f64 = all.iter().map(extent).sum();
         (mass / all.len() as f64, if spread > 0.0 { spread / mass } else { 0.01 })

@@ -1,37 +1,37 @@
-//! Least squares. Main type: [`Fit`].
+//! Linear least squares with covariance. Main type: [`Fit`].
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::{Error, ErrorKind, Result};
 
-/// The log tells no parameter whose least singular value is below this share of the greatest.
-const BLIND: f64 = 1e-10;
-/// How often the singular values are iterated at most; a few times their number is usual.
+/// Threshold for an undetermined parameter: least singular value relative to the greatest.
+const UNDETERMINED: f64 = 1e-10;
+/// Maximum number of iterations for the singular values. A few times their number is usual.
 const ITERATIONS: usize = 100_000;
 
-/// What least squares find.
+/// Result of linear least squares.
 pub(super) struct Fit {
     pub(super) values: DVector<f64>,
-    /// The standard deviations for a miss of one.
+    /// The standard deviations for a residual deviation of one.
     pub(super) spread: DVector<f64>,
     /// The triangular factor of the matrix.
     pub(super) root: DMatrix<f64>,
-    /// How much each row decides about itself; all together they are as many as the unknowns.
+    /// The leverage of each row. Their sum is the number of unknowns.
     pub(super) leverage: Vec<f64>,
-    /// The condition number of the matrix, its columns brought to one length.
+    /// The condition number of the matrix with its columns scaled to equal length.
     pub(super) condition: f64,
 }
 
 impl Fit {
-    /// Solves `matrix * values = right`; `name` is that of an unknown.
+    /// Solves `matrix * values = right` in the least-squares sense. `name` returns the name of an unknown.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for an unknown that the rows do not determine, with its name.
     pub(super) fn of(matrix: &DMatrix<f64>, right: &DVector<f64>, name: impl Fn(usize) -> String) -> Result<Self> {
-        // Columns of one length are told apart best.
+        // Columns of equal length give the best condition.
         let sizes = DVector::from_iterator(matrix.ncols(), matrix.column_iter().map(|column| column.norm()));
         let blind = |unknown: usize| {
-            let text = format!("the log does not tell `{}`; move more joints, and faster", name(unknown));
+            let text = format!("the log does not determine `{}`; move more joints, and faster", name(unknown));
             Error::new(ErrorKind::BadValue, text)
         };
         if let Some(unknown) = sizes.iter().position(|size| *size <= 1e-12 * sizes.amax()) {
@@ -39,7 +39,7 @@ impl Fit {
         }
         let mut scaled = matrix.clone();
         scaled.column_iter_mut().zip(sizes.iter()).for_each(|(mut column, size)| column /= *size);
-        // An orthogonal factor makes a small matrix of it, with the same singular values.
+        // The triangular factor of a QR decomposition is smaller and has the same singular values.
         let factors = scaled.qr();
         let (orthogonal, triangle) = (factors.q(), factors.r());
         let reduced = orthogonal.transpose() * right;
@@ -48,7 +48,7 @@ impl Fit {
         let turned = turned.ok_or_else(unsolved)?;
         let (values, turn) = (&turned.singular_values, turned.v_t.as_ref().ok_or_else(unsolved)?);
         let (least, greatest) = (values.imin(), values.max());
-        if values[least] <= BLIND * greatest {
+        if values[least] <= UNDETERMINED * greatest {
             return Err(blind(turn.row(least).iamax_full().1));
         }
         let found = turned.solve(&reduced, 0.0).map_err(|text| Error::new(ErrorKind::BadValue, text))?;

@@ -1,4 +1,5 @@
-//! Whether a log is one of bodies that move under measured torques. Main type: [`Finding`].
+//! Statistical tests of a log: whether it agrees with rigid bodies that move under the measured torques. Main type:
+//! [`Finding`].
 
 use std::fmt;
 
@@ -6,54 +7,59 @@ use super::Consistency;
 use super::quantiles::chi_square_999;
 use crate::document::shown;
 
-/// The share of all torques that may be left unexplained: wrong units, signs and delays leave more, friction and noise of fair logs less.
+/// Maximum fraction of the torques' standard deviation that may be unexplained. Wrong units, signs and delays leave
+/// more; friction and noise of good logs leave less.
 const UNEXPLAINED: f64 = 0.2;
-/// What misses less than this share of a joint's torques is not tested: rounding of files is not independent noise.
+/// Residuals below this fraction of a joint's torques are not tested, because rounding in files is not independent
+/// noise.
 const TINY: f64 = 1e-4;
-/// The fewest rows whose noise is tested.
+/// Minimum number of rows for a test of the noise.
 const FEWEST: usize = 30;
-/// Lags of the test for independence, and the least correlation that counts however many rows show it.
+/// Number of lags of the test for independence, and the smallest correlation that is reported, however many rows show
+/// it.
 const LAGS: usize = 10;
 const CORRELATED: f64 = 0.2;
-/// An outlier misses more than so many robust deviations, and more than this share of the greatest torque.
+/// An outlier exceeds this number of robust standard deviations and this fraction of the greatest torque.
 const OUTLYING: f64 = 7.0;
 const GROSS: f64 = 0.03;
-/// Torques are clipped where so many rows, and this share of them, have the extreme value, and miss by so many deviations of their mean to the inside.
+/// Torques are clipped if at least this many rows, and this fraction of the rows, have the extreme value. Their mean
+/// residual must also be this many standard deviations towards the inside.
 const CLIPPED: (usize, f64, f64) = (5, 0.005, 4.0);
-/// A correlation with the torques of the description that shows their sign, and one that shows their unit where they are so many times as great.
+/// Correlation with the description's torques that indicates a wrong sign; and correlation and ratio that indicate a
+/// wrong unit.
 const OPPOSITE: f64 = -0.7;
 const ALIKE: f64 = 0.9;
 const UNIT: f64 = 50.0;
 
-/// Something wrong with a log.
+/// A problem of a log.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Finding {
-    /// What.
+    /// The kind of problem.
     pub kind: FindingKind,
-    /// The joint, if it is about one.
+    /// The joint, if the problem belongs to one.
     pub joint: Option<String>,
-    /// How much: a share, a correlation, a count of rows, a factor, squares.
+    /// The size: a fraction, a correlation, a number of rows, a factor, or a sum of squares.
     pub size: f64,
 }
 
-/// What is wrong with a log.
+/// Kind of a problem of a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FindingKind {
-    /// A share of all torques is explained by no bodies, whether they can exist or not.
+    /// A fraction of all torques is not explained by any parameters, physically consistent or not.
     Unexplained,
-    /// What a joint's torques miss is correlated from row to row.
+    /// The residuals of a joint are correlated from row to row.
     Correlated,
-    /// A joint's torques stop at an extreme value.
+    /// The torques of a joint are clipped at an extreme value.
     Clipped,
-    /// Some torques miss far more than the others.
+    /// Some residuals are much larger than the others.
     Outliers,
-    /// A joint's torques are opposite to those of the description.
+    /// The torques of a joint have the opposite sign of those of the description.
     Sign,
-    /// A joint's torques are like those of the description, but many times as great.
+    /// The torques of a joint are proportional to those of the description, but many times as large.
     Unit,
-    /// No bodies that can exist explain the torques.
+    /// No physically consistent bodies explain the torques.
     NoBodies,
 }
 
@@ -108,18 +114,22 @@ impl fmt::Display for Finding {
                 "torques are {size:.3e} times those of the description; are they in N m, or N of a joint that slides?"
             ),
             FindingKind::NoBodies => {
-                write!(f, "no bodies weigh what was found: all are at least {size:.1} deviations off")
+                write!(
+                    f,
+                    "no physically consistent bodies have the identified parameters: all are at least {size:.1} deviations off"
+                )
             }
         }
     }
 }
 
-/// What is wrong with torques, by joint: what was measured, what of it is missed, and what the description tells; `freedom` is how many torques there are beyond the unknowns.
+/// Problems of the measured torques, joint by joint. Inputs are the measured torques, the residuals and the
+/// description's torques. `freedom` is the number of torques minus the number of unknowns.
 pub(super) fn findings(
     joints: &[String],
     torques: &[Vec<f64>],
     misses: &[Vec<f64>],
-    told: &[Vec<f64>],
+    described: &[Vec<f64>],
     freedom: usize,
 ) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -129,13 +139,13 @@ pub(super) fn findings(
         findings.push(Finding { kind: FindingKind::Unexplained, joint: None, size: share });
     }
     for (at, joint) in joints.iter().enumerate() {
-        let (torques, misses, told) = (&torques[at], &misses[at], &told[at]);
+        let (torques, misses, described) = (&torques[at], &misses[at], &described[at]);
         let mut find = |kind: FindingKind, size: Option<f64>| {
             findings.extend(size.map(|size| Finding { kind, joint: Some(joint.clone()), size }));
         };
-        find(FindingKind::Sign, opposite(torques, told));
-        find(FindingKind::Unit, other_unit(torques, told));
-        // Few rows, and rows that are matched exactly, tell no noise.
+        find(FindingKind::Sign, opposite(torques, described));
+        find(FindingKind::Unit, other_unit(torques, described));
+        // Few rows, and rows without residuals, contain no information about noise.
         if torques.len() >= FEWEST && freedom >= FEWEST && unexplained(torques, misses) > TINY {
             find(FindingKind::Clipped, clipped(torques, misses));
             find(FindingKind::Outliers, outliers(torques, misses));
@@ -145,7 +155,7 @@ pub(super) fn findings(
     findings
 }
 
-/// That no bodies weigh what was found.
+/// The problem that no physically consistent bodies have the identified parameters.
 pub(super) fn of_bodies(consistency: &Consistency, freedom: usize) -> Option<Finding> {
     let is_off = freedom > 0 && consistency.is_refuted();
     is_off.then(|| Finding { kind: FindingKind::NoBodies, joint: None, size: consistency.least.sqrt() })
@@ -159,7 +169,7 @@ fn mean(list: &[f64]) -> f64 {
     list.iter().sum::<f64>() / list.len().max(1) as f64
 }
 
-/// The sum of squares about the mean.
+/// The sum of squared deviations from the mean.
 fn variation(list: &[f64]) -> f64 {
     let mean = mean(list);
     list.iter().map(|x| (x - mean).powi(2)).sum()
@@ -169,13 +179,13 @@ pub(super) fn root_mean_square(list: &[f64]) -> f64 {
     (squares(list) / list.len().max(1) as f64).sqrt()
 }
 
-/// What is missed, as a share of the torques' standard deviation; nought of torques that do not change and are met.
+/// The residual as a fraction of the torques' standard deviation; zero for constant torques without residual.
 pub(super) fn unexplained(torques: &[f64], misses: &[f64]) -> f64 {
     let missed = squares(misses);
     if missed == 0.0 { 0.0 } else { (missed / variation(torques)).sqrt() }
 }
 
-/// The correlation of two lists, and how many times as great the first one is.
+/// The correlation of two lists, and the ratio of the first to the second.
 fn compared(list: &[f64], with: &[f64]) -> Option<[f64; 2]> {
     let [a, b] = [mean(list), mean(with)];
     let product: f64 = list.iter().zip(with).map(|(x, y)| (x - a) * (y - b)).sum();
@@ -184,17 +194,17 @@ fn compared(list: &[f64], with: &[f64]) -> Option<[f64; 2]> {
     correlation.is_finite().then(|| [correlation, product / other])
 }
 
-fn opposite(torques: &[f64], told: &[f64]) -> Option<f64> {
-    compared(torques, told).map(|[correlation, _]| correlation).filter(|correlation| *correlation < OPPOSITE)
+fn opposite(torques: &[f64], described: &[f64]) -> Option<f64> {
+    compared(torques, described).map(|[correlation, _]| correlation).filter(|correlation| *correlation < OPPOSITE)
 }
 
-fn other_unit(torques: &[f64], told: &[f64]) -> Option<f64> {
-    let [correlation, ratio] = compared(torques, told)?;
+fn other_unit(torques: &[f64], described: &[f64]) -> Option<f64> {
+    let [correlation, ratio] = compared(torques, described)?;
     let is_alike = correlation > ALIKE && torques.len() > 2;
     (is_alike && !(1.0 / UNIT..UNIT).contains(&ratio)).then_some(ratio)
 }
 
-/// How many rows have an extreme torque where bodies need a greater one.
+/// The number of rows with an extreme torque where the bodies need a larger one.
 fn clipped(torques: &[f64], misses: &[f64]) -> Option<f64> {
     let (fewest, share, deviations) = CLIPPED;
     let deviation = root_mean_square(misses);
@@ -210,11 +220,11 @@ fn clipped(torques: &[f64], misses: &[f64]) -> Option<f64> {
     extremes.into_iter().filter_map(count).reduce(|a, b| a + b)
 }
 
-/// How many rows miss far more than half of them do.
+/// The number of rows whose residuals are much larger than the median.
 fn outliers(torques: &[f64], misses: &[f64]) -> Option<f64> {
     let mut sizes: Vec<f64> = misses.iter().map(|miss| miss.abs()).collect();
     sizes.sort_by(f64::total_cmp);
-    // Of a normal distribution the deviation is 1.4826 times the median size.
+    // For a normal distribution, the standard deviation is 1.4826 times the median of the absolute values.
     let deviation = 1.4826 * sizes[sizes.len() / 2];
     let greatest = torques.iter().fold(0.0, |most: f64, torque| most.max(torque.abs()));
     let least = (OUTLYING * deviation).max(GROSS * greatest);
@@ -222,7 +232,8 @@ fn outliers(torques: &[f64], misses: &[f64]) -> Option<f64> {
     (count > 0 && deviation > 0.0).then_some(count as f64)
 }
 
-/// The greatest correlation of misses some rows apart, if they are not independent (G. M. Ljung and G. E. P. Box, Biometrika 65, 1978).
+/// The greatest autocorrelation of the residuals, if they are not independent (G. M. Ljung and G. E. P. Box, Biometrika
+/// 65, 1978).
 fn correlated(misses: &[f64]) -> Option<f64> {
     let (count, middle, all) = (misses.len(), mean(misses), variation(misses));
     let correlation = |lag: usize| {

@@ -1,8 +1,9 @@
-//! What bodies weigh, from a log of motions and torques. Main type: [`Identification`].
+//! Identification of inertial parameters from a log of motions and torques. Main type: [`Identification`].
 //!
-//! Torques are the regressor times what bodies weigh, of which only base parameters matter (M. Gautier and W. Khalil, IEEE Trans. Robotics and Automation 6, 1990); these and the
-//! joints' friction are found by weighted least squares, each joint by the noise of its torques (M. Gautier, ICRA 1997). The same squares are then made least over bodies that can exist
-//! ([`Consistency`]), and what torques miss is tested ([`Finding`]).
+//! Torques are the regressor times the inertial parameters, of which only the base parameters matter (M. Gautier and W.
+//! Khalil, IEEE Trans. Robotics and Automation 6, 1990). These and the joint friction are estimated by weighted least
+//! squares, with each joint weighted by the noise of its torques (M. Gautier, ICRA 1997). The same sum of squares is
+//! then minimised over physically consistent bodies ([`Consistency`]), and the residuals are tested ([`Finding`]).
 
 mod base;
 mod bodies;
@@ -20,106 +21,111 @@ use self::quantiles::{chi_square_999, student_95, widening};
 use super::{Equations, State, sign};
 use crate::{Error, ErrorKind, Result};
 
-/// The greatest size of a number of a log.
+/// The largest absolute value of a number in a log.
 const MOST: f64 = groebot_algebra::limits::LOG_LARGEST;
-/// The least noise of a joint, as a share of the greatest torque: what misses less counts as exact.
+/// Minimum noise of a joint relative to its greatest torque. Smaller residuals count as exact.
 const EXACT: f64 = 1e-7;
 
-/// A motion and its torques, by freedom.
+/// One row of a log: a motion and its torques, one entry for each degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Logged {
-    /// Where joints are.
+    /// Joint positions \[rad or m\].
     pub q: Vec<f64>,
-    /// Their rates.
+    /// Joint velocities.
     pub velocity: Vec<f64>,
-    /// What these change by.
+    /// Joint accelerations.
     pub acceleration: Vec<f64>,
-    /// What was measured.
+    /// Measured torques \[N m\] or forces \[N\].
     pub torques: Vec<f64>,
 }
 
-/// A number that was found.
+/// An estimated parameter.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
-    /// What it is: a sum of the numbers of [`Equations::parameter_names`], or friction.
+    /// Its name: a linear combination of [`Equations::parameter_names`], or a friction coefficient.
     pub name: String,
-    /// What was found.
+    /// The estimated value.
     pub value: f64,
-    /// Half of the interval that has it with 95 %, by Student's t: right for noise that is independent from row to row and normal. None where the log has no more torques than unknowns.
+    /// Half width of the 95 % confidence interval, by Student's t. It is valid for normal noise that is independent
+    /// from row to row. `None` when the log has no more torques than unknowns.
     pub interval: Option<f64>,
-    /// What the description tells.
-    pub told: f64,
+    /// The value in the description.
+    pub described: f64,
 }
 
-/// Bodies that can exist, and explain the torques as well as such bodies can.
+/// Physically consistent bodies that explain the torques as well as possible.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Consistency {
-    /// Ten numbers a body, as [`Equations::parameters`] has them, near to those of the description.
+    /// Ten inertial parameters for each body, as in [`Equations::parameters`], near those of the description.
     pub bodies: Vec<f64>,
     /// Their base parameters.
     pub values: Vec<f64>,
-    /// How far these are from those that were found: the square of that, in their common standard deviation.
+    /// Squared distance of these from the estimated values, in units of their joint standard deviation.
     pub squares: f64,
-    /// No bodies are nearer: by a parameter that no bodies have below zero, and by how the squares fell at last.
+    /// Lower bound of this distance over all consistent bodies. It uses parameters that cannot be negative, and the
+    /// final decrease of the squares.
     pub least: f64,
-    /// What 99.9 % of the squares are below if noise alone is the cause.
+    /// The 99.9 % quantile of the squared distance if noise is the only cause.
     pub bound: f64,
-    /// Whether the least of the squares was reached, within 1e-4 of itself or a hundredth of the noise.
+    /// Whether the minimum of the squares was reached, within 1e-4 of its value or a hundredth of the noise.
     pub is_converged: bool,
 }
 
 impl Consistency {
-    /// Whether bodies can weigh what was found, within its noise.
+    /// Whether some consistent bodies agree with the estimated values within the noise.
     pub fn holds(&self) -> bool {
         self.squares <= self.bound
     }
 
-    /// Whether no bodies can.
+    /// Whether no consistent bodies agree with them.
     pub fn is_refuted(&self) -> bool {
         self.least > self.bound
     }
 }
 
-/// What a log tells of a robot.
+/// Result of an identification.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Identification {
-    /// Base parameters.
+    /// The base parameters.
     pub base: Vec<Estimate>,
-    /// By freedom viscous and Coulomb friction, where it was asked for.
+    /// Viscous and Coulomb friction for each degree of freedom, on request.
     pub friction: Vec<[Estimate; 2]>,
-    /// How many torques the log has beyond the unknowns: the degrees of freedom of its noise.
+    /// Number of torques minus number of unknowns: the degrees of freedom of the noise.
     pub freedom: usize,
-    /// The condition number of the matrix of the least squares, its columns brought to one length.
+    /// The condition number of the least-squares matrix with its columns scaled to equal length.
     pub condition: f64,
-    /// By freedom the root of the mean square of what torques miss.
+    /// Root mean square of the residuals for each degree of freedom.
     pub misses: Vec<f64>,
-    /// By freedom that as a share of the torques' standard deviation.
+    /// Root mean square of the residuals as a fraction of the torques' standard deviation.
     pub unexplained: Vec<f64>,
-    /// Of the base parameters.
+    /// Physical consistency of the base parameters.
     pub consistency: Consistency,
-    /// What is wrong with the log; nothing where torques are those of bodies, and noise that is independent from row to row.
+    /// Problems of the log; empty when the torques agree with rigid bodies and the noise is independent from row to
+    /// row.
     pub findings: Vec<Finding>,
 }
 
-/// The least squares of a log: rows by row of the log and freedom, columns friction and then base parameters.
+/// The least-squares system of a log. Rows: log row and degree of freedom. Columns: friction, then base parameters.
 struct System {
     matrix: DMatrix<f64>,
     right: DVector<f64>,
-    /// How many columns friction has.
+    /// Number of friction columns.
     friction: usize,
-    /// How many freedoms.
+    /// Number of degrees of freedom.
     count: usize,
 }
 
 impl Equations {
-    /// What bodies weigh and how joints rub by a log; rotors are taken as they are told, and so is friction unless it is asked for.
+    /// Identifies the inertial parameters, and on request the joint friction, from a log. Rotor inertias are taken from
+    /// the description, and so is friction without this request.
     ///
     /// # Errors
-    /// As [`Equations::inverse`], with the row; [`ErrorKind::BadValue`] for a number beyond 1e12, and a log that does not tell all base parameters apart, with one that it leaves open;
-    /// [`ErrorKind::Unsupported`] for a base that moves freely and a robot without joints.
+    /// Those of [`Equations::inverse`], with the row; [`ErrorKind::BadValue`] for a number above 1e12, and for a log
+    /// that does not determine all base parameters, with the name of an undetermined one; [`ErrorKind::Unsupported`]
+    /// for a floating base and a robot without joints.
     pub fn identify(&self, log: &[Logged], with_friction: bool) -> Result<Identification> {
         self.check_identified()?;
         let base = self.base_parameters()?;
@@ -128,29 +134,33 @@ impl Equations {
         let name = |column: usize| self.unknown_name(&names, column, system.friction);
         let (fit, weights) = system.solve(name)?;
         let freedom = system.right.len() - fit.values.len();
-        // The noise beside that of the weights.
+        // The scale of the noise relative to the weights.
         let scale = (system.weighted(&weights, &fit).norm_squared() / freedom.max(1) as f64).sqrt();
-        let told = &base.combinations * DVector::from_vec(self.parameters());
-        let estimate = |column: usize, told: f64| Estimate {
+        let described = &base.combinations * DVector::from_vec(self.parameters());
+        let estimate = |column: usize, described: f64| Estimate {
             name: name(column),
             value: fit.values[column],
             interval: (freedom > 0).then(|| student_95(freedom) * fit.spread[column] * scale),
-            told,
+            described,
         };
         let friction = |row: usize| {
-            let told = self.told_friction(row);
-            [0, 1].map(|which| estimate(2 * row + which, told[which]))
+            let described = self.described_friction(row);
+            [0, 1].map(|which| estimate(2 * row + which, described[which]))
         };
         let rows_of_friction = 0..system.friction / 2;
         let consistency = self.consistency(&base, &fit, system.friction, scale, freedom);
         let residual = &system.right - &system.matrix * &fit.values;
         let torques = system.by_joint(log.iter().flat_map(|row| row.torques.iter().copied()));
         let misses = system.by_joint(residual.iter().copied());
-        let own = system.by_joint(self.told_torques(log)?);
+        let own = system.by_joint(self.described_torques(log)?);
         let mut findings = judge::findings(&self.names, &torques, &misses, &own, freedom);
         findings.extend(judge::of_bodies(&consistency, freedom));
         Ok(Identification {
-            base: told.iter().enumerate().map(|(at, told)| estimate(system.friction + at, *told)).collect(),
+            base: described
+                .iter()
+                .enumerate()
+                .map(|(at, described)| estimate(system.friction + at, *described))
+                .collect(),
             friction: rows_of_friction.map(friction).collect(),
             freedom,
             condition: fit.condition,
@@ -174,7 +184,7 @@ impl Equations {
             Some(joint) => {
                 let text = format!(
                     "the joint of link `{}` has a damping, friction or rotor inertia below zero; give numbers that are not",
-                    self.told_names[joint + 1]
+                    self.parameter_link_names[joint + 1]
                 );
                 Err(Error::new(ErrorKind::BadValue, text))
             }
@@ -182,23 +192,24 @@ impl Equations {
         }
     }
 
-    /// The rows of a log.
+    /// Builds the least-squares system of a log.
     fn system(&self, log: &[Logged], base: &Base, with_friction: bool) -> Result<System> {
         let (count, parameters) = (self.freedoms(), base.pivots.len());
         let friction = if with_friction { 2 * count } else { 0 };
         let (rows, unknowns) = (log.len() * count, friction + parameters);
         if rows < unknowns || unknowns == 0 {
-            let text = format!("{} rows of {count} torques are given; {unknowns} numbers are asked for", log.len());
+            let text =
+                format!("{} rows of {count} torques are given; {unknowns} numbers are to be identified", log.len());
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let (mut matrix, mut right) = (DMatrix::zeros(rows, unknowns), DVector::zeros(rows));
-        let mut room = self.workspace();
+        let mut workspace = self.workspace();
         for (number, logged) in log.iter().enumerate() {
             let at = |error: Error| error.with_context(format!("row {}", number + 1));
             let state = State::new(&logged.q, &logged.velocity);
             self.check(state, Some(("torques", &logged.torques))).and_then(|()| check_range(logged)).map_err(at)?;
             let own = self.of_drives(&logged.velocity, &logged.acceleration, !with_friction);
-            let regressor = self.regressor(&mut room, state, &logged.acceleration).map_err(at)?;
+            let regressor = self.regressor(&mut workspace, state, &logged.acceleration).map_err(at)?;
             for row in 0..count {
                 let into = number * count + row;
                 right[into] = logged.torques[row] - own[row];
@@ -214,13 +225,13 @@ impl Equations {
         Ok(System { matrix, right, friction, count })
     }
 
-    /// The torques of the description, by row and freedom.
-    fn told_torques(&self, log: &[Logged]) -> Result<Vec<f64>> {
-        let mut room = self.workspace();
+    /// The torques of the description, for each row and degree of freedom.
+    fn described_torques(&self, log: &[Logged]) -> Result<Vec<f64>> {
+        let mut workspace = self.workspace();
         let mut all = Vec::with_capacity(log.len() * self.freedoms());
         for logged in log {
             let state = State::new(&logged.q, &logged.velocity);
-            all.extend(self.inverse(&mut room, state, &logged.acceleration)?.iter());
+            all.extend(self.inverse(&mut workspace, state, &logged.acceleration)?.iter());
         }
         Ok(all)
     }
@@ -235,15 +246,15 @@ impl Equations {
         }
     }
 
-    /// Viscous and Coulomb friction of a freedom as they are told, of all joints that it moves.
-    fn told_friction(&self, freedom: usize) -> [f64; 2] {
+    /// Viscous and Coulomb friction of a degree of freedom in the description, summed over all joints that it moves.
+    fn described_friction(&self, freedom: usize) -> [f64; 2] {
         let own = self.drives.iter().filter(|drive| drive.freedom == freedom);
         own.fold([0.0; 2], |[viscous, coulomb], drive| {
             [viscous + drive.factor * drive.factor * drive.damping, coulomb + drive.factor.abs() * drive.friction]
         })
     }
 
-    /// What rotors, and friction if it is asked for, add to the torques.
+    /// The torques of rotors, and of friction on request.
     fn of_drives(&self, velocity: &[f64], acceleration: &[f64], with_friction: bool) -> Vec<f64> {
         let mut torques = vec![0.0; self.freedoms()];
         for drive in &self.drives {
@@ -254,7 +265,8 @@ impl Equations {
         torques
     }
 
-    /// The least of the squares over bodies that can exist. Friction is free, so that the last columns of the triangular factor are those of base parameters alone.
+    /// Minimises the squares over consistent bodies. Friction is unconstrained, so the last columns of the triangular
+    /// factor belong to the base parameters alone.
     fn consistency(&self, base: &Base, fit: &Fit, friction: usize, scale: f64, freedom: usize) -> Consistency {
         let count = base.pivots.len();
         let root = fit.root.view((friction, friction), (count, count)) / scale.max(1.0);
@@ -274,7 +286,7 @@ impl Equations {
 }
 
 impl System {
-    /// Least squares, each joint by the noise that its torques show, and that noise.
+    /// Solves the least squares with each joint weighted by the noise of its torques. Returns the fit and the noise.
     fn solve(&self, name: impl Fn(usize) -> String + Copy) -> Result<(Fit, Vec<f64>)> {
         let plain = Fit::of(&self.matrix, &self.right, name)?;
         let least = EXACT * self.right.amax().max(f64::MIN_POSITIVE);
@@ -283,7 +295,7 @@ impl System {
             let own = || (joint..residual.len()).step_by(self.count);
             let squares: f64 = own().map(|row| residual[row].powi(2)).sum();
             let free: f64 = own().map(|row| 1.0 - plain.leverage[row]).sum();
-            // Where a joint's rows are all used up nothing tells its noise.
+            // If a joint has no more rows than unknowns, its noise cannot be estimated.
             (squares / free.max(1.0)).sqrt().max(least)
         };
         let noise: Vec<f64> = (0..self.count).map(noise).collect();
@@ -296,14 +308,14 @@ impl System {
         Ok((Fit::of(&matrix, &right, name)?, noise))
     }
 
-    /// What is missed, in units of the joints' noise.
+    /// The residuals in units of the joints' noise.
     fn weighted(&self, noise: &[f64], fit: &Fit) -> DVector<f64> {
         let mut residual = &self.right - &self.matrix * &fit.values;
         residual.iter_mut().enumerate().for_each(|(row, value)| *value /= noise[row % self.count]);
         residual
     }
 
-    /// A list by row and freedom as one list for each freedom.
+    /// Splits a list by row and degree of freedom into one list for each degree of freedom.
     fn by_joint(&self, all: impl IntoIterator<Item = f64>) -> Vec<Vec<f64>> {
         let mut lists = vec![Vec::with_capacity(self.right.len() / self.count); self.count];
         all.into_iter().enumerate().for_each(|(row, value)| lists[row % self.count].push(value));
@@ -311,7 +323,8 @@ impl System {
     }
 }
 
-/// The square of the greatest distance below zero, in deviations, of a base parameter that is so of no bodies.
+/// The largest squared distance below zero, in standard deviations, of a base parameter that cannot be negative for
+/// consistent bodies.
 fn below_nothing(base: &Base, root: &DMatrix<f64>, found: &[f64]) -> f64 {
     let Some(inverse) = root.clone().try_inverse() else { return 0.0 };
     let distance = |at: usize| {

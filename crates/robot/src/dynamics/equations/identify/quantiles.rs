@@ -1,14 +1,16 @@
-//! Quantiles: Student's t and the chi-square distribution.
+//! Quantiles of Student's t and the chi-square distribution.
 
 use std::f64::consts::PI;
 
-/// Degrees of freedom from which on the quantile is taken from its expansion: it is within 1e-8 there.
+/// Number of degrees of freedom from which on the quantile is computed from its asymptotic expansion, with an error
+/// below 1e-8.
 const MANY: usize = 1000;
-/// The standard normal distribution has 95 % of itself within so many deviations, and 99.9 % below so many.
+/// Normal quantiles: 95 % within this number of standard deviations, and 99.9 % below the other.
 const NORMAL_95: f64 = 1.959_963_984_540_054;
 const NORMAL_999: f64 = 3.090_232_306_167_813_5;
 
-/// How many deviations 95 % of Student's t distribution are within (M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions, 26.7.3 to 26.7.5).
+/// The bound that contains 95 % of Student's t distribution (M. Abramowitz and I. A. Stegun, Handbook of Mathematical
+/// Functions, 26.7.3 to 26.7.5).
 pub(super) fn student_95(freedom: usize) -> f64 {
     if freedom > MANY {
         let (z, nu) = (NORMAL_95, freedom as f64);
@@ -37,13 +39,14 @@ fn student_within(bound: f64, freedom: usize) -> f64 {
     if is_odd { 2.0 / PI * (angle + sine * sum) } else { sine * sum }
 }
 
-/// What 99.9 % of the chi-square distribution are below (E. B. Wilson and M. M. Hilferty, Proc. National Academy of Sciences 17, 1931).
+/// The 99.9 % quantile of the chi-square distribution (E. B. Wilson and M. M. Hilferty, Proc. National Academy of
+/// Sciences 17, 1931).
 pub(super) fn chi_square_999(freedom: usize) -> f64 {
     let share = 2.0 / (9.0 * freedom as f64);
     freedom as f64 * (1.0 - share + NORMAL_999 * share.sqrt()).powi(3)
 }
 
-/// How much wider than with a known deviation bounds are where that is judged by few values.
+/// Factor by which bounds widen when the standard deviation is estimated from few values.
 pub(super) fn widening(freedom: usize) -> f64 {
     student_95(freedom) / NORMAL_95
 }
@@ -52,7 +55,8 @@ pub(super) fn widening(freedom: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Tables of the two distributions, such as those of the NIST/SEMATECH e-Handbook of Statistical Methods, 1.3.6.7.
+    /// Expected values: tables of the two distributions, such as those of the NIST/SEMATECH e-Handbook of Statistical
+    /// Methods, 1.3.6.7.
     #[test]
     fn quantiles_are_those_of_tables() {
         let table = [

@@ -1,4 +1,4 @@
-//! The families of subproblems: random instances with a known answer, and what the answers to them are worth.
+//! The families of subproblems: random instances with a known solution, and the quality of the computed solutions.
 
 mod one_joint;
 mod three_joints;
@@ -16,7 +16,7 @@ pub use two_joints::TWO_JOINTS;
 use super::instance::{Question, Random, Verdict};
 use super::turned;
 
-/// A name and what makes an instance. T is a joint that turns, S one that slides.
+/// A name and a generator of instances. T is a revolute joint, S a prismatic one.
 pub type Family = (&'static str, fn(&mut Random) -> Verdict);
 
 const EXACT: Reach = Reach::EXACT;
@@ -28,7 +28,7 @@ fn parts(v: Vector3<f64>) -> Vec<f64> {
     v.iter().copied().collect()
 }
 
-/// The angle that brings `p` to the side of `k`.
+/// The angle that rotates `p` to the side of `k`.
 fn towards(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>) -> f64 {
     let (w, u, v) = (axis.direction(), p - axis.point(), k - axis.point());
     w.dot(&u.cross(&v)).atan2(u.dot(&v) - w.dot(&u) * w.dot(&v))
@@ -39,7 +39,7 @@ fn values<const N: usize>(r: &mut Random, screws: &[Screw; N]) -> [f64; N] {
     screws.map(|screw| if screw.axis().is_some() { r.angle() } else { r.within(-1.0, 1.0) })
 }
 
-/// The joints, and the point, as they were before they moved to where they are at `q`, the point being at `k`.
+/// The joints and the point at zero, given their positions at `q` with the point at `k`.
 fn moved_back<const N: usize>(there: [Screw; N], q: &[f64; N], k: &Point3<f64>) -> ([Screw; N], Point3<f64>) {
     let mut before = Pose::identity();
     let screws = std::array::from_fn(|i| {
@@ -50,7 +50,7 @@ fn moved_back<const N: usize>(there: [Screw; N], q: &[f64; N], k: &Point3<f64>) 
     (screws, before.inverse() * k)
 }
 
-/// Two axes along one direction, or against each other.
+/// Two parallel or antiparallel axes.
 fn parallel(r: &mut Random) -> [Axis; 2] {
     let w = r.direction();
     let other = if r.integer(0, 1) == 0 { w } else { -w };
@@ -64,7 +64,7 @@ fn axis_moving_across(r: &mut Random, k: &Point3<f64>, n: &Vector3<f64>) -> Axis
     Axis::central(w).shifted(&(k.coords - arm))
 }
 
-/// How fast `k` moves with the joint.
+/// The velocity of `k` for a unit velocity of the joint.
 fn velocity(screw: &Screw, k: &Point3<f64>) -> Vector3<f64> {
     match screw {
         Screw::Revolute(axis) => axis.direction().cross(&(k - axis.point())),
@@ -72,7 +72,7 @@ fn velocity(screw: &Screw, k: &Point3<f64>) -> Vector3<f64> {
     }
 }
 
-/// Judges the answers of four circles.
+/// Evaluates the solutions of four circles.
 pub fn sp6_by(h: [Vector3<f64>; 4], k: [Unit<Vector3<f64>>; 4], p: [Vector3<f64>; 4], q: [f64; 2]) -> Verdict {
     let term = |i: usize, q: f64| h[i].dot(&turned(&Axis::central(k[i]), q, &Point3::from(p[i])).coords);
     let sums = |q: &[f64]| [term(0, q[0]) + term(1, q[1]), term(2, q[0]) + term(3, q[1])];
@@ -92,7 +92,7 @@ fn sp6(r: &mut Random) -> Verdict {
     sp6_by(h, k, p, [r.angle(), r.angle()])
 }
 
-/// The last vector is such that the two equations are dependent at the answer.
+/// The last vector is chosen so that the two equations are dependent at the solution.
 fn sp6_singular(r: &mut Random) -> Verdict {
     let (mut h, k, p) = ([(); 4].map(|()| r.vector()), [(); 4].map(|()| r.direction()), [(); 4].map(|()| r.vector()));
     let q = [r.angle(), r.angle()];

@@ -25,7 +25,7 @@ pub const ONE_JOINT: &[Family] = &[
     ("SP4", sp4),
 ];
 
-/// Judges the values of one joint.
+/// Evaluates the values of one joint.
 fn one(turns: bool, size: f64, q: f64, answers: Vec<Vec<Option<f64>>>, miss: impl Fn(f64) -> Vec<f64>) -> Verdict {
     let misses = |q: &[f64]| miss(q[0]);
     Question { units: &[if turns { 1.0 } else { size }], turns: &[turns], misses: &misses }.judge(&[q], &answers)

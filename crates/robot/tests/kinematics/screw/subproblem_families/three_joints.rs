@@ -59,7 +59,7 @@ fn aligned(r: &mut Random, place: usize) -> Verdict {
     three_by(axes.map(Screw::Revolute), p, q)
 }
 
-/// The axes `place` and `place + 1` meet.
+/// The axes `place` and `place + 1` intersect.
 fn meeting(r: &mut Random, place: usize) -> Verdict {
     let a = r.axis();
     let b = Axis::central(r.direction()).shifted(&a.point().coords);

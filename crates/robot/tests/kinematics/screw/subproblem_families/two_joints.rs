@@ -68,7 +68,7 @@ fn pg6_at_a_small_angle(r: &mut Random) -> Verdict {
     two_by(screws, p, q)
 }
 
-/// Axes that pass each other at 10^-1 ... 10^-16.
+/// Axes at a distance of 10^-1 ... 10^-16.
 fn pg6_at_a_small_distance(r: &mut Random) -> Verdict {
     let first = r.axis();
     let shift = first.point().coords + r.vector() * 10f64.powi(-r.integer(1, 16));

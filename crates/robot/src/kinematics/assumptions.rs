@@ -1,4 +1,4 @@
-//! Whether a chain keeps to what its task takes for granted: to a plane, or to an axis that the tip only turns about.
+//! Check of the assumptions of a task: the chain stays in a plane, or the tip rotates about one axis only.
 
 use nalgebra::Vector3;
 use num_traits::{One, Zero};
@@ -11,15 +11,15 @@ use crate::spatial::exact::vector::sine;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// How far \[rad\] the tip may tilt at other joint values, by rounding: the axes of ideal robots are exact.
+/// Maximum tilt of the tip \[rad\] by rounding. The axes of ideal robots are exact.
 const TILT: f64 = 1e-9;
 
 impl Chain {
-    /// Fails where a joint leaves the plane of a planar task, or tilts the tip of one that asks for the angle about an axis, by more than 1e-6 rad: a chain as
-    /// described may, its ideal must not.
+    /// Checks that no joint leaves the plane of a planar task by more than 1e-6 rad. For a task with an angle about an
+    /// axis, checks that no joint tilts the tip. A described chain may violate this, its ideal must not.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] with the joint, or the direction that is not at right angles to the axis.
+    /// [`ErrorKind::BadValue`] with the joint, or with the direction that is not perpendicular to the axis.
     pub fn check_task(&self) -> Result<()> {
         if let Some(axis) = self.task().axis() {
             self.check_aim(axis)?;
@@ -31,12 +31,12 @@ impl Chain {
         kept.map_err(|fault| fault.error)
     }
 
-    /// Where an axis of the base points, seen from the tip.
+    /// The direction of a base axis in the tip frame.
     fn axis_from_tip(&self, axis: BaseAxis, q: &[f64]) -> Result<Vector3<f64>> {
         Ok(self.forward(q)?.rotation.inverse() * Vector3::ith(axis.coordinate(), 1.0))
     }
 
-    /// The direction of the tip whose angle about `axis` is asked must be at right angles to it.
+    /// Checks that the tip's direction is perpendicular to `axis`, about which its angle is measured.
     fn check_aim(&self, axis: BaseAxis) -> Result<()> {
         let off = self.aim().dot(&self.axis_from_tip(axis, &vec![0.0; self.joints().len()])?).abs();
         if off <= TOLERANCE {
@@ -52,7 +52,7 @@ impl Chain {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// The tip must turn about `axis` only, whatever the joint values.
+    /// Checks that the tip rotates about `axis` only, for all joint values.
     fn check_tilt(&self, axis: BaseAxis) -> Result<()> {
         let still = self.axis_from_tip(axis, &vec![0.0; self.joints().len()])?;
         let moved = (1..=3).map(|round| self.axis_from_tip(axis, &self.some_values(round)));
@@ -73,7 +73,7 @@ impl Chain {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// Joint values like any others, of joints that follow others as these tell them.
+    /// Sample joint values. Mimic joints follow their leaders.
     fn some_values(&self, round: usize) -> Vec<f64> {
         let value = |joint: usize| 0.37 * round as f64 + 0.61 * joint as f64;
         let mut q: Vec<f64> = (0..self.joints().len()).map(value).collect();
