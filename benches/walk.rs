@@ -7,7 +7,7 @@ use groebot::Watch;
 use groebot::gait::{Biped, Footprint, Regular, Request, Route, Side, Usual, Walker, plan};
 use groebot::model::Meshes;
 use groebot::nav::Room;
-use groebot::robots::{NAO_PREVIEW, NAO_SEED, Outline, nao_walker, rh0, rh0_walker};
+use groebot::robots::{NAO_PREVIEW, NAO_SINE, Outline, nao_walker, rh0, rh0_walker};
 use groebot::task::{Body, Floor, Goal, Method, Pilot, Plan};
 use nalgebra::Point2;
 
@@ -20,8 +20,8 @@ fn walk(c: &mut Criterion) {
     let mut group = c.benchmark_group("walk");
     let Walker { biped: robot, legs, .. } = nao_walker(Outline::Measured).expect("the crate's own data");
     let cases = [
-        ("nao_8_steps_seed", request(&NAO_SEED, &robot, 0.04, 0.0)),
-        ("nao_8_steps_seed_turning", request(&NAO_SEED, &robot, 0.0, 0.7)),
+        ("nao_8_steps_seed", request(&NAO_SINE, &robot, 0.04, 0.0)),
+        ("nao_8_steps_seed_turning", request(&NAO_SINE, &robot, 0.0, 0.7)),
         ("nao_8_steps_preview", request(&NAO_PREVIEW, &robot, 0.05, 0.0)),
         ("nao_8_steps_preview_turning", request(&NAO_PREVIEW, &robot, 0.03, 0.7)),
     ];

@@ -3,7 +3,7 @@
 //!     cargo run --release --example 05_walk
 
 use groebot::gait::{Regular, Request, Route, Side, Style, Summary, Walker, plan};
-use groebot::robots::{NAO_SEED, Outline, nao_walker};
+use groebot::robots::{NAO_SINE, Outline, nao_walker};
 use groebot::{Result, Watch};
 
 fn main() -> Result<()> {
@@ -16,7 +16,7 @@ fn main() -> Result<()> {
         half_width: 0.05,
         first: Side::Left,
     })?;
-    let request = NAO_SEED.request(&robot, route, NAO_SEED.hip_heights[0]);
+    let request = NAO_SINE.request(&robot, route, NAO_SINE.hip_heights[0]);
     let walk = plan(&robot, &legs, &request, &Watch::none())?;
     print!("{}", Summary::of(&robot, &walk));
     assert!(walk.balances.iter().all(|balance| balance.support.signed_distance(&balance.zmp) >= request.margin));

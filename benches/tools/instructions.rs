@@ -17,7 +17,7 @@ use groebot::kinematics::{InverseKinematics, Target};
 use groebot::model::Robot;
 use groebot::number::{Rationals, Zp};
 use groebot::poly::{Order, PolynomialRing, parse};
-use groebot::robots::{self, NAO_SEED, Outline, nao_walker};
+use groebot::robots::{self, NAO_SINE, Outline, nao_walker};
 use groebot::solver::Program;
 use groebot::{Watch, codegen, dynamics};
 
@@ -99,7 +99,7 @@ fn walk() -> Result<Call> {
     let Walker { biped, legs, .. } = nao_walker(Outline::Measured)?;
     let half_width = biped.half_width();
     let steps = Regular { steps: 4, length: 0.04, aside: 0.0, turn: 0.0, half_width, first: Side::Left };
-    let request = NAO_SEED.request(&biped, Route::regular(&steps)?, NAO_SEED.hip_heights[0]);
+    let request = NAO_SINE.request(&biped, Route::regular(&steps)?, NAO_SINE.hip_heights[0]);
     Ok(Box::new(move || drop(black_box(plan(&biped, &legs, black_box(&request), &Watch::none())))))
 }
 

@@ -52,7 +52,7 @@ pub fn navigate<'py>(
     })?;
     match found {
         Ok(plan) => walk(py, &pilot.walker().biped, &plan),
-        Err(blocked) => Err(no_way(py, &blocked)?),
+        Err(blocked) => Err(no_path(py, &blocked)?),
     }
 }
 
@@ -127,15 +127,15 @@ fn walk<'py>(py: Python<'py>, biped: &Biped, plan: &Plan) -> PyResult<Bound<'py,
     let prints = steps.iter().flat_map(|step| [step.print.x, step.print.y, step.print.yaw]).collect();
     let sides: Vec<&str> = steps.iter().map(|step| step.side.name()).collect();
     let base = trajectory.base.iter().flat_map(|pose| pose.to_homogeneous().transpose().as_slice().to_vec()).collect();
-    let way: Vec<f64> = plan.course.way.points.iter().flat_map(|point| [point.x, point.y]).collect();
-    let corners = plan.course.way.points.len();
+    let path: Vec<f64> = plan.course.path.points.iter().flat_map(|point| [point.x, point.y]).collect();
+    let corners = plan.course.path.points.len();
     let arguments = (
         shaped(py, trajectory.times.clone(), &[samples])?,
         names,
         shaped(py, trajectory.q.concat(), &[samples, trajectory.joints.len()])?,
         shaped(py, base, &[samples, 4, 4])?,
         shaped(py, margin, &[samples])?,
-        shaped(py, way, &[corners, 2])?,
+        shaped(py, path, &[corners, 2])?,
         shaped(py, prints, &[steps.len(), 3])?,
         sides,
         plan.walk.to_csv(biped),
@@ -143,7 +143,7 @@ fn walk<'py>(py: Python<'py>, biped: &Biped, plan: &Plan) -> PyResult<Bound<'py,
     py.import("groebot._records")?.getattr("Walk")?.call1(arguments)
 }
 
-fn no_way(py: Python<'_>, blocked: &Blocked) -> PyResult<PyErr> {
+fn no_path(py: Python<'_>, blocked: &Blocked) -> PyResult<PyErr> {
     let cells = &blocked.enclosure.cells;
     let middles = cells.iter().map(|cell| blocked.map.centre(*cell)).flat_map(|at| [at.x, at.y]).collect();
     let enclosure = shaped(py, middles, &[cells.len(), 2])?;

@@ -1,4 +1,4 @@
-//! Polynomials as people compare them with a paper: short decimals, common numbers in front, wrapped lines.
+//! Readable polynomials for comparison with a paper: short decimals, common numbers in front, wrapped lines.
 
 use num_bigint::BigInt;
 use num_traits::{One, Pow, Signed};
@@ -7,10 +7,10 @@ use groebot_algebra::number::{BigRational, Rationals};
 use groebot_algebra::poly::{Expression, PolynomialRing};
 use groebot_ik::derive::setting::{ParameterPoly, Poly, Unknowns};
 
-/// The largest power of ten that is tried.
+/// The greatest power of ten that is tried.
 const MAX_POWER: u32 = 24;
 
-/// `f`, whose denominators are cleared, divided by the power of ten that makes its numbers shortest: with the integers
+/// `f` with its denominators cleared, divided by the power of ten that makes its numbers shortest. With the integers
 /// 2058000, 100 and 2058841 it becomes `20580*c4 - px^2 - pz^2 + 20588.41`.
 pub fn readable(ring: &Unknowns, f: &Poly) -> Expression {
     let scale = best_scale(f);
@@ -28,7 +28,7 @@ pub fn readable(ring: &Unknowns, f: &Poly) -> Expression {
     Expression::sum(sum)
 }
 
-/// `leading` without its number: what a formula divides by.
+/// `leading` without its numeric factor: the divisor of a formula.
 pub fn divisor(ring: &PolynomialRing<Rationals>, leading: &ParameterPoly) -> Expression {
     let content = common_magnitude(leading).unwrap_or_else(BigRational::one);
     Expression::sum(terms(ring, &ring.scale(leading, &content.recip())))
@@ -72,7 +72,7 @@ fn terms(ring: &PolynomialRing<Rationals>, f: &ParameterPoly) -> Vec<Expression>
     f.terms().iter().map(|term| product(&term.coefficient, factors(&term.monomial))).collect()
 }
 
-/// The magnitude that all coefficients share, if they do.
+/// The magnitude of all coefficients, if it is common.
 fn common_magnitude(f: &ParameterPoly) -> Option<BigRational> {
     let magnitude = f.leading()?.coefficient.abs();
     f.terms().iter().all(|term| term.coefficient.abs() == magnitude).then_some(magnitude)
@@ -93,7 +93,7 @@ fn coefficient_times(ring: &PolynomialRing<Rationals>, f: &ParameterPoly, unknow
     product(&number, [vec![inner], unknowns].concat())
 }
 
-/// `expression` with numbers that are divided by numbers carried out: `1029/10*c3` becomes `102.9*c3`.
+/// Evaluates quotients of numbers: `1029/10*c3` becomes `102.9*c3`.
 pub fn with_decimals(expression: &Expression) -> Expression {
     let each = |parts: &[Expression]| parts.iter().map(with_decimals).collect::<Vec<_>>();
     match expression {
@@ -110,7 +110,7 @@ pub fn with_decimals(expression: &Expression) -> Expression {
     }
 }
 
-/// The value of the numbers that a product starts with, and how many factors they are.
+/// The value of the leading numbers of a product, and how many factors they are.
 fn numeric_start(parts: &[Expression]) -> (Option<BigRational>, usize) {
     let mut value = None;
     for (index, part) in parts.iter().enumerate() {
@@ -127,7 +127,7 @@ fn numeric_start(parts: &[Expression]) -> (Option<BigRational>, usize) {
     (value, parts.len())
 }
 
-/// `text` in lines that end by column `width` where it can be broken at a space; it starts at column `indent`, as all its lines do.
+/// Breaks `text` at spaces into lines that end by column `width`. All lines start at column `indent`.
 pub fn wrap(text: &str, width: usize, indent: usize) -> String {
     let mut lines = vec![String::new()];
     for piece in pieces(text) {
@@ -143,7 +143,7 @@ pub fn wrap(text: &str, width: usize, indent: usize) -> String {
     lines.join(&format!("\n{}", " ".repeat(indent)))
 }
 
-/// The words of `text`, a sign or `=` together with the word behind it.
+/// The words of `text`, with each sign or `=` joined to the next word.
 fn pieces(text: &str) -> Vec<String> {
     let mut pieces: Vec<String> = Vec::new();
     let mut sign = None;

@@ -1,4 +1,4 @@
-//! Writing solutions: a table for people, JSON, CSV.
+//! Output of solutions: a text table, JSON, CSV.
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use super::json::FORMAT;
 use groebot_ik::solver::{Joint, Program, Unit};
 use groebot_robot::kinematics::{Placed, Solution};
 
-/// The unit of angles at the edge of the tool.
+/// The unit of angles in input and output.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Angles {
     /// Radians.
@@ -18,7 +18,7 @@ pub enum Angles {
 }
 
 impl Angles {
-    /// `target` as the program wants it.
+    /// Converts `target` to the units of the program.
     pub fn to_radians(self, program: &Program, target: &[f64]) -> Vec<f64> {
         let value = |(index, value): (usize, &f64)| match program.inputs.get(index).map(|input| input.unit) {
             Some(Unit::Radian) if self == Angles::Degrees => value.to_radians(),
@@ -47,14 +47,14 @@ pub struct Answer<'a> {
     pub target: Vec<f64>,
     /// All solutions.
     pub solutions: Vec<Solution>,
-    /// Why there is none, where that is known.
+    /// The reason why there is none, where it is known.
     pub reason: Option<String>,
     /// The unit of angles in the target, in JSON and in CSV.
     pub angles: Angles,
 }
 
 impl Answer<'_> {
-    /// Whether all work on the target was done.
+    /// Whether the solver completed its work on the target.
     fn are_settled(&self) -> bool {
         self.solutions.iter().all(|solution| solution.settled)
     }
@@ -63,7 +63,7 @@ impl Answer<'_> {
         solution.free.iter().map(|&joint| self.program.joints[joint].name.as_str()).collect()
     }
 
-    /// The joints that are outside their limits, whole turns apart.
+    /// The joints that are outside their limits, also after adding whole turns.
     fn outside_names(&self, solution: &Solution) -> Vec<&str> {
         let outside = |(index, _): &(usize, &Joint)| {
             let placed = Placed::fixed(solution.q[*index], limits(self.program, *index));
@@ -78,18 +78,18 @@ impl Answer<'_> {
     }
 }
 
-/// The shortest decimal that is read as `value`; far from one, with an exponent.
+/// The shortest decimal that is read back as `value`; with an exponent where it is very large or small.
 pub fn exact(value: f64) -> String {
     let plain = value.to_string();
     if plain.len() <= 24 { plain } else { format!("{value:e}") }
 }
 
-/// Least and greatest value of the joint with this index.
+/// The least and greatest value of the joint with this index.
 fn limits(program: &Program, joint: usize) -> Option<(f64, f64)> {
     program.about.as_ref().and_then(|about| about.limits.get(joint).copied().flatten())
 }
 
-/// The solutions with each angle turned into its joint's limits, where whole turns do that; given ones stay unchanged.
+/// Moves each angle into its joint's limits by whole turns, where that is possible; given joints stay unchanged.
 pub fn turned(program: &Program, mut solutions: Vec<Solution>) -> Vec<Solution> {
     let given = &program.inputs[program.given()];
     let turns = |joint: &Joint| joint.unit == Unit::Radian && given.iter().all(|input| input.name != joint.name);
@@ -100,7 +100,7 @@ pub fn turned(program: &Program, mut solutions: Vec<Solution>) -> Vec<Solution> 
     solutions
 }
 
-/// A table with both units of each angle.
+/// A text table with both units of each angle.
 pub fn text(answer: &Answer<'_>) -> String {
     let program = answer.program;
     let target = program.inputs.iter().zip(&answer.target).map(|(input, value)| {
@@ -119,10 +119,10 @@ pub fn text(answer: &Answer<'_>) -> String {
     text += &table(&rows);
     text += &followers(program.joints.iter().map(|joint| joint.name.as_str()).zip(program.follows()));
     if answer.solutions.iter().any(|solution| !solution.free.is_empty()) {
-        text += "  A free joint may take any value: the row is one member of a self-motion.\n";
+        text += "  A free joint may have any value: the row is one member of a self-motion.\n";
     }
     if !answer.are_settled() {
-        text += "  Not settled: the steps of this target were spent before all work was done. Other solutions may be missing.\n";
+        text += "  Not settled: the step limit of this target was reached. Other solutions may be missing.\n";
     }
     text
 }
@@ -146,7 +146,7 @@ fn cells(answer: &Answer<'_>, solution: &Solution) -> Vec<String> {
     let mut notes: Vec<String> = answer.free_names(solution).iter().map(|name| format!("{name} is free")).collect();
     notes.extend(answer.outside_names(solution).iter().map(|name| format!("{name} outside its limits")));
     if solution.chosen {
-        notes.push("<- the source's choice".to_owned());
+        notes.push("<- the published choice".to_owned());
     }
     if !solution.settled {
         notes.push("not settled".to_owned());
@@ -155,7 +155,7 @@ fn cells(answer: &Answer<'_>, solution: &Solution) -> Vec<String> {
     row
 }
 
-/// Rows with right-aligned columns; the last column is left as it is.
+/// Rows with right-aligned columns; the last column is unchanged.
 pub fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
@@ -180,13 +180,13 @@ struct Page<'a> {
     target: &'a [f64],
     unit: Units<'a>,
     joints: Vec<&'a str>,
-    /// By joint the one that it follows.
+    /// By joint, the joint that it follows.
     #[serde(skip_serializing_if = "Option::is_none")]
     follows: Option<Vec<Option<&'a str>>>,
-    /// Whether all work on the target was done: else solutions may be missing.
+    /// Whether the solver completed its work on the target; otherwise solutions may be missing.
     settled: bool,
     solutions: Vec<Entry<'a>>,
-    /// Why there is no solution, where that is known.
+    /// The reason why there is no solution, where it is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<&'a str>,
 }
@@ -203,16 +203,16 @@ struct Entry<'a> {
     q: Vec<f64>,
     residual: f64,
     branch: usize,
-    /// Names of the joints that may take any value.
+    /// Names of the joints that may have any value.
     free: Vec<&'a str>,
-    /// Names of the joints that stand outside their limits, whole turns apart.
+    /// Names of the joints that are outside their limits, also after adding whole turns.
     outside_limits: Vec<&'a str>,
     chosen: bool,
-    /// Whether all work on the target was done.
+    /// Whether the solver completed its work on the target.
     settled: bool,
 }
 
-/// One JSON object: over several lines when `pretty`, else on one.
+/// One JSON object: on several lines when `pretty`, else on one.
 pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
     let program = answer.program;
     let entry = |solution| Entry {
@@ -239,7 +239,7 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
         reason: answer.reason.as_deref(),
     };
     let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
-    text.expect("an answer holds nothing that JSON cannot say") + "\n"
+    text.expect("an answer can be represented in JSON") + "\n"
 }
 
 /// The names of the columns.
@@ -253,7 +253,8 @@ pub fn csv_header(program: &Program, angles: Angles) -> String {
     csv_line(&cells)
 }
 
-/// One row a solution; an unreachable target has one row with 0 solutions and empty cells. `index` counts targets from 1.
+/// One row per solution; an unreachable target has one row with 0 solutions and empty cells. `index` counts targets
+/// from 1.
 pub fn csv_rows(answer: &Answer<'_>, index: usize) -> String {
     let mut start = vec![index.to_string()];
     start.extend(answer.target.iter().map(|value| exact(*value)));
@@ -276,7 +277,7 @@ pub fn csv_rows(answer: &Answer<'_>, index: usize) -> String {
     answer.solutions.iter().map(row).collect()
 }
 
-/// Cells with commas between them, quoted where they must be (RFC 4180).
+/// Cells separated by commas, quoted where necessary (RFC 4180).
 pub fn csv_line(cells: &[String]) -> String {
     let quoted = |cell: &String| {
         let special = cell.contains([',', '"', '\n', '\r']);

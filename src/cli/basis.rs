@@ -1,4 +1,4 @@
-//! `groebot basis`: the Groebner engine alone, on a system of polynomials in a file.
+//! `groebot basis`: Groebner bases of systems of polynomials in files.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -21,38 +21,40 @@ const EXAMPLES: &str = "Examples:
   groebot basis cyclic5.ms --order lex --output-format singular
   groebot basis surface.txt --eliminate s,t -o surface.basis
   groebot basis circles.sing --characteristic 32003 --time 60 --memory 2000
-  groebot basis circles.txt --certificate=circles.json       with cofactors: the basis is in the ideal
-  groebot basis leg.txt --cover                              where the parameters change the basis, in words
+  groebot basis circles.txt --certificate=circles.json       with a proof by cofactors
+  groebot basis leg.txt --cover                              a basis for every value of the parameters
 
 docs/basis_files.md describes the three formats and the certificate.";
 
 /// Computes the reduced Groebner basis of a system of polynomials
 ///
-/// The basis goes to standard output (or to OUT), a summary to standard error. Ctrl-C stops the work; nothing is half-written.
+/// The basis goes to standard output (or to OUT), a summary to standard error. Ctrl-C stops the work and writes
+/// nothing.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// Plain text, a Singular ring and ideal, or an msolve file; `-` for standard input
     file: PathBuf,
-    /// grevlex, lex, block:2,3 or blocks such as grevlex(2),lex(3) (default: what the file says, else grevlex)
+    /// The term order: grevlex, lex, block:2,3 or blocks such as grevlex(2),lex(3) (default: that of the file, else
+    /// grevlex)
     #[arg(long, value_parser = order)]
     order: Option<Order>,
-    /// Compute modulo this prime
+    /// Compute modulo this prime (default: the field of the file)
     #[arg(long, value_name = "P")]
     characteristic: Option<u64>,
-    /// Eliminate these variables: the basis of what the others satisfy
+    /// Eliminate these variables: computes the basis of the elimination ideal in the others
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     eliminate: Vec<String>,
-    /// Prove the basis and write the proof, by default beside FILE as NAME.certificate.json
+    /// Prove the basis and write the proof, by default to NAME.certificate.json in the folder of FILE
     #[arg(long, value_name = "OUT", num_args = 0..=1, require_equals = true)]
     certificate: Option<Option<PathBuf>>,
-    /// Print the basis at every value of the parameters: strata of the parameter space, in words, proved
+    /// Print a basis for every value of the parameters: a list of strata of the parameter space, proved
     #[arg(long, conflicts_with_all = ["certificate", "eliminate", "output_format", "prove"])]
     cover: bool,
-    /// Let nothing rest on primes or chance: prove the basis, or take exact steps alone
+    /// Exclude errors by unlucky primes: prove the basis, or compute exactly only
     #[arg(long)]
     prove: bool,
-    /// The format of FILE
+    /// The format of FILE (default: detected from its content)
     #[arg(long, default_value = "auto", value_parser = formats(&["auto", "plain", "singular", "msolve"]))]
     format: Choice,
     /// The format of the basis (default: that of FILE)
@@ -67,7 +69,7 @@ pub struct Arguments {
     force: Force,
 }
 
-/// A format, or none: the content shows it.
+/// A format, or automatic detection.
 #[derive(Clone, Copy)]
 struct Choice(Option<Format>);
 
@@ -82,7 +84,7 @@ fn order(text: &str) -> std::result::Result<Order, String> {
     parse_order(text).map_err(|error| error.message().to_owned())
 }
 
-/// Reads, computes, writes, and tells about it.
+/// Reads the system, computes, and writes the result.
 pub fn run(arguments: &Arguments) -> Outcome {
     let session = Session::start(arguments.budget.limits())?;
     let start = Instant::now();
@@ -100,7 +102,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Format::Singular => Kind::Lines("//"),
         Format::Msolve => Kind::Plain,
     };
-    // An interruption is heeded before the first file.
+    // An interruption is checked before the first file.
     session.watch.check()?;
     if let (Some(file), Some(proof)) = (&proof_file, &answer.certificate) {
         output.write(file, Kind::Json, proof)?;
@@ -113,13 +115,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
         console::print(&text)?;
     }
     if !arguments.budget.quiet {
-        // There is no one left to tell about a closed standard error.
+        // A closed standard error cannot be reported.
         let _ = writeln!(io::stderr(), "{}; {:.2} s", answer.summary(), start.elapsed().as_secs_f64());
     }
     Ok(())
 }
 
-/// Computes the cover, writes it, and tells about it.
+/// Computes the cover and writes the result.
 fn tell_cover(arguments: &Arguments, output: &Output, session: &Session, start: Instant) -> Outcome {
     let tell = || {
         let (system, _) = arguments.system()?;
@@ -136,14 +138,14 @@ fn tell_cover(arguments: &Arguments, output: &Output, session: &Session, start: 
         None => console::print(&text)?,
     }
     if !arguments.budget.quiet {
-        // There is no one left to tell about a closed standard error.
+        // A closed standard error cannot be reported.
         let _ = writeln!(io::stderr(), "{summary}; {:.2} s", start.elapsed().as_secs_f64());
     }
     Ok(())
 }
 
 impl Arguments {
-    /// The system in the file, over the field that was asked for, and the format of the file.
+    /// The system in the file, over the requested field, and the format of the file.
     fn system(&self) -> Result<(PolynomialSystem, Format)> {
         let bytes = read_bytes(&self.file, MAX_SYSTEM_LENGTH as u64)?;
         let given = self.format.0.unwrap_or_else(|| PolynomialSystem::format_of(&String::from_utf8_lossy(&bytes)));
@@ -160,7 +162,7 @@ impl Arguments {
         Question::new(system, self.order.clone(), &self.eliminate, format, self.certificate.is_some(), self.prove)
     }
 
-    /// Where the certificate goes, if one is asked for.
+    /// The file of the certificate, if one is requested.
     fn proof_file(&self) -> Result<Option<PathBuf>> {
         let path = match &self.certificate {
             None => return Ok(None),

@@ -1,4 +1,4 @@
-//! From a question about a system of polynomials to its basis, as text: the engine for each field, the answer.
+//! Computes the basis for a question, by the engine for its field, and prints it as text.
 
 use std::fmt;
 
@@ -12,40 +12,40 @@ use groebot_algebra::number::{BigRational, Field, Rationals, Zp};
 use groebot_algebra::poly::system::Heading;
 use groebot_algebra::poly::{Fraction, Fractions, Polynomial, PolynomialRing};
 
-/// The most standard monomials that are counted.
+/// The greatest number of standard monomials that are counted.
 const MAX_DEGREE: usize = 1_000_000;
 
-/// The basis, printed, and what it says about the ideal.
+/// The basis as text, with figures of the ideal.
 pub struct Answer {
-    /// The basis in the format that was asked for.
+    /// The basis in the requested format.
     pub text: String,
-    /// The proof as JSON, when it was asked for.
+    /// The proof as JSON, if requested.
     pub certificate: Option<String>,
     verdict: Verdict,
     heading: Heading,
     /// Exponents of the leading monomials.
     leads: Vec<Vec<u32>>,
-    /// Names of a largest set of free variables; none for the unit ideal.
+    /// Names of a maximal set of free variables; none for the unit ideal.
     free: Option<Vec<String>>,
 }
 
-/// How sure a basis is.
+/// The certainty of a basis.
 #[derive(Clone, Copy)]
 enum Verdict {
-    /// Cofactors, which were multiplied out, prove it.
+    /// Proved by cofactors, which were multiplied out.
     Proved,
     /// Every step was exact.
     Exact,
-    /// It agrees with a computation modulo a prime that it was not made from.
+    /// Confirmed modulo a prime that was not used to compute it.
     Probable,
-    /// F4: complete but for a chance below 2^-50 a block of rows (--prove goes without) for each block of rows.
+    /// F4: complete except with a probability below 2^-50 per block of rows. `--prove` excludes that.
     BeyondChance,
 }
 
-/// What an engine finds.
+/// The result of an engine.
 type Found<F> = Result<(Basis<F>, Verdict)>;
 
-/// What is asked of an engine beside the reduced basis.
+/// Requirements on an engine in addition to the reduced basis.
 #[derive(Clone, Copy)]
 struct Rigour {
     /// The cofactors that express the basis in the generators.
@@ -129,7 +129,9 @@ impl fmt::Display for Verdict {
             Verdict::Proved => "proved",
             Verdict::Exact => "exact",
             Verdict::Probable => "probable: agrees with a further prime (--prove proves it)",
-            Verdict::BeyondChance => "complete but for a chance below 2^-50 a block of rows (--prove goes without)",
+            Verdict::BeyondChance => {
+                "complete except with a probability below 2^-50 per block of rows (--prove excludes that)"
+            }
         })
     }
 }
@@ -163,7 +165,7 @@ impl Question {
         })
     }
 
-    /// The elements that are free of the eliminated variables, in the ring of the answer (Cox, Little, O'Shea, theorem 3.1.2).
+    /// The elements without eliminated variables, in the ring of the answer (Cox, Little, O'Shea, theorem 3.1.2).
     fn kept<F: Field>(&self, found: Basis<F>) -> Result<Basis<F>> {
         if self.eliminated.is_empty() {
             return Ok(found);
@@ -205,8 +207,8 @@ impl Answer {
     }
 }
 
-/// Counts the exponent vectors of so many `variables` that no lead divides; `false` when there are too many. Some lead is a power of each
-/// variable.
+/// Counts the exponent vectors in `variables` variables that no leading monomial divides; `false` when there are too
+/// many. Each variable must have a power among the leading monomials.
 fn count_standard(leads: &[&[u32]], variables: usize, count: &mut usize) -> bool {
     if leads.iter().any(|lead| lead.iter().all(|&exponent| exponent == 0)) {
         return true;

@@ -9,7 +9,7 @@ use groebot_algebra::groebner::verify::{Claim, verify};
 use groebot_algebra::number::{Field, Ring, Style};
 use groebot_algebra::poly::{Polynomial, PolynomialRing};
 
-/// The form of the file; the first had a text in place of a number.
+/// The version of the file format; version 1 had a text instead of a number.
 const FORMAT: u32 = 2;
 
 /// `basis` is the reduced Groebner basis of the ideal of `generators`, and `basis[i]` is the sum over j of
@@ -28,10 +28,10 @@ struct Certificate<'a> {
     cofactors: Vec<Vec<String>>,
 }
 
-/// Proves `found` without the engine, then writes the proof.
+/// Proves `found` without the engine, then prints the proof.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] when it is no basis of `generators`; [`ErrorKind::Overflow`]; what `watch` stops with.
+/// [`ErrorKind::Certificate`] when it is not a basis of `generators`; [`ErrorKind::Overflow`]; the error of `watch`.
 pub fn prove<F: Field>(
     question: &Question,
     ring: &PolynomialRing<F>,

@@ -1,4 +1,4 @@
-//! `groebot basis --cover`: a basis at every value of the parameters, told in words.
+//! `groebot basis --cover`: a basis for every value of the parameters, as text.
 
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::groebner::cover::{Cover, Space, check, cover};
@@ -6,13 +6,14 @@ use groebot_algebra::number::{Field, Rationals, Zp};
 use groebot_algebra::poly::Fractions;
 use groebot_algebra::poly::system::{Heading, PolynomialSystem};
 
-/// The strata of the parameter space with a basis each, proved, and a line that sums it up.
+/// The strata of the parameter space with a basis each, proved, and a line of summary.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] without parameters, or for a coefficient with a denominator; those of [`cover`]; what `watch` stops with.
+/// [`ErrorKind::BadValue`] without parameters, or for a coefficient with a denominator; those of [`cover`]; the error
+/// of `watch`.
 pub fn tell(system: &PolynomialSystem, heading: &Heading, watch: &Watch) -> Result<(String, String)> {
     if heading.parameters.is_empty() {
-        let text = "a cover is one of the values of parameters, and there are none; name some in the heading";
+        let text = "a cover needs parameters, and there are none; name some in the heading";
         return Err(Error::new(ErrorKind::BadValue, text).with_context("--cover"));
     }
     match heading.characteristic {

@@ -1,11 +1,11 @@
-//! What is asked of a system of polynomials ([`Question`]): which basis, in which ring, and how sure it must be.
+//! The question about a system of polynomials ([`Question`]): the basis, its ring, and the required certainty.
 
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::Rationals;
 use groebot_algebra::poly::system::{Format, Heading, PolynomialSystem};
 use groebot_algebra::poly::{Block, Order};
 
-/// What is asked.
+/// The question.
 pub struct Question {
     pub system: PolynomialSystem,
     /// The ring to compute in: eliminated variables first.
@@ -15,16 +15,17 @@ pub struct Question {
     pub eliminated: Vec<String>,
     pub format: Format,
     pub certificate: bool,
-    /// Whether nothing may rest on chance.
+    /// Whether a probabilistic result is excluded.
     pub prove: bool,
 }
 
 impl Question {
-    /// The basis of `system` in `order` (by default its own), without the variables `eliminated`.
+    /// Asks for the basis of `system` in `order` (by default its own), without the variables `eliminated`.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] and [`ErrorKind::DuplicateName`] for names to eliminate; [`ErrorKind::BadValue`] when none stays, or the
-    /// order does not cover those that stay; [`ErrorKind::Unsupported`] when `format` cannot hold the answer.
+    /// [`ErrorKind::UnknownName`] and [`ErrorKind::DuplicateName`] for names to eliminate; [`ErrorKind::BadValue`] when
+    /// none is left, or the order does not cover the remaining ones; [`ErrorKind::Unsupported`] when `format` cannot
+    /// represent the answer.
     pub fn new(
         system: PolynomialSystem,
         order: Option<Order>,
@@ -53,19 +54,19 @@ fn check_eliminated(heading: &Heading, eliminated: &[String]) -> Result<()> {
     let known = heading.variables.join(", ");
     for (index, name) in eliminated.iter().enumerate() {
         if !heading.variables.contains(name) {
-            return fail(ErrorKind::UnknownName, format!("`{name}` is no variable; the variables are {known}"));
+            return fail(ErrorKind::UnknownName, format!("`{name}` is not a variable; the variables are {known}"));
         }
         if eliminated[..index].contains(name) {
             return fail(ErrorKind::DuplicateName, format!("`{name}` is named twice; name each variable once"));
         }
     }
     if eliminated.len() == heading.variables.len() {
-        return fail(ErrorKind::BadValue, "no variable stays; leave one out".to_owned());
+        return fail(ErrorKind::BadValue, "no variable would remain; eliminate fewer".to_owned());
     }
     Ok(())
 }
 
-/// The eliminated variables in a graded block of their own, in front of `target`.
+/// The ring with the eliminated variables in a graded block of their own before those of `target`.
 fn working_heading(target: &Heading, eliminated: &[String]) -> Heading {
     if eliminated.is_empty() {
         return target.clone();

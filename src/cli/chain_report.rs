@@ -1,11 +1,11 @@
-//! What the derivation of a chain, or of chains that share actuators, found, for a person to read.
+//! The text report of the derivation of a chain, or of chains that share actuators.
 
 use super::page::Page;
 use groebot_ik::derive::coupled::DerivedCoupled;
 use groebot_ik::derive::eigenvalue::DerivedSixAxes;
 use groebot_ik::derive::sequential::{Derived, Form};
 
-/// Tells about each chain in the order in which they are solved.
+/// Reports each chain in the order of solution.
 pub fn describe_coupled(page: &mut Page, derived: &DerivedCoupled) {
     let parts = derived.coupled.parts();
     page.heading(&format!("{}: {} solutions at most", parts.name, derived.dimension()));
@@ -14,7 +14,7 @@ pub fn describe_coupled(page: &mut Page, derived: &DerivedCoupled) {
     }
     if derived.simultaneous.is_some() {
         page.heading(&format!("Shared joints: {}", derived.simultaneous_names().join(", ")));
-        page.line("found first, from an equation of each chain that holds no other unknown joint");
+        page.line("solved first, from an equation of each chain without other unknown joints");
     }
     for stage in &derived.stages {
         page.heading(&derived.title(stage));
@@ -23,7 +23,7 @@ pub fn describe_coupled(page: &mut Page, derived: &DerivedCoupled) {
     }
 }
 
-/// Tells about an eigenvalue problem.
+/// Reports an eigenvalue problem.
 pub fn describe_six_axes(page: &mut Page, derived: &DerivedSixAxes) {
     page.heading(&format!("{}: {} solutions at most, all joints together", derived.chain.name(), derived.dimension()));
     derived.given().iter().chain(&derived.counts()).for_each(|line| page.line(line));
@@ -31,7 +31,7 @@ pub fn describe_six_axes(page: &mut Page, derived: &DerivedSixAxes) {
     derived.choices().iter().for_each(|line| page.line(line));
 }
 
-/// Tells about the plan, its steps and the proofs.
+/// Reports the plan, its steps and the proofs.
 pub fn describe(page: &mut Page, derived: &Derived) {
     let plan = &derived.plan;
     page.heading(&format!("Plan: {} solutions at most", plan.dimension));

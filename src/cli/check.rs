@@ -1,4 +1,4 @@
-//! `groebot check`: the stored certificate proves the derivation again, and every file of the folder is what it proves.
+//! `groebot check`: proves the derivation again from the stored certificate, and compares every file of the folder.
 
 use std::path::{Path, PathBuf};
 
@@ -11,13 +11,14 @@ use groebot_ik::derive::{Proved, Source};
 use groebot_ik::folder::{self, CERTIFICATE, CHECKS, Checked, Finding, Stored, Verdict};
 use groebot_robot::document::{read_text, shown};
 
-/// The longest certificate that is read, in bytes.
+/// The greatest length of a certificate in bytes.
 const LIMIT: u64 = groebot_algebra::limits::STAGE_BYTES;
 
-/// Proves a stored derivation again, without the Groebner engine, and compares every file of its folder with what is proved
+/// Proves a stored derivation again, without the Groebner engine, and compares every file of its folder with the proved
+/// result
 ///
-/// Ends with status 1 and names the file when a proof is forged, damaged or weaker than that of `groebot derive`, or when a file is not what is
-/// proved. Files that are not groebot's are named as not checked.
+/// Ends with status 1 and names the file when a proof is forged, damaged or weaker than that of `groebot derive`, or
+/// when a file differs from the proved result. Files that groebot did not write are listed as not checked.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  groebot check derivations/nao_leg_sagittal")]
 pub struct Arguments {
@@ -25,12 +26,12 @@ pub struct Arguments {
     derivation: PathBuf,
     #[command(flatten)]
     ends: EndArguments,
-    /// JSON instead of text
+    /// Print JSON instead of text
     #[arg(long)]
     json: bool,
 }
 
-/// Checks all there is to check.
+/// Runs all checks.
 pub fn run(arguments: &Arguments) -> Outcome {
     let folder = arguments.derivation.as_path();
     let source = Source::read_between(folder, &arguments.ends.ends()?)?;
@@ -65,7 +66,7 @@ pub fn reprove(folder: &Path, source: &Source) -> Result<Proved> {
     Ok(proved.about(source))
 }
 
-/// All findings; what is not groebot's neither holds nor fails: `null`.
+/// All findings as JSON; files that groebot did not write have `null` for the result.
 fn told(findings: &[Finding], notes: &[String]) -> serde_json::Value {
     let one = |Finding { what, verdict }: &Finding| {
         let (holds, text) = match verdict {

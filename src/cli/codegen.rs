@@ -23,9 +23,10 @@ const EXAMPLES: &str = "Examples:
   groebot codegen derivations/ur5 --lang rust --single-file -o src/ur5.rs
   groebot codegen derivations/nao_leg_sagittal --lang latex -o leg.tex
 
-The head of each file describes its use; see also docs/generated_code.md and docs/ikfast.md.";
+The first comment of each file describes its use. See also docs/generated_code.md and
+docs/ikfast.md.";
 
-/// Prints the solver of a derivation as C, Rust or IKFast's C++, or its formulas as LaTeX
+/// Generates the solver of a derivation as C, Rust or IKFast C++, or its formulas as LaTeX
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -35,20 +36,20 @@ pub struct Arguments {
     /// The language
     #[arg(long, value_name = "LANGUAGE")]
     lang: Language,
-    /// The file to write to, instead of standard output; one that groebot did not write is left alone. C goes into `NAME.c` and `NAME.h`
-    /// beside it, to standard output as one file
+    /// The output file (default: standard output); a file that groebot did not write is not replaced. C is written as
+    /// `NAME.c` with `NAME.h`, and to standard output as one file
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Single precision: of the whole solver (c), of the numbers that callers give and get (ikfast)
+    /// Use single precision: in the whole solver (c), or in the interface only (ikfast)
     #[arg(long)]
     float: bool,
-    /// With the run time in the same file, so that it needs no other; standard output and IKFast's files have it always (c, rust)
+    /// Include the run time in the same file (c, rust); standard output and IKFast files always include it
     #[arg(long)]
     single_file: bool,
-    /// The namespace of the functions (ikfast)
+    /// The namespace of the functions (ikfast) (default: none)
     #[arg(long, value_name = "NAME")]
     namespace: Option<String>,
-    /// What the names of all functions begin with, instead of the mechanism's name (c)
+    /// The prefix of all function names (c) (default: the mechanism's name)
     #[arg(long, value_name = "NAME")]
     prefix: Option<String>,
     #[command(flatten)]
@@ -57,17 +58,17 @@ pub struct Arguments {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Language {
-    /// C99, a header and a source file on groebot.h and groebot.c, or one file with all
+    /// C99: a header and a source file that need groebot.h and groebot.c, or one complete file
     C,
-    /// Rust without std, one file on the crate `groebot-runtime`
+    /// Rust without std: one file that needs the crate `groebot-runtime`
     Rust,
-    /// C++11 for MoveIt and OpenRAVE
+    /// C++11 with the interface of IKFast, for MoveIt and OpenRAVE
     Ikfast,
-    /// An article that needs amsmath only
+    /// An article that needs only amsmath
     Latex,
 }
 
-/// Prints the solver and writes it.
+/// Generates the code and writes it.
 pub fn run(arguments: &Arguments) -> Outcome {
     arguments.refuse_idle_options()?;
     let Some(path) = &arguments.output else { return console::print(&arguments.text()?) };
@@ -83,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
-/// The header beside a C file.
+/// The path of the header of a C file.
 fn header_of(path: &Path) -> Result<PathBuf> {
     refuse_run_time(path)?;
     if included_as(path).is_some_and(|name| name.len() > 2 && name.ends_with(".c")) {
@@ -94,7 +95,7 @@ fn header_of(path: &Path) -> Result<PathBuf> {
     Err(Error::new(ErrorKind::BadValue, text).in_file(path))
 }
 
-/// Fails for a C file that would stand in the place of one of the run time, which it includes.
+/// Checks that a C file does not replace a file of the run time, which it includes.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] with the file.
@@ -102,18 +103,18 @@ pub(super) fn refuse_run_time(path: &Path) -> Result<()> {
     if !path.file_stem().and_then(|stem| stem.to_str()).is_some_and(is_run_time) {
         return Ok(());
     }
-    let text = "the run time has a file of this name; give another one";
+    let text = "the run time has a file of this name; give another name";
     Err(Error::new(ErrorKind::BadValue, text).in_file(path))
 }
 
-/// The name by which C includes a file, if it can.
+/// The name by which C includes a file, if that is possible.
 fn included_as(path: &Path) -> Option<&str> {
     let can_be_included = |name: &&str| !name.contains(['"', '\\', '?']) && !name.chars().any(char::is_control);
     path.file_name().and_then(|name| name.to_str()).filter(can_be_included)
 }
 
 impl Arguments {
-    /// Fails for options that mean nothing in the language.
+    /// Refuses options that have no effect in the language.
     fn refuse_idle_options(&self) -> Result<()> {
         let (c, ikfast) = (self.lang == Language::C, self.lang == Language::Ikfast);
         let idle = [
@@ -135,7 +136,7 @@ impl Arguments {
         }
     }
 
-    /// The name of the file that is written, by which it includes itself.
+    /// The name of the output file, by which it includes itself.
     fn file_name(&self) -> Result<Option<&str>> {
         let Some(path) = &self.output else { return Ok(None) };
         let text = "give a name without quotation marks, `\\` and `?`: the file includes itself by it";
@@ -166,14 +167,14 @@ impl Arguments {
         }
     }
 
-    /// The two files of C, one at `header`.
+    /// The two files of C, with the header at `header`.
     fn pair(&self, header: &Path) -> Result<Pair> {
         let program = self.program()?;
         let stem = header.file_stem().unwrap_or_default().to_string_lossy();
         Ok(Pair::new(&program, &stem))
     }
 
-    /// The program, under the name that was asked for.
+    /// The program, under the requested name.
     fn program(&self) -> Result<Program> {
         let program = read_program(&self.derivation)?;
         match &self.prefix {
@@ -187,7 +188,7 @@ impl Arguments {
     }
 }
 
-/// Writes a C file and its header beside it, both or none.
+/// Writes a C file and its header, both or none.
 ///
 /// # Errors
 /// As [`Output::accepts`] and [`StagedFolder::commit`].

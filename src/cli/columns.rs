@@ -1,8 +1,8 @@
-//! The columns of tables that are piped from one command into another: `fk`, `ik` and `solve` write them, and read what the others write. Main
-//! type: [`Columns`].
+//! The columns of tables that are piped from one command into another: `fk`, `ik` and `solve` write them and read each
+//! other's tables. Main type: [`Columns`].
 //!
-//! A column is found by its name. A name may end in the unit of its numbers (`x_mm`, `A1_deg`); without one they are in the reader's own unit.
-//! Other columns are ignored where these commands write columns of that name, and refused elsewhere.
+//! A column is found by its name. A name may end in the unit of its numbers (`x_mm`, `A1_deg`); without one they are in
+//! the reader's default unit. Other columns of these commands are ignored; unknown columns are errors.
 
 use csv::StringRecord;
 
@@ -10,9 +10,9 @@ use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::shown;
 use groebot_robot::kinematics::{Joint, JointKind};
 
-/// Units that the name of a column may end in.
+/// Units at the end of a column's name.
 const UNITS: [&str; 4] = ["_mm", "_m", "_rad", "_deg"];
-/// What the commands write beside targets and joints.
+/// Columns that the commands write in addition to targets and joints.
 const BESIDE: [&str; 11] = [
     "target",
     "solutions",
@@ -26,13 +26,13 @@ const BESIDE: [&str; 11] = [
     "outside_limits",
     "time",
 ];
-/// The numbers of poses and of all tasks, units aside.
+/// The numbers of poses and of all tasks, without units.
 const NUMBERS: [&str; 28] = [
     "x", "y", "z", "px", "py", "pz", "qx", "qy", "qz", "qw", "roll", "pitch", "yaw", "yaw_x", "yaw_y", "phi", "dx",
     "dy", "dz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33",
 ];
 
-/// What a number measures.
+/// The quantity of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// A length in the reader's unit.
@@ -43,17 +43,17 @@ pub enum Measure {
     Plain,
 }
 
-/// A number that a reader wants.
+/// A number that a reader needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// Its name, such as `px` or that of a joint.
     pub name: String,
-    /// What it measures.
+    /// Its quantity.
     pub measure: Measure,
 }
 
 impl Field {
-    /// The number of this name: `px` is a length, `phi` an angle, `r11` neither.
+    /// The field with this name: `px` is a length, `phi` an angle, `r11` neither.
     pub fn of_target(name: &str) -> Field {
         let measure = match name {
             "px" | "py" | "pz" => Measure::Length,
@@ -64,35 +64,36 @@ impl Field {
     }
 }
 
-/// What a reader of a table takes, and what it ignores.
+/// The columns that a reader of a table takes, and those that it ignores.
 #[derive(Clone, Debug)]
 pub struct Columns {
-    /// The numbers of a row, in each form that it may have: the first form is that of rows without names that fit no other.
+    /// The numbers of a row, in each permitted form. A row without names has the first form if its number of cells fits
+    /// no other.
     pub forms: Vec<Vec<Field>>,
     /// Joints whose columns are ignored.
     pub joints: Vec<String>,
-    /// Whether lengths without a unit are millimetres; else metres.
+    /// Whether lengths without a unit are in millimetres; else metres.
     pub millimetres: bool,
-    /// Whether angles without a unit are degrees; else radians.
+    /// Whether angles without a unit are in degrees; else radians.
     pub degrees: bool,
     /// Whether a row of a target without a solution (`solutions` is 0) is ignored: it has no joint values.
     pub skips_unsolved: bool,
 }
 
-/// Where a form's numbers are in a row.
+/// The columns of a form's numbers in a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// The place of the form.
+    /// The index of the form.
     pub form: usize,
     /// The column of each number, and the conversion of its unit.
     columns: Vec<(usize, Scale)>,
-    /// How many columns have names.
+    /// The number of columns with names.
     pub count: usize,
     /// The column with the number of solutions, where a row may have none.
     solutions: Option<usize>,
 }
 
-/// From the unit of a column to that of the reader.
+/// The conversion from the unit of a column to that of the reader.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Scale {
     Same,
@@ -120,15 +121,15 @@ impl Columns {
         self.forms[form].iter().map(|field| field.name.as_str()).collect()
     }
 
-    /// The form of a row of so many cells without names.
+    /// The form of a row of `count` cells without names.
     pub fn form_of(&self, count: usize) -> usize {
         self.forms.iter().position(|form| form.len() == count).unwrap_or(0)
     }
 
-    /// Where the numbers are in a row under these names: of the first form that is there.
+    /// The columns of the first form that is complete under these names.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for names that lack a number of each form, and for one that is none of those that are read or ignored.
+    /// [`ErrorKind::UnknownName`] when every form lacks a number, and for a name that is neither read nor ignored.
     pub fn find(&self, names: &StringRecord) -> Result<Found> {
         let places = |form: &Vec<Field>| form.iter().map(|field| self.place(field, names)).collect::<Option<Vec<_>>>();
         let found = self.forms.iter().enumerate().find_map(|(form, fields)| Some((form, places(fields)?)));
@@ -136,7 +137,8 @@ impl Columns {
         if let Some(unknown) = names.iter().find(|name| !self.is_known(name)) {
             return Err(self.unknown(unknown));
         }
-        // In tables that these commands write, a joint may have the name of a number of the pose, and a given joint has two columns.
+        // In tables of these commands, a joint may have the same name as a number of the pose, and a given joint has
+        // two columns.
         let is_written = names.iter().any(|name| name == "outside_limits");
         let is_repeated =
             |(place, name): &(usize, &str)| !is_written && names.iter().take(*place).any(|before| before == *name);
@@ -149,14 +151,14 @@ impl Columns {
         Ok(Found { form, columns, count: names.len(), solutions: solutions.filter(|_| self.skips_unsolved) })
     }
 
-    /// The column of a number: that of its own name, else the first that holds it in some unit.
+    /// The column of a number: that with its own name, else the first with it in some unit.
     fn place(&self, field: &Field, names: &StringRecord) -> Option<(usize, Scale)> {
         let own = names.iter().position(|name| name == field.name).map(|place| (place, Scale::Same));
         let held = |(place, name): (usize, &str)| Some((place, self.scale(field, name)?));
         own.or_else(|| names.iter().enumerate().find_map(held))
     }
 
-    /// What is done with the numbers under `name` where they are those of `field`.
+    /// The conversion of the numbers under `name`, if they are those of `field`.
     fn scale(&self, field: &Field, name: &str) -> Option<Scale> {
         let (bare, unit) = split(name);
         let position = field.measure == Measure::Length && field.name.strip_prefix('p') == Some(bare);
@@ -187,7 +189,7 @@ impl Columns {
         let found: Vec<String> = names.iter().take(8).map(shown).collect();
         let wanted: Vec<&str> = fewest.iter().map(|field| field.name.as_str()).collect();
         let text = format!(
-            "the first row (`{}`) is neither numbers nor names of the inputs: `{}` is missing; {} are allowed",
+            "the first row (`{}`) has neither numbers nor the names of the inputs: `{}` is missing; {} are allowed",
             found.join(","),
             lacking.map_or("", |field| &field.name),
             wanted.join(", ")
@@ -213,12 +215,12 @@ impl Columns {
 }
 
 impl Found {
-    /// The cells of a row with its numbers, each with the place of its column.
+    /// The cells of a row with its numbers, each with the index of its column.
     pub fn cells<'r>(&'r self, record: &'r StringRecord) -> impl Iterator<Item = (usize, &'r str)> {
         self.columns.iter().map(|(column, _)| (*column, record.get(*column).unwrap_or("").trim()))
     }
 
-    /// The numbers of those cells in the reader's units.
+    /// Converts the numbers of those cells to the reader's units.
     pub fn scaled(&self, numbers: Vec<f64>) -> Vec<f64> {
         numbers.into_iter().zip(&self.columns).map(|(number, (_, scale))| scale.of(number)).collect()
     }
@@ -229,7 +231,7 @@ impl Found {
     }
 }
 
-/// The name of a column that is written: an angle in degrees says so.
+/// The name of an output column, with the suffix for an angle in degrees.
 pub fn heading(name: &str, is_angle: bool, degrees: bool) -> String {
     if is_angle && degrees { format!("{name}_deg") } else { name.to_owned() }
 }
@@ -240,7 +242,7 @@ pub fn of_joints(joints: &[Joint]) -> Vec<Field> {
     joints.iter().map(|joint| Field { name: joint.name.clone(), measure: measure(joint.kind) }).collect()
 }
 
-/// A column's name without the unit at its end, and the unit.
+/// A column's name without its unit, and the unit.
 fn split(name: &str) -> (&str, &str) {
     let unit = UNITS.iter().find(|unit| name.len() > unit.len() && name.ends_with(*unit));
     unit.map_or((name, ""), |unit| name.split_at(name.len() - unit.len()))

@@ -1,4 +1,4 @@
-//! Standard output with restrained colour, and without a panic when its reader has gone.
+//! Standard output with a few colours, and without a panic when its reader has closed.
 
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -8,12 +8,12 @@ use super::{Halt, Outcome};
 use crate::Error;
 use groebot_algebra::escape;
 
-/// Whether text is painted.
+/// Whether text is coloured.
 #[derive(Clone, Copy)]
 pub struct Paint(bool);
 
 impl Paint {
-    /// Paints for a terminal, unless `NO_COLOR` is set to something or the terminal is a dumb one.
+    /// Colours text on a terminal, unless `NO_COLOR` is set to something or the terminal is a dumb one.
     pub fn of(stream: &impl IsTerminal) -> Self {
         let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|value| value == "dumb");
@@ -44,7 +44,7 @@ impl Paint {
         if self.0 { format!("\x1b[{code}m{text}\x1b[0m") } else { text.to_owned() }
     }
 
-    /// The text without hidden characters but those of [`Paint`].
+    /// The text without control characters, except those of [`Paint`].
     fn safe(self, text: &str) -> String {
         let mut pieces = text.split('\x1b');
         let first = escape::page(pieces.next().unwrap_or_default()).into_owned();
@@ -56,7 +56,7 @@ impl Paint {
     }
 }
 
-/// What [`Paint`] puts behind an escape character.
+/// The codes that [`Paint`] writes after an escape character.
 const CODES: [&str; 5] = ["[0m", "[1m", "[2m", "[31m", "[32m"];
 
 /// Writes `text` to standard output.
@@ -67,17 +67,17 @@ pub fn print(text: &str) -> Outcome {
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| unwritten(&error))
 }
 
-/// Writes what of the input was ignored to standard error.
+/// Writes notes about ignored input to standard error.
 pub fn tell(notes: &[String]) {
     notes.iter().for_each(|note| line("note", note));
 }
 
-/// Writes a line to standard error, where there may be no one left to read it.
+/// Writes a line to standard error, which may be closed.
 pub fn line(kind: &str, text: &str) {
     let _ = writeln!(io::stderr(), "{kind}: {}", escape::message(text));
 }
 
-/// What a failed write to standard output means.
+/// The outcome for a failed write to standard output.
 pub fn unwritten(error: &io::Error) -> Halt {
     match error.kind() {
         ErrorKind::BrokenPipe => Halt::PipeClosed,

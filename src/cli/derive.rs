@@ -1,4 +1,4 @@
-//! `groebot derive`: from a description to a proved solver and its files.
+//! `groebot derive`: derives a proved solver from a description and writes its files.
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -8,7 +8,7 @@ use super::console::{self, Paint};
 use super::ends::{IdealEndArguments, TipLink};
 use super::files::{assemble_files, destination, write_derivation};
 use super::info::near_words;
-use super::json::{self, Told};
+use super::json::{self, Derived};
 use super::output::Force;
 use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
@@ -20,44 +20,46 @@ use groebot_ik::derive::{Ends, Proved, Source};
 use groebot_ik::witness;
 use groebot_robot::document::shown;
 
-/// A robot that is farther from the base frame, in its reaches, is called far.
+/// A robot farther from the base frame than this multiple of its reach is reported as far.
 const FAR: f64 = 5.0;
 
 const EXAMPLES: &str = "Examples:
-  groebot derive derivations/nao_leg_sagittal          files beside its 0_chain.toml
-  groebot derive arm.toml                              files in the folder arm
-  groebot derive arm.toml --out /tmp/arm --time 60     files in /tmp/arm, or an error after a minute";
+  groebot derive derivations/nao_leg_sagittal          writes into that folder
+  groebot derive arm.toml                              writes into the folder arm
+  groebot derive arm.toml --out /tmp/arm --time 60     writes into /tmp/arm; fails after 60 s";
 
-/// Derives, proves and writes the closed-form inverse kinematics of a chain, of coupled chains or of a system of equations
+/// Derives, proves and writes the closed-form inverse kinematics of a chain, of coupled chains or of a system of
+/// equations
 ///
-/// Writes one numbered file for each stage. Ctrl-C stops the work and leaves the folder as it was.
+/// Writes one numbered file for each stage. Ctrl-C stops the work and leaves the folder unchanged.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder with its 0_chain.toml, 0_system.toml, 0_robot.urdf or 0_coupled.toml, or an input file; `-`: from standard input, with --out
+    /// A mechanism's folder with its 0_chain.toml, 0_system.toml, 0_robot.urdf or 0_coupled.toml, or an input file; `-`
+    /// for standard input, with --out
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
     ends: IdealEndArguments,
-    /// The folder to write to
+    /// The output folder (default: the mechanism's folder, or the folder `foo` for `foo.toml`)
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// The time budget
+    /// The time budget [s] (default: none)
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time: Option<Duration>,
-    /// The memory budget: polynomial terms alive
+    /// The memory budget as the number of polynomial terms in use (default: none)
     #[arg(long, value_name = "N")]
     terms: Option<usize>,
-    /// Neither progress nor report
+    /// Print neither progress nor report
     #[arg(long)]
     quiet: bool,
-    /// The name of the solver: its files are NAME.c, NAME.h, NAME.rs and NAME_ikfast.cpp
+    /// The name of the solver (default: the mechanism's): its files are NAME.c, NAME.h, NAME.rs and NAME_ikfast.cpp
     #[arg(long, value_name = "NAME", value_parser = name)]
     name: Option<String>,
-    /// JSON instead of the report
+    /// Print JSON instead of the report
     #[arg(long)]
     json: bool,
-    /// Refuse a solver whose answers are wrong or missing at one target of the numeric check, singular ones too
+    /// Refuse a solver with wrong or missing answers at any target of the numeric check, including singular ones
     #[arg(long)]
     strict: bool,
     #[command(flatten)]
@@ -68,7 +70,7 @@ fn name(text: &str) -> std::result::Result<String, String> {
     solver_name(text).map_err(|error| error.message().to_owned())
 }
 
-/// Derives, writes the files, then tells about it.
+/// Derives, writes the files, then prints the report.
 pub fn run(arguments: &Arguments) -> Outcome {
     let session =
         Session::start(Limits { time: arguments.time, terms: arguments.terms, memory: None, quiet: arguments.quiet })?;
@@ -94,7 +96,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
     if arguments.json {
         let (choice, laps) = (chosen.as_ref(), clock.laps.as_slice());
-        let told = Told {
+        let told = Derived {
             source: &source,
             derivation: &derivation,
             checked: &checked,
@@ -116,12 +118,12 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let told = report(&told, Paint::of(&std::io::stdout()))?;
     let tip = TipLink::line(TipLink::of_source(&source).as_ref());
-    console::print(&(chosen.as_ref().map(told_choice).unwrap_or_default() + &tip + &told))?;
+    console::print(&(chosen.as_ref().map(choice_text).unwrap_or_default() + &tip + &told))?;
     weak(&checked)
 }
 
-/// Which joints are given, and what else might be.
-pub fn told_choice(choice: &Choice) -> String {
+/// The given joints, and other possible choices, as text.
+pub fn choice_text(choice: &Choice) -> String {
     let joints = choice.given.iter().map(|joint| format!("`{joint}`")).collect::<Vec<_>>().join(", ");
     if choice.candidates.is_empty() {
         return format!("Given with each target: the value of {joints}, which other joints of the chain follow.\n\n");
@@ -132,7 +134,7 @@ pub fn told_choice(choice: &Choice) -> String {
     )
 }
 
-/// How the command ends: a solver with weak spots is told by the exit status.
+/// The outcome of the command: the exit status reports a solver with weak spots.
 fn weak(checked: &witness::Report) -> Outcome {
     if checked.weak_spots().next().is_some() { Err(Halt::WeakSpots) } else { Ok(()) }
 }
@@ -145,13 +147,14 @@ fn derive(source: &Source, watch: &Watch) -> Result<Proved> {
     })
 }
 
-/// `error`, behind the task that fits where the joints are too few for the one that is asked, and before the tolerance that would help.
+/// Adds advice to `error`: the task that fits where the joints are too few for the requested one, and the tolerance
+/// that would help.
 fn advised(source: &Source, error: Error) -> Error {
     let Some((ideal, report)) = &source.ideal else { return error };
     if let Some(task) = fitting_task(ideal) {
         let free = ideal.independent().len();
         let text = format!(
-            "{free} joints reach no generic target of the task `{}`; `{task}` asks for what they can do: {}",
+            "{free} joints reach no generic target of the task `{}`; `{task}` is a task that they can perform: {}",
             ideal.task().name(),
             error.message()
         );
@@ -163,11 +166,12 @@ fn advised(source: &Source, error: Error) -> Error {
     Error::new(error.kind(), format!("{}{advice}", error.message()))
 }
 
-/// Fails at the first ordinary target whose answers are wrong or missing; where it is `strict`, at the first target of any kind. What is wrong
-/// at singular targets is told as [weak spots](witness::Report::weak_spots), for the algebra is proved.
+/// Fails at the first ordinary target with wrong or missing answers; with `strict`, at the first target of any kind.
+/// Errors at singular targets are otherwise reported as [weak spots](witness::Report::weak_spots), because the algebra
+/// is proved.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] with the row, its target and what is wrong.
+/// [`ErrorKind::Certificate`] with the row, its target and the error.
 pub fn refuse_failures(source: &Source, derivation: &Proved, checked: &witness::Report, strict: bool) -> Result<()> {
     let Some(row) = checked.failures().find(|row| strict || !row.is_weak_spot()) else { return Ok(()) };
     let target: Vec<String> = row.target.iter().map(|value| exact(*value)).collect();
@@ -181,7 +185,7 @@ pub fn refuse_failures(source: &Source, derivation: &Proved, checked: &witness::
     );
     let text = if row.is_weak_spot() {
         format!(
-            "at a singular target an answer is wrong or missing (without --strict it is reported, and no error): {text}"
+            "at a singular target an answer is wrong or missing (without --strict it is reported and is not an error): {text}"
         )
     } else {
         format!("at an ordinary target an answer is wrong or missing: {text}")
@@ -189,14 +193,14 @@ pub fn refuse_failures(source: &Source, derivation: &Proved, checked: &witness::
     Err(Error::new(ErrorKind::Certificate, text))
 }
 
-/// What almost holds of a chain's axes, and what to do then: closed forms of such a chain are at the mercy of rounding.
+/// Near-relations of a chain's axes, and advice: closed forms of such a chain are sensitive to rounding.
 fn nearly_ideal(source: &Source, derivation: &Proved) -> String {
     let Proved::Chain(derived) = derivation else { return String::new() };
     let far = derived.measured().remoteness();
     if far > FAR {
         let nearer = source.carrier.as_ref().map(|link| format!(", `{}`", shown(link))).unwrap_or_default();
         return format!(
-            "; the robot is {far:.0} of its reaches from the base frame, where targets are rounded too much: choose a base link nearer to \
+            "; the robot is {far:.0} times its reach away from the base frame, where targets have too large rounding errors: choose a base link nearer to \
              the arm{nearer} (--base), and add the place of that link at run time"
         );
     }
@@ -204,10 +208,10 @@ fn nearly_ideal(source: &Source, derivation: &Proved) -> String {
     if near.is_empty() || derived.truth.is_some() {
         return String::new();
     }
-    format!("; {}: `--snap TOLERANCE` takes the robot of which this does hold", near.join(", "))
+    format!("; {}: `--snap TOLERANCE` derives the robot for which this holds exactly", near.join(", "))
 }
 
-/// How long each stage took.
+/// The duration of each stage.
 struct Clock {
     last: Instant,
     laps: Vec<(&'static str, Duration)>,

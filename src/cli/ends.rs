@@ -1,4 +1,5 @@
-//! `--base`, `--tip`, `--task`, `--plane`, `--axis`, `--direction`, `--given`, `--snap` and `--exact`: which chain of a URDF, and what is asked of it.
+//! `--base`, `--tip`, `--task`, `--plane`, `--axis`, `--direction`, `--given`, `--snap` and `--exact`: the chain of a
+//! URDF, and its task.
 
 use serde::Serialize;
 
@@ -9,60 +10,62 @@ use groebot_ik::derive::{Ends, Source};
 use groebot_robot::document::shown;
 use groebot_robot::kinematics::{BaseAxis, Chain, ExactVector, LinkPath, Plane, Task, TipChoice};
 
-/// The tasks that need no plane and no axis.
+/// The tasks without a plane or an axis.
 const TASKS: [Task; 6] =
     [Task::Pose, Task::Position, Task::Ray, Task::Direction, Task::Rotation, Task::PositionPitchRoll];
-/// Those that need one.
+/// The tasks with a plane.
 const PLANAR: [fn(Plane) -> Task; 2] = [|plane| Task::PlanarPosition { plane }, |plane| Task::PlanarPose { plane }];
-/// Those that ask for the angle about an axis.
+/// The tasks with the angle about an axis.
 const ABOUT: [fn(BaseAxis) -> Task; 1] = [|axis| Task::PositionYaw { axis }];
 /// The planes.
 const PLANES: [Plane; 3] = [Plane::Xy, Plane::Xz, Plane::Yz];
 
-/// The links between which a chain is wanted, and its task.
+/// The first and the last link of the chain, and its task.
 #[derive(clap::Args)]
 pub struct EndArguments {
-    /// URDF: the link where the chain starts (default: the root)
+    /// URDF: the first link of the chain (default: the root)
     #[arg(long, value_name = "LINK")]
     base: Option<String>,
-    /// URDF: the link where the chain ends (default: the only leaf link, else the only one named tool0, flange, tcp or ee_link, in that order)
+    /// URDF: the last link of the chain (default: the only leaf link, else the only one named tool0, flange, tcp or
+    /// ee_link, in that order)
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
-    /// What is asked of the tip: pose, position, ray, direction, rotation, position_pitch_roll, position_yaw, planar_position or planar_pose
-    /// (default: as described; of a URDF, pose)
+    /// The task of the tip: pose, position, ray, direction, rotation, position_pitch_roll, position_yaw,
+    /// planar_position or planar_pose (default: as described; for a URDF, pose)
     #[arg(long, value_name = "TASK", value_parser = task)]
     task: Option<AskedTask>,
     /// The plane of the base frame in which a planar task moves: xy, xz or yz
     #[arg(long, value_name = "PLANE", value_parser = plane)]
     plane: Option<Plane>,
-    /// The axis of the base frame about which `position_yaw` asks for the angle: x, y or z (default: z)
+    /// The axis of the base frame for the angle of `position_yaw`: x, y or z (default: z)
     #[arg(long, value_name = "AXIS", value_parser = axis)]
     axis: Option<BaseAxis>,
-    /// The direction in the tip frame that `ray`, `direction` and `position_yaw` aim, such as 1,0,0 (default: z; of
+    /// The direction in the tip frame for `ray`, `direction` and `position_yaw`, such as 1,0,0 (default: z; for
     /// `position_yaw` x, whose angle about z is counted from x)
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     direction: Option<Direction>,
-    /// A joint whose value is given with each target (repeatable; default: as described, else one of the planner's choice where the
-    /// task leaves one joint too many); `auto`: as many as are too many, of the planner's choice
+    /// A joint whose value is given with each target (repeatable; default: as described, else one chosen by the planner
+    /// where the task leaves one joint too many); `auto`: as many as are too many, chosen by the planner
     #[arg(long, value_name = "JOINT", alias = "free")]
     given: Vec<String>,
 }
 
-/// The same, and whether the ideal robot is meant.
+/// The same options, and whether the ideal robot is used.
 #[derive(clap::Args)]
 pub struct IdealEndArguments {
     #[command(flatten)]
     plain: EndArguments,
-    /// Take the ideal robot within this tolerance, in radians and shares of the reach: axes that almost meet do (default: 1e-6)
+    /// Use the ideal robot within this tolerance, in radians and fractions of the reach: nearly intersecting axes then
+    /// intersect (default: 1e-6)
     #[arg(long, value_name = "TOLERANCE", value_parser = number, conflicts_with = "exact")]
     snap: Option<BigRational>,
-    /// Take each digit of the description at its word: axes that miss each other by 1e-17 do not meet
+    /// Use every digit of the description: axes 1e-17 apart do not intersect
     #[arg(long)]
     exact: bool,
 }
 
 impl IdealEndArguments {
-    /// The same as plain data.
+    /// Converts the options to plain data.
     ///
     /// # Errors
     /// As [`EndArguments::ends`].
@@ -71,20 +74,20 @@ impl IdealEndArguments {
         Ok(Ends { snap, ..self.plain.ends()? })
     }
 
-    /// `chain`, which is no URDF's, for the task that is asked.
+    /// Sets the task of `chain`, which does not come from a URDF.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for links; as [`Ends::ask`].
     pub fn ask(&self, chain: Chain) -> Result<Chain> {
         if self.plain.base.is_some() || self.plain.tip.is_some() {
-            let text = "base and tip are chosen, but only a URDF has links to choose from; leave them out";
+            let text = "--base and --tip need a URDF with links; omit them";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         self.plain.ends()?.ask(chain)
     }
 }
 
-/// The link where the chain of a robot ends, and how it was chosen.
+/// The last link of a robot's chain, and how it was chosen.
 #[derive(Serialize)]
 pub struct TipLink {
     name: String,
@@ -94,12 +97,12 @@ pub struct TipLink {
 }
 
 impl TipLink {
-    /// The end of a path.
+    /// The last link of a path.
     pub fn of_path(path: &LinkPath) -> Self {
         TipLink::new(&path.tip, path.choice)
     }
 
-    /// That of a source with links.
+    /// The last link of a source with links.
     pub fn of_source(source: &Source) -> Option<Self> {
         Some(TipLink::new(&source.links.as_ref()?[1], source.choice?))
     }
@@ -108,25 +111,25 @@ impl TipLink {
         TipLink { name: name.to_owned(), chosen_by: choice.to_string(), is_given: choice == TipChoice::Given }
     }
 
-    /// One sentence where it was chosen by default.
+    /// One sentence if it was chosen by default.
     pub fn note(&self) -> Option<String> {
         let text = || format!("tip link `{}`: {}; --tip chooses another", shown(&self.name), self.chosen_by);
         (!self.is_given).then(text)
     }
 
-    /// That sentence as a paragraph of a report.
+    /// The sentence as a paragraph of a report.
     pub fn paragraph(&self) -> Option<Part> {
         let line = || Line::of("Tip link ").name(&self.name).and(&format!(": {}; ", self.chosen_by));
         (!self.is_given).then(|| Part::Paragraph(line().name("--tip").and(" chooses another.")))
     }
 
-    /// That sentence as a line of its own.
+    /// The sentence on a line of its own.
     pub fn line(tip: Option<&TipLink>) -> String {
         tip.and_then(TipLink::note).map(|note| note + "\n").unwrap_or_default()
     }
 }
 
-/// A task, or one that wants a plane, or an axis.
+/// A task, or one that needs a plane, or an axis.
 #[derive(Clone, Copy)]
 enum AskedTask {
     Spatial(Task),
@@ -139,10 +142,11 @@ enum AskedTask {
 struct Direction(ExactVector);
 
 impl EndArguments {
-    /// The same as plain data.
+    /// Converts the options to plain data.
     ///
     /// # Errors
-    /// [`ErrorKind::MissingKey`] for a planar task without a plane; [`ErrorKind::BadValue`] for a plane or an axis without a task that has one.
+    /// [`ErrorKind::MissingKey`] for a planar task without a plane; [`ErrorKind::BadValue`] for a plane or an axis
+    /// without a task that has one.
     pub fn ends(&self) -> Result<Ends> {
         Ok(Ends {
             base: self.base.clone(),
@@ -204,5 +208,5 @@ fn number(text: &str) -> std::result::Result<BigRational, String> {
 fn direction(text: &str) -> std::result::Result<Direction, String> {
     let numbers: Option<Vec<_>> = text.split(',').map(|part| parse_rational(part.trim()).ok()).collect();
     let vector = numbers.and_then(|numbers| ExactVector::try_from(numbers).ok());
-    vector.map(Direction).ok_or_else(|| "give three numbers with commas between them, such as 1,0,-1/2".to_owned())
+    vector.map(Direction).ok_or_else(|| "give three numbers separated by commas, such as 1,0,-1/2".to_owned())
 }

@@ -1,4 +1,4 @@
-//! `groebot explain`: the derivation explained to a student, as Markdown or as LaTeX.
+//! `groebot explain`: an explanation of the derivation for students, as Markdown or LaTeX.
 
 use std::path::{Path, PathBuf};
 
@@ -15,9 +15,10 @@ const EXAMPLES: &str = "Examples:
   groebot explain derivations/puma --latex -o puma.tex && pdflatex puma.tex
   groebot explain arm.toml                      derives it first";
 
-/// Explains a derivation: its equations, what cancels, bases, branches, singularities
+/// Explains a derivation step by step: its equations, cancellations, bases, branches and singularities
 ///
-/// A folder's stored proof is checked again, as by `groebot check`, and its derivation is explained; a file is derived first.
+/// For a folder the stored proof is checked again, as by `groebot check`, and its derivation is explained; a file is
+/// derived first.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -26,10 +27,10 @@ pub struct Arguments {
     input: PathBuf,
     #[command(flatten)]
     ends: EndArguments,
-    /// LaTeX, an article that needs no package beyond amsmath and geometry, instead of Markdown
+    /// Print LaTeX instead of Markdown: an article that needs only amsmath and geometry
     #[arg(long)]
     latex: bool,
-    /// The file to write to, instead of standard output
+    /// The output file (default: standard output)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -41,7 +42,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.input.as_path()]).expects([arguments.output.as_ref()])?;
     let (source, mut document) = told(&arguments.input, &arguments.ends.ends()?)?;
     console::tell(&source.notes);
-    // A stored proof is of its own tip link.
+    // A stored proof has its own tip link.
     let tip = TipLink::of_source(&source).filter(|_| !is_derived(&arguments.input));
     document.parts.splice(..0, tip.as_ref().and_then(TipLink::paragraph));
     let text = if arguments.latex { document.to_latex() } else { document.to_markdown() };
@@ -51,7 +52,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
-/// The report of a derivation, for what its folder asks.
+/// The report of the derivation in a folder or from a file.
 ///
 /// # Errors
 /// As [`Source::read`], [`check::reprove`] and [`explain`].
@@ -66,7 +67,7 @@ fn told(input: &Path, ends: &Ends) -> crate::Result<(Source, Document)> {
     Ok((source, document))
 }
 
-/// From the stored proof where there is one.
+/// Proves from the stored certificate where there is one.
 fn prove(input: &Path, source: &Source) -> crate::Result<Proved> {
     match is_derived(input) {
         true => check::reprove(input, source),

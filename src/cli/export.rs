@@ -18,8 +18,12 @@ const EXAMPLES: &str = "Examples:
   groebot export nao_v5 --to mjcf -o nao.xml
   groebot export robot.toml --to urdf -o robot.urdf
 
-Robots of groebot: nao_v5, rh0, teo. A walk, an arm's path or a recording becomes an animated scene: a node a link, y up, metres. VRML is read as RH0 Fig. 5-4 shows it, and no more of it.
-In MJCF the root moves freely over a floor, every joint has a position servo, and nothing but the floor is touched; meshes are named by their files, or written where these are texts, which MuJoCo does not read.";
+Robots of groebot: nao_v5, rh0, teo. A walk, a path of an arm or a recording becomes an animated
+scene with one node per link, y up, in metres. VRML is read with the nodes of RH0 Fig. 5-4 only.
+
+In MJCF the root moves freely above a floor and every joint has a position servo. Only the floor has
+contacts. Meshes are referred to by their files; text meshes, which MuJoCo does not read, are
+written anew.";
 
 /// A format of robots or scenes.
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -30,29 +34,29 @@ enum Format {
     X3d,
     /// Animated scene: VRML97
     Wrl,
-    /// Robot, as ROS reads it
+    /// Robot description for ROS
     Urdf,
-    /// Robot, as MuJoCo reads it
+    /// Robot description for MuJoCo
     Mjcf,
 }
 
-/// Writes a motion as an animated scene, or a robot, with masses, shapes, limits and actuators, in another format
+/// Exports a motion as an animated scene, or a robot, with masses, shapes, limits and actuators, in another format
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A motion in CSV or JSON, a robot of groebot, a description in URDF or TOML, or VRML
+    /// A motion in CSV or JSON, a robot by name, a description in URDF or TOML, or VRML
     #[arg(value_name = "MOTION-or-ROBOT-or-FILE")]
     input: PathBuf,
-    /// The format
+    /// The output format
     #[arg(long, visible_alias = "format", value_enum)]
     to: Format,
-    /// The robot that moves, where the motion does not name one of groebot
+    /// The moving robot, if the motion does not name a robot of groebot
     #[arg(long, value_name = "ROBOT-or-FILE")]
     robot: Option<PathBuf>,
-    /// Put the triangles of meshes into the scene: STL
+    /// Include the triangles of STL meshes in the scene
     #[arg(long)]
     meshes: bool,
-    /// Where it goes; standard output without it
+    /// The output file (default: standard output)
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -67,7 +71,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let bytes = match arguments.to {
         Format::Urdf | Format::Mjcf => arguments.robot()?.into_bytes(),
         Format::Glb if arguments.out.is_none() => {
-            return Err(refused("a glb is no text; give its file by -o").into());
+            return Err(refused("a glb is binary; give its file by -o").into());
         }
         Format::Glb => arguments.scene()?.to_glb()?,
         Format::X3d => arguments.scene()?.to_x3d()?.into_bytes(),
@@ -79,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
-/// Tells what the reader left out of the links.
+/// Reports the parts of the links that the reader ignored.
 fn tell_left_out(robot: &Robot) {
     let notes = robot.links().iter().flat_map(|link| link.notes.iter().map(|note| (shown(&link.name), note)));
     notes.for_each(|(link, note)| console::line("note", &format!("link `{link}`: {note}")));
@@ -100,10 +104,10 @@ fn refused(text: &str) -> Error {
 }
 
 impl Arguments {
-    /// The robot in a format that tells no motion.
+    /// The robot in a format without motion.
     fn robot(&self) -> Result<String> {
         if ["csv", "json", "wrl"].iter().any(|end| moving::ends(&self.input, end)) {
-            let text = "urdf and mjcf describe a robot, no motion and no scene; give --to glb, x3d or wrl, or a robot";
+            let text = "urdf and mjcf describe a robot, not a motion or a scene; give --to glb, x3d or wrl, or a robot";
             return Err(refused(text).in_file(&self.input));
         }
         if self.robot.is_some() || self.meshes {
@@ -128,8 +132,7 @@ impl Arguments {
         let file = &self.input;
         let motion = moving::motion(file)?.map(|motion| motion.trajectory);
         if motion.is_none() && self.robot.is_some() {
-            let text =
-                "--robot names the robot that moves, but this is no motion; give one in CSV or JSON, or leave it out";
+            let text = "--robot names the robot that moves, but this is not a motion; give one in CSV or JSON, or leave it out";
             return Err(refused(text).in_file(file));
         }
         if moving::ends(file, "wrl") {

@@ -1,4 +1,4 @@
-//! Where a derivation's files go, and which they are.
+//! The files of a derivation and their folder.
 
 use std::fs;
 use std::io::Read;
@@ -16,10 +16,10 @@ use groebot_ik::witness::Report;
 use groebot_robot::document::{TEXT_LIMIT, is_stdin, read_text};
 use groebot_robot::files::{StagedFolder, refuse_foreign, refuse_unfinished};
 
-/// So many bytes of a certificate tell that it is one of ours.
+/// The number of bytes at the start of a certificate that identify it.
 const HEAD: usize = 200;
 
-/// Whether a file is JSON by its name.
+/// Whether a file is JSON, by its name.
 pub fn is_json(file: &Path) -> bool {
     file.extension().is_some_and(|end| end.eq_ignore_ascii_case("json"))
 }
@@ -27,7 +27,7 @@ pub fn is_json(file: &Path) -> bool {
 /// Whether this is a folder with a stored certificate.
 pub fn is_derived(folder: &Path) -> bool {
     let mut head = [0; HEAD];
-    // The first key tells; before formats had numbers it was the other.
+    // The first key identifies the file; formats without numbers had the other key.
     let is_ours = |text: &str| text.contains("\"proves\"") || text.contains("\"groebot\"");
     [CERTIFICATE, DYNAMICS].iter().any(|name| {
         let read = fs::File::open(folder.join(name)).and_then(|mut file| file.read(&mut head));
@@ -35,14 +35,14 @@ pub fn is_derived(folder: &Path) -> bool {
     })
 }
 
-/// What a derivation may have, and another one in the same folder not.
+/// Files that one derivation has, and another one in the same folder does not.
 const STALE: [&str; 5] = [TASK_NAME, "5_solver.c", "5_solver.h", "5_solver.rs", "5_ikfast.cpp"];
 
-/// The ends of the names of printed solvers: somebody's code may have such a name, also in a folder of a derivation.
+/// Extensions of generated solvers. A user's own code may have such a name, also in a folder of a derivation.
 const CODE: [&str; 4] = ["c", "h", "rs", "cpp"];
 
-/// Fails where a file of `files` would take the place of one that groebot did not write. In a folder that groebot derived into, the files of a derivation
-/// are its own, but printed solvers only with their mark; elsewhere [`refuse_foreign`] decides.
+/// Checks that no file of `files` replaces one that groebot did not write. In a folder that groebot derived into, the
+/// files of a derivation are its own, but generated solvers only with their mark; elsewhere [`refuse_foreign`] decides.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] with the folder and the file's name.
@@ -61,11 +61,12 @@ fn refuse_overwriting(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> 
     Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
 }
 
-/// Replaces `files` in `folder` together, and removes those that `stale` lists. `stale` is asked, and whether the files may be replaced is decided, while no
-/// other process writes there.
+/// Replaces `files` in `folder` together, and removes those that `stale` lists. `stale` and the decision about
+/// replacing are evaluated while no other process writes there.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for a foreign file without `force`; as `stale`, [`StagedFolder::stage`] and [`StagedFolder::commit`].
+/// [`ErrorKind::BadValue`] for a foreign file without `force`; as `stale`, [`StagedFolder::stage`] and
+/// [`StagedFolder::commit`].
 pub fn write_set<'n>(
     folder: &Path,
     files: &[(String, Vec<u8>)],
@@ -82,7 +83,7 @@ pub fn write_set<'n>(
     stale.into_iter().try_fold(staged, StagedFolder::without)?.commit()
 }
 
-/// Writes the files of a derivation of `source`; those that an earlier derivation left and this one does not have go.
+/// Writes the files of a derivation of `source`, and removes those of an earlier derivation that are not in this one.
 ///
 /// # Errors
 /// As [`write_set`]; [`ErrorKind::BadValue`] where another process wrote an input of another kind meanwhile.
@@ -97,7 +98,7 @@ pub fn write_derivation(
     let is_stale = |name: &&str| match *name {
         name if files.iter().any(|(new, _)| new == name) => false,
         TASK_NAME => !is_input(TASK_NAME) && !keeps_task(source, folder),
-        // Printed solvers, with their marks.
+        // Generated solvers, with their marks.
         name => refuse_foreign(&folder.join(name), &[]).is_ok(),
     };
     let stale = || {
@@ -109,7 +110,7 @@ pub fn write_derivation(
     write_set(folder, files, stale, force, watch)
 }
 
-/// Fails where a file of `files` would take the place of the description that they come from.
+/// Checks that no file of `files` replaces the description that they are derived from.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] with the description.
@@ -117,16 +118,16 @@ pub fn refuse_input(source: &Source, folder: &Path, files: &[(String, Vec<u8>)])
     if !files.iter().any(|(name, _)| is_same_file(&source.path, &folder.join(name))) {
         return Ok(());
     }
-    let text = "this is the input, and has the name of a file that is written; give another folder by --out";
+    let text = "this is the input, and has the name of an output file; give another folder by --out";
     Err(Error::new(ErrorKind::BadValue, text).in_file(&source.path))
 }
 
-/// The folder for the files of a derivation of `source`, which was asked for as `input`: `out` if it is given, the input's own folder
-/// if it is a mechanism's, else the folder `foo` beside `foo.toml`.
+/// The folder for the files of a derivation of `source`, which was given as `input`. It is `out` if given, the input's
+/// own folder if it is a mechanism's, else the folder `foo` next to `foo.toml`.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when a file without extension leaves no name for a folder, or the folder has an input of the other kind, or
-/// another one of this kind that nothing has been derived from.
+/// [`ErrorKind::BadValue`] when a file without extension leaves no name for a folder, or the folder has an input of the
+/// other kind, or another one of this kind that nothing has been derived from.
 pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<PathBuf> {
     let file = &source.path;
     let named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
@@ -147,7 +148,7 @@ pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<
     Ok(folder)
 }
 
-/// Fails where `folder` has an input that is not `source`.
+/// Fails if `folder` has an input other than `source`.
 fn refuse_other_input(source: &Source, folder: &Path) -> Result<()> {
     let other = INPUT_NAMES.iter().find(|name| **name != source.name && folder.join(name).exists());
     let refusal = match other {
@@ -160,15 +161,15 @@ fn refuse_other_input(source: &Source, folder: &Path) -> Result<()> {
     Err(Error::new(ErrorKind::BadValue, format!("{refusal}; give another one by --out")).in_file(folder))
 }
 
-/// Whether `folder` has a description that differs from `source`, and nothing derived from it: somebody wrote it there.
+/// Whether `folder` has a description that differs from `source`, and nothing derived from it: a user wrote it there.
 fn holds_another(folder: &Path, source: &Source) -> bool {
     let own = folder.join(source.name);
     let is_copy = || fs::read(&own).is_ok_and(|bytes| bytes == source.text.as_bytes());
     own.exists() && !is_derived(folder) && !is_same_file(&source.path, &own) && !is_copy()
 }
 
-/// Every file of a derivation with its name: those of [`derived`], and the input itself with the files that it refers to when `folder` does not
-/// hold them yet.
+/// All files of a derivation with their names: those of [`derived`], and the input with the files that it refers to if
+/// `folder` does not contain them yet.
 ///
 /// # Errors
 /// As [`derived`] and [`read_text`].
@@ -185,7 +186,7 @@ pub fn assemble_files(
     Ok(files)
 }
 
-/// The input with the files that it refers to and what was asked of it, as far as `folder` does not hold them yet.
+/// The input with the files that it refers to and its task, as far as `folder` does not contain them yet.
 ///
 /// # Errors
 /// As [`read_text`].
@@ -204,18 +205,18 @@ pub fn source_files(source: &Source, folder: &Path) -> Result<Vec<(String, Vec<u
     Ok(files)
 }
 
-/// Whether a file of a derivation may be written: a page that a person wrote in the place of ours is left alone.
+/// Whether a file of a derivation may be written: a page that a user wrote under the same name is kept.
 fn is_ours(folder: &Path, name: &str) -> bool {
     let by_hand = |text: String| !text.contains(stages::MARK);
     name != stages::PAGE || !fs::read_to_string(folder.join(name)).is_ok_and(by_hand)
 }
 
-/// Whether `folder` has a task file that asks the same in words of its own.
+/// Whether `folder` has a task file with the same task in other words.
 fn keeps_task(source: &Source, folder: &Path) -> bool {
     Ends::read(&folder.join(TASK_NAME)).is_ok_and(|ends| ends == source.ends)
 }
 
-/// Why there is no file for IKFast; nothing where there is one.
+/// The reason why there is no file for IKFast; `None` if there is one.
 pub fn without_ikfast(program: &Program) -> Option<String> {
     let refusal = codegen::ikfast::emit_beside(program, &codegen::ikfast::Options::default(), "").err()?;
     Some(format!("no file for IKFast: {}", refusal.message()))

@@ -1,4 +1,4 @@
-//! `groebot fk`: where the tip is, as text, JSON or CSV.
+//! `groebot fk`: the pose of the tip, as text, JSON or CSV.
 
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -20,32 +20,37 @@ const EXAMPLES: &str = "Examples:
   groebot fk robot.urdf --base base_link --tip tool0 --q 0,-90,90,0,0,0 --degrees
   groebot fk robot.urdf --tip tool0 < joints.csv > poses.csv
 
-Joint values are in the order of the chain, base to tip; `groebot info` shows it. Angles are in radians, or in degrees with
---degrees; lengths are in the unit of the description. A CSV may start with a line of the joints' names, which then gives the order of
-its columns: A1_deg or A1_rad is A1 in that unit. Other columns that `fk`, `ik` and `solve` write are ignored, and so are targets without a solution; another
-name is refused. A value outside its limits is reported, and is no error.";
+Joint values are in the order of the chain, from base to tip; `groebot info` prints it. Angles are
+in radians, or in degrees with --degrees. Lengths are in the unit of the description.
 
-/// Forward kinematics: the pose of the tip for joint values
+A CSV may start with a line of the joints' names, which gives the order of its columns. A1_deg or
+A1_rad is A1 in that unit. Other columns that `fk`, `ik` and `solve` write are ignored, and so are
+targets without a solution. Unknown names are errors.
+
+A value outside its limits is reported, and is not an error.";
+
+/// Computes the pose of the tip for given joint values (forward kinematics)
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder, or a file: chain.toml, DH table or URDF; `-`: from standard input
+    /// A mechanism's folder, or a file: chain.toml, DH table or URDF; `-` for standard input
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
     ends: EndArguments,
-    /// Joint values with commas between them (repeatable); `-`, or none: CSV from standard input
+    /// Joint values separated by commas (repeatable) [rad, or the description's length unit]; `-`, or none: CSV from
+    /// standard input
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     q: Vec<String>,
-    /// JSON: an object for each joint vector
+    /// Print JSON: one object per joint vector
     #[arg(long)]
     json: bool,
-    /// Angles in degrees, in joint values and in JSON and CSV (text shows both)
+    /// Use degrees instead of radians in joint values and in JSON and CSV output (text has both)
     #[arg(long)]
     degrees: bool,
 }
 
-/// Prints the pose for each joint vector that was given.
+/// Prints the pose for each given joint vector.
 pub fn run(arguments: &Arguments) -> Outcome {
     let input = InputFile::read(&arguments.input)?;
     let ends = arguments.ends.ends()?;
@@ -81,19 +86,19 @@ impl Arguments {
     }
 }
 
-/// A chain and the unit of angles at the edge of the tool.
+/// A chain with the unit of angles in input and output.
 struct Edge<'a> {
     chain: &'a Chain,
     degrees: bool,
-    /// What of the robot was ignored.
+    /// The ignored parts of the robot.
     notes: Vec<String>,
-    /// Where it ends, of a robot.
+    /// The last link, for a robot.
     tip: Option<&'a TipLink>,
-    /// The joints of its robot, whose columns are ignored.
+    /// The other joints of its robot, whose columns are ignored.
     others: Vec<String>,
 }
 
-/// Joint values, as given, and the pose of the tip.
+/// Joint values as given, and the pose of the tip.
 struct Answer {
     q: Vec<f64>,
     pose: Pose,
@@ -120,7 +125,8 @@ impl Edge<'_> {
         self.chain.joints().iter().map(|joint| joint.name.as_str()).collect()
     }
 
-    /// What the chain's task asks for and a pose does not tell, by name: where its direction points, or its angle \[rad\].
+    /// The quantities of the chain's task that are not part of a pose, by name: the direction of its aim, or its angle
+    /// \[rad\].
     fn asked(&self) -> Vec<(usize, String)> {
         let beyond = |(_, name): &(usize, String)| ["dx", "dy", "dz", "phi"].contains(&name.as_str());
         self.chain.task().numbers().into_iter().enumerate().filter(beyond).collect()
@@ -141,7 +147,7 @@ impl Edge<'_> {
         }
     }
 
-    /// An angle in radians, in the unit at the edge.
+    /// Converts an angle in radians to the output unit.
     fn angle(&self, radians: f64) -> f64 {
         if self.degrees { radians.to_degrees() } else { radians }
     }
@@ -163,7 +169,7 @@ impl Edge<'_> {
     }
 }
 
-/// Minus zero is zero.
+/// Replaces minus zero by zero.
 fn positive_zero(value: f64) -> f64 {
     value + 0.0
 }
@@ -173,7 +179,7 @@ impl Answer {
         <[f64; 3]>::from(self.pose.translation.vector).map(positive_zero)
     }
 
-    /// x, y, z, w with w >= 0.
+    /// The quaternion x, y, z, w with w >= 0.
     fn quaternion(&self) -> [f64; 4] {
         let sign = if self.pose.rotation.w < 0.0 { -1.0 } else { 1.0 };
         <[f64; 4]>::from(self.pose.rotation.coords).map(|part| positive_zero(sign * part))
@@ -202,7 +208,7 @@ fn listed(edge: &Edge<'_>, given: &[String], as_json: bool) -> Outcome {
     console::print(&page)
 }
 
-/// Joint vectors from standard input, one a row: CSV, or a JSON object a line.
+/// Reads joint vectors from standard input, one per row; writes CSV, or one JSON object per line.
 fn stream(edge: &Edge<'_>, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
@@ -269,7 +275,7 @@ fn limits(joint: &Joint, unit: &str) -> String {
     }
 }
 
-/// Numbers in columns, nine decimals; what rounds to zero has no sign.
+/// Numbers in columns, nine decimals; values that round to zero have no sign.
 fn numbers(values: &[f64]) -> String {
     let number = |value: &f64| {
         let text = format!("{value:.9}");
@@ -283,7 +289,7 @@ fn numbers(values: &[f64]) -> String {
 struct Page<'a> {
     format: u32,
     name: &'a str,
-    /// The link where the chain of a robot ends.
+    /// The last link of a robot's chain.
     #[serde(skip_serializing_if = "Option::is_none")]
     tip_link: Option<&'a TipLink>,
     unit: Units<'a>,
@@ -296,7 +302,7 @@ struct Page<'a> {
     rpy: [f64; 3],
     /// The homogeneous matrix, by rows.
     matrix: [[f64; 4]; 4],
-    /// What of the robot was ignored.
+    /// The ignored parts of the robot.
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
     notes: &'a [String],
 }
@@ -308,7 +314,7 @@ struct Units<'a> {
     rpy: &'a str,
 }
 
-/// One JSON object: over several lines when `pretty`, else on one.
+/// One JSON object: on several lines when `pretty`, else on one.
 fn json(edge: &Edge<'_>, answer: &Answer, pretty: bool) -> String {
     let page = Page {
         format: FORMAT,
@@ -329,7 +335,7 @@ fn json(edge: &Edge<'_>, answer: &Answer, pretty: bool) -> String {
         notes: &edge.notes,
     };
     let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
-    text.expect("an answer holds nothing that JSON cannot say") + "\n"
+    text.expect("an answer can be represented in JSON") + "\n"
 }
 
 /// The joints' names, then the pose with its units.

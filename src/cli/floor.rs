@@ -1,4 +1,4 @@
-//! Maps of the commands that find ways.
+//! Maps and places for the commands that plan paths.
 
 use std::path::Path;
 
@@ -9,30 +9,30 @@ use super::moving::ends;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 use groebot_humanoid::gait::Footprint;
-use groebot_humanoid::nav::{Enclosure, Map, Room, Way};
+use groebot_humanoid::nav::{Enclosure, Map, Path as FloorPath, Room};
 use groebot_humanoid::sim;
 use groebot_humanoid::task::Goal;
 use groebot_robot::document::{TEXT_LIMIT, read_text};
 
-/// How a map is read, and what of its furniture is moved.
+/// Options for reading a map and for moving its furniture.
 #[derive(clap::Args)]
 pub struct FloorArguments {
-    /// The side of a cell of a map whose file does not give it [m]
+    /// The side of a cell for a map file without a resolution [m]
     #[arg(long, value_name = "METRES", default_value_t = 0.05, allow_hyphen_values = true)]
     resolution: f64,
-    /// Take cells that have not been seen to be free
+    /// Treat unknown cells as free
     #[arg(long)]
     unknown_free: bool,
-    /// Put a piece of furniture of a room elsewhere [m, degrees], or take it away
+    /// Move a piece of furniture of a room [m, degrees], or remove it
     #[arg(long, value_name = "NAME=X,Y[,YAW] or NAME=none")]
     furniture: Vec<String>,
 }
 
 impl FloorArguments {
-    /// The map of a file, and the start that it tells where it is a room.
+    /// Reads the map of a file, and the start of a room.
     ///
     /// # Errors
-    /// As [`Map::read`] and [`Room::with_moved`]; [`ErrorKind::BadValue`] for furniture of what is no room.
+    /// As [`Map::read`] and [`Room::with_moved`]; [`ErrorKind::BadValue`] for furniture of a map that is not a room.
     pub fn map(&self, file: &Path) -> Result<(Map, Option<[f64; 3]>)> {
         let (map, start) = if ends(file, "toml") || known(file).is_some() {
             let room = refurnished(read_room(file)?, &self.furniture)?;
@@ -40,18 +40,18 @@ impl FloorArguments {
         } else if self.furniture.is_empty() {
             (Map::read(file, self.resolution)?, None)
         } else {
-            return Err(bad("--furniture is for rooms; give one in TOML").in_file(file));
+            return Err(bad("--furniture needs a room; give one in TOML").in_file(file));
         };
         Ok((if self.unknown_free { map.with_unknown_free() } else { map }, start))
     }
 }
 
-/// A room that is known by name; a file of that name comes first.
+/// The text of a built-in room; a file of that name has priority.
 fn known(file: &Path) -> Option<&'static str> {
     file.to_str().and_then(sim::room).filter(|_| !file.exists())
 }
 
-/// The text of a room: of the one that is known by that name, else of the file.
+/// The text of a room: that of the built-in one of that name, else of the file.
 ///
 /// # Errors
 /// As [`read_text`].
@@ -59,7 +59,7 @@ pub fn room_text(file: &Path) -> Result<String> {
     known(file).map_or_else(|| read_text(file, TEXT_LIMIT), |text| Ok(text.to_owned()))
 }
 
-/// The room that is known by that name, or that a file describes.
+/// Reads the built-in room of that name, or a file.
 ///
 /// # Errors
 /// As [`room_text`] and [`Room::from_toml`].
@@ -67,7 +67,7 @@ pub fn read_room(file: &Path) -> Result<Room> {
     Room::from_toml(&room_text(file)?).map_err(|error| error.in_file(file))
 }
 
-/// The same room with its furniture as it is told.
+/// The room with its furniture moved as requested.
 ///
 /// # Errors
 /// As [`moved`], [`Room::with_moved`] and [`Room::without`].
@@ -78,7 +78,8 @@ pub fn refurnished(room: Room, furniture: &[String]) -> Result<Room> {
     })
 }
 
-/// A piece of furniture and where it is to stand, turned anticlockwise \[m, rad\], or nowhere: `NAME=X,Y`, `NAME=X,Y,YAW` in degrees, `NAME=none`.
+/// A piece of furniture and its new position with its anticlockwise rotation \[m, rad\], or its removal: `NAME=X,Y`,
+/// `NAME=X,Y,YAW` in degrees, `NAME=none`.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for another text.
@@ -96,43 +97,43 @@ pub fn moved(told: &str) -> Result<(&str, Option<Footprint>)> {
     }
 }
 
-/// Where a walk begins and ends.
+/// The start and the goal of a walk.
 #[derive(clap::Args)]
 pub struct PlaceArguments {
-    /// Where the middle of the feet is at first, and where the robot looks [m, degrees]; the start that a room gives, or 0,0
+    /// The initial middle of the feet and heading [m, degrees] (default: the start of the room, else 0,0)
     #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     start: Option<Vec<f64>>,
-    /// Where it is to get, and to look there
+    /// The goal for the middle of the feet, with an optional final heading [m, degrees]
     #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     goal: Vec<f64>,
-    /// How far the body keeps away from obstacles [m]
+    /// The least distance of the body from obstacles [m]
     #[arg(long, value_name = "METRES", default_value_t = 0.02, allow_hyphen_values = true)]
     pub apart: f64,
 }
 
 impl PlaceArguments {
-    /// Where the middle of the feet is at first, else where a room tells.
+    /// The initial pose of the middle of the feet; by default that of the room.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for another count of numbers than two or three.
+    /// [`ErrorKind::BadValue`] for a number of values other than two or three.
     pub fn start(&self, told: Option<[f64; 3]>) -> Result<Footprint> {
         let [x, y, yaw] = told.unwrap_or_default();
         self.start.as_deref().map_or(Ok(Footprint { x, y, yaw }), start_at)
     }
 
-    /// Where it is to get.
+    /// The goal.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for another count of numbers than two or three.
+    /// [`ErrorKind::BadValue`] for a number of values other than two or three.
     pub fn goal(&self) -> Result<Goal> {
         goal_at(&self.goal)
     }
 }
 
-/// A place to start from by its numbers \[m, degrees\].
+/// A start from its numbers \[m, degrees\].
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for another count of numbers than two or three.
+/// [`ErrorKind::BadValue`] for a number of values other than two or three.
 pub fn start_at(numbers: &[f64]) -> Result<Footprint> {
     match *numbers {
         [x, y] => Ok(Footprint { x, y, yaw: 0.0 }),
@@ -141,10 +142,10 @@ pub fn start_at(numbers: &[f64]) -> Result<Footprint> {
     }
 }
 
-/// A goal by its numbers \[m, degrees\].
+/// A goal from its numbers \[m, degrees\].
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for another count of numbers than two or three.
+/// [`ErrorKind::BadValue`] for a number of values other than two or three.
 pub fn goal_at(numbers: &[f64]) -> Result<Goal> {
     match *numbers {
         [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
@@ -153,12 +154,12 @@ pub fn goal_at(numbers: &[f64]) -> Result<Goal> {
     }
 }
 
-/// The corners of a way \[m\].
-pub fn points(way: &Way) -> Value {
-    way.points.iter().map(|point| json!([point.x, point.y])).collect()
+/// The corners of a path \[m\].
+pub fn points(path: &FloorPath) -> Value {
+    path.points.iter().map(|point| json!([point.x, point.y])).collect()
 }
 
-/// The middles of the cells that no way leaves \[m\].
+/// The middles of the cells that no path leaves \[m\].
 pub fn enclosure(map: &Map, enclosure: &Enclosure) -> Value {
     let middle = |cell: &usize| {
         let at = map.centre(*cell);

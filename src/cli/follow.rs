@@ -1,4 +1,4 @@
-//! `groebot follow`: joint values along poses, by the branch of the solutions that stays continuous.
+//! `groebot follow`: joint values along a sequence of poses, on the branch of solutions that stays continuous.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -20,7 +20,7 @@ use groebot_robot::motion::table::pose_of;
 use groebot_robot::motion::{Followed, Pace, follow};
 use groebot_robot::spatial::Pose;
 
-/// How far from one the length of a quaternion may be: such as 0.707.
+/// The tolerance for the length of a quaternion, such as one with 0.707.
 const ROUNDED: f64 = 1e-3;
 /// The names of a pose's numbers: of the position, and of the quaternion.
 const POSE: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
@@ -29,12 +29,15 @@ const EXAMPLES: &str = "Examples:
   groebot follow robot.urdf --poses poses.csv -o path.csv
   groebot follow robot.urdf --base base_link --tip tool0 --poses poses.csv --every 0.01 --json path.json
 
-poses.csv has the columns x, y, z, qx, qy, qz, qw (metres, quaternion), and may begin with time (seconds); a row of names is optional. Of all
-solutions within the limits the path has the fewest jumps between branches, and of such paths the shortest. A step is a jump where a joint goes
-further than its speed (velocity in the URDF) allows in the time, or without times or speeds more than half a radian or a tenth of the reach. Each
+poses.csv has the columns x, y, z, qx, qy, qz, qw (metres, quaternion), and optionally time
+(seconds) first. A row of names is optional.
+
+Of all paths of solutions within the limits, the result has the fewest jumps between branches, and
+of those it is the shortest. A step is a jump if a joint exceeds its speed (velocity in the URDF) in
+the given time. Without times or speeds, the limit is half a radian or a tenth of the reach. Each
 jump is reported with its place and reason; with --strict it is an error.";
 
-/// Follows poses by the solutions that stay continuous
+/// Computes a continuous joint trajectory along a sequence of poses
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -43,29 +46,29 @@ pub struct Arguments {
     input: PathBuf,
     #[command(flatten)]
     ends: IdealEndArguments,
-    /// The poses, CSV; `-`: from standard input
+    /// The poses, CSV; `-` for standard input
     #[arg(long, value_name = "FILE")]
     poses: PathBuf,
-    /// The time between two poses, where the file has none; without it joints may be as fast as they like [s]
+    /// The time between two poses, if the file has none [s]; without it joint rates are unlimited
     #[arg(long, value_name = "SECONDS")]
     every: Option<f64>,
-    /// Where the path goes, CSV: a trajectory
+    /// Write the joint trajectory to this CSV file
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Where the same goes as JSON
+    /// Write the joint trajectory to this JSON file
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// A jump is an error, and nothing is written
+    /// Fail at a jump, and write nothing
     #[arg(long)]
     strict: bool,
-    /// No progress and no summary
+    /// Print neither progress nor summary
     #[arg(long)]
     quiet: bool,
     #[command(flatten)]
     force: Force,
 }
 
-/// Follows the poses and writes what is asked for.
+/// Follows the poses and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.input.as_path(), arguments.poses.as_path()]);
     let output = output.expects([arguments.out.as_ref(), arguments.json.as_ref()])?;
@@ -103,7 +106,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let touches = match &input.description {
         Description::Robot(robot) if robot.faults().is_empty() => touching(robot, &followed)?,
-        Description::Robot(_) => "  links that touch were not looked for: parts of the robot have faults\n".to_owned(),
+        Description::Robot(_) => "  collisions of links were not checked: parts of the robot have faults\n".to_owned(),
         _ => String::new(),
     };
     let tip = input.path(&ends)?.as_ref().map(TipLink::of_path);
@@ -117,7 +120,7 @@ fn speeds(description: &Description, chain: &Chain) -> Vec<Option<f64>> {
     chain.joints().iter().map(|joint| speed(&joint.name).filter(|speed| *speed > 0.0)).collect()
 }
 
-/// The poses of a file, and their times where it tells them.
+/// The poses of a file, and their times if it has them.
 fn read_poses(file: &Path, chain: &Chain) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
     if is_stdin(file) {
         return read_from(std::io::stdin().lock(), file, chain).map_err(|error| error.in_file(file));
@@ -140,10 +143,11 @@ fn columns(chain: &Chain) -> Columns {
     }
 }
 
-/// The poses of a table of `chain`, and their times where it has them.
+/// The poses of a table of `chain`, and their times if it has them.
 ///
 /// # Errors
-/// As [`Reader::next`]; [`ErrorKind::BadValue`] for a quaternion that is not of length one, more poses than [`limits::POSES`], and times in some rows alone.
+/// As [`Reader::next`]; [`ErrorKind::BadValue`] for a quaternion that is not of length one, more poses than
+/// [`limits::POSES`], and times in some rows only.
 pub fn read_from(input: impl BufRead, file: &Path, chain: &Chain) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
     let mut reader = Reader::new(columns(chain), input, file);
     let (mut poses, mut times) = (Vec::new(), Vec::new());
@@ -175,7 +179,7 @@ fn pose(numbers: &[f64]) -> Result<Pose> {
     pose_of(numbers.try_into().map_err(count)?, ROUNDED)
 }
 
-/// The links that touch on the way, with the pose at which they first do, all other joints at zero.
+/// The pairs of links that touch along the path, with the first such pose, all other joints at zero.
 fn touching(robot: &Robot, followed: &Followed) -> Result<String> {
     let model = Model::new(robot)?;
     let clearance = Clearance::new(robot, &model);
@@ -200,7 +204,7 @@ fn touching(robot: &Robot, followed: &Followed) -> Result<String> {
     Ok(text)
 }
 
-/// The path in a few lines.
+/// A summary of the path in a few lines.
 fn summary(chain: &Chain, followed: &Followed) -> String {
     let Followed { trajectory, jumps, .. } = followed;
     let count = trajectory.times.len();

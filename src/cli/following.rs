@@ -1,4 +1,4 @@
-//! Joints that follow others by `mimic`, in the answers of `solve`, `ik` and `derive`.
+//! Joints that follow others by `mimic`, in the output of `solve`, `ik` and `derive`.
 
 use groebot_robot::document::shown;
 use groebot_robot::kinematics::Mimic;
@@ -9,7 +9,7 @@ pub fn followers<'a>(joints: impl Iterator<Item = (&'a str, Option<&'a Mimic>)>)
     joints.filter_map(line).collect()
 }
 
-/// By joint the one that it follows, for JSON; none where no joint follows.
+/// By joint, the joint that it follows, for JSON; `None` where no joint follows.
 pub fn leaders<'a>(follows: impl Iterator<Item = Option<&'a Mimic>>) -> Option<Vec<Option<&'a str>>> {
     let leaders: Vec<_> = follows.map(|mimic| mimic.map(|mimic| mimic.leader.as_str())).collect();
     leaders.iter().any(Option::is_some).then_some(leaders)

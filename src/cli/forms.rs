@@ -1,4 +1,4 @@
-//! In which forms a program's target may be written: its inputs, or each rotation among them as a quaternion.
+//! The two forms of a program's target: its inputs, or with each rotation matrix replaced by a quaternion.
 
 use super::columns::{Columns, Field, Measure};
 use crate::{Error, ErrorKind, Result};
@@ -9,9 +9,9 @@ use groebot_robot::spatial::rotation::{UNIT, rows_of_quaternion};
 pub struct Forms {
     /// Names of the inputs.
     full: Vec<String>,
-    /// Names with `qx`, `qy`, `qz`, `qw` in place of `r11` to `r33`.
+    /// Names with `qx`, `qy`, `qz`, `qw` instead of `r11` to `r33`.
     short: Vec<String>,
-    /// The first inputs of the rotations, ascending.
+    /// The index of the first input of each rotation, ascending.
     rotations: Vec<usize>,
 }
 
@@ -43,7 +43,7 @@ impl Forms {
         forms.into_iter().map(|names| names.iter().map(String::as_str).collect()).collect()
     }
 
-    /// The columns of a table of targets of `program`: either form, by its inputs' units.
+    /// The columns of a table of targets of `program`: either form, in the units of its inputs.
     pub fn columns(&self, program: &Program, degrees: bool) -> Columns {
         let measure = |name: &str| match program.inputs.iter().find(|input| input.name == name).map(|input| input.unit)
         {
@@ -62,10 +62,11 @@ impl Forms {
         }
     }
 
-    /// The inputs for numbers in either form.
+    /// Converts numbers in either form to the inputs.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a quaternion that is not of length one, or a wrong count where there are two forms.
+    /// [`ErrorKind::BadValue`] for a quaternion that is not of length one, or a wrong number of values where there are
+    /// two forms.
     pub fn inputs(&self, numbers: Vec<f64>) -> Result<Vec<f64>> {
         if self.rotations.is_empty() || numbers.len() == self.full.len() {
             return Ok(numbers);

@@ -1,4 +1,4 @@
-//! `groebot identify`: what a robot's bodies weigh, from a log.
+//! `groebot identify`: inertial parameters of a robot's bodies from a log.
 
 use std::path::PathBuf;
 
@@ -18,21 +18,27 @@ const EXAMPLES: &str = "Examples:
   groebot identify ur5.urdf log.csv
   groebot identify ur5.urdf log.csv --friction --json -o identified.csv
 
-log.csv begins with a row of names: q0, q1, ... (the independent joints, in the order of the description), v0.., a0.. and tau0.., of motions that were measured; or q:JOINT, v:JOINT
-and so on in any order. Rows are in the order of time.
+log.csv begins with a row of names: q0, q1, ... (the independent joints, in the order of the
+description), v0.., a0.. and tau0.. of measured motions; or q:JOINT, v:JOINT and so on in any order.
+Rows are in the order of time.
 
-Reported are the base parameters, sums of the inertial parameters of bodies (m, mx, my, mz: mass, and mass times centre; Ixx to Izz: inertia about the origin; each in the frame of its
-link, with the links fixed to it) which alone matter for motion, with 95 % confidence, and the same of bodies that can exist (positive semidefinite pseudo-inertia). The confidence
-holds for noise that is independent from row to row.
+The result is the base parameters with 95 % confidence intervals. Base parameters are the sums of
+inertial parameters that determine the motion. m, mx, my, mz are mass, and mass times centre; Ixx to
+Izz are the inertia about the origin. Each is in the frame of its link, with the links fixed to it.
+The same parameters are also estimated under the condition of physical consistency (positive
+semidefinite pseudo-inertia). The confidence intervals assume noise that is independent from row to
+row.
 
-The exit status is 3 for a log that is not one of bodies and independent noise: torques that are unexplained, opposite, in another unit, clipped, outliers, or miss by noise that is
+The exit status is 3 for a log that does not fit rigid bodies with independent noise: torques that
+are unexplained, of opposite sign, in another unit, clipped or outliers, or residuals that are
 correlated in time.";
 
-/// Identifies inertial parameters by least squares on base parameters, from a log of motions and torques
+/// Estimates inertial parameters, with confidence intervals, from a log of motions and torques (least squares on base
+/// parameters)
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A robot of groebot, or a description in URDF or TOML
+    /// A robot by name, or a description in URDF or TOML
     #[arg(value_name = "ROBOT-or-FILE")]
     robot: PathBuf,
     /// The log, CSV
@@ -40,13 +46,13 @@ pub struct Arguments {
     log: PathBuf,
     #[command(flatten)]
     part: PartArguments,
-    /// Find viscous and Coulomb friction of each joint, too; without it the description's is taken
+    /// Estimate viscous and Coulomb friction of each joint too (default: that of the description)
     #[arg(long)]
     friction: bool,
-    /// Where a table of what was found goes, CSV
+    /// Write a table of the estimates to this CSV file
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// JSON instead of text
+    /// Print JSON instead of text
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -57,23 +63,23 @@ pub struct Arguments {
 struct Report<'a> {
     format: u32,
     rows: usize,
-    /// Torques beyond the numbers that are found.
+    /// The number of torques minus the number of estimates.
     degrees_of_freedom: usize,
     condition: f64,
     /// By joint.
     root_mean_square_misses: Vec<(&'a str, f64)>,
-    /// By joint, as a share of the torques' standard deviation.
+    /// By joint, as a fraction of the torques' standard deviation.
     unexplained: Vec<(&'a str, f64)>,
     parameters: Vec<Row<'a>>,
     consistent: bool,
-    /// In words.
+    /// As text.
     consistency: String,
-    /// What those weigh that can exist and explain the torques best.
+    /// The parameters of physically consistent bodies that explain the torques best.
     bodies: Vec<(String, f64)>,
     good: bool,
-    /// What is wrong with the log.
+    /// Faults of the log.
     findings: Vec<Found<'a>>,
-    /// What of the robot's file was ignored.
+    /// The ignored parts of the robot's file.
     notes: Vec<String>,
 }
 
@@ -81,10 +87,10 @@ struct Report<'a> {
 struct Row<'a> {
     name: &'a str,
     value: f64,
-    /// Half of what 95 % lie within; none where no degree of freedom is left.
+    /// Half of the 95 % interval; none where no degree of freedom is left.
     confidence: Option<f64>,
     described: f64,
-    /// Of bodies that can exist; none of friction.
+    /// The value for physically consistent bodies; none for friction.
     of_bodies: Option<f64>,
 }
 
@@ -96,7 +102,7 @@ struct Found<'a> {
     text: String,
 }
 
-/// Reads the log and tells.
+/// Reads the log and prints the result.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.robot.as_path(), arguments.log.as_path()]);
     let output = output.expects([arguments.out.as_ref()])?;
@@ -177,13 +183,13 @@ fn in_words(consistency: &Consistency) -> String {
     let [reached, least] = [consistency.squares, consistency.least].map(f64::sqrt);
     if consistency.holds() {
         format!(
-            "bodies can weigh that, within its noise: those that come nearest, none with a negative mass or principal moment of its mass, are {reached:.2} deviations off"
+            "physically possible within the noise: the nearest bodies without a negative mass or principal moment of mass are {reached:.2} standard deviations away"
         )
     } else if consistency.is_refuted() {
-        format!("no bodies weigh that: all are at least {least:.1} deviations off")
+        format!("not physically possible: all bodies are at least {least:.1} standard deviations away")
     } else {
         format!(
-            "whether bodies weigh that is open: the search for the nearest ones did not converge; they are between {least:.1} and {reached:.1} deviations off"
+            "not decided whether it is physically possible: the search for the nearest bodies did not converge; they are between {least:.1} and {reached:.1} standard deviations away"
         )
     }
 }
@@ -207,13 +213,12 @@ fn text(report: &Report<'_>) -> String {
         text += &format!("{:>14.6e}  {interval:>11}  {bodies:>14}  {:>14.6e}  {name}\n", row.value, row.described);
     }
     if report.degrees_of_freedom == 0 {
-        text += "no interval: the log has as many torques as numbers are asked for, and nothing is left to judge its noise by\n";
+        text +=
+            "no interval: the log has as many torques as there are parameters, so that its noise cannot be estimated\n";
     }
     for ((joint, miss), (_, share)) in report.root_mean_square_misses.iter().zip(&report.unexplained) {
         let (joint, percent) = (shown(joint), 100.0 * share);
-        text += &format!(
-            "{joint}: torques miss by {miss:.3e} in the root of the mean square, {percent:.2} % of their standard deviation\n"
-        );
+        text += &format!("{joint}: torque residual {miss:.3e} rms, {percent:.2} % of the standard deviation\n");
     }
     text += &report.consistency;
     text.push('\n');

@@ -1,4 +1,5 @@
-//! `groebot info`: a chain with its geometry, coupled chains with their actuators, a robot with its links, or a system, in words.
+//! `groebot info`: a chain with its geometry, coupled chains with their actuators, a robot with its links, or a system,
+//! as text.
 
 mod robot;
 
@@ -19,19 +20,20 @@ const EXAMPLES: &str = "Examples:
   groebot info robot.urdf                        a robot: its links and the ends of its limbs
   groebot info robot.urdf --tip tool0            the chain from the root to that link";
 
-/// Prints a chain and how its axes lie, coupled chains and their actuators, a robot's links, or a system of equations
+/// Prints a chain with the relations of its axes, coupled chains with their actuators, a robot's links, or a system of
+/// equations
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A mechanism's folder, or an input file; `-`: from standard input
+    /// A mechanism's folder, or an input file; `-` for standard input
     #[arg(value_name = "DIR-or-FILE")]
     input: PathBuf,
     #[command(flatten)]
     ends: IdealEndArguments,
-    /// JSON, of a chain or a robot
+    /// Print JSON, for a chain or a robot
     #[arg(long)]
     json: bool,
-    /// Joint values of a robot at which its centre of mass is computed, in the order in which they are listed [rad or m] [default: all zero]
+    /// Joint values of a robot for its centre of mass, in the order of the output [rad or m] (default: all zero)
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     q: Option<Vec<f64>>,
 }
@@ -79,10 +81,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
-/// Relations of up to this are told [rad, reaches].
+/// Near-relations up to this deviation are reported [rad, fraction of the reach].
 const NEAR: f64 = 1e-3;
 
-/// What almost holds of the axes of `chain`, in words, and what takes it for meant.
+/// Near-relations of the axes of `chain`, and the option that makes them exact, as text.
 pub(super) fn near_words(chain: &Chain) -> Vec<String> {
     let Ok((_, report)) = chain.ideal_within(NEAR) else { return Vec::new() };
     let words = report.relations.iter().map(|relation| relation.words(chain.length_unit()));
@@ -94,7 +96,7 @@ fn notes(tree: &Robot, ends: &Ends) -> Result<Vec<String>> {
     Ok(tree.notes(&path))
 }
 
-/// The equations of a chain whose task can be derived; nothing for the others.
+/// The equations of a chain whose task can be derived; empty for others.
 fn equations(chain: &Chain) -> std::result::Result<String, Halt> {
     match formulate(chain) {
         Ok(system) => Ok(format!("\n{system}")),
@@ -129,7 +131,7 @@ fn chain_page(chain: &Chain, notes: &[String], paint: Paint) -> String {
     page
 }
 
-/// How the axes lie, headings painted.
+/// The relations of the axes, with coloured headings.
 fn geometry(chain: &Chain, paint: Paint) -> String {
     let text = Geometry::of(chain).to_string();
     let line = |line: &str| if line.starts_with(' ') { format!("{line}\n") } else { format!("{}\n", paint.bold(line)) };
@@ -165,7 +167,7 @@ fn joint_row(index: usize, joint: &Joint, unit: &str) -> Vec<String> {
     vec![(index + 1).to_string(), joint.name.clone(), motion, point, limits]
 }
 
-/// A direction: integers as they are, others as the unit vector.
+/// A direction: integers unchanged, others as the unit vector.
 fn direction(axis: &ExactVector) -> String {
     if axis.iter().all(|entry| entry.is_integer()) {
         return vector(axis);
@@ -181,7 +183,7 @@ fn vector(vector: &ExactVector) -> String {
     format!("({})", numbers.join(", "))
 }
 
-/// A number to nine decimals, without zeros at its end.
+/// A number to nine decimals, without trailing zeros.
 fn tidy(value: f64) -> String {
     let text = format!("{value:.9}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

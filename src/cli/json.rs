@@ -1,4 +1,4 @@
-//! What `derive`, `info`, `check` and `plan` tell, as JSON for programs.
+//! The JSON output of `derive`, `info`, `check` and `plan`.
 
 use std::path::Path;
 use std::time::Duration;
@@ -16,11 +16,11 @@ use groebot_robot::kinematics::ideal::{RelationKind, Report};
 use groebot_robot::kinematics::screw::Plan;
 use groebot_robot::kinematics::{Chain, ExactVector, Geometry, JointKind};
 
-/// The version of all forms that the commands print.
+/// The version of the format of all commands.
 pub const FORMAT: u32 = 1;
 
-/// What a derivation came to.
-pub struct Told<'a> {
+/// The result of a derivation.
+pub struct Derived<'a> {
     pub source: &'a Source,
     pub derivation: &'a Proved,
     pub checked: &'a witness::Report,
@@ -30,7 +30,7 @@ pub struct Told<'a> {
     pub laps: &'a [(&'static str, Duration)],
 }
 
-impl Told<'_> {
+impl Derived<'_> {
     /// Name, task, inputs, joints, solutions, ideal robot, notes, checks with their weak spots, files, seconds.
     pub fn json(&self) -> Value {
         let program = self.derivation.program();
@@ -55,7 +55,7 @@ impl Told<'_> {
     }
 }
 
-/// The joints that the planner gives, and what else it might.
+/// The joints that the planner gives, and other possible choices.
 pub fn given(choice: &Choice) -> Value {
     let candidate = |candidate: &Candidate| {
         let solutions = candidate.plan.map(|[_, count]| count);
@@ -73,7 +73,7 @@ fn method(derivation: &Proved) -> &'static str {
     }
 }
 
-/// What was taken for what: angles in radians, lengths in the chain's unit.
+/// The idealised relations: angles in radians, lengths in the chain's unit.
 pub fn ideal(report: &Report) -> Value {
     let relations = report.relations.iter().map(|relation| {
         let kind = match relation.kind {
@@ -111,7 +111,7 @@ fn checked(report: &witness::Report) -> Value {
     })
 }
 
-/// A chain with its axes, how these lie, and what the description was taken for; lengths in its unit, angles in radians.
+/// A chain with its axes, their relations, and the idealisation; lengths in its unit, angles in radians.
 pub fn chain(described: &Chain, (meant, report): (&Chain, &Report), notes: &[String], tip: Option<&TipLink>) -> Value {
     let joints = described.joints().iter().map(|joint| {
         let axis = joint.direction().into_inner();
@@ -144,7 +144,7 @@ pub fn chain(described: &Chain, (meant, report): (&Chain, &Report), notes: &[Str
     })
 }
 
-/// Coupled chains: each chain as [`chain`], and the joints that each actuator moves, as `chain.joint`.
+/// Coupled chains: each chain as by [`chain`], and the joints that each actuator moves, as `chain.joint`.
 pub fn coupled(coupled: &CoupledChains) -> Value {
     let actuators = coupled.actuators().iter();
     let actuators = actuators.map(|own| json!({ "name": own.name, "joints": coupled.moved(own) }));
@@ -172,7 +172,7 @@ pub fn system(system: &System) -> Value {
     })
 }
 
-/// The order of subproblems of a chain, and what of its robot was ignored.
+/// The order of subproblems of a chain, and the ignored parts of its robot.
 pub fn plan(chain: &Chain, plan: &Plan, notes: &[String], tip: Option<&TipLink>) -> Value {
     let steps = plan.steps.iter().map(|step| {
         let joints: Vec<&str> = step.joints.iter().map(|&joint| chain.joints()[joint].name.as_str()).collect();

@@ -1,7 +1,9 @@
-//! The command-line tool: one file a subcommand.
+//! The command-line tool: one file per subcommand.
 //!
-//! Results go to standard output, errors to standard error as `error: FILE: line N: message`. The exit status is 0 for success, 1
-//! for a failure, 2 for wrong usage, 3 for a derived solver with weak spots and a log that `identify` finds bad, 4 where there is no path, 5 where a robot falls, and 130 for an interruption; a reader that goes away (`| head`) ends the work quietly with 0.
+//! Results go to standard output, errors to standard error as `error: FILE: line N: message`. The exit status is 0 for
+//! success, 1 for a failure and 2 for wrong usage. It is 3 for a derived solver with weak spots and for a log that
+//! `identify` reports as bad. It is 4 if there is no path, 5 if a robot falls, and 130 for an interruption. A closed
+//! reader (`| head`) ends the work without a message and with status 0.
 
 mod algebra;
 mod answers;
@@ -84,9 +86,10 @@ const EXAMPLES: &str = "Examples:
   groebot dynamics robot.urdf --states states.csv
   groebot track robot.urdf --law computed-torque --trajectory t.csv
 
-Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written, with weak spots at singular targets, or a log that is bad (identify), 4 there is no path, 5 the robot falls, 130 interrupted.";
+Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written but with weak spots at
+singular targets, or a bad log (identify), 4 no path exists, 5 the robot falls, 130 interrupted.";
 
-/// Closed-form inverse kinematics from Groebner bases: derived, proved, checked.
+/// Derives closed-form inverse kinematics of robots that return every solution, with a proof; plans walks and paths
 #[derive(Parser)]
 #[command(name = "groebot", version, after_help = EXAMPLES)]
 struct Cli {
@@ -120,26 +123,26 @@ enum Command {
     View(view::Arguments),
 }
 
-/// Why a subcommand ends early.
+/// The reason why a subcommand ends early.
 enum Halt {
-    /// An error that is still to be reported.
+    /// An error that is not reported yet.
     Error(Error),
-    /// Nobody reads standard output any more.
+    /// Standard output has been closed by its reader.
     PipeClosed,
-    /// There is no path; that has been reported.
-    NoWay,
-    /// A robot fell; that has been reported.
+    /// There is no path; this has been reported.
+    NoPath,
+    /// A robot fell; this has been reported.
     Fell,
-    /// A solver was derived and written, and misses answers at some singular targets; that has been reported.
+    /// A solver was derived and written, and misses answers at some singular targets; this has been reported.
     WeakSpots,
-    /// A log is not one of bodies and independent noise; that has been reported.
+    /// A log does not fit rigid bodies with independent noise; this has been reported.
     BadData,
 }
 
 /// The exit status of [`Halt::WeakSpots`] and [`Halt::BadData`].
 const WEAK: u8 = 3;
-/// The exit status of [`Halt::NoWay`].
-const NO_WAY: u8 = 4;
+/// The exit status of [`Halt::NoPath`].
+const NO_PATH: u8 = 4;
 /// The exit status of [`Halt::Fell`].
 const FELL: u8 = 5;
 
@@ -156,7 +159,8 @@ pub fn run() -> ExitCode {
     ExitCode::from(run_on(std::env::args_os()))
 }
 
-/// Runs the tool on `arguments`, of which the first is the program's name, in a process that is another program's: its exit status.
+/// Runs the tool on `arguments`, of which the first is the program's name, inside another process; returns the exit
+/// status.
 pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
@@ -164,7 +168,7 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
             return report_usage(&usage);
         }
     };
-    // What cannot be caught ends the process as usual.
+    // If signals cannot be caught, they end the process as usual.
     let _ = progress::interrupted();
     let outcome = match &cli.command {
         Command::Derive(arguments) => derive::run(arguments),
@@ -193,11 +197,11 @@ pub fn run_on(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     status(&outcome)
 }
 
-/// Prints help, the version or what is wrong with the arguments: the exit status.
+/// Prints help, the version or an error in the arguments; returns the exit status.
 fn report_usage(usage: &clap::Error) -> u8 {
     let code = u8::try_from(usage.exit_code()).unwrap_or(2);
     if usage.use_stderr() {
-        // There is no one left to tell about a closed standard error.
+        // A closed standard error cannot be reported.
         let _ = std::io::stderr().write_all(escape::message(&usage.render().to_string()).as_bytes());
         return code;
     }
@@ -205,12 +209,12 @@ fn report_usage(usage: &clap::Error) -> u8 {
     printed.map_or_else(|error| status(&Err(console::unwritten(&error))), |()| code)
 }
 
-/// The exit status of a command; an error is reported.
+/// Reports an error and returns the exit status of a command.
 fn status(outcome: &Outcome) -> u8 {
     match outcome {
         Ok(()) | Err(Halt::PipeClosed) => 0,
         Err(Halt::WeakSpots | Halt::BadData) => WEAK,
-        Err(Halt::NoWay) => NO_WAY,
+        Err(Halt::NoPath) => NO_PATH,
         Err(Halt::Fell) => FELL,
         Err(Halt::Error(error)) => {
             tell(error);
@@ -226,6 +230,6 @@ fn tell(error: &Error) {
         ErrorKind::Cancelled => "interrupted; nothing was written".to_owned(),
         _ => error.to_string(),
     };
-    // There is no one left to tell about a closed standard error.
+    // A closed standard error cannot be reported.
     let _ = writeln!(stderr, "{} {text}", paint.red("error:"));
 }

@@ -1,4 +1,4 @@
-//! A robot by its name or its file, and a motion in a file with the robot that it moves.
+//! Robots by name or file, and motions in files with the robots that they move.
 
 use std::path::Path;
 
@@ -12,19 +12,19 @@ use groebot_robot::motion::Trajectory;
 use groebot_robot::motion::table::TABLE_LIMIT;
 use groebot_robot::robots;
 
-/// Whether the name of a file ends so.
+/// Whether the name of a file has this ending.
 pub fn ends(file: &Path, end: &str) -> bool {
     file.extension().is_some_and(|own| own.eq_ignore_ascii_case(end))
 }
 
-/// A motion, and what its file tells beside it.
+/// A motion, and other data of its file.
 pub struct Motion {
     pub trajectory: Trajectory,
     pub walk: Option<WalkRecord>,
     pub task: Option<TaskRecord>,
 }
 
-/// The motion of a file, if it is one by its name: CSV or JSON.
+/// The motion of a file, if its name is that of CSV or JSON.
 pub fn motion(file: &Path) -> Result<Option<Motion>> {
     if ends(file, "csv") {
         return Ok(Some(Motion { trajectory: Trajectory::read_csv(file)?, walk: None, task: None }));
@@ -40,14 +40,14 @@ pub fn motion(file: &Path) -> Result<Option<Motion>> {
     read().map(Some).map_err(|error: Error| error.in_file(file))
 }
 
-/// The robot of this name or file, or else the one that the trajectory names.
+/// The robot with this name or file, or else the one that the trajectory names.
 pub fn robot_of(trajectory: &Trajectory, told: Option<&Path>) -> Result<(Robot, Meshes)> {
     let own = || robots::robot(&trajectory.robot).map(|robot| (robot, Meshes::default()));
     match told {
         Some(name) => robot(name),
         None => own().ok_or_else(|| {
             let text = format!(
-                "its robot `{}` is none of groebot's; give its description by --robot, or nao, rh0 or teo",
+                "its robot `{}` is not a robot of groebot; give its description by --robot, or nao, rh0 or teo",
                 shown(&trajectory.robot)
             );
             Error::new(ErrorKind::UnknownName, text)
@@ -55,7 +55,7 @@ pub fn robot_of(trajectory: &Trajectory, told: Option<&Path>) -> Result<(Robot, 
     }
 }
 
-/// As [`described`], with the names of the robots for what is neither.
+/// Same as [`described`], but the error for another name lists the robots.
 pub fn robot(name: &Path) -> Result<(Robot, Meshes)> {
     if !is_stdin(name) && !name.exists() && name.to_str().and_then(robots::robot).is_none() {
         let text = format!(
@@ -67,7 +67,7 @@ pub fn robot(name: &Path) -> Result<(Robot, Meshes)> {
     described(name)
 }
 
-/// A robot of this crate by its name, or the one that a file describes.
+/// A robot of this crate by its name, or from a file.
 pub fn described(robot: &Path) -> Result<(Robot, Meshes)> {
     if let Some(known) = robot.to_str().and_then(robots::robot) {
         return Ok((known, Meshes::default()));
@@ -76,7 +76,7 @@ pub fn described(robot: &Path) -> Result<(Robot, Meshes)> {
     match input.description {
         Description::Robot(read) => Ok((read, Meshes::beside(&input.path))),
         _ => {
-            let text = "this describes no robot with links; give one in URDF or TOML";
+            let text = "this does not describe a robot with links; give one in URDF or TOML";
             Err(Error::new(ErrorKind::BadValue, text).in_file(robot))
         }
     }

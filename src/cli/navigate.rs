@@ -1,4 +1,4 @@
-//! `groebot navigate`: a humanoid plans its path over a map, step by step.
+//! `groebot navigate`: path and footsteps of a humanoid on a map.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -25,12 +25,18 @@ const EXAMPLES: &str = "Examples:
   groebot navigate rh0 --map living_room.toml --furniture piano=1.2,0.4 --goal 4,3
   groebot navigate talos.urdf --left left_sole_link --right right_sole_link --map room.yaml --goal 3,1
 
-Metres, and degrees for headings; radians in files. The path is that of the middle of the feet: first with room for the robot however it is turned, where there is none with room for
-the core of its body. Steps follow it as far as legs and limits reach, or are searched where that fails; each is a walk of its own by one step goal,
-checked at every sample: soles on free cells, the body so far from obstacles, joints within limits and speeds, the zero moment point within its margin.
-Where there is no path the exit status is 4, and picture and JSON show the cells that enclose start or goal.";
+Metres, and degrees for headings; radians in files. The path is that of the middle of the feet. It
+has room for the robot at every heading; if there is no such path, room for the core of its body.
 
-/// Plans the path of a humanoid over a map, its footsteps, and the joint angles of the walk
+Footsteps follow the path as far as legs and limits permit; where that fails, they are searched.
+Each step is a walk of its own by one step goal, checked at every sample: soles on free cells,
+distance of the body from obstacles, joints within limits and speeds, the zero moment point within
+its margin.
+
+If there is no path, the exit status is 4, and picture and JSON show the cells that enclose start or
+goal.";
+
+/// Plans the path of a humanoid on a map, its footsteps, and the joint angles of the walk
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -39,35 +45,35 @@ pub struct Arguments {
     robot: String,
     #[command(flatten)]
     soles: SoleArguments,
-    /// The map: ROS' YAML with its image, PGM, PNG, rows of characters, a room in TOML, or living-room or encirclement
+    /// The map: ROS YAML with its image, PGM, PNG, text, a room in TOML, or living-room or encirclement
     #[arg(long, value_name = "FILE")]
     map: PathBuf,
     #[command(flatten)]
     floor: FloorArguments,
     #[command(flatten)]
     places: PlaceArguments,
-    /// How the path is found
+    /// The method that finds the path
     #[arg(long, value_name = "METHOD", default_value = "exact")]
     method: MethodName,
-    /// The body from above, instead of what the description's shapes say: how long and how wide [m]
+    /// The length and width of the body, seen from above (default: from the shapes of the description) [m]
     #[arg(long, value_name = "LENGTH,WIDTH", value_delimiter = ',', num_args = 1)]
     body: Option<Vec<f64>>,
-    /// How the centre of mass is moved [default: the robot's first gait by one step goal]
+    /// The gait [default: the robot's first gait by one step goal]
     #[arg(long, value_enum)]
     gait: Option<GaitName>,
     /// Start and end in the crouch, without lowering and rising
     #[arg(long)]
     crouched: bool,
-    /// Where the joint angles go: CSV, or JSON when the name ends in .json
+    /// Write the joint angles to this file: CSV, or JSON if its name ends in .json
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Where the picture of map, path and footsteps goes, SVG
+    /// Write a picture of map, path and footsteps to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Path, footsteps and refused steps as JSON instead of the summary
+    /// Print path, footsteps and refused steps as JSON instead of the summary
     #[arg(long)]
     json: bool,
-    /// No progress and no summary
+    /// Print neither progress nor summary
     #[arg(long)]
     quiet: bool,
     #[command(flatten)]
@@ -78,15 +84,15 @@ pub struct Arguments {
 pub(super) enum MethodName {
     /// The shortest path
     Exact,
-    /// Down a field of fast marching
+    /// The descent path of a fast marching field
     Fmm,
-    /// Down a field of the thesis' M3R
+    /// The descent path of a field of the thesis' M3R
     M3r,
-    /// Down an artificial potential field, which may be stuck
+    /// The descent path of an artificial potential field, which may end in a local minimum
     Potential,
 }
 
-/// Plans the journey and writes what is asked for.
+/// Plans the journey and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
@@ -124,7 +130,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
         Err(blocked) => {
             console::line("error", &blocked.to_string());
-            Err(Halt::NoWay)
+            Err(Halt::NoPath)
         }
     }
 }
@@ -140,7 +146,7 @@ impl Arguments {
         Pilot::new(named.walker, usual, body, !self.crouched, watch)
     }
 
-    /// The writer, which replaces neither the robot nor the map.
+    /// The output; it replaces neither the robot nor the map.
     fn output(&self) -> Result<Output> {
         let output = self.force.output([Path::new(&self.robot), self.map.as_path()]);
         output.expects([self.out.as_ref(), self.plot.as_ref()])
@@ -166,8 +172,8 @@ impl Arguments {
         match found {
             Ok(plan) => {
                 let summary = Summary::of(biped, &plan.walk);
-                told["points"] = floor::points(&plan.course.way);
-                told["length"] = plan.course.way.length().into();
+                told["points"] = floor::points(&plan.course.path);
+                told["length"] = plan.course.path.length().into();
                 told["wide"] = plan.course.is_wide.into();
                 told["steps"] = plan.walk.schedule.route.steps.iter().map(step).collect();
                 told["seconds"] = summary.duration.into();
@@ -208,7 +214,7 @@ fn steps(gaits: &[(&'static str, Usual)], wanted: Option<GaitName>) -> Result<Us
     };
     let usual = usual.filter(|usual| usual.gait.is_one_step());
     usual.ok_or_else(|| {
-        bad("a path is walked by one step goal; give --gait osg, rh0 or rh0-real, of those that this robot has")
+        bad("a path needs a gait by one step goal; give --gait osg, rh0 or rh0-real, if this robot has it")
     })
 }
 

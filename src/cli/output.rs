@@ -1,4 +1,4 @@
-//! Where commands write: never onto an input, and onto a file of somebody else only by `--force`.
+//! Output of commands: never replaces an input, and replaces a user's own file only with `--force`.
 
 use std::borrow::Cow;
 use std::io;
@@ -12,37 +12,37 @@ use groebot_ik::derive::stages::STAGES;
 use groebot_robot::document::is_stdin;
 use groebot_robot::files::{MARK, Target, is_marked, refuse_foreign, write_atomically, write_into};
 
-/// Whether files of others may be replaced.
+/// Whether files that groebot did not write may be replaced.
 #[derive(Clone, Copy, clap::Args)]
 pub struct Force {
-    /// Replace files that groebot did not write, too
+    /// Replace files that groebot did not write
     #[arg(long)]
     pub force: bool,
 }
 
-/// How a mark is put into a file.
+/// The form of the mark in a file.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// A comment of XML, behind the declaration if there is one: SVG, URDF, MJCF, X3D, HTML, Markdown.
+    /// A comment of XML, after the declaration if there is one: SVG, URDF, MJCF, X3D, HTML, Markdown.
     Markup,
-    /// A line of comment behind the first line: VRML.
+    /// A line of comment after the first line: VRML.
     Vrml,
     /// A member of the object.
     Json,
-    /// A line of comment in front that begins so: LaTeX, systems of polynomials.
+    /// A line of comment at the start with this prefix: LaTeX, systems of polynomials.
     Lines(&'static str),
-    /// None: it has its own, or its format has no place for one, as tables.
+    /// None: it has its own, or its format does not permit one, as for tables.
     Plain,
 }
 
-/// Who writes: what was read, and whether files of others may be replaced.
+/// The output of a command: its inputs, and whether foreign files may be replaced.
 pub struct Output {
     inputs: Vec<PathBuf>,
     force: bool,
 }
 
 impl Force {
-    /// A writer of a command that reads `inputs`, files or folders.
+    /// The output of a command that reads `inputs`, files or folders.
     pub fn output<'a>(self, inputs: impl IntoIterator<Item = &'a Path>) -> Output {
         let all = inputs.into_iter().filter(|path| !is_stdin(path)).flat_map(within).collect();
         Output { inputs: all, force: self.force }
@@ -62,7 +62,7 @@ fn within(path: &Path) -> Vec<PathBuf> {
 }
 
 impl Output {
-    /// Fails before the work for what can be refused by then: outputs that are inputs, directories or links, and two that are one file.
+    /// Checks before the work: outputs that are inputs, directories or links, and two that are one file.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] with the file; as [`Target::of`].
@@ -72,14 +72,14 @@ impl Output {
             let target = self.target(file)?;
             let twice = |other: &&&PathBuf| target == Target::File && (other == &file || is_same_file(other, file));
             if files[..place].iter().any(|other| twice(&other)) {
-                let text = "two results would go to this one file; give each a name of its own";
+                let text = "two results have this one output file; give each its own name";
                 return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
             }
         }
         Ok(self)
     }
 
-    /// Writes a file whole, in the place of none or of one of groebot's own, or into what is no regular file.
+    /// Writes a file completely. It replaces no file or one of groebot's own; devices and pipes are written directly.
     pub fn write(&self, path: &Path, kind: Kind, content: impl AsRef<[u8]>) -> Outcome {
         begin_output()?;
         let content = kind.marked(content.as_ref());
@@ -93,7 +93,7 @@ impl Output {
         Ok(write_atomically(path, &content)?)
     }
 
-    /// Fails where `content` may not take the place of what is at `path`.
+    /// Checks whether `content` may replace the file at `path`.
     ///
     /// # Errors
     /// As [`refuse_foreign`].
@@ -105,8 +105,7 @@ impl Output {
     fn target(&self, path: &Path) -> Result<Target> {
         let target = Target::of(path)?;
         if target != Target::Stream && self.inputs.iter().any(|input| is_same_file(input, path)) {
-            let text =
-                "this is an input of the command, which is never replaced; give another name for what is written";
+            let text = "this is an input of the command, which is never replaced; give another output file";
             return Err(Error::new(ErrorKind::BadValue, text).in_file(path));
         }
         if target == Target::Link && !self.force {
@@ -117,12 +116,12 @@ impl Output {
 }
 
 impl Kind {
-    /// That of a motion or a map: JSON by its name, else a table.
+    /// The kind of a motion or a map: JSON by its name, else a table.
     pub fn of_motion(file: &Path) -> Self {
         if ends(file, "json") { Kind::Json } else { Kind::Plain }
     }
 
-    /// The content with the mark by which [`refuse_foreign`] knows it.
+    /// The content with the mark that [`refuse_foreign`] recognises.
     fn marked(self, content: &[u8]) -> Cow<'_, [u8]> {
         let (place, mark) = match self {
             _ if is_marked(content) => return Cow::Borrowed(content),
@@ -139,7 +138,7 @@ impl Kind {
     }
 }
 
-/// An empty object or array has no place for a member.
+/// An empty object or array cannot have the mark as a member.
 fn json_mark(content: &[u8]) -> String {
     let is_object = content.first() == Some(&b'{') && !content.starts_with(b"{}");
     if is_object { "\"generator\":\"groebot\",".to_owned() } else { String::new() }
@@ -149,7 +148,7 @@ fn first_line(content: &[u8]) -> usize {
     content.iter().position(|byte| *byte == b'\n').map_or(content.len(), |at| at + 1)
 }
 
-/// Whether two paths are of one file, by whichever links.
+/// Whether two paths refer to one file, also through links.
 #[cfg(unix)]
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -157,7 +156,7 @@ pub fn is_same_file(a: &Path, b: &Path) -> bool {
     matches!((id(a), id(b)), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Whether two paths are of one file, by whichever links.
+/// Whether two paths refer to one file, also through links.
 #[cfg(not(unix))]
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     matches!((std::fs::canonicalize(a), std::fs::canonicalize(b)), (Ok(a), Ok(b)) if a == b)

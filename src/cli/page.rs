@@ -1,9 +1,9 @@
-//! A text of headings with lines under them, for a person to read ([`Page`]).
+//! A text page of headings and lines ([`Page`]).
 
 use super::algebra::wrap;
 use super::console::Paint;
 
-/// The column where lines end.
+/// The column at which lines are broken.
 const WIDTH: usize = 100;
 
 /// Headings and the lines under them.
@@ -13,17 +13,17 @@ pub struct Page {
 }
 
 impl Page {
-    /// A heading behind an empty line.
+    /// Adds a heading after an empty line.
     pub fn heading(&mut self, title: &str) {
         self.text += &format!("\n{}\n", self.paint.bold(title));
     }
 
-    /// A line, wrapped.
+    /// Adds a line, wrapped.
     pub fn line(&mut self, text: &str) {
         self.text += &format!("  {}\n", wrap(text, WIDTH, 2));
     }
 
-    /// Pairs of a name and a text, the texts aligned and wrapped.
+    /// Adds pairs of a name and a text, the texts aligned and wrapped.
     pub fn entries(&mut self, entries: &[(String, String)]) {
         let width = entries.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0).min(WIDTH / 3);
         for (name, text) in entries {

@@ -1,4 +1,5 @@
-//! `--base`, `--tip` and `--gravity`: the part of a robot whose equations of motion are asked for. Main type: [`PartArguments`].
+//! `--base`, `--tip` and `--gravity`: the part of a robot whose equations of motion are requested. Main type:
+//! [`PartArguments`].
 
 use nalgebra::Vector3;
 use num_traits::ToPrimitive;
@@ -11,10 +12,11 @@ use groebot_robot::spatial::exact::ExactVector;
 /// The links between which joints move, and gravity.
 #[derive(clap::Args)]
 pub struct PartArguments {
-    /// The link from which joints move: those that are not between it and the tip are held at zero
+    /// The first link of the moving part; joints that are not between it and the tip are held at zero (default: the
+    /// root)
     #[arg(long, value_name = "LINK")]
     pub base: Option<String>,
-    /// The link up to which joints move
+    /// The last link of the moving part (default: all links)
     #[arg(long, value_name = "LINK")]
     pub tip: Option<String>,
     /// Gravity in the frame of the root, or of `--base` [m/s^2]
@@ -23,10 +25,11 @@ pub struct PartArguments {
 }
 
 impl PartArguments {
-    /// The robot whose joints move between the two links alone, and gravity \[m/s^2\] in its root's frame. Joints that follow others by a multiplier of zero are fixed.
+    /// The robot with only the joints between the two links, and gravity \[m/s^2\] in its root's frame. Joints that
+    /// follow others by a multiplier of zero are fixed.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for links that are not there, [`ErrorKind::BadValue`] where the base is not above the tip.
+    /// [`ErrorKind::UnknownName`] for unknown links, [`ErrorKind::BadValue`] where the base is not above the tip.
     pub fn of(&self, robot: &Robot) -> Result<(Robot, Vector3<f64>)> {
         let robot = &robot.with_constants_fixed()?;
         let ends = [self.base.as_deref(), self.tip.as_deref()];
@@ -72,10 +75,10 @@ impl Gravity {
     }
 }
 
-/// Three numbers between commas.
+/// Reads three numbers separated by commas.
 fn gravity(text: &str) -> std::result::Result<Gravity, String> {
     let numbers: Option<Vec<_>> = text.split(',').map(|word| parse_rational(word.trim()).ok()).collect();
     let exact = numbers.and_then(|numbers| ExactVector::try_from(numbers).ok()).map(Gravity);
     let finite = exact.filter(|gravity| gravity.in_doubles().iter().all(|entry| entry.is_finite()));
-    finite.ok_or_else(|| "give three finite numbers between commas, such as 0,0,-9.81".to_owned())
+    finite.ok_or_else(|| "give three finite numbers separated by commas, such as 0,0,-9.81".to_owned())
 }

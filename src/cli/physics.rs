@@ -1,4 +1,4 @@
-//! MuJoCo, an outside program: a Python with the package `mujoco` plays a walk by `scripts/physics/play.py`.
+//! MuJoCo as an external program: a Python with the package `mujoco` simulates a walk by `scripts/physics/play.py`.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -14,39 +14,39 @@ use groebot_robot::document::read_text;
 use groebot_robot::motion::Trajectory;
 use groebot_robot::motion::table::TABLE_LIMIT;
 
-/// What plays.
+/// The script of the simulation.
 const SCRIPT: &str = include_str!("../../scripts/physics/play.py");
-/// The names of Python, without the variable that names another one.
+/// The default name of Python, which the variable may replace.
 const PYTHON: &str = "python3";
 const VARIABLE: &str = "GROEBOT_PYTHON";
 /// The exit status of the script without MuJoCo.
 const NO_MUJOCO: i32 = 7;
-/// How often the script is looked at.
+/// The interval between two checks of the script.
 const PAUSE: Duration = Duration::from_millis(10);
-/// What is read of what the script tells, in bytes.
-const TOLD_LIMIT: u64 = groebot_algebra::limits::DESCRIPTION_BYTES;
+/// The greatest length of the script's output in bytes.
+const OUTPUT_LIMIT: u64 = groebot_algebra::limits::DESCRIPTION_BYTES;
 
-/// What the world and the motors are in a run.
+/// The parameters of the world and the motors in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Case {
     /// The coefficient of friction.
     pub friction: f64,
-    /// How far the floor is turned about x and then y \[degrees\]: the left side is up, what is ahead is down.
+    /// The rotation of the floor about x and then y \[degrees\]: the left side up, the front down.
     pub slope: [f64; 2],
-    /// All masses times this.
+    /// The factor on all masses.
     pub mass: f64,
-    /// The stiffness of motors times this.
+    /// The factor on the stiffness of motors.
     pub gain: f64,
-    /// How late commands are \[s\].
+    /// The delay of commands \[s\].
     pub latency: f64,
 }
 
-/// What the script tells of a run.
+/// The output of the script for a run.
 #[derive(Clone, Debug, Deserialize, Serialize)]
-pub struct Told {
+pub struct ScriptOutput {
     /// The version of MuJoCo.
     pub mujoco: String,
-    /// When the robot fell \[s\].
+    /// The time at which the robot fell \[s\].
     pub fell: Option<f64>,
     /// The stiffness of each motor \[N m/rad\].
     pub stiffness: f64,
@@ -56,7 +56,7 @@ pub struct Told {
     pub armature: f64,
     /// The mass of the robot \[kg\].
     pub mass: f64,
-    /// The bodies that are described as points, which have been given moments.
+    /// The bodies that are described as points, which get moments of inertia.
     pub points: Vec<String>,
 }
 
@@ -64,23 +64,24 @@ pub struct Told {
 pub struct Stage {
     folder: TempDir,
     python: PathBuf,
-    /// What is the same in all runs.
+    /// The arguments that all runs share.
     fixed: Vec<String>,
 }
 
-/// A process that does not outlive its owner.
+/// A process that is ended when this value is dropped.
 struct Running(Child);
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // It may have ended by itself.
+        // It may already have ended.
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
 }
 
 impl Stage {
-    /// Makes the folder for a robot in MJCF and a walk; `feet` are the links of the soles, `servo` stiffness, damping and armature by the robot's size.
+    /// Makes the folder for a robot in MJCF and a walk. `feet` are the links of the soles, `servo` is stiffness,
+    /// damping and armature relative to the robot's size.
     pub fn new(robot: &str, walk: &Trajectory, feet: [&str; 2], servo: Option<&[f64]>) -> Result<Self> {
         let folder = tempfile::tempdir().map_err(|error| Error::io(&std::env::temp_dir(), &error))?;
         for (name, text) in [("play.py", SCRIPT), ("robot.xml", robot), ("walk.csv", &walk.to_csv())] {
@@ -93,8 +94,8 @@ impl Stage {
         Ok(Stage { folder, python, fixed })
     }
 
-    /// Plays the walk in a case: what the robot did, and what the script tells.
-    pub fn play(&self, case: &Case, watch: &Watch) -> Result<(Trajectory, Told)> {
+    /// Simulates the walk in a case: the motion of the robot, and the output of the script.
+    pub fn play(&self, case: &Case, watch: &Watch) -> Result<(Trajectory, ScriptOutput)> {
         let at = |name: &str| self.folder.path().join(name);
         let file = |name: &str| File::create(at(name)).map_err(|error| Error::io(&at(name), &error));
         let mut command = Command::new(&self.python);
@@ -117,10 +118,10 @@ impl Stage {
             let last = errors.lines().last().unwrap_or("no message");
             return Err(match status.code() {
                 Some(NO_MUJOCO) => self.no_mujoco(last),
-                _ => Error::new(ErrorKind::Unsupported, format!("MuJoCo does not play this: {last}")),
+                _ => Error::new(ErrorKind::Unsupported, format!("MuJoCo cannot simulate this: {last}")),
             });
         }
-        let told = read_text(&at("told.json"), TOLD_LIMIT)?;
+        let told = read_text(&at("told.json"), OUTPUT_LIMIT)?;
         let told = serde_json::from_str(&told).map_err(|error| {
             Error::new(ErrorKind::Syntax, format!("the output of {} is not understood: {error}", self.python.display()))
         })?;
@@ -129,7 +130,7 @@ impl Stage {
 
     fn no_mujoco(&self, reason: &str) -> Error {
         let text = format!(
-            "`{}` does not run MuJoCo ({reason}); get it by `python3 -m venv mujoco && mujoco/bin/pip install mujoco`, and name that Python: \
+            "`{}` cannot run MuJoCo ({reason}); install it by `python3 -m venv mujoco && mujoco/bin/pip install mujoco`, and set the variable to that Python: \
              {VARIABLE}=mujoco/bin/python",
             self.python.display()
         );
@@ -154,7 +155,7 @@ fn listed(numbers: &[f64]) -> String {
     numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(",")
 }
 
-/// The path from the root of the file system, where there is such a file.
+/// The absolute path, where the file exists.
 pub fn whole(path: &Path) -> PathBuf {
     fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
 }

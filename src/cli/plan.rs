@@ -1,8 +1,8 @@
-//! `groebot plan`: the order of subproblems by which screw theory solves a chain, in words.
+//! `groebot plan`: the order of subproblems by which screw theory solves a chain, as text.
 
 use std::path::{Path, PathBuf};
 
-use super::derive::told_choice;
+use super::derive::choice_text;
 use super::ends::{IdealEndArguments, TipLink};
 use super::{Outcome, console, json};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -14,42 +14,43 @@ use groebot_robot::kinematics::screw::ScrewSolver;
 use groebot_robot::robots;
 
 const EXAMPLES: &str = "Examples:
-  groebot plan puma                              a robot that comes with groebot
+  groebot plan puma                              a robot of groebot by name
   groebot plan robot.urdf --base base_link --tip tool0
   groebot plan derivations/nao_leg_sagittal
 
-Names: PK1-PK3 Paden-Kahan, PG1-PG8 and Pardos-One Pardos-Gotor, SP5 and SP6 IK-Geo; docs/subproblems.md describes each.";
+Names: PK1-PK3 Paden-Kahan, PG1-PG8 and Pardos-One Pardos-Gotor, SP5 and SP6 IK-Geo;
+docs/subproblems.md describes each.";
 
-/// Prints how screw theory solves a chain: which joints cancel, which subproblem is left
+/// Prints how screw theory solves a chain: the joints that cancel, and the subproblem of each step
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
     mechanism: Mechanism,
-    /// JSON instead of text
+    /// Print JSON instead of text
     #[arg(long)]
     json: bool,
 }
 
-/// Which chain.
+/// The chain.
 #[derive(clap::Args)]
 pub struct Mechanism {
-    /// A mechanism's folder, a file (chain.toml, DH table, URDF; `-`: from standard input), or a robot that comes with groebot
+    /// A mechanism's folder, a file (chain.toml, DH table, URDF; `-` for standard input), or a robot of groebot by name
     #[arg(value_name = "DIR-FILE-or-ROBOT")]
     input: PathBuf,
     #[command(flatten)]
     ends: IdealEndArguments,
 }
 
-/// A chain that is asked for.
-pub struct Asked {
-    /// Where it is from, with the joints whose values are given.
+/// A requested chain.
+pub struct RequestedChain {
+    /// Its source, with the joints whose values are given.
     source: Source,
-    /// Which joints these are, where the planner chose.
+    /// The choice of these joints by the planner.
     pub choice: Option<Choice>,
 }
 
-impl Asked {
+impl RequestedChain {
     /// The chain.
     ///
     /// # Errors
@@ -61,12 +62,12 @@ impl Asked {
         })
     }
 
-    /// The link where it ends, of a robot.
+    /// The last link, for a robot.
     pub fn tip(&self) -> Option<TipLink> {
         TipLink::of_source(&self.source)
     }
 
-    /// What of a robot was ignored.
+    /// The ignored parts of a robot.
     pub fn notes(&self) -> &[String] {
         &self.source.notes
     }
@@ -78,7 +79,7 @@ impl Asked {
     pub fn solver(&self) -> Result<ScrewSolver> {
         ScrewSolver::within(self.chain()?, self.source.ends.tolerance()).map_err(|error| match error.kind() {
             ErrorKind::Unsupported => {
-                let text = format!("{}; `groebot info` shows how its axes lie", error.message());
+                let text = format!("{}; `groebot info` prints the relations of its axes", error.message());
                 self.source.advised(Error::new(error.kind(), text))
             }
             _ => error,
@@ -87,32 +88,35 @@ impl Asked {
 }
 
 impl Mechanism {
-    /// What is read.
+    /// The input.
     pub fn input(&self) -> &Path {
         &self.input
     }
 
-    /// The chain, with as many given joints as its task leaves too many: those that are named, else as the planner chooses.
+    /// The chain, with as many given joints as its task leaves too many: the named ones, else those chosen by the
+    /// planner.
     ///
     /// # Errors
-    /// As [`InputFile::read`], [`Source::of`] and [`Source::choose_given`]; [`ErrorKind::UnknownName`] for what is neither a file nor a robot.
-    pub fn asked(&self) -> Result<Asked> {
+    /// As [`InputFile::read`], [`Source::of`] and [`Source::choose_given`]; [`ErrorKind::UnknownName`] for a name that
+    /// is neither a file nor a robot.
+    pub fn asked(&self) -> Result<RequestedChain> {
         let mut source = self.source()?;
         let choice = source.choose_given(&Watch::none())?;
-        Ok(Asked { source, choice })
+        Ok(RequestedChain { source, choice })
     }
 
-    /// The same for a search, which needs no closed form: a joint too many that the planner can give none for stays.
+    /// Same as [`Mechanism::asked`], but for a numeric search, which needs no closed form: a joint too many that the
+    /// planner cannot choose stays free.
     ///
     /// # Errors
     /// As [`Mechanism::asked`].
-    pub fn searched(&self) -> Result<Asked> {
+    pub fn searched(&self) -> Result<RequestedChain> {
         let mut source = self.source()?;
         let choice = match source.choose_given(&Watch::none()) {
             Err(error) if error.kind() == ErrorKind::Unsupported => None,
             choice => choice?,
         };
-        Ok(Asked { source, choice })
+        Ok(RequestedChain { source, choice })
     }
 
     fn source(&self) -> Result<Source> {
@@ -153,6 +157,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     console::tell(asked.notes());
     let about = chain.parts().description.as_deref().map(|text| format!("{text}\n")).unwrap_or_default();
-    let told = TipLink::line(tip.as_ref()) + &asked.choice.as_ref().map(told_choice).unwrap_or_default();
+    let told = TipLink::line(tip.as_ref()) + &asked.choice.as_ref().map(choice_text).unwrap_or_default();
     console::print(&format!("{told}{}, task {}\n{about}\n{}\n", chain.name(), chain.asked(), solver.plan()))
 }

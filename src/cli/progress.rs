@@ -1,4 +1,4 @@
-//! A [`Watch`] that a person follows and stops: a spinner on a terminal, Ctrl-C, a budget.
+//! A [`Watch`] for an interactive user: a spinner on a terminal, Ctrl-C, a budget.
 
 use std::io::{IsTerminal, stderr};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -10,49 +10,49 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::files::stop_writers;
 
-/// The longest time budget.
+/// The greatest time budget.
 const MAX_SECONDS: f64 = groebot_algebra::limits::BUDGET_SECONDS;
 
-/// How much may be spent, and whether to show it.
+/// Budgets, and whether progress is shown.
 #[derive(Clone, Copy, Default)]
 pub struct Limits {
     /// The time budget.
     pub time: Option<Duration>,
-    /// The most polynomial terms alive.
+    /// The greatest number of polynomial terms in use.
     pub terms: Option<usize>,
-    /// The most memory in use, in bytes.
+    /// The greatest memory in use, in bytes.
     pub memory: Option<usize>,
     /// No spinner.
     pub quiet: bool,
 }
 
-/// How much a command may spend, and whether it tells of it.
+/// The budget of a command, and whether it shows progress.
 #[derive(clap::Args)]
 pub struct Budget {
-    /// The time budget
+    /// The time budget [s] (default: none)
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     time: Option<Duration>,
-    /// The memory budget
+    /// The memory budget [MiB] (default: none)
     #[arg(long, value_name = "MiB", value_parser = mebibytes)]
     memory: Option<usize>,
-    /// Neither progress nor summary
+    /// Print neither progress nor summary
     #[arg(long)]
     pub quiet: bool,
 }
 
 impl Budget {
-    /// The same as limits of a session.
+    /// Converts the options to limits of a session.
     pub fn limits(&self) -> Limits {
         Limits { time: self.time, memory: self.memory, terms: None, quiet: self.quiet }
     }
 }
 
-/// A watch with its spinner, which goes when the session ends.
+/// A watch with its spinner, which is removed when the session ends.
 pub struct Session {
-    /// What the work asks.
+    /// The watch for the work.
     pub watch: Watch,
     spinner: Option<ProgressBar>,
-    /// The guard of the budgets lives as long as this.
+    /// The guard of the budgets runs as long as this exists.
     _alive: Arc<()>,
 }
 
@@ -93,13 +93,13 @@ impl Drop for Session {
     }
 }
 
-/// How often budgets are looked at from outside the work.
+/// The interval between two checks of the budgets from outside the work.
 const PERIOD: Duration = Duration::from_millis(20);
-/// How long work may go on that should have stopped: most of it looks at its watch more often.
+/// The time that work may continue after it should have stopped: most of it checks its watch more often.
 const GRACE: Duration = Duration::from_secs(1);
 
-/// Ends the process where the work goes on for more than [`GRACE`] though the watch says stop, as it does in steps that do not ask it; at once where more
-/// memory is in use than `most`.
+/// Ends the process if the work continues for more than [`GRACE`] after the watch has stopped, as in steps that do not
+/// check it. Ends it at once if more memory is in use than `most`.
 fn guard(watch: Watch, alive: Weak<()>, most: Option<(Arc<AtomicUsize>, usize)>, spinner: Option<ProgressBar>) {
     let is_urgent = move || most.as_ref().is_some_and(|(meter, most)| meter.load(Ordering::Relaxed) > *most);
     std::thread::spawn(move || {
@@ -120,16 +120,17 @@ fn guard(watch: Watch, alive: Weak<()>, most: Option<(Arc<AtomicUsize>, usize)>,
     });
 }
 
-/// Reports the error and ends the process, when no file is half-written.
+/// Reports the error and ends the process, at a time when no file is half-written.
 fn end(error: &Error) -> ! {
     let _stopped = stop_writers();
     std::process::exit(i32::from(super::status(&Err(super::Halt::Error(error.clone())))))
 }
 
-/// The flag that Ctrl-C sets. Work ends at its next look at it; where none does, the process ends after [`GRACE`], and at once when Ctrl-C is pressed again.
+/// The flag that Ctrl-C sets. Work ends at its next check. If there is no check, the process ends after [`GRACE`], and
+/// at once when Ctrl-C is pressed again.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] where the system does not let it be caught.
+/// [`ErrorKind::Io`] where the system does not permit a handler.
 pub fn interrupted() -> Result<Arc<AtomicBool>> {
     static FLAG: OnceLock<Result<Arc<AtomicBool>>> = OnceLock::new();
     FLAG.get_or_init(|| {
@@ -137,7 +138,7 @@ pub fn interrupted() -> Result<Arc<AtomicBool>> {
         let seen = Arc::clone(&flag);
         let cancelled = || Error::new(ErrorKind::Cancelled, "interrupted");
         let interrupt = move || {
-            // The flag is held here and by its cell; where nobody else holds it, nobody looks at it.
+            // The flag is held here and by its cell. Without another holder nobody checks it.
             if seen.swap(true, Ordering::Relaxed) || Arc::strong_count(&seen) == 2 {
                 end(&cancelled());
             }
@@ -153,7 +154,7 @@ pub fn interrupted() -> Result<Arc<AtomicBool>> {
     .clone()
 }
 
-/// Fails where Ctrl-C was pressed before the first result is written or printed; what was begun is completed.
+/// Fails if Ctrl-C was pressed before the first result is written or printed; output that has begun is completed.
 ///
 /// # Errors
 /// [`ErrorKind::Cancelled`].
@@ -168,7 +169,8 @@ pub fn begin_output() -> Result<()> {
     Ok(())
 }
 
-/// The bytes that this process has in memory, kept up to date as long as `alive` is; `None` where the system does not tell.
+/// The bytes of this process in memory, updated as long as `alive` exists; `None` where the system does not report
+/// them.
 fn meter(alive: &Arc<()>) -> Option<Arc<AtomicUsize>> {
     let meter = Arc::new(AtomicUsize::new(resident_bytes()?));
     let (kept, alive) = (Arc::clone(&meter), Arc::downgrade(alive));

@@ -1,4 +1,4 @@
-//! `groebot reach`: a map of what a derived solver reaches.
+//! `groebot reach`: a reachability map of a derived solver.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -17,7 +17,7 @@ use groebot_ik::solver::Program;
 use groebot_robot::document::shown;
 use groebot_robot::kinematics::{Chain, Joint, JointKind};
 
-/// How many places an axis has that is not told.
+/// The default number of points per axis.
 const USUAL: usize = 21;
 
 const EXAMPLES: &str = "Examples:
@@ -27,46 +27,50 @@ const EXAMPLES: &str = "Examples:
   groebot reach derivations/iiwa14 --given 0.5 --measure limits --plot within.svg
   groebot view derivations/ur5 --reach ur5.json -o ur5.html
 
-An axis is FROM:TO:COUNT, places evenly spaced with both ends, or one number; without it, as far as the chain is long about its first joint. At each place are orientations, spread evenly over all that the task distinguishes: rotations, directions, or angles. --plot colours slices by the share of orientations that are reached, or by the mean
-manipulability (of each orientation that of the best answer).";
+An axis is FROM:TO:COUNT, evenly spaced points including both ends, or one number. The default is a
+cube around the first joint that contains the workspace. Each point has orientations, spread evenly
+over all that the task distinguishes: rotations, directions, or angles.
 
-/// Counts what a derived solver reaches, place by place
+--plot colours slices by the fraction of orientations that are reached, or by the mean
+manipulability (of each orientation that of its best solution).";
+
+/// Computes a reachability map of a derived solver: the number of solutions at each point of a grid
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     /// A folder that `groebot derive` wrote, or its 5_program.json
     derivation: PathBuf,
-    /// Places by x, in the derivation's unit of length
+    /// The grid in x, in the derivation's unit of length (default: 21 points over the workspace)
     #[arg(long, value_name = "FROM:TO:COUNT", value_parser = axis, allow_hyphen_values = true)]
     x: Option<Axis>,
-    /// Places by y
+    /// The grid in y (default: as for x)
     #[arg(long, value_name = "FROM:TO:COUNT", value_parser = axis, allow_hyphen_values = true)]
     y: Option<Axis>,
-    /// Places by z
+    /// The grid in z (default: as for x)
     #[arg(long, value_name = "FROM:TO:COUNT", value_parser = axis, allow_hyphen_values = true)]
     z: Option<Axis>,
-    /// Orientations at each place
+    /// The number of orientations per point
     #[arg(long, value_name = "COUNT", default_value_t = 100)]
     orientations: usize,
-    /// What is counted: all answers, those within the described limits, or all and how well the arm moves
+    /// The measure: all solutions, those within the described limits, or all with their manipulability
     #[arg(long, value_name = "count|limits|manipulability", default_value = "count", value_parser = measure)]
     measure: Measure,
-    /// Count only answers within the described limits, whatever is measured
+    /// Count only solutions within the described limits, with any measure
     #[arg(long)]
     limits: bool,
-    /// Turn the orientations of each place by a rotation of its own
+    /// Rotate the orientations of each point randomly, by this random seed
     #[arg(long, value_name = "SEED")]
     seed: Option<u64>,
     /// The values of the joints that are given with each target [rad, m]
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', allow_hyphen_values = true)]
     given: Vec<f64>,
-    /// Write the map: JSON, which `groebot view` shows, or CSV
+    /// Write the map to this file: JSON, which `groebot view` shows, or CSV
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Write slices of it as a picture: SVG
+    /// Write slices of the map to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Slice across this axis (default: one with a single place, else z)
+    /// The axis normal to the slices (default: one with a single point, else z)
     #[arg(long, value_parser = ["x", "y", "z"], requires = "plot")]
     across: Option<String>,
     #[command(flatten)]
@@ -75,7 +79,7 @@ pub struct Arguments {
     force: Force,
 }
 
-/// Makes the map.
+/// Computes the map.
 pub fn run(arguments: &Arguments) -> Outcome {
     let file = &arguments.derivation;
     if let Some(out) = arguments.out.as_ref().filter(|out| !ends(out, "json") && !ends(out, "csv")) {
@@ -113,7 +117,10 @@ impl Arguments {
             (None, Some((middle, reach))) => Axis::new(middle[place] - reach, middle[place] + reach, USUAL),
             _ => {
                 let name = ["x", "y", "z"][place];
-                Err(Error::new(ErrorKind::MissingKey, format!("no places by {name}; give --{name} FROM:TO:COUNT")))
+                Err(Error::new(
+                    ErrorKind::MissingKey,
+                    format!("there is no grid in {name}; give --{name} FROM:TO:COUNT"),
+                ))
             }
         };
         let grid = Grid::new([axis(self.x, 0)?, axis(self.y, 1)?, axis(self.z, 2)?])?;
@@ -133,7 +140,8 @@ fn chain(file: &Path) -> Result<Option<Chain>> {
     if file.is_dir() { InputFile::read(file)?.chain(&Ends::default()) } else { Ok(None) }
 }
 
-/// A cube in which the tip of a chain stays: its middle and half of its side. `None` where a slide has no limits, or the chain no length.
+/// A cube that contains the tip of a chain: its centre and half of its side. `None` where a prismatic joint has no
+/// limits, or the chain no length.
 fn around(chain: &Chain) -> Option<(Point3<f64>, f64)> {
     let travel = |joint: &Joint| match (joint.kind, joint.limits) {
         (JointKind::Revolute, _) => Some(0.0),
@@ -151,12 +159,12 @@ fn summary(map: &ReachMap, time: Duration) -> String {
     let (targets, solved) = (places * orientations, map.reached());
     let within = if map.limited { " within limits" } else { "" };
     let mut text = format!(
-        "{solver}, {task}: {places} places, {orientations} orientations at each, {:.2} s\nreached{within}: {reached} places; {solved} of {targets} targets ({:.1} %), with {answers} answers\n",
+        "{solver}, {task}: {places} points, {orientations} orientations each, {:.2} s\nreached{within}: {reached} points; {solved} of {targets} targets ({:.1} %), with {answers} answers\n",
         time.as_secs_f64(),
         100.0 * solved as f64 / targets as f64
     );
     if map.open() > 0 {
-        text += &format!("{} targets lie on strata that could not be derived; they count as not reached\n", map.open());
+        text += &format!("{} targets are on strata that could not be derived; they count as not reached\n", map.open());
     }
     if map.measure == Measure::Manipulability {
         let best = map.entries.iter().map(|entry| entry.best).fold(0.0, f32::max);
@@ -167,7 +175,7 @@ fn summary(map: &ReachMap, time: Duration) -> String {
 
 /// Reads `-1:1:41` or `0.3`.
 fn axis(text: &str) -> std::result::Result<Axis, String> {
-    let wrong = || format!("`{}` is no axis; give FROM:TO:COUNT such as -1:1:41, or a number", shown(text));
+    let wrong = || format!("`{}` is not an axis; give FROM:TO:COUNT such as -1:1:41, or a number", shown(text));
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| wrong());
     let parts: Vec<&str> = text.split(':').collect();
     let axis = match *parts.as_slice() {

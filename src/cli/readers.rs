@@ -1,6 +1,7 @@
-//! What commands read beside files, as functions: command lines, lists of options, and tables of targets, joint values, poses and logs.
+//! The command line's readers as functions: arguments, lists of options, and tables of targets, joint values, poses and
+//! logs.
 //!
-//! Each is what the command itself calls. Tests and the targets of `fuzz/` call them without running a command.
+//! The commands themselves call them. Tests and the targets of `fuzz/` call them without running a command.
 
 use std::ffi::OsString;
 use std::io::BufRead;
@@ -21,75 +22,76 @@ use groebot_robot::kinematics::{Chain, Target};
 use groebot_robot::motion::StateTable;
 use groebot_robot::spatial::Pose;
 
-/// Parses a command line, of which the first argument is the program's name. Nothing is run.
+/// Parses a command line, of which the first argument is the program's name. Runs nothing.
 ///
 /// # Errors
-/// What is shown instead of running a command: help, the version, or what is wrong with the arguments.
+/// The text that is shown instead of running a command: help, the version, or an error in the arguments.
 pub fn command_line(arguments: impl IntoIterator<Item = OsString>) -> std::result::Result<(), String> {
     Cli::try_parse_from(arguments).map(drop).map_err(|usage| escape::message(&usage.render().to_string()))
 }
 
-/// The targets of a table for `groebot solve`: the inputs of `program`, by row.
+/// Reads the targets of a table for `groebot solve`: the inputs of `program`, by row.
 ///
 /// # Errors
-/// As `solve` reports them, with the line.
+/// Those of `solve`, with the line.
 pub fn solver_targets(program: &Program, table: impl BufRead, degrees: bool) -> Result<Vec<Vec<f64>>> {
     let forms = Forms::new(program);
     rows(forms.columns(program, degrees), table, |numbers| forms.inputs(numbers))
 }
 
-/// The targets of a table for `groebot ik`, each with the values of the given joints, by row.
+/// Reads the targets of a table for `groebot ik`, each with the values of the given joints, by row.
 ///
 /// # Errors
-/// As `ik` reports them, with the line.
+/// Those of `ik`, with the line.
 pub fn chain_targets(chain: &Chain, table: impl BufRead, degrees: bool) -> Result<Vec<(Target, Vec<f64>)>> {
     rows(ik::target::columns(chain, degrees), table, |numbers| ik::target::aim(chain, &numbers, degrees))
 }
 
-/// The joint values of a table for `groebot fk`, by row; angles in degrees where `degrees` says so.
+/// Reads the joint values of a table for `groebot fk`, by row; angles are in degrees if `degrees`, else radians.
 ///
 /// # Errors
-/// As `fk` reports them, with the line.
+/// Those of `fk`, with the line.
 pub fn joint_values(chain: &Chain, table: impl BufRead, degrees: bool) -> Result<Vec<Vec<f64>>> {
     rows(fk::columns(chain, Vec::new(), degrees), table, Ok)
 }
 
-/// The poses of a table for `groebot follow`, and their times \[s\] where it has a column of them.
+/// Reads the poses of a table for `groebot follow`, and their times \[s\] if it has a column of them.
 ///
 /// # Errors
-/// As `follow` reports them, with the line.
+/// Those of `follow`, with the line.
 pub fn poses(chain: &Chain, table: impl BufRead) -> Result<(Vec<Pose>, Option<Vec<f64>>)> {
     follow::read_from(table, Path::new(STDIN), chain)
 }
 
-/// The rows of a log for `groebot identify`.
+/// Reads the rows of a log for `groebot identify`.
 ///
 /// # Errors
-/// As [`StateTable::from_csv`] and [`StateTable::in_order_of`]; [`crate::ErrorKind::MissingKey`] for a list that is missing.
+/// As [`StateTable::from_csv`] and [`StateTable::in_order_of`]; [`crate::ErrorKind::MissingKey`] for a list that is
+/// missing.
 pub fn log(equations: &Equations, table: &str) -> Result<Vec<Logged>> {
     identify::log(StateTable::from_csv(table)?, equations)
 }
 
-/// The target of `groebot ik --target`, with the values of the given joints.
+/// Reads the target of `groebot ik --target`, with the values of the given joints.
 ///
 /// # Errors
-/// As `ik` reports them.
+/// Those of `ik`.
 pub fn listed_target(chain: &Chain, text: &str, degrees: bool) -> Result<(Target, Vec<f64>)> {
     ik::target::target(chain, text, degrees)
 }
 
-/// The target that the joint values of `groebot ik --q` reach, with the values of the given joints.
+/// Computes the target that the joint values of `groebot ik --q` reach, with the values of the given joints.
 ///
 /// # Errors
-/// As `ik` reports them.
+/// Those of `ik`.
 pub fn listed_joints(chain: &Chain, text: &str, degrees: bool) -> Result<(Target, Vec<f64>)> {
     ik::target::reached(chain, text, degrees)
 }
 
-/// The piece of furniture of `--furniture`, and where it is to be \[m, rad\], or nowhere.
+/// Reads a `--furniture` option: the piece of furniture, and its new pose \[m, rad\], or its removal.
 ///
 /// # Errors
-/// [`crate::ErrorKind::BadValue`] for another text than `NAME=X,Y[,YAW]` or `NAME=none`.
+/// [`crate::ErrorKind::BadValue`] for a text other than `NAME=X,Y[,YAW]` or `NAME=none`.
 pub fn furniture(text: &str) -> Result<(&str, Option<Footprint>)> {
     floor::moved(text)
 }

@@ -1,4 +1,4 @@
-//! What a derivation found, for a person to read.
+//! The text report of a derivation.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -17,26 +17,26 @@ use groebot_ik::derive::triangular::{Stair, Triangular};
 use groebot_ik::derive::{Derivation, JointKindUnknown, ParameterSource, Proved, Quantity, Root, Source, System};
 use groebot_ik::witness;
 
-/// What there is to tell.
+/// The content of the report.
 pub struct Report<'a> {
-    /// What it began with.
+    /// The input.
     pub source: &'a Source,
-    /// What came of it.
+    /// The derivation.
     pub derivation: &'a Proved,
-    /// What the numeric witnesses found.
+    /// The result of the numeric check.
     pub checked: &'a witness::Report,
-    /// Where the files are.
+    /// The folder of the files.
     pub folder: &'a Path,
     /// Their names.
     pub files: &'a [&'a str],
-    /// How long each stage took.
+    /// The duration of each stage.
     pub timings: &'a [(&'static str, Duration)],
 }
 
 /// The report as text.
 ///
 /// # Errors
-/// When a setting's field cannot be built: never for a derivation that was made by this crate.
+/// When a setting's field cannot be built, which does not happen for a derivation of this crate.
 pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
     let mut page = Page { text: String::new(), paint };
     match told.derivation {
@@ -55,18 +55,18 @@ pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
     Ok(page.text)
 }
 
-/// What the description was taken for, and what its joints cannot do.
+/// The idealisation of the description, and the limitations of its joints.
 fn meant(page: &mut Page, told: &Report<'_>) {
     let Some((ideal, report)) = told.source.ideal.as_ref() else { return };
     if !report.is_empty() {
-        page.heading("What the description was taken for");
+        page.heading("Idealisation of the description");
         report.lines().iter().for_each(|line| page.line(line));
         let how = if report.is_same() {
-            "In doubles that is the robot as described: nothing is polished.".to_owned()
+            "In double precision it equals the described robot: no solution is polished.".to_owned()
         } else {
             format!(
-                "The closed form is that of this robot; each answer is polished and measured on the one described. \
-                 `--exact` takes each digit at its word, `--snap X` other tolerances than {:e}.",
+                "The closed form is that of this ideal robot; each solution is polished on the described one, and its residual is measured there. \
+                 `--exact` uses every digit, `--snap X` another tolerance than {:e}.",
                 report.tolerance
             )
         };
@@ -74,23 +74,23 @@ fn meant(page: &mut Page, told: &Report<'_>) {
     }
     let usual = (report.tolerance == 0.0).then(|| ideal.ideal().1).filter(|usual| !usual.is_empty());
     if let Some(usual) = usual {
-        page.heading("Each digit at its word");
-        usual.lines().iter().for_each(|line| page.line(&format!("not taken: {line}")));
-        page.line("Without --exact that is what the description is taken for, and the solver is that much simpler.");
+        page.heading("Every digit as described");
+        usual.lines().iter().for_each(|line| page.line(&format!("not idealised: {line}")));
+        page.line("Without --exact the description is idealised so, and the solver is much simpler.");
     }
     let free = ideal.independent().len();
     if free < ideal.task().freedoms() {
         page.heading("Out of reach, as a rule");
         page.line(&format!(
-            "{free} joints reach no generic target of the task `{}`, which asks for {} numbers: most have no solution.{}",
+            "{free} joints reach no generic target of the task `{}`, which needs {} numbers: most targets have no solution.{}",
             ideal.task().name(),
             ideal.task().freedoms(),
-            fitting_task(ideal).map(|task| format!(" `{task}` asks for what they can do.")).unwrap_or_default()
+            fitting_task(ideal).map(|task| format!(" `{task}` is a task that they can perform.")).unwrap_or_default()
         ));
     }
 }
 
-/// What of the description was ignored.
+/// The ignored parts of the description.
 fn ignored(page: &mut Page, told: &Report<'_>) {
     if !told.source.notes.is_empty() {
         page.heading("Notes");
@@ -163,7 +163,7 @@ fn equations(page: &mut Page, system: &System) {
     page.entries(&entries);
 }
 
-/// The polynomials of a triangular form, in the order in which they are solved.
+/// The polynomials of a triangular form, in the order of solution.
 fn polynomials(triangular: &Triangular) -> Vec<&Poly> {
     triangular.stairs.iter().flat_map(|stair| &stair.polynomials).collect()
 }
@@ -200,7 +200,7 @@ fn way(page: &mut Page, system: &System, triangular: &Triangular) {
     page.entries(&entries);
 }
 
-/// How one unknown follows from the smaller ones.
+/// The formula of one unknown from the smaller ones.
 fn step(ring: &Unknowns, stair: &Stair, degree: u32, first: usize) -> String {
     let which: Vec<String> = (first..first + stair.polynomials.len()).map(number).collect();
     let which = match which.as_slice() {
@@ -220,7 +220,7 @@ fn step(ring: &Unknowns, stair: &Stair, degree: u32, first: usize) -> String {
     format!("from {which}: {kind}{divides}")
 }
 
-/// The leading coefficient of `f` in `unknown`, when it is a polynomial of the parameters and no number.
+/// The leading coefficient of `f` in `unknown`, if it is a polynomial of the parameters and not a number.
 fn leading(ring: &Unknowns, f: &Poly, unknown: usize) -> Option<String> {
     let coefficient = ring.coefficients_in(f, unknown).pop()?;
     let coefficient = ring.as_constant(&coefficient)?;
@@ -233,7 +233,7 @@ fn run_time(page: &mut Page, derivation: &Derivation) -> Result<()> {
     let (asked, used) = (&derivation.requested, derivation.solving());
     page.heading("What runs");
     if strata::order(asked) == strata::order(used) {
-        page.line("The solver uses this order: none of those tried has denominators that vanish on fewer targets.");
+        page.line("The solver uses this order: no other tried order has denominators that vanish on fewer targets.");
         return Ok(());
     }
     page.line("Of the orders tried, the solver uses the one whose denominators vanish on the fewest strata:");
@@ -253,7 +253,7 @@ fn count(page: &mut Page, derivation: &Derivation) {
     if let Some(choice) = &derivation.system.choice {
         let root = if choice.root == Root::Minus { "minus" } else { "plus" };
         page.line(&format!(
-            "All are returned; the source takes the {root} root of {}, and that solution is marked.",
+            "All are returned; the published solution has the {root} root of {}, and is marked.",
             choice.unknown
         ));
     }
@@ -275,11 +275,11 @@ fn proofs(page: &mut Page, derivation: &Derivation) {
 
 fn checks(page: &mut Page, checked: &witness::Report) {
     let summary = checked.summary();
-    page.heading("Checked numerically, by witnesses that share nothing with the solver");
+    page.heading("Checked numerically, by methods that are independent of the solver");
     let mut entries = vec![
         (
             (summary.rows - summary.failed).to_string(),
-            "targets: the joints that made them are found, all equations hold".to_owned(),
+            "targets: their joint values are found, all equations hold".to_owned(),
         ),
         (summary.exact.to_string(), "of them: as many solutions as exact real roots (Sturm)".to_owned()),
     ];
@@ -289,17 +289,20 @@ fn checks(page: &mut Page, checked: &witness::Report) {
     }
     entries.push((
         summary.oracle.to_string(),
-        "of them: damped least squares from many seeds gives the same set".to_owned(),
+        "of them: damped least squares from many starts gives the same set".to_owned(),
     ));
     if summary.open > 0 {
-        entries.push((summary.open.to_string(), "of them: on a stratum that is not derived, and said so".to_owned()));
+        entries.push((
+            summary.open.to_string(),
+            "of them: on a stratum that is not derived, and reported as such".to_owned(),
+        ));
     }
     entries.push((format!("{:.0e}", summary.worst_residual), "the largest residual of all answers".to_owned()));
     page.entries(&entries);
     let weak: Vec<(String, String)> =
         checked.weak_spots().map(|row| (format!("row {}", row.number), row.weakness())).collect();
     if !weak.is_empty() {
-        page.heading("Weak spots: singular targets, or next to such, at which the answers are not all right");
+        page.heading("Weak spots: singular targets, or targets close to them, with wrong or missing answers");
         page.entries(&weak);
     }
 }

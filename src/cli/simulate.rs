@@ -1,4 +1,4 @@
-//! `groebot simulate`: a walk is played open loop in MuJoCo, and compared with the plan.
+//! `groebot simulate`: simulates a walk in open loop with MuJoCo, and compares it with the plan.
 
 use std::path::PathBuf;
 
@@ -8,7 +8,7 @@ use super::files::is_json;
 use super::json::FORMAT;
 use super::moving::{self, Motion, described};
 use super::output::{Force, Kind, Output};
-use super::physics::{Case, Stage, Told, whole};
+use super::physics::{Case, ScriptOutput, Stage, whole};
 use super::progress::{Limits, Session, seconds};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -24,16 +24,23 @@ const EXAMPLES: &str = "Examples:
   groebot simulate walk.csv --vary
   groebot simulate walk.csv --model talos.urdf --left left_sole_link --right right_sole_link
 
-MuJoCo is an outside program: a Python with it is GROEBOT_PYTHON, or python3 (python3 -m venv mujoco && mujoco/bin/pip install mujoco). The robot is written for it as by `export`.
+MuJoCo is an external program. GROEBOT_PYTHON is a Python that has it, by default python3 (python3
+-m venv mujoco && mujoco/bin/pip install mujoco). The robot is exported to MJCF as by `export`.
 
-Motors: position servos of one kind, torque = stiffness (command - q) - damping (q' - planned q'), within the efforts of the description, with an inertia at the joint. --servo gives stiffness
-in m g l, damping in m g^0.5 l^1.5 and inertia in m l^2, m the robot's mass, l 0.63 of the height of its torso. Nothing is fed back but the servos' own angles. A body that is
-described as a point has moments 0.2 m l^2. Where the walk has torques (`walk --torques`) the sag that they predict is reported beside the answer's deviation.
-The answer is a trajectory of the same times until the robot falls: joints, base, soles and whether they press, ZMP by the contact forces of 20 ms, torques.
+Motors are position servos of one kind: torque = stiffness (command - q) - damping (q' - planned
+q'), within the efforts of the description, with an inertia at the joint. --servo gives stiffness in
+m g l, damping in m g^0.5 l^1.5 and inertia in m l^2, where m is the robot's mass and l is 0.63 of
+the height of its torso. Only the servos' own angles are fed back. A body that is described as a
+point has moments of inertia 0.2 m l^2. If the walk has torques (`walk --torques`), the predicted
+sag is reported next to the deviation.
 
-The exit status is 5 when the robot falls, of --vary when it falls in any run.";
+The output is a trajectory with the times of the walk until the robot falls: joints, base, soles and
+their contacts, ZMP by the contact forces over 20 ms, torques.
 
-/// Plays a walk open loop in MuJoCo, and reports how far joints, zero moment point and path are from the plan
+The exit status is 5 if the robot falls; with --vary, if it falls in any run.";
+
+/// Simulates a walk in open loop with MuJoCo, and reports the deviations of joints, zero moment point and path from the
+/// plan
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -48,13 +55,13 @@ pub struct Arguments {
     /// The link of the right sole
     #[arg(long, value_name = "LINK", default_value = "r_sole")]
     right: String,
-    /// Stiffness, damping and inertia of the motors, by the size of the robot [default: 30,1.5,0.21]
+    /// Stiffness, damping and inertia of the motors, relative to the robot's size [default: 30,1.5,0.21]
     #[arg(long, value_name = "STIFFNESS,DAMPING,INERTIA", value_delimiter = ',', num_args = 1)]
     servo: Option<Vec<f64>>,
-    /// The coefficient of friction of soles on the floor
+    /// The coefficient of friction between soles and floor
     #[arg(long, value_name = "F", default_value_t = 0.8)]
     friction: f64,
-    /// How far the floor is turned: about x, the left side up, and about y, what is ahead down [degrees]
+    /// The rotation of the floor about x, left side up, and about y, front down [degrees]
     #[arg(
         long,
         value_name = "ROLL,PITCH",
@@ -64,41 +71,42 @@ pub struct Arguments {
         allow_hyphen_values = true
     )]
     slope: Vec<f64>,
-    /// All masses times this
+    /// The factor on all masses
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
     mass: f64,
-    /// The stiffness of motors times this
+    /// The factor on the stiffness of motors
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
     gain: f64,
-    /// How late commands are [s]
+    /// The delay of commands [s]
     #[arg(long, value_name = "S", default_value_t = 0.0)]
     latency: f64,
-    /// Slopes up to 3 degrees, frictions from 0.4 to 1 and masses 20 % lower and higher, then all of them together: which falls and which does not
+    /// Simulate slopes up to 3 degrees, frictions from 0.4 to 1 and masses 20 % lower and higher, then all of them
+    /// together, and report which runs fall
     #[arg(long, conflicts_with_all = ["out", "plot", "plot_rates", "plot_torques"])]
     vary: bool,
-    /// Give up after this time
+    /// The time budget [s]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, default_value = "3600")]
     time: std::time::Duration,
-    /// Where the answer goes: CSV, or JSON when the name ends in .json
+    /// Write the simulated motion to this file: CSV, or JSON if its name ends in .json
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Where the picture of the legs' joints goes, references and answers, SVG
+    /// Write a picture of the legs' joint angles, references and simulation, to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// The same of their rates
+    /// Write a picture of their rates to this SVG file
     #[arg(long, value_name = "FILE")]
     plot_rates: Option<PathBuf>,
-    /// The same of their torques
+    /// Write a picture of their torques to this SVG file
     #[arg(long, value_name = "FILE")]
     plot_torques: Option<PathBuf>,
-    /// JSON instead of text
+    /// Print JSON instead of text
     #[arg(long)]
     json: bool,
     #[command(flatten)]
     force: Force,
 }
 
-/// Plays, compares and writes what is asked for.
+/// Simulates, compares and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
     let (plan, robot, meshes) = arguments.read()?;
@@ -109,7 +117,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let nominal = arguments.case()?;
     let feet = [&arguments.left[..], &arguments.right];
-    let legs = legs(&robot, feet).map_err(|error| error.with_context("--left and --right name the soles"))?;
+    let legs = legs(&robot, feet).map_err(|error| error.with_context("--left and --right are the soles"))?;
     let stage = Stage::new(&model, &plan, feet, arguments.servo.as_deref())?;
     let session = Session::start(Limits { time: Some(arguments.time), ..Limits::default() })?;
     if arguments.vary {
@@ -131,11 +139,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
-    /// The walk, and who walks.
+    /// The walk, and its robot.
     fn read(&self) -> Result<(Trajectory, Robot, groebot_robot::model::Meshes)> {
         let file = &self.walk;
         let Some(Motion { trajectory: plan, .. }) = moving::motion(file)? else {
-            let text = "this is no walk by its name; give one of `groebot walk` or `groebot navigate`, .csv or .json";
+            let text = "the file name is not that of a walk; give the output of `groebot walk` or `groebot navigate`, .csv or .json";
             return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
         };
         soles(&plan).map_err(|error| error.in_file(file))?;
@@ -147,13 +155,13 @@ impl Arguments {
             );
             return Err(Error::new(ErrorKind::UnknownName, text));
         }
-        // MuJoCo looks for meshes from another folder.
+        // MuJoCo reads meshes from another folder.
         let (robot, meshes) = described(&if model.exists() { whole(&model) } else { model })?;
         let unknown = plan.joints.iter().find(|joint| robot.joint(&joint.name).is_err());
         match unknown {
             Some(joint) => {
                 let text = format!(
-                    "the walk moves `{}`, a joint that {} has not; give its robot by --model",
+                    "the walk moves joint `{}`, which {} does not have; give its robot by --model",
                     shown(&joint.name),
                     shown(robot.name())
                 );
@@ -194,7 +202,7 @@ impl Arguments {
         })
     }
 
-    /// The writer, which replaces neither the walk nor the model.
+    /// The output; it replaces neither the walk nor the model.
     fn output(&self) -> Result<Output> {
         let output = self.force.output(std::iter::once(self.walk.as_path()).chain(self.model.as_deref()));
         output.expects([&self.out, &self.plot, &self.plot_rates, &self.plot_torques].map(Option::as_ref))
@@ -229,7 +237,7 @@ fn legs(robot: &Robot, feet: [&str; 2]) -> Result<[Vec<String>; 2]> {
 /// A run of --vary.
 struct Run {
     case: Case,
-    told: Told,
+    told: ScriptOutput,
     compared: Comparison,
 }
 
@@ -299,14 +307,14 @@ fn row(Run { case, told, compared }: &Run) -> String {
     )
 }
 
-fn verdict(told: &Told) -> String {
-    let Told { mujoco, mass, fell, .. } = told;
-    let fate = fell.map_or("it does not fall".to_owned(), |time| format!("it falls at {time:.2} s"));
+fn verdict(told: &ScriptOutput) -> String {
+    let ScriptOutput { mujoco, mass, fell, .. } = told;
+    let fate = fell.map_or("the robot does not fall".to_owned(), |time| format!("the robot falls at {time:.2} s"));
     format!("{fate} ({mass:.2} kg, MuJoCo {mujoco})")
 }
 
-fn motors(told: &Told) -> String {
-    let Told { stiffness, damping, armature, .. } = told;
+fn motors(told: &ScriptOutput) -> String {
+    let ScriptOutput { stiffness, damping, armature, .. } = told;
     let points = if told.points.is_empty() {
         String::new()
     } else {

@@ -16,7 +16,7 @@ use groebot_ik::derive::{Proved, Source};
 use groebot_ik::solver::{Program, Solver};
 use groebot_robot::document::read_text;
 
-/// The longest program that is read, in bytes.
+/// The greatest length of a program in bytes.
 pub(super) const PROGRAM_LIMIT: u64 = limits::PROGRAM_BYTES;
 pub(super) const PROGRAM_NAME: &str = "5_program.json";
 
@@ -26,30 +26,37 @@ const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal < targets.csv > answers.csv
   groebot fk derivations/ur5 < joints.csv | groebot solve derivations/ur5 | groebot fk derivations/ur5
 
-Targets are numbers in the order and units of the derivation's inputs; a rotation may be given as a quaternion x, y, z, w (of length
-one, within 1e-6) instead of its nine elements by rows: a pose is 12 numbers or 7. A CSV may start with a line of their names, which then gives
-the order of its columns: x_m or x_mm is px in that unit, and so are phi_deg and A1_deg; other columns that `fk`, `ik` and `solve` write are ignored, another
-name is refused. Angles of answers are turned into their joint's limits where whole turns do that. A target without a solution is no error: the answer is \"unreachable: no solution\", an empty list of
-solutions (JSON), or a row with 0 solutions (CSV); of chains that share actuators, text and JSON of a --target say which chain fails, and how.";
+Targets are numbers in the order and units of the derivation's inputs. A rotation may be a
+quaternion x, y, z, w (of length one, within 1e-6) instead of its nine elements by rows: a pose is
+12 numbers or 7.
 
-/// Finds all solutions for targets with a derived solver
+A CSV may start with a line of names, which gives the order of its columns. x_m or x_mm is px in
+that unit, and so are phi_deg and A1_deg. Other columns that `fk`, `ik` and `solve` write are
+ignored; unknown names are errors.
+
+Angles of solutions are moved into their joint's limits by whole turns where possible. A target
+without a solution is not an error. The output is \"unreachable: no solution\", an empty list of
+solutions (JSON), or a row with 0 solutions (CSV). For chains that share actuators, text and JSON of
+a --target name the chain that fails, and the reason.";
+
+/// Computes all solutions of targets with a derived solver
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A folder that `groebot derive` wrote, or its 5_program.json; `-`: that file from standard input
+    /// A folder that `groebot derive` wrote, or its 5_program.json; `-` for that file from standard input
     derivation: PathBuf,
-    /// A target, numbers with commas between them (repeatable); `-`, or no target: CSV from standard input
+    /// A target, numbers separated by commas (repeatable); `-`, or no target: CSV from standard input
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     target: Vec<String>,
-    /// JSON: an object for each target
+    /// Print JSON: one object per target
     #[arg(long)]
     json: bool,
-    /// Angles in degrees, in targets and in JSON and CSV (text shows both)
+    /// Use degrees instead of radians in targets and in JSON and CSV output (text has both)
     #[arg(long)]
     degrees: bool,
 }
 
-/// Solves what was asked for.
+/// Solves the targets.
 pub fn run(arguments: &Arguments) -> Outcome {
     let program = read_program(&arguments.derivation)?;
     let angles = if arguments.degrees { Angles::Degrees } else { Angles::Radians };
@@ -83,7 +90,7 @@ pub(super) fn read_program(path: &Path) -> Result<Program> {
     }
     let text = read_text(&file, PROGRAM_LIMIT)?;
     if !text.trim_start().starts_with('{') {
-        let text = "this is no derived solver; `groebot derive FILE --out DIR` derives one from a description: give that folder";
+        let text = "this is not a derived solver; `groebot derive FILE --out DIR` derives one from a description: give that folder";
         return Err(Error::new(ErrorKind::Syntax, text).in_file(&file));
     }
     Program::from_json(&text).map_err(|error| error.in_file(&file))
@@ -100,7 +107,7 @@ fn answer<'a>(
     Ok(Answer { program, target, solutions, reason: None, angles })
 }
 
-/// Why `target`, in radians, has no solution, as the folder of a derivation of chains that share actuators tells.
+/// The reason why `target`, in radians, has no solution, for chains that share actuators.
 ///
 /// # Errors
 /// As [`Source::read`] and [`reprove`].
@@ -115,7 +122,7 @@ fn reason(folder: &Path, target: &[f64]) -> Result<Option<String>> {
     Ok(explained.map(|explanation| explanation.to_string()))
 }
 
-/// Targets from the command line: a page of text, or JSON.
+/// Solves the targets of the command line; prints text, or JSON.
 fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Arguments) -> Outcome {
     let mut page = String::new();
     let (solver, forms) = (program.solver(), Forms::new(program));
@@ -139,7 +146,7 @@ fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Argum
     console::print(&page)
 }
 
-/// Targets from standard input, one a row: CSV, or a JSON object a line.
+/// Solves the targets from standard input, one per row; writes CSV, or one JSON object per line.
 fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));

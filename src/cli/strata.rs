@@ -1,4 +1,4 @@
-//! Where formulas break down and what holds there, in words.
+//! The strata on which formulas divide by zero, and the solution there, as text.
 
 use super::page::Page;
 use crate::Result;
@@ -7,15 +7,15 @@ use groebot_ik::derive::plan::{self, Score};
 use groebot_ik::derive::tree::{Node, Outcome};
 use groebot_ik::derive::{Derivation, System};
 
-/// Tells about every stratum of both trees.
+/// Reports every stratum of both trees.
 pub fn describe(page: &mut Page, derivation: &Derivation) {
     let two = derivation.searched.is_some();
     for (title, root) in derivation.trees() {
         let title = if two { format!(": {title}, {}", order(root)) } else { String::new() };
-        page.heading(&format!("Where formulas break down{title}"));
+        page.heading(&format!("Strata on which formulas divide by zero{title}"));
         let entries = entries(root, &derivation.system);
         if entries.is_empty() {
-            page.line("nowhere: the same formulas hold at every target");
+            page.line("none: the same formulas hold at every target");
         }
         page.entries(&entries);
     }
@@ -40,13 +40,13 @@ pub fn order(node: &Node) -> String {
     node.solved().map(|solved| solved.certified.order.join(" > ")).unwrap_or_default()
 }
 
-/// What happens on a stratum.
+/// The treatment of a stratum.
 fn fate(node: &Node, system: &System) -> String {
     match &node.outcome {
         Outcome::Solved(solved) if solved.inherited => {
-            "the generic formulas hold here too, by a proof of its own".to_owned()
+            "the generic formulas hold here too, with a separate proof".to_owned()
         }
-        Outcome::Solved(solved) => format!("formulas of its own, {}", solutions(solved.triangular.bound())),
+        Outcome::Solved(solved) => format!("separate formulas, {}", solutions(solved.triangular.bound())),
         Outcome::Inconsistent(_) => "no solution: the equations contradict each other".to_owned(),
         Outcome::SelfMotion(self_motion) => {
             let free: Vec<&str> = self_motion.free.iter().map(|&joint| system.joints[joint].name.as_str()).collect();
@@ -58,7 +58,7 @@ fn fate(node: &Node, system: &System) -> String {
             format!("infinitely many solutions, {} {verb} free; with zero there: {member}", free.join(", "))
         }
         Outcome::Seen(label) => format!("the same as {label}"),
-        Outcome::Open(reason) => format!("open: a target here is refused, because {reason}"),
+        Outcome::Open(reason) => format!("not derived: a target here is an error, because {reason}"),
     }
 }
 
@@ -66,10 +66,10 @@ fn solutions(bound: usize) -> String {
     if bound == 1 { "one solution".to_owned() } else { format!("up to {bound} solutions") }
 }
 
-/// How badly the generic formulas of a tree break down.
+/// The score of a tree's generic formulas by their divisions by zero.
 ///
 /// # Errors
-/// When a setting's field cannot be built: never for a derivation that was made by this crate.
+/// When a setting's field cannot be built, which does not happen for a derivation of this crate.
 pub fn score(root: &Node) -> Result<Score> {
     let (ring, polynomials) = match root.solved() {
         Some(solved) => (solved.triangular.ring.clone(), solved.certified.basis.clone()),
@@ -78,7 +78,7 @@ pub fn score(root: &Node) -> Result<Score> {
     plan::score(&root.setting, &Basis { ring, polynomials, cofactors: Vec::new() })
 }
 
-/// On how many strata the generic formulas of a tree divide by zero.
+/// The number of strata on which the generic formulas of a tree divide by zero, as text.
 pub fn breakdowns(score: &Score) -> String {
     let count = |n: usize, what: &str| (n > 0).then(|| format!("{n} {what}"));
     let parts =

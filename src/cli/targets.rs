@@ -1,4 +1,4 @@
-//! Reading targets: from an argument, or as CSV with or without a line of names.
+//! Readers of targets: from an argument, or as CSV with or without a line of names.
 
 use std::io::{self, BufRead};
 use std::path::Path;
@@ -10,17 +10,17 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 use groebot_robot::document::is_stdin;
 
-/// How errors call standard input.
+/// The name of standard input in errors.
 pub const STDIN: &str = "<stdin>";
-/// The longest piece of a cell that an error shows.
+/// The greatest length of a cell in an error.
 const SHOWN: usize = 40;
-/// The longest line, in bytes.
+/// The greatest length of a line in bytes.
 const LONGEST: usize = limits::LINE_BYTES;
 
-/// The numbers of `60,150`, which stand for `names`; how many there must be is left to who uses them.
+/// Reads the numbers of `60,150`, which are the values of `names`. The caller checks their number.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] naming the cell that is no number.
+/// [`ErrorKind::BadValue`] with the cell that is not a number.
 pub fn parse(names: &[&str], text: &str) -> Result<Vec<f64>> {
     numbers(names, text.split(',').map(str::trim))
 }
@@ -30,28 +30,29 @@ fn numbers<'t>(names: &[&str], cells: impl Iterator<Item = &'t str>) -> Result<V
     cells.enumerate().map(|(index, cell)| number(name(index), index, cell)).collect()
 }
 
-/// The number of a cell: that of `name`, where it has one.
+/// The number of a cell: that of `name`, if it has one.
 fn number(name: &str, index: usize, cell: &str) -> Result<f64> {
     let name = || if name.is_empty() { String::new() } else { format!(" (`{}`)", shown(name)) };
     let fail = |text: String| Error::new(ErrorKind::BadValue, format!("cell {}{} is {text}", index + 1, name()));
     match cell.parse::<f64>() {
-        // What takes the numbers refuses those that are not finite, by their names.
+        // The caller refuses numbers that are not finite, with their names.
         Ok(value) if value.is_finite() => limits::number(cell).map_err(fail),
         Ok(value) => Ok(value),
         Err(_) => {
-            let text = format!("`{}`, which is no number; give a decimal number such as 12.5 or -3e2", shown(cell));
+            let text = format!("`{}`, which is not a number; give a decimal number such as 12.5 or -3e2", shown(cell));
             Err(fail(text))
         }
     }
 }
 
-/// The start of `text`, control characters escaped.
+/// The start of `text`, with control characters escaped.
 pub fn shown(text: &str) -> String {
     let escaped: String = text.chars().take(SHOWN).flat_map(char::escape_debug).collect();
     if text.chars().nth(SHOWN).is_some() { escaped + "..." } else { escaped }
 }
 
-/// Fails where standard input, from which a table would be read, already holds `description`; `option` is what gives values instead.
+/// Fails if standard input, from which a table would be read, already contains `description`; `option` gives values
+/// instead.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`].
@@ -59,26 +60,26 @@ pub fn is_free(description: &Path, option: &str) -> Result<()> {
     if !is_stdin(description) {
         return Ok(());
     }
-    let text = format!("standard input holds the description, and can hold no table as well; give values by {option}");
+    let text = format!("standard input has the description, so it cannot have a table too; give values by {option}");
     Err(Error::new(ErrorKind::BadValue, text))
 }
 
 /// One target with its line, counted from 1.
 pub struct Row {
-    /// The line where it stands.
+    /// The number of its line.
     pub line: usize,
     /// Its numbers, in the order of the names.
     pub target: Vec<f64>,
 }
 
-/// The rows of a CSV: one a line, empty lines left out. Lines end in `\n`, `\r\n` or `\r`.
+/// The rows of a CSV: one per line, empty lines ignored. Lines end in `\n`, `\r\n` or `\r`.
 pub struct Reader<'a, R> {
     columns: Columns,
     lines: Lines<R>,
-    /// Once the first row is read: where the numbers are, when it has names.
+    /// After the first row is read: the columns of the numbers, if it has names.
     found: Option<Found>,
     is_first: bool,
-    /// How errors call the input.
+    /// The name of the input in errors.
     file: &'a Path,
 }
 
@@ -89,11 +90,11 @@ impl<'a, R: BufRead> Reader<'a, R> {
         Reader { columns, lines, found: None, is_first: true, file }
     }
 
-    /// The next target; a first row of names is taken note of.
+    /// The next target; a first row of names is used for the columns.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`], [`ErrorKind::UnknownName`] for a row of names that lacks an input or has one that is not known,
-    /// [`ErrorKind::Io`], [`ErrorKind::Syntax`]: all with file and line.
+    /// All with file and line: [`ErrorKind::BadValue`], [`ErrorKind::UnknownName`] for a row of names that lacks an
+    /// input or has an unknown one, [`ErrorKind::Io`], [`ErrorKind::Syntax`].
     pub fn next(&mut self) -> Option<Result<Row>> {
         loop {
             let text = self.lines.next(self.file)?;
@@ -110,7 +111,7 @@ impl<'a, R: BufRead> Reader<'a, R> {
         }
     }
 
-    /// The target of a row; none for the row of names, and for one that is ignored.
+    /// The target of a row; none for the row of names, and for an ignored one.
     fn row(&mut self, record: &StringRecord) -> Result<Option<Vec<f64>>> {
         let is_first = std::mem::replace(&mut self.is_first, false);
         if is_first && record.iter().all(|cell| cell.parse::<f64>().is_err()) {
@@ -134,10 +135,10 @@ impl<'a, R: BufRead> Reader<'a, R> {
     }
 }
 
-/// Lines as they come: each is there as soon as its end is.
+/// Lines of a stream, each available as soon as its end is read.
 struct Lines<R> {
     input: R,
-    /// How many lines were read.
+    /// The number of lines read.
     count: usize,
     /// Whether the last line ended in `\r`: a `\n` that follows belongs to that end.
     follows_return: bool,
@@ -188,6 +189,6 @@ fn record(line: &str) -> Result<StringRecord> {
     let mut record = StringRecord::new();
     match options.from_reader(line.as_bytes()).read_record(&mut record) {
         Ok(_) => Ok(record),
-        Err(_) => Err(Error::new(ErrorKind::Syntax, "this is no CSV; give numbers with commas between them")),
+        Err(_) => Err(Error::new(ErrorKind::Syntax, "this is not CSV; give numbers separated by commas")),
     }
 }

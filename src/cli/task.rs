@@ -1,4 +1,4 @@
-//! `groebot task`: a robot gets through a furnished room, and all of it is checked.
+//! `groebot task`: a robot walks through a furnished room, with a check of all samples.
 
 use std::path::{Path, PathBuf};
 
@@ -29,11 +29,17 @@ const EXAMPLES: &str = "Examples:
   groebot task rh0 --room encirclement --goal 7,3 --then 'chair=2.2,5,30@12' -o task.json
   groebot task nao --room room.toml --start 0.5,0.5 --goal chair --then goal=lamp@10 --json
 
-RH0 5.5: a path through the room, footsteps, joint angles, step by step; --then changes the room or the goal meanwhile, and the path is planned anew from where the robot is. Then every sample is checked again: the distance of each link from each piece of
-furniture, the walls and the floor, soles on the floor by forward kinematics, the margin of the zero moment point, limits and speeds of the joints. The exit status is 1 where a check fails, 4 where there is no path.
-Metres, and degrees for headings and yaws. A goal that names furniture is before it, there where the robot is first. Rooms of groebot: living-room, encirclement (RH0 Fig. 5-25, 5-27).";
+RH0 5.5: path, footsteps and joint angles through the room, step by step. --then changes the room or
+the goal during the walk, and the path is planned again from the robot's current place.
 
-/// Lets a humanoid do the full task: through a furnished room to a goal, every sample checked
+Afterwards every sample is checked: the distance of each link from each piece of furniture, the
+walls and the floor, soles on the floor by forward kinematics, the margin of the zero moment point,
+limits and speeds of the joints. The exit status is 1 if a check fails, 4 if there is no path.
+
+Metres, and degrees for headings and yaws. The goal for a piece of furniture is the place in front
+of it that is reached first. Rooms of groebot: living-room, encirclement (RH0 Fig. 5-25, 5-27).";
+
+/// Plans the full task of a humanoid: a walk through a furnished room to a goal, with every sample checked
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -45,44 +51,44 @@ pub struct Arguments {
     /// The room: living-room, encirclement, or TOML
     #[arg(long, value_name = "ROOM-or-FILE")]
     room: PathBuf,
-    /// Where it is to get: a piece of furniture, or a place and how to look there [m, degrees]
+    /// The goal: a piece of furniture, or a place with an optional final heading [m, degrees]
     #[arg(long, value_name = "NAME or X,Y[,HEADING]", allow_hyphen_values = true)]
     goal: String,
-    /// Where the middle of the feet is at first, and where the robot looks; the room's own start without it
+    /// The initial middle of the feet and heading [m, degrees] (default: the start of the room)
     #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     start: Option<Vec<f64>>,
-    /// Put a piece of furniture elsewhere before the robot sets out [m, degrees], or take it away
+    /// Move a piece of furniture before the walk starts [m, degrees], or remove it
     #[arg(long, value_name = "NAME=X,Y[,YAW] or NAME=none")]
     furniture: Vec<String>,
-    /// What changes behind so many steps: furniture, or the goal
+    /// A change after this number of steps: furniture, or the goal
     #[arg(long, value_name = "NAME=X,Y[,YAW]@STEPS or NAME=none@STEPS or goal=GOAL@STEPS")]
     then: Vec<String>,
-    /// How paths are found
+    /// The method that finds paths
     #[arg(long, value_name = "METHOD", default_value = "exact")]
     method: MethodName,
-    /// How far the body keeps away from obstacles [m]
+    /// The least distance of the body from obstacles [m]
     #[arg(long, value_name = "METRES", default_value_t = 0.02, allow_hyphen_values = true)]
     apart: f64,
-    /// Where walk, paths and checks go, JSON, which `groebot view` reads
+    /// Write walk, paths and checks to this JSON file, which `groebot view` reads
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Where a page goes that shows it, HTML
+    /// Write an HTML page of the walk to this file
     #[arg(long, value_name = "FILE")]
     view: Option<PathBuf>,
-    /// Where the picture of room, last path and footsteps goes, SVG; where there is a path
+    /// Write a picture of room, last path and footsteps to this SVG file, if there is a path
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Paths and checks as JSON instead of the summary
+    /// Print paths and checks as JSON instead of the summary
     #[arg(long)]
     json: bool,
-    /// No progress and no summary
+    /// Print neither progress nor summary
     #[arg(long)]
     quiet: bool,
     #[command(flatten)]
     force: Force,
 }
 
-/// Does the task and writes what is asked for.
+/// Runs the task and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([Path::new(&arguments.robot), arguments.room.as_path()]);
     let output = output.expects([arguments.out.as_ref(), arguments.view.as_ref(), arguments.plot.as_ref()])?;
@@ -122,7 +128,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
-    /// Ready at its start.
+    /// The run at its start.
     fn start(&self, named: &Named, room: Room, watch: &Watch) -> Result<Run> {
         let middle = match (&self.start, room.start) {
             (Some(numbers), _) => start_at(numbers)?,
@@ -164,7 +170,7 @@ impl Arguments {
         Ok(changes)
     }
 
-    /// Tells that there is no way.
+    /// Reports that there is no path.
     fn refuse(&self, blocked: &Blocked, notes: &[String]) -> Outcome {
         let enclosure = floor::enclosure(&blocked.map, &blocked.enclosure);
         if self.json {
@@ -172,7 +178,7 @@ impl Arguments {
             console::print(&super::json::text(&told))?;
         }
         console::line("error", &blocked.to_string());
-        Err(Halt::NoWay)
+        Err(Halt::NoPath)
     }
 
     fn write(&self, output: &Output, named: &Named, performed: &Performed, told: &Value) -> Outcome {
@@ -183,7 +189,7 @@ impl Arguments {
         let trajectory = performed.walk.trajectory(biped);
         let mut value = performed.walk.json_value(biped, &trajectory);
         if let Some(file) = &self.view {
-            let record = WalkRecord::deserialize(&value["walk"]).expect("a record is what was just written");
+            let record = WalkRecord::deserialize(&value["walk"]).expect("a record that was just written is valid");
             let page = Page::of_robot(&named.robot, None)?.titled(&format!("{}: the full task", biped.name));
             let page = page.with_motion(&trajectory, Some(&record), &soles(named.robot.name())?)?;
             output.write(file, Kind::Markup, page.with_task(performed.record()).to_html())?;
@@ -196,7 +202,7 @@ impl Arguments {
     }
 }
 
-/// A place by its numbers, or before the furniture of that name.
+/// A destination: a place by its numbers, or a piece of furniture by its name.
 fn destination(told: &str, room: &Room) -> Result<Destination> {
     let numbers: Option<Vec<f64>> = told.split(',').map(|word| word.trim().parse().ok()).collect();
     match numbers {
@@ -204,18 +210,17 @@ fn destination(told: &str, room: &Room) -> Result<Destination> {
         None if room.piece(told).is_ok() => Ok(Destination::Before(told.to_owned())),
         None => {
             let names: Vec<&str> = room.pieces.iter().map(|piece| piece.name.as_str()).collect();
-            let text =
-                format!("there is no furniture `{}` to get to{}; or give X,Y", shown(told), one_among(told, &names));
+            let text = format!("there is no furniture `{}`{}; or give X,Y", shown(told), one_among(told, &names));
             Err(Error::new(ErrorKind::UnknownName, text))
         }
     }
 }
 
-/// Room, ways and checks.
+/// Room, paths and checks as JSON.
 fn told(performed: &Performed, checks: &Checks) -> Value {
     let time = |sample: usize| performed.walk.time(sample);
     let clearance = |own: &groebot_humanoid::sim::Clearance| json!({ "link": own.link, "thing": own.thing.to_string(), "distance": own.distance, "time": time(own.sample) });
-    let mut told = serde_json::to_value(performed.record()).expect("a record holds nothing that JSON cannot say");
+    let mut told = serde_json::to_value(performed.record()).expect("a record can be represented in JSON");
     told["checks"] = json!({
         "hold": checks.hold(),
         "clearances": checks.clearances.iter().map(clearance).collect::<Vec<_>>(),
@@ -231,10 +236,10 @@ fn told(performed: &Performed, checks: &Checks) -> Value {
 
 fn summary(performed: &Performed, checks: &Checks) -> String {
     let stage = |own: &groebot_humanoid::sim::Stage| {
-        let length = own.course.way.length();
+        let length = own.course.path.length();
         format!("  path            {length:.3} m after step {}, found in {:.1} ms\n", own.steps, own.milliseconds)
     };
-    let ways: String = performed.stages.iter().map(stage).collect();
+    let paths: String = performed.stages.iter().map(stage).collect();
     let beside = |is_floor: bool| checks.clearances.iter().find(move |own| (own.thing == Thing::Floor) == is_floor);
     let near = |own: &groebot_humanoid::sim::Clearance| {
         let (distance, time) = (100.0 * own.distance, performed.walk.time(own.sample));
@@ -244,18 +249,18 @@ fn summary(performed: &Performed, checks: &Checks) -> String {
     let (least, most) = checks.samples_per_step;
     let samples = if least == most { least.to_string() } else { format!("{least} to {most}") };
     format!(
-        "{ways}{nearest}  soles           off the floor by {:.1e} m where they stand\n  fastest         {} turns at {:.1} rpm\n  samples         {samples} a step\n",
+        "{paths}{nearest}  soles           off the floor by {:.1e} m in support\n  fastest         {} rotates at {:.1} rpm\n  samples         {samples} a step\n",
         checks.soles_off,
         checks.fastest.0,
         RPM * checks.fastest.1,
     )
 }
 
-/// What fails of the checks.
+/// The error for failed checks.
 fn failed(checks: &Checks) -> Error {
     let meets = checks.clearances.first().filter(|own| own.distance <= 0.0);
     let text = match (meets, checks.findings.first()) {
-        (Some(own), _) => format!("a check failed: {} meets {} at sample {}", own.link, own.thing, own.sample),
+        (Some(own), _) => format!("a check failed: {} collides with {} at sample {}", own.link, own.thing, own.sample),
         (None, Some(finding)) => format!("a check failed at sample {}: {:?}", finding.sample, finding.fault),
         (None, None) => format!(
             "a check failed: soles are off the floor by {:e} m, the least margin is {} m",

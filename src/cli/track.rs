@@ -1,4 +1,4 @@
-//! `groebot track`: a robot under a control law follows a trajectory.
+//! `groebot track`: simulates a robot under a control law that follows a trajectory.
 
 use std::path::PathBuf;
 
@@ -23,21 +23,24 @@ const EXAMPLES: &str = "Examples:
   groebot track ur5.urdf --law computed-torque --trajectory t.csv --masses 1.05 --delay 1 -o tracked.csv
   groebot track ur5.urdf --law work-space --link wrist_3_link --trajectory t.csv
 
-t.csv begins with a row of names: t, q0, q1, ... (the independent joints, in the order of the description), and, if they are known, v0.. and a0..; between
-its rows joints move smoothly. The robot starts where the trajectory does, or --error beside it, and moves by Runge's and Kutta's method of order four
-while each torque is held for a step. Written by -o are t, q0.., v0.., tau0.. (what the law asks for) and d0.. (where joints should be).
+t.csv begins with a row of names: t, q0, q1, ... (the independent joints, in the order of the
+description), and optionally v0.. and a0..; the motion is interpolated smoothly between its rows.
+The robot starts at the trajectory, or at the distance --error from it. Its motion is integrated by
+the Runge-Kutta method of order four, with a constant torque during each step. The columns of -o are
+t, q0.., v0.., tau0.. (the torques of the law) and d0.. (the desired positions).
 
-Laws: open-loop is RH0 (2-46), computed-torque (2-47), work-space (2-50), gravity-compensation N - Kv e' - Kp e. Gains are Kp = w^2 and Kv = 2 w for --frequency w,
-of gravity-compensation times 1 kg m^2.";
+Laws: open-loop is RH0 (2-46), computed-torque (2-47), work-space (2-50), gravity-compensation N -
+Kv e' - Kp e. Gains are Kp = w^2 and Kv = 2 w for --frequency w; those of gravity-compensation are
+multiplied by 1 kg m^2.";
 
-/// Lets a robot follow a trajectory under a control law, and reports errors and torques
+/// Simulates a robot under a control law that follows a trajectory, and reports errors and torques
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A robot of groebot, or a description in URDF or TOML
+    /// A robot by name, or a description in URDF or TOML
     #[arg(value_name = "ROBOT-or-FILE")]
     robot: PathBuf,
-    /// The law
+    /// The control law
     #[arg(long, value_name = "LAW")]
     law: LawName,
     /// The trajectory, CSV
@@ -45,46 +48,47 @@ pub struct Arguments {
     trajectory: PathBuf,
     #[command(flatten)]
     part: PartArguments,
-    /// The link that follows, of the law work-space
+    /// The controlled link, for the law work-space
     #[arg(long, value_name = "LINK", required_if_eq("law", "work-space"))]
     link: Option<String>,
-    /// Damp the Jacobian's inverse by this share of its greatest singular value; without it singular configurations are refused
+    /// Damp the inverse Jacobian by this fraction of its greatest singular value (default: no damping; singular
+    /// configurations are refused)
     #[arg(long, value_name = "SHARE")]
     damped: Option<f64>,
-    /// How fast errors die out [rad/s]
+    /// The natural frequency of the error dynamics [rad/s]
     #[arg(long, value_name = "W", default_value_t = 20.0)]
     frequency: f64,
     /// The gain of the integral of errors [1/s^3, or N m/(rad s)]
     #[arg(long, value_name = "KI", default_value_t = 0.0)]
     integral: f64,
-    /// For how long a torque is held [s]
+    /// The time for which a torque is held [s]
     #[arg(long, value_name = "S", default_value_t = 1e-3)]
     step: f64,
-    /// How far from the trajectory each joint starts [rad or m]
+    /// The initial deviation of each joint from the trajectory [rad or m]
     #[arg(long, value_name = "E", default_value_t = 0.0, allow_hyphen_values = true)]
     error: f64,
-    /// What the robot weighs, as a multiple of what the law knows
+    /// The ratio of the robot's masses to those in the control law
     #[arg(long, value_name = "FACTOR", value_parser = factor, default_value = "1")]
     masses: BigRational,
-    /// After how many steps torques act
+    /// The number of steps before torques act
     #[arg(long, value_name = "STEPS", default_value_t = 0)]
     delay: usize,
-    /// The standard deviations of what is measured of places and rates [rad, rad/s]
+    /// The standard deviations of measurement noise of positions and rates [rad, rad/s]
     #[arg(long, value_name = "PLACE,RATE", value_delimiter = ',', num_args = 1..=2)]
     noise: Vec<f64>,
-    /// Cut torques at the efforts of the description
+    /// Limit torques to the efforts of the description
     #[arg(long)]
     efforts: bool,
-    /// Leave the friction of joints out, of the robot and of what the law knows
+    /// Ignore the friction of joints, in the robot and in the control law
     #[arg(long)]
     no_friction: bool,
-    /// Where the motion goes, CSV
+    /// Write the motion to this CSV file
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Where a picture of errors and torques goes, SVG
+    /// Write a picture of errors and torques to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// JSON instead of text
+    /// Print JSON instead of text
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -104,7 +108,7 @@ fn factor(text: &str) -> std::result::Result<BigRational, String> {
     number.ok_or_else(|| "give a positive number, such as 1.05".to_owned())
 }
 
-/// A law of a link as one of joints: the target is what the joints' motion makes of the link.
+/// A control law of a link as one of joints: the target is the link's motion computed from that of the joints.
 struct Following {
     law: WorkSpace,
     equations: Equations,
@@ -119,20 +123,20 @@ impl Law for Following {
     }
 }
 
-/// What came of it.
+/// The result.
 #[derive(serde::Serialize)]
 struct Summary {
     format: u32,
     steps: usize,
     joints: Vec<JointSummary>,
-    /// What of the robot's file was ignored.
+    /// The ignored parts of the robot's file.
     notes: Vec<String>,
 }
 
 #[derive(serde::Serialize)]
 struct JointSummary {
     name: String,
-    /// Of all times, and of the second half.
+    /// Over all times, and over the second half.
     greatest_error: f64,
     greatest_error_later: f64,
     root_mean_square_error: f64,
@@ -140,7 +144,7 @@ struct JointSummary {
     effort: Option<f64>,
 }
 
-/// Follows and tells.
+/// Follows the trajectory and prints the result.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.robot.as_path(), arguments.trajectory.as_path()]);
     let output = output.expects([arguments.out.as_ref(), arguments.plot.as_ref()])?;
@@ -213,7 +217,7 @@ fn read(arguments: &Arguments, names: &[String]) -> Result<Trajectory> {
     }
 }
 
-/// The robot whose bodies weigh so many times as much.
+/// The robot with the masses of its bodies multiplied by a factor.
 fn heavier(robot: &Robot, factor: &BigRational) -> Result<Robot> {
     let mut parts = robot.parts().clone();
     for mass in parts.links.iter_mut().filter_map(|link| link.mass.as_mut()) {
@@ -223,7 +227,7 @@ fn heavier(robot: &Robot, factor: &BigRational) -> Result<Robot> {
     Robot::new(parts)
 }
 
-/// By independent joint, what its motor gives, where that is told.
+/// By independent joint, the limit of its motor, where it is given.
 fn efforts(robot: &Robot, equations: &Equations) -> Vec<Option<f64>> {
     let effort = |name: &String| robot.joint(name).ok().and_then(|joint| robot.joints()[joint].effort);
     equations.joints().iter().map(|name| effort(name).filter(|effort| *effort > 0.0)).collect()
@@ -263,7 +267,7 @@ fn text(summary: &Summary) -> String {
             joint.greatest_error_later,
             joint.root_mean_square_error,
             joint.greatest_torque,
-            if beyond { "  more than the motor gives" } else { "" }
+            if beyond { "  more than the motor's limit" } else { "" }
         );
     }
     text

@@ -1,4 +1,4 @@
-//! `groebot view`: a page to see a robot and its motion.
+//! `groebot view`: an HTML page of a robot and its motion.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result};
 use groebot_humanoid::gait::{Footprint, Side};
 use groebot_humanoid::nav::Room;
-use groebot_humanoid::view::{Asked, Page, Sole};
+use groebot_humanoid::view::{Page, RunRequest, Sole};
 use groebot_humanoid::walkers::{self, Outline};
 use groebot_ik::derive::{Ends, InputFile, Proved};
 use groebot_ik::folder::CERTIFICATE;
@@ -33,37 +33,41 @@ const EXAMPLES: &str = "Examples:
   groebot view derivations/ur5 --reach ur5.json -o reach.html
   groebot view rh0 --room living-room --start 1,2.6 --goal 7.2,3.4 -o living_room.html
 
-With --tip, and for a derivation, the page shows all solutions while the target is dragged. In a room the robot walks while goal, furniture and the figures of its gait are changed. The page is one file: a self-contained HTML file that makes no network requests. A walk's JSON has footsteps and phases, which its CSV has not.
+With --tip, and for a derivation, the page shows all solutions while the target is dragged. In a
+room the robot walks while goal, furniture and the parameters of its gait are changed. The page is
+one self-contained HTML file that makes no network requests. The JSON of a walk has footsteps and
+phases, its CSV does not.
+
 Robots of groebot: nao, rh0, teo.";
 
-/// Writes a page to see a robot and its motion in a browser
+/// Writes a self-contained HTML page that shows a robot and its motion in a browser
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
-    /// A walk or a task in CSV or JSON, a robot of groebot, a description in URDF or TOML, or the folder of a derivation
+    /// A walk or a task in CSV or JSON, a robot by name, a description in URDF or TOML, or the folder of a derivation
     #[arg(value_name = "WALK-or-ROBOT-or-DIR")]
     shown: PathBuf,
-    /// The robot that walks, where the walk does not name one of groebot
+    /// The walking robot, if the walk does not name a robot of groebot
     #[arg(long, value_name = "ROBOT-or-FILE")]
     robot: Option<PathBuf>,
-    /// Put the triangles of meshes into the page: STL
+    /// Include the triangles of STL meshes in the page
     #[arg(long)]
     meshes: bool,
-    /// Show all solutions of the chain from the base to this link, derived on the spot; repeatable
+    /// Show all solutions of the chain from the base to this link (repeatable); the solver is derived first
     #[arg(long, value_name = "LINK", conflicts_with = "room")]
     tip: Vec<String>,
-    /// The link that such chains begin with; the root without it
+    /// The first link of such chains (default: the root)
     #[arg(long, value_name = "LINK", requires = "tip")]
     base: Option<String>,
-    /// Show what it reaches: a map of `groebot reach`, of the derivation or of the last --tip
+    /// Show a reachability map of `groebot reach`, of the derivation or of the last --tip
     #[arg(long, value_name = "MAP.json", conflicts_with = "room")]
     reach: Option<PathBuf>,
-    /// Let nao, rh0 or teo walk through a room: living-room, encirclement, or TOML
+    /// Show nao, rh0 or teo walking through a room: living-room, encirclement, or TOML
     #[arg(long, value_name = "ROOM-or-FILE", requires = "goal")]
     room: Option<PathBuf>,
     #[command(flatten)]
     places: PlaceArguments,
-    /// Where the page goes
+    /// The output file, HTML
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
     #[command(flatten)]
@@ -99,7 +103,7 @@ impl Arguments {
                 Ok(if let Some(task) = task { page.with_task(task) } else { page })
             }
             None if self.robot.is_some() => {
-                let text = "--robot names the robot that walks, but this is no walk; give a walk in CSV or JSON, or leave it out";
+                let text = "--robot names the walking robot, but this is not a walk; give a walk in CSV or JSON, or leave it out";
                 Err(Error::new(ErrorKind::BadValue, text).in_file(file))
             }
             None if file.is_dir() => derivation(file),
@@ -112,25 +116,25 @@ impl Arguments {
         }
     }
 
-    /// A page with the map that is asked for.
+    /// A page with the requested reachability map.
     fn reached(&self, page: Page) -> Result<Page> {
         let Some(file) = &self.reach else { return Ok(page) };
         if !self.shown.is_dir() && self.tip.is_empty() {
-            let text = "a map is of a limb; give the folder of its derivation, or --tip";
+            let text = "a reachability map needs a limb; give the folder of its derivation, or --tip";
             return Err(Error::new(ErrorKind::BadValue, text).in_file(&self.shown));
         }
         let map = ReachMap::from_json(&read_text(file, TABLE_LIMIT)?).map_err(|error| error.in_file(file))?;
         if self.shown.is_dir() {
             let own = read_program(&self.shown)?.name;
             if map.solver != own {
-                let text = format!("this is a map of {}; the derivation is that of {own}", shown(&map.solver));
+                let text = format!("this is the map of {}; the derivation is that of {own}", shown(&map.solver));
                 return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
             }
         }
         Ok(page.with_reach(&map))
     }
 
-    /// The robot of a page with the limbs whose solutions are asked for.
+    /// The robot of a page with the limbs whose solutions are requested.
     fn solved(&self, page: Page, robot: &Robot) -> Result<Page> {
         if self.tip.is_empty() {
             return Ok(page);
@@ -141,7 +145,7 @@ impl Arguments {
                 (robot.path(self.base.as_deref(), Some(tip))?, robot.chain(self.base.as_deref(), Some(tip))?);
             let moving = path.joints.iter().filter(|(joint, _)| robot.joints()[*joint].kind.is_single()).count();
             if moving != chain.joints().len() {
-                let text = format!("`{}`: slides that move together are not shown in a page", shown(tip));
+                let text = format!("`{}`: coupled prismatic joints are not supported in a page", shown(tip));
                 return Err(Error::new(ErrorKind::Unsupported, text));
             }
             let proved = Proved::of_chain(&chain, &session.watch)?;
@@ -159,7 +163,8 @@ impl Arguments {
         let Footprint { x, y, yaw } = self.places.start(told)?;
         let goal = self.places.goal()?.numbers();
         let robot = self.shown.to_string_lossy();
-        let asked = Asked { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.places.apart };
+        let asked =
+            RunRequest { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.places.apart };
         page.with_run(&asked).map_err(|error| error.in_file(room))
     }
 }
@@ -168,7 +173,7 @@ impl Arguments {
 fn derivation(folder: &Path) -> Result<Page> {
     let chain = InputFile::read(folder)?.chain(&Ends::default())?;
     let no_chain = || {
-        let text = "what was derived here is no chain of a robot; give the folder of one";
+        let text = "this derivation is not that of a robot's chain; give the folder of one";
         Error::new(ErrorKind::Unsupported, text).in_file(folder)
     };
     let chain = chain.ok_or_else(no_chain)?;
@@ -179,7 +184,7 @@ fn derivation(folder: &Path) -> Result<Page> {
     Ok(Page::of_chain(&chain, program, certificate.as_deref()))
 }
 
-/// The soles of a robot of this crate, as they were measured.
+/// The measured soles of a robot of this crate.
 pub(super) fn soles(robot: &str) -> Result<Vec<Sole>> {
     let Some(walker) = walkers::walker(robot, Outline::Measured) else { return Ok(Vec::new()) };
     let feet = walker?.biped.feet;

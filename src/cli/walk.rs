@@ -1,4 +1,4 @@
-//! `groebot walk`: joint angles of a walk that does not fall, with their proof by the zero moment point.
+//! `groebot walk`: joint angles of a balanced walk, checked by the zero moment point.
 
 use std::path::{Path, PathBuf};
 
@@ -18,7 +18,7 @@ use groebot_humanoid::gait::{
 use groebot_humanoid::walkers::Outline;
 use groebot_robot::document::read_text;
 
-/// The longest file of footsteps, in bytes.
+/// The greatest length of a file of footsteps in bytes.
 const FOOTSTEPS_LIMIT: u64 = limits::FOOTSTEPS_BYTES;
 
 const EXAMPLES: &str = "Examples:
@@ -35,24 +35,33 @@ const EXAMPLES: &str = "Examples:
   groebot walk teo --goal 1,0.5 -o goal.csv
   groebot walk talos.urdf --left left_sole_link --right right_sole_link --goal 1,0 -o walk.csv
 
-Metres, seconds; degrees for --turn, --max-turn, --plan and in the summary, radians in files. The last of --steps closes the feet: 8 steps of
-0.04 m lead 0.28 m ahead. A file of footsteps has the header foot,x,y,yaw and a line for each step: left or right, metres, radians; it starts
-at the origin. A phase that would be unstable or too fast is slowed down, and where that does not help turns and steps are shortened; a walk
-that nothing makes stable is refused.
-Gaits: nao seed, preview, osg; rh0 rh0, rh0-real, osg; teo osg; others osg, preview; the first is taken unless one is named.
-Of a description the legs are derived on the spot: six joints each, from the root link to the links of the soles. The root has x ahead, y left,
-z up, and the feet are level at zero. What touches the floor are the lowest points of what collides there; meshes must be STL.";
+Metres, seconds; degrees for --turn, --max-turn, --plan and in the summary, radians in files. The
+last of --steps closes the feet: 8 steps of 0.04 m move 0.28 m forward.
 
-/// Which soles.
+A file of footsteps has the header foot,x,y,yaw and a line for each step: left or right, metres,
+radians; it starts at the origin.
+
+A phase that would be unstable or too fast is slowed down. Where that does not help, turns and steps
+are shortened. A walk that cannot be made stable is an error.
+
+Gaits: nao sine, preview, osg; rh0 rh0, rh0-real, osg; teo osg; others osg, preview. The first is
+the default.
+
+For a description, the solvers of the legs are derived first: six joints each, from the root link to
+the links of the soles. The root has x forward, y left, z up, and the feet are level at zero. The
+contact points are the lowest points of the collision shapes; meshes must be STL.";
+
+/// The outline of the soles.
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum SoleName {
     /// As measured on the robot
     Measured,
-    /// 160 x 90 mm for NAO, as the seed has it
-    Seed,
+    /// As published: 160 x 90 mm for NAO
+    #[value(alias = "seed")]
+    Published,
 }
 
-/// Which foot steps first.
+/// The first swing foot.
 #[derive(Clone, Copy, clap::ValueEnum)]
 enum FootName {
     /// The left foot
@@ -61,10 +70,11 @@ enum FootName {
     Right,
 }
 
-/// Plans a walk that keeps its zero moment point over the feet, with joint angles by the derived solver
+/// Plans a balanced walk: joint angles from the derived solver that keep the zero moment point (ZMP) inside the support
+/// polygon
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
-#[command(group = clap::ArgGroup::new("way").args(["footsteps", "plan", "goal"]))]
+#[command(group = clap::ArgGroup::new("route").args(["footsteps", "plan", "goal"]))]
 pub struct Arguments {
     /// The robot: nao, rh0, teo, or a description in URDF or TOML
     #[arg(value_name = "ROBOT-or-FILE")]
@@ -72,113 +82,116 @@ pub struct Arguments {
     #[command(flatten)]
     soles: SoleArguments,
     /// The number of steps; the last one closes the feet
-    #[arg(long, default_value_t = 8, conflicts_with = "way")]
+    #[arg(long, default_value_t = 8, conflicts_with = "route")]
     steps: usize,
-    /// x_d, L_p: how far ahead of the standing foot the other one lands [m]
+    /// x_d, L_p: the distance from the supporting foot forward to the landing foot [m] (default: the gait's)
     #[arg(long, value_name = "METRES", allow_hyphen_values = true, conflicts_with = "footsteps")]
     length: Option<f64>,
-    /// How far the foot on that side steps to the left each time; the other one follows [m]
-    #[arg(long, default_value_t = 0.0, value_name = "METRES", allow_hyphen_values = true, conflicts_with = "way")]
+    /// The lateral distance to the left of each step of the foot on that side; the other one follows [m]
+    #[arg(long, default_value_t = 0.0, value_name = "METRES", allow_hyphen_values = true, conflicts_with = "route")]
     aside: f64,
-    /// The turn of the whole walk, anticlockwise [degrees]
-    #[arg(long, default_value_t = 0.0, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with = "way")]
+    /// The rotation of the whole walk, anticlockwise [degrees]
+    #[arg(long, default_value_t = 0.0, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with = "route")]
     turn: f64,
-    /// G_CM: how far one step, or a pair of them in --plan, turns the robot at most [degrees]
+    /// G_CM: the greatest turn of one step, or of a pair of steps in --plan [degrees] (default: the gait's)
     #[arg(long, value_name = "DEGREES")]
     max_turn: Option<f64>,
-    /// The foot that steps first
+    /// The first swing foot
     #[arg(long, value_enum, default_value = "left", conflicts_with_all = ["footsteps", "plan"])]
     first: FootName,
-    /// Footsteps from a CSV file
+    /// Read footsteps from this CSV file
     #[arg(long, value_name = "FILE")]
     footsteps: Option<PathBuf>,
-    /// The walk in words: out, stride, in with left or right; turn left or right with degrees; parted by commas
+    /// The walk in words, separated by commas: out, stride, in with left or right; turn left or right with degrees
     #[arg(long, value_name = "WORDS")]
     plan: Option<String>,
-    /// Step by step towards a place, seen from the middle of the feet at first: ahead, to the left [m], and where to look there [degrees]
+    /// Walk to a place in the initial frame of the feet: forward, to the left [m], and an optional final heading
+    /// [degrees]
     #[arg(long, value_name = "X,Y[,HEADING]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     goal: Option<Vec<f64>>,
-    /// How the centre of mass is moved
+    /// The gait: the law of motion of the centre of mass (default: the robot's first gait)
     #[arg(long, value_enum)]
     gait: Option<GaitName>,
-    /// z_d, H_p: how high a foot is lifted [m]
+    /// z_d, H_p: the height to which a foot is lifted [m] (default: the gait's)
     #[arg(long, value_name = "METRES")]
     lift: Option<f64>,
-    /// W_p: half of the distance from foot to foot, sideways [m] [default: as wide as the hips]
+    /// W_p: half of the lateral distance between the feet [m] [default: half the width of the hips]
     #[arg(long, value_name = "METRES")]
     half_width: Option<f64>,
-    /// A, W_p - RA_AS: how far to the side the centre of mass goes [m]
+    /// A, W_p - RA_AS: the lateral displacement of the centre of mass [m] (default: the gait's)
     #[arg(long, value_name = "METRES")]
     amplitude: Option<f64>,
-    /// K_CM: half of how far the trunk goes down until lift-off and landing [m]; for one step goal
+    /// K_CM: half of the trunk's descent until lift-off and landing [m] (default: the gait's); for one step goal
     #[arg(long, value_name = "METRES")]
     dip: Option<f64>,
-    /// Po_CM: the power of the sideways distance; for RH0's laws
+    /// Po_CM: the exponent of the lateral motion (default: the gait's); for RH0's laws
     #[arg(long, value_name = "NUMBER")]
     power: Option<f64>,
     /// Start and end in the crouch, without lowering and rising; for one step goal
     #[arg(long)]
     crouched: bool,
-    /// In how many samples the trunk is lowered, and rises [default: as many as a step has]; for one step goal
+    /// The number of samples in which the trunk is lowered, and rises [default: that of a step]; for one step goal
     #[arg(long, value_name = "COUNT", conflicts_with = "crouched", value_parser = clap::value_parser!(u32).range(1..))]
     descent_intervals: Option<u32>,
-    /// The height of the axes of the hip over the floor [m] [default: the first of the robot's usual ones that works]
+    /// The height of the hip axes above the floor [m] [default: the first feasible one of the gait]
     #[arg(long, value_name = "METRES")]
     hip_height: Option<f64>,
-    /// How far ahead of the ankles the centre of mass is held [m]
+    /// The distance of the centre of mass forward of the ankles [m] (default: the gait's)
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     ahead: Option<f64>,
-    /// The time of a step [s]
+    /// The duration of a step [s] (default: the gait's)
     #[arg(long, value_name = "SECONDS")]
     period: Option<f64>,
-    /// The share of a step in which both feet stand
+    /// The fraction of a step in double support, between 0 and 1 (default: the gait's)
     #[arg(long, value_name = "SHARE")]
     double_support: Option<f64>,
-    /// How long the robot stands before the first and after the last step [s]
+    /// The duration of the rest before the first and after the last step [s] (default: the gait's)
     #[arg(long, value_name = "SECONDS")]
     rest: Option<f64>,
-    /// S_D: the time between two rows [s]
+    /// S_D: the time between two rows [s] (default: the gait's)
     #[arg(long, value_name = "SECONDS")]
     tick: Option<f64>,
-    /// The least distance of the zero moment point from the border of the support polygon [m]
+    /// The least distance of the zero moment point from the border of the support polygon [m] (default: the gait's)
     #[arg(long, value_name = "METRES")]
     margin: Option<f64>,
-    /// The greatest share of its own speed that a joint may have
+    /// The greatest joint rate, as a fraction of the joint's limit (default: the gait's)
     #[arg(long, value_name = "SHARE")]
     speed: Option<f64>,
     /// The outline of the soles
     #[arg(long, value_enum, default_value = "measured")]
     sole: SoleName,
-    /// Where the joint angles go: CSV, or JSON when the name ends in .json
+    /// Write the joint angles to this file: CSV, or JSON if its name ends in .json
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Where the same goes as JSON
+    /// Write the joint angles to this JSON file
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Where the columns of the thesis' tables go, CSV in degrees and its axes; for rh0
+    /// Write the columns of the thesis' tables to this CSV file, in degrees and its axes; for rh0
     #[arg(long, value_name = "FILE")]
     thesis: Option<PathBuf>,
-    /// Where the picture goes, SVG
+    /// Write a picture to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Add the torques of the motors and the forces of the floor: columns of torques and forces, and the greatest torques beside the motors' efforts
+    /// Add joint torques (inverse dynamics, RNEA) and ground reaction forces: columns of torques and forces, and the
+    /// greatest torques next to the motors' efforts
     #[arg(long)]
     torques: bool,
-    /// Add the torques of two chains, each on a foot of its own, RH0 (3-40) and (3-41), what goes between them through the trunk, and how they differ
+    /// Add the torques of two chains, each on its own foot, RH0 (3-40) and (3-41), the wrench between them through the
+    /// trunk, and their difference
     #[arg(long, requires = "torques")]
     chains: bool,
-    /// No progress and no summary
+    /// Print neither progress nor summary
     #[arg(long)]
     quiet: bool,
     #[command(flatten)]
     force: Force,
 }
 
-/// Plans the walk and writes what is asked for.
+/// Plans the walk and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let outline = match arguments.sole {
         SoleName::Measured => Outline::Measured,
-        SoleName::Seed => Outline::Seed,
+        SoleName::Published => Outline::Published,
     };
     let output = arguments.output()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
@@ -200,16 +213,16 @@ pub fn run(arguments: &Arguments) -> Outcome {
     chains.map_or(Ok(()), |chains| console::print(&difference(&walk.difference(biped, &forces, &chains))))
 }
 
-/// How two chains differ from the whole.
+/// The differences between two chains and the whole multibody, as text.
 fn difference(found: &Difference) -> String {
     let Difference { torque, joint, time, swinging, between: [force, moment], rounding, .. } = found;
     format!(
-        "two chains, each on its own foot\n  torques differ by up to {torque:.3} N m: {joint} at {time:.2} s\n  of a foot that swings up to {swinging:.1} N are asked\n  \
-         through the trunk go up to {force:.1} N and {moment:.2} N m; with that torques differ by {rounding:.1e}\n"
+        "two chains, each on its own foot\n  torques differ by up to {torque:.3} N m: {joint} at {time:.2} s\n  a swing foot would need up to {swinging:.1} N\n  \
+         the trunk transmits up to {force:.1} N and {moment:.2} N m; with that, torques differ by {rounding:.1e}\n"
     )
 }
 
-/// The greatest torque of each joint, beside what its motor gives.
+/// The greatest torque of each joint, next to its motor's limit.
 fn torques(biped: &Biped, walk: &Walk, forces: &[Forces]) -> String {
     let mut text = "greatest torques [N m, N]\n".to_owned();
     for greatest in walk.greatest_torques(biped, forces) {
@@ -225,7 +238,7 @@ fn torques(biped: &Biped, walk: &Walk, forces: &[Forces]) -> String {
 }
 
 impl Arguments {
-    /// The figures of the gait, the given ones in their places.
+    /// The parameters of the gait, with the given ones replaced.
     fn usual(&self, walker: &Walker) -> Result<Usual> {
         let mut usual = walker::usual(&walker.gaits, self.gait)?;
         let places = [
@@ -247,13 +260,13 @@ impl Arguments {
         usual.half_width = self.half_width.or(usual.half_width);
         let double = usual.double_support;
         if !(double > 0.0 && double < 1.0) {
-            return Err(bad(format!("--double-support is {double}; give a share between 0 and 1")));
+            return Err(bad(format!("--double-support is {double}; give a fraction between 0 and 1")));
         }
         self.one_step(&mut usual.gait)?;
         Ok(usual)
     }
 
-    /// Puts the figures of one step goal in their places.
+    /// Sets the given parameters of one step goal.
     fn one_step(&self, gait: &mut Gait) -> Result<()> {
         let Gait::OneStep(one_step) = gait else {
             return match (self.dip, self.power, self.crouched, self.descent_intervals) {
@@ -306,7 +319,7 @@ impl Arguments {
         Route::regular(&Regular { steps: self.steps, length: usual.length, aside: self.aside, turn, half_width, first })
     }
 
-    /// The writer, which replaces neither the robot nor the footsteps.
+    /// The output; it replaces neither the robot nor the footsteps.
     fn output(&self) -> Result<Output> {
         let output = self.force.output(std::iter::once(Path::new(&self.robot)).chain(self.footsteps.as_deref()));
         output.expects([&self.out, &self.json, &self.thesis, &self.plot].map(Option::as_ref))

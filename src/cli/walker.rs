@@ -1,4 +1,4 @@
-//! Walkers by their names, and from a description: its legs derived on the spot.
+//! Walkers by name, and from a description, whose legs are derived first.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -13,25 +13,26 @@ use groebot_robot::document::{is_stdin, shown};
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::robots;
 
-/// How the centre of mass is moved.
+/// The law of motion of the centre of mass.
 #[derive(Clone, Copy, clap::ValueEnum)]
 pub enum GaitName {
-    /// The seed's sine: over one foot the centre of mass rests
-    Seed,
+    /// The sine of NAO (6.8.1): in single support the centre of mass rests
+    #[value(alias = "seed")]
+    Sine,
     /// Preview control of the zero moment point: the centre of mass never rests
     Preview,
-    /// One step goal by its generic laws: the centre of mass keeps to a circle on the sole
+    /// One step goal by its generic laws: the centre of mass stays on a circle on the sole
     Osg,
-    /// One step goal by RH0's laws, with the figures of the thesis' simulations (5.3)
+    /// One step goal by RH0's laws, with the parameters of the thesis' simulations (5.3)
     Rh0,
-    /// The same with the figures of the thesis' experiments (6.2)
+    /// One step goal by RH0's laws, with the parameters of the thesis' experiments (6.2)
     Rh0Real,
 }
 
-/// The figures of the gait of that name; of the first one without a name.
+/// The parameters of the gait of that name; of the first one without a name.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for a gait that this robot has not.
+/// [`ErrorKind::BadValue`] for a gait that this robot does not have.
 pub fn usual(gaits: &[(&'static str, Usual)], wanted: Option<GaitName>) -> Result<Usual> {
     let Some(wanted) = wanted else { return Ok(gaits[0].1.clone()) };
     let value = clap::ValueEnum::to_possible_value(&wanted);
@@ -39,40 +40,40 @@ pub fn usual(gaits: &[(&'static str, Usual)], wanted: Option<GaitName>) -> Resul
     let found = gaits.iter().find(|(name, _)| *name == wanted);
     found.map(|(_, usual)| usual.clone()).ok_or_else(|| {
         let names = gaits.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        Error::new(ErrorKind::BadValue, format!("this robot does not walk by `{wanted}`; give one of {names}"))
+        Error::new(ErrorKind::BadValue, format!("this robot does not have the gait `{wanted}`; give one of {names}"))
     })
 }
 
 /// The soles of a robot that is described in a file.
 #[derive(clap::Args)]
 pub struct SoleArguments {
-    /// The link of the left sole; for a description
+    /// The link of the left sole; needed for a description
     #[arg(long, value_name = "LINK")]
     left: Option<String>,
-    /// The link of the right sole; for a description
+    /// The link of the right sole; needed for a description
     #[arg(long, value_name = "LINK")]
     right: Option<String>,
-    /// What of the left sole touches the floor, from its link's origin: behind, ahead, to the right, to the left, and how high it is [m] (0 unless it is
-    /// given); mirrored on the right
+    /// The contact area of the left sole in its link's frame: back, front, right, left, and optionally its height [m]
+    /// (default height: 0); mirrored for the right sole
     #[arg(long, value_name = "X0,X1,Y0,Y1[,Z]", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
     outline: Option<Vec<f64>>,
 }
 
-/// A robot that walks, as a command names it.
+/// A walking robot, as given to a command.
 pub struct Named {
     /// Its description.
     pub robot: Robot,
-    /// Where its meshes are.
+    /// The folders of its meshes.
     pub meshes: Meshes,
-    /// How it walks.
+    /// The walker.
     pub walker: Walker,
 }
 
-/// The robot of that name, or the one that a file describes.
+/// The robot of that name, or from a file.
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] for what is neither a robot of this crate nor a file; [`ErrorKind::MissingKey`] without the soles' links; those of
-/// the readers, of [`Biped::new`], of [`Proved::of_chain`] and of [`Walker::new`].
+/// [`ErrorKind::UnknownName`] for a name that is neither a robot of this crate nor a file; [`ErrorKind::MissingKey`]
+/// without the soles' links; those of the readers, of [`Biped::new`], of [`Proved::of_chain`] and of [`Walker::new`].
 pub fn named(name: &str, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
     match (walkers::walker(name, outline), robots::robot(name)) {
         (Some(walker), Some(robot)) => Ok(Named { robot, meshes: Meshes::default(), walker: walker? }),
@@ -84,13 +85,13 @@ fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named>
     let name = file.to_string_lossy();
     if !is_stdin(file) && !file.exists() {
         let text =
-            format!("`{}` is neither a file nor a robot that walks; give a file, `nao`, `rh0` or `teo`", shown(&name));
+            format!("`{}` is neither a file nor a walking robot; give a file, `nao`, `rh0` or `teo`", shown(&name));
         return Err(Error::new(ErrorKind::UnknownName, text));
     }
     let input = InputFile::read(file)?;
     let file = &input.path;
     let Description::Robot(robot) = input.description else {
-        let text = "this describes no robot with links; a walk needs one, in URDF or TOML";
+        let text = "this does not describe a robot with links; a walk needs one, in URDF or TOML";
         return Err(Error::new(ErrorKind::BadValue, text).in_file(file));
     };
     let at_file = |error: Error| error.in_file(file);

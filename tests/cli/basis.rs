@@ -178,9 +178,9 @@ fn wishes_that_do_not_fit_are_refused() {
     let cases: [(&str, &[&str], &str); 10] = [
         (CYCLIC, &["--order", "block:2"], "--order: the blocks of the order grevlex(2) must cover the 3 variables"),
         (CYCLIC, &["--order", "lex(3)", "--eliminate", "x"], "must cover the 2 variables"),
-        (CYCLIC, &["--eliminate", "w"], "--eliminate: `w` is no variable"),
+        (CYCLIC, &["--eliminate", "w"], "--eliminate: `w` is not a variable"),
         (CYCLIC, &["--eliminate", "x,x"], "named twice"),
-        (CYCLIC, &["--eliminate", "x,y,z"], "no variable stays"),
+        (CYCLIC, &["--eliminate", "x,y,z"], "no variable would remain"),
         (CYCLIC, &["--characteristic", "9"], "--characteristic: 9 is not a prime"),
         (CYCLIC, &["--format", "msolve"], "line 1: column 6: `:` has no meaning"),
         ("x\n7\nx", &["--characteristic", "11"], "modulo 7 already"),

@@ -95,7 +95,7 @@ fn options_that_multiply_work_are_bounded() {
         assert!(error.contains("give the side of a cell, 1e-6 to 1e6 m"), "{error}");
     }
     let error = refused(&["walk", "nao", "--steps", "4", "--tick", "1e-9"]);
-    assert!(error.contains("one each 1e-9 s, and 180000 are the most") && error.contains("--tick"), "{error}");
+    assert!(error.contains("samples of 1e-9 s; at most 180000 are allowed") && error.contains("--tick"), "{error}");
     let log = at("log.csv", "q0,q1,q2,v0,v1,v2,a0,a1,a2,tau0,tau1,tau2\n0,0,0,0,0,1e160,0,0,0,0,0,0\n");
     let error = refused(&["identify", &arm, &log]);
     assert!(error.contains("line 2: column `v2`: `1e160` is too large; give at most 1e15"), "{error}");

@@ -74,7 +74,7 @@ fn the_report_tells_what_a_reader_asks() {
         "divides by pz",
         "divides by px^2 + pz^2",
         "c4 > c3 > s3 > s4  1 smaller  <- used",
-        "formulas of its own, up to 2 solutions",
+        "separate formulas, up to 2 solutions",
         "atan2(s3, c3)",
         "S-polynomials reduce to zero",
         "certificate.json",

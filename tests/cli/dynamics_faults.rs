@@ -123,12 +123,13 @@ fn bodies_without_mass_have_all_but_accelerations() {
         1,
     );
     let (_folder, robot) = written("r.urdf", &slanted);
+    // The spelling of earlier versions.
     let (row, _) = first(&robot, "q0,q1\n0.4,0.9\n", &["--as-told"]);
     assert!(row.iter().all(|(name, cell)| !name.starts_with("qdd") || cell.is_empty()), "{row:?}");
     // The other functions are printed, and the file says what is not.
     let tip = corpus("massless_tip.urdf");
     let ran = run(&["dynamics", text(&tip), "--lang", "rust"]);
-    assert!(ran.code == 0 && ran.err.contains("forward dynamics is left out"), "{}", ran.err);
+    assert!(ran.code == 0 && ran.err.contains("forward dynamics is omitted"), "{}", ran.err);
     assert!(ran.out.contains("fn inverse") && !ran.out.contains("fn forward") && ran.out.contains("left out"));
     assert!(refused(&["dynamics", text(&tip), "--lang", "rust", "--functions", "forward"]).contains("give masses"));
 }
@@ -166,7 +167,7 @@ fn a_free_root_is_asked_for_or_follows_from_the_columns() {
     let place = "0,0,0,0,0,0,1,0.1,0.1,0.1";
     let bare = format!("{}\n{place}\n", list("q", 10));
     let told = refuse(&robot, &bare, &[]);
-    assert!(told.contains("10 joints each on its own, or 3 independent joints of a free root"), "{told}");
+    assert!(told.contains("10 joints, all independent, or 3 independent joints of a free root"), "{told}");
     assert!(told.contains("give --floating, or name the joints"), "{told}");
     let (row, told) = first(&robot, &bare, &["--floating"]);
     assert_eq!(told, "");
@@ -189,7 +190,7 @@ fn a_free_root_is_asked_for_or_follows_from_the_columns() {
     let all: Vec<String> = (0..10).map(|joint| format!("q:j{joint}")).collect();
     let (row, told) = first(&robot, &format!("{}\n{}\n", all.join(","), ["0.1"; 10].join(",")), &[]);
     assert!(
-        told.contains("each taken to be on its own: j3, j4") && row.iter().any(|(name, _)| name == "tau9"),
+        told.contains("they are taken as independent: j3, j4") && row.iter().any(|(name, _)| name == "tau9"),
         "{told}"
     );
     assert!(refuse(&robot, "q:j0,q:j1,q:elbow\n0,0,0\n", &[]).contains("3 independent joints (j0, j1, j2)"));
@@ -204,8 +205,8 @@ fn negative_damping_and_empty_tables_are_refused() {
         let pushed = robot.replacen("<axis", &format!("<dynamics {name}=\"-0.01\"/><axis"), 1);
         let (_folder, pushed) = written("r.urdf", &pushed);
         let told = refuse(&pushed, "q0\n0\n", &[]);
-        assert!(told.contains("joint `j1`") && told.contains(words) && told.contains("--as-told"), "{told}");
-        assert_eq!(first(&pushed, "q0\n0\n", &["--as-told"]).1, "");
+        assert!(told.contains("joint `j1`") && told.contains(words) && told.contains("--as-given"), "{told}");
+        assert_eq!(first(&pushed, "q0\n0\n", &["--as-given"]).1, "");
         let log = corpus("hinge_of_100_kg.csv");
         assert!(refused(&["identify", text(&pushed), text(&log)]).contains("below zero"));
     }
@@ -228,8 +229,8 @@ fn dust_in_inertias_is_rounding() {
     assert!(told.contains("link `head`") && told.contains("taken for rounding"), "{told}");
     let (_folder, wrong) = written("r.urdf", &robot("2e-5"));
     let told = refuse(&wrong, "q0\n0\n", &[]);
-    assert!(told.contains("no body has it") && told.contains("`--as-told` takes the numbers unchanged"), "{told}");
-    near(&first(&wrong, "q0\n0\n", &["--as-told"]).0, &[("M0_0", 0.0133687)]);
+    assert!(told.contains("no body has it") && told.contains("`--as-given` takes the numbers unchanged"), "{told}");
+    near(&first(&wrong, "q0\n0\n", &["--as-given"]).0, &[("M0_0", 0.0133687)]);
 }
 
 /// A seven-joint arm with the numbers of its description has entries of over 400,000 characters, which are read again.

@@ -20,7 +20,7 @@ fn a_robot_is_exported_and_walks_from_its_file() {
     let walk =
         |extra: &[&str]| succeed(&[&["walk", text(&urdf)][..], &soles, &["--goal", "0.2,0.05,20"], extra].concat());
     let told = walk(&["-o", text(&csv)]);
-    assert!(told.contains("by one step goal") && told.contains("way             0.206 m, turn 20.0 deg"), "{told}");
+    assert!(told.contains("by one step goal") && told.contains("path            0.206 m, turn 20.0 deg"), "{told}");
     let walk_of = groebot::motion::Trajectory::read_csv(&csv).unwrap();
     assert!(walk_of.joints.iter().any(|joint| joint.name == "LKneePitch") && walk_of.times.len() > 100);
     assert!(walk(&["--gait", "preview"]).contains("by preview control"));
@@ -68,7 +68,7 @@ fn what_cannot_be_walked_or_exported_is_refused() {
     assert!(refused(&["walk", text(&urdf), "--steps", "2"]).contains("give --left and --right"));
     assert!(walk("l_sole", "r_shoe").contains("no link `r_shoe` (did you mean `r_sole`?)"));
     assert!(walk("l_sole", "l_sole").contains("moves both feet"));
-    assert!(walk("RootWaist", "r_sole").contains("0 joints lead to `RootWaist`"));
+    assert!(walk("RootWaist", "r_sole").contains("there are 0 joints between the root and `RootWaist`"));
     fs::write(&urdf, described.replace("<box size=\"0.24 0.14 0.01\"/>", "<mesh filename=\"nowhere.stl\"/>")).unwrap();
     let told = walk("l_sole", "r_sole");
     assert!(told.contains("nowhere.stl") && told.contains("--outline"), "{told}");
@@ -88,7 +88,10 @@ fn what_cannot_be_walked_or_exported_is_refused() {
     assert!(three.contains("four or five numbers"), "{three}");
     fs::write(&urdf, described.replace("<mass value=", "<mass value=\"0\" told=")).unwrap();
     assert!(walk("l_sole", "r_sole").contains("it has no mass"));
-    assert!(refused(&["export", "derivations/ur5/0_chain.toml", "--format", "urdf"]).contains("no robot with links"));
+    assert!(
+        refused(&["export", "derivations/ur5/0_chain.toml", "--format", "urdf"])
+            .contains("not describe a robot with links")
+    );
     assert!(refused(&["export", "c3po", "--format", "urdf"]).contains("c3po"));
     assert_eq!(run(&["export", "teo"]).code, 2, "which format?");
 }
@@ -135,14 +138,17 @@ fn what_is_no_scene_is_refused() {
     let motion = at("motion.csv", &format!("{head}time [s],q:lift [m]\n0,0.1\n1,0.2\n"));
     let telescope = root(TELESCOPE);
     let telescope = text(&telescope);
-    says(&[&motion, "--to", "glb"], "motion.csv: its robot `somebody` is none of groebot's");
+    says(&[&motion, "--to", "glb"], "motion.csv: its robot `somebody` is not a robot of groebot");
     says(&[&motion, "--robot", "nao", "--to", "x3d"], "no joint `lift`");
     says(&[&motion, "--robot", "c3po", "--to", "x3d"], "`c3po` is neither a file nor a robot of groebot");
-    says(&[&motion, "--to", "mjcf"], "motion.csv: urdf and mjcf describe a robot, no motion and no scene");
+    says(&[&motion, "--to", "mjcf"], "motion.csv: urdf and mjcf describe a robot, not a motion or a scene");
     says(&[text(&root(FIGURE)), "--to", "urdf"], "urdf and mjcf describe a robot");
-    says(&[telescope, "--robot", "nao", "--to", "glb"], "--robot names the robot that moves, but this is no motion");
+    says(&[telescope, "--robot", "nao", "--to", "glb"], "--robot names the robot that moves, but this is not a motion");
     says(&[telescope, "--meshes", "--to", "urdf"], "leave them out for urdf and mjcf");
-    says(&[&at("a.wrl", "#VRML V2.0 utf8\nSphere { }\n"), "--to", "glb"], "a.wrl: line 2: `Sphere` is not read here");
+    says(
+        &[&at("a.wrl", "#VRML V2.0 utf8\nSphere { }\n"), "--to", "glb"],
+        "a.wrl: line 2: `Sphere` is not supported here",
+    );
     let not = format!("{head}time [s],q:lift [m]\n0,0.1\n1,NaN\n");
     says(&[&at("b.csv", &not), "--robot", telescope, "--to", "wrl"], "b.csv: line 5: `NaN` is no finite number");
     let error = refused(&["export", &motion, "--robot", telescope, "--to", "glb"]);

@@ -68,7 +68,7 @@ fn bad_targets_are_refused() {
     assert!(refused(&["ik", "puma"]).contains("no target"));
     assert!(refused(&["ik", "puma", "--target", "1,2,3,1,0,0,0,1,0,0,0,-1"]).contains("no rotation matrix"));
     assert!(refused(&["ik", "puma", "--target", "1,2"]).contains("2 numbers are given; a pose has 6 numbers"));
-    assert!(refused(&["ik", "puma", "--target", "1,2,x,0,0,0"]).contains("finite numbers with commas"));
+    assert!(refused(&["ik", "puma", "--target", "1,2,x,0,0,0"]).contains("finite numbers separated by commas"));
     assert!(refused(&["ik", "puma", "--target", "1,2,nan,0,0,0"]).contains("finite numbers"));
     assert!(refused(&["ik", "puma", "--target", "1,2,3,0,0,0,2"]).contains("norm 2"));
     assert!(refused(&["ik", "puma", "--q", "1,2,3"]).contains("3 joint values are given; the chain has 6"));
@@ -121,7 +121,7 @@ fn a_chain_without_closed_form_is_searched() {
         assert!(by_screws.iter().any(near), "{answer:?}");
     }
     let page = succeed(&["ik", text(&file), "--numeric", "--q", "0.1,0.2,0.3,0.15,0.4,0.5"]);
-    assert!(page.contains("8 solutions, found by search: there may be others"), "{page}");
+    assert!(page.contains("8 solutions, found by search; there may be others"), "{page}");
     let far = succeed(&["ik", "ur5", "--numeric", "--target", "9,9,9,0,0,0"]);
     assert!(far.contains("the search found none"), "{far}");
 }

@@ -151,7 +151,7 @@ fn bad_input_of_ways_is_refused() {
         assert!(told.contains(words), "{words}: {told}");
     }
     let told = refused(&["path", text(&walls), "--start", "0,0", "--goal", "0.1,0.1", "--furniture", "a=none"]);
-    assert!(told.contains("--furniture is for rooms"), "{told}");
+    assert!(told.contains("--furniture needs a room"), "{told}");
     let told = refused(&["navigate", "nao", "--map", text(&room), "--start", "1.5,0.5", "--goal", "0.5,0.5"]);
     assert!(told.contains("the nearest free place is ("), "{told}");
     let told = refused(&["navigate", "nao", "--map", text(&room), "--start", "0.5", "--goal", "0.5,0.5"]);

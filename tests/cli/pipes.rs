@@ -150,7 +150,7 @@ fn standard_input_is_read_once() {
         ran.err
     };
     for arguments in [&["fk", "-"][..], &["ik", "-"], &["fk", "-", "--q", "-"]] {
-        assert!(refused_on(arguments, &chain).contains("standard input holds the description"), "{arguments:?}");
+        assert!(refused_on(arguments, &chain).contains("standard input has the description"), "{arguments:?}");
     }
     assert!(refused_on(&["derive", "-"], &chain).contains("give one by --out"));
     assert!(refused_on(&["info", "-"], "").contains("<stdin>: standard input is empty"));

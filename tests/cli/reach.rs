@@ -17,7 +17,7 @@ fn a_map_is_made_written_and_shown() {
     let map = ReachMap::from_json(&fs::read_to_string(&json).unwrap()).unwrap();
     assert!((map.orientations, map.grid.places(), map.unit.as_str()) == (30, 35, "m") && map.reached() > 100);
     assert!(
-        told.contains("35 places, 30 orientations at each")
+        told.contains("35 points, 30 orientations each")
             && told.contains(&format!("{} of 1050 targets", map.reached())),
         "{told}"
     );
@@ -32,10 +32,10 @@ fn a_map_is_made_written_and_shown() {
 #[test]
 fn axes_that_are_not_told_are_those_of_the_reach() {
     let told = succeed(&["reach", "derivations/planar_3r", "--orientations", "8"]);
-    assert!(told.contains("441 places, 8 orientations at each"), "{told}");
+    assert!(told.contains("441 points, 8 orientations each"), "{told}");
     let given = ["--given", "0.4", "--measure", "limits", "--x", "0.4", "--y", "0.1:0.2:2", "--z", "0.5"];
     let told = succeed(&[&["reach", "derivations/iiwa14", "--orientations", "40"][..], &given].concat());
-    assert!(told.contains("reached within limits: 2 places"), "{told}");
+    assert!(told.contains("reached within limits: 2 points"), "{told}");
 }
 
 #[test]

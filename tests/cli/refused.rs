@@ -134,6 +134,9 @@ fn programs() {
     let robot = root("tests/corpus/urdf/ur5.urdf");
     for command in [&["solve", text(&robot), "--target", "1,2"][..], &["codegen", text(&robot), "--lang", "c"]] {
         let error = refused(command);
-        assert!(error.contains("ur5.urdf: this is no derived solver") && error.contains("groebot derive"), "{error}");
+        assert!(
+            error.contains("ur5.urdf: this is not a derived solver") && error.contains("groebot derive"),
+            "{error}"
+        );
     }
 }

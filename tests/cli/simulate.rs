@@ -30,7 +30,7 @@ fn simulated(arguments: &[&str], python: Option<&Path>) -> Ran {
 /// What a run tells as JSON; `None`, aloud, without MuJoCo (an error with `GROEBOT_REQUIRE_TOOLS=1`).
 fn told(arguments: &[&str], code: i32) -> Option<Value> {
     let ran = simulated(&[arguments, &["--json"]].concat(), None);
-    if ran.code == 1 && ran.err.contains("does not run MuJoCo") {
+    if ran.code == 1 && ran.err.contains("cannot run MuJoCo") {
         let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
         assert!(!required, "{}", ran.err);
         println!("skipped: {}", ran.err);
@@ -50,11 +50,11 @@ fn what_is_no_walk_is_refused() {
     let arm = folder.path().join("arm.csv");
     fs::write(&arm, "# groebot trajectory 1\n# robot: ur5\ntime [s],q:a [rad]\n0,0\n1,1\n").unwrap();
     let cases: [(&[&str], &str); 10] = [
-        (&["walk.txt"], "this is no walk by its name"),
+        (&["walk.txt"], "the file name is not that of a walk"),
         (&["/nowhere/walk.csv"], "No such file"),
         (&[text(&arm)], "the contacts `left` and `right`"),
         (&[&walk, "--model", "teapot"], "give a file, nao, rh0 or teo by --model"),
-        (&[&walk, "--model", "rh0"], "a joint that rh0 has not"),
+        (&[&walk, "--model", "rh0"], "which rh0 does not have"),
         (&[&walk, "--left", "l_shoe"], "l_shoe"),
         (&[&walk, "--slope", "3"], "--slope takes two numbers"),
         (&[&walk, "--slope", "50,0"], "less than 45 degrees"),
@@ -83,7 +83,7 @@ fn without_mujoco_it_says_how_to_get_it() {
         };
         let missing = script("echo \"No module named 'mujoco'\" >&2; exit 7");
         assert!(missing.contains("No module named 'mujoco'") && missing.contains("GROEBOT_PYTHON="), "{missing}");
-        assert!(script("echo odd >&2; exit 1").contains("MuJoCo does not play this: odd"));
+        assert!(script("echo odd >&2; exit 1").contains("MuJoCo cannot simulate this: odd"));
         assert!(script("echo odd").contains("is not understood"));
         assert!(script("exec sleep 60").contains("the time budget of 1.0 s"));
     }

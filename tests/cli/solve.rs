@@ -71,7 +71,7 @@ fn text_shows_joints_units_and_the_choice() {
         let q = numbers(&solution["q"]);
         let line = text.lines().find(|line| line.contains(&format!("({:.9} rad)", q[0]))).unwrap();
         assert!(line.contains(&format!("{:.6} deg", q[1] * 180.0 / PI)), "{line}");
-        assert_eq!(line.contains("the source's choice"), solution["chosen"] == true, "{line}");
+        assert_eq!(line.contains("the published choice"), solution["chosen"] == true, "{line}");
     }
 }
 

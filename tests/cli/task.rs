@@ -21,7 +21,7 @@ fn a_task_is_done_checked_and_shown() {
     let asked = ["task", "rh0", "--room", text(&room), "--goal", "chair", "--then", "ball=1.6,2.3@2"];
     let files = ["-o", text(&json), "--view", text(&page), "--plot", text(&svg)];
     let told = succeed(&[&asked[..], &files].concat());
-    for word in ["after step 0, found in", "after step 2, found in", "nearest ", "to floor, ", "turns at ", "81"] {
+    for word in ["after step 0, found in", "after step 2, found in", "nearest ", "to floor, ", "rotates at ", "81"] {
         assert!(told.contains(word), "{word}: {told}");
     }
     let written = fs::read_to_string(&json).unwrap();
@@ -78,7 +78,7 @@ fn bad_input_of_tasks_is_refused() {
     let task = |more: &[&str]| refused(&[&["task", "rh0", "--room", text(&room)][..], more].concat());
     for (more, words) in [
         (&["--goal", "chair"][..], "the room has no start; give --start"),
-        (&["--goal", "chairs", start[0], start[1]], "no furniture `chairs` to get to (did you mean `chair`?)"),
+        (&["--goal", "chairs", start[0], start[1]], "no furniture `chairs` (did you mean `chair`?)"),
         (&["--goal", "1", start[0], start[1]], "--goal takes two or three numbers"),
         (&["--goal", "chair", start[0], start[1], "--then", "ball=1,1"], "give NAME=X,Y@STEPS"),
         (&["--goal", "chair", start[0], start[1], "--then", "bull=1,1@3"], "did you mean `ball`"),
@@ -98,12 +98,12 @@ fn bad_input_of_tasks_is_refused() {
     for (change, words) in [
         (
             Box::new(|value: &mut Value| value["task"]["stages"] = Value::Array(Vec::new())) as Box<dyn Fn(&mut Value)>,
-            "`task` has no way",
+            "`task` has no path",
         ),
-        (Box::new(|value| value["task"]["scene"] = Value::Null), "`task` is not what groebot writes"),
+        (Box::new(|value| value["task"]["scene"] = Value::Null), "`task` does not have the format of groebot"),
         (
             Box::new(|value| value["task"]["stages"][0]["goal"] = serde_json::json!([1.0])),
-            "`task` has no way, or a goal",
+            "`task` has no path, or a goal",
         ),
     ] {
         let mut value = whole.clone();

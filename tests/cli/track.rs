@@ -48,7 +48,9 @@ fn an_arm_follows_and_what_it_does_is_written() {
     fs::write(&file, whole.join("\n") + "\n").unwrap();
     let told = succeed(&["identify", robot, text(&file)]);
     assert!(
-        told.contains("12 numbers") && told.contains("1.800000e0  rod.m") && told.contains("bodies can weigh that"),
+        told.contains("12 numbers")
+            && told.contains("1.800000e0  rod.m")
+            && told.contains("physically possible within the noise"),
         "{told}"
     );
     assert!(refused(&["identify", robot, text(&states)]).contains("tau0.."));

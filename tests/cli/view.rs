@@ -40,7 +40,7 @@ fn walks_and_robots_become_pages() {
     has(&html(&[text(&csv), "--robot", text(&root("src/robots/data/nao_v5.toml"))]), [true, true, false]);
     let error = refused(&["view", text(&csv), "-o", text(&page)]);
     assert!(
-        error.contains("walk.csv: its robot `somebody` is none of groebot's") && error.contains("--robot"),
+        error.contains("walk.csv: its robot `somebody` is not a robot of groebot") && error.contains("--robot"),
         "{error}"
     );
     let error = refused(&["view", text(&csv), "--robot", text(&root(ARM)), "-o", text(&page)]);
@@ -68,8 +68,8 @@ fn what_is_no_walk_and_no_robot_is_refused() {
     says(&[&at("d.csv", "# groebot trajectory 1\n# robot: teo\ntime [s]\n")], "d.csv: the trajectory has no sample");
     says(&[&at("e.urdf", "<robot name=\"dot\"><link name=\"a\"/></robot>")], "nothing to see");
     says(&[&at("f.toml", "unknowns = [\"x\"]\nequations = [\"x - 1\"]\n")], "f.toml");
-    says(&[text(&root("derivations/puma/0_chain.toml"))], "this describes no robot with links");
-    says(&["nao", "--robot", "teo"], "--robot names the robot that walks, but this is no walk");
+    says(&[text(&root("derivations/puma/0_chain.toml"))], "this does not describe a robot with links");
+    says(&["nao", "--robot", "teo"], "--robot names the walking robot, but this is not a walk");
     assert_eq!(run(&["view", "nao"]).code, 2);
 }
 
@@ -105,7 +105,7 @@ fn derivations_and_rooms_become_pages() {
     let running = read(&["rh0", "--room", text(&room), "--start", "1,2.6,90", "--goal", "7.2,3.4"]);
     assert!(running.contains("\"run\":{\"robot\":\"rh0\"") && running.len() < 2_000_000);
     let told = refused(&with(&page, &[text(&root(ARM)), "--room", text(&room), "--goal", "1,1"]));
-    assert!(told.contains("walks here; give nao, rh0 or teo"), "{told}");
+    assert!(told.contains("no walking robot"), "{told}");
     // The room's own start; one in the wall is refused here, not in the page.
     assert!(read(&["rh0", "--room", "living-room", "--goal", "7.2,3.4"]).contains("\"start\":[1.0,2.6,0.0]"));
     let told = refused(&with(&page, &["rh0", "--room", "living-room", "--start", "0.05,0.05", "--goal", "7.2,3.4"]));
@@ -113,6 +113,6 @@ fn derivations_and_rooms_become_pages() {
     let told = refused(&with(&page, &[text(&root("derivations/ur5")), "--room", text(&room), "--goal", "1,1"]));
     assert!(told.contains("--room and --tip are for robots at rest"), "{told}");
     let told = refused(&with(&page, &[text(&root("derivations/nao_legs"))]));
-    assert!(told.contains("no chain of a robot"), "{told}");
+    assert!(told.contains("is not that of a robot's chain"), "{told}");
     assert_eq!(run(&with(&page, &["rh0", "--room", text(&room)])).code, 2);
 }

@@ -40,7 +40,7 @@ fn turns_files_of_footsteps_and_preview_control_are_walked() {
     assert!(told.contains("turn -40.0 deg"), "{told}");
     let told = succeed(&["walk", "nao", "--gait", "preview"]);
     assert!(told.contains("preview control") && told.contains("5.3 cm/s"), "{told}");
-    let told = succeed(&["walk", "nao", "--sole", "seed", "--steps", "2"]);
+    let told = succeed(&["walk", "nao", "--sole", "published", "--steps", "2"]);
     assert!(told.contains("2 steps"), "{told}");
     assert_eq!(succeed(&["walk", "nao", "--steps", "1", "--quiet"]), "");
     let folder = tempdir().unwrap();
@@ -95,7 +95,7 @@ fn rh0_walks_in_words_and_in_the_thesis_columns() {
     assert!(fs::read_to_string(&svg).unwrap().contains("ankles aslant"));
     let told = succeed(&["walk", "rh0", "--plan", "turn left 90"]);
     assert!(
-        told.contains("12 steps") && told.contains("34.99 s of them steps") && told.contains("turn 90.0 deg"),
+        told.contains("12 steps") && told.contains("34.99 s of them stepping") && told.contains("turn 90.0 deg"),
         "{told}"
     );
     let told = succeed(&["walk", "rh0", "--gait", "rh0-real", "--crouched", "--plan", "turn right 20"]);
@@ -148,7 +148,7 @@ fn nao_walks_to_a_goal_without_further_options() {
     let folder = tempdir().unwrap();
     let [csv, svg] = ["goal.csv", "goal.svg"].map(|name| folder.path().join(name));
     let told = succeed(&["walk", "nao", "--goal", "2,0", "-o", text(&csv), "--plot", text(&svg)]);
-    for word in ["51 steps by the seed's sine", "2.000 m, turn 0.0 deg", "none had to be slowed down"] {
+    for word in ["51 steps by the sine", "2.000 m, turn 0.0 deg", "none had to be slowed down"] {
         assert!(told.contains(word), "{word}: {told}");
     }
     let feet = last_soles(&csv).concat();
@@ -167,7 +167,7 @@ fn nao_walks_to_a_goal_without_further_options() {
 fn every_gait_of_nao_reaches_goals_on_all_sides() {
     let folder = tempdir().unwrap();
     let csv = folder.path().join("goal.csv");
-    for gait in ["seed", "preview", "osg"] {
+    for gait in ["sine", "preview", "osg"] {
         for (x, y) in [(0.3, 0.1), (0.0, -0.2), (-0.4, 0.05), (0.02, 0.0)] {
             let goal = format!("--goal={x},{y}");
             succeed(&["walk", "nao", "--gait", gait, &goal, "-o", text(&csv)]);

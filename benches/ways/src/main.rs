@@ -12,7 +12,7 @@ mod problems;
 use std::time::Instant;
 
 use groebot::Watch;
-use groebot::nav::{Distances, Field, Guide, Map, Method, Way};
+use groebot::nav::{Distances, Field, Guide, Map, Method, Path};
 use nalgebra::Point2;
 
 use maps::Numbers;
@@ -55,7 +55,7 @@ fn main() {
 fn octile(name: &str, map: &Map, problems: &[Problem]) {
     let [mut octile, mut exact] = [(); 2].map(|()| Results::default());
     for problem in problems {
-        let way = octile.time(|| map.octile_way(&problem.start, &problem.goal, &Watch::none()));
+        let way = octile.time(|| map.octile_path(&problem.start, &problem.goal, &Watch::none()));
         let length = way.expect("free places").expect("a way").length();
         octile.compare(length, problem.length, 1e-5 * problem.length);
         let shorter = exact.exact(map, &problem.start, &problem.goal, &Guide::default()).length();
@@ -73,18 +73,18 @@ fn own(name: &str, map: &Map) {
     while exact.times.len() < COUNT {
         let [start, goal] = [(); 2].map(|()| map.centre(free[numbers.below(free.len())]));
         let watch = Watch::none();
-        if map.octile_way(&start, &goal, &watch).expect("free places").is_err() {
+        if map.octile_path(&start, &goal, &watch).expect("free places").is_err() {
             continue;
         }
-        octile.time(|| map.octile_way(&start, &goal, &watch)).expect("free places").expect("a way");
+        octile.time(|| map.octile_path(&start, &goal, &watch)).expect("free places").expect("a way");
         let length = exact.exact(map, &start, &goal, &Guide::default()).length();
         let field = Field::new(map, &[goal], Method::FastMarching(2), &watch).expect("a free goal");
         let guide = Guide { field: Some(&field), effort: Some(EFFORT) };
         let near = guided.exact(map, &start, &goal, &guide).length();
         guided.compare(near, length, 0.1 * length);
         let distances = made.time(|| Distances::new(map, &goal, &watch)).expect("a free goal");
-        let way = known.time(|| distances.way(map, &start, &watch)).expect("free places").expect("a way");
-        known.compare(way.way.length(), length, 1e-9 * length);
+        let way = known.time(|| distances.path(map, &start, &watch)).expect("free places").expect("a way");
+        known.compare(way.path.length(), length, 1e-9 * length);
     }
     exact.print(name, "exact");
     guided.print(name, &format!("exact by a field and {EFFORT} steps"));
@@ -110,13 +110,13 @@ impl Results {
         result
     }
 
-    fn exact(&mut self, map: &Map, start: &Point2<f64>, goal: &Point2<f64>, guide: &Guide) -> Way {
-        let found = self.time(|| map.shortest_way(start, goal, guide, &Watch::none()));
+    fn exact(&mut self, map: &Map, start: &Point2<f64>, goal: &Point2<f64>, guide: &Guide) -> Path {
+        let found = self.time(|| map.shortest_path(start, goal, guide, &Watch::none()));
         let found = found.expect("free places").expect("a way");
         self.proved += usize::from(found.is_proved());
-        let share = found.bound / found.way.length();
+        let share = found.bound / found.path.length();
         self.bound = Some(self.bound.unwrap_or(1.0).min(if share.is_nan() { 1.0 } else { share }));
-        found.way
+        found.path
     }
 
     fn compare(&mut self, found: f64, expected: f64, most: f64) {

@@ -1,4 +1,4 @@
-//! The equations of motion of a robot as code.
+//! Code generation for the equations of motion of a robot.
 
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -14,7 +14,7 @@ use groebot_ik::codegen::dynamics::{Form, Function, Printed};
 use groebot_robot::dynamics::Base;
 use groebot_robot::model::Robot;
 
-/// What is printed.
+/// The language of the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Language {
     /// Rust, on the crate groebot-runtime
@@ -23,12 +23,12 @@ pub enum Language {
     C,
 }
 
-/// How functions are printed.
+/// The form of the functions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum FormName {
-    /// Straight-line code, which is fastest
+    /// Straight-line code, the fastest form
     Straight,
-    /// Loops over tables of the bodies
+    /// Loops over tables of the bodies (RNEA, CRBA, ABA), the shortest form
     Recursive,
 }
 
@@ -57,10 +57,9 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     let (robot, gravity) = arguments.part.of(&meant)?;
     let base = if arguments.floating { Base::Floating } else { Base::Fixed };
     let equations = arguments.equations(&robot, base)?.with_gravity(gravity);
-    let mut remarks =
-        vec![format!("Gravity: {}, {}, {} m/s^2. Friction is left out.", gravity.x, gravity.y, gravity.z)];
+    let mut remarks = vec![format!("Gravity: {}, {}, {} m/s^2. Friction is ignored.", gravity.x, gravity.y, gravity.z)];
     if meant != described {
-        remarks.push("Rotations are taken for what their numbers mean: 1.5708 for a quarter turn.".to_owned());
+        remarks.push("Rotations are idealised: 1.5708 is a quarter turn.".to_owned());
     }
     let functions = arguments.functions.clone();
     let mut printed = Printed {
@@ -76,7 +75,7 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     write(arguments, &output, language, &printed)
 }
 
-/// Fails, before any work, for a robot that is too long or weighs nothing.
+/// Fails, before any work, for a robot with too many joints or without mass.
 fn check(robot: &Robot) -> Result<()> {
     limits::check_count("joints", robot.joints().len(), limits::PRINTED_BODIES)?;
     if robot.links().iter().any(|link| link.mass.is_some()) {
@@ -85,12 +84,13 @@ fn check(robot: &Robot) -> Result<()> {
     Err(Error::new(ErrorKind::BadValue, "no link has a mass; give masses"))
 }
 
-/// Takes all functions but forward dynamics where bodies without mass would have to move; tells that here and in the code.
+/// Selects all functions except forward dynamics where bodies without mass would have to move; returns a note for the
+/// output and the code.
 fn choose_functions(printed: &mut Printed<'_>) -> Option<String> {
     printed.functions = Function::ALL.to_vec();
     let error = printed.operations(Function::Forward).err()?;
     printed.functions.retain(|function| *function != Function::Forward);
-    let note = format!("forward dynamics is left out: {}", error.message());
+    let note = format!("forward dynamics is omitted: {}", error.message());
     printed.remarks.push(note.clone());
     Some(note)
 }
@@ -106,7 +106,7 @@ fn write(arguments: &Arguments, output: &Output, language: Language, printed: &P
             Ok(write_pair(output, file, printed.c99(stem).map_err(fault)?)?)
         }
         (Language::C, _) => {
-            let text = "C goes into two files: give the name of the source file by -o NAME.c";
+            let text = "C has two files: give the name of the source file by -o NAME.c";
             Err(Error::new(ErrorKind::BadValue, text).into())
         }
     }

@@ -1,4 +1,4 @@
-//! Which joints the columns of a table of states are about. Main type: [`Reading`].
+//! The assignment of a table's columns to joints. Main type: [`Reading`].
 
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::shown;
@@ -6,22 +6,22 @@ use groebot_robot::dynamics::Base;
 use groebot_robot::model::Robot;
 use groebot_robot::motion::{StateRow, StateTable};
 
-/// How many numbers place a root that moves freely, and how many move it.
+/// The numbers of positions and of velocities of a free root.
 const ROOT: (usize, usize) = (7, 6);
 
 /// The joints of a table's columns, and whether the root moves freely.
 pub struct Reading {
     pub joints: Vec<String>,
-    /// Those of the joints that follow others in the robot: then each joint is on its own.
+    /// The joints that follow others in the robot, if each joint is independent here.
     pub followers: Vec<String>,
     pub base: Base,
 }
 
 impl Reading {
-    /// The only reading that the columns allow; `floating` asks for a root that moves freely.
+    /// The only assignment that the columns permit; `floating` requests a free root.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where none or several do, with the joints.
+    /// [`ErrorKind::BadValue`] where none or several are possible, with the joints.
     pub fn choose(robot: &Robot, table: &StateTable, floating: bool) -> Result<Self> {
         let all = Reading::all(robot);
         let independent = all[0].joints.clone();
@@ -58,7 +58,7 @@ impl Reading {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// The independent joints, and all of them on their own, with a root that stands still and one that moves freely.
+    /// The independent joints, and all joints taken as independent, each with a fixed root and a free one.
     fn all(robot: &Robot) -> Vec<Reading> {
         let moving = || robot.moving().into_iter().map(|place| &robot.joints()[place]);
         let follows = |name: &String| moving().any(|joint| joint.name == *name && robot.law(joint).leader != *name);
@@ -75,7 +75,7 @@ impl Reading {
         all
     }
 
-    /// Whether the table's configurations are of this reading.
+    /// Whether the table's configurations fit this assignment.
     fn places(&self, table: &StateTable) -> bool {
         let root = if self.base == Base::Floating { ROOT.0 } else { 0 };
         let is_own = |name: &String| self.joints.contains(name);
@@ -83,7 +83,7 @@ impl Reading {
         table.coordinates == root + self.joints.len() && (table.joints.is_empty() || are_named)
     }
 
-    /// Whether the other lists of a state are.
+    /// Whether the other lists of a state fit it.
     fn moves(&self, row: &StateRow) -> bool {
         let root = if self.base == Base::Floating { ROOT.1 } else { 0 };
         let lists = [&row.velocity, &row.acceleration, &row.torques];
@@ -93,16 +93,16 @@ impl Reading {
     fn in_words(&self) -> String {
         let joints = match self.followers.as_slice() {
             [] => format!("{} independent joints", self.joints.len()),
-            _ => format!("{} joints each on its own", self.joints.len()),
+            _ => format!("{} joints, all independent", self.joints.len()),
         };
         if self.base == Base::Floating { format!("{joints} of a free root") } else { joints }
     }
 
-    /// That joints which follow others are taken to be on their own.
+    /// A note that follower joints are taken as independent.
     pub fn note(&self) -> Option<String> {
         let text = || {
             format!(
-                "the table has columns for joints that follow others, each taken to be on its own: {}",
+                "the table has columns for joints that follow others; they are taken as independent: {}",
                 listed(&self.followers)
             )
         };

@@ -1,4 +1,4 @@
-//! The equations of motion of a robot at states of a table.
+//! The equations of motion of a robot at the states of a table.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use groebot_robot::dynamics::{Base, Equations, State, Workspace};
 use groebot_robot::model::Robot;
 use groebot_robot::motion::{StateRow, StateTable};
 
-/// What is told of all states.
+/// The output for all states.
 #[derive(Serialize)]
 struct Report {
     format: u32,
@@ -23,11 +23,11 @@ struct Report {
     joints: Vec<String>,
     floating: bool,
     states: Vec<Answer>,
-    /// What of the robot's file was ignored.
+    /// The ignored parts of the robot's file.
     notes: Vec<String>,
 }
 
-/// What is told of one state.
+/// The output for one state.
 #[derive(Serialize)]
 struct Answer {
     tau: Vec<f64>,
@@ -40,7 +40,7 @@ struct Answer {
     qdd: Vec<f64>,
 }
 
-/// Reads the states and writes what is asked of them.
+/// Reads the states and writes the requested quantities.
 pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let output = arguments.output(Some(states)).expects([arguments.out.as_ref()])?;
     let (robot, _) = described(&arguments.robot)?;
@@ -89,14 +89,15 @@ fn report(
     Ok(Report { format: 1, joints, floating: base == Base::Floating, states, notes })
 }
 
-/// The robot of which each joint is on its own.
+/// The robot with all joints independent.
 fn without_followers(robot: &Robot) -> Result<Robot> {
     let mut parts = robot.parts().clone();
     parts.joints.iter_mut().for_each(|joint| joint.mimic = None);
     Robot::new(parts)
 }
 
-/// What is computed of a state, and why torques of its own do not move it, if bodies without mass would have to.
+/// The quantities of a state, and the reason why its accelerations are undefined, if bodies without mass would have to
+/// move.
 fn answer(equations: &Equations, room: &mut Workspace, row: &StateRow) -> Result<(Answer, Option<Error>)> {
     let still = vec![0.0; equations.freedoms()];
     let or_still = |list: &Option<Vec<f64>>| list.clone().unwrap_or_else(|| still.clone());
@@ -110,7 +111,7 @@ fn answer(equations: &Equations, room: &mut Workspace, row: &StateRow) -> Result
     let torques = row.torques.as_deref().unwrap_or(&tau);
     let (qdd, massless) = match equations.forward(room, state, torques) {
         Ok(qdd) => (list(qdd), None),
-        // Everything else about the state is right.
+        // All other quantities of the state are valid.
         Err(error) if torques.len() == tau.len() => (Vec::new(), Some(error)),
         Err(error) => return Err(error),
     };
@@ -121,7 +122,7 @@ fn json(report: &Report) -> String {
     serde_json::to_string_pretty(report).expect("numbers and names") + "\n"
 }
 
-/// The table that is written.
+/// The output table.
 fn csv(report: &Report) -> Result<String> {
     let count = report.states.first().map_or(0, |state| state.tau.len());
     let list = |name: &'static str| (0..count).map(move |i| format!("{name}{i}"));

@@ -15,13 +15,13 @@ use groebot_robot::dynamics::exact::{ExactModel, MOST_TERMS, Masses, Symbolic};
 use groebot_robot::kinematics::Chain;
 use groebot_robot::robots;
 
-/// The most joints of equations as polynomials.
+/// The greatest number of joints for equations as polynomials.
 const MOST_JOINTS: usize = groebot_algebra::limits::SYMBOLIC_JOINTS;
 
-/// Tells the polynomials, or writes them to a folder.
+/// Prints the polynomials, or writes them to a folder.
 pub fn run(arguments: &Arguments) -> Outcome {
     let ends = Ends { base: arguments.part.base.clone(), tip: arguments.part.tip.clone(), ..Ends::default() };
-    let asked = Asked::read(&arguments.robot, &ends)?;
+    let asked = Input::read(&arguments.robot, &ends)?;
     let numbers = arguments.numbers.then(|| asked.moving.numbers()).transpose()?;
     let told = numbers.as_deref().map_or(Masses::Symbols, Masses::Numbers);
     let chain = &asked.moving.chain;
@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 fn equations(chain: &Chain, masses: Masses<'_>, arguments: &Arguments) -> Result<Symbolic> {
     if chain.joints().len() > MOST_JOINTS {
         let text = format!(
-            "{} joints; equations of motion are polynomials for up to {MOST_JOINTS}: choose --base and --tip, or take --states",
+            "{} joints; equations of motion are polynomials for up to {MOST_JOINTS}: choose --base and --tip, or use --states",
             chain.joints().len()
         );
         return Err(Error::new(ErrorKind::Unsupported, text));
@@ -68,37 +68,37 @@ fn equations(chain: &Chain, masses: Masses<'_>, arguments: &Arguments) -> Result
     })
 }
 
-/// A chain, and where it is from.
-struct Asked {
+/// A chain and its source.
+struct Input {
     moving: Moving,
-    /// The link where it ends, of a robot.
+    /// The last link, for a robot.
     tip: Option<TipLink>,
     source: Option<Source>,
 }
 
-impl Asked {
+impl Input {
     fn read(path: &Path, ends: &Ends) -> Result<Self> {
         if let Some(robot) = path.to_str().and_then(robots::robot) {
             let [base, tip] = [ends.base.as_deref(), ends.tip.as_deref()];
             let chain = robot.chain(base, tip)?.ideal().0;
             let tip = Some(TipLink::of_path(&robot.path(base, tip)?));
-            return Ok(Asked { moving: Moving { chain, robot: Some(robot), ends: ends.clone() }, tip, source: None });
+            return Ok(Input { moving: Moving { chain, robot: Some(robot), ends: ends.clone() }, tip, source: None });
         }
         let input = InputFile::read(path)?;
         let source = Source::of(input.clone(), ends)?;
         let (moving, tip) = (Moving::of(&input, &source)?, TipLink::of_source(&source));
-        Ok(Asked { moving, tip, source: Some(source) })
+        Ok(Input { moving, tip, source: Some(source) })
     }
 
-    /// What of a robot was ignored.
+    /// The ignored parts of a robot.
     fn notes(&self) -> &[String] {
         self.source.as_ref().map_or(&[], |source| &source.notes)
     }
 
-    /// The input's own files, as far as a folder has them not.
+    /// The input's own files that a folder does not contain yet.
     fn files(&self, folder: &Path) -> Result<Vec<(String, Vec<u8>)>> {
         let text =
-            "a robot of groebot has no file that can be proved again; export it by `groebot export`, and give that";
+            "a robot of groebot has no file for a later check; export it by `groebot export`, and give that file";
         let source = self.source.as_ref().ok_or_else(|| Error::new(ErrorKind::Unsupported, text))?;
         source_files(source, folder)
     }

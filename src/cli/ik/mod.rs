@@ -1,4 +1,5 @@
-//! `groebot ik`: all joint values that bring a tip to a target, by screw theory, without deriving anything first; or by search.
+//! `groebot ik`: all joint values that move a tip to a target, by screw theory, without a derivation; or by numeric
+//! search.
 
 mod page;
 pub mod target;
@@ -6,7 +7,7 @@ pub mod target;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 
-use super::derive::told_choice;
+use super::derive::choice_text;
 use super::ends::TipLink;
 use super::plan::Mechanism;
 use super::targets::{self, Row};
@@ -20,46 +21,54 @@ use page::{Page, Question, turned};
 const EXAMPLES: &str = "Examples:
   groebot ik ur5 --target 0.4,0.1,0.5,0,180,0 --degrees      position, then roll, pitch, yaw
   groebot ik puma --target 0.3,1.1,0.4,0,0,0,1               position, then the quaternion x, y, z, w
-  groebot ik nao_left_leg --q 0.1,0.2,-0.3,0.5,-0.1,0.2      the pose that these joint values reach
+  groebot ik nao_left_leg --q 0.1,0.2,-0.3,0.5,-0.1,0.2      the pose of these joint values
   groebot ik robot.urdf --base base_link --tip tool0 --q 0,-90,90,0,0,0 --degrees
   groebot ik general_arm.toml --numeric --target 0.3,1.1,0.4,0,0,0,1
   groebot fk robot.urdf < joints.csv | groebot ik robot.urdf > answers.csv
 
-Positions are in the length unit of the description, in its base frame. A rotation is Rz(yaw) Ry(pitch) Rx(roll), as in a URDF. The
-task of a chain may ask for less: x,y,z for a position, and a direction after them for a ray; a direction alone, or angles or a
-quaternion alone; two coordinates in a plane, or those and the angle about its normal. Values of given joints come last; where a task leaves joints
-too many and none is given, the planner chooses, as `derive` does. Angles of answers are turned into their joint's limits where whole turns do that.
-A CSV may start with a line of names: px, py, pz (or x_m, x_mm), then qx to qw, r11 to r33, or roll, pitch, yaw (or roll_deg); dx, dy, dz, phi, and given
-joints. Other columns that `fk`, `ik` and `solve` write are ignored, another name is refused.
-A target out of reach is no error: the answer is \"no solution\".";
+Positions are in the length unit of the description, in its base frame. A rotation is Rz(yaw)
+Ry(pitch) Rx(roll), as in a URDF.
 
-/// The method that may not find all answers.
+Other tasks have fewer numbers: x,y,z for a position, and then a direction for a ray; a direction
+alone, or angles or a quaternion alone; two coordinates in a plane, or those and the angle about its
+normal. Values of given joints come last. If a task leaves joints too many and none is given, the
+planner chooses, as in `derive`. Angles of solutions are moved into their joint's limits by whole
+turns where possible.
+
+A CSV may start with a line of names: px, py, pz (or x_m, x_mm), then qx to qw, r11 to r33, or roll,
+pitch, yaw (or roll_deg); dx, dy, dz, phi, and given joints. Other columns that `fk`, `ik` and
+`solve` write are ignored; unknown names are errors.
+
+A target out of reach is not an error. The output is \"no solution\".";
+
+/// The name of the method that may not find all solutions.
 const NUMERIC: &str = "numeric, maybe not all";
 
-/// Finds all joint values for a target by screw theory, each checked by forward kinematics
+/// Computes all joint values for a target by screw theory, each checked by forward kinematics
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
     #[command(flatten)]
     mechanism: Mechanism,
-    /// The target, numbers with commas between them (repeatable); `-`, or neither this nor --q: CSV from standard input
+    /// The target, numbers separated by commas (repeatable); `-`, or neither this nor --q: CSV from standard input
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     target: Vec<String>,
     /// Joint values whose pose is the target (repeatable)
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     q: Vec<String>,
-    /// Search by damped least squares from 300 starts instead, for any chain: each answer is checked, but they may not be all
+    /// Search numerically instead, by damped least squares from 300 starts, for any chain: each solution is checked,
+    /// but some may be missing
     #[arg(long)]
     numeric: bool,
-    /// JSON: an object for each target
+    /// Print JSON: one object per target
     #[arg(long)]
     json: bool,
-    /// Angles in degrees, in targets, joint values and JSON (text shows both)
+    /// Use degrees instead of radians in targets, joint values and JSON (text has both)
     #[arg(long)]
     degrees: bool,
 }
 
-/// Prints the answers to each target.
+/// Prints the solutions of each target.
 pub fn run(arguments: &Arguments) -> Outcome {
     let asked = if arguments.numeric { arguments.mechanism.searched()? } else { arguments.mechanism.asked()? };
     let method =
@@ -85,7 +94,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
-/// What is asked, and who answers.
+/// The chain and its solver.
 struct Session<'a> {
     question: &'a Question<'a>,
     solver: &'a dyn InverseKinematics,
@@ -93,7 +102,7 @@ struct Session<'a> {
 }
 
 impl Session<'_> {
-    /// The answers to a target, turned into limits.
+    /// The solutions of a target, moved into limits by whole turns.
     fn solve(&self, (target, given): &target::Aim) -> Result<Vec<Solution>> {
         let mut answers = Vec::new();
         self.solver.solve(target, given, &mut answers)?;
@@ -101,12 +110,12 @@ impl Session<'_> {
         Ok(answers)
     }
 
-    /// Targets and joint values of the command line: a page of text, or JSON.
+    /// Solves the targets and joint values of the command line; prints text, or JSON.
     fn listed(&self, arguments: &Arguments) -> Outcome {
         let Question { chain, tip, choice, degrees, .. } = self.question;
         let given = arguments.target.iter().map(|text| (text, target::target(chain, text, *degrees)));
         let reached = arguments.q.iter().map(|text| (text, target::reached(chain, text, *degrees)));
-        let told = || TipLink::line(tip.as_ref()) + &choice.map(told_choice).unwrap_or_default();
+        let told = || TipLink::line(tip.as_ref()) + &choice.map(choice_text).unwrap_or_default();
         let mut page = if self.as_json { String::new() } else { told() };
         for (text, aim) in given.chain(reached) {
             let context = |error: Error| error.with_context(format!("`{}`", targets::shown(text)));
@@ -118,7 +127,8 @@ impl Session<'_> {
         console::print(&page)
     }
 
-    /// Targets of a table on standard input, while `mechanism` is read from elsewhere: CSV, or a JSON object a line.
+    /// Solves the targets of a table on standard input, while `mechanism` is read from elsewhere; writes CSV, or one
+    /// JSON object per line.
     fn stream(&self, mechanism: &Path) -> Outcome {
         targets::is_free(mechanism, "--target or --q")?;
         let mut out = BufWriter::new(io::stdout().lock());
@@ -138,7 +148,7 @@ impl Session<'_> {
         Ok(outcome?)
     }
 
-    /// The answers to a row of the table.
+    /// The solutions for a row of the table.
     fn answered(&self, row: &Row, index: usize) -> Result<String> {
         let at = |error: Error| error.at_line(row.line).in_file(Path::new(targets::STDIN));
         let aim = target::aim(self.question.chain, &row.target, self.question.degrees).map_err(at)?;
@@ -154,7 +164,7 @@ fn no_target() -> Error {
     Error::new(ErrorKind::MissingKey, text)
 }
 
-/// How answers are found.
+/// The method of solution.
 enum Method {
     Screws(Box<ScrewSolver>),
     Numeric(Box<NumericSolver>),
@@ -172,7 +182,7 @@ impl Method {
         }
     }
 
-    /// What JSON calls it.
+    /// Its name in JSON.
     fn name(&self) -> &'static str {
         match self {
             Method::Screws(_) => "screw theory",

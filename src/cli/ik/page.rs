@@ -1,4 +1,4 @@
-//! What `groebot ik` tells: a table in words, JSON, or CSV.
+//! The output of `groebot ik`: a text table, JSON, or CSV.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -13,25 +13,25 @@ use crate::cli::targets;
 use groebot_ik::derive::planner::Choice;
 use groebot_robot::kinematics::{Chain, Joint, JointKind, Mimic, Placed, Solution, Target};
 
-/// What all targets have in common.
+/// The properties that all targets share.
 pub struct Question<'a> {
     /// The chain.
     pub chain: &'a Chain,
-    /// What the method is called in JSON.
+    /// The name of the method in JSON.
     pub method: &'static str,
-    /// The link where it ends, of a robot.
+    /// The last link, for a robot.
     pub tip: Option<TipLink>,
     /// The joints that the planner gives.
     pub choice: Option<&'a Choice>,
-    /// What of the robot was ignored.
+    /// The ignored parts of the robot.
     pub notes: &'a [String],
-    /// Whether angles are degrees, in targets, in JSON and in tables.
+    /// Whether angles are in degrees, in targets, in JSON and in tables.
     pub degrees: bool,
 }
 
-/// The answers to a target.
+/// The solutions of a target.
 pub struct Page<'a> {
-    /// What was asked.
+    /// The shared properties.
     pub question: &'a Question<'a>,
     /// The target as it was given.
     pub text: &'a str,
@@ -39,11 +39,11 @@ pub struct Page<'a> {
     pub target: &'a Target,
     /// The values of the given joints.
     pub given: &'a [f64],
-    /// The answers, as [`turned`] gives them.
+    /// The solutions after [`turned`].
     pub answers: &'a [Solution],
 }
 
-/// The answers with each angle turned into its joint's limits, where whole turns do that; given ones stay unchanged.
+/// Moves each angle into its joint's limits by whole turns, where that is possible; given joints stay unchanged.
 pub fn turned(chain: &Chain, answers: &mut [Solution]) {
     let given = chain.given();
     let turns = |(place, joint): &(usize, &Joint)| joint.kind == JointKind::Revolute && !given.contains(place);
@@ -53,18 +53,18 @@ pub fn turned(chain: &Chain, answers: &mut [Solution]) {
 }
 
 impl Page<'_> {
-    /// The answers in words.
+    /// The solutions as text.
     pub fn table(&self) -> String {
         let Page { question: Question { chain, method, .. }, answers, .. } = self;
         let title = format!("{} at {}", chain.name(), targets::shown(self.text));
         let unit = chain.length_unit().symbol();
         let is_numeric = *method == NUMERIC;
         if answers.is_empty() {
-            let why = if is_numeric { "the search found none: there may be" } else { "out of reach:" };
+            let why = if is_numeric { "the search found none; there may be some" } else { "out of reach:" };
             return format!("{title}: {why} no solution\n");
         }
         let plural = if answers.len() == 1 { "solution" } else { "solutions" };
-        let how = if is_numeric { ", found by search: there may be others" } else { "" };
+        let how = if is_numeric { ", found by search; there may be others" } else { "" };
         let mut header = vec!["#".to_owned()];
         header.extend(chain.joints().iter().map(|joint| match joint.kind {
             JointKind::Revolute => format!("{} [deg]", joint.name),
@@ -86,7 +86,7 @@ impl Page<'_> {
         format!("{title}: {} {plural}{how}\n{}{followers}", answers.len(), table(&rows))
     }
 
-    /// One JSON object: over several lines when `pretty`, else on one.
+    /// One JSON object: on several lines when `pretty`, else on one.
     pub fn json(&self, pretty: bool) -> String {
         let Question { chain, method, tip, choice, notes, .. } = self.question;
         let object = Object {
@@ -103,7 +103,7 @@ impl Page<'_> {
             notes,
         };
         let text = if pretty { serde_json::to_string_pretty(&object) } else { serde_json::to_string(&object) };
-        text.expect("an answer holds nothing that JSON cannot say") + "\n"
+        text.expect("an answer can be represented in JSON") + "\n"
     }
 
     fn entry(&self, answer: &Solution) -> Entry<'_> {
@@ -119,7 +119,8 @@ impl Page<'_> {
         }
     }
 
-    /// The rows of a table: one an answer; a target without one has a row with 0 solutions and empty cells. `index` counts targets from 1.
+    /// The rows of a table: one per solution; a target without one has a row with 0 solutions and empty cells. `index`
+    /// counts targets from 1.
     pub fn csv(&self, index: usize) -> String {
         let chain = self.question.chain;
         let mut start = vec![index.to_string()];
@@ -141,7 +142,7 @@ impl Page<'_> {
         self.answers.iter().map(row).collect()
     }
 
-    /// The numbers of the target, then the values of the given joints, angles as they are shown.
+    /// The numbers of the target, then the values of the given joints, angles in the output unit.
     fn asked(&self) -> Vec<f64> {
         let Question { chain, degrees, .. } = self.question;
         let is_angle = |name: String| Field::of_target(&name).measure == Measure::Angle;
@@ -182,7 +183,7 @@ impl Question<'_> {
     }
 }
 
-/// A number's text; what rounds to zero has no sign.
+/// A number's text without a sign if it rounds to zero.
 fn unsigned_zero(text: &str) -> String {
     let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'.' | b'0'));
     (if is_zero { text.trim_start_matches('-') } else { text }).to_owned()
@@ -192,17 +193,17 @@ fn names(chain: &Chain) -> Vec<&str> {
     chain.joints().iter().map(|joint| joint.name.as_str()).collect()
 }
 
-/// By joint, how it follows another one.
+/// By joint, the joint that it follows.
 fn follows(chain: &Chain) -> impl Iterator<Item = Option<&Mimic>> {
     chain.joints().iter().map(|joint| joint.mimic.as_ref())
 }
 
-/// The joints that may take any value.
+/// The joints that may have any value.
 fn free<'c>(chain: &'c Chain, answer: &Solution) -> Vec<&'c str> {
     answer.free.iter().map(|&joint| chain.joints()[joint].name.as_str()).collect()
 }
 
-/// The joints that are outside their limits, whole turns apart.
+/// The joints that are outside their limits, also after adding whole turns.
 fn outside<'c>(chain: &'c Chain, answer: &Solution) -> Vec<&'c str> {
     let joints = chain.joints().iter().zip(&answer.q).enumerate();
     let is_outside = |(place, (joint, value)): &(usize, (&Joint, &f64))| {
@@ -211,7 +212,7 @@ fn outside<'c>(chain: &'c Chain, answer: &Solution) -> Vec<&'c str> {
     joints.filter(is_outside).map(|(_, (joint, _))| joint.name.as_str()).collect()
 }
 
-/// Which joints are free, and which are outside their limits.
+/// Notes about free joints and joints outside their limits.
 fn notes(chain: &Chain, answer: &Solution) -> String {
     let free = free(chain, answer).into_iter().map(|name| format!("{name} is free"));
     let outside = outside(chain, answer).into_iter().map(|name| format!("{name} outside its limits"));
@@ -222,22 +223,22 @@ fn notes(chain: &Chain, answer: &Solution) -> String {
 struct Object<'a> {
     format: u32,
     name: &'a str,
-    /// By which method the solutions were found.
+    /// The method of solution.
     method: &'a str,
-    /// The link where the chain of a robot ends.
+    /// The last link of a robot's chain.
     #[serde(skip_serializing_if = "Option::is_none")]
     tip_link: Option<&'a TipLink>,
-    /// The joints that the planner gives, and what else it might.
+    /// The joints that the planner gives, and other possible choices.
     #[serde(skip_serializing_if = "Option::is_none")]
     given: Option<Value>,
     target: &'a str,
     joints: Vec<&'a str>,
-    /// By joint the one that it follows.
+    /// By joint, the joint that it follows.
     #[serde(skip_serializing_if = "Option::is_none")]
     follows: Option<Vec<Option<&'a str>>>,
     unit: Vec<&'a str>,
     solutions: Vec<Entry<'a>>,
-    /// What of the robot was ignored.
+    /// The ignored parts of the robot.
     #[serde(skip_serializing_if = "<[String]>::is_empty")]
     notes: &'a [String],
 }
@@ -245,9 +246,9 @@ struct Object<'a> {
 #[derive(Serialize)]
 struct Entry<'a> {
     q: Vec<f64>,
-    /// Names of the joints that may take any value.
+    /// Names of the joints that may have any value.
     free: Vec<&'a str>,
-    /// Names of the joints that are outside their limits, whole turns apart.
+    /// Names of the joints that are outside their limits, also after adding whole turns.
     outside_limits: Vec<&'a str>,
     position_residual: f64,
     rotation_residual: f64,

@@ -8,24 +8,21 @@ use groebot_algebra::limits;
 use groebot_robot::kinematics::{Chain, JointKind, LengthUnit, Target, Task};
 use groebot_robot::spatial::{Pose, rotation};
 
-/// The numbers of `text`, angles still in the unit that they were given in.
+/// The numbers of `text`, with angles in the input unit.
 fn numbers(text: &str) -> Result<Vec<f64>> {
     let number = |part: &str| limits::number(part).ok();
     text.split(',').map(number).collect::<Option<_>>().ok_or_else(|| {
-        Error::new(
-            ErrorKind::Syntax,
-            "give finite numbers with commas between them, such as 0.3,-1.5,2e-3, of at most 1e15",
-        )
+        Error::new(ErrorKind::Syntax, "give finite numbers separated by commas, such as 0.3,-1.5,2e-3, of at most 1e15")
     })
 }
 
 /// A target, and the values of the given joints.
 pub type Aim = (Target, Vec<f64>);
 
-/// The target that `text` names, in the form of the chain's task, then the values of the given joints.
+/// The target of `text`, in the form of the chain's task, then the values of the given joints.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] for what is no number; as [`aim`].
+/// [`ErrorKind::Syntax`] for text that is not a number; as [`aim`].
 pub fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
     aim(chain, &numbers(text)?, degrees)
 }
@@ -33,7 +30,8 @@ pub fn target(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
 /// The target of these numbers, then the values of the given joints.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for another count than the chain's task has, and for a matrix that is no rotation.
+/// [`ErrorKind::BadValue`] for a number of values that differs from that of the chain's task, and for a matrix that is
+/// not a rotation.
 pub fn aim(chain: &Chain, values: &[f64], degrees: bool) -> Result<Aim> {
     let count = chain.given_inputs().len();
     let Some(own) = values.len().checked_sub(count) else {
@@ -134,10 +132,10 @@ pub fn columns(chain: &Chain, degrees: bool) -> Columns {
     }
 }
 
-/// What the joint values of `text` reach.
+/// The target that the joint values of `text` reach.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] for what is no number; as [`Target::reached`].
+/// [`ErrorKind::Syntax`] for text that is not a number; as [`Target::reached`].
 pub fn reached(chain: &Chain, text: &str, degrees: bool) -> Result<Aim> {
     let turns = |i: usize| chain.joints().get(i).is_some_and(|joint| joint.kind == JointKind::Revolute);
     let inside = |(i, value): (usize, f64)| if degrees && turns(i) { value.to_radians() } else { value };

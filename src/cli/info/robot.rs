@@ -1,4 +1,4 @@
-//! A robot with its links, in words and as JSON.
+//! A robot with its links, as text and as JSON.
 
 use nalgebra::Point3;
 use serde_json::{Value, json};
@@ -11,13 +11,13 @@ use groebot_robot::dynamics::Model;
 use groebot_robot::model::{JointType, Robot};
 use groebot_robot::spatial::Pose;
 
-/// How many doubts a page lists.
+/// The greatest number of doubts that a page lists.
 const LISTED: usize = 8;
 
-/// A robot, what it weighs, and where its centre of mass is.
+/// A robot with its mass and centre of mass.
 pub struct Body<'r> {
     robot: &'r Robot,
-    /// The mass; none of a robot with faults.
+    /// The mass; none for a robot with faults.
     mass: Option<f64>,
     /// The centre of mass in the frame of the root; none without a mass.
     centre: Option<Point3<f64>>,
@@ -39,7 +39,8 @@ impl<'r> Body<'r> {
         Ok(Body { robot, mass: Some(model.mass()), centre })
     }
 
-    /// The robot as JSON: `format` (1), names, joints that move in the order of `--q`, mass, centre of mass, what is doubtful, what is wrong with single parts.
+    /// The robot as JSON: `format` (1), names, moving joints in the order of `--q`, mass, centre of mass, doubts, and
+    /// faults of single parts.
     pub fn json(&self) -> Value {
         let robot = self.robot;
         let moving = robot.moving().into_iter().map(|place| {
@@ -65,7 +66,7 @@ impl<'r> Body<'r> {
         })
     }
 
-    /// The robot in words.
+    /// The robot as text.
     pub fn page(&self, paint: Paint) -> String {
         let robot = self.robot;
         let moving = robot.joints().iter().filter(|joint| joint.kind != JointType::Fixed).count();
@@ -83,7 +84,7 @@ impl<'r> Body<'r> {
         page += &format!("\n{}\n{}", paint.bold("mass"), self.weight());
         page += &listed(
             paint,
-            "faults: chains that do not pass here are sound",
+            "faults: chains without these parts are sound",
             robot.faults().iter().map(|fault| &fault.error),
         );
         page += &listed(paint, "notes", robot.parts().notes.iter());
@@ -91,7 +92,7 @@ impl<'r> Body<'r> {
         page
     }
 
-    /// The tip by default, or one that may be chosen.
+    /// The default tip, or a suggestion.
     fn tip(&self) -> String {
         let suggested = || {
             self.robot.suggested_tips(self.robot.root_place()).first().map(|tip| format!(", for instance --tip {tip}"))
@@ -111,7 +112,7 @@ impl<'r> Body<'r> {
         let (seen, hard) = (shapes(|link| link.visuals.len()), shapes(|link| link.collisions.len()));
         let at = centre.coords.map(|x| format!("{x:.4}"));
         let mut text = format!(
-            "  {:.4} kg, centre at ({}, {}, {}) m from the root; {seen} shapes are seen, {hard} collide\n",
+            "  {:.4} kg, centre at ({}, {}, {}) m from the root; {seen} visual shapes, {hard} collision shapes\n",
             mass, at.x, at.y, at.z
         );
         let doubts = self.robot.doubts();
@@ -123,13 +124,13 @@ impl<'r> Body<'r> {
     }
 }
 
-/// A heading and lines below it; nothing without lines.
+/// A heading and lines below it; empty without lines.
 fn listed(paint: Paint, title: &str, lines: impl Iterator<Item = impl std::fmt::Display>) -> String {
     let lines: String = lines.map(|line| format!("  {line}\n")).collect();
     if lines.is_empty() { lines } else { format!("\n{}\n{lines}", paint.bold(title)) }
 }
 
-/// Names with commas, in lines of about a hundred characters.
+/// Names separated by commas, in lines of about a hundred characters.
 fn wrapped(names: &[&str]) -> String {
     let mut lines = vec![String::new()];
     for (index, name) in names.iter().enumerate() {

@@ -155,7 +155,7 @@ fn told(run: &Run, samples: std::ops::Range<usize>) -> Value {
         PRESETS.iter().map(|preset| json!({ "name": preset.name, "values": preset.figures.values })).collect();
     match run.course() {
         Ok(course) => {
-            told["way"] = course.way.points.iter().map(|at| json!([at.x, at.y])).collect();
+            told["way"] = course.path.points.iter().map(|at| json!([at.x, at.y])).collect();
             told["wide"] = course.is_wide.into();
         }
         Err(blocked) => {

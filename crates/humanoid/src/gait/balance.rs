@@ -1,4 +1,5 @@
-//! How a motion balances: the zero moment point, the support polygon and the margins of RH0 3.1.1 at each sample. Main type: [`Balance`].
+//! Balance of a motion: the zero moment point (ZMP), the support polygon and the stability margins of RH0 3.1.1 at each
+//! sample. Main type: [`Balance`].
 
 use nalgebra::{Point2, Vector3};
 
@@ -14,31 +15,33 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::dynamics::Momentum;
 use groebot_robot::spatial::Pose;
 
-/// A standing sole touches the floor with what is within this height of its lowest corner \[m\].
+/// Corners of a standing sole within this height of its lowest corner count as contacts \[m\].
 const TOUCH: f64 = 1e-6;
 
-/// The balance at a sample.
+/// The balance at one sample.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Balance {
     /// The support polygon.
     pub support: Polygon,
-    /// The zero moment point of the whole multibody.
+    /// The zero moment point of the whole multibody \[m\].
     pub zmp: Point2<f64>,
-    /// The zero moment point of the linear inverted pendulum with the same centre of mass.
+    /// The zero moment point of the linear inverted pendulum with the same centre of mass \[m\].
     pub pendulum: Point2<f64>,
-    /// The centre of pressure if the robot stood still here: the projection of the centre of mass.
+    /// The centre of pressure of the robot at rest in this posture: the ground projection of the centre of mass \[m\].
     pub pressure: Point2<f64>,
-    /// The static margin \[m\], RH0 (3-1): how far the projection of the centre of mass is inside the support polygon.
+    /// The static margin \[m\], RH0 (3-1): the signed distance from the border of the support polygon to the projection
+    /// of the centre of mass. Positive inside.
     pub static_margin: f64,
-    /// The dynamic margin \[m\], RH0 (3-5): how far the zero moment point is inside the support polygon.
+    /// The dynamic margin \[m\], RH0 (3-5): the signed distance from the border of the support polygon to the zero
+    /// moment point. Positive inside.
     pub margin: f64,
 }
 
-/// The balance at every sample of a motion that starts from rest and ends in rest.
+/// Computes the balance at every sample of a motion that starts and ends at rest.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when the robot falls freely, so that there is no zero moment point.
+/// [`ErrorKind::BadValue`] when the robot is in free fall, where no zero moment point exists.
 pub fn balance(biped: &Biped, references: &[Reference], motion: &Motion, tick: f64) -> Result<Vec<Balance>> {
     let momenta = momenta(biped, motion, tick)?;
     let last = motion.postures.len().saturating_sub(1);
@@ -51,7 +54,7 @@ pub fn balance(biped: &Biped, references: &[Reference], motion: &Motion, tick: f
         };
         let falls = || {
             let time = sample as f64 * tick;
-            let text = format!("nothing presses the robot to the floor; walk slower (--period) (t = {time:.2} s)");
+            let text = format!("no force presses the robot to the floor; walk slower (--period) (t = {time:.2} s)");
             Error::new(ErrorKind::BadValue, text)
         };
         let zmp = zero_moment_point(biped.model.mass(), &centre, &rate).ok_or_else(falls)?;
@@ -70,10 +73,10 @@ pub fn balance(biped: &Biped, references: &[Reference], motion: &Motion, tick: f
     (0..motion.postures.len()).map(at).collect()
 }
 
-/// The motion of given references and its balance.
+/// Solves the motion of the given references and computes its balance.
 ///
 /// # Errors
-/// As [`realise`] and [`balance`].
+/// Those of [`realise`] and [`balance`].
 pub(super) fn realised(
     biped: &Biped,
     legs: &Legs,
@@ -97,7 +100,8 @@ pub fn support(biped: &Biped, reference: &Reference) -> Polygon {
     biped.support(&standing, TOUCH)
 }
 
-/// The momenta between the samples, with rest before the first and behind the last: one more than samples.
+/// The momenta between consecutive samples, with rest before the first and after the last: one more than there are
+/// samples.
 fn momenta(biped: &Biped, motion: &Motion, tick: f64) -> Result<Vec<Momentum>> {
     let configuration = |sample: usize| {
         let posture = &motion.postures[sample];

@@ -1,4 +1,4 @@
-//! What a gait needs to know of a robot on two legs. Main type: [`Biped`].
+//! The model of a biped that a gait uses: joints, masses, soles. Main type: [`Biped`].
 
 use nalgebra::{Point2, Point3};
 
@@ -9,10 +9,10 @@ use groebot_robot::dynamics::{Clearance, Model};
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::spatial::Pose;
 
-/// What is this far above a sole's lowest point still touches a floor that gives a little \[m\].
+/// Points within this height of a sole's lowest point touch a slightly compliant floor \[m\].
 const FLAT: f64 = 2e-3;
 
-/// A joint as a gait sees it.
+/// A joint with the limits that a gait respects.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointRange {
     /// Its name in the robot's own documents.
@@ -21,60 +21,62 @@ pub struct JointRange {
     pub symbol: String,
     /// Least and greatest value \[rad\].
     pub limits: (f64, f64),
-    /// The greatest rate \[rad/s\]; infinite where it is not told.
+    /// The greatest rate \[rad/s\]; infinite where none is given.
     pub speed: f64,
-    /// The greatest torque or force of its motor \[N m or N\], where that is told.
+    /// The greatest torque or force of its motor \[N m or N\], where it is given.
     pub effort: Option<f64>,
 }
 
-/// A foot: where its sole is and what of it touches the floor.
+/// A foot: the frame of its sole and its contact points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Foot {
-    /// The link that the sole is fixed to, by its place in the robot.
+    /// The index in the robot of the link that the sole is fixed to.
     pub link: usize,
-    /// The body of the model that it belongs to.
+    /// The index of its body in the model.
     pub body: usize,
-    /// The frame of the sole in the torso frame at the zero configuration: x ahead, y left, z up; its origin is in the plane of the sole.
+    /// The frame of the sole in the torso frame at the zero configuration: x forward, y left, z up. Its origin is in
+    /// the plane of the sole.
     pub torso_from_sole: Pose,
-    /// The height of the ankle's last axis over the sole \[m\].
+    /// The height of the ankle's last axis above the sole \[m\].
     pub ankle_height: f64,
-    /// The corners of what touches the floor, in the frame of the sole \[m\].
+    /// The corners of the contact area, in the frame of the sole \[m\].
     pub corners: Vec<Point2<f64>>,
-    /// The joints from the torso to the sole, as places in a configuration.
+    /// The joints from the torso to the sole, as indices into a configuration.
     pub joints: Vec<usize>,
 }
 
-/// A robot on two legs: its joints, masses and soles. The torso is the root link, with x ahead, y left, z up; the feet are level at the zero
-/// configuration.
+/// A biped: its joints, masses and soles. The torso is the root link, with x forward, y left, z up; the feet are level
+/// at the zero configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Biped {
     /// Its name.
     pub name: String,
     /// The joints in the order of a configuration and of the output.
     pub joints: Vec<JointRange>,
-    /// Pairs of joints of the left and the right leg that one actuator turns by the same angle.
+    /// Pairs of joints of the left and the right leg that one actuator moves by the same angle.
     pub shared: Vec<(usize, usize)>,
-    /// Masses and joints; its base is the torso.
+    /// The dynamic model; its base is the torso.
     pub model: Model,
     /// The feet, left and right.
     pub feet: [Foot; 2],
-    /// Where the third joints of the legs are, left and right, in the torso frame \[m\].
+    /// The positions of the legs' third joints, left and right, in the torso frame \[m\].
     pub hips: [Point3<f64>; 2],
-    /// Which links may touch one another.
+    /// The pairs of links that may touch each other.
     pub clearance: Clearance,
-    /// The names of the links, by their places in the robot.
+    /// The names of the links, by their indices in the robot.
     pub links: Vec<String>,
-    /// Whether the torso carries the whole mass as a point at its centre of mass, for want of the links' own masses.
+    /// Whether the whole mass is a point at the torso's centre of mass, because the links' own masses are not given.
     pub is_point_mass: bool,
 }
 
 impl Biped {
-    /// The biped that stands on the links `soles` of `robot`, left and right. What touches the floor are the lowest points of all that collides
-    /// with it and is fixed to these links; triangles are looked for in `meshes`.
+    /// Makes the biped whose soles are the links `soles` of `robot`, left and right. The contact points are the lowest
+    /// points of all collision shapes fixed to these links; triangles are read from `meshes`.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for links that are not there; [`ErrorKind::BadValue`] for legs that share a joint or have fewer than three, a sole
-    /// without shape, a robot without mass, a joint without limits; those of [`Meshes::points`].
+    /// [`ErrorKind::UnknownName`] for links that do not exist. [`ErrorKind::BadValue`] for legs that share a joint or
+    /// have fewer than three, a sole without shape, a robot without mass or a joint without limits. Those of
+    /// [`Meshes::points`].
     pub fn new(robot: &Robot, soles: [&str; 2], meshes: &Meshes) -> Result<Self> {
         let links = [robot.link(soles[0])?, robot.link(soles[1])?];
         let model = Model::new(robot)?;
@@ -82,16 +84,17 @@ impl Biped {
         Biped::with_outlines(robot, model, links, outlines)
     }
 
-    /// The same on soles that cover the given points, in planes `height` over their links' origins \[m\].
+    /// Same as [`Biped::new`], but with soles that cover the given points, in planes `height` above their links'
+    /// origins \[m\].
     ///
     /// # Errors
-    /// As [`Biped::new`], but for shapes.
+    /// As [`Biped::new`], except those about shapes.
     pub fn on_outlines(robot: &Robot, soles: [&str; 2], height: f64, outlines: [Vec<Point2<f64>>; 2]) -> Result<Self> {
         let links = [robot.link(soles[0])?, robot.link(soles[1])?];
         Biped::with_outlines(robot, Model::new(robot)?, links, outlines.map(|outline| (height, outline)))
     }
 
-    /// `outlines` are the height of each sole's plane over its link's origin, and the points in it that touch the floor.
+    /// `outlines` are the height of each sole's plane above its link's origin, and the contact points in that plane.
     fn with_outlines(
         robot: &Robot,
         model: Model,
@@ -106,16 +109,21 @@ impl Biped {
         for (foot, link) in [&left, &right].into_iter().zip(links) {
             let name = &robot.links()[link].name;
             if foot.joints.len() < 3 {
-                return bad(format!("{} joints lead to `{name}`; a leg has more", foot.joints.len()));
+                return bad(format!(
+                    "there are {} joints between the root and `{name}`; a leg needs at least 3",
+                    foot.joints.len()
+                ));
             }
             if foot.corners.len() < 3 {
-                return bad(format!("`{name}` has no shape that could touch the floor; give the outline of the soles"));
+                return bad(format!(
+                    "`{name}` has no collision shape that could touch the floor; give the outline of the soles"
+                ));
             }
         }
         if let Some(joint) = left.joints.iter().find(|joint| right.joints.contains(joint)) {
             let name = &model.joints()[*joint].name;
             return bad(format!(
-                "joint `{name}` moves both feet; the root link must be the torso that both legs hang on"
+                "joint `{name}` moves both feet; the root link must be the torso that carries both legs"
             ));
         }
         let hip =
@@ -142,7 +150,7 @@ impl Biped {
         })
     }
 
-    /// The place of the joint `name`.
+    /// The index of the joint `name` in a configuration.
     ///
     /// # Errors
     /// [`crate::ErrorKind::UnknownName`] when no joint has that name.
@@ -150,28 +158,30 @@ impl Biped {
         self.model.joint(name)
     }
 
-    /// The unit of what moves a joint.
+    /// The unit of a joint's torque or force.
     pub(super) fn torque_unit(&self, joint: usize) -> &'static str {
         if self.model.joints()[joint].screw.axis().is_none() { "N" } else { "N m" }
     }
 
-    /// Half of the way from foot to foot, sideways, when the legs hang straight \[m\]: `W_p` of RH0, HipOffsetY of NAO Table 6.1.
+    /// Half of the lateral distance between the feet when the legs are straight \[m\]: `W_p` of RH0, HipOffsetY of NAO
+    /// Table 6.1.
     pub fn half_width(&self) -> f64 {
         self.feet[0].torso_from_sole.translation.y
     }
 
-    /// From the axes of the hip up to the origin of the torso \[m\]: HipOffsetZ of NAO Table 6.1.
+    /// The height of the torso's origin above the axes of the hip \[m\]: HipOffsetZ of NAO Table 6.1.
     pub fn hip_to_torso(&self) -> f64 {
         -self.hips[0].z
     }
 
-    /// What the foot of `side` covers when its sole stands flat on `print`.
+    /// The area that the foot of `side` covers when its sole is flat on `print`.
     pub fn sole_at(&self, side: Side, print: &Footprint) -> Polygon {
         Polygon::hull(&print.carry_all(&self.feet[side as usize].corners))
     }
 
-    /// The support polygon: the hull of the contact points of the feet that stand, each at the pose world_from_sole \[m\]; the floor is
-    /// flat, and a sole at any pose touches it with those of its corners that are lowest, within `depth` \[m\].
+    /// The support polygon: the convex hull of the contact points of the supporting feet, each at the pose
+    /// world_from_sole \[m\]. The floor is flat. A sole at any pose touches it with its lowest corners, those within
+    /// `depth` \[m\].
     pub fn support(&self, soles: &[(Side, Pose)], depth: f64) -> Polygon {
         let points = |(side, pose): &(Side, Pose)| {
             let at = |corner: &Point2<f64>| pose * Point3::new(corner.x, corner.y, 0.0);
@@ -184,7 +194,7 @@ impl Biped {
     }
 }
 
-/// Limits and speeds of all joints that turn or slide.
+/// Limits and greatest rates of all revolute and prismatic joints.
 fn ranges(robot: &Robot, model: &Model) -> Result<Vec<JointRange>> {
     let range = |(place, name): (usize, &String)| {
         let joint = &robot.joints()[place];
@@ -213,7 +223,8 @@ fn foot(model: &Model, link: usize, (height, corners): &(f64, Vec<Point2<f64>>))
     Foot { link, body, torso_from_sole, ankle_height, corners: corners.clone(), joints }
 }
 
-/// The height of the lowest points of what is fixed to a link over the link's origin, and these points from above, with the torso's axes.
+/// The height of the lowest points of all bodies fixed to a link, relative to the link's origin, and the ground
+/// projection of these points in the torso's axes.
 fn touching(robot: &Robot, model: &Model, link: usize, meshes: &Meshes) -> Result<(f64, Vec<Point2<f64>>)> {
     let (body, torso_from_sole) = model.link(link);
     let at = torso_from_sole.translation.vector;

@@ -1,4 +1,4 @@
-//! A walk's forces by two chains, each on a foot of its own, RH0 (3-40) and (3-41). Main type: [`Chains`].
+//! Forces of a walk from two chains, each on its own foot: RH0 (3-40) and (3-41). Main type: [`Chains`].
 
 use super::biped::Biped;
 use super::forces::{Forces, pushed};
@@ -7,41 +7,44 @@ use groebot_robot::dynamics::{Data, Six, Tree};
 use groebot_robot::motion::{Figure, Trajectory};
 use groebot_robot::spatial::Wrench;
 
-/// What a walk asks for at a sample of two chains, the left and the right half of the robot ([`Model::halves`](groebot_robot::dynamics::Model::halves)), and what is between them.
+/// The torques at a sample for two chains, the left and the right half of the robot
+/// ([`Model::halves`](groebot_robot::dynamics::Model::halves)), and the wrench between them.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Chains {
-    /// What the floor would have to give to each foot, had the chain on it to move alone, about the world's origin: the virtual torques of (3-40) and (3-41). Both
-    /// together are what the floor gives in all.
+    /// The ground reaction that each foot would need if its chain moved alone, about the world's origin: the virtual
+    /// torques of (3-40) and (3-41). Their sum is the total ground reaction.
     pub alone: [Wrench; 2],
-    /// By joint, the torques of (3-40) and (3-41), of a joint in the middle those of both.
+    /// By joint, the torques of (3-40) and (3-41). A joint in the middle has the sum of both.
     pub torques: Vec<f64>,
-    /// What the right half gives to the left one through the trunk where the floor gives what it does ([`Forces::feet`]), about the world's origin.
+    /// The wrench from the right half to the left half through the trunk, for the actual ground reactions
+    /// ([`Forces::feet`]), about the world's origin.
     pub between: Wrench,
-    /// By joint, the torques of both chains with that, which are those of the whole.
+    /// By joint, the torques of both chains with that wrench. They equal the torques of the whole multibody.
     pub coupled: Vec<f64>,
 }
 
-/// How the two models differ in a walk: by far where a foot swings.
+/// The differences between the two models in a walk. They are largest while a foot swings.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Difference {
     /// The greatest difference of a torque of [`Chains::torques`] \[N m, N\].
     pub torque: f64,
-    /// The joint of it.
+    /// The joint with that difference.
     pub joint: String,
-    /// When it is met \[s\].
+    /// The time of that difference \[s\].
     pub time: f64,
-    /// The greatest force that a chain asks of a foot that swings \[N\].
+    /// The greatest force that a chain requires from a swinging foot \[N\].
     pub swinging: f64,
-    /// The greatest force \[N\] and moment \[N m\], about the middle of the trunk's frame, that go through the trunk.
+    /// The greatest force \[N\] and moment \[N m\] through the trunk, about the origin of the trunk's frame.
     pub between: [f64; 2],
-    /// The greatest difference of a torque of [`Chains::coupled`], and of what both chains ask of the floor: rounding \[N m, N\].
+    /// The greatest difference in [`Chains::coupled`] and in the sum of both chains' ground reactions, which is
+    /// rounding error \[N m, N\].
     pub rounding: f64,
 }
 
 impl Walk {
-    /// The two chains at every sample, beside the forces of the whole.
+    /// Computes the two chains at every sample, in addition to the forces of the whole multibody.
     pub fn chains(&self, biped: &Biped, forces: &[Forces]) -> Vec<Chains> {
         let feet = biped.feet.each_ref().map(|foot| foot.link);
         let halves = biped.model.halves(feet).map(|half| Tree::new(&half));
@@ -74,7 +77,8 @@ impl Walk {
             if side == 0 {
                 found.between = rest;
             }
-            // Alone its foot takes it all; otherwise what the floor gives, and the trunk the rest.
+            // Alone, the foot takes the whole load. Otherwise the foot takes the actual ground reaction and the trunk
+            // the rest.
             for (at_foot, at_trunk, torques) in
                 [(found.alone[side], none, &mut found.torques), (given, rest, &mut found.coupled)]
             {
@@ -89,7 +93,7 @@ impl Walk {
         found
     }
 
-    /// How the two chains differ from the whole.
+    /// Measures how the two chains differ from the whole multibody.
     pub fn difference(&self, biped: &Biped, forces: &[Forces], chains: &[Chains]) -> Difference {
         let joint = |place: usize| biped.joints[place].name.clone();
         let mut most =
@@ -116,7 +120,8 @@ impl Walk {
         most
     }
 
-    /// Adds the chains to a table: figures `chain:NAME`, the torque of each joint, and `trunk_fx` to `trunk_mz`, what goes through the trunk.
+    /// Adds the chains to a table: figures `chain:NAME`, the torque of each joint, and `trunk_fx` to `trunk_mz`, the
+    /// wrench through the trunk.
     pub fn add_chains(&self, biped: &Biped, chains: &[Chains], trajectory: &mut Trajectory) {
         let mut add = |name: String, unit: &str, value: &dyn Fn(&Chains) -> f64| {
             let values = chains.iter().map(value).collect();

@@ -1,4 +1,4 @@
-//! What keeps a motion from being walked: margins, joint limits, speeds, feet that meet. Main type: [`Fault`].
+//! Faults that make a motion infeasible: margins, joint limits, joint rates, feet that collide. Main type: [`Fault`].
 
 use super::balance::Balance;
 use super::biped::Biped;
@@ -9,56 +9,57 @@ use super::reference::Reference;
 use super::schedule::{Action, Schedule};
 use groebot_robot::motion::{beyond_limit, too_fast};
 
-/// Two feet must stay this far apart, seen from above \[m\].
+/// The least distance between the two feet, seen from above \[m\].
 pub const FEET_APART: f64 = 0.004;
 
-/// What is wrong at a sample.
+/// A fault at a sample.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fault {
-    /// The projection of the centre of mass is too near to the border of the support polygon: no slower walk helps.
+    /// The projection of the centre of mass is too near to the border of the support polygon. No slower walk removes
+    /// this fault.
     Static {
-        /// Its distance \[m\], negative outside.
+        /// Its signed distance from the border \[m\], negative outside.
         margin: f64,
     },
-    /// The zero moment point is too near to the border: a slower walk may help.
+    /// The zero moment point is too near to the border of the support polygon. A slower walk may remove this fault.
     Dynamic {
-        /// Its distance \[m\], negative outside.
+        /// Its signed distance from the border \[m\], negative outside.
         margin: f64,
     },
-    /// A joint is beyond its limits.
+    /// A joint exceeds its limits.
     Limit {
         /// The joint.
         joint: usize,
         /// Its value \[rad\].
         value: f64,
     },
-    /// A joint turns too fast.
+    /// A joint exceeds its greatest rate.
     Speed {
         /// The joint.
         joint: usize,
         /// Its rate \[rad/s\].
         rate: f64,
     },
-    /// The feet meet, seen from above.
+    /// The feet collide, seen from above.
     Feet {
-        /// How far apart they are \[m\].
+        /// The distance between them \[m\].
         apart: f64,
     },
 }
 
-/// A fault with its place.
+/// A fault with its sample and phase.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Found {
-    /// The sample.
+    /// The index of the sample.
     pub sample: usize,
-    /// The phase.
+    /// The index of the phase.
     pub phase: usize,
-    /// What is wrong.
+    /// The fault.
     pub fault: Fault,
 }
 
-/// What is asked of a motion.
+/// Requirements on a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Demand {
@@ -66,9 +67,10 @@ pub struct Demand {
     pub margin: f64,
     /// Whether the centre of mass must keep that margin too, as in a walk that can stop at any time.
     pub statically: bool,
-    /// Whether the centre of mass keeps its way however slow the walk is, so that where it is too near to the border no slower walk helps.
-    pub keeps_way: bool,
-    /// The greatest share of its own speed that a joint may have.
+    /// Whether the path of the centre of mass does not depend on the speed of the walk. If it is too near to the
+    /// border, no slower walk helps.
+    pub keeps_path: bool,
+    /// The greatest permitted joint rate, as a fraction of the joint's own limit.
     pub speed_share: f64,
 }
 
@@ -89,7 +91,7 @@ pub fn faults(
             add(Fault::Limit { joint, value });
         }
         let (falls, tilts) = (balance.margin < demand.margin, balance.static_margin < demand.margin);
-        if tilts && (demand.statically || demand.keeps_way && falls) {
+        if tilts && (demand.statically || demand.keeps_path && falls) {
             add(Fault::Static { margin: balance.static_margin });
         } else if falls {
             add(Fault::Dynamic { margin: balance.margin });
@@ -105,7 +107,8 @@ pub fn faults(
     found
 }
 
-/// The first step of a schedule, with the time in samples, on which the feet come too near to one another, seen from above.
+/// Finds the first step of a schedule at which the feet come too near to each other, seen from above. The time is in
+/// samples.
 pub fn feet_meet(biped: &Biped, schedule: &Schedule, references: &[Reference]) -> Option<Found> {
     references.iter().enumerate().find_map(|(sample, reference)| {
         let swings = matches!(schedule.phases[reference.phase].action, Action::Swing(_));

@@ -1,4 +1,4 @@
-//! Where feet stand on a flat floor: [`Footprint`], and the way of a walk as a list of them, [`Route`].
+//! Footprints on a flat floor: [`Footprint`], and a walk's list of footsteps, [`Route`].
 
 use nalgebra::{Point2, Rotation2, UnitQuaternion, Vector2, Vector3};
 
@@ -7,12 +7,12 @@ use groebot_algebra::limits;
 use groebot_robot::document::unix_lines;
 use groebot_robot::spatial::{Pose, angle};
 
-/// The most steps of a route.
+/// The greatest number of steps of a route.
 pub const MAX_STEPS: usize = limits::FOOTSTEPS;
-/// The farthest coordinate of a footprint \[m\].
+/// The greatest coordinate of a footprint \[m\].
 const MAX_COORDINATE: f64 = limits::FOOTPRINT_METRES;
 
-/// A foot's side; as a number, its place in pairs.
+/// The side of a foot; as a number, its index in pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// The left foot.
@@ -22,7 +22,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// The other side.
+    /// The opposite side.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -39,7 +39,7 @@ impl Side {
         }
     }
 
-    /// 1 for the left side, towards y, and -1 for the right one.
+    /// 1 for the left side, in the direction of y, and -1 for the right one.
     pub fn sign(self) -> f64 {
         match self {
             Side::Left => 1.0,
@@ -51,127 +51,130 @@ impl Side {
 /// A pose on the floor of the world: x and y \[m\], and the heading \[rad\], anticlockwise from x.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Footprint {
-    /// Ahead.
+    /// The coordinate forward.
     pub x: f64,
-    /// To the left.
+    /// The coordinate to the left.
     pub y: f64,
-    /// The turn about the vertical.
+    /// The rotation about the vertical.
     pub yaw: f64,
 }
 
 impl Footprint {
-    /// The pose that is `other` as seen from here.
+    /// Composes two poses: `other` is given in the frame of `self`.
     #[must_use]
     pub fn then(&self, other: &Footprint) -> Footprint {
         let at = self.carry(&Point2::new(other.x, other.y));
         Footprint { x: at.x, y: at.y, yaw: self.yaw + other.yaw }
     }
 
-    /// What stands below a pose whose x axis is not vertical: its origin, and where its x axis points.
+    /// Projects a pose whose x axis is not vertical onto the floor: its origin, and the heading of its x axis.
     pub fn below(pose: &Pose) -> Footprint {
         let ahead = pose.rotation * Vector3::x();
         Footprint { x: pose.translation.x, y: pose.translation.y, yaw: ahead.y.atan2(ahead.x) }
     }
 
-    /// A point seen from here, in the world.
+    /// Transforms a point from this frame to the world.
     pub fn carry(&self, point: &Point2<f64>) -> Point2<f64> {
         self.point() + Rotation2::new(self.yaw) * point.coords
     }
 
-    /// Points seen from here, in the world.
+    /// Transforms points from this frame to the world.
     pub fn carry_all(&self, points: &[Point2<f64>]) -> Vec<Point2<f64>> {
         let turn = Rotation2::new(self.yaw);
         points.iter().map(|point| self.point() + turn * point.coords).collect()
     }
 
-    /// A point of the world, seen from here.
+    /// Transforms a point of the world to this frame.
     pub fn seen(&self, point: &Point2<f64>) -> Point2<f64> {
         Point2::from(Rotation2::new(-self.yaw) * (point - self.point()))
     }
 
-    /// The origin.
+    /// The position \[m\].
     pub fn point(&self) -> Point2<f64> {
         Point2::new(self.x, self.y)
     }
 
-    /// The unit vector ahead.
+    /// The unit vector forward.
     pub fn ahead(&self) -> Vector2<f64> {
         Rotation2::new(self.yaw) * Vector2::x()
     }
 
-    /// The pose at the share `share` of the way to `other`: on the straight line, turning the shorter way.
+    /// Interpolates to `other`: the pose at the fraction `share` of the straight line, with the shorter rotation.
     #[must_use]
     pub fn towards(&self, other: &Footprint, share: f64) -> Footprint {
         let at = self.point() + (other.point() - self.point()) * share;
         Footprint { x: at.x, y: at.y, yaw: self.yaw + angle::difference(other.yaw, self.yaw) * share }
     }
 
-    /// The pose half-way between two.
+    /// The pose halfway between two.
     #[must_use]
     pub fn middle(&self, other: &Footprint) -> Footprint {
         self.towards(other, 0.5)
     }
 
-    /// Feet side by side, left and right, with this in their middle and so far from it \[m\].
+    /// The footprints of two parallel feet, left and right, each at the lateral distance `half_width` \[m\] from this
+    /// pose.
     pub fn feet(&self, half_width: f64) -> [Footprint; 2] {
         [Side::Left, Side::Right]
             .map(|side| self.then(&Footprint { y: side.sign() * half_width, ..Default::default() }))
     }
 
-    /// The pose of SE(3) at height `z` \[m\] with a vertical z axis.
+    /// The pose in SE(3) at height `z` \[m\] with a vertical z axis.
     pub fn at_height(&self, z: f64) -> Pose {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.yaw);
         Pose::from_parts(Vector3::new(self.x, self.y, z).into(), turn)
     }
 }
 
-/// A step: the foot that swings and where it lands.
+/// A footstep: the swing foot and its landing pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Footstep {
-    /// The foot that swings.
+    /// The swing foot.
     pub side: Side,
-    /// Where it lands.
+    /// Its landing pose.
     pub print: Footprint,
 }
 
-/// Where the feet stand at first, and the steps.
+/// The initial footprints and the footsteps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Route {
-    /// The feet at first, left and right.
+    /// The initial footprints, left and right.
     pub start: [Footprint; 2],
-    /// The steps in turn; the sides alternate.
+    /// The footsteps in order; the sides alternate.
     pub steps: Vec<Footstep>,
-    /// Where the robot rests on both feet, seen from above, before the first step and behind each: half-way between the feet, or on the
-    /// spot where it turns.
+    /// The resting poses in double support, seen from above, before the first step and after each: halfway between the
+    /// feet, or the centre of a turn on the spot.
     pub rests: Vec<Footprint>,
 }
 
-/// A regular route: steps of one length and turn, the last of which closes the feet.
+/// A regular route: steps of equal length and turn, the last of which closes the feet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regular {
-    /// How many steps.
+    /// The number of steps.
     pub steps: usize,
-    /// From one foot's print to the next one's, ahead \[m\].
+    /// The distance forward from one foot's print to the next one's \[m\].
     pub length: f64,
-    /// How far each step of the foot on that side leads to the left \[m\]; the other foot follows.
+    /// The lateral distance of each step of the foot on that side, to the left \[m\]; the other foot follows.
     pub aside: f64,
-    /// The turn of the whole walk \[rad\], anticlockwise.
+    /// The rotation of the whole walk \[rad\], anticlockwise.
     pub turn: f64,
-    /// Half of the way from foot to foot, sideways \[m\].
+    /// Half of the lateral distance between the feet \[m\].
     pub half_width: f64,
-    /// The foot that swings first.
+    /// The first swing foot.
     pub first: Side,
 }
 
 impl Route {
-    /// The way of `regular`: the prints stand beside the points of a polygon of equal sides and turns, `steps - 1` of them.
+    /// Makes the route of `regular`: the prints are beside the corners of a polygon with `steps - 1` equal sides and
+    /// angles.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for no or more than [`MAX_STEPS`] steps, a number that is not finite, or one that is out of any reach.
+    /// [`ErrorKind::BadValue`] for no steps or more than [`MAX_STEPS`], a number that is not finite, or one beyond the
+    /// greatest coordinate.
     pub fn regular(regular: &Regular) -> Result<Self> {
         let Regular { steps, length, aside, turn, half_width, first } = *regular;
         if steps == 0 || steps > MAX_STEPS {
-            return Err(bad(format!("{steps} steps are asked for; give 1 to {MAX_STEPS}")));
+            return Err(bad(format!("{steps} steps are requested; give 1 to {MAX_STEPS}")));
         }
         if !(length.is_finite() && aside.is_finite() && turn.is_finite() && half_width.is_finite() && half_width > 0.0)
         {
@@ -199,12 +202,14 @@ impl Route {
         Route::new(start, list)
     }
 
-    /// Reads footsteps from CSV: a header `foot,x,y,yaw`, then a line for each step, with `left` or `right`, metres and radians. Empty
-    /// lines and lines that start with `#` are left out. The robot starts at the origin with its feet at `half_width` \[m\] to each side.
+    /// Reads footsteps from CSV: a header `foot,x,y,yaw`, then a line for each step, with `left` or `right`, metres and
+    /// radians. Empty lines and lines that start with `#` are ignored. The robot starts at the origin with its feet at
+    /// `half_width` \[m\] to each side.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for another header, a wrong number of fields, or what is no number; [`ErrorKind::BadValue`] for steps of one
-    /// foot twice in turn, none or more than [`MAX_STEPS`], numbers that are not finite; with the line.
+    /// [`ErrorKind::Syntax`] for another header, a wrong number of fields, or a field that is not a number.
+    /// [`ErrorKind::BadValue`] for two consecutive steps of one foot, no steps or more than [`MAX_STEPS`], and numbers
+    /// that are not finite. The message has the line.
     pub fn from_csv(text: &str, half_width: f64) -> Result<Self> {
         let text = unix_lines(text.trim_start_matches('\u{feff}'));
         let mut lines = text.lines().enumerate().filter(|(_, line)| {
@@ -221,7 +226,7 @@ impl Route {
         for (line, row) in lines {
             let step = footstep(row).map_err(|error| error.at_line(line + 1))?;
             if steps.last().is_some_and(|last| last.side == step.side) {
-                let text = format!("the {} foot steps twice in turn; let the feet alternate", step.side.name());
+                let text = format!("the {} foot has two consecutive steps; the feet must alternate", step.side.name());
                 return Err(bad(text).at_line(line + 1));
             }
             steps.push(step);
@@ -230,22 +235,22 @@ impl Route {
         Route::new(start, steps)
     }
 
-    /// The way of `steps` from feet at `start`; between steps the robot rests half-way between its feet.
+    /// Makes the route of `steps` from feet at `start`; between steps the robot rests halfway between its feet.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for no or more than [`MAX_STEPS`] steps, or numbers that are not finite.
+    /// [`ErrorKind::BadValue`] for no steps or more than [`MAX_STEPS`], or numbers that are not finite.
     pub fn new(start: [Footprint; 2], steps: Vec<Footstep>) -> Result<Self> {
         let mut route = Route { start, steps, rests: Vec::new() }.checked()?;
         route.rests = route.stands().iter().map(|feet| feet[0].middle(&feet[1])).collect();
         Ok(route)
     }
 
-    /// Feet that stand where they are.
+    /// A route without steps.
     pub fn standing(feet: [Footprint; 2]) -> Self {
         Route { start: feet, steps: Vec::new(), rests: vec![feet[0].middle(&feet[1])] }
     }
 
-    /// Where the feet stand behind the last step.
+    /// The footprints after the last step.
     pub fn end(&self) -> [Footprint; 2] {
         let last = |side: Side| self.steps.iter().rev().find(|step| step.side == side).map(|step| step.print);
         [Side::Left, Side::Right].map(|side| last(side).unwrap_or(self.start[side as usize]))
@@ -253,7 +258,7 @@ impl Route {
 
     fn checked(self) -> Result<Self> {
         if self.steps.is_empty() || self.steps.len() > MAX_STEPS {
-            return Err(bad(format!("{} steps are asked for; give 1 to {MAX_STEPS}", self.steps.len())));
+            return Err(bad(format!("{} steps are requested; give 1 to {MAX_STEPS}", self.steps.len())));
         }
         let is_near =
             |print: &Footprint| [print.x, print.y, print.yaw].iter().all(|value| value.abs() <= MAX_COORDINATE);
@@ -263,7 +268,7 @@ impl Route {
         Ok(self)
     }
 
-    /// Where the feet stand after each step, the start first.
+    /// The footprints after each step, the initial ones first.
     pub fn stands(&self) -> Vec<[Footprint; 2]> {
         let mut stands = vec![self.start];
         for step in &self.steps {

@@ -1,8 +1,10 @@
-//! The forces of a walk: what the floor gives, and what the joints' motors must. Main type: [`Forces`].
+//! Forces of a walk by inverse dynamics (RNEA): ground reaction forces and joint torques. Main type: [`Forces`].
 //!
-//! Newton's and Euler's recursion on the whole multibody, whose base and joints move as central differences over three samples say. Nothing but the floor pushes, so
-//! what the base asks for is what the floor gives. A foot that stands alone takes it all; of two each takes a share of the force by where its centre is between
-//! them, and the same share of the moment that is left, which statics leaves open.
+//! The recursive Newton-Euler algorithm runs on the whole multibody. The motion of base and joints is from central
+//! differences over three samples. Only the floor exerts external forces, so the wrench that the base needs is the
+//! ground reaction. In single support the foot takes all of it. In double support each foot takes a fraction of the
+//! force, by the position of the centre of pressure between them. It takes the same fraction of the remaining moment,
+//! which statics does not determine.
 
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -18,13 +20,14 @@ use groebot_robot::spatial::{Pose, Twist, Wrench, pose};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Forces {
-    /// By joint, what its motor gives \[N m, N\]; rotors and friction are left out.
+    /// By joint, the torque or force of its motor \[N m, N\], without rotor inertia and friction.
     pub torques: Vec<f64>,
-    /// What the floor gives in all, about the world's origin.
+    /// The total ground reaction, about the world's origin.
     pub ground: Wrench,
-    /// Its centre: where it has no horizontal moment, the zero moment point.
+    /// Its centre of pressure, where it has no horizontal moment: the zero moment point.
     pub centre: Point2<f64>,
-    /// What it gives to the left and the right foot, about the sole's origin and along the axes of the world; none to one that swings.
+    /// The ground reactions of the left and the right foot, about the sole's origin and along the axes of the world;
+    /// zero for a swing foot.
     pub feet: [Wrench; 2],
 }
 
@@ -34,25 +37,25 @@ pub struct Forces {
 pub struct Greatest {
     /// The joint's name.
     pub joint: String,
-    /// Its size \[N m, N\].
+    /// Its magnitude \[N m, N\].
     pub torque: f64,
-    /// When it is met \[s\].
+    /// The time at which it occurs \[s\].
     pub time: f64,
-    /// What the motor gives, where that is told.
+    /// The motor's limit, where it is given.
     pub effort: Option<f64>,
 }
 
-/// How a biped moves at a sample, as central differences over three samples say.
+/// Velocities and accelerations of a biped at a sample, by central differences over three samples.
 pub(super) struct Moving {
     pub(super) places: Vec<Place<f64>>,
-    /// The torso's velocity, and its acceleration less that of gravity, in its own frame.
+    /// The velocity of the torso, and its acceleration minus gravity, in the torso's frame.
     base: [Six<f64>; 2],
     rates: Vec<f64>,
     accelerations: Vec<f64>,
 }
 
 impl Moving {
-    /// For recursions.
+    /// The arguments of the recursive algorithms.
     pub(super) fn motion(&self) -> Motion<'_, f64> {
         let [base, base_acceleration] = self.base;
         Motion { base, base_acceleration, rates: &self.rates, accelerations: &self.accelerations }
@@ -60,18 +63,18 @@ impl Moving {
 }
 
 impl Walk {
-    /// The forces at every sample of the walk, which starts from rest and ends in rest.
+    /// Computes the forces at every sample of the walk, which starts and ends at rest.
     pub fn forces(&self, biped: &Biped) -> Vec<Forces> {
         let tree = Tree::new(&biped.model);
         let mut data = Data::new(&tree);
         (0..self.motion.postures.len()).map(|sample| self.forces_at(biped, &tree, &mut data, sample)).collect()
     }
 
-    /// How the biped moves at a sample.
+    /// Velocities and accelerations of the biped at a sample.
     pub(super) fn moving(&self, tree: &Tree<f64>, sample: usize) -> Moving {
         let (tick, postures) = (self.schedule.tick, &self.motion.postures);
         let here = &postures[sample];
-        // Behind the last sample and before the first one it rests.
+        // Before the first sample and after the last one the robot is at rest.
         let neighbours = [sample.saturating_sub(1), (sample + 1).min(postures.len() - 1)].map(|near| &postures[near]);
         let twist = |from: &Pose, to: &Pose| pose::log(&(to * from.inverse())) * (1.0 / tick);
         let [before, after] = [
@@ -120,13 +123,13 @@ impl Walk {
         Forces { torques, ground, centre, feet }
     }
 
-    /// A wrench about the origin of a foot's sole, about the world's.
+    /// Moves the reference point of a wrench from the origin of a foot's sole to the world's origin.
     pub(super) fn about_origin(&self, sample: usize, side: usize, wrench: &Wrench) -> Wrench {
         let at = &self.references[sample].world_from_soles[side].translation.vector;
         Wrench { f: wrench.f, tau: wrench.tau + at.cross(&wrench.f) }
     }
 
-    /// What the floor gives to each foot, about its sole's origin.
+    /// The ground reaction of each foot, about its sole's origin.
     fn feet(&self, sample: usize, ground: &Wrench, centre: &Point2<f64>) -> [Wrench; 2] {
         let reference = &self.references[sample];
         let places = [Side::Left, Side::Right]
@@ -135,8 +138,8 @@ impl Walk {
             [true, false] => [1.0, 0.0],
             [false, true] => [0.0, 1.0],
             _ => {
-                let way = places[1].xy() - places[0].xy();
-                let right = ((centre - places[0].xy()).dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
+                let offset = places[1].xy() - places[0].xy();
+                let right = ((centre - places[0].xy()).dot(&offset) / offset.norm_squared()).clamp(0.0, 1.0);
                 [1.0 - right, right]
             }
         };
@@ -145,7 +148,7 @@ impl Walk {
         [0, 1].map(|foot| Wrench { f: forces[foot], tau: (ground.tau - taken) * shares[foot] })
     }
 
-    /// By joint the greatest torque, of forces at every sample.
+    /// By joint, the greatest torque over the forces at every sample.
     pub fn greatest_torques(&self, biped: &Biped, forces: &[Forces]) -> Vec<Greatest> {
         let greatest = |(joint, range): (usize, &super::JointRange)| {
             let sizes = forces.iter().map(|forces| forces.torques[joint].abs()).enumerate();
@@ -155,8 +158,8 @@ impl Walk {
         biped.joints.iter().enumerate().map(greatest).collect()
     }
 
-    /// The walk's trajectory with its forces: the point `ground` is their centre; figures are `tau:NAME` of each joint, and `ground_fx` to `ground_mz`, `left_fx` to `right_mz` as
-    /// [`Forces`] has them.
+    /// The walk's trajectory with its forces. The point `ground` is their centre of pressure. The figures are
+    /// `tau:NAME` of each joint, and `ground_fx` to `ground_mz`, `left_fx` to `right_mz` as in [`Forces`].
     pub fn trajectory_with_forces(&self, biped: &Biped, forces: &[Forces]) -> Trajectory {
         let mut trajectory = self.trajectory(biped);
         let at = forces.iter().map(|forces| Point3::new(forces.centre.x, forces.centre.y, 0.0)).collect();
@@ -178,7 +181,8 @@ impl Walk {
     }
 }
 
-/// A wrench on a foot that is told in the torso's frame: the body that it acts on, and the wrench in that body's frame.
+/// The body that a wrench on a foot acts on, and the wrench in that body's frame. The given wrench `own` is in the
+/// torso's frame.
 pub(super) fn pushed(tree: &Tree<f64>, data: &Data<f64>, foot: &Foot, own: &Wrench) -> (usize, Six<f64>) {
     let stands = data.stands(tree, foot.body.checked_sub(1), &Frame::identity());
     (foot.body, stands.force_inward(&Six::from(*own)))

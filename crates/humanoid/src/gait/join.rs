@@ -1,21 +1,21 @@
-//! Walks one behind the other.
+//! Concatenation of walks.
 
 use super::plan::Walk;
 use super::schedule::{Action, Phase};
 use crate::{Error, ErrorKind, Result};
 
 impl Walk {
-    /// Lets another walk follow, which begins where this one ends. What both ask for but for the way is that of the first.
+    /// Appends another walk, which begins where this one ends. The request is that of this walk, except for the route.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the feet stand elsewhere, or samples are another time apart.
+    /// [`ErrorKind::BadValue`] when the footprints or the time between two samples differ.
     pub fn append(&mut self, next: Walk) -> Result<()> {
         let bad = |text: &str| Err(Error::new(ErrorKind::BadValue, text));
         if self.schedule.route.end() != next.schedule.route.start {
             return bad("the second walk does not start where the first one ends");
         }
         if self.schedule.tick != next.schedule.tick {
-            return bad("the samples of two walks are not the same time apart");
+            return bad("the time between two samples differs between the walks");
         }
         let (phases, steps) = (self.schedule.phases.len(), self.schedule.route.steps.len());
         let phase = |phase: Phase| Phase { action: later(phase.action, steps), ..phase };
@@ -34,7 +34,7 @@ impl Walk {
     }
 }
 
-/// The same about a step that has so many before it.
+/// Same as `action`, but for a step that has `steps` more before it.
 fn later(action: Action, steps: usize) -> Action {
     match action {
         Action::Rest | Action::Lower | Action::Rise => action,

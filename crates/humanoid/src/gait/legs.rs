@@ -1,4 +1,4 @@
-//! The legs of a biped, driven by an inverse-kinematics solver each. Main type: [`Legs`].
+//! The legs of a biped, each with an inverse-kinematics solver. Main type: [`Legs`].
 
 use std::sync::Arc;
 
@@ -8,7 +8,8 @@ use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::{InverseKinematics, Target};
 use groebot_robot::spatial::{Pose, angle};
 
-/// A knee that is bent less than this against its sense is straight \[rad\]: there it is known to the root of what lengths are rounded by.
+/// A knee within this angle of zero is straight \[rad\]. There its angle is known only to the square root of the
+/// lengths' rounding error.
 const STRAIGHT: f64 = 1e-6;
 
 /// A configuration of a whole biped.
@@ -20,15 +21,16 @@ pub struct Posture {
     pub q: Vec<f64>,
 }
 
-/// The solver of a leg: it brings the sole's link to a pose in the torso frame, with joint values in order from the torso to the sole.
+/// The solver of a leg: it moves the sole's link to a pose in the torso frame. The joint values are ordered from the
+/// torso to the sole.
 pub type LegSolver = Arc<dyn InverseKinematics>;
 
-/// The solver of both legs of a biped.
+/// The solvers of both legs of a biped.
 #[derive(Clone, Debug)]
 pub struct Legs {
     legs: [Leg; 2],
     crouch: Vec<f64>,
-    /// The joints, left and right, that one actuator turns.
+    /// The joints, left and right, that one actuator moves.
     shared: Option<(usize, usize)>,
     /// Joints of the arms, each with the joint of a leg whose value it takes.
     coordinated: Vec<(usize, usize)>,
@@ -39,20 +41,20 @@ pub struct Legs {
 struct Leg {
     side: Side,
     solver: LegSolver,
-    /// The joints from the torso to the sole, as places in a configuration.
+    /// The joints from the torso to the sole, as indices into a configuration.
     joints: Vec<usize>,
     /// The frame of the sole's link in the frame of the sole.
     sole_from_link: Pose,
-    /// The knee's place in the leg, and the sense in which it bends.
+    /// The index of the knee in the leg, and the sign of its bend.
     knee: (usize, f64),
 }
 
 impl Legs {
-    /// The legs of `biped` with a solver each, left and right. `crouch` is a posture with bent knees, one value a joint \[rad\]: the joint of a leg
-    /// that is bent most is its knee.
+    /// The legs of `biped` with a solver each, left and right. `crouch` is a posture with bent knees, one value a joint
+    /// \[rad\]. The joint of a leg with the greatest angle in it is the knee.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when `crouch` has not a value for each joint.
+    /// [`ErrorKind::BadValue`] when `crouch` does not have one value for each joint.
     pub fn new(biped: &Biped, solvers: [LegSolver; 2], crouch: Vec<f64>) -> Result<Self> {
         if crouch.len() != biped.joints.len() {
             let text = format!("{} values are given; {} has {} joints", crouch.len(), biped.name, biped.joints.len());
@@ -64,16 +66,16 @@ impl Legs {
         Ok(Legs { legs, crouch, shared: biped.shared.first().copied(), coordinated: Vec::new() })
     }
 
-    /// The same legs, with joints of other limbs that take the value of a joint of a leg: pairs of the follower and the leader.
+    /// Adds joints of other limbs that take the value of a joint of a leg: pairs of the follower and the leader.
     #[must_use]
     pub fn with_coordinated(self, coordinated: Vec<(usize, usize)>) -> Self {
         Legs { coordinated, ..self }
     }
 
-    /// The posture with the soles at the poses `world_from_soles`, left and right, and the torso at `world_from_torso`. Of several
-    /// answers it is the nearest to `last` whose knees bend as they do in the crouch; the limits of the joints are not looked at. Where
-    /// the legs share an actuator, they may disagree on it: [`Legs::disagreement`]. Joints of other limbs stay as in `last`, but for those
-    /// that are coordinated with the legs.
+    /// The posture with the soles at the poses `world_from_soles`, left and right, and the torso at `world_from_torso`.
+    /// Of several solutions it takes the nearest to `last` whose knees bend as in the crouch. Joint limits are not
+    /// checked. Legs that share an actuator may disagree on its value: [`Legs::disagreement`]. Joints of other limbs
+    /// stay as in `last`, except those coordinated with the legs.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when a foot is out of reach.
@@ -88,30 +90,30 @@ impl Legs {
         Ok(Posture { world_from_torso: *world_from_torso, q })
     }
 
-    /// Whether one actuator turns a joint of both legs, so that the torso's heading is not free.
+    /// Whether one actuator moves a joint of both legs, so that the torso's heading is not free.
     pub fn share_an_actuator(&self) -> bool {
         self.shared.is_some()
     }
 
-    /// How far the legs disagree on the actuator that they share \[rad\]; 0 when they share none.
+    /// The difference between the legs' values of the actuator that they share \[rad\]; 0 when they share none.
     pub fn disagreement(&self, posture: &Posture) -> f64 {
         self.shared.map_or(0.0, |(left, right)| angle::difference(posture.q[left], posture.q[right]))
     }
 
-    /// Gives both legs the left one's value of the actuator that they share.
+    /// Sets both legs to the left one's value of the actuator that they share.
     pub fn agree(&self, posture: &mut Posture) {
         if let Some((left, right)) = self.shared {
             posture.q[right] = posture.q[left];
         }
     }
 
-    /// A posture with bent knees, from which [`Legs::stand`] finds the right answers; the torso is at the origin.
+    /// A posture with bent knees, from which [`Legs::stand`] finds the right solutions; the torso is at the origin.
     pub fn crouch(&self) -> Posture {
         Posture { world_from_torso: Pose::identity(), q: self.crouch.clone() }
     }
 
-    /// All solutions of the leg of `side` for a sole at `torso_from_sole`, in the order of its solver: the joints from the torso to the sole
-    /// \[rad\]; none where it is out of reach.
+    /// All solutions of the leg of `side` for a sole at `torso_from_sole`, in the order of its solver. Each has the
+    /// joint values from the torso to the sole \[rad\]. Empty when the pose is out of reach.
     pub fn solutions(&self, side: Side, torso_from_sole: &Pose) -> Vec<Vec<f64>> {
         self.legs[side as usize].answers(torso_from_sole).unwrap_or_default()
     }
@@ -132,14 +134,14 @@ impl Leg {
         }
     }
 
-    /// The answers for a sole at `torso_from_sole`.
+    /// The solutions for a sole at `torso_from_sole`.
     fn answers(&self, torso_from_sole: &Pose) -> Result<Vec<Vec<f64>>> {
         let mut found = Vec::new();
         self.solver.solve(&Target::Pose(torso_from_sole * self.sole_from_link), &[], &mut found)?;
         Ok(found.into_iter().map(|answer| answer.q).collect())
     }
 
-    /// Writes into `q` the answer for a sole at `torso_from_sole` that is nearest to `last`.
+    /// Writes into `q` the solution for a sole at `torso_from_sole` that is nearest to `last`.
     fn stand(&self, torso_from_sole: &Pose, last: &[f64], q: &mut [f64]) -> Result<()> {
         let rank = |answer: &Vec<f64>| {
             let away = |(joint, value): (&usize, &f64)| angle::difference(*value, last[*joint]).abs();

@@ -1,9 +1,10 @@
-//! Walking on two legs, of NAO, RH0 and TEO: the way of the feet, the centre of mass above them, joint angles by the derived solvers, and the
-//! proof that the walk does not fall. NAO 6.4 and 6.8; RH0 3.1 to 3.5.
+//! Biped walking of NAO, RH0, TEO and other robots: footsteps, centre of mass, joint angles by the derived solvers, and
+//! a check of balance. Sources: NAO 6.4 and 6.8; RH0 3.1 to 3.5.
 //!
-//! A [`Route`] of footprints becomes a [`Schedule`] of phases, that becomes a [`Reference`] for feet and centre of mass at each sample,
-//! that becomes a [`Motion`] of joint angles and its [`Balance`]. [`plan`] goes this way and slows down or refuses what would fall; its
-//! result is a [`Walk`], which prints as CSV, JSON and SVG and has a [`Summary`]. The world has z up and the floor at 0; metres, seconds, radians.
+//! A [`Route`] of footsteps becomes a [`Schedule`] of phases. That becomes a [`Reference`] for feet and centre of mass
+//! at each sample, and then a [`Motion`] of joint angles with its [`Balance`]. [`plan`] does all these steps, and slows
+//! down or refuses a walk that would fall. Its result is a [`Walk`], which prints as CSV, JSON and SVG and has a
+//! [`Summary`]. The world has z up and the floor at 0; metres, seconds, radians.
 
 mod balance;
 mod biped;
@@ -44,7 +45,7 @@ pub use one_step::{Laws, OneStep};
 pub use plan::{TICK, Walk, plan, plan_actions};
 pub use polygon::Polygon;
 pub use preview::{Preview, zmp_reference};
-pub use reference::{Reference, Style, arch, seed_centre, smooth, soles};
+pub use reference::{Reference, Style, arch, sine_centre, smooth, soles};
 pub use request::{Gait, Request};
 pub use schedule::{Action, Durations, Phase, Schedule};
 pub use summary::{Extreme, Summary};

@@ -1,4 +1,4 @@
-//! From what is asked of feet and centre of mass to joint angles, sample by sample. Main type: [`Motion`].
+//! Joint angles from the references of feet and centre of mass, sample by sample. Main type: [`Motion`].
 
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
@@ -10,37 +10,39 @@ use super::reference::Reference;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::spatial::{Pose, angle};
 
-/// How near the centre of mass comes to where it is asked to be \[m\]. What is left varies slowly from sample to sample; where it jumps,
-/// the zero moment point moves by at most a thousand times as much, which its margins count.
+/// The tolerance of the centre of mass \[m\]. The remaining error varies slowly from sample to sample. Where it jumps,
+/// the zero moment point moves by at most a thousand times as much, which its margins include.
 const NEAR: f64 = 5e-7;
-/// How far the legs may disagree on a shared actuator \[rad\]: what is left moves a foot by less than a tenth of a nanometre.
+/// The tolerance of the legs' values of a shared actuator \[rad\]: the remaining difference moves a foot by less than a
+/// tenth of a nanometre.
 const AGREED: f64 = 1e-10;
-/// How far the heading is moved to see how the legs' disagreement answers \[rad\].
+/// The change of the heading with which the derivative of the legs' disagreement is measured \[rad\].
 const ASIDE: f64 = 1e-4;
-/// How far the torso must move for its answer to be measured \[m, rad\].
-const TELLING: f64 = 1e-8;
-/// The most corrections of the torso at a sample; one or two are needed.
+/// The least move of the torso from which a derivative can be measured \[m, rad\].
+const LEAST_MOVE: f64 = 1e-8;
+/// The greatest number of corrections of the torso at a sample; one or two are usual.
 const MOST_CORRECTIONS: usize = 40;
-/// How many last samples tell where the torso will be: smooth motion is met to its sixth difference.
+/// The number of last samples that extrapolate the torso's position: a smooth motion is met to its sixth difference.
 const LEADS: usize = 6;
-/// How much further the torso must move than the centre of mass is to move, at first: the legs lag behind.
+/// The initial ratio of the torso's move to the move of the centre of mass: the legs lag.
 const FIRST_GAIN: f64 = 1.25;
 
-/// The postures of a walk, one a sample.
+/// The postures of a walk, one per sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
     /// The postures.
     pub postures: Vec<Posture>,
-    /// The centre of mass at each \[m\].
+    /// The centre of mass at each sample \[m\].
     pub centres: Vec<Point3<f64>>,
 }
 
-/// Solves the legs for every reference, with the torso moved until the centre of mass of the whole robot is where it is asked to be, and
-/// turned until both legs ask the same of an actuator that they share. `alike` is a motion of nearly the same references, if there is one: it
-/// tells where to look first.
+/// Solves the legs for every reference. The torso moves until the centre of mass of the whole robot is at its
+/// reference, and turns until both legs agree on a shared actuator. `alike`, if given, is a motion of nearly the same
+/// references, from which the search starts.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] with the time when a foot is out of reach; [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
+/// [`ErrorKind::BadValue`] with the time when a foot is out of reach; [`ErrorKind::Cancelled`] and
+/// [`ErrorKind::Budget`].
 pub fn realise(
     biped: &Biped,
     legs: &Legs,
@@ -52,13 +54,13 @@ pub fn realise(
     let known =
         |sample: usize| alike.map_or(Vector3::zeros(), |motion| motion.lead(sample, references[sample].heading));
     let solved = in_parts(references.len(), watch, |samples| {
-        let mut pursuit = Pursuit::new(legs);
+        let mut search = TorsoSearch::new(legs);
         samples.map(move |sample| {
-            let centre = pursuit.follow(biped, legs, &references[sample], &known(sample));
+            let centre = search.follow(biped, legs, &references[sample], &known(sample));
             let time = sample as f64 * tick;
             let centre =
                 centre.map_err(|error| Error::new(error.kind(), format!("{} (t = {time:.2} s)", error.message())))?;
-            Ok((pursuit.last.clone(), centre))
+            Ok((search.last.clone(), centre))
         })
     })?;
     let (postures, centres) = solved.into_iter().unzip();
@@ -66,7 +68,7 @@ pub fn realise(
 }
 
 impl Motion {
-    /// How far the torso is ahead of the centre of mass in x and y, and of `heading`.
+    /// The offset of the torso from the centre of mass in x and y, and from `heading`.
     fn lead(&self, sample: usize, heading: f64) -> Vector3<f64> {
         let torso = &self.postures[sample].world_from_torso;
         let apart = torso.translation.vector - self.centres[sample].coords;
@@ -74,24 +76,25 @@ impl Motion {
     }
 }
 
-/// The torso on the way: where it was, and how centre of mass and legs answer to it.
+/// State of the search for the torso's pose: its last offsets, and the derivatives of centre of mass and legs.
 ///
-/// The unknowns are x, y and heading of the torso; to be zero are the miss of the centre of mass in x and y and the legs' disagreement.
-struct Pursuit {
+/// The unknowns are x, y and heading of the torso. The residuals are the error of the centre of mass in x and y and the
+/// legs' disagreement.
+struct TorsoSearch {
     /// The posture at the last sample.
     last: Posture,
-    /// How far the torso was from where it was known to be at the last samples, the latest first.
+    /// The torso's offsets from its known pose at the last samples, the latest first.
     leads: Vec<Vector3<f64>>,
-    /// How far the torso must move for a change of what is to be zero: the inverse Jacobian, kept up by Broyden's rule (1965).
+    /// The inverse Jacobian from residuals to moves of the torso, updated by Broyden's method (1965).
     inverse: Option<Matrix3<f64>>,
 }
 
-impl Pursuit {
+impl TorsoSearch {
     fn new(legs: &Legs) -> Self {
-        Pursuit { last: legs.crouch(), leads: Vec::new(), inverse: None }
+        TorsoSearch { last: legs.crouch(), leads: Vec::new(), inverse: None }
     }
 
-    /// Moves the torso to where `reference` asks for it, by about `known` from there; returns the centre of mass.
+    /// Moves the torso until `reference` is met, starting from the pose `known`; returns the centre of mass.
     fn follow(
         &mut self,
         biped: &Biped,
@@ -137,7 +140,7 @@ impl Pursuit {
         legs.stand(&reference.world_from_soles, &Pose::from_parts(at.into(), turn), &self.last)
     }
 
-    /// The inverse Jacobian to start with: the legs lag behind by a fixed share; how the disagreement answers is measured.
+    /// The initial inverse Jacobian: the legs lag by a fixed ratio, and the derivative of the disagreement is measured.
     fn first_inverse(
         &self,
         legs: &Legs,
@@ -154,12 +157,12 @@ impl Pursuit {
         Ok(Matrix3::from_diagonal(&diagonal))
     }
 
-    /// How far the torso will be from where it is known to be: by the polynomial through the last samples.
+    /// Extrapolates the torso's offset by the polynomial through the last samples.
     fn guess(&self) -> Vector3<f64> {
         let count = self.leads.len();
         let mut factor = -1.0;
         let term = |(place, lead): (usize, &Vector3<f64>)| {
-            // Binomial coefficients with alternating signs, from `count` on.
+            // Binomial coefficients with alternating signs, starting with `count`.
             factor *= -((count - place) as f64) / (place + 1) as f64;
             lead * factor
         };
@@ -168,19 +171,20 @@ impl Pursuit {
 
     fn failure(&self, legs: &Legs) -> Error {
         let text = if legs.disagreement(&self.last).abs() > AGREED {
-            "no heading of the torso lets both legs share the actuator that turns them; turn the feet less against one another (--max-turn)"
+            "no heading of the torso lets both legs share the actuator that turns them; turn the feet less relative to each other (--max-turn)"
         } else {
-            "the centre of mass cannot be brought to where the gait asks for it; lower the hip (--hip-height) or shorten the steps (--length)"
+            "the centre of mass cannot reach the position that the gait requires; lower the hip (--hip-height) or shorten the steps (--length)"
         };
         Error::new(ErrorKind::BadValue, text)
     }
 }
 
-/// The inverse Jacobian corrected by a move and its answer; as it was where the move was too small to tell.
+/// The inverse Jacobian after Broyden's update by a move and the change of the residuals. It is unchanged when the move
+/// is too small.
 fn broyden(inverse: &Matrix3<f64>, moved: &Vector3<f64>, answered: &Vector3<f64>) -> Matrix3<f64> {
     let expected = inverse * answered;
     let along = moved.dot(&expected);
-    if moved.norm() < TELLING || along <= 0.1 * moved.norm_squared() {
+    if moved.norm() < LEAST_MOVE || along <= 0.1 * moved.norm_squared() {
         return *inverse;
     }
     inverse + (moved - expected) * (moved.transpose() * inverse) / along

@@ -1,8 +1,9 @@
 //! One step goal (OSG; UPA in the thesis), RH0 3.3 and 3.5: orient, lean, lift, land, balance. Main type: [`OneStep`].
 //!
-//! A step is a shift of the weight (phases 1 and 2), a swing (3 and 4) and a balance (5). Two versions of the laws: [`Laws::Rh0`] is that
-//! of RH0 3.5, equations (3-46)..(3-53), repaired where they cannot work as printed (docs/errata.md); [`Laws::Generic`] is that of RH0
-//! 3.3, for any biped, where the centre of mass keeps to a circle on the sole.
+//! A step is a shift of the weight (phases 1 and 2), a swing (3 and 4) and a balance (5). There are two versions of its
+//! laws. [`Laws::Rh0`] is that of RH0 3.5, equations (3-46)..(3-53), corrected where the printed ones cannot work
+//! (docs/errata.md). [`Laws::Generic`] is that of RH0 3.3, for any biped: the centre of mass stays on a circle on the
+//! sole.
 
 use std::f64::consts::PI;
 
@@ -14,31 +15,32 @@ use super::schedule::{Action, Phase, Schedule};
 use groebot_robot::spatial::intersection::of_line_and_sphere;
 use groebot_robot::spatial::{Axis, Pose};
 
-/// How near to the circle a line that only touches it may pass \[m\].
+/// The tolerance for a line that is tangent to the circle \[m\].
 const TOUCHES: f64 = 1e-12;
 
-/// Which laws the centre of mass follows.
+/// The laws of motion of the centre of mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Laws {
-    /// RH0 3.5: sideways by a power, ahead while the foot swings.
+    /// RH0 3.5: the lateral motion is a power of time; the motion forward happens while the foot swings.
     Rh0 {
-        /// `Po_CM`: the power of the way sideways.
+        /// `Po_CM`: the exponent of the lateral motion.
         power: f64,
     },
-    /// RH0 3.3: on a circle about the middle of the standing sole.
+    /// RH0 3.3: on a circle about the middle of the supporting sole.
     Generic,
 }
 
-/// The figures of one-step-goal walks that others do not have. Metres, radians.
+/// Parameters of one-step-goal walks that other gaits do not have. Metres, radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OneStep {
     /// The laws of the centre of mass.
     pub laws: Laws,
-    /// `K_CM`: half of how far the trunk goes down while the legs are stretched most, at lift-off and landing.
+    /// `K_CM`: half of the trunk's descent while the legs are stretched most, at lift-off and landing.
     pub dip: f64,
-    /// How far the swinging foot is pitched at its highest, toes down: 20 degrees in RH0 (3-47).
+    /// The greatest pitch of the swing foot, at its highest point, toes down: 20 degrees in RH0 (3-47).
     pub pitch: f64,
-    /// The torso's height before it is lowered for the first step and when it has risen behind the last; `None` starts and ends crouched.
+    /// The torso's height before it is lowered for the first step and after it has risen at the end. With `None` the
+    /// walk starts and ends crouched.
     pub upright: Option<f64>,
 }
 
@@ -54,8 +56,8 @@ impl OneStep {
         }
     }
 
-    /// What is asked at the share `share` of phase `place`, which begins with the feet at `feet`; a foot is pitched about its ankle,
-    /// `ankle_height` \[m\] over the sole.
+    /// The reference at the fraction `share` of phase `place`, which begins with the feet at `feet`. A foot pitches
+    /// about its ankle, `ankle_height` \[m\] above the sole.
     pub fn reference(
         &self,
         style: &Style,
@@ -72,7 +74,7 @@ impl OneStep {
         Reference { phase: place, world_from_soles, stands, centre: trunk.point(), torso_height, heading: trunk.yaw }
     }
 
-    /// Where the centre of mass is seen from above, and where the trunk looks: `Q_rCM`.
+    /// The position of the centre of mass, seen from above, and the heading of the trunk: `Q_rCM`.
     fn trunk(
         &self,
         style: &Style,
@@ -118,8 +120,9 @@ impl OneStep {
         }
     }
 
-    /// Where the line from the middle of the standing sole to that of the other one leaves the circle of support: `q_CM2`, `q_CM3` and
-    /// `q_CM4` of RH0 3.3.2 and all between them. Its radius is what keeps the centre of mass at [`Style::amplitude`] in level feet.
+    /// The point where the line from the middle of the supporting sole to that of the other one leaves the circle of
+    /// support. These are `q_CM2`, `q_CM3` and `q_CM4` of RH0 3.3.2 and all points between them. The radius keeps the
+    /// centre of mass at [`Style::amplitude`] when the feet are parallel.
     fn on_circle(
         &self,
         style: &Style,
@@ -139,13 +142,14 @@ impl OneStep {
         let radius = style.half_width - style.amplitude;
         let crossing = Axis::through(&fixed, &other).ok();
         let crossing = crossing.and_then(|line| of_line_and_sphere(&line, &fixed, radius, TOUCHES));
-        // The line runs from the standing sole to the other one: it leaves the circle at its second point.
+        // The line runs from the supporting sole to the other one: it leaves the circle at its second point.
         let at = crossing.map_or(fixed, |[_, out]| out);
         Footprint { x: at.x, y: at.y, ..*near }
     }
 
-    /// The height of the torso: RH0 (3-46)..(3-52), second component. From the crouch it goes down by twice `K_CM` until lift-off, is up
-    /// again when the foot is highest, and down at landing. Lowering and rising are linear from sample to sample, as Fig. 5-16 is.
+    /// The height of the torso: RH0 (3-46)..(3-52), second component. From the crouch it descends by twice `K_CM` until
+    /// lift-off. It is up again when the foot is highest, and down at landing. Lowering and rising are linear from
+    /// sample to sample, as in Fig. 5-16.
     fn height(&self, style: &Style, phase: &Phase, share: f64) -> f64 {
         let crouch = style.torso_height;
         let cosine = |angle: f64| crouch - self.dip + self.dip * angle.cos();
@@ -163,7 +167,8 @@ impl OneStep {
         }
     }
 
-    /// The poses of the soles and which stand: `Q_rPM`, RH0 (3-47), (3-49), (3-51), (3-53). The foot's way is a cosine in space.
+    /// The poses of the soles and which feet support: `Q_rPM`, RH0 (3-47), (3-49), (3-51), (3-53). The foot's path is a
+    /// cosine in space.
     fn soles(
         &self,
         style: &Style,
@@ -189,8 +194,8 @@ impl OneStep {
     }
 }
 
-/// The share of a linear way that is over at the share `share` of a phase of `samples` samples: the first of them is still at its start,
-/// the last at its end. The tables of RH0 5.3.1 are so.
+/// The completed fraction of a linear motion at the fraction `share` of a phase of `samples` samples. The first sample
+/// is at its start, the last at its end, as in the tables of RH0 5.3.1.
 fn linear(samples: usize, share: f64) -> f64 {
     if samples < 2 {
         return share;
@@ -198,7 +203,7 @@ fn linear(samples: usize, share: f64) -> f64 {
     ((share * samples as f64 - 1.0) / (samples - 1) as f64).max(0.0)
 }
 
-/// The unit vector from the robot's middle towards the foot of `side` and beyond it, along the sole's own axis.
+/// The outward unit vector from the robot's middle to the foot of `side`, along the sole's own axis.
 fn outwards(side: Side, world_from_sole: &Pose) -> Vector2<f64> {
     (world_from_sole.rotation * Vector3::y()).xy() * side.sign()
 }

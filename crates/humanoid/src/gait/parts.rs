@@ -1,22 +1,24 @@
-//! Work on the samples of a walk, in parts, on threads of their own where there are many.
+//! Parallel work on the samples of a walk.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::{Result, Watch};
 
-/// In how many parts a walk is solved, each on a thread of its own; their number does not depend on the machine, so that the same walk
-/// comes out everywhere.
+/// The number of parts that a walk is solved in, each on its own thread. It does not depend on the machine, so that the
+/// result is the same everywhere.
 const PARTS: usize = 4;
-/// Fewer samples than this are solved part by part on the caller's thread: threads would take longer to start.
+/// Below this number of samples the parts are solved on the caller's thread, because threads would take longer to
+/// start.
 const FEW: usize = 1024;
-/// After how many samples progress is told.
+/// The number of samples between two reports of progress.
 const REPORTED: usize = 64;
 
-/// What `solve` makes of each sample of `0..count`; it gets the samples of a part and answers for them in turn.
+/// Applies `solve` to each sample of `0..count`; it gets the samples of a part and returns their results in order.
 ///
 /// # Errors
-/// Those of `solve`, the earliest part's; [`crate::ErrorKind::Cancelled`] and [`crate::ErrorKind::Budget`].
+/// The first error of `solve` in the order of the samples; [`crate::ErrorKind::Cancelled`] and
+/// [`crate::ErrorKind::Budget`].
 pub(super) fn in_parts<T: Send, I: Iterator<Item = Result<T>>>(
     count: usize,
     watch: &Watch,

@@ -1,15 +1,15 @@
-//! Convex polygons on the floor: the support polygon of NAO 6.4 is one. Main type: [`Polygon`].
+//! Convex polygons on the floor, such as the support polygon of NAO 6.4. Main type: [`Polygon`].
 
 use nalgebra::Point2;
 
-/// A convex polygon with its corners anticlockwise, none of them on a side; it may have shrunk to a segment or a point.
+/// A convex polygon with its corners anticlockwise, none of them on a side. It may be a segment or a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     corners: Vec<Point2<f64>>,
 }
 
 impl Polygon {
-    /// The convex hull of `points` (Andrew 1979). Points that are not finite are left out.
+    /// The convex hull of `points` (Andrew 1979). Points that are not finite are ignored.
     pub fn hull(points: &[Point2<f64>]) -> Self {
         let mut sorted: Vec<Point2<f64>> =
             points.iter().filter(|p| p.x.is_finite() && p.y.is_finite()).copied().collect();
@@ -30,15 +30,15 @@ impl Polygon {
         &self.corners
     }
 
-    /// How far `point` is from the border \[m\]: positive inside, negative outside. Of a segment or a point: minus the distance to it;
-    /// minus infinity when there is no corner.
+    /// The signed distance of `point` from the border \[m\]: positive inside, negative outside. For a segment or a
+    /// point it is minus the distance; for an empty polygon minus infinity.
     pub fn signed_distance(&self, point: &Point2<f64>) -> f64 {
         let inside = self.corners.len() > 2 && self.sides().all(|(a, b)| cross(a, b, point) >= 0.0);
         let distance = self.sides().map(|(a, b)| distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min);
         if inside { distance } else { -distance }
     }
 
-    /// How far apart two polygons are \[m\]; zero when they meet.
+    /// The distance between two polygons \[m\]; zero when they intersect.
     pub fn distance_to(&self, other: &Polygon) -> f64 {
         if self.is_cut_by(other) {
             return 0.0;
@@ -54,7 +54,8 @@ impl Polygon {
         self.sides().map(|(a, b)| a.x * b.y - b.x * a.y).sum::<f64>() / 2.0
     }
 
-    /// Whether no line parts the two: of two convex polygons that are apart, a side of one parts them.
+    /// Whether no side of this polygon separates the two. Two disjoint convex polygons are separated by a side of one
+    /// of them.
     fn is_cut_by(&self, other: &Polygon) -> bool {
         let parts = |polygon: &Polygon, beyond: &Polygon| {
             polygon.corners.len() > 2
@@ -68,7 +69,7 @@ impl Polygon {
     }
 }
 
-/// The lower chain of the hull of points in the order of a sweep.
+/// The lower chain of the convex hull of sorted points.
 fn chain<'p>(points: impl Iterator<Item = &'p Point2<f64>>) -> Vec<Point2<f64>> {
     let mut corners: Vec<Point2<f64>> = Vec::new();
     for point in points {
@@ -82,7 +83,7 @@ fn chain<'p>(points: impl Iterator<Item = &'p Point2<f64>>) -> Vec<Point2<f64>> 
     corners
 }
 
-/// Twice the area of a triangle, positive when its corners stand anticlockwise.
+/// Twice the signed area of a triangle, positive when its corners are anticlockwise.
 fn cross(a: &Point2<f64>, b: &Point2<f64>, c: &Point2<f64>) -> f64 {
     (b - a).perp(&(c - a))
 }

@@ -1,5 +1,6 @@
-//! Preview control of the zero moment point (Kajita and others 2003; Katayama and others 1985): the centre of mass of a cart on a table
-//! moves so that its zero moment point follows a reference whose future is known. Main type: [`Preview`].
+//! Preview control of the zero moment point (Kajita and others 2003; Katayama and others 1985). The centre of mass of
+//! the cart-table model moves so that its zero moment point follows a reference whose future is known. Main type:
+//! [`Preview`].
 
 use nalgebra::{Matrix4, Point2, RowVector4, Vector2, Vector3, Vector4};
 
@@ -8,22 +9,23 @@ use super::biped::Biped;
 use super::footprint::Footprint;
 use super::legs::Legs;
 use super::motion::Motion;
-use super::reference::{Reference, Style, on_the_way, smooth};
+use super::reference::{Reference, Style, between_stances, smooth};
 use super::request::Request;
 use super::schedule::{Action, Schedule};
 use super::zmp::GRAVITY;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How far the future is looked at \[s\]; Kajita takes 1.6.
+/// The preview horizon \[s\]; Kajita takes 1.6.
 const HORIZON: f64 = 2.0;
-/// The price of the integrated error of the zero moment point, with the price of jerk [`JERK_PRICE`]: Kajita's values.
+/// The weight of the integrated error of the zero moment point; the weight of jerk is [`JERK_PRICE`]. Kajita's values.
 const ERROR_PRICE: f64 = 1.0;
 const JERK_PRICE: f64 = 1e-6;
-/// The most steps of Riccati's recursion.
+/// The greatest number of iterations of the Riccati recursion.
 const MOST_RECURSIONS: usize = 100_000;
-/// How little the solution of Riccati's equation may still change, as a share of it.
+/// The greatest relative change of the solution of Riccati's equation at convergence.
 const SETTLED: f64 = 1e-13;
-/// How often the difference between the zero moment points of multibody and cart is fed back, Kajita's second stage.
+/// The number of times that the difference between the zero moment points of multibody and cart is fed back: Kajita's
+/// second stage.
 const FEEDBACKS: usize = 1;
 
 /// The gains of preview control for a height of the centre of mass.
@@ -31,14 +33,14 @@ const FEEDBACKS: usize = 1;
 pub struct Preview {
     height: f64,
     tick: f64,
-    /// Of the summed error and of position, velocity and acceleration.
+    /// The feedback gains of the summed error and of position, velocity and acceleration.
     gains: RowVector4<f64>,
-    /// Of the reference one, two, ... samples ahead.
+    /// The preview gains of the reference one, two, ... samples in the future.
     ahead: Vec<f64>,
 }
 
 impl Preview {
-    /// The optimal gains for a centre of mass at `height` \[m\] and samples `tick` \[s\] apart.
+    /// Computes the optimal gains for a centre of mass at `height` \[m\] and samples `tick` \[s\] apart.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when a number is not positive and finite, or no gains are found.
@@ -62,8 +64,8 @@ impl Preview {
         Ok(Preview { height, tick, gains, ahead })
     }
 
-    /// The positions of the centre of mass whose zero moment point follows `reference`, one coordinate, from rest over its first value;
-    /// behind its end the reference stays.
+    /// The positions of the centre of mass whose zero moment point follows `reference`, for one coordinate, from rest
+    /// above its first value. After its end the reference stays constant.
     pub fn follow(&self, reference: &[f64]) -> Vec<f64> {
         let Some((&first, &last)) = reference.first().zip(reference.last()) else { return Vec::new() };
         let (mut state, mut error) = (Vector3::new(first, 0.0, 0.0), 0.0);
@@ -82,7 +84,7 @@ impl Preview {
     }
 }
 
-/// The scalar product of `gains` with as many values, in four sums side by side.
+/// The scalar product of `gains` with as many values, in four independent sums.
 fn dot(gains: &[f64], values: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     for (gains, values) in gains.chunks(4).zip(values.chunks(4)) {
@@ -93,7 +95,7 @@ fn dot(gains: &[f64], values: &[f64]) -> f64 {
     sums.iter().sum()
 }
 
-/// The cart after a tick of constant jerk.
+/// The state of the cart after a tick of constant jerk.
 fn advanced(state: &Vector3<f64>, jerk: f64, tick: f64) -> Vector3<f64> {
     let (x, v, a) = (state.x, state.y, state.z);
     Vector3::new(
@@ -103,7 +105,7 @@ fn advanced(state: &Vector3<f64>, jerk: f64, tick: f64) -> Vector3<f64> {
     )
 }
 
-/// Summed error and cart as one linear system: what becomes of it, and what jerk does.
+/// The linear system of summed error and cart: its state matrix and its input vector for jerk.
 fn augmented(height: f64, tick: f64) -> (Matrix4<f64>, Vector4<f64>) {
     let share = height / GRAVITY;
     let columns = [Vector3::x(), Vector3::y(), Vector3::z()].map(|unit| advanced(&unit, 0.0, tick));
@@ -114,7 +116,7 @@ fn augmented(height: f64, tick: f64) -> (Matrix4<f64>, Vector4<f64>) {
     (a, column(&pushed))
 }
 
-/// The solution of the discrete algebraic Riccati equation, by its recursion.
+/// Solves the discrete algebraic Riccati equation by its recursion.
 fn riccati(a: &Matrix4<f64>, b: &Vector4<f64>) -> Option<Matrix4<f64>> {
     let price = Matrix4::from_diagonal(&Vector4::new(ERROR_PRICE, 0.0, 0.0, 0.0));
     let mut p = price;
@@ -132,7 +134,8 @@ fn riccati(a: &Matrix4<f64>, b: &Vector4<f64>) -> Option<Matrix4<f64>> {
     None
 }
 
-/// Where the zero moment point is to be: over the foot that stands while the other one swings, and on a smooth way from foot to foot.
+/// The reference of the zero moment point: above the supporting foot in single support, and on a smooth path from foot
+/// to foot in double support.
 pub fn zmp_reference(
     style: &Style,
     schedule: &Schedule,
@@ -140,13 +143,14 @@ pub fn zmp_reference(
     feet: &[Footprint; 2],
     share: f64,
 ) -> Point2<f64> {
-    on_the_way(style, schedule, action, feet, |_, [from, to]| from + (to - from) * smooth(share))
+    between_stances(style, schedule, action, feet, |_, [from, to]| from + (to - from) * smooth(share))
 }
 
-/// The motion whose zero moment point follows its reference by preview control; the centres of `references` become those of the walk.
+/// The motion whose zero moment point follows its reference by preview control. The centres of `references` become
+/// those of the walk.
 ///
 /// # Errors
-/// As the motion of given references.
+/// Those of [`super::motion::realise`].
 pub(super) fn moved(
     biped: &Biped,
     legs: &Legs,
@@ -165,8 +169,8 @@ pub(super) fn moved(
         .collect();
     let resting = realised(biped, legs, &references[..1], None, request.tick, watch)?;
     let preview = Preview::new(resting.0.centres[0].z, request.tick)?;
-    let follow = |way: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
-        let [x, y] = [0, 1].map(|axis| preview.follow(&way.iter().map(|point| point[axis]).collect::<Vec<_>>()));
+    let follow = |positions: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
+        let [x, y] = [0, 1].map(|axis| preview.follow(&positions.iter().map(|point| point[axis]).collect::<Vec<_>>()));
         x.into_iter().zip(y).map(|(x, y)| Vector2::new(x, y)).collect()
     };
     let mut centres = follow(&wanted.iter().map(|point| point.coords).collect::<Vec<_>>());
@@ -185,7 +189,7 @@ pub(super) fn moved(
     realised(biped, legs, references, alike.as_ref(), request.tick, watch)
 }
 
-/// Asks the references for these centres of mass.
+/// Sets these centres of mass in the references.
 fn aim(references: &mut [Reference], centres: &[Vector2<f64>]) {
     for (reference, centre) in references.iter_mut().zip(centres) {
         reference.centre = Point2::from(*centre);

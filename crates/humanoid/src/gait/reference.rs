@@ -1,4 +1,4 @@
-//! What a walk asks of the feet and of the centre of mass at each sample. Main type: [`Reference`].
+//! References of the feet and the centre of mass at each sample. Main type: [`Reference`].
 
 use nalgebra::Point2;
 
@@ -6,63 +6,64 @@ use super::footprint::{Footprint, Side};
 use super::schedule::{Action, Schedule};
 use groebot_robot::spatial::Pose;
 
-/// The figures of a gait. Metres, seconds, radians.
+/// The parameters of a gait. Metres, seconds, radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
-    /// `z_d` of NAO 6.8: how high a foot is lifted.
+    /// The height to which a foot is lifted: `z_d` of NAO 6.8.
     pub lift: f64,
-    /// `A` of NAO (6.8.1): how far to the side the centre of mass goes, seen from the middle of feet that stand `half_width` to each side.
+    /// The lateral displacement of the centre of mass, from the middle of feet that are `half_width` to each side: `A`
+    /// of NAO (6.8.1).
     pub amplitude: f64,
-    /// Half of the way from foot to foot, sideways.
+    /// Half of the lateral distance between the feet.
     pub half_width: f64,
-    /// How far ahead of the ankles the centre of mass is held.
+    /// The distance of the centre of mass forward of the ankles.
     pub ahead: f64,
-    /// The height of the torso's origin over the floor.
+    /// The height of the torso's origin above the floor.
     pub torso_height: f64,
 }
 
-/// What is asked at a sample.
+/// The reference at a sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reference {
-    /// The phase, by its place in the schedule.
+    /// The index of the phase in the schedule.
     pub phase: usize,
     /// The poses of the soles in the world, left and right.
     pub world_from_soles: [Pose; 2],
-    /// Which feet stand.
+    /// Whether each foot supports, left and right.
     pub stands: [bool; 2],
-    /// Where the centre of mass is to be, seen from above.
+    /// The position of the centre of mass, seen from above \[m\].
     pub centre: Point2<f64>,
-    /// The height of the torso's origin over the floor \[m\].
+    /// The height of the torso's origin above the floor \[m\].
     pub torso_height: f64,
-    /// Where the torso is to look \[rad\]; where the legs share an actuator, the actuator has the last word.
+    /// The heading of the torso \[rad\]. Where the legs share an actuator, the legs determine the heading instead.
     pub heading: f64,
 }
 
-/// The smoothest way from 0 to 1 with rest at both ends: velocity and acceleration are zero there (the minimum-jerk profile, Flash and
-/// Hogan 1985).
+/// The minimum-jerk profile from 0 to 1 (Flash and Hogan 1985): velocity and acceleration are zero at both ends.
 pub fn smooth(share: f64) -> f64 {
     let s = share.clamp(0.0, 1.0);
     s * s * s * (10.0 - s * (15.0 - 6.0 * s))
 }
 
-/// The smoothest way from 0 up to 1 and back: velocity and acceleration are zero at both ends.
+/// A smooth profile from 0 to 1 and back: velocity and acceleration are zero at both ends.
 pub fn arch(share: f64) -> f64 {
     let s = share.clamp(0.0, 1.0);
     (4.0 * s * (1.0 - s)).powi(3)
 }
 
 impl Style {
-    /// Where the centre of mass is while the foot of `side`, at `print`, stands alone: at `y = +-A` when the foot is at `+-half_width`.
+    /// The position of the centre of mass in single support on the foot of `side` at `print`: at `y = +-A` when the
+    /// foot is at `+-half_width`.
     pub fn over(&self, side: Side, print: &Footprint) -> Point2<f64> {
         print.carry(&Point2::new(self.ahead, side.sign() * (self.amplitude - self.half_width)))
     }
 
-    /// Where the centre of mass is at rest on both feet.
+    /// The position of the centre of mass at rest in double support.
     pub fn between(&self, feet: &[Footprint; 2]) -> Point2<f64> {
         feet[0].middle(&feet[1]).carry(&Point2::new(self.ahead, 0.0))
     }
 
-    /// The two ends of the way of the centre of mass in the shift to step `step`.
+    /// The start and the end of the path of the centre of mass in the shift to step `step`.
     pub fn ends(&self, schedule: &Schedule, step: usize, feet: &[Footprint; 2]) -> [Point2<f64>; 2] {
         let before = step.checked_sub(1).and_then(|before| schedule.stance(before));
         let at = |side: Option<Side>| match side {
@@ -73,16 +74,17 @@ impl Style {
     }
 }
 
-/// The seed's law, NAO (6.8.1): on both feet the centre of mass follows `y = A sin(pi x / x_d)` with x from `-x_d/2` to `x_d/2`; over one
-/// foot it stays. The first shift starts, and the last one ends, at `x = 0`, where the curve crosses the middle.
-pub fn seed_centre(
+/// The centre of mass by the law of NAO (6.8.1). In double support it follows `y = A sin(pi x / x_d)` with x from
+/// `-x_d/2` to `x_d/2`; in single support it rests. The first shift starts, and the last one ends, at `x = 0`, where
+/// the curve crosses the middle.
+pub fn sine_centre(
     style: &Style,
     schedule: &Schedule,
     action: Action,
     feet: &[Footprint; 2],
     share: f64,
 ) -> Point2<f64> {
-    on_the_way(style, schedule, action, feet, |step, [mut from, mut to]| {
+    between_stances(style, schedule, action, feet, |step, [mut from, mut to]| {
         let (mut low, mut high) = (-0.5, 0.5);
         if step == 0 {
             (low, from) = (0.0, from + (from - to));
@@ -94,9 +96,9 @@ pub fn seed_centre(
     })
 }
 
-/// A point that rests between the feet or over one foot, and goes from one place to the other in a shift: `shifting` gets the step and
-/// the two ends of its way.
-pub(super) fn on_the_way(
+/// A point that rests between the feet or above one foot, and moves from one to the other in a shift. `shifting` gets
+/// the step and both ends of the path.
+pub(super) fn between_stances(
     style: &Style,
     schedule: &Schedule,
     action: Action,
@@ -110,19 +112,21 @@ pub(super) fn on_the_way(
     }
 }
 
-/// The point at `u = x / x_d` of the sine from `from` (`u = -1/2`) to `to` (`u = 1/2`), with x along the heading of `middle`.
+/// The point at `u = x / x_d` of the sine from `from` (`u = -1/2`) to `to` (`u = 1/2`), with x along the heading of
+/// `middle`.
 fn along_sine(from: &Point2<f64>, to: &Point2<f64>, middle: &Footprint, u: f64) -> Point2<f64> {
-    let way = to - from;
-    let ahead = middle.ahead() * way.dot(&middle.ahead());
-    let aside = way - ahead;
+    let offset = to - from;
+    let ahead = middle.ahead() * offset.dot(&middle.ahead());
+    let aside = offset - ahead;
     nalgebra::center(from, to) + ahead * u + aside * (0.5 * (std::f64::consts::PI * u).sin())
 }
 
-/// The shares of a swing between which the foot moves ahead: it leaves the floor before, and lands behind, so that a robot whose servos
-/// sag does not drag it.
+/// The interval of a swing, as fractions, in which the foot moves forward. Lift-off is before it and landing after it,
+/// so that a robot whose servos sag does not drag the foot.
 const AHEAD: (f64, f64) = (0.05, 0.9);
 
-/// The poses of the soles, and which feet stand, at the share `share` of a phase: the swinging foot is lifted in the plane of its way.
+/// The poses of the soles, and which feet support, at the fraction `share` of a phase. The swing foot is lifted in the
+/// vertical plane of its path.
 pub fn soles(
     style: &Style,
     schedule: &Schedule,

@@ -1,4 +1,5 @@
-//! Why a walk is refused, in words: the cause, which figure would make it feasible, with its option of `groebot walk`, then where and when.
+//! Messages for infeasible walks: the cause, the parameter that would make it feasible with its option of `groebot
+//! walk`, then the place and the time.
 
 use nalgebra::Point2;
 
@@ -10,26 +11,26 @@ use super::request::{Gait, Request};
 use super::schedule::{Action, Schedule};
 use crate::{Error, ErrorKind};
 
-/// Whether a slower walk may heal a fault.
+/// Whether a slower walk may remove a fault.
 pub(super) fn is_healed_by_time(fault: &Fault) -> bool {
     matches!(fault, Fault::Dynamic { .. } | Fault::Speed { .. })
 }
 
-/// The error for what was found.
+/// The error for a fault.
 pub(super) fn of(biped: &Biped, schedule: &Schedule, request: &Request, found: &Found) -> Error {
     let time = found.sample as f64 * request.tick;
     let text = match &found.fault {
         Fault::Static { margin } => {
             let asked = request.margin;
             format!(
-                "the centre of mass is {} the border of the support polygon, {:.1} mm inside it are asked for; {}",
+                "the centre of mass is {} the border of the support polygon, {:.1} mm inside it are required; {}",
                 measured(*margin),
                 1e3 * asked,
                 feasible(biped, request)
             )
         }
         Fault::Dynamic { margin } => format!(
-            "the zero moment point is {} the border of the support polygon, {:.1} mm inside it are asked for, and no slower walk helps; {}",
+            "the zero moment point is {} the border of the support polygon, {:.1} mm inside it are required, and no slower walk helps; {}",
             measured(*margin),
             1e3 * request.margin,
             feasible(biped, request)
@@ -53,7 +54,7 @@ pub(super) fn of(biped: &Biped, schedule: &Schedule, request: &Request, found: &
         }
         Fault::Feet { apart } => {
             format!(
-                "the feet come within {:.1} mm of one another; turn less in a step (--max-turn, or more --steps) or widen them (--half-width)",
+                "the feet come within {:.1} mm of each other; turn less in a step (--max-turn, or more --steps) or widen them (--half-width)",
                 1e3 * apart
             )
         }
@@ -65,11 +66,11 @@ fn phase(schedule: &Schedule, place: usize) -> String {
     let steps = schedule.route.steps.len();
     match schedule.phases[place].action {
         Action::Rest if place == 0 => "rest before the first step".into(),
-        Action::Rest => "rest behind the last step".into(),
+        Action::Rest => "rest after the last step".into(),
         Action::Lower => "lowering of the trunk".into(),
         Action::Rise => "rise of the trunk".into(),
-        Action::Balance(step) => format!("balance behind step {}", step + 1),
-        Action::Shift(step) if step == steps => "shift behind the last step".into(),
+        Action::Balance(step) => format!("balance after step {}", step + 1),
+        Action::Shift(step) if step == steps => "shift after the last step".into(),
         Action::Shift(step) => format!("shift before step {}", step + 1),
         Action::Swing(step) => format!("swing of step {} ({} foot)", step + 1, schedule.route.steps[step].side.name()),
     }
@@ -80,7 +81,7 @@ fn measured(margin: f64) -> String {
     format!("{:.1} mm {side}", 1e3 * margin.abs())
 }
 
-/// Which figures keep the centre of mass over one sole.
+/// The parameters that keep the centre of mass above one sole.
 fn feasible(biped: &Biped, request: &Request) -> String {
     let corners = &biped.feet[0].corners;
     let range = |coordinate: fn(&Point2<f64>) -> f64| {
@@ -94,7 +95,7 @@ fn feasible(biped: &Biped, request: &Request) -> String {
         return format!("the sole allows a margin of {most:.4} m at most (--margin)");
     }
     format!(
-        "the soles allow an amplitude of {:.4}..{:.4} m (--amplitude) and a centre of mass {:.4}..{:.4} m ahead of the ankles (--ahead)",
+        "the soles allow an amplitude of {:.4}..{:.4} m (--amplitude) and a centre of mass {:.4}..{:.4} m forward of the ankles (--ahead)",
         style.half_width + right + margin,
         style.half_width + left - margin,
         back + margin,
@@ -102,7 +103,7 @@ fn feasible(biped: &Biped, request: &Request) -> String {
     )
 }
 
-/// Refuses figures that no walk can have.
+/// Checks the parameters that every walk has.
 pub(super) fn check(request: &Request) -> crate::Result<()> {
     let (style, durations) = (&request.style, &request.durations);
     let positive = [
@@ -111,9 +112,9 @@ pub(super) fn check(request: &Request) -> crate::Result<()> {
         ("shift's duration", durations.shift),
         ("swing's duration", durations.swing),
         ("lowering's duration", durations.lower.unwrap_or(1.0)),
-        ("speed share", request.speed_share),
+        ("speed fraction", request.speed_share),
         ("time between samples", request.tick),
-        ("most that phases are slowed", request.slowest),
+        ("greatest factor of slower phases", request.slowest),
     ];
     let not_negative = [
         ("lift", style.lift),
@@ -131,15 +132,15 @@ pub(super) fn check(request: &Request) -> crate::Result<()> {
         return refuse(name, *value, "zero or a positive number");
     }
     if !style.ahead.is_finite() {
-        return refuse("lead of the centre of mass", style.ahead, "a finite number");
+        return refuse("forward distance of the centre of mass", style.ahead, "a finite number");
     }
     match &request.gait {
         Gait::OneStep(one_step) => check_one_step(one_step, style),
-        Gait::Seed | Gait::Preview => Ok(()),
+        Gait::Sine | Gait::Preview => Ok(()),
     }
 }
 
-/// Refuses figures that no one-step-goal walk can have.
+/// Checks the parameters of one-step-goal walks.
 fn check_one_step(one_step: &OneStep, style: &Style) -> crate::Result<()> {
     let refuse = |name: &str, value: f64, wanted: &str| {
         Err(Error::new(ErrorKind::BadValue, format!("the {name} is {value}; give {wanted}")))

@@ -1,16 +1,16 @@
-//! What walk is wanted. Main types: [`Request`], [`Gait`].
+//! The request for a walk. Main types: [`Request`], [`Gait`].
 
 use super::footprint::Route;
 use super::one_step::OneStep;
 use super::reference::Style;
 use super::schedule::{Action, Durations};
 
-/// How the centre of mass is moved.
+/// The law of motion of the centre of mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Gait {
-    /// The seed's sine, NAO (6.8.1): over one foot the centre of mass rests.
+    /// The sine of NAO (6.8.1): in single support the centre of mass rests.
     #[default]
-    Seed,
+    Sine,
     /// Preview control of the zero moment point (Kajita and others 2003): the centre of mass never rests.
     Preview,
     /// One step goal, RH0 3.3 and 3.5: orient, lean, lift, land, balance.
@@ -33,23 +33,23 @@ impl Gait {
     }
 }
 
-/// What walk is wanted.
+/// The request for a walk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    /// The way.
+    /// The footsteps.
     pub route: Route,
-    /// How the centre of mass is moved.
+    /// The law of motion of the centre of mass.
     pub gait: Gait,
-    /// The figures of the gait.
+    /// The parameters of the gait.
     pub style: Style,
-    /// How long the phases are to last.
+    /// The durations of the phases.
     pub durations: Durations,
     /// The least distance of the zero moment point from the border of the support polygon \[m\].
     pub margin: f64,
-    /// The greatest share of its own speed that a joint may have.
+    /// The greatest joint rate, as a fraction of the joint's limit.
     pub speed_share: f64,
     /// The time between two samples \[s\].
     pub tick: f64,
-    /// No phase lasts longer than this many times its duration.
+    /// The greatest factor between a phase's duration and the requested one.
     pub slowest: f64,
 }

@@ -2,42 +2,43 @@
 
 use super::footprint::{Footprint, Route, Side};
 
-/// The most samples of a phase.
+/// The greatest number of samples of a phase.
 const MOST_SAMPLES: usize = groebot_algebra::limits::PHASE_SAMPLES;
 
-/// What happens in a phase.
+/// The kind of a phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// The robot stands still on both feet.
+    /// The robot rests in double support.
     Rest,
-    /// On both feet, the weight goes over to the foot that the step with this number leaves standing; behind the last step it goes to
-    /// the middle.
+    /// In double support, the weight shifts to the supporting foot of the step with this number; after the last step it
+    /// shifts to the middle.
     Shift(usize),
-    /// The foot of the step with this number swings.
+    /// The swing foot of the step with this number moves; single support.
     Swing(usize),
-    /// On both feet, the weight goes from the foot that stood in the step with this number to the middle: phase 5 of RH0 3.3.
+    /// In double support, the weight shifts from the supporting foot of the step with this number to the middle: phase
+    /// 5 of RH0 3.3.
     Balance(usize),
-    /// Before the first step the trunk goes down until the legs can reach.
+    /// Before the first step the trunk descends until the legs can reach.
     Lower,
-    /// Behind the last step the trunk goes up again.
+    /// After the last step the trunk rises again.
     Rise,
 }
 
 /// A phase of a walk.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Phase {
-    /// What happens.
+    /// Its kind.
     pub action: Action,
-    /// The number of samples that it lasts.
+    /// Its duration in samples.
     pub samples: usize,
-    /// How many times as long it lasts as was asked for.
+    /// The factor between its duration and the requested one.
     pub slowed: f64,
 }
 
-/// All phases of a walk in turn, with the feet in each.
+/// All phases of a walk in order, with the footprints in each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Schedule {
-    /// The way.
+    /// The footsteps.
     pub route: Route,
     /// The phases.
     pub phases: Vec<Phase>,
@@ -45,21 +46,21 @@ pub struct Schedule {
     pub tick: f64,
 }
 
-/// How long the phases last \[s\].
+/// The durations of the phases \[s\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Durations {
-    /// Each rest, before the first and behind the last step.
+    /// Each rest, before the first and after the last step.
     pub rest: f64,
     /// Each shift of the weight.
     pub shift: f64,
     /// Each swing.
     pub swing: f64,
-    /// Lowering, and rising; without it as long as two shifts and a swing.
+    /// Lowering, and rising; without a value, two shifts and a swing.
     pub lower: Option<f64>,
 }
 
 impl Schedule {
-    /// The phases of `route`, `actions` in turn; `slowed[i]` is the factor by which phase `i` lasts longer.
+    /// The phases of `route` for `actions` in order; `slowed[i]` is the factor on the duration of phase `i`.
     pub fn new(route: Route, actions: &[Action], durations: &Durations, slowed: &[f64], tick: f64) -> Self {
         let phase = |(place, action): (usize, &Action)| {
             let slowed = slowed.get(place).copied().unwrap_or(1.0);
@@ -83,7 +84,8 @@ impl Schedule {
         1 + self.phases.iter().map(|phase| phase.samples).sum::<usize>()
     }
 
-    /// Each sample's phase and the share of the phase that is over, in (0, 1]; the first instant belongs to the first phase.
+    /// Each sample's phase and the completed fraction of the phase, in (0, 1]. The first instant belongs to the first
+    /// phase.
     pub fn instants(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         let within = |(place, phase): (usize, &Phase)| {
             let count = phase.samples;
@@ -92,7 +94,7 @@ impl Schedule {
         [(0, 0.0)].into_iter().chain(self.phases.iter().enumerate().flat_map(within))
     }
 
-    /// Where the feet stand when `action` begins.
+    /// The footprints at the start of `action`.
     pub fn feet(stands: &[[Footprint; 2]], action: Action, is_first: bool) -> [Footprint; 2] {
         match action {
             Action::Rest if is_first => stands[0],
@@ -103,7 +105,7 @@ impl Schedule {
         }
     }
 
-    /// The foot that stands while the step swings; `None` behind the last step.
+    /// The supporting foot of the step; `None` after the last step.
     pub fn stance(&self, step: usize) -> Option<Side> {
         self.route.steps.get(step).map(|step| step.side.other())
     }

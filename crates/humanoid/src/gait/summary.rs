@@ -1,4 +1,4 @@
-//! A walk in a few figures. Main type: [`Summary`].
+//! The main figures of a walk. Main type: [`Summary`].
 
 use std::fmt;
 
@@ -7,39 +7,39 @@ use super::plan::Walk;
 use super::request::Gait;
 use super::schedule::Action;
 
-/// A figure at its time.
+/// An extreme value with its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Extreme {
-    /// The figure.
+    /// The value.
     pub value: f64,
-    /// When it is met first \[s\].
+    /// The time at which it occurs first \[s\].
     pub time: f64,
 }
 
-/// What a walk comes to.
+/// The main figures of a walk.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Summary {
     /// The name of the robot.
     pub robot: String,
-    /// How the centre of mass is moved.
+    /// The law of motion of the centre of mass.
     pub gait: Gait,
     /// The number of steps.
     pub steps: usize,
-    /// How long the walk lasts, rests included \[s\].
+    /// The duration, rests included \[s\].
     pub duration: f64,
-    /// How long it steps: without rests, lowering and rising \[s\].
+    /// The duration without rests, lowering and rising \[s\].
     pub stepping: f64,
     /// Whether the mass model is a point at the torso's centre of mass.
     pub is_point_mass: bool,
-    /// How far the middle of the feet gets \[m\].
+    /// The distance that the middle of the feet moves \[m\].
     pub distance: f64,
-    /// How far the middle of the feet turns \[rad\].
+    /// The angle that the middle of the feet turns \[rad\].
     pub turn: f64,
-    /// The height of the torso's origin over the floor \[m\].
+    /// The height of the torso's origin above the floor \[m\].
     pub torso_height: f64,
-    /// The distance by the time from the first shift to the last \[m/s\].
+    /// The mean speed from the first shift to the last \[m/s\].
     pub speed: f64,
     /// The least margin of the zero moment point \[m\], RH0 (3-5).
     pub margin: Extreme,
@@ -47,13 +47,14 @@ pub struct Summary {
     pub static_margin: Extreme,
     /// The greatest distance between the zero moment points of the multibody and of the linear inverted pendulum \[m\].
     pub pendulum_error: Extreme,
-    /// The joint that comes nearest to a limit, and how near \[rad\].
+    /// The joint that comes nearest to a limit, and the distance to that limit \[rad\].
     pub nearest_limit: (String, Extreme),
-    /// The joint that turns at the greatest share of its speed, and the share.
+    /// The joint with the greatest rate relative to its limit, and that ratio.
     pub fastest: (String, Extreme),
-    /// Links that touch one another, by their names, how deep at most \[m\] and when that is met first; deepest first.
+    /// Pairs of links that touch, by their names, with the greatest penetration \[m\] and its first time; deepest
+    /// first.
     pub touching: Vec<([String; 2], Extreme)>,
-    /// How many phases are slowed down, and the greatest factor.
+    /// The number of phases that are slowed down, and the greatest factor.
     pub slowed: (usize, f64),
 }
 
@@ -98,7 +99,7 @@ pub(super) fn least_margin(walk: &Walk) -> Extreme {
     extreme(walk, &|sample| -walk.balances[sample].margin, -1.0)
 }
 
-/// The greatest figure, times `sign`, with its time.
+/// The greatest value of `figure` times `sign`, with its time.
 fn extreme(walk: &Walk, figure: &dyn Fn(usize) -> f64, sign: f64) -> Extreme {
     let mut best = (f64::NEG_INFINITY, 0);
     for sample in 0..walk.balances.len() {
@@ -110,7 +111,7 @@ fn extreme(walk: &Walk, figure: &dyn Fn(usize) -> f64, sign: f64) -> Extreme {
     Extreme { value: sign * best.0, time: walk.time(best.1) }
 }
 
-/// The joint whose figure is the greatest over the walk. Joints that stand still are left out.
+/// The joint whose figure is the greatest over the walk. Joints that do not move are ignored.
 fn among_joints(biped: &Biped, walk: &Walk, figure: &dyn Fn(usize, usize) -> f64, sign: f64) -> (String, Extreme) {
     let postures = &walk.motion.postures;
     let moves = |joint: &usize| postures.iter().any(|posture| posture.q[*joint] != postures[0].q[*joint]);
@@ -140,7 +141,7 @@ fn fastest(biped: &Biped, walk: &Walk) -> (String, Extreme) {
     among_joints(biped, walk, &share, 1.0)
 }
 
-/// The links that touch at a sample, each pair with its deepest place.
+/// The pairs of links that touch at a sample, each with its deepest point.
 fn touching(biped: &Biped, walk: &Walk) -> Vec<([String; 2], Extreme)> {
     let mut found: Vec<([usize; 2], Extreme)> = Vec::new();
     for (sample, posture) in walk.motion.postures.iter().enumerate() {
@@ -162,19 +163,19 @@ fn touching(biped: &Biped, walk: &Walk) -> Vec<([String; 2], Extreme)> {
 impl fmt::Display for Summary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let gait = match self.gait {
-            Gait::Seed => "the seed's sine",
+            Gait::Sine => "the sine",
             Gait::Preview => "preview control",
             Gait::OneStep(_) => "one step goal",
         };
         let millimetres = |extreme: &Extreme| format!("{:.1} mm at {:.2} s", 1e3 * extreme.value, extreme.time);
         writeln!(
             f,
-            "{}: {} steps by {gait}, {:.2} s, {:.2} s of them steps",
+            "{}: {} steps by {gait}, {:.2} s, {:.2} s of them stepping",
             self.robot, self.steps, self.duration, self.stepping
         )?;
         writeln!(
             f,
-            "  way             {:.3} m, turn {:.1} deg, {:.1} cm/s between the rests, torso {:.3} m high",
+            "  path            {:.3} m, turn {:.1} deg, {:.1} cm/s between the rests, torso {:.3} m high",
             self.distance,
             self.turn.to_degrees(),
             100.0 * self.speed,

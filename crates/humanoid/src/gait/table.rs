@@ -1,4 +1,4 @@
-//! A walk as a trajectory, and so as CSV or JSON.
+//! Tables of a walk: its trajectory, CSV and JSON.
 
 use nalgebra::{Point2, Point3};
 use serde_json::{Value, json};
@@ -13,8 +13,9 @@ use super::summary::Summary;
 use groebot_robot::motion::{Contact, Figure, JointTrack, Track, Trajectory};
 
 impl Walk {
-    /// The walk as a trajectory: its base is the torso, its contacts are the soles `left` and `right`, its points the centre of mass `com` and the zero
-    /// moment points of the multibody, `zmp`, and of the pendulum, `pendulum`; its figures `static_margin` and `margin` \[m\].
+    /// The walk as a trajectory. Its base is the torso and its contacts are the soles `left` and `right`. Its points
+    /// are the centre of mass `com` and the zero moment points of the multibody, `zmp`, and of the pendulum,
+    /// `pendulum`. Its figures are `static_margin` and `margin` \[m\].
     pub fn trajectory(&self, biped: &Biped) -> Trajectory {
         let joint = |range: &super::JointRange| JointTrack {
             name: range.name.clone(),
@@ -61,17 +62,18 @@ impl Walk {
         self.trajectory(biped).to_csv()
     }
 
-    /// The walk's trajectory as JSON, and beside it under `walk` the time between two samples, footsteps, phases, summary, and the support polygons.
+    /// The walk's trajectory as JSON, with additional data under `walk`: the time between two samples, footsteps,
+    /// phases, summary, and the support polygons.
     pub fn to_json(&self, biped: &Biped) -> String {
         self.json_of(biped, &self.trajectory(biped))
     }
 
-    /// The same with another trajectory of this walk: [`Walk::trajectory_with_forces`].
+    /// Same as [`Walk::to_json`], but with another trajectory of this walk: [`Walk::trajectory_with_forces`].
     pub fn json_of(&self, biped: &Biped, trajectory: &Trajectory) -> String {
         self.json_value(biped, trajectory).to_string() + "\n"
     }
 
-    /// What [`Walk::json_of`] writes.
+    /// The JSON value that [`Walk::json_of`] writes.
     pub fn json_value(&self, biped: &Biped, trajectory: &Trajectory) -> Value {
         let route = &self.schedule.route;
         let steps = route.steps.iter().map(|step| {
@@ -121,7 +123,7 @@ fn summary(summary: &Summary) -> Value {
     let extreme = |extreme: &super::Extreme| json!({ "value": extreme.value, "time": extreme.time });
     let joint = |(name, figure): &(String, super::Extreme)| json!({ "joint": name, "value": figure.value, "time": figure.time });
     json!({
-        "gait": match summary.gait { Gait::Seed => "seed", Gait::Preview => "preview", Gait::OneStep(_) => "osg" },
+        "gait": match summary.gait { Gait::Sine => "sine", Gait::Preview => "preview", Gait::OneStep(_) => "osg" },
         "steps": summary.steps,
         "duration": summary.duration,
         "stepping": summary.stepping,

@@ -1,4 +1,4 @@
-//! A walk in the columns of the thesis' tables, RH0 Fig. 5-16: degrees, and the axes x to the left, y up, z ahead.
+//! A walk in the columns of the thesis' tables, RH0 Fig. 5-16: degrees, and the axes x to the left, y up, z forward.
 
 use std::fmt::Write;
 
@@ -12,7 +12,7 @@ use groebot_robot::motion::table::decimal;
 
 /// The joints in the thesis' order: the right leg from the foot up, then the left one.
 const JOINTS: [&str; 12] = ["1", "2", "3", "4", "5", "6", "12", "11", "10", "9", "8", "7"];
-/// The columns behind the joints. `ZMP` in the thesis' tables is the centre of mass, at its height.
+/// The columns after the joints. `ZMP` in the thesis' tables is the centre of mass, at its height.
 const PLACES: [&str; 12] = [
     "X_right_foot",
     "Y_right_foot",
@@ -29,11 +29,12 @@ const PLACES: [&str; 12] = [
 ];
 
 impl Walk {
-    /// The walk as CSV in the columns of RH0 Fig. 5-16: `t` \[s\]; `q1`..`q6`, `q12`..`q7` \[degrees\]; the ankles' points of feet, the centre
-    /// of mass and the zero moment point in the thesis' axes \[m\], the floor's height where the ankles stand on it.
+    /// The walk as CSV in the columns of RH0 Fig. 5-16. They are `t` \[s\]; `q1`..`q6`, `q12`..`q7` \[degrees\]; the
+    /// ankles' points of both feet, the centre of mass and the zero moment point in the thesis' axes \[m\]. Heights are
+    /// relative to the ankles of supporting feet.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] when the robot's joints have not the thesis' numbers.
+    /// [`ErrorKind::UnknownName`] when the robot's joints do not have the thesis' numbers.
     pub fn to_thesis_csv(&self, biped: &Biped) -> Result<String> {
         let joint = |symbol: &&str| {
             let missing = || {
@@ -62,7 +63,7 @@ impl Walk {
         Ok(text)
     }
 
-    /// The figures of [`PLACES`].
+    /// The values of the columns [`PLACES`].
     fn places(&self, biped: &Biped, sample: usize) -> Vec<f64> {
         let height = biped.feet[0].ankle_height;
         let turned = |point: Point3<f64>| [point.y, point.z - height, point.x];

@@ -1,4 +1,4 @@
-//! The figures that a robot's gait has unless others are given. Main type: [`Usual`].
+//! The default parameters of a robot's gait. Main type: [`Usual`].
 
 use std::borrow::Cow;
 
@@ -11,49 +11,49 @@ use super::request::{Gait, Request};
 use super::schedule::Durations;
 use crate::{ErrorKind, Result, Watch};
 
-/// The usual figures of a gait. Metres, seconds, radians.
+/// The default parameters of a gait. Metres, seconds, radians.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Usual {
-    /// How the centre of mass is moved.
+    /// The law of motion of the centre of mass.
     pub gait: Gait,
-    /// How far ahead of the standing foot the other one lands: `x_d` of NAO 6.8, `L_p` of RH0 3.5.
+    /// The distance from the supporting foot forward to the landing foot: `x_d` of NAO 6.8, `L_p` of RH0 3.5.
     pub length: f64,
-    /// How high a foot is lifted: `z_d` of NAO 6.8, `H_p` of RH0 3.5.
+    /// The height to which a foot is lifted: `z_d` of NAO 6.8, `H_p` of RH0 3.5.
     pub lift: f64,
-    /// Half of the way from foot to foot, sideways; `None` is as wide as the hips are.
+    /// Half of the lateral distance between the feet; `None` is the half width of the hips.
     pub half_width: Option<f64>,
-    /// How far to the side the centre of mass goes.
+    /// The lateral displacement of the centre of mass.
     pub amplitude: f64,
-    /// How far ahead of the ankles the centre of mass is held.
+    /// The distance of the centre of mass forward of the ankles.
     pub ahead: f64,
-    /// Heights of the axes of the hip over the floor; the first at which the walk can be walked is taken.
+    /// Heights of the hip axes above the floor; the first feasible one is taken.
     pub hip_heights: Cow<'static, [f64]>,
-    /// The height of the axes of the hip before the trunk is lowered and when it has risen, for one step goal.
+    /// The height of the hip axes before the trunk is lowered and after it has risen, for one step goal.
     pub upright_hip: f64,
-    /// The time of a step.
+    /// The duration of a step.
     pub period: f64,
-    /// The share of a step in which both feet stand.
+    /// The fraction of a step in double support.
     pub double_support: f64,
-    /// How long the robot stands before the first and behind the last step.
+    /// The duration of the rest before the first and after the last step.
     pub rest: f64,
     /// The least distance of the zero moment point from the border of the support polygon.
     pub margin: f64,
-    /// The greatest share of its own speed that a joint may have.
+    /// The greatest joint rate, as a fraction of the joint's limit.
     pub speed_share: f64,
-    /// How far the robot turns in one step at most: `G_CM` of RH0 3.5.
+    /// The greatest turn per step: `G_CM` of RH0 3.5.
     pub most_turn: f64,
     /// The time between two samples.
     pub tick: f64,
 }
 
-/// How far turns and steps are shortened in turn, where a walk is refused as it was asked for.
+/// Factors that shorten turns and steps, tried in order when a walk is infeasible as requested.
 const EASED: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];
 
-/// The walk at `hip_height` \[m\], or at the first of `heights` at which it can be walked; `request` makes the request for a height, with
-/// turns that are shortened to a share where no height helps: 1 at first.
+/// Plans the walk at `hip_height` \[m\], or at the first feasible one of `heights`. `request` makes the request for a
+/// height and a factor on turns. The factor is 1 at first, and is reduced when no height is feasible.
 ///
 /// # Errors
-/// As [`plan`]; that of the first height when it can be walked at none.
+/// As [`plan`]; that of the first height when none is feasible.
 pub fn plan_at(
     (biped, legs): (&Biped, &Legs),
     hip_height: Option<f64>,
@@ -77,7 +77,7 @@ pub fn plan_at(
 }
 
 impl Usual {
-    /// Half of the way from foot to foot, sideways \[m\].
+    /// Half of the lateral distance between the feet \[m\].
     pub fn half_width(&self, biped: &Biped) -> f64 {
         self.half_width.unwrap_or(biped.half_width())
     }
@@ -103,13 +103,13 @@ impl Usual {
         }
     }
 
-    /// The same figures with turns shortened to the share `ease`, and steps to a share between it and 1.
+    /// Same as `self`, but with turns multiplied by `ease`, and steps by a factor between it and 1.
     #[must_use]
     pub fn eased(self, ease: f64) -> Self {
         Usual { most_turn: self.most_turn * ease, length: self.length * (1.0 + ease) / 2.0, ..self }
     }
 
-    /// The figures with a lowering before the first step and a rise behind the last one, for one step goal.
+    /// Adds a lowering before the first step and a rise after the last one, for one step goal.
     #[must_use]
     pub fn from_upright(mut self, biped: &Biped) -> Self {
         if let Gait::OneStep(one_step) = &mut self.gait {
@@ -118,8 +118,8 @@ impl Usual {
         self
     }
 
-    /// How long the phases last. A step of one-step-goal walks has two phases on both feet, one on each side of the swing; a step of the
-    /// others has one.
+    /// The durations of the phases. A step of a one-step-goal walk has two phases in double support, one on each side
+    /// of the swing; a step of the other gaits has one.
     pub fn durations(&self) -> Durations {
         let (double, phases) = (self.period * self.double_support, if self.gait.is_one_step() { 2.0 } else { 1.0 });
         Durations { rest: self.rest, shift: double / phases, swing: self.period - double, lower: None }

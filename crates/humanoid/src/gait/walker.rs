@@ -1,4 +1,4 @@
-//! Robots that walk: NAO, RH0 and TEO of [`groebot_robot::robots`], or any other with two legs. Main type: [`Walker`].
+//! Walking robots: NAO, RH0 and TEO of [`groebot_robot::robots`], or any other biped. Main type: [`Walker`].
 
 use std::borrow::Cow;
 
@@ -17,7 +17,7 @@ use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Target;
 use groebot_robot::model::Robot;
 
-/// A robot that can walk, with the gaits that it walks by name, its own first, each with its usual figures.
+/// A walking robot with its gaits by name, the default first, each with its default parameters.
 #[derive(Clone, Debug)]
 pub struct Walker {
     /// The robot.
@@ -28,25 +28,30 @@ pub struct Walker {
     pub gaits: Vec<(&'static str, Usual)>,
 }
 
-/// Heights of the hip that are tried in turn, as shares of the leg's length over the ankle.
+/// Heights of the hip that are tried in order, as fractions of the leg's length above the ankle.
 const HEIGHTS: [f64; 8] = [0.965, 0.955, 0.94, 0.925, 0.91, 0.89, 0.87, 0.84];
-/// The height of the hip before the trunk is lowered, as such a share.
+/// The height of the hip before the trunk is lowered, as such a fraction.
 const UPRIGHT: f64 = 0.985;
-/// How far a joint that does not walk is kept from a limit \[rad or m\].
+/// The least distance of a joint that does not walk from its limits \[rad or m\].
 const ASIDE: f64 = 1e-3;
-/// The time of a step in the square root of the leg's length by gravity: a pendulum's unit of time.
+/// The duration of a step in units of sqrt(leg length / gravity), a pendulum's unit of time.
 const PERIOD: f64 = 19.0;
 
 impl Walker {
-    /// `robot` on the soles of `biped`, with a solver for each leg: it brings the sole's link to a pose in the torso frame. The figures of its gaits
-    /// follow from the lengths of its legs and the size of its soles; joints that do not walk stand at zero, or at the limit next to it.
+    /// Makes a walker of `robot` with the soles of `biped` and a solver for each leg. A solver moves the sole's link to
+    /// a pose in the torso frame. The parameters of the gaits follow from the lengths of the legs and the size of the
+    /// soles. Joints that do not walk are at zero, or at the nearest limit.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when no posture with bent knees within the limits brings the soles below the hips; [`ErrorKind::Unsupported`] for legs
-    /// that do not have six joints.
+    /// [`ErrorKind::BadValue`] when no posture with bent knees within the limits has the soles below the hips.
+    /// [`ErrorKind::Unsupported`] for legs that do not have six joints.
     pub fn new(robot: &Robot, biped: Biped, solvers: [LegSolver; 2]) -> Result<Self> {
         if let Some(foot) = biped.feet.iter().find(|foot| foot.joints.len() != 6) {
-            let text = format!("{}: a leg has {} joints; legs of six are walked", biped.name, foot.joints.len());
+            let text = format!(
+                "{}: a leg has {} joints; only legs with six joints are supported",
+                biped.name,
+                foot.joints.len()
+            );
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
         let mut crouch = at_rest(robot, &biped);
@@ -60,7 +65,7 @@ impl Walker {
     }
 }
 
-/// All joints at zero, or at the limit next to it, those that follow others where these bring them.
+/// All joints at zero, or at the nearest limit; joints that follow others take the value of their leader.
 fn at_rest(robot: &Robot, biped: &Biped) -> Vec<f64> {
     let rest = |range: &super::JointRange| match range.limits {
         (low, high) if low < 0.0 && high > 0.0 => 0.0,
@@ -72,7 +77,7 @@ fn at_rest(robot: &Robot, biped: &Biped) -> Vec<f64> {
     q
 }
 
-/// The first posture of a leg within its limits that brings the sole below the hip with a bent knee.
+/// The first posture of a leg within its limits with the sole below the hip and a bent knee.
 fn crouched(biped: &Biped, foot: &Foot, solver: &LegSolver) -> Result<Vec<f64>> {
     let (_, torso_from_link) = biped.model.link(foot.link);
     let sole_from_link = foot.torso_from_sole.inv_mul(&torso_from_link);
@@ -96,7 +101,7 @@ fn crouched(biped: &Biped, foot: &Foot, solver: &LegSolver) -> Result<Vec<f64>> 
     Err(Error::new(ErrorKind::BadValue, text))
 }
 
-/// The length of the stretched left leg, from the third joint over the knee to the last one \[m\].
+/// The length of the stretched left leg, from the third joint through the knee to the last one \[m\].
 fn leg(biped: &Biped) -> f64 {
     let at = |place: usize| biped.model.joints()[biped.feet[0].joints[place]].screw.axis().map(|axis| axis.point());
     match (at(2), at(3), at(5)) {
@@ -105,7 +110,7 @@ fn leg(biped: &Biped) -> f64 {
     }
 }
 
-/// Where the middle of the sole is ahead of its frame, and how far the border is from there \[m\].
+/// The distance of the sole's middle forward of its frame, and the distance from there to the border \[m\].
 fn sole(biped: &Biped) -> (f64, f64) {
     let corners = &biped.feet[Side::Left as usize].corners;
     let ends = corners.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p.x), high.max(p.x)));
@@ -113,7 +118,8 @@ fn sole(biped: &Biped) -> (f64, f64) {
     (ahead, Polygon::hull(corners).signed_distance(&Point2::from(Vector2::new(ahead, 0.0))).max(0.0))
 }
 
-/// One step goal by the generic laws of RH0 3.3: all figures are shares of the leg's length and of the sole's half width.
+/// One step goal by the generic laws of RH0 3.3: all parameters are fractions of the leg's length and of the sole's
+/// half width.
 fn one_step(biped: &Biped) -> Usual {
     let (length, (ahead, room)) = (leg(biped), sole(biped));
     let ankle_height = biped.feet[0].ankle_height;
@@ -137,7 +143,7 @@ fn one_step(biped: &Biped) -> Usual {
     }
 }
 
-/// Preview control, with a step in a third of the time.
+/// Preview control, with a third of the step's duration.
 fn preview(biped: &Biped) -> Usual {
     let usual = one_step(biped);
     Usual {

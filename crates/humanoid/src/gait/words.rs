@@ -1,4 +1,5 @@
-//! Walks in words, RH0 3.5.1: `out right, stride left, stride right, in left`, `turn left 90`. Main type: [`Word`].
+//! Walks as lists of words, RH0 3.5.1: `out right, stride left, stride right, in left`, `turn left 90`. Main type:
+//! [`Word`].
 
 use nalgebra::Point2;
 
@@ -6,31 +7,31 @@ use super::footprint::{Footprint, Footstep, MAX_STEPS, Route, Side};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::spatial::angle;
 
-/// How near to its goal a walk ends \[m\].
+/// The distance from its goal at which a walk ends \[m\].
 const ARRIVED: f64 = 1e-3;
 
-/// A part of a walk: one of the four kinds of steps of RH0 3.5.1, or a turn by as many as it takes.
+/// A part of a walk: one of the four kinds of steps of RH0 3.5.1, or a turn in as many steps as needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Word {
-    /// From level feet, the foot of this side goes one length ahead.
+    /// From parallel feet, the foot of this side moves one length forward.
     Out(Side),
-    /// From behind, the foot of this side goes one length ahead of the other one.
+    /// From the rear, the foot of this side moves to one length forward of the other one.
     Stride(Side),
-    /// From behind, the foot of this side comes beside the other one.
+    /// From the rear, the foot of this side moves beside the other one.
     In(Side),
-    /// On the spot, by pairs of steps \[rad\], anticlockwise.
+    /// A turn on the spot, by pairs of steps \[rad\], anticlockwise.
     Turn(f64),
 }
 
-/// Reads the words of a walk, parted by commas.
+/// Reads the words of a walk, separated by commas.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] for what is no word.
+/// [`ErrorKind::Syntax`] for an unknown word.
 pub fn words(text: &str) -> Result<Vec<Word>> {
     let word = |part: &str| {
         let wrong = || {
             let text = format!(
-                "`{}`: give `out`, `stride` or `in` with `left` or `right`, or `turn left` or `turn right` with degrees, parted by commas",
+                "`{}`: give `out`, `stride` or `in` with `left` or `right`, or `turn left` or `turn right` with degrees, separated by commas",
                 part.trim()
             );
             Error::new(ErrorKind::Syntax, text)
@@ -54,92 +55,92 @@ pub fn words(text: &str) -> Result<Vec<Word>> {
     text.split(',').map(word).collect()
 }
 
-/// The measures of the steps of a walk in words. Metres, radians.
+/// The dimensions of the steps of a walk given in words. Metres, radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measures {
-    /// `L_p`: how far ahead of the standing foot the other one lands.
+    /// `L_p`: the distance from the supporting foot forward to the landing foot.
     pub length: f64,
-    /// `W_p`: half of the way from foot to foot, sideways.
+    /// `W_p`: half of the lateral distance between the feet.
     pub half_width: f64,
-    /// `G_CM`: how far the robot turns by a pair of steps at most.
+    /// `G_CM`: the greatest turn by a pair of steps.
     pub most_turn: f64,
 }
 
-/// The feet and the trunk on the way.
-struct Traveller {
+/// The state of the feet and the trunk while a route is made.
+struct RouteBuilder {
     measures: Measures,
-    /// Where the robot's middle is, and where it looks.
+    /// The pose of the robot's middle.
     middle: Footprint,
-    /// How far ahead of the middle each foot is: half a length, or nothing.
+    /// The distance of each foot forward of the middle: half a length, or zero.
     ahead: [f64; 2],
     steps: Vec<Footstep>,
     rests: Vec<Footprint>,
 }
 
 impl Route {
-    /// The way of a walk in words, from level feet about the origin.
+    /// Makes the route of a walk given in words, from parallel feet about the origin.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when a word does not fit to where the feet are, there are no words or too many steps, or a measure is not
-    /// finite and positive.
+    /// [`ErrorKind::BadValue`] when a word does not fit the current footprints, there are no words or too many steps,
+    /// or a dimension is not finite and positive.
     pub fn of_words(words: &[Word], measures: &Measures) -> Result<Self> {
-        let mut traveller = Traveller::new(measures)?;
-        let start = traveller.level();
+        let mut builder = RouteBuilder::new(measures)?;
+        let start = builder.level();
         for (place, word) in words.iter().enumerate() {
-            traveller.go(word).map_err(|error| error.with_context(format!("word {}", place + 1)))?;
+            builder.go(word).map_err(|error| error.with_context(format!("word {}", place + 1)))?;
         }
-        traveller.route(start)
+        builder.route(start)
     }
 
-    /// One step after the other towards `goal` \[m\], seen from level feet about the origin: each turns the robot to it as far as
-    /// `most_turn` lets it and leads up to a length ahead, and the last one closes the feet, RH0 3.3. With a `heading` \[rad\] the robot turns to it
-    /// on the spot before.
+    /// Makes a route to `goal` \[m\], in the frame of parallel feet about the origin, step by step. Each step turns the
+    /// robot to the goal by at most `most_turn` and moves up to a length forward. The last step closes the feet, RH0
+    /// 3.3. With a `heading` \[rad\] the robot turns to it on the spot first.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the goal is not finite or too far, or a measure is not finite and positive.
+    /// [`ErrorKind::BadValue`] when the goal is not finite or too far, or a dimension is not finite and positive.
     pub fn towards(goal: &Point2<f64>, heading: Option<f64>, first: Side, measures: &Measures) -> Result<Self> {
-        let mut traveller = Traveller::new(measures)?;
+        let mut builder = RouteBuilder::new(measures)?;
         if !goal.iter().chain(&heading).all(|x| x.is_finite()) {
-            return Err(bad("the goal is not finite; give --goal two numbers, in metres: ahead, to the left"));
+            return Err(bad("the goal is not finite; give --goal two numbers, in metres: forward, to the left"));
         }
-        let start = traveller.level();
+        let start = builder.level();
         let turning_circle = 2.0 * measures.length / measures.most_turn;
         let mut side = first;
         loop {
-            let way = goal - traveller.middle.point();
-            if way.norm() < ARRIVED {
+            let offset = goal - builder.middle.point();
+            if offset.norm() < ARRIVED {
                 break;
             }
-            let bearing = angle::difference(way.y.atan2(way.x), traveller.middle.yaw);
+            let bearing = angle::difference(offset.y.atan2(offset.x), builder.middle.yaw);
             let yaw = bearing.clamp(-measures.most_turn, measures.most_turn);
-            // Within the circle that it turns on, the robot would never face the goal: it turns on the spot.
+            // Inside its turning circle the robot would never face the goal, so it turns on the spot.
             let advance = match bearing - yaw {
-                0.0 => way.norm().min(measures.length),
-                left if way.norm() > turning_circle => measures.length * left.cos().max(0.0),
+                0.0 => offset.norm().min(measures.length),
+                left if offset.norm() > turning_circle => measures.length * left.cos().max(0.0),
                 _ => 0.0,
             };
-            let turned = traveller.middle.then(&Footprint { yaw, ..Footprint::default() });
-            traveller.middle = turned.then(&Footprint { x: advance, ..Footprint::default() });
-            traveller.land(side)?;
+            let turned = builder.middle.then(&Footprint { yaw, ..Footprint::default() });
+            builder.middle = turned.then(&Footprint { x: advance, ..Footprint::default() });
+            builder.land(side)?;
             side = side.other();
         }
-        let mut left = heading.map_or(0.0, |heading| angle::difference(heading, traveller.middle.yaw));
+        let mut left = heading.map_or(0.0, |heading| angle::difference(heading, builder.middle.yaw));
         while left != 0.0 {
             let yaw = left.clamp(-measures.most_turn, measures.most_turn);
-            traveller.middle = traveller.middle.then(&Footprint { yaw, ..Footprint::default() });
-            traveller.land(side)?;
+            builder.middle = builder.middle.then(&Footprint { yaw, ..Footprint::default() });
+            builder.land(side)?;
             side = side.other();
             left -= yaw;
         }
-        traveller.land(side)?;
-        let mut route = traveller.route(start)?;
-        // A foot that goes ahead leaves the robot half-way between both.
+        builder.land(side)?;
+        let mut route = builder.route(start)?;
+        // After a step forward the robot is halfway between both feet.
         route.rests = route.stands().iter().map(|feet| feet[0].middle(&feet[1])).collect();
         Ok(route)
     }
 }
 
-impl Traveller {
+impl RouteBuilder {
     fn new(measures: &Measures) -> Result<Self> {
         let Measures { length, half_width, most_turn } = *measures;
         let positive = [
@@ -152,10 +153,10 @@ impl Traveller {
             return Err(bad(&format!("the {name} is {value}; give {option} a positive number")));
         }
         let middle = Footprint::default();
-        Ok(Traveller { measures: *measures, middle, ahead: [0.0; 2], steps: Vec::new(), rests: vec![middle] })
+        Ok(RouteBuilder { measures: *measures, middle, ahead: [0.0; 2], steps: Vec::new(), rests: vec![middle] })
     }
 
-    /// Both feet beside the middle.
+    /// Moves both feet beside the middle.
     fn level(&self) -> [Footprint; 2] {
         [Side::Left, Side::Right].map(|side| self.beside(side))
     }
@@ -171,9 +172,9 @@ impl Traveller {
         let level = self.ahead == [0.0; 2];
         let behind = |side: Side| self.ahead[side as usize] < 0.0;
         match *word {
-            Word::Out(_) | Word::Turn(_) if !level => Err(bad("the feet are not level; give `in` first")),
+            Word::Out(_) | Word::Turn(_) if !level => Err(bad("the feet are not side by side; give `in` first")),
             Word::Stride(side) | Word::In(side) if !behind(side) => {
-                Err(bad(&format!("the {} foot is not behind; give `out` or the other foot first", side.name())))
+                Err(bad(&format!("the {} foot is not at the rear; give `out` or the other foot first", side.name())))
             }
             Word::Out(side) => self.step(side, half, [half, -half]),
             Word::Stride(side) => self.step(side, 2.0 * half, [half, -half]),
@@ -182,7 +183,8 @@ impl Traveller {
         }
     }
 
-    /// The middle goes `advance` ahead; behind it the foot of `side` and the other one are `ahead` of the middle.
+    /// Moves the middle forward by `advance`; afterwards the foot of `side` and the other one are `ahead` of the
+    /// middle.
     fn step(&mut self, side: Side, advance: f64, ahead: [f64; 2]) -> Result<()> {
         self.middle = self.middle.then(&Footprint { x: advance, ..Footprint::default() });
         self.ahead[side as usize] = ahead[0];
@@ -190,9 +192,9 @@ impl Traveller {
         self.land(side)
     }
 
-    /// Pairs of steps on the spot, of the same angle each; the foot on the outer side goes first.
+    /// Pairs of steps on the spot, all by the same angle; the foot on the outer side moves first.
     fn turn(&mut self, angle: f64) -> Result<()> {
-        // A whole number of pairs must not become one more by rounding.
+        // Rounding must not add a pair to a whole number of pairs.
         let pairs = (angle.abs() / self.measures.most_turn - 1e-9).ceil().max(1.0);
         if pairs > MAX_STEPS as f64 {
             return Err(bad(&format!("the turn takes more than {MAX_STEPS} steps")));

@@ -1,8 +1,10 @@
-//! The zero moment point (Vukobratovic and Stepanenko 1972), NAO 6.4: where on the floor inertia and gravity have no horizontal moment.
+//! The zero moment point (ZMP; Vukobratovic and Stepanenko 1972), NAO 6.4: the point on the floor at which inertia and
+//! gravity have no horizontal moment.
 //!
-//! The momentum between two samples is that of the multibody at the mean of their joint values and the middle of the base's screw
-//! motion, at the rates that lead from one to the other. Its change from one middle to the next is the rate of change at the sample
-//! between them: central differences, exact to the second order in the time step, over three samples.
+//! The momentum between two samples is that of the multibody at the mean of their joint values. The pose of the base is
+//! the middle of its screw motion, and the rates are those between the samples. The difference of two consecutive momenta gives the rate of change
+//! at the sample between them. These are central differences over three samples, exact to the second order in the time
+//! step.
 
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -22,10 +24,10 @@ pub struct Configuration<'q> {
     pub q: &'q [f64],
 }
 
-/// The momentum on the way from one configuration to another in `time` \[s\].
+/// The momentum during the motion from one configuration to another in `time` \[s\].
 ///
 /// # Errors
-/// [`crate::ErrorKind::BadValue`] when a configuration has not one finite value per joint.
+/// [`crate::ErrorKind::BadValue`] when a configuration does not have one finite value per joint.
 pub fn momentum_between(body: &Model, from: Configuration<'_>, to: Configuration<'_>, time: f64) -> Result<Momentum> {
     let motion = to.world_from_base * from.world_from_base.inverse();
     let twist = pose::log(&motion) * (1.0 / time);
@@ -35,8 +37,8 @@ pub fn momentum_between(body: &Model, from: Configuration<'_>, to: Configuration
     body.place(&middle, &mean)?.momentum(&twist, &rates)
 }
 
-/// The zero moment point of a system of mass `mass` \[kg\] with its centre at `centre` \[m\] while its momentum changes at `rate`
-/// (\[N\], \[N m\] about the origin); `None` when nothing presses it to the floor.
+/// The zero moment point of a system of mass `mass` \[kg\] with its centre at `centre` \[m\] while its momentum changes
+/// at `rate` (\[N\], \[N m\] about the origin). `None` when no force presses it to the floor.
 pub fn zero_moment_point(mass: f64, centre: &Point3<f64>, rate: &Momentum) -> Option<Point2<f64>> {
     let weight = Vector3::new(0.0, 0.0, mass * GRAVITY);
     let force = rate.linear + weight;
@@ -44,8 +46,8 @@ pub fn zero_moment_point(mass: f64, centre: &Point3<f64>, rate: &Momentum) -> Op
     (force.z > 0.0).then(|| Point2::new(-moment.y / force.z, moment.x / force.z))
 }
 
-/// The zero moment point of the linear inverted pendulum (Kajita and others 2001): a mass at the height of `centre` \[m\] whose
-/// acceleration \[m/s^2\] is horizontal.
+/// The zero moment point of the linear inverted pendulum (Kajita and others 2001): a mass at the height of `centre`
+/// \[m\] whose acceleration \[m/s^2\] is horizontal.
 pub fn of_pendulum(centre: &Point3<f64>, acceleration: &Vector3<f64>) -> Point2<f64> {
     let share = centre.z / GRAVITY;
     Point2::new(centre.x - share * acceleration.x, centre.y - share * acceleration.y)

@@ -1,6 +1,8 @@
-//! Fields that are marched again in part: in a window around the robot, and after the map has changed. Main type: [`Again`].
+//! Incremental updates of arrival-time fields: in a window around the robot, and after the map has changed. Main type:
+//! [`Again`].
 //!
-//! Raised and lowered cells as in A. Stentz, The focussed D* algorithm for real-time replanning (1995), where a cell counts as raised as soon as its equation does not hold.
+//! Cells are raised and lowered as in A. Stentz, The focussed D* algorithm for real-time replanning (1995). Here a cell
+//! counts as raised as soon as its equation does not hold.
 
 use std::collections::VecDeque;
 
@@ -10,24 +12,25 @@ use super::grid::{Grid, Window};
 use super::map::Map;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// What a cell's time may be beside its equation, as a share of it.
+/// The relative tolerance of a cell's equation.
 const ROUNDING: f64 = 1e-14;
 
 /// A field after the map has changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Again {
-    /// The field of the map as it is now.
+    /// The field of the changed map.
     pub field: Field,
-    /// How many cells were marched again; those that took part twice count twice.
+    /// The number of cells that were computed again; a cell that was computed twice counts twice.
     pub marched: usize,
 }
 
 impl Field {
-    /// The same after its map has changed: other obstacles, other speeds. All cells are looked at once, and marched again are those whose equation does not hold any longer and what
-    /// hangs on them; to rounding it is the field that [`Field::new`] makes. That of the second order is made from nothing.
+    /// Updates the field to a map with other obstacles or speeds. All cells are checked once. Those whose equation no
+    /// longer holds, and those that depend on them, are computed again. Except for rounding, the result is the field
+    /// that [`Field::new`] makes. A field of the second order is computed anew.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a map of another size, a goal that is not free any longer; [`Watch::check`].
+    /// [`ErrorKind::BadValue`] for a map of another size, or a goal that is no longer free; [`Watch::check`].
     pub fn after(self, map: &Map, watch: &Watch) -> Result<Again> {
         self.check(map)?;
         match self.method {
@@ -42,11 +45,12 @@ impl Field {
         }
     }
 
-    /// The same where a window is marched from nothing on a map that may have changed in it: from goals inside, and from the cells next to the window, which keep their times as all
-    /// others outside do. It takes the time of the window only.
+    /// Same as [`Field::after`], but computes only a window, on a map that may have changed inside it. It starts from
+    /// goals inside the window and from the cells next to it; all cells outside keep their times. The cost depends on
+    /// the window only.
     ///
     /// # Errors
-    /// As [`Field::after`]; [`ErrorKind::BadValue`] for a window that is not one of the map, and for the second order.
+    /// As [`Field::after`]; [`ErrorKind::BadValue`] for a window outside the map, and for the second order.
     pub fn within(self, map: &Map, window: &Window, watch: &Watch) -> Result<Self> {
         self.check(map)?;
         window.check(map)?;
@@ -54,7 +58,7 @@ impl Field {
             Method::M3r => self.inside(map, window, Along, watch),
             Method::FastMarching(1) => self.inside(map, window, Eikonal, watch),
             Method::FastMarching(_) => {
-                let text = "a window is marched by M3R or by fast marching of the first order; make a new field";
+                let text = "a window needs M3R or fast marching of the first order; compute a new field";
                 Err(Error::new(ErrorKind::BadValue, text))
             }
         }
@@ -105,7 +109,8 @@ impl Field {
     }
 }
 
-/// Gives cells that have not been reached their times from what stands beside them; those that have one now.
+/// Computes the times of cells that have not been reached, from their neighbours. Returns the cells that now have a
+/// time.
 fn first_of(grid: &Grid, rule: &impl Rule, times: &mut [f64], places: &[usize]) -> Vec<usize> {
     let open = places.iter().copied().filter(|place| times[*place] == f64::INFINITY);
     let arrivals: Vec<(usize, f64)> = open.map(|place| (place, rule.arrival(grid, times, place))).collect();
@@ -115,9 +120,9 @@ fn first_of(grid: &Grid, rule: &impl Rule, times: &mut [f64], places: &[usize]) 
 
 /// Cells whose equation does not hold.
 struct Wrong {
-    /// Their neighbours are nearer than they say.
+    /// Cells whose times are greater than their neighbours give.
     late: Vec<usize>,
-    /// None of their neighbours is so near.
+    /// Cells whose times are less than their neighbours give.
     early: VecDeque<usize>,
 }
 
@@ -125,7 +130,7 @@ fn wrong(grid: &Grid, rule: &impl Rule, times: &[f64]) -> Wrong {
     let (mut late, mut early) = (Vec::new(), VecDeque::new());
     for place in grid.rows().flatten() {
         let time = times[place];
-        // Goals and what is not free have no equation.
+        // Goals and cells that are not free have no equation.
         if time > 0.0 {
             let arrival = rule.arrival(grid, times, place);
             if arrival < time * (1.0 - ROUNDING) {
@@ -138,7 +143,7 @@ fn wrong(grid: &Grid, rule: &impl Rule, times: &[f64]) -> Wrong {
     Wrong { late, early }
 }
 
-/// Takes back the times that nothing nearer bears out, and those that hang on them; where that was.
+/// Removes times that are less than the neighbours give, and those that depend on them. Returns these cells.
 fn raise(grid: &Grid, rule: &impl Rule, times: &mut [f64], mut early: VecDeque<usize>) -> Vec<usize> {
     let mut raised = Vec::new();
     while let Some(place) = early.pop_front() {

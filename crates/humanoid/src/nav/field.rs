@@ -1,4 +1,4 @@
-//! How long it takes from each place of a map to a goal. Main type: [`Field`].
+//! Arrival times from each cell of a map to a goal. Main type: [`Field`].
 
 use nalgebra::Point2;
 
@@ -8,17 +8,19 @@ use super::map::Map;
 use super::{marching, waves};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How a field is made.
+/// The method that computes a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The thesis' modified fast marching, RH0 (4-17): `T = min(T_nb + G / F)` over four neighbours. It is the distance along rows and columns.
+    /// The thesis' modified fast marching, RH0 (4-17): `T = min(T_nb + G / F)` over four neighbours. It is the distance
+    /// along rows and columns.
     M3r,
-    /// Fast marching, RH0 (4-15), by differences of this order, 1 or 2, in upwind direction; of two neighbours in line the nearer one counts alone, where (4-15) adds both.
+    /// Fast marching, RH0 (4-15), with upwind differences of this order, 1 or 2. Of two neighbours on one axis only the
+    /// nearer counts, where (4-15) adds both.
     FastMarching(u8),
 }
 
-/// The time of arrival T, RH0 (4-8), by cell: from its middle to the nearest goal, where one gets on with the map's speeds.
+/// The arrival time T, RH0 (4-8), by cell: from the cell's middle to the nearest goal, with the map's speeds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     pub(super) method: Method,
@@ -28,10 +30,11 @@ pub struct Field {
 }
 
 impl Field {
-    /// That of a map with goals \[m\].
+    /// Computes the field of a map with goals \[m\].
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for no goals, a goal that is not free ([`Map::free_cell_at`]), another order than 1 and 2; [`Watch::check`].
+    /// [`ErrorKind::BadValue`] for no goals, a goal that is not free ([`Map::free_cell_at`]), or an order other than 1
+    /// and 2; [`Watch::check`].
     pub fn new(map: &Map, goals: &[Point2<f64>], method: Method, watch: &Watch) -> Result<Self> {
         let goals: Vec<usize> = goals.iter().map(|goal| map.free_cell_at(goal)).collect::<Result<_>>()?;
         let bad = |text: &str| Err(Error::new(ErrorKind::BadValue, text));
@@ -46,14 +49,14 @@ impl Field {
         Ok(Field { method, columns: map.columns(), goals, times })
     }
 
-    /// Fails for a map that has other cells.
+    /// Checks that a map has as many cells.
     pub(super) fn check_of(&self, map: &Map) -> Result<()> {
         let rows = self.times.len() / self.columns;
         if (map.columns(), map.rows()) == (self.columns, rows) {
             return Ok(());
         }
         let text = format!(
-            "a map of {} x {} cells; the field has {} x {rows}: give the same cells",
+            "the map has {} x {} cells, the field {} x {rows}; both must be equal",
             map.columns(),
             map.rows(),
             self.columns
@@ -61,7 +64,7 @@ impl Field {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// How it was made.
+    /// The method that computed it.
     pub fn method(&self) -> Method {
         self.method
     }
@@ -71,18 +74,18 @@ impl Field {
         &self.goals
     }
 
-    /// T by cell \[s, or m where no speeds are told\], infinite where no way leads to a goal.
+    /// T by cell \[s, or m where the map has no speeds\]; infinite where no path leads to a goal.
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// How many cells a row has.
+    /// The number of cells in a row.
     pub fn columns(&self) -> usize {
         self.columns
     }
 }
 
-/// T by cell, by a front that marches.
+/// T by cell, by a marching front.
 fn marched(map: &Map, goals: &[usize], method: Method, watch: &Watch) -> Result<Vec<f64>> {
     let grid = Grid::new(map, Window::of(map));
     let mut times = grid.untouched(map);

@@ -1,27 +1,28 @@
-//! A front that marches over cells in an untidy order until nothing changes: fast marching of the first order, RH0 (4-15), and M3R with speeds, (4-17).
+//! Fast marching with an untidy priority queue: the first order, RH0 (4-15), and M3R with speeds, (4-17).
 //!
-//! L. Yatziv, A. Bartesaghi and G. Sapiro, O(N) implementation of the fast marching algorithm, Journal of Computational Physics 212 (2006); here a cell that comes nearer
-//! waits once more, so that the front ends where a tidy one does, to rounding. No bisection is needed: an update is the root of a quadratic equation.
+//! L. Yatziv, A. Bartesaghi and G. Sapiro, O(N) implementation of the fast marching algorithm, Journal of Computational
+//! Physics 212 (2006). Here a cell whose time decreases is queued again, so that the result equals that of an ordered
+//! queue except for rounding. No bisection is needed: an update is the root of a quadratic equation.
 
 use super::grid::Grid;
 use crate::{Result, Watch};
 
-/// The share of the least cost that a level of trial values is wide.
+/// The width of a level of trial values, as a fraction of the least cost.
 const WIDTH: f64 = 0.5;
-/// The most levels.
+/// The greatest number of levels.
 const LEVELS: f64 = 4096.0;
 
-/// T of a cell from its neighbours'.
+/// The update of a cell from its neighbours.
 pub(super) trait Rule {
-    /// T there, which no neighbour that is farther changes; not a number counts as infinite.
+    /// T at a place. Neighbours that are farther do not change it; NaN counts as infinite.
     fn arrival(&self, grid: &Grid, times: &[f64], place: usize) -> f64;
 }
 
-/// RH0 (4-17): the nearest neighbour's and the cell's own cost.
+/// RH0 (4-17): the time of the nearest neighbour plus the cell's own cost.
 pub(super) struct Along;
 
-/// RH0 (4-15), by differences of the first order; of two neighbours in line the nearer one counts alone (E. Rouy and A. Tourin, SIAM Journal on Numerical Analysis 29, 1992), where
-/// (4-15) adds both.
+/// RH0 (4-15), with differences of the first order. Of two neighbours on one axis only the nearer counts (E. Rouy and
+/// A. Tourin, SIAM Journal on Numerical Analysis 29, 1992), where (4-15) adds both.
 pub(super) struct Eikonal;
 
 impl Rule for Along {
@@ -37,7 +38,7 @@ impl Rule for Eikonal {
     fn arrival(&self, grid: &Grid, times: &[f64], place: usize) -> f64 {
         let [along, across] = nearest(grid, times, place);
         let cost = grid.costs.of(place);
-        // (T - a)^2 + (T - b)^2 = cost^2; with one neighbour alone where the other one is farther than that.
+        // (T - a)^2 + (T - b)^2 = cost^2. Only one neighbour counts where the other is farther than that.
         let apart = lesser((along - across).abs(), cost);
         lesser(along, across) + 0.5 * (apart + (2.0 * cost * cost - apart * apart).sqrt())
     }
@@ -46,7 +47,7 @@ impl Rule for Eikonal {
 /// A rule under which some places keep their times.
 pub(super) struct Held<R> {
     pub rule: R,
-    /// By place.
+    /// Whether each place keeps its time.
     pub is_held: Vec<bool>,
 }
 
@@ -57,14 +58,14 @@ impl<R: Rule> Rule for Held<R> {
     }
 }
 
-/// The nearer one of the neighbours in the row, and of those in the column.
+/// The nearer neighbour in the row, and the nearer one in the column.
 #[inline]
 fn nearest(grid: &Grid, times: &[f64], place: usize) -> [f64; 2] {
     let [left, right, below, above] = grid.beside(place).map(|beside| times[beside]);
     [lesser(right, lesser(left, f64::INFINITY)), lesser(above, lesser(below, f64::INFINITY))]
 }
 
-/// The lesser one; the second one where the first is not a number.
+/// The lesser number; the second one where the first is NaN.
 #[inline]
 fn lesser(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
@@ -77,13 +78,13 @@ struct Trial {
     place: u32,
 }
 
-/// Trial values that wait, in levels that take turns.
+/// Queue of trial values in levels, used in rotation.
 struct Levels {
     lists: Vec<Vec<Trial>>,
     per_time: f64,
     level: u64,
     waiting: usize,
-    /// What a front starts from, the nearest last, until its level comes.
+    /// The initial values of the front, the nearest last, until their level is current.
     later: Vec<Trial>,
 }
 
@@ -96,7 +97,7 @@ impl Levels {
         Levels { lists: vec![Vec::new(); count], per_time: width.recip(), level: 0, waiting: 0, later: from }
     }
 
-    /// None is more than the greatest cost beyond the level that is dealt with.
+    /// Adds a value. None exceeds the current level by more than the greatest cost.
     #[inline]
     fn add(&mut self, trial: Trial) {
         let level = self.level_of(trial.time).max(self.level);
@@ -105,14 +106,14 @@ impl Levels {
         self.waiting += 1;
     }
 
-    /// The nearest whole number, read from the bits of a sum whose last one counts ones.
+    /// The nearest integer, read from the bits of a sum whose last bit has the value one.
     #[inline]
     fn level_of(&self, time: f64) -> u64 {
         const ONES: f64 = (1u64 << 52) as f64;
         (time * self.per_time + ONES).to_bits() - ONES.to_bits()
     }
 
-    /// Takes all that wait in the lowest level; whether there is any.
+    /// Takes all values of the lowest level; returns whether there are any.
     fn take(&mut self, batch: &mut Vec<Trial>) -> bool {
         batch.clear();
         loop {
@@ -128,7 +129,7 @@ impl Levels {
         }
     }
 
-    /// To the next level, or to that of what is later where nothing waits.
+    /// Moves to the next level, or to that of the initial values where the queue is empty.
     fn rise(&mut self) -> bool {
         let next = self.later.last().map(|trial| self.level_of(trial.time));
         match next {
@@ -143,7 +144,8 @@ impl Levels {
     }
 }
 
-/// Marches on from places whose times are known, and tells how often a cell was marched. Level by level, in steps that do not branch on what they find.
+/// Marches from places whose times are known, and returns the number of updates. It works level by level, with loops
+/// that do not branch on data.
 pub(super) fn march(grid: &Grid, rule: &impl Rule, times: &mut [f64], from: &[usize], watch: &Watch) -> Result<usize> {
     let trial = |place: &usize| Trial { time: times[*place], place: *place as u32 };
     let mut levels = Levels::new(grid, from.iter().map(trial).collect());
@@ -162,7 +164,8 @@ pub(super) fn march(grid: &Grid, rule: &impl Rule, times: &mut [f64], from: &[us
     Ok(marched)
 }
 
-/// The neighbours of trial places that are farther than those; how many places did not come nearer since they began to wait.
+/// Collects the neighbours of trial places that are farther than those; returns how many trial values are still
+/// current.
 fn farther(grid: &Grid, times: &[f64], batch: &[Trial], open: &mut Vec<u32>) -> usize {
     open.resize(4 * batch.len(), 0);
     let (mut count, mut length) = (0, 0);
@@ -171,7 +174,7 @@ fn farther(grid: &Grid, times: &[f64], batch: &[Trial], open: &mut Vec<u32>) -> 
         count += usize::from(is_current);
         for beside in grid.beside(*place as usize) {
             open[length] = beside as u32;
-            // Not a number compares with nothing.
+            // NaN compares false with everything.
             length += usize::from(is_current & (times[beside] > *time));
         }
     }
@@ -179,7 +182,7 @@ fn farther(grid: &Grid, times: &[f64], batch: &[Trial], open: &mut Vec<u32>) -> 
     count
 }
 
-/// Brings places nearer; those that come nearer.
+/// Updates the times of places; collects those whose times decrease.
 fn approach(grid: &Grid, rule: &impl Rule, times: &mut [f64], open: &[u32], nearer: &mut Vec<Trial>) {
     nearer.resize(open.len(), Trial::default());
     let mut length = 0;

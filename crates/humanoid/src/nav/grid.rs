@@ -1,4 +1,4 @@
-//! A map as fields march over it. Main types: [`Grid`], [`Window`].
+//! The grid of a map in the layout for marching. Main types: [`Grid`], [`Window`].
 
 use std::ops::Range;
 
@@ -15,18 +15,18 @@ pub struct Window {
 }
 
 impl Window {
-    /// All of a map.
+    /// The window of the whole map.
     pub fn of(map: &Map) -> Self {
         Window { columns: 0..map.columns(), rows: 0..map.rows() }
     }
 
-    /// So many cells to each side of a cell, as far as they are on the map.
+    /// The window of `reach` cells to each side of a cell, clipped to the map.
     pub fn around(map: &Map, cell: usize, reach: usize) -> Self {
         let range = |middle: usize, most: usize| middle.saturating_sub(reach)..(middle + reach + 1).min(most);
         Window { columns: range(cell % map.columns(), map.columns()), rows: range(cell / map.columns(), map.rows()) }
     }
 
-    /// Whether a cell of a map is in it.
+    /// Whether a cell of a map is in the window.
     pub fn holds(&self, map: &Map, cell: usize) -> bool {
         self.columns.contains(&(cell % map.columns())) && self.rows.contains(&(cell / map.columns()))
     }
@@ -39,13 +39,13 @@ impl Window {
         along.chain(self.columns.clone().flat_map(move |column| ends.map(|row| (column, row))))
     }
 
-    /// The cells of a map that are next to it.
+    /// The cells of a map next to the window.
     pub(super) fn beside<'a>(&'a self, map: &'a Map) -> impl Iterator<Item = usize> + 'a {
         let outside = |cell: &usize| !self.holds(map, *cell);
         self.rim().flat_map(|(column, row)| map.beside(row * map.columns() + column)).filter(outside)
     }
 
-    /// Whether it is one of a map.
+    /// Checks that the window is inside a map.
     pub(super) fn check(&self, map: &Map) -> Result<()> {
         let is_in = |range: &Range<usize>, most: usize| range.start < range.end && range.end <= most;
         if is_in(&self.columns, map.columns()) && is_in(&self.rows, map.rows()) {
@@ -62,23 +62,23 @@ impl Window {
 
 /// Cells with a border around them, so that each has four neighbours.
 pub(super) struct Grid {
-    /// From a cell to the one above it.
+    /// The offset from a cell to the one above it.
     pub stride: usize,
-    /// What it takes to cross a cell, `G / F`.
+    /// The cost of crossing a cell, `G / F`.
     pub costs: Costs,
     columns: usize,
     window: Window,
 }
 
-/// What it takes to cross the cells that are free.
+/// The costs of crossing free cells.
 pub(super) enum Costs {
-    /// The same everywhere.
+    /// Equal everywhere.
     Even(f64),
-    /// By place, from a cell's side and its speed.
+    /// By place, from the side of a cell and its speed.
     Own {
-        /// G.
+        /// G, the side.
         side: f64,
-        /// F.
+        /// F, the speeds.
         speeds: Vec<f32>,
     },
 }
@@ -92,7 +92,7 @@ impl Costs {
         }
     }
 
-    /// The least and the greatest one.
+    /// The least and the greatest cost.
     pub fn range(&self) -> (f64, f64) {
         match self {
             Costs::Even(cost) => (*cost, *cost),
@@ -104,13 +104,13 @@ impl Costs {
     }
 }
 
-/// The least and the greatest positive number, sixteen in a row at a time.
+/// The least and the greatest positive number; the loop handles sixteen at a time.
 fn range(speeds: &[f32]) -> (f32, f32) {
     let (mut least, mut most) = ([f32::INFINITY; 16], [0.0; 16]);
     let (rows, rest) = speeds.as_chunks::<16>();
     for row in rows.iter().map(|row| &row[..]).chain([rest]) {
         for ((least, most), speed) in least.iter_mut().zip(&mut most).zip(row) {
-            // Nought is the border's.
+            // Zero is the value of the border.
             let positive = if *speed > 0.0 { *speed } else { f32::INFINITY };
             *least = if positive < *least { positive } else { *least };
             *most = if *speed > *most { *speed } else { *most };
@@ -120,7 +120,7 @@ fn range(speeds: &[f32]) -> (f32, f32) {
 }
 
 impl Grid {
-    /// A window of a map.
+    /// The grid of a window of a map.
     pub fn new(map: &Map, window: Window) -> Self {
         let mut grid = Grid {
             stride: window.columns.len() + 2,
@@ -135,12 +135,12 @@ impl Grid {
         grid
     }
 
-    /// Where nobody has been yet: infinite, and not a number where nobody goes.
+    /// Initial times: infinite in free cells, NaN in the others.
     pub fn untouched(&self, map: &Map) -> Vec<f64> {
         self.with_border(map.cells(), f64::NAN, |cell| if *cell == Cell::Free { f64::INFINITY } else { f64::NAN })
     }
 
-    /// What stands in the map's cells, as the window has it.
+    /// The values of the map's cells in the layout of the window.
     fn with_border<T, U: Copy>(&self, cells: &[T], border: U, value: impl Fn(&T) -> U) -> Vec<U> {
         let mut all = Vec::with_capacity(self.stride * (self.window.rows.len() + 2));
         all.resize(self.stride, border);
@@ -153,13 +153,13 @@ impl Grid {
         all
     }
 
-    /// Where a cell of the map is in the grid; it may stand in the border.
+    /// The place of a cell of the map in the grid; it may be in the border.
     pub fn place(&self, cell: usize) -> usize {
         let (column, row) = (cell % self.columns, cell / self.columns);
         (row + 1 - self.window.rows.start) * self.stride + column + 1 - self.window.columns.start
     }
 
-    /// How many places there are, the border's among them.
+    /// The number of places, including the border.
     pub fn places(&self) -> usize {
         self.stride * (self.window.rows.len() + 2)
     }
@@ -176,7 +176,7 @@ impl Grid {
         sides.chain(0..self.stride).chain(last..last + self.stride)
     }
 
-    /// Gives places that have not been reached what is known of the cells of the whole map.
+    /// Sets places that have not been reached to the known times of the whole map.
     pub fn fill(&self, times: &mut [f64], known: &[f64]) {
         for (places, known) in self.rows().zip(known.chunks_exact(self.columns)) {
             let open = times[places].iter_mut().zip(known).filter(|(time, _)| **time == f64::INFINITY);
@@ -196,7 +196,7 @@ impl Grid {
         [place - 1, place + 1, place - self.stride, place + self.stride]
     }
 
-    /// What stands in the grid, cell by cell, in the same memory; infinite where nobody goes.
+    /// The values of the grid by cell, in the same memory; infinite in cells that are not free.
     pub fn without_border(&self, mut all: Vec<f64>) -> Vec<f64> {
         let (columns, rows) = (self.window.columns.len(), self.window.rows.len());
         for row in 0..rows {

@@ -1,12 +1,14 @@
-//! How far it is to the nearest obstacle, and obstacles grown by that.
+//! Distance transform: the distance to the nearest obstacle, and obstacles grown by a radius.
 //!
-//! P. Felzenszwalb and D. Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8 (2012), here to the nearest point of a cell rather than to its middle.
+//! P. Felzenszwalb and D. Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8 (2012). Here
+//! the distance is to the nearest point of a cell instead of its middle.
 
 use super::map::{Cell, Map};
 use crate::{Error, ErrorKind, Result};
 
 impl Map {
-    /// By cell, how far its middle is from the nearest cell that is occupied \[m\]: from the nearest point of that, nought inside, infinite where there is none.
+    /// By cell, the distance from its middle to the nearest point of an occupied cell \[m\]. It is zero inside, and
+    /// infinite where no cell is occupied.
     pub fn clearances(&self) -> Vec<f64> {
         let (columns, rows) = (self.columns(), self.rows());
         let mut squares = vec![f64::INFINITY; columns * rows];
@@ -24,7 +26,8 @@ impl Map {
         squares.iter().map(|square| square.sqrt() * self.resolution()).collect()
     }
 
-    /// The same map, where whatever is nearer to an obstacle than so far is occupied, too \[m\]: where the middle of a round robot may be. What is off the map counts as an obstacle.
+    /// The map with obstacles grown by a radius \[m\]: the free cells are those where the centre of a round robot may
+    /// be. The outside of the map counts as an obstacle.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a radius that is not finite or below zero.
@@ -32,10 +35,10 @@ impl Map {
         self.keeping(&self.clearances(), radius)
     }
 
-    /// The same with clearances that are known.
+    /// Same as [`Map::grown`], but with known clearances.
     ///
     /// # Errors
-    /// As [`Map::grown`], and for another count of clearances than of cells.
+    /// As [`Map::grown`], and when the number of clearances differs from that of cells.
     pub fn keeping(&self, clearances: &[f64], radius: f64) -> Result<Self> {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         if !(radius.is_finite() && radius >= 0.0) {
@@ -61,7 +64,7 @@ impl Map {
     }
 }
 
-/// The square of the distance from each cell's middle to the nearest side of one that is occupied in its row, in cells.
+/// The squared distance from each cell's middle to the nearest side of an occupied cell in its row, in cells.
 fn along_row(cells: &[Cell], squares: &mut [f64]) {
     let mut pass = |places: &mut dyn Iterator<Item = usize>| {
         let mut away = f64::INFINITY;
@@ -77,13 +80,14 @@ fn along_row(cells: &[Cell], squares: &mut [f64]) {
 /// The lower envelope of parabolas of one width.
 #[derive(Default)]
 struct Envelope {
-    /// By parabola its apex and height, and from where on it is lowest.
+    /// By parabola its apex, its height, and the start of the interval in which it is lowest.
     parabolas: Vec<(f64, f64, f64)>,
     reached: usize,
 }
 
 impl Envelope {
-    /// Of a column of squares: a cell that is so far from an obstacle in its row is near to it by its upper and its lower side.
+    /// Builds the envelope of a column of squared distances. A cell is near to an obstacle in another row by its upper
+    /// and its lower side.
     fn build(&mut self, column: &[f64]) {
         let above = |side: usize| column.get(side).copied().unwrap_or(f64::INFINITY);
         for side in 0..=column.len() {
@@ -97,7 +101,7 @@ impl Envelope {
 
     fn add(&mut self, apex: f64, height: f64) {
         while let Some(&(other, below, from)) = self.parabolas.last() {
-            // Where both are as high.
+            // The intersection of the two parabolas.
             let meets = ((height + apex * apex) - (below + other * other)) / (2.0 * (apex - other));
             if meets > from {
                 return self.parabolas.push((apex, height, meets));
@@ -107,7 +111,7 @@ impl Envelope {
         self.parabolas.push((apex, height, f64::NEG_INFINITY));
     }
 
-    /// The height at a place; places come in order.
+    /// The height at a place; calls must have ascending places.
     fn at(&mut self, place: f64) -> f64 {
         while self.parabolas.get(self.reached + 1).is_some_and(|(_, _, from)| *from <= place) {
             self.reached += 1;

@@ -1,4 +1,4 @@
-//! Maps of the floor: what of it is free, and how fast one gets on there. Main type: [`Map`].
+//! Occupancy grids of the floor, with speeds. Main type: [`Map`].
 
 use std::ops::RangeInclusive;
 
@@ -8,25 +8,25 @@ use super::shape::Shape;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits::CELL_METRES;
 
-/// The most cells of a map.
+/// The greatest number of cells of a map.
 const MOST: usize = groebot_algebra::limits::MAP_CELLS;
-/// Speeds that a map tells.
+/// The permitted speeds of a map.
 const SPEEDS: RangeInclusive<f64> = 1e-3..=1e6;
 
-/// What is known of a cell.
+/// The state of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Cell {
-    /// Nothing stands there.
+    /// No obstacle.
     Free,
-    /// Something does.
+    /// An obstacle.
     Occupied,
-    /// It has not been seen: nobody goes there.
+    /// Not observed: no path enters it.
     Unknown,
 }
 
-/// A grid of square cells over the floor. Cells count by rows from the lower left corner, `x` along rows and `y` across them; the corner stands somewhere in the world. It
-/// never changes but by what returns another one.
+/// A grid of square cells on the floor. Cells are numbered by rows from the lower left corner, `x` along rows and `y`
+/// across them. The corner has a pose in the world. Methods that change a map return another one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Map {
     columns: usize,
@@ -35,12 +35,12 @@ pub struct Map {
     corner: Point2<f64>,
     yaw: f64,
     cells: Vec<Cell>,
-    /// F of RH0 (4-7) by cell; one everywhere where none is told.
+    /// F of RH0 (4-7) by cell; one everywhere where none is given.
     speeds: Option<Vec<f32>>,
 }
 
 impl Map {
-    /// A free floor of so many columns and rows of cells, with the side of a cell \[m\].
+    /// A free floor with the given numbers of columns and rows, and the side of a cell \[m\].
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for no cells, more than 2^28, and a side that is not positive.
@@ -49,10 +49,10 @@ impl Map {
         Map::of_cells(columns, rows, resolution, vec![Cell::Free; count])
     }
 
-    /// The same of these cells, by rows from the lowest one.
+    /// A map of the given cells, by rows from the lowest one.
     ///
     /// # Errors
-    /// As [`Map::new`], and for another count of cells.
+    /// As [`Map::new`], and when the number of cells is wrong.
     pub fn of_cells(columns: usize, rows: usize, resolution: f64, cells: Vec<Cell>) -> Result<Self> {
         let count = count_of(columns, rows, resolution)?;
         if count != cells.len() {
@@ -62,7 +62,8 @@ impl Map {
         Ok(Map { columns, rows, resolution, corner: Point2::origin(), yaw: 0.0, cells, speeds: None })
     }
 
-    /// The same with its lower left corner there in the world \[m\], and its rows turned anticlockwise \[rad\].
+    /// Sets the position of the lower left corner in the world \[m\], and the anticlockwise rotation of the rows
+    /// \[rad\].
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a number that is not finite.
@@ -75,15 +76,17 @@ impl Map {
         Ok(self)
     }
 
-    /// The same, where one gets on with a speed inside of a shape, RH0 (4-7): one elsewhere, or as it was told before. Of two shapes the later one counts.
+    /// Sets the speed inside a shape, RH0 (4-7); elsewhere it stays one or as it was set before. Where shapes overlap,
+    /// the later one counts.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a speed that is not from 0.001 to a million: what stands in the way is [`Map::with`]; and as [`Shape::check`].
+    /// [`ErrorKind::BadValue`] for a speed that is not from 0.001 to a million; obstacles are added by [`Map::with`].
+    /// Those of [`Shape::check`].
     pub fn with_speed(mut self, shape: &Shape, speed: f64) -> Result<Self> {
         shape.check()?;
         if !SPEEDS.contains(&speed) {
             let text = format!(
-                "a speed of {speed}: give a positive number from {} to {}; where nobody goes there is an obstacle",
+                "a speed of {speed}: give a positive number from {} to {}; add an obstacle where the robot must not go",
                 SPEEDS.start(),
                 SPEEDS.end()
             );
@@ -95,7 +98,8 @@ impl Map {
         Ok(self)
     }
 
-    /// The same with obstacles: a cell that one of them touches is occupied. What moves is put on the map that it was not on.
+    /// Adds obstacles: each cell that one of them touches is occupied. To move an obstacle, add it to the map without
+    /// it.
     ///
     /// # Errors
     /// As [`Shape::check`].
@@ -110,7 +114,8 @@ impl Map {
         Ok(map)
     }
 
-    /// A place where a shape touches what is not free, if there is one: the middle of that cell, or a corner of the shape's bounds that is not on the map.
+    /// A point where a shape touches a cell that is not free, if there is one: the middle of that cell, or a corner of
+    /// the shape's bounds outside the map.
     pub fn obstacle_under(&self, shape: &Shape) -> Option<Point2<f64>> {
         let placed = self.placed_in_map(shape);
         let (low, high) = placed.bounds();
@@ -120,12 +125,12 @@ impl Map {
             .or_else(|| self.touched(&placed, |cell| !self.is_free(cell)).next().map(|cell| self.centre(cell)))
     }
 
-    /// A shape of the world, counted in cells.
+    /// A shape of the world in the coordinates of the map, in cells.
     fn placed_in_map(&self, shape: &Shape) -> Shape {
         shape.moved(&|point| self.in_map(point), 1.0 / self.resolution)
     }
 
-    /// The cells that a shape touches, which is counted in cells, of those that are wanted.
+    /// The cells that a shape touches, of those for which `wanted` is true. The shape is given in cells.
     fn touched<'a, W: Fn(usize) -> bool>(
         &self,
         placed: &'a Shape,
@@ -143,21 +148,21 @@ impl Map {
         all.filter(move |at| wanted(cell(at))).filter(touches).map(move |at| cell(&at))
     }
 
-    /// The same, cells that have not been seen taken to be free.
+    /// The map with its unknown cells free.
     #[must_use]
     pub fn with_unknown_free(mut self) -> Self {
         self.cells.iter_mut().filter(|cell| **cell == Cell::Unknown).for_each(|cell| *cell = Cell::Free);
         self
     }
 
-    /// The same, cells that have not been seen taken to be occupied.
+    /// The map with its unknown cells occupied.
     #[must_use]
     pub fn with_unknown_occupied(mut self) -> Self {
         self.cells.iter_mut().filter(|cell| **cell == Cell::Unknown).for_each(|cell| *cell = Cell::Occupied);
         self
     }
 
-    /// The same where of the free cells only those stay free that are `kept`.
+    /// The map in which only the free cells with `kept` stay free.
     pub(crate) fn keeping_where(mut self, mut kept: impl FnMut(usize) -> bool) -> Self {
         for cell in 0..self.cells.len() {
             if self.is_free(cell) && !kept(cell) {
@@ -167,12 +172,12 @@ impl Map {
         self
     }
 
-    /// How many cells a row has.
+    /// The number of columns.
     pub fn columns(&self) -> usize {
         self.columns
     }
 
-    /// How many rows there are.
+    /// The number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
@@ -182,12 +187,12 @@ impl Map {
         self.resolution
     }
 
-    /// From the middle of a cell to its corners \[m\].
+    /// The distance from the middle of a cell to its corners \[m\].
     pub fn half_diagonal(&self) -> f64 {
         self.resolution * std::f64::consts::FRAC_1_SQRT_2
     }
 
-    /// How its rows are turned anticlockwise \[rad\].
+    /// The anticlockwise rotation of the rows \[rad\].
     pub fn yaw(&self) -> f64 {
         self.yaw
     }
@@ -197,12 +202,12 @@ impl Map {
         &self.cells
     }
 
-    /// F by cell where it is told.
+    /// F by cell, where speeds are given.
     pub fn speeds(&self) -> Option<&[f32]> {
         self.speeds.as_deref()
     }
 
-    /// Whether one may go there.
+    /// Whether a cell is free.
     pub fn is_free(&self, cell: usize) -> bool {
         self.cells[cell] == Cell::Free
     }
@@ -211,16 +216,16 @@ impl Map {
         &mut self.cells
     }
 
-    /// Where the middle of a cell is in the world.
+    /// The middle of a cell in the world \[m\].
     pub fn centre(&self, cell: usize) -> Point2<f64> {
         let (column, row) = (cell % self.columns, cell / self.columns);
         self.in_world(&Point2::new(column as f64 + 0.5, row as f64 + 0.5))
     }
 
-    /// The cell that a place in the world belongs to.
+    /// The cell that contains a point of the world.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for one that is not on the map.
+    /// [`ErrorKind::BadValue`] for a point outside the map.
     pub fn cell_at(&self, place: &Point2<f64>) -> Result<usize> {
         let own = self.in_map(place);
         if !self.is_on(&own) {
@@ -236,15 +241,16 @@ impl Map {
         Ok(whole(own.y, self.rows) * self.columns + whole(own.x, self.columns))
     }
 
-    /// Whether a place is on the map, which is counted in cells.
+    /// Whether a point, given in cells, is on the map.
     fn is_on(&self, own: &Point2<f64>) -> bool {
         own.x >= 0.0 && own.y >= 0.0 && own.x <= self.columns as f64 && own.y <= self.rows as f64
     }
 
-    /// The free cell that a place belongs to.
+    /// The free cell that contains a point.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for one that is not on the map, or not free; then with the nearest place that is.
+    /// [`ErrorKind::BadValue`] for a point outside the map or in a cell that is not free; the message has the nearest
+    /// free place.
     pub fn free_cell_at(&self, place: &Point2<f64>) -> Result<usize> {
         let cell = self.cell_at(place)?;
         if self.is_free(cell) {
@@ -260,14 +266,14 @@ impl Map {
         Err(Error::new(ErrorKind::BadValue, format!("({}, {}) is {kind}; {hint}", place.x, place.y)))
     }
 
-    /// A place of the world, counted in cells from the lower left corner.
+    /// Transforms a point of the world to the map's coordinates, in cells from the lower left corner.
     pub fn in_map(&self, place: &Point2<f64>) -> Point2<f64> {
         let (sine, cosine) = self.yaw.sin_cos();
         let away = (place - self.corner) / self.resolution;
         Point2::new(cosine * away.x + sine * away.y, cosine * away.y - sine * away.x)
     }
 
-    /// The other way round.
+    /// Transforms a point from the map's coordinates, in cells, to the world.
     pub fn in_world(&self, place: &Point2<f64>) -> Point2<f64> {
         let (sine, cosine) = self.yaw.sin_cos();
         let turned = Vector2::new(cosine * place.x - sine * place.y, sine * place.x + cosine * place.y);
@@ -275,7 +281,7 @@ impl Map {
     }
 }
 
-/// How many cells so many columns and rows have.
+/// The number of cells for the given columns and rows.
 fn count_of(columns: usize, rows: usize, resolution: f64) -> Result<usize> {
     let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
     let [least, greatest] = CELL_METRES;

@@ -1,6 +1,8 @@
-//! Fast marching by differences of the second order: the eikonal equation `|grad T| F = 1`, RH0 (4-11), in upwind direction.
+//! Fast marching with differences of the second order: the eikonal equation `|grad T| F = 1`, RH0 (4-11), with upwind
+//! differences.
 //!
-//! J. A. Sethian, Level Set Methods and Fast Marching Methods (1999). A difference of the first order stands in where the second neighbour is not known.
+//! J. A. Sethian, Level Set Methods and Fast Marching Methods (1999). A difference of the first order is used where the
+//! second neighbour is not known.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -8,10 +10,10 @@ use std::collections::BinaryHeap;
 use super::grid::Grid;
 use crate::{Result, Watch};
 
-/// T by place of the grid, where the goals' is nought and nobody has been elsewhere.
+/// T by place of the grid, from zero at the goals.
 pub(super) fn arrivals(grid: &Grid, mut times: Vec<f64>, goals: &[usize], watch: &Watch) -> Result<Vec<f64>> {
     let mut accepted = vec![false; times.len()];
-    // Trial values by the bits of their times: those of numbers that are not below nought have their order.
+    // Trial values are ordered by the bits of their times, which sort correctly for numbers that are not negative.
     let mut band: BinaryHeap<Reverse<(u64, u32)>> = goals.iter().map(|place| Reverse((0, *place as u32))).collect();
     let mut count = 0u32;
     while let Some(Reverse((_, place))) = band.pop() {
@@ -24,7 +26,7 @@ pub(super) fn arrivals(grid: &Grid, mut times: Vec<f64>, goals: &[usize], watch:
             watch.check()?;
         }
         for beside in grid.beside(place) {
-            // Not a number compares with nothing.
+            // NaN compares false with everything.
             if accepted[beside] || times[beside].is_nan() {
                 continue;
             }

@@ -1,29 +1,30 @@
-//! What the values of a map's image mean, as ROS' `map_server` has it. Main type: [`Meaning`].
+//! The interpretation of a map image's values, as in ROS' `map_server`. Main type: [`Meaning`].
 
 use super::map::Cell;
 use super::yaml::{Entry, Value, entries};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::shown;
 
-/// From which occupancy of `nav_msgs/OccupancyGrid` on there is none: 0 to 100 are percent, others have not been seen.
+/// The greatest known occupancy of `nav_msgs/OccupancyGrid`: 0 to 100 are percent, other values are unknown.
 const FULL: f64 = 100.0;
 /// The greatest value of a byte.
 const BYTE: f64 = 255.0;
 
-/// How the values of an image become occupancies, as `map_server` has it.
+/// The mapping from image values to occupancies, as in `map_server`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// The share of black is compared with the thresholds; what is between them has not been seen. An alpha channel counts as a fourth colour.
+    /// The darkness is compared with the thresholds; values between them are unknown. An alpha channel counts as a
+    /// fourth colour.
     #[default]
     Trinary,
-    /// Between the thresholds the occupancy grows from 0 to 100 percent; what is not opaque has not been seen.
+    /// Between the thresholds the occupancy grows from 0 to 100 percent; pixels that are not opaque are unknown.
     Scale,
-    /// The value of a byte is the occupancy in percent; above 100 it has not been seen.
+    /// The value of a byte is the occupancy in percent; above 100 it is unknown.
     Raw,
 }
 
 impl Mode {
-    /// All of them.
+    /// All modes.
     pub const ALL: [Mode; 3] = [Mode::Trinary, Mode::Scale, Mode::Raw];
 
     /// Its name: `trinary`, `scale` or `raw`.
@@ -36,33 +37,35 @@ impl Mode {
     }
 }
 
-/// What an image's values mean, as `map_server` has it.
+/// The interpretation of an image's values, as in `map_server`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Meaning {
     /// The side of a pixel \[m\].
     pub resolution: f64,
     /// The lower left corner in the world: x, y \[m\] and yaw \[rad\].
     pub origin: [f64; 3],
-    /// Whether white is occupied; not looked at in the mode `raw`.
+    /// Whether white is occupied; ignored in the mode `raw`.
     pub negate: bool,
-    /// Above which share of black a pixel is occupied, and below which it is free; in the mode `raw`, above and below which occupancy.
+    /// The darkness above which a pixel is occupied, and below which it is free; in the mode `raw`, the occupancies.
     pub thresholds: [f64; 2],
-    /// How values become occupancies.
+    /// The mapping from values to occupancies.
     pub mode: Mode,
 }
 
 impl Meaning {
-    /// That of a side of a pixel \[m\], all else as `map_server` has it: black is occupied, white is free, and grey has not been seen.
+    /// The defaults of `map_server` with the given side of a pixel \[m\]: black is occupied, white is free, and grey is
+    /// unknown.
     pub fn new(resolution: f64) -> Self {
         Meaning { resolution, origin: [0.0; 3], negate: false, thresholds: [0.65, 0.196], mode: Mode::Trinary }
     }
 
-    /// The image's name and what it means, of a YAML that `map_server` reads: block or flow style, comments, anchors and aliases. Keys that `map_server` does
-    /// not know are ignored.
+    /// Reads a YAML file of `map_server`: the image's name and its interpretation. Block and flow style, comments,
+    /// anchors and aliases are supported. Keys that `map_server` does not know are ignored.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for what is no YAML, is nested more than a few levels or repeats too much; [`ErrorKind::DuplicateName`] for a key that stands
-    /// twice; [`ErrorKind::BadValue`] for another value than the key allows; all with the line. [`ErrorKind::MissingKey`] without image or resolution.
+    /// All with the line: [`ErrorKind::Syntax`] for invalid YAML, deep nesting or too much repetition;
+    /// [`ErrorKind::DuplicateName`] for a key that is given twice; [`ErrorKind::BadValue`] for a value that the key
+    /// does not allow. [`ErrorKind::MissingKey`] without image or resolution.
     pub fn from_yaml(text: &str) -> Result<(String, Self)> {
         let (mut image, mut resolution, mut meaning) = (None, None, Meaning::new(1.0));
         for entry in entries(text)? {
@@ -84,7 +87,7 @@ impl Meaning {
 
     /// The cell of a pixel by the mean of its colours and its alpha, both from 0 to 1; without alpha it is opaque.
     pub(super) fn cell(&self, mean: f64, alpha: Option<f64>) -> Cell {
-        // In this mode `map_server` takes alpha for one colour more beside red, green and blue.
+        // In this mode `map_server` counts alpha as a colour in addition to red, green and blue.
         let counted = alpha.filter(|_| self.mode == Mode::Trinary);
         let white = counted.map_or(mean, |alpha| (3.0 * mean + alpha) / 4.0);
         match self.mode {
@@ -97,7 +100,7 @@ impl Meaning {
         }
     }
 
-    /// The cell of an occupancy from 0 to 1. Between the thresholds nobody knows whether it is free.
+    /// The cell for an occupancy from 0 to 1; between the thresholds it is unknown.
     fn known(&self, occupancy: f64) -> Cell {
         match occupancy {
             share if share > self.thresholds[0] => Cell::Occupied,
@@ -107,7 +110,7 @@ impl Meaning {
     }
 }
 
-/// Values as `map_server` reads them.
+/// Readers of values in the forms that `map_server` accepts.
 impl Entry {
     fn bad(&self, allowed: &str) -> Error {
         let text = format!("`{}` is `{}`; give {allowed}", shown(&self.key), shown(&self.value.to_string()));
@@ -130,7 +133,7 @@ impl Entry {
     }
 
     fn share(&self) -> Result<f64> {
-        self.number().filter(|share| (0.0..=1.0).contains(share)).ok_or_else(|| self.bad("a share from 0 to 1"))
+        self.number().filter(|share| (0.0..=1.0).contains(share)).ok_or_else(|| self.bad("a fraction from 0 to 1"))
     }
 
     fn flag(&self) -> Result<bool> {

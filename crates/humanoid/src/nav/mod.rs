@@ -1,6 +1,7 @@
-//! Navigation: maps of the floor, and how long it takes from each place to a goal. Main types: [`Map`], [`Field`].
+//! Navigation: occupancy grids of the floor, arrival times to a goal, and shortest paths. Main types: [`Map`],
+//! [`Field`].
 //!
-//! RH0 chapter 4. Metres, radians and seconds; nothing here knows a robot.
+//! RH0 chapter 4. Metres, radians and seconds. This module does not depend on a robot.
 
 mod again;
 mod exact;
@@ -12,6 +13,7 @@ mod map;
 mod marching;
 mod meaning;
 mod octile;
+mod path;
 mod png;
 mod potential;
 mod read;
@@ -22,7 +24,6 @@ mod smooth;
 mod sweep;
 mod taut;
 mod waves;
-mod way;
 mod weighted;
 mod yaml;
 
@@ -32,10 +33,10 @@ pub use field::{Field, Method};
 pub use grid::Window;
 pub use map::{Cell, Map};
 pub use meaning::{Meaning, Mode};
+pub use path::{Enclosure, Path};
 pub use potential::{Forces, Potential, Stuck};
 pub use room::{Piece, Room};
 pub use shape::Shape;
 pub(crate) use shape::signed_area;
 pub use smooth::{Part, Smooth};
-pub use way::{Enclosure, Way};
 pub use weighted::Quickest;

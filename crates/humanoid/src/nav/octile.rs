@@ -1,7 +1,8 @@
-//! Shortest ways over the middles of cells, to eight neighbours.
+//! Shortest paths on the grid of cell middles with eight neighbours (A*, octile distance).
 //!
-//! P. Hart, N. Nilsson and B. Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths (IEEE Transactions on Systems Science and Cybernetics 4, 1968); the moves are those of
-//! N. Sturtevant, Benchmarks for Grid-Based Pathfinding (IEEE Transactions on Computational Intelligence and AI in Games 4, 2012).
+//! P. Hart, N. Nilsson and B. Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths (IEEE
+//! Transactions on Systems Science and Cybernetics 4, 1968). The moves are those of N. Sturtevant, Benchmarks for
+//! Grid-Based Pathfinding (IEEE Transactions on Computational Intelligence and AI in Games 4, 2012).
 
 use std::f64::consts::SQRT_2;
 
@@ -9,24 +10,25 @@ use nalgebra::Point2;
 
 use super::exact::{Rows, enclosure};
 use super::map::Map;
-use super::way::{Enclosure, Way};
+use super::path::{Enclosure, Path};
 use crate::{Result, Watch};
 
-/// Steps to the neighbours.
+/// Offsets to the eight neighbours.
 const STEPS: [(isize, isize); 8] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
 
 impl Map {
-    /// A shortest way over the middles of cells from that of one place to that of another one, straight to eight neighbours, the cells on both sides of a diagonal step being free; or the
-    /// cells that enclose one of the places. Its points are where it turns. The map's speeds do not matter.
+    /// Finds a shortest path on the grid of cell middles, with moves to eight neighbours. A diagonal move needs free
+    /// cells on both sides. Returns the corners of the path, or the cells that enclose one of the ends. The map's
+    /// speeds are ignored.
     ///
     /// # Errors
     /// As [`Map::free_cell_at`]; [`Watch::check`].
-    pub fn octile_way(
+    pub fn octile_path(
         &self,
         start: &Point2<f64>,
         goal: &Point2<f64>,
         watch: &Watch,
-    ) -> Result<std::result::Result<Way, Enclosure>> {
+    ) -> Result<std::result::Result<Path, Enclosure>> {
         let cells = [self.free_cell_at(start)?, self.free_cell_at(goal)?];
         let rows = Rows::new(self);
         if let Some(enclosure) = enclosure(self, &rows, cells, watch)? {
@@ -34,21 +36,22 @@ impl Map {
         }
         let mut search = Search::new(self, &rows, cells);
         search.run(watch)?;
-        Ok(Ok(search.way(self)))
+        Ok(Ok(search.path(self)))
     }
 }
 
-/// A* with levels instead of a heap: within one, steps are taken in any order and again where they have become shorter.
+/// A* with levels instead of a heap. Within a level, cells are expanded in any order, and again when their length has
+/// decreased.
 struct Search<'a> {
     rows: &'a Rows,
     columns: usize,
     start: usize,
     goal: usize,
-    /// By cell one more than its length, nought where it has none yet.
+    /// By cell, one plus its length; zero where it has none yet.
     lengths: Vec<f64>,
-    /// By cell the step that led to it.
+    /// By cell, the move that reached it.
     steps: Vec<u8>,
-    /// Cells by the whole part of what a way over them is longer than the least one, with the lengths that they had.
+    /// Cells by the integer part of the excess of their path over the least length, with the lengths that they had.
     levels: Vec<Vec<(u32, f64)>>,
     level: usize,
     least: f64,
@@ -67,7 +70,7 @@ impl<'a> Search<'a> {
 
     /// The octile distance to the goal.
     fn at_least(&self, cell: usize) -> f64 {
-        // Cells are fewer than 2^28.
+        // There are fewer than 2^28 cells.
         let (cell, goal, columns) = (cell as u32, self.goal as u32, self.columns as u32);
         let away = |a: u32, b: u32| f64::from(a.abs_diff(b));
         let across = away(cell % columns, goal % columns);
@@ -77,7 +80,7 @@ impl<'a> Search<'a> {
 
     fn reach(&mut self, cell: usize, length: f64, step: u8) {
         (self.lengths[cell], self.steps[cell]) = (length, step);
-        // Rounding may take it below the level that it comes from.
+        // Rounding may give a value below the current level.
         let level = ((length - 1.0 + self.at_least(cell) - self.least) as usize).max(self.level);
         if level >= self.levels.len() {
             self.levels.resize_with(level + 1, Vec::new);
@@ -85,7 +88,7 @@ impl<'a> Search<'a> {
         self.levels[level].push((cell as u32, length));
     }
 
-    /// Level by level until one has been left with the goal reached: what is on later ones is longer.
+    /// Expands level by level until a level ends with the goal reached. All paths on later levels are longer.
     fn run(&mut self, watch: &Watch) -> Result<()> {
         let mut count = 0usize;
         while self.lengths[self.goal] == 0.0 || self.level_of_goal() >= self.level {
@@ -130,8 +133,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Back from the goal, a point where the step changes.
-    fn way(&self, map: &Map) -> Way {
+    /// Follows the moves back from the goal; a corner is where the move changes.
+    fn path(&self, map: &Map) -> Path {
         let (mut cell, mut last) = (self.goal, None);
         let mut points = vec![];
         while cell != self.start {
@@ -145,6 +148,6 @@ impl<'a> Search<'a> {
         }
         points.push(map.centre(self.start));
         points.reverse();
-        Way { points }
+        Path { points }
     }
 }

@@ -9,14 +9,16 @@ use super::map::Map;
 use super::meaning::Meaning;
 use crate::{Error, ErrorKind, Result};
 
-/// The most bytes that an image takes in memory.
+/// The greatest memory of an image in bytes.
 const MEMORY: usize = groebot_algebra::limits::IMAGE_MEMORY;
 
 impl Map {
-    /// The map that a PNG image holds: the mean of red, green and blue counts. What alpha means depends on the [mode](super::Mode).
+    /// Reads a map from a PNG image by the mean of red, green and blue. The meaning of alpha depends on the
+    /// [mode](super::Mode).
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for what is no such image; [`ErrorKind::BadValue`] beyond a gigabyte; those of [`Map::of_cells`] and [`Map::placed`].
+    /// [`ErrorKind::Syntax`] for an invalid image; [`ErrorKind::BadValue`] beyond a gigabyte; those of
+    /// [`Map::of_cells`] and [`Map::placed`].
     pub fn from_png(bytes: &[u8], meaning: &Meaning) -> Result<Self> {
         let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: MEMORY });
         decoder.set_transformations(Transformations::EXPAND | Transformations::STRIP_16);

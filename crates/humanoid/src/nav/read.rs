@@ -1,4 +1,4 @@
-//! Maps from files: pairs of YAML and image of ROS' `map_server`, images, and rows of characters.
+//! Readers of maps: pairs of YAML and image of ROS' `map_server`, images, and text.
 
 use std::path::Path;
 
@@ -11,17 +11,18 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 use groebot_robot::document::{TEXT_LIMIT, read_bytes, read_text, shown};
 
-/// The longest description of an image, in bytes.
+/// The greatest length of the description of an image, in bytes.
 const DESCRIPTION_LIMIT: u64 = limits::MAP_BYTES;
-/// The longest image or text, in bytes.
+/// The greatest length of an image or text, in bytes.
 const IMAGE_LIMIT: u64 = limits::IMAGE_BYTES;
 
 impl Map {
-    /// The map of a file: `.yaml` or `.yml` beside its image, `.pgm` or `.png` with pixels of this side \[m\], text (`.txt`, `.map`) with such cells, or a [`Room`] (`.toml`).
+    /// Reads a map from a file. It is a `.yaml` or `.yml` with its image, a `.pgm` or `.png` with pixels of this side
+    /// \[m\], text (`.txt`, `.map`) with such cells, or a [`Room`] (`.toml`).
     ///
     /// # Errors
-    /// [`ErrorKind::Io`], [`ErrorKind::Unsupported`] for another ending, and those of [`Map::from_pgm`], [`Map::from_png`], [`Map::from_text`], [`Room::from_toml`] and [`Room::map`];
-    /// all with the file.
+    /// [`ErrorKind::Io`], [`ErrorKind::Unsupported`] for another extension, and those of [`Map::from_pgm`],
+    /// [`Map::from_png`], [`Map::from_text`], [`Room::from_toml`] and [`Room::map`]; all with the file.
     pub fn read(path: &Path, resolution: f64) -> Result<Self> {
         let map = match ending(path).as_str() {
             "yaml" | "yml" => {
@@ -32,7 +33,7 @@ impl Map {
             }
             "txt" | "map" => Map::from_text(&read_text(path, IMAGE_LIMIT)?, resolution),
             "toml" => Room::from_toml(&read_text(path, TEXT_LIMIT)?).and_then(|room| room.map()),
-            // Nobody has said that alpha is a colour, as the mode `trinary` has it.
+            // Without a YAML, alpha is not a colour as in the mode `trinary`.
             _ => Map::from_image(path, &Meaning { mode: Mode::Scale, ..Meaning::new(resolution) }),
         };
         map.map_err(|error| error.in_file(path))
@@ -49,10 +50,10 @@ impl Map {
         }
     }
 
-    /// The map that a PGM image holds, plain (P2) or not (P5).
+    /// Reads a map from a PGM image, plain (P2) or binary (P5).
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for what is no such image, and those of [`Map::of_cells`] and [`Map::placed`].
+    /// [`ErrorKind::Syntax`] for an invalid image, and those of [`Map::of_cells`] and [`Map::placed`].
     pub fn from_pgm(bytes: &[u8], meaning: &Meaning) -> Result<Self> {
         let mut words = Words { bytes, at: 0 };
         let bad = |text: String| Error::new(ErrorKind::Syntax, text);
@@ -94,11 +95,12 @@ impl Map {
         Map::of_cells(columns, rows, meaning.resolution, cells)?.placed(Point2::new(x, y), yaw)
     }
 
-    /// The map that rows of characters draw, the uppermost one first: `.`, `G`, `S` and blanks are free, `?` is unknown, `#`, `@`, `O`, `T` and `W` are occupied. The head of a `.map` of
-    /// the Moving AI lab may stand before them.
+    /// Reads a map from rows of characters, the uppermost one first. `.`, `G`, `S` and blanks are free, `?` is unknown,
+    /// `#`, `@`, `O`, `T` and `W` are occupied. A `.map` header of the Moving AI lab may precede them.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for another character, rows of different lengths and a head that tells others, with the line; those of [`Map::of_cells`].
+    /// [`ErrorKind::Syntax`] for another character, rows of different lengths and a header with other dimensions, with
+    /// the line; those of [`Map::of_cells`].
     pub fn from_text(text: &str, resolution: f64) -> Result<Self> {
         let mut lines: Vec<(usize, &str)> = text.lines().enumerate().map(|(place, line)| (place + 1, line)).collect();
         let has_head = lines.first().is_some_and(|(_, line)| line.starts_with("type "));
@@ -113,7 +115,7 @@ impl Map {
                 Some(("width", told)) if told.trim() != columns.to_string() => columns,
                 _ => continue,
             };
-            let text = format!("the head tells `{}`; the rows that follow make it {count}", shown(line));
+            let text = format!("the header gives `{}`; the rows give {count}", shown(line));
             return Err(Error::new(ErrorKind::Syntax, text).at_line(place));
         }
         let mut cells = Vec::new();
@@ -142,12 +144,12 @@ impl Map {
     }
 }
 
-/// How a name ends.
+/// The extension of a file name.
 fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
-/// Words of an image's head, and remarks between them.
+/// The words of an image's header, with comments between them.
 struct Words<'a> {
     bytes: &'a [u8],
     at: usize,

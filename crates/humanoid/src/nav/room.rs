@@ -8,22 +8,22 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits::check_name;
 use groebot_robot::document::{Document, Node, Table, one_among, shown};
 
-/// A piece of furniture, or another thing that stands on the floor or makes it slow.
+/// A piece of furniture, or an area of the floor with another speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Piece {
     /// Its name.
     pub name: String,
-    /// Its outline about its own origin \[m\].
+    /// Its outline in its own frame \[m\].
     pub outline: Shape,
-    /// Where its origin is in the world \[m\].
+    /// The position of its origin in the world \[m\].
     pub place: Point2<f64>,
-    /// How it is turned anticlockwise \[rad\].
+    /// Its anticlockwise rotation \[rad\].
     pub yaw: f64,
-    /// How high it is \[m\]: for pictures and for distances from it; what walks here passes neither over nor under furniture.
+    /// Its height \[m\], for pictures and distances. No robot walks over or under furniture.
     pub height: f64,
 }
 
-/// The height of furniture that does not tell it \[m\]: a table's.
+/// The default height of furniture \[m\]: that of a table.
 const HEIGHT: f64 = 0.75;
 
 impl Piece {
@@ -35,31 +35,33 @@ impl Piece {
     }
 }
 
-/// A rectangular floor with what stands on it.
+/// A rectangular floor with furniture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Room {
-    /// How long it is along x and y \[m\].
+    /// Its dimensions along x and y \[m\].
     pub size: [f64; 2],
     /// The side of a cell of its map \[m\].
     pub resolution: f64,
-    /// Its lower left corner \[m\], and how it is turned anticlockwise \[rad\].
+    /// The position of its lower left corner \[m\], and its anticlockwise rotation \[rad\].
     pub origin: [f64; 3],
-    /// How thick its walls are, which stand inside of its borders \[m\].
+    /// The thickness of its walls, which are inside its borders \[m\].
     pub wall: f64,
-    /// Where who walks here stands at first, and looks \[m, rad\], where that is told.
+    /// The initial position and heading of the robot \[m, rad\], where they are given.
     pub start: Option<[f64; 3]>,
     /// The furniture.
     pub pieces: Vec<Piece>,
-    /// Where one gets on with other speeds than 1, F of RH0 (4-7): later ones count.
+    /// Areas with a speed other than 1, F of RH0 (4-7). Where they overlap, the later one counts.
     pub slow: Vec<(Piece, f64)>,
 }
 
 impl Room {
-    /// Reads a room: `size`, and if they are told `resolution` (0.05), `origin` (x, y and yaw in degrees), `wall`, `start` (x, y and a heading in degrees); tables `[[furniture]]` and `[[slow]]` (with its `speed`), each with a `name`,
-    /// an outline (`box` of length and width, `circle` by its radius or `polygon` by its corners), `at` (x, y, and a yaw in degrees) and a `height` (0.75).
+    /// Reads a room. The keys are `size`, and optionally `resolution` (0.05), `origin` (x, y and yaw in degrees),
+    /// `wall` and `start` (x, y and a heading in degrees). The tables are `[[furniture]]` and `[[slow]]` (with its
+    /// `speed`). Each has a `name`, an outline, `at` (x, y, and a yaw in degrees) and a `height` (0.75). An outline is
+    /// `box` (length and width), `circle` (radius) or `polygon` (corners).
     ///
     /// # Errors
-    /// Those of [`Document`]; [`ErrorKind::DuplicateName`]; [`ErrorKind::BadValue`] as [`Shape::check`]; with the line.
+    /// With the line: those of [`Document`]; [`ErrorKind::DuplicateName`]; [`ErrorKind::BadValue`] as [`Shape::check`].
     pub fn from_toml(text: &str) -> Result<Self> {
         let document = Document::parse(text)?;
         let root = document.root();
@@ -85,20 +87,20 @@ impl Room {
         })
     }
 
-    /// The same with a piece elsewhere, turned anticlockwise \[m, rad\].
+    /// Moves a piece to another position with an anticlockwise rotation \[m, rad\].
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the names that are known.
+    /// [`ErrorKind::UnknownName`] with the known names.
     pub fn with_moved(mut self, name: &str, place: Point2<f64>, yaw: f64) -> Result<Self> {
         let at = self.find(name)?;
         (self.pieces[at].place, self.pieces[at].yaw) = (place, yaw);
         Ok(self)
     }
 
-    /// The same without a piece.
+    /// Removes a piece.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the names that are known.
+    /// [`ErrorKind::UnknownName`] with the known names.
     pub fn without(mut self, name: &str) -> Result<Self> {
         let at = self.find(name)?;
         self.pieces.remove(at);
@@ -108,7 +110,7 @@ impl Room {
     /// A piece by its name.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the names that are known.
+    /// [`ErrorKind::UnknownName`] with the known names.
     pub fn piece(&self, name: &str) -> Result<&Piece> {
         self.find(name).map(|at| &self.pieces[at])
     }
@@ -172,12 +174,12 @@ impl Room {
     }
 }
 
-/// x, y, and a yaw in degrees where there is one.
+/// x, y, and a yaw in degrees where it is given.
 fn placed(node: &Node<'_>) -> Result<[f64; 3]> {
     match node.array()?[..] {
         [x, y] => Ok([x.float()?, y.float()?, 0.0]),
         [x, y, yaw] => Ok([x.float()?, y.float()?, yaw.float()?.to_radians()]),
-        _ => Err(node.error(ErrorKind::BadValue, "give x and y in metres, and a yaw in degrees if it is turned")),
+        _ => Err(node.error(ErrorKind::BadValue, "give x and y in metres, and optionally a yaw in degrees")),
     }
 }
 

@@ -1,4 +1,4 @@
-//! What stands on the floor: circles and polygons. Main type: [`Shape`].
+//! Shapes on the floor: circles and polygons. Main type: [`Shape`].
 
 use nalgebra::{Point2, Vector2};
 
@@ -10,20 +10,21 @@ use crate::{Error, ErrorKind, Result};
 pub enum Shape {
     /// A circle.
     Circle {
-        /// Its middle.
+        /// Its centre.
         centre: Point2<f64>,
         /// Its radius.
         radius: f64,
     },
-    /// A polygon by its corners, which need not be convex; its sides do not cross.
+    /// A polygon by its corners. It need not be convex; its sides do not cross.
     Polygon(Vec<Point2<f64>>),
 }
 
-/// A shape that is less deep in a cell does not touch it, in cells: rounding is less, and nothing is measured so well.
-const DUST: f64 = 1e-9;
+/// The least penetration with which a shape touches a cell, in cells. Rounding errors are smaller, and no measurement
+/// is so accurate.
+const LEAST_DEPTH: f64 = 1e-9;
 
 impl Shape {
-    /// A box: its middle, how long it is ahead and how wide, and how it is turned anticlockwise \[m, rad\].
+    /// A rectangle: its centre, length, width \[m\] and anticlockwise rotation \[rad\].
     pub fn rectangle(centre: Point2<f64>, length: f64, width: f64, yaw: f64) -> Self {
         let (sine, cosine) = yaw.sin_cos();
         let corner = |(ahead, aside): (f64, f64)| {
@@ -33,7 +34,7 @@ impl Shape {
         Shape::Polygon([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(corner).to_vec())
     }
 
-    /// Whether it is a shape at all.
+    /// Checks that the shape is valid.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for numbers that are not finite, a radius below zero, fewer than three corners.
@@ -57,7 +58,7 @@ impl Shape {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// The same seen otherwise, `scale` times as large.
+    /// The shape after a rigid transformation and a scaling by `scale`.
     pub(super) fn moved(&self, place: &dyn Fn(&Point2<f64>) -> Point2<f64>, scale: f64) -> Self {
         match self {
             Shape::Circle { centre, radius } => Shape::Circle { centre: place(centre), radius: radius * scale },
@@ -101,11 +102,12 @@ impl Shape {
         corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| (*a, *b))
     }
 
-    /// Whether it has points inside of the unit square with this lower left corner, farther than dust from its sides.
+    /// Whether it has points inside the unit square with this lower left corner, farther from the sides than the
+    /// tolerance.
     pub(super) fn touches(&self, corner: &Point2<f64>) -> bool {
         match self {
             Shape::Circle { centre, radius } => {
-                let near = |value: f64, low: f64| value.clamp(low + DUST, low + 1.0 - DUST);
+                let near = |value: f64, low: f64| value.clamp(low + LEAST_DEPTH, low + 1.0 - LEAST_DEPTH);
                 let nearest = Point2::new(near(centre.x, corner.x), near(centre.y, corner.y));
                 (nearest - centre).norm_squared() < radius * radius
             }
@@ -116,18 +118,19 @@ impl Shape {
     }
 }
 
-/// Twice the area of a polygon: positive where its corners go round anticlockwise.
+/// Twice the signed area of a polygon, positive where its corners are anticlockwise.
 pub(crate) fn signed_area(corners: &[Point2<f64>]) -> f64 {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y).sum()
 }
 
-/// Whether a side has points inside of the unit square with this lower left corner, farther than dust from its sides (W. Liang and B. Barsky, ACM Transactions on Graphics 3, 1984).
+/// Whether a side has points inside the unit square with this lower left corner, farther from its sides than the
+/// tolerance (W. Liang and B. Barsky, ACM Transactions on Graphics 3, 1984).
 fn enters((a, b): (Point2<f64>, Point2<f64>), corner: &Point2<f64>) -> bool {
-    let way = b - a;
+    let offset = b - a;
     let (mut first, mut last) = (0.0_f64, 1.0_f64);
     for (axis, low) in [(0, corner.x), (1, corner.y)] {
-        let (from, along, size) = (a[axis] - low - DUST, way[axis], 1.0 - 2.0 * DUST);
+        let (from, along, size) = (a[axis] - low - LEAST_DEPTH, offset[axis], 1.0 - 2.0 * LEAST_DEPTH);
         if along == 0.0 {
             if from <= 0.0 || from >= size {
                 return false;

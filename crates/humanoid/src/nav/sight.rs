@@ -1,37 +1,39 @@
-//! What a straight line crosses. Main type: [`Piece`].
+//! Line traversal: the cells that a straight line crosses. Main type: [`Piece`].
 //!
-//! J. Amanatides and A. Woo, A Fast Voxel Traversal Algorithm for Ray Tracing (Eurographics 1987), with lattice lines and points taken as what they are.
+//! J. Amanatides and A. Woo, A Fast Voxel Traversal Algorithm for Ray Tracing (Eurographics 1987). Here lines on
+//! lattice lines and through lattice points are separate cases.
 
 use nalgebra::{Point2, Vector2};
 
 use super::map::Map;
-use super::way::Way;
+use super::path::Path;
 
-/// Lines that pass a lattice line or point by less are on it, in cells.
+/// The distance within which a line is on a lattice line or point, in cells.
 const NEAR: f64 = 1e-9;
 
-/// A part of a straight line in one cell, or between two of them.
+/// A part of a straight line in one cell, or on the border between two cells.
 pub(super) struct Piece {
-    /// In cells.
+    /// Its length, in cells.
     pub length: f64,
     /// Its end, in cells.
     pub end: Point2<f64>,
-    /// The cells that are free.
+    /// The free cells that it is in.
     cells: [Option<(usize, usize)>; 2],
-    /// What it takes to get on by a cell's side, in parts of what it takes at a speed of one.
+    /// The time per cell side, relative to the time at speed one.
     pub slowness: f64,
 }
 
-impl Way {
-    /// How long it takes with the map's speeds, \[s\], or \[m\] where none are told; nothing where it passes an obstacle, or between two that meet at a corner. Along a border between two
-    /// speeds the faster one counts.
+impl Path {
+    /// The time of the path with the map's speeds, \[s\], or \[m\] where the map has none. `None` where the path
+    /// crosses an obstacle, or passes between two that meet at a corner. On the border between two speeds the faster
+    /// one counts.
     pub fn time(&self, map: &Map) -> Option<f64> {
         let points: Vec<Point2<f64>> = self.points.iter().map(|point| map.in_map(point)).collect();
         Some(time(map, &points)? * map.resolution())
     }
 }
 
-/// How long a way takes over points that are counted in cells; nothing where it is not clear.
+/// The time of a path over points that are given in cells; `None` where it is not clear.
 pub(super) fn time(map: &Map, points: &[Point2<f64>]) -> Option<f64> {
     let mut sum = 0.0;
     let mut last: Option<Piece> = None;
@@ -48,7 +50,7 @@ pub(super) fn time(map: &Map, points: &[Point2<f64>]) -> Option<f64> {
 }
 
 impl Piece {
-    /// Whether one gets from a cell to one of the next piece, over sides.
+    /// Whether a cell and one of the next piece's cells are connected over sides.
     fn leads_to(&self, next: &Piece, map: &Map) -> bool {
         let is_connected = |(x, y): (usize, usize), (to_x, to_y): (usize, usize)| {
             let is_diagonal = x != to_x && y != to_y;
@@ -62,30 +64,30 @@ fn is_free(map: &Map, x: usize, y: usize) -> bool {
     x < map.columns() && y < map.rows() && map.is_free(y * map.columns() + x)
 }
 
-/// The pieces from one point to another one, in order; nothing where one of them is in no free cell.
+/// The pieces from one point to another, in order; `None` where one of them is in no free cell.
 pub(super) fn pieces(map: &Map, a: Point2<f64>, b: Point2<f64>) -> Option<Vec<Piece>> {
-    let way = b - a;
-    let length = way.norm();
+    let offset = b - a;
+    let length = offset.norm();
     if length < NEAR {
         return Some(vec![]);
     }
-    let mut stops = crossings(a.x, way.x, length);
-    stops.extend(crossings(a.y, way.y, length));
+    let mut stops = crossings(a.x, offset.x, length);
+    stops.extend(crossings(a.y, offset.y, length));
     stops.push(1.0);
     stops.sort_by(f64::total_cmp);
     let mut from = 0.0;
     let mut all = Vec::with_capacity(stops.len());
     for stop in stops {
-        // What is shorter touches a corner.
+        // Shorter pieces only touch a corner.
         if (stop - from) * length >= NEAR {
-            all.push(piece(map, a + way * from, a + way * stop)?);
+            all.push(piece(map, a + offset * from, a + offset * stop)?);
             from = stop;
         }
     }
     Some(all)
 }
 
-/// Where a coordinate is whole, in parts of the way.
+/// The fractions of the line at which a coordinate is an integer.
 fn crossings(from: f64, along: f64, length: f64) -> Vec<f64> {
     if along.abs() < NEAR * length.min(1.0) {
         return vec![];

@@ -1,55 +1,56 @@
-//! Ways without sharp corners: lines and arcs. Main type: [`Smooth`].
+//! Smoothing of paths: lines and arcs. Main type: [`Smooth`].
 //!
-//! L. Dubins, On Curves of Minimal Length with a Constraint on Average Curvature (American Journal of Mathematics 79, 1957): between two directions an arc of the least radius is the shortest.
+//! L. Dubins, On Curves of Minimal Length with a Constraint on Average Curvature (American Journal of Mathematics 79,
+//! 1957): between two directions an arc of the least radius is the shortest.
 
 use nalgebra::{Point2, Rotation2, Vector2};
 
 use super::map::Map;
+use super::path::Path;
 use super::sight::time;
-use super::way::Way;
 use crate::{Error, ErrorKind, Result};
 
-/// How long chords are by which arcs are compared with a map, in cells.
+/// The length of the chords of an arc for collision checks, in cells.
 const CHORD: f64 = 0.05;
-/// A sharper turn is left as it is \[rad\].
+/// The greatest turn that is smoothed \[rad\].
 const MOST_TURN: f64 = 3.0;
-/// How often corners that move out of the way are put where arcs pass by what was the corner.
+/// The number of iterations that place outer arcs through their original corners.
 const ROUNDS: usize = 20;
 
-/// A part of a smooth way.
+/// A segment of a smooth path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Part {
-    /// Straight on \[m\].
+    /// A straight line \[m\].
     Line {
-        /// Where it begins.
+        /// Its start.
         from: Point2<f64>,
-        /// Where it ends.
+        /// Its end.
         to: Point2<f64>,
     },
-    /// Along a circle \[m, rad\].
+    /// An arc of a circle \[m, rad\].
     Arc {
-        /// Its middle.
+        /// Its centre.
         centre: Point2<f64>,
         /// Its radius.
         radius: f64,
-        /// The angle from the middle to where it begins.
+        /// The angle from the centre to its start.
         angle: f64,
-        /// By how much it turns, anticlockwise.
+        /// Its angle, anticlockwise.
         turn: f64,
     },
 }
 
-/// A way of lines and arcs, each going on in the direction of the one before but at sharp corners.
+/// A path of lines and arcs. The direction is continuous except at sharp corners.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Smooth {
-    /// Its parts.
+    /// Its segments.
     pub parts: Vec<Part>,
-    /// The corners of the way that stay sharp, as the map leaves no room for an arc: there one turns on the spot \[m\].
+    /// The corners that stay sharp because the map has no room for an arc: the robot turns there on the spot \[m\].
     pub sharp: Vec<Point2<f64>>,
 }
 
 impl Part {
-    /// How long it is \[m\].
+    /// Its length \[m\].
     pub fn length(&self) -> f64 {
         match self {
             Part::Line { from, to } => (to - from).norm(),
@@ -57,7 +58,7 @@ impl Part {
         }
     }
 
-    /// Where one is a part of it on, from nought to one \[m\], and in which direction one goes \[rad\].
+    /// The position \[m\] and the direction of motion \[rad\] at a fraction of the segment, from zero to one.
     pub fn pose(&self, share: f64) -> (Point2<f64>, f64) {
         match *self {
             Part::Line { from, to } => (from + (to - from) * share, (to.y - from.y).atan2(to.x - from.x)),
@@ -71,12 +72,13 @@ impl Part {
 }
 
 impl Smooth {
-    /// How long it is \[m\].
+    /// Its length \[m\].
     pub fn length(&self) -> f64 {
         self.parts.iter().map(Part::length).sum()
     }
 
-    /// Poses along it no farther apart than so much \[m\], with the ends of all parts: places \[m\] and headings \[rad\].
+    /// Poses along the path at most `step` apart \[m\], including the ends of all segments: positions \[m\] and
+    /// headings \[rad\].
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a step that is not positive.
@@ -92,11 +94,13 @@ impl Smooth {
     }
 }
 
-impl Way {
-    /// The same way with arcs of a radius \[m\] for its corners: inside of them where the map lets it, else around what the corner is at. A corner where neither is clear stays sharp and is told.
+impl Path {
+    /// Replaces the corners of the path by arcs of a radius \[m\]: inside the corner where the map has room, else
+    /// through the corner. A corner where neither is clear stays sharp and is reported.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a radius that is not positive, a way that passes an obstacle, and one without points.
+    /// [`ErrorKind::BadValue`] for a radius that is not positive, a path that crosses an obstacle, and one without
+    /// points.
     pub fn smoothed(&self, map: &Map, radius: f64) -> Result<Smooth> {
         if !(radius.is_finite() && radius > 0.0) {
             return Err(Error::new(ErrorKind::BadValue, format!("a radius of {radius} m: give a positive number")));
@@ -106,7 +110,7 @@ impl Way {
         loop {
             bends.settle();
             let (parts, corners) = bends.parts();
-            // Each corner that is in the way of a part yields, until none is.
+            // Each corner that blocks a segment gets another arc, until none does.
             let blocked: Vec<usize> = parts
                 .iter()
                 .zip(corners)
@@ -117,25 +121,25 @@ impl Way {
             if blocked.is_empty() && crowded.is_empty() {
                 return Ok(Smooth { parts, sharp: bends.sharp() });
             }
-            if !bends.give_way(&blocked, &crowded) {
-                unreachable!("a clear way with sharp corners is clear");
+            if !bends.change_arcs(&blocked, &crowded) {
+                unreachable!("a clear path with sharp corners is clear");
             }
         }
     }
 }
 
-/// How a corner is passed.
+/// The treatment of a corner.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Inside,
-    /// The corner is moved outwards, so that the arc passes it.
+    /// The corner is moved outwards, so that the arc passes through its original position.
     Outside,
     Sharp,
 }
 
-/// The corners of a way as they become arcs.
+/// The corners of a path and their arcs.
 struct Bends<'a> {
-    /// The way as it was; its ends do not bend.
+    /// The original path; its ends have no arcs.
     old: &'a [Point2<f64>],
     points: Vec<Point2<f64>>,
     kinds: Vec<Kind>,
@@ -151,14 +155,15 @@ impl<'a> Bends<'a> {
         1..self.old.len().max(2) - 1
     }
 
-    /// The directions into a corner and out of it, and by how much it turns anticlockwise.
+    /// The directions into a corner and out of it, and the anticlockwise angle between them.
     fn turn(&self, place: usize) -> (Vector2<f64>, Vector2<f64>, f64) {
-        let way = |from: usize| (self.points[from + 1] - self.points[from]).try_normalize(0.0).unwrap_or_default();
-        let (into, out) = (way(place - 1), way(place));
+        let direction =
+            |from: usize| (self.points[from + 1] - self.points[from]).try_normalize(0.0).unwrap_or_default();
+        let (into, out) = (direction(place - 1), direction(place));
         (into, out, into.perp(&out).atan2(into.dot(&out)))
     }
 
-    /// How far from a corner its arc begins.
+    /// The distance from a corner to the start of its arc.
     fn reach(&self, place: usize) -> f64 {
         if place == 0 || place + 1 == self.old.len() || self.kinds[place] == Kind::Sharp {
             return 0.0;
@@ -166,7 +171,7 @@ impl<'a> Bends<'a> {
         self.radius * (0.5 * self.turn(place).2.abs()).tan()
     }
 
-    /// Puts corners that are passed outside where they belong.
+    /// Moves the corners that have outer arcs.
     fn settle(&mut self) {
         self.points.copy_from_slice(self.old);
         for _ in 0..ROUNDS {
@@ -205,7 +210,8 @@ impl<'a> Bends<'a> {
         (parts, corners)
     }
 
-    /// Corners that turn too much, or whose arcs would overlap those beside; of two the one that begins farther away.
+    /// Corners that turn too much, or whose arcs would overlap the neighbouring ones. Of two it is the one whose arc
+    /// starts farther away.
     fn crowded(&self) -> Vec<usize> {
         let turns =
             self.inner().filter(|place| self.kinds[*place] != Kind::Sharp && self.turn(*place).2.abs() > MOST_TURN);
@@ -217,8 +223,8 @@ impl<'a> Bends<'a> {
         turns.chain(overlaps).collect()
     }
 
-    /// Corners that are blocked are passed outside, then sharply; whether one has changed.
-    fn give_way(&mut self, blocked: &[usize], crowded: &[usize]) -> bool {
+    /// Changes blocked corners to outer arcs, then to sharp corners; returns whether one has changed.
+    fn change_arcs(&mut self, blocked: &[usize], crowded: &[usize]) -> bool {
         let before = self.kinds.clone();
         for place in blocked.iter().filter(|place| self.old.len() > **place + 1 && **place > 0) {
             self.kinds[*place] = match before[*place] {
@@ -235,7 +241,7 @@ impl<'a> Bends<'a> {
     }
 }
 
-/// Whether a part of a way is clear of obstacles, an arc by its chords.
+/// Whether a segment is clear of obstacles; an arc is checked by its chords.
 fn is_clear(map: &Map, part: &Part) -> bool {
     let count = match part {
         Part::Line { .. } => 1,

@@ -1,6 +1,7 @@
-//! Obstacles grown by an outline that is turned one way: where its origin may be.
+//! Minkowski growth: obstacles grown by an outline of fixed heading.
 //!
-//! T. Lozano-Perez, Spatial Planning: A Configuration Space Approach, IEEE Transactions on Computers 32 (1983): a slice of the configurations of one heading.
+//! T. Lozano-Perez, Spatial Planning: A Configuration Space Approach, IEEE Transactions on Computers 32 (1983): the
+//! slice of the configuration space at one heading.
 
 use nalgebra::{Point2, Vector2};
 
@@ -8,12 +9,13 @@ use super::map::{Cell, Map};
 use super::shape::Shape;
 use crate::Result;
 
-/// The columns from one to another, both included, that an outline touches in a row, seen from the cell of its origin.
+/// Row, first and last column of the cells that an outline touches, relative to the cell of its origin.
 type Runs = Vec<(isize, isize, isize)>;
 
 impl Map {
-    /// The same map, where a cell is occupied if an outline \[m\] with its origin in the middle of that cell, turned anticlockwise \[rad\], touches one that is. What is off the map counts as an
-    /// obstacle. A robot that always looks the same way goes there as a point does here.
+    /// The configuration space of an outline \[m\] at a fixed anticlockwise rotation \[rad\]. A cell is occupied if the
+    /// outline, with its origin in the middle of the cell, touches an occupied cell. The outside of the map counts as
+    /// an obstacle. A robot of constant heading is a point on the result.
     ///
     /// # Errors
     /// As [`Shape::check`].
@@ -26,7 +28,7 @@ impl Map {
             runs.iter().any(|(row, from, to)| {
                 let (row, from, to) = (y + row, x + from, x + to);
                 let is_off = row < 0 || row >= rows || from < 0 || to >= columns;
-                // Before each cell of a row there are so many that are occupied.
+                // Prefix sums of the occupied cells of each row.
                 is_off || {
                     let line = &before[row as usize * (columns as usize + 1)..];
                     line[to as usize + 1] > line[from as usize]
@@ -42,7 +44,7 @@ impl Map {
         Ok(map)
     }
 
-    /// How many cells are occupied before each one of its row, and in the whole row.
+    /// The number of occupied cells before each cell of its row, and in the whole row.
     fn counts(&self) -> Vec<u32> {
         let line = |cells: &[Cell]| {
             let mut count = 0;

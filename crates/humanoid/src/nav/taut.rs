@@ -1,21 +1,22 @@
-//! Ways pulled taut.
+//! String pulling of paths.
 
 use nalgebra::{Point2, Vector2};
 
 use super::map::Map;
+use super::path::Path;
 use super::sight::time;
-use super::way::Way;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// Less is nothing, in cells or in their squares.
+/// Tolerance for lengths in cells and for their squares.
 const NEAR: f64 = 1e-9;
 
-impl Way {
-    /// The same way as a string that is pulled: no longer, on the same side of each obstacle, and with corners at those of obstacles only. It is as short as the ways about it, not as all others.
+impl Path {
+    /// The taut path: no longer, on the same side of each obstacle, and with corners only at those of obstacles. It is
+    /// the shortest in its homotopy class, not of all paths.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a way that passes an obstacle, and one without points; [`Watch::check`].
-    pub fn taut(&self, map: &Map, watch: &Watch) -> Result<Way> {
+    /// [`ErrorKind::BadValue`] for a path that crosses an obstacle, and one without points; [`Watch::check`].
+    pub fn taut(&self, map: &Map, watch: &Watch) -> Result<Path> {
         self.check_clear(map)?;
         let ends = self.points.first().zip(self.points.last());
         let Some((first, last)) = ends.filter(|_| self.points.len() > 2) else { return Ok(self.clone()) };
@@ -24,18 +25,18 @@ impl Way {
             watch.check()?;
         }
         let inner = points[1..points.len() - 1].iter().map(|point| map.in_world(point));
-        Ok(Way { points: [*first].into_iter().chain(inner).chain([*last]).collect() })
+        Ok(Path { points: [*first].into_iter().chain(inner).chain([*last]).collect() })
     }
 
-    /// Fails where it passes an obstacle, and where it has no points.
+    /// Checks that the path has points and crosses no obstacle.
     pub(super) fn check_clear(&self, map: &Map) -> Result<()> {
         if self.points.is_empty() {
-            return Err(Error::new(ErrorKind::BadValue, "a way without points; give at least one"));
+            return Err(Error::new(ErrorKind::BadValue, "a path without points; give at least one"));
         }
         for pair in self.points.windows(2) {
             if time(map, &[map.in_map(&pair[0]), map.in_map(&pair[1])]).is_none() {
                 let text = format!(
-                    "the way passes an obstacle between ({}, {}) and ({}, {}); give one that is clear",
+                    "the path crosses an obstacle between ({}, {}) and ({}, {}); give one that is clear",
                     pair[0].x, pair[0].y, pair[1].x, pair[1].y
                 );
                 return Err(Error::new(ErrorKind::BadValue, text));
@@ -45,7 +46,7 @@ impl Way {
     }
 }
 
-/// Each point gives way to what obstacles leave between its neighbours; whether one has.
+/// Replaces each point by the chain around the obstacles between its neighbours; returns whether one has changed.
 fn pull(map: &Map, points: &mut Vec<Point2<f64>>) -> bool {
     let (mut place, mut has_moved) = (1, false);
     while place + 1 < points.len() {
@@ -68,7 +69,8 @@ fn cross(a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> f64 {
     (b - a).perp(&(c - a))
 }
 
-/// The corners of a string from one point to another that lay around a third one: of the hull of what stands in their triangle (A. Andrew, Information Processing Letters 9, 1979).
+/// The corners of the taut string from one point to another that passed around a third one: the hull of the obstacles
+/// in their triangle (A. Andrew, Information Processing Letters 9, 1979).
 fn chain(map: &Map, a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> Vec<Point2<f64>> {
     let side = cross(a, c, b).signum();
     if cross(a, c, b).abs() < NEAR {
@@ -76,7 +78,7 @@ fn chain(map: &Map, a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> Vec<Point
     }
     let is_in = |p: &Point2<f64>| {
         let [one, other] = [side * cross(b, a, *p), side * cross(c, b, *p)];
-        // What stands on the string's other side does not hold it.
+        // Obstacles on the other side of the string do not hold it.
         side * cross(a, c, *p) > NEAR
             && one > -NEAR
             && other > -NEAR
@@ -90,7 +92,7 @@ fn chain(map: &Map, a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> Vec<Point
     let mut hull = vec![a];
     for corner in corners {
         while let [.., p, q] = hull[..] {
-            // The hull turns away from the third point all along.
+            // The hull bends away from the third point everywhere.
             if side * cross(p, q, corner) < -NEAR {
                 break;
             }
@@ -101,7 +103,7 @@ fn chain(map: &Map, a: Point2<f64>, b: Point2<f64>, c: Point2<f64>) -> Vec<Point
     hull[1..hull.len() - 1].to_vec()
 }
 
-/// Lattice points in a triangle, row by row; some that it misses by little are among them.
+/// The lattice points in a triangle, row by row, and some just outside it.
 fn around(corners: [Point2<f64>; 3]) -> impl Iterator<Item = Point2<f64>> {
     let [a, b, c] = corners;
     let range = |(low, high): (f64, f64)| (low - NEAR).ceil() as i64..=(high + NEAR).floor() as i64;
@@ -111,7 +113,7 @@ fn around(corners: [Point2<f64>; 3]) -> impl Iterator<Item = Point2<f64>> {
     let in_row = move |y: i64| {
         let y = y as f64;
         let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| {
-            // Where a side is at this height, or nearest to it; all of it where it lies there.
+            // The point of a side at this height, or nearest to it; the whole side where it is horizontal.
             let share =
                 if (q.y - p.y).abs() < NEAR { [0.0, 1.0] } else { [((y - p.y) / (q.y - p.y)).clamp(0.0, 1.0); 2] };
             share
@@ -124,7 +126,7 @@ fn around(corners: [Point2<f64>; 3]) -> impl Iterator<Item = Point2<f64>> {
         .flat_map(move |y| in_row(y).map(move |x| Point2::new(x as f64, y as f64)))
 }
 
-/// The cells about a lattice point that are not free, by their lower left corners.
+/// The cells around a lattice point that are not free, by their lower left corners.
 fn obstacles(map: &Map, point: Point2<f64>) -> impl Iterator<Item = Point2<f64>> + '_ {
     let is_free = |cell: &Point2<f64>| {
         let is_on = cell.x >= 0.0 && cell.y >= 0.0 && cell.x < map.columns() as f64 && cell.y < map.rows() as f64;
@@ -134,13 +136,13 @@ fn obstacles(map: &Map, point: Point2<f64>) -> impl Iterator<Item = Point2<f64>>
     about.into_iter().map(move |(x, y)| point + Vector2::new(x, y)).filter(move |cell| !is_free(cell))
 }
 
-/// Whether the insides of a cell and a triangle meet: no side of either parts them.
+/// Whether the interiors of a cell and a triangle intersect: no side of either separates them.
 fn enters(cell: Point2<f64>, triangle: [Point2<f64>; 3]) -> bool {
     let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| cell + Vector2::new(x, y));
     let [a, b, c] = triangle;
     let normals = [Vector2::x(), Vector2::y(), b - a, c - b, a - c];
-    normals.iter().enumerate().all(|(place, way)| {
-        let axis = if place < 2 { *way } else { Vector2::new(-way.y, way.x) };
+    normals.iter().enumerate().all(|(place, normal)| {
+        let axis = if place < 2 { *normal } else { Vector2::new(-normal.y, normal.x) };
         let range = |points: &[Point2<f64>]| {
             let along = points.iter().map(|point| point.coords.dot(&axis));
             (along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max))

@@ -1,4 +1,5 @@
-//! The thesis' modified fast marching, RH0 4.3, where all cells cost the same: wave after wave over four neighbours, sixty-four cells in one word.
+//! The thesis' modified fast marching, RH0 4.3, for equal costs: breadth-first search over four neighbours, with 64
+//! cells per machine word.
 
 use super::map::{Cell, Map};
 use crate::{Result, Watch};
@@ -11,13 +12,13 @@ const HIGHEST: u64 = LOWEST << 56;
 /// Eight rows of eight cells, the lowest row in the lowest bits.
 #[derive(Clone, Copy, Default)]
 struct Tile {
-    /// What is free and has not been reached.
+    /// Free cells that have not been reached.
     open: u64,
-    /// What the next wave reaches.
+    /// Cells that the next wave reaches.
     next: u64,
 }
 
-/// A part of a wave.
+/// The cells of a wave in one tile.
 #[derive(Clone, Copy, Default)]
 struct Crest {
     tile: u32,
@@ -28,11 +29,11 @@ struct Crest {
 struct Tiles {
     stride: usize,
     tiles: Vec<Tile>,
-    /// By tile and cell of it the count of the wave that reached it, from one; nought is none.
+    /// By tile and cell, the number of the wave that reached it, from one; zero where none did.
     waves: Vec<[u32; 64]>,
 }
 
-/// T of RH0 (4-17) by cell, where each takes the same time to cross.
+/// T of RH0 (4-17) by cell, for equal costs.
 pub(super) fn arrivals(map: &Map, goals: &[usize], cost: f64, watch: &Watch) -> Result<Vec<f64>> {
     let mut tiles = Tiles::new(map);
     let (mut wave, mut next) = (tiles.begin(map, goals), Vec::new());
@@ -77,7 +78,7 @@ impl Tiles {
         wave
     }
 
-    /// Has open cells of a tile reached by the next wave; whether they are the first ones there.
+    /// Marks open cells of a tile for the next wave; returns whether they are the first ones in the tile.
     #[inline]
     fn put(&mut self, tile: usize, cells: u64) -> bool {
         let own = &mut self.tiles[tile];
@@ -87,7 +88,8 @@ impl Tiles {
         is_first & (cells != 0)
     }
 
-    /// Marks a wave and writes the next one, whose length it tells. Nothing branches on which sides of a tile the wave leaves by, but for two questions.
+    /// Marks the cells of a wave and writes the next wave; returns its length. The loop has only two branches, none on
+    /// the sides by which the wave leaves a tile.
     fn spread(&mut self, wave: &mut [Crest], next: &mut Vec<Crest>, count: u32) -> usize {
         if next.len() < 5 * wave.len() {
             next.resize(8 * wave.len(), Crest::default());

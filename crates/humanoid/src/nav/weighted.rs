@@ -1,47 +1,50 @@
-//! Quickest ways where speeds differ. Main type: [`Quickest`].
+//! Quickest paths with different speeds. Main type: [`Quickest`].
 //!
-//! The way down a fast marching field is pulled taut and given points where speeds change, which move until no move makes it quicker: then Snell's law holds there (J. Mitchell and
-//! C. Papadimitriou, The Weighted Region Problem, Journal of the ACM 38, 1991).
+//! The descent path of a fast marching field is pulled taut and gets points where speeds change. The points move until
+//! no move makes the path quicker; then Snell's law holds there (J. Mitchell and C. Papadimitriou, The Weighted Region
+//! Problem, Journal of the ACM 38, 1991).
 
 use nalgebra::{Point2, Vector2};
 
 use super::exact::Guide;
 use super::field::{Field, Method};
 use super::map::Map;
+use super::path::{Enclosure, Path};
 use super::sight::{pieces, time};
-use super::way::{Enclosure, Way};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// Rounds, and sweeps over all points in each.
+/// The greatest number of rounds, and of sweeps over all points in each round.
 const ROUNDS: usize = 12;
 const SWEEPS: usize = 60;
-/// The last step of a point, in cells.
+/// The least step of a point, in cells.
 const LEAST_STEP: f64 = 1e-5;
-/// Moves that a point may try in a sweep.
+/// The greatest number of moves that a point tries in a sweep.
 const TRIES: usize = 48;
-/// A gain that is worth another sweep, and another round, in parts of the time.
+/// The least relative gain for another sweep, and for another round.
 const GAINS: [f64; 2] = [1e-9, 1e-6];
 
-/// A way, how long it takes, and what is proved of it.
+/// A path, its time, and a lower bound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quickest {
-    /// The way: no small move of its points makes it quicker.
-    pub way: Way,
-    /// As [`Way::time`] \[s\].
+    /// The path: no small move of its points makes it quicker.
+    pub path: Path,
+    /// Its time, as [`Path::time`] \[s\].
     pub time: f64,
-    /// No way is quicker than this \[s\].
+    /// A lower bound for the time of all paths \[s\].
     pub bound: f64,
 }
 
 impl Map {
-    /// A quick way from one place to another one with the map's speeds \[m\], down a fast marching field of the goal where one is at hand; or the cells that enclose one of them.
+    /// Finds a quick path from one place to another with the map's speeds \[m\], or the cells that enclose one of them.
+    /// It starts from a fast marching field of the goal where one is given.
     ///
-    /// Whether it is the quickest one is told by its bound: the greatest of the shortest way at the greatest speed, and what a map takes whose columns, or rows, have the greatest speed in them
-    /// all over.
+    /// The bound shows whether the path is the quickest one. It is the greatest of three times. The first is that of
+    /// the shortest path at the greatest speed. The others are those on maps whose columns, or rows, have their
+    /// greatest speed everywhere.
     ///
     /// # Errors
     /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a field of another goal; [`Watch::check`].
-    pub fn quickest_way(
+    pub fn quickest_path(
         &self,
         start: &Point2<f64>,
         goal: &Point2<f64>,
@@ -49,18 +52,21 @@ impl Map {
         watch: &Watch,
     ) -> Result<std::result::Result<Quickest, Enclosure>> {
         let (from, to) = (self.free_cell_at(start)?, self.free_cell_at(goal)?);
-        let shortest = match self.shortest_way(start, goal, &Guide::default(), watch)? {
+        let shortest = match self.shortest_path(start, goal, &Guide::default(), watch)? {
             Ok(shortest) => shortest,
             Err(enclosure) => return Ok(Err(enclosure)),
         };
         let own =
             if field.is_none() { Some(Field::new(self, &[*goal], Method::FastMarching(1), watch)?) } else { None };
         let Some(field) = field.or(own.as_ref()).filter(|field| field.goals() == [to]) else {
-            return Err(Error::new(ErrorKind::BadValue, "the field is not one of this goal; give one of it, or none"));
+            return Err(Error::new(
+                ErrorKind::BadValue,
+                "the field has another goal; give a field of this goal, or none",
+            ));
         };
         field.check_of(self)?;
-        let places = |way: &Way| way.points.iter().map(|point| self.in_map(point)).collect::<Vec<_>>();
-        let mut course = Course { map: self, points: places(&shortest.way) };
+        let places = |path: &Path| path.points.iter().map(|point| self.in_map(point)).collect::<Vec<_>>();
+        let mut course = Course { map: self, points: places(&shortest.path) };
         let mut best = course.settle(watch)?;
         let ends = [self.in_map(start), self.in_map(goal)];
         if let Some(down) = descent(self, field, from, ends)? {
@@ -70,15 +76,15 @@ impl Map {
                 (course, best) = (other, time);
             }
         }
-        let mut way = Way { points: course.points.iter().map(|point| self.in_world(point)).collect() };
-        let last = way.points.len() - 1;
-        (way.points[0], way.points[last]) = (*start, *goal);
+        let mut path = Path { points: course.points.iter().map(|point| self.in_world(point)).collect() };
+        let last = path.points.len() - 1;
+        (path.points[0], path.points[last]) = (*start, *goal);
         let time = best * self.resolution();
-        Ok(Ok(Quickest { bound: bound(self, ends, shortest.bound).min(time), time, way }))
+        Ok(Ok(Quickest { bound: bound(self, ends, shortest.bound).min(time), time, path }))
     }
 }
 
-/// The way down a field from one end to the other; nothing where it does not reach so far.
+/// The descent path of a field from one end to the other; `None` where the field does not reach it.
 fn descent(map: &Map, field: &Field, from: usize, ends: [Point2<f64>; 2]) -> Result<Option<Vec<Point2<f64>>>> {
     let Ok(down) = field.descend(map, &map.centre(from))? else { return Ok(None) };
     let mut points = vec![ends[0]];
@@ -87,14 +93,14 @@ fn descent(map: &Map, field: &Field, from: usize, ends: [Point2<f64>; 2]) -> Res
     Ok(Some(points))
 }
 
-/// A way that becomes quicker; points are counted in cells.
+/// The state of the optimisation of a path; points are in cells.
 struct Course<'a> {
     map: &'a Map,
     points: Vec<Point2<f64>>,
 }
 
 impl Course<'_> {
-    /// Until nothing more is gained: its time.
+    /// Optimises until nothing more is gained; returns the time.
     fn settle(&mut self, watch: &Watch) -> Result<f64> {
         let mut best = f64::INFINITY;
         for _ in 0..ROUNDS {
@@ -116,7 +122,7 @@ impl Course<'_> {
         time(self.map, points).unwrap_or(f64::INFINITY)
     }
 
-    /// Leaves out points without which it is as quick.
+    /// Removes points without which the path is as quick.
     fn pull(&mut self) {
         loop {
             let before = self.points.len();
@@ -134,7 +140,7 @@ impl Course<'_> {
         }
     }
 
-    /// A point wherever the speed changes.
+    /// Inserts a point wherever the speed changes.
     fn divide(&mut self) {
         let mut points = vec![self.points[0]];
         for pair in self.points.windows(2) {
@@ -148,7 +154,7 @@ impl Course<'_> {
 
     /// Moves points one after the other until none moves.
     fn relax(&mut self, watch: &Watch) -> Result<()> {
-        // Each begins with a step as long as its last move was.
+        // The first step of a point is as long as its last move.
         let mut steps = vec![1.0_f64; self.points.len()];
         for _ in 0..SWEEPS {
             watch.check()?;
@@ -163,7 +169,8 @@ impl Course<'_> {
         Ok(())
     }
 
-    /// One point by the pattern search of R. Hooke and T. Jeeves (Journal of the ACM 8, 1961): how far it moves.
+    /// Optimises one point by the pattern search of R. Hooke and T. Jeeves (Journal of the ACM 8, 1961); returns the
+    /// length of its move.
     fn relax_point(&mut self, place: usize, mut step: f64) -> f64 {
         let [before, first, after] = [place - 1, place, place + 1].map(|at| self.points[at]);
         let mut own = first;
@@ -186,7 +193,8 @@ impl Course<'_> {
     }
 }
 
-/// Where a point may go: along the axes and diagonals, and onto lattice lines and points, where speeds and obstacles begin.
+/// Candidate moves of a point: along the axes and diagonals, and onto lattice lines and points, where speeds and
+/// obstacles change.
 fn moves(point: Point2<f64>, step: f64) -> [Point2<f64>; 11] {
     let go = |x: f64, y: f64| point + Vector2::new(x, y) * step;
     let (x, y) = (point.x.round(), point.y.round());
@@ -205,13 +213,13 @@ fn moves(point: Point2<f64>, step: f64) -> [Point2<f64>; 11] {
     ]
 }
 
-/// On the lattice line that it is nearest to.
+/// The projection onto the nearest lattice line.
 fn on_line(point: Point2<f64>) -> Point2<f64> {
     let (x, y) = (point.x.round(), point.y.round());
     if (point.x - x).abs() < (point.y - y).abs() { Point2::new(x, point.y) } else { Point2::new(point.x, y) }
 }
 
-/// No way is quicker \[s\].
+/// The lower bound for the time \[s\].
 fn bound(map: &Map, ends: [Point2<f64>; 2], shortest: f64) -> f64 {
     let (columns, rows) = (map.columns(), map.rows());
     let slowness = |cell: usize| map.speeds().map_or(1.0, |speeds| 1.0 / f64::from(speeds[cell]));
@@ -227,8 +235,9 @@ fn bound(map: &Map, ends: [Point2<f64>; 2], shortest: f64) -> f64 {
     (across.max(up) * map.resolution()).max(shortest * least) * (1.0 - 1e-9)
 }
 
-/// What it takes at least through layers, in each of which it takes at least so much by cell: with Snell's constant c the function of the sum of `sqrt(s^2 - c^2)` across and c along them
-/// rises nowhere by more than s, and this is its rise, for the best c.
+/// A lower bound for the time through layers, each with its least slowness s by cell. With Snell's constant c, take the
+/// function with the gradient `sqrt(s^2 - c^2)` across the layers and c along them. Its slope nowhere exceeds s, so its
+/// rise is a bound. The best c is taken.
 fn layered(slowness: &[f64], [from, to]: [f64; 2], along: f64, most: f64) -> f64 {
     let rise = |c: f64| {
         let (low, high) = (from.min(to), from.max(to));

@@ -1,6 +1,7 @@
-//! The entries of a YAML document, as far as `map_server` uses them: texts and lists of texts by key.
+//! Reader of the subset of YAML that `map_server` uses: texts and lists of texts by key.
 //!
-//! `saphyr-parser` tells the events of the text one by one. Aliases share what they name, and lists hold texts alone: nothing grows.
+//! `saphyr-parser` gives the events of the text one by one. Aliases share their values, and lists contain only texts,
+//! so that nothing grows exponentially.
 
 use std::collections::{HashMap, HashSet};
 use std::fmt;
@@ -11,7 +12,7 @@ use saphyr_parser::{Event, Parser, ScanError, Span, StrInput};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::shown;
 
-/// The deepest nesting.
+/// The greatest depth of nesting.
 const DEEPEST: usize = groebot_algebra::limits::YAML_DEPTH;
 
 /// A value.
@@ -21,11 +22,11 @@ pub enum Value {
     Text(Rc<str>),
     /// A list.
     List(Rc<[Value]>),
-    /// A mapping, or what is nested too deeply to matter here.
+    /// A mapping, or a value that is nested too deeply to be used.
     Other,
 }
 
-/// `[1, 2]`.
+/// Prints a list as `[1, 2]`.
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -50,11 +51,11 @@ pub struct Entry {
     pub line: usize,
 }
 
-/// The entries of the first document of `text`, which must be a mapping.
+/// Reads the entries of the first document of `text`, which must be a mapping.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] for what is no YAML, no mapping, or nested more than 20 levels; [`ErrorKind::DuplicateName`] for a key that is given twice. With the
-/// line.
+/// With the line: [`ErrorKind::Syntax`] for invalid YAML, another kind of document, or more than 20 levels;
+/// [`ErrorKind::DuplicateName`] for a key that is given twice.
 pub fn entries(text: &str) -> Result<Vec<Entry>> {
     let mut reader =
         Reader { parser: Parser::new_from_str(text.trim_start_matches('\u{feff}')), anchors: HashMap::new() };
@@ -71,10 +72,10 @@ pub fn entries(text: &str) -> Result<Vec<Entry>> {
     }
 }
 
-/// Events as they become values.
+/// Converts events to values.
 struct Reader<'t> {
     parser: Parser<'t, StrInput<'t>>,
-    /// What has an anchor: texts and lists of texts.
+    /// The values with anchors: texts and lists of texts.
     anchors: HashMap<usize, Value>,
 }
 
@@ -86,7 +87,7 @@ impl<'t> Reader<'t> {
         Ok((event, span.start.line()))
     }
 
-    /// The entries of a mapping whose start was read.
+    /// Reads the entries of a mapping after its start.
     fn mapping(&mut self) -> Result<Vec<Entry>> {
         let (mut entries, mut keys) = (Vec::new(), HashSet::new());
         loop {
@@ -106,7 +107,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The value that begins with `event`.
+    /// Reads the value that begins with `event`.
     fn value(&mut self, event: Event<'t>, line: usize, depth: usize) -> Result<Value> {
         if depth > DEEPEST {
             let text = format!("lists and mappings are nested deeper than {DEEPEST}");
@@ -129,7 +130,7 @@ impl<'t> Reader<'t> {
         Ok(value)
     }
 
-    /// A list whose start was read. A list in a list is skipped, so that no alias makes another one longer.
+    /// Reads a list after its start. A list in a list is skipped, so that no alias makes another one longer.
     fn list(&mut self, depth: usize) -> Result<Value> {
         let mut list = Vec::new();
         loop {
@@ -142,7 +143,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Skips all up to the `end` of what was begun.
+    /// Skips all events to the `end` of the current value.
     fn pass(&mut self, end: Event<'_>, depth: usize) -> Result<()> {
         loop {
             let (event, line) = self.next()?;
@@ -154,7 +155,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// What there is after the last event.
+/// The event after the last one.
 fn ended<'t>() -> std::result::Result<(Event<'t>, Span), ScanError> {
     Ok((Event::StreamEnd, Span::default()))
 }

@@ -1,4 +1,4 @@
-//! What a robot does when a walk is played on it, beside what was planned. Main type: [`Comparison`].
+//! Comparison of a simulated walk with its plan. Main type: [`Comparison`].
 
 use std::fmt;
 
@@ -10,67 +10,70 @@ use crate::{Error, ErrorKind, Result};
 use groebot_robot::motion::{Contact, Trajectory};
 use groebot_robot::spatial::{Pose, angle};
 
-/// A foot whose lowest point is so high has left the floor \[m\].
+/// A foot whose lowest point is at this height has left the floor \[m\].
 const LIFTED: f64 = 0.005;
 /// The names of the contacts of a walk.
 pub const SIDES: [&str; 2] = ["left", "right"];
 
-/// A joint: how far its answer is from its reference \[rad or m\], and what its motor gave \[N m or N\].
+/// A joint: the deviation of its simulated value from its reference \[rad or m\], and the torque or force of its motor
+/// \[N m or N\].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct JointComparison {
     /// Its name.
     pub joint: String,
     /// The greatest deviation.
     pub greatest: f64,
-    /// When that is \[s\].
+    /// Its time \[s\].
     pub time: f64,
-    /// The root of the mean square of deviations.
+    /// The root mean square of the deviations.
     pub rms: f64,
     /// The greatest torque.
     pub torque: f64,
-    /// The greatest deviation that the motor's stiffness and the torques of the plan foretell; only where the plan tells torques.
+    /// The greatest deviation predicted from the motor's stiffness and the torques of the plan; only where the plan has
+    /// torques.
     pub sag: Option<f64>,
-    /// The root of the mean square of the deviation less the one foretold.
-    pub unforetold: Option<f64>,
+    /// The root mean square of the deviation minus the predicted one.
+    pub unpredicted: Option<f64>,
 }
 
-/// Where a walk led: ahead, to the left \[m\], anticlockwise \[rad\], seen from the middle of the feet at first.
+/// The displacement of a walk, in the initial frame of the middle of the feet: forward and to the left \[m\],
+/// anticlockwise \[rad\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Way {
-    /// Ahead.
+pub struct Displacement {
+    /// The displacement forward.
     pub ahead: f64,
     /// To the left.
     pub left: f64,
-    /// The turn.
+    /// The rotation.
     pub turn: f64,
 }
 
-/// An answer beside its plan.
+/// A simulated walk compared with its plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     /// The joints that move, in the order of the plan.
     pub joints: Vec<JointComparison>,
-    /// How far the zero moment point is from the planned one, both seen from the foot that stands: the greatest distance, and the root of the mean
-    /// square \[m\].
+    /// The distance between simulated and planned zero moment point, both relative to the supporting foot: the
+    /// greatest, and the root mean square \[m\].
     pub zmp: [f64; 2],
-    /// The greatest tilt of the base against the planned one \[rad\].
+    /// The greatest tilt of the base relative to the planned one \[rad\].
     pub tilt: f64,
-    /// The way, planned until the answer ends.
-    pub planned: Way,
-    /// The way of the answer.
-    pub walked: Way,
-    /// Landings, planned and seen.
+    /// The planned displacement until the simulation ends.
+    pub planned: Displacement,
+    /// The simulated displacement.
+    pub walked: Displacement,
+    /// The numbers of landings, planned and simulated.
     pub landings: [usize; 2],
     /// The least height that a foot's lowest point reached in a swing \[m\]; 0 without a landing.
     pub lift: f64,
 }
 
 impl Comparison {
-    /// Compares, sample by sample, until the answer ends. `stiffness` is what all motors have \[N m/rad\], by the
-    /// factor that masses have been multiplied with; the plan may tell torques as `tau:JOINT`, the answer must.
+    /// Compares sample by sample until the simulation ends. `stiffness` is that of all motors \[N m/rad\], divided by
+    /// the factor on the masses. The plan may have torques as `tau:JOINT`, the simulation must.
     ///
     /// # Errors
-    /// [`ErrorKind::MissingKey`] for tracks that a walk or an answer must have.
+    /// [`ErrorKind::MissingKey`] for tracks that a walk or its simulation must have.
     pub fn of(plan: &Trajectory, answer: &Trajectory, stiffness: f64) -> Result<Self> {
         let soles = soles(plan)?;
         let samples = answer.times.len().min(plan.times.len());
@@ -85,30 +88,30 @@ impl Comparison {
             joints,
             zmp: zmp(plan, answer, samples)?,
             tilt: (0..samples).map(|row| tilt(&plan.base[row], &answer.base[row])).fold(0.0, f64::max),
-            planned: way(soles, samples),
-            walked: way(own, samples),
+            planned: displacement(soles, samples),
+            walked: displacement(own, samples),
             landings: [planned.sum(), landed],
             lift,
         })
     }
 
-    /// How far from its planned place the robot ends \[m\].
+    /// The distance of the robot's end from the planned one \[m\].
     pub fn off(&self) -> f64 {
         f64::hypot(self.walked.ahead - self.planned.ahead, self.walked.left - self.planned.left)
     }
 }
 
-/// The soles of a walk, left and right, and that it has a base.
+/// The soles of a walk, left and right; checks that it has a base.
 ///
 /// # Errors
-/// [`ErrorKind::MissingKey`] for what is no walk.
+/// [`ErrorKind::MissingKey`] for a trajectory that is not a walk.
 pub fn soles(walk: &Trajectory) -> Result<[&Contact; 2]> {
     let sole = |name: &str| walk.contacts.iter().find(|contact| contact.name == name);
     match (sole(SIDES[0]), sole(SIDES[1]), walk.base.is_empty() || walk.times.len() < 2) {
         (Some(left), Some(right), false) => Ok([left, right]),
         _ => Err(Error::new(
             ErrorKind::MissingKey,
-            "this is no walk: it takes two samples or more, a base, and the contacts `left` and `right`",
+            "this is not a walk: a walk has two samples or more, a base, and the contacts `left` and `right`",
         )),
     }
 }
@@ -127,7 +130,7 @@ fn compared(plan: &Trajectory, answer: &Trajectory, joint: usize, stiffness: f64
     let key = format!("tau:{name}");
     let torques = figure(answer, &key).ok_or_else(|| missing(&key))?;
     let deviations: Vec<f64> = answer.q.iter().zip(&plan.q).map(|(is, should)| is[own] - should[joint]).collect();
-    // A servo gives stiffness times what its joint lacks.
+    // The torque of a servo is its stiffness times the joint's deviation.
     let sags: Option<Vec<f64>> =
         figure(plan, &key).map(|torques| torques.iter().map(|torque| -torque / stiffness).collect());
     let at = greatest(&deviations);
@@ -138,12 +141,12 @@ fn compared(plan: &Trajectory, answer: &Trajectory, joint: usize, stiffness: f64
         time: answer.times[at],
         rms: rms(deviations.iter().copied()),
         torque: torques[greatest(torques)],
-        unforetold: sags.as_ref().map(differences),
+        unpredicted: sags.as_ref().map(differences),
         sag: sags.map(|sags| sags[greatest(&sags[..deviations.len()])]),
     })
 }
 
-/// The place of the value that is greatest without its sign.
+/// The index of the value with the greatest magnitude.
 fn greatest(values: &[f64]) -> usize {
     (0..values.len()).max_by(|a, b| values[*a].abs().total_cmp(&values[*b].abs())).unwrap_or(0)
 }
@@ -153,7 +156,7 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
     if count > 0.0 { f64::sqrt(sum / count) } else { 0.0 }
 }
 
-/// The greatest distance of the answer's zero moment point from the planned one, and the root of the mean square.
+/// The greatest distance between simulated and planned zero moment point, and the root mean square.
 fn zmp(plan: &Trajectory, answer: &Trajectory, samples: usize) -> Result<[f64; 2]> {
     let point =
         |walk: &Trajectory| walk.points.iter().position(|point| point.name == "zmp").ok_or_else(|| missing("zmp_x"));
@@ -176,11 +179,11 @@ fn middle(soles: [&Contact; 2], row: usize) -> Footprint {
     left.middle(&right)
 }
 
-/// The way of the middle of the feet; turns are followed from sample to sample.
-fn way(soles: [&Contact; 2], samples: usize) -> Way {
+/// The displacement of the middle of the feet; the heading is tracked from sample to sample.
+fn displacement(soles: [&Contact; 2], samples: usize) -> Displacement {
     let seen = middle(soles, 0).seen(&middle(soles, samples - 1).point());
     let turn = (1..samples).map(|row| angle::wrap(middle(soles, row).yaw - middle(soles, row - 1).yaw)).sum();
-    Way { ahead: seen.x, left: seen.y, turn }
+    Displacement { ahead: seen.x, left: seen.y, turn }
 }
 
 /// The angle between the up axes of two bases.
@@ -189,7 +192,7 @@ fn tilt(one: &Pose, other: &Pose) -> f64 {
     one.dot(&other).clamp(-1.0, 1.0).acos()
 }
 
-/// How often a foot that was in the air pressed on the floor again, and the least height that one reached in between \[m\].
+/// The number of landings after a foot was in the air, and the least height that a foot reached in between \[m\].
 fn landings(answer: &Trajectory, soles: [&Contact; 2]) -> Result<(usize, f64)> {
     let (mut count, mut least) = (0, f64::INFINITY);
     for (sole, side) in soles.into_iter().zip(SIDES) {
@@ -212,22 +215,27 @@ fn landings(answer: &Trajectory, soles: [&Contact; 2]) -> Result<(usize, f64)> {
 
 impl fmt::Display for Comparison {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let way = |way: &Way| {
-            format!("{:.3} m ahead, {:.3} m to the left, turn {:.1} deg", way.ahead, way.left, way.turn.to_degrees())
+        let displacement = |displacement: &Displacement| {
+            format!(
+                "{:.3} m forward, {:.3} m to the left, turn {:.1} deg",
+                displacement.ahead,
+                displacement.left,
+                displacement.turn.to_degrees()
+            )
         };
-        writeln!(f, "  planned         {}, {} landings", way(&self.planned), self.landings[0])?;
-        writeln!(f, "  walked          {}, {} landings", way(&self.walked), self.landings[1])?;
+        writeln!(f, "  planned         {}, {} landings", displacement(&self.planned), self.landings[0])?;
+        writeln!(f, "  walked          {}, {} landings", displacement(&self.walked), self.landings[1])?;
         writeln!(f, "  tilt            {:.2} deg at most", self.tilt.to_degrees())?;
         writeln!(f, "  least lift      {:.1} mm", 1e3 * self.lift)?;
         let [greatest, rms] = self.zmp.map(|distance| 1e3 * distance);
         writeln!(
             f,
-            "  ZMP             off by {rms:.1} mm rms, {greatest:.1} mm at most, of contact forces, seen from the foot that stands"
+            "  ZMP             off by {rms:.1} mm rms, {greatest:.1} mm at most, by contact forces, relative to the supporting foot"
         )?;
         let width = self.joints.iter().map(|joint| joint.joint.chars().count()).max().unwrap_or(0).max(5);
         writeln!(
             f,
-            "  {:<width$}  deviation [mrad]       rms   torque [N m]   foretold sag   rms of the rest",
+            "  {:<width$}  deviation [mrad]       rms   torque [N m]   predicted sag   rms of the rest",
             "joint"
         )?;
         for joint in &self.joints {
@@ -240,7 +248,7 @@ impl fmt::Display for Comparison {
                 1e3 * joint.rms,
                 joint.torque,
                 milli(joint.sag),
-                milli(joint.unforetold)
+                milli(joint.unpredicted)
             )?;
         }
         Ok(())

@@ -1,18 +1,18 @@
-//! References and answers of joints in time, as RH0 Fig. 6-6 and 6-7 draw them: [`Quantity::picture`].
+//! References and simulated values of joints over time, as in RH0 Fig. 6-6 and 6-7: [`Quantity::picture`].
 
 use groebot_robot::drawing::frame::Frame;
 use groebot_robot::drawing::svg::{Svg, Swatch};
 use groebot_robot::motion::Trajectory;
 use groebot_robot::spatial::angle::RPM;
 
-/// What of the joints is drawn.
+/// The quantity that is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Their values \[deg\]: Fig. 6-6.
     Angle,
     /// Their rates \[rpm\]: Fig. 6-7.
     Rate,
-    /// What their motors give \[N m\], where the thesis has their currents: Fig. 6-8.
+    /// The torques of their motors \[N m\]; Fig. 6-8 of the thesis has currents.
     Torque,
 }
 
@@ -26,12 +26,13 @@ const MOST_POINTS: usize = 800;
 type Line = Vec<(f64, f64)>;
 
 impl Quantity {
-    /// The picture of the joints in two columns, one a leg: the plan in blue, the answer in orange. Joints that a trajectory has not are left out of its line.
+    /// The picture of the joints in two columns, one per leg: the plan in blue, the simulation in orange. Joints that a
+    /// trajectory does not have are omitted from its line.
     pub fn picture(self, plan: &Trajectory, answer: &Trajectory, legs: &[Vec<String>; 2]) -> String {
         let mut svg = Svg::default();
         let words = match self {
             Quantity::Angle => ["reference", "answer"],
-            Quantity::Rate => ["rate of the reference", "rate of the answer"],
+            Quantity::Rate => ["rate of the reference", "simulated rate"],
             Quantity::Torque => ["torque of the plan", "torque of the motor"],
         };
         let entries = [(Swatch::Line, "left-path", words[0]), (Swatch::Line, "right-path", words[1])];

@@ -1,4 +1,4 @@
-//! How near the links of a robot come to what stands around it, by distances of the crate parry3d. Main type: [`Clearance`].
+//! Distances between the links of a robot and the objects around it, by the crate parry3d. Main type: [`Clearance`].
 
 use nalgebra::Point3;
 use parry3d_f64::bounding_volume::Aabb;
@@ -13,16 +13,16 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::model::{Meshes, Robot, Solid};
 use groebot_robot::spatial::Pose;
 
-/// How near a link comes to a thing.
+/// The least distance between a link and an object.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clearance {
     /// The name of the link.
     pub link: String,
-    /// The thing.
+    /// The object.
     pub thing: Thing,
-    /// The least distance \[m\], to 1e-7; zero where they meet.
+    /// The least distance \[m\], to 1e-7; zero where they touch.
     pub distance: f64,
-    /// The sample at which it is met first.
+    /// The sample at which it occurs first.
     pub sample: usize,
 }
 
@@ -31,18 +31,18 @@ struct Part {
     link: usize,
     link_from_shape: Pose,
     shape: SharedShape,
-    /// Of the sphere around it: its middle in the shape's frame, its radius.
+    /// The bounding sphere: its centre in the shape's frame, its radius.
     middle: Point3<f64>,
     radius: f64,
 }
 
-/// A thing as convex parts in the world.
+/// An object as convex parts in the world.
 struct Solids {
     thing: Thing,
     parts: Vec<(SharedShape, Aabb)>,
 }
 
-/// The shapes of a robot's links, against which distances are measured.
+/// The shapes of a robot's links, from which distances are measured.
 pub struct Links {
     names: Vec<String>,
     parts: Vec<Part>,
@@ -51,7 +51,8 @@ pub struct Links {
 }
 
 impl Links {
-    /// Those of `robot`, each with what it collides with, else with what it looks like. A mesh counts as its hull.
+    /// Collects the shapes of `robot`: the collision shapes of each link, else its visual shapes. A mesh counts as its
+    /// convex hull.
     ///
     /// # Errors
     /// Those of [`Meshes::points`]; [`ErrorKind::BadValue`] for a robot without a shape.
@@ -76,7 +77,8 @@ impl Links {
         Ok(Links { names: robot.links().iter().map(|link| link.name.clone()).collect(), parts, feet })
     }
 
-    /// The least distance of each link from each thing of a room and from the floor over postures, nearest first; samples count from `first`.
+    /// The least distance of each link from each object of a room and from the floor over postures, nearest first;
+    /// samples are numbered from `first`.
     ///
     /// # Errors
     /// As [`groebot_robot::dynamics::Model::place`]; [`Watch::check`].
@@ -122,7 +124,7 @@ impl Links {
 }
 
 impl Part {
-    /// The distance from a thing, if it is less than `known`.
+    /// The distance from an object, if it is less than `known`.
     fn distance(&self, world_from_shape: &Pose, thing: &Solids, known: f64) -> f64 {
         let middle = vector(&(world_from_shape * self.middle));
         let near = |bounds: &Aabb| bounds.distance_to_local_point(middle, true) - self.radius < known;
@@ -159,7 +161,7 @@ impl Prism {
     }
 }
 
-/// The hull of points; where they have no volume, the box around them.
+/// The convex hull of points; where it has no volume, their bounding box.
 fn hull(points: &[Vector]) -> SharedShape {
     let boxed = || {
         let around = Aabb::from_points(points.iter().copied());
@@ -170,7 +172,7 @@ fn hull(points: &[Vector]) -> SharedShape {
     ConvexPolyhedron::from_convex_hull(points).map_or_else(boxed, SharedShape::new)
 }
 
-/// A solid, with its frame seen from parry's: cylinders there stand along y.
+/// A solid, with its frame relative to parry's: there the axis of a cylinder is y.
 fn shared(solid: &Solid, meshes: &Meshes) -> Result<(SharedShape, Pose)> {
     let plain = |shape: SharedShape| Ok((shape, Pose::identity()));
     match solid {

@@ -1,4 +1,4 @@
-//! Where a robot is to get: a place, or before a piece of furniture. Main type: [`Destination`].
+//! The destination of a robot: a place, or a piece of furniture. Main type: [`Destination`].
 
 use std::f64::consts::TAU;
 
@@ -9,17 +9,17 @@ use crate::task::{Floor, Goal, Pilot};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::shown;
 
-/// Places before a side of furniture are so far apart at most \[m\].
+/// The greatest distance between two places in front of a side of furniture \[m\].
 const ASIDE: f64 = 0.25;
-/// So many places are around what is round.
+/// The number of places around a circle.
 const AROUND: usize = 24;
 
-/// Where a robot is to get.
+/// The destination of a robot.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Destination {
     /// A place.
     Place(Goal),
-    /// Before the piece of furniture of that name, looking at it: there where it is first.
+    /// In front of the piece of furniture of that name, facing it: at the place that is reached first.
     Before(String),
 }
 
@@ -30,10 +30,12 @@ impl From<Goal> for Destination {
 }
 
 impl Destination {
-    /// The goal of who comes from a place; where it gets before no side of the furniture the nearest one, to which there is no way.
+    /// The goal for a robot that comes from a place. Where no place in front of the furniture can be reached, it is the
+    /// nearest one, to which no path exists.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for furniture that is not there; [`ErrorKind::BadValue`] where there is no room before it; as [`Field::new`].
+    /// [`ErrorKind::UnknownName`] for unknown furniture; [`ErrorKind::BadValue`] where there is no room in front of it;
+    /// as [`Field::new`].
     pub fn goal(&self, room: &Room, pilot: &Pilot, floor: &Floor, from: &Point2<f64>, watch: &Watch) -> Result<Goal> {
         let name = match self {
             Destination::Place(goal) => return Ok(*goal),
@@ -58,7 +60,7 @@ impl Destination {
         let distance = |goal: &&Goal| (goal.place - from).norm();
         let near = places.iter().filter(|goal| free(&core, goal).is_some());
         near.min_by(|a, b| distance(a).total_cmp(&distance(b))).copied().ok_or_else(|| {
-            let text = format!("there is no room to stand before `{}`; give a place", shown(name));
+            let text = format!("there is no room to stand in front of `{}`; give a place", shown(name));
             Error::new(ErrorKind::BadValue, text)
         })
     }
@@ -69,7 +71,7 @@ fn free(map: &Map, goal: &Goal) -> Option<usize> {
     map.cell_at(&goal.place).ok().filter(|cell| map.is_free(*cell))
 }
 
-/// Places so far away from a shape \[m\], each looking at it.
+/// Places at a distance from a shape \[m\], each facing it.
 fn places(shape: &Shape, away: f64) -> Vec<Goal> {
     let before =
         |at: Point2<f64>, out: Vector2<f64>| Goal { place: at + out * away, heading: Some((-out.y).atan2(-out.x)) };
@@ -86,12 +88,12 @@ fn places(shape: &Shape, away: f64) -> Vec<Goal> {
             let sides = corners.iter().zip(corners.iter().cycle().skip(1));
             let outwards = signed_area(corners).signum();
             let along = |(a, b): (&Point2<f64>, &Point2<f64>)| {
-                let way = b - a;
-                let out = Vector2::new(way.y, -way.x) * (outwards / way.norm());
-                let count = (way.norm() / ASIDE).ceil().max(1.0);
+                let side = b - a;
+                let out = Vector2::new(side.y, -side.x) * (outwards / side.norm());
+                let count = (side.norm() / ASIDE).ceil().max(1.0);
                 let shares = (0..count as usize).map(move |place| (place as f64 + 0.5) / count);
                 let at = *a;
-                shares.map(move |share| before(at + way * share, out))
+                shares.map(move |share| before(at + side * share, out))
             };
             sides.filter(|(a, b)| a != b).flat_map(along).collect()
         }

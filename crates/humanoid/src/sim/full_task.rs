@@ -1,4 +1,5 @@
-//! The full task of RH0 5.5: a robot gets through a furnished room, goal and furniture change on the way, and all of it is checked. Main function: [`perform`].
+//! The full task of RH0 5.5: a robot walks through a furnished room, goal and furniture change during the walk, and the
+//! result is checked. Main function: [`perform`].
 
 use std::time::Instant;
 
@@ -16,52 +17,53 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::motion::{Bounds, Finding, findings};
 
-/// What becomes another one on the way.
+/// A change during the walk.
 #[derive(Clone, Debug, PartialEq)]
 pub enum What {
     /// The goal.
     Goal(Destination),
-    /// A piece of furniture, by its name: it stands elsewhere \[m\], turned anticlockwise \[rad\], or nowhere.
+    /// A piece of furniture, by its name: its new position \[m\] with its anticlockwise rotation, or its removal.
     Furniture(String, Option<Footprint>),
 }
 
-/// A change on the way.
+/// A change at a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// It comes behind so many steps.
+    /// The number of steps before it.
     pub after: usize,
-    /// What changes.
+    /// The change.
     pub what: What,
 }
 
-/// A way that was found, and what it holds for.
+/// A path that was found, and the conditions that it holds for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stage {
-    /// The first sample of the walk that it holds for.
+    /// The first sample of the walk on this path.
     pub first: usize,
-    /// How many steps had been taken.
+    /// The number of steps taken before.
     pub steps: usize,
     /// The room.
     pub room: Room,
-    /// The way.
+    /// The path.
     pub course: Course,
-    /// How long it took to find the way, with the map where the room is another one \[ms\].
+    /// The time to find the path, including the map of a changed room \[ms\].
     pub milliseconds: f64,
 }
 
-/// A task that was done.
+/// A completed task.
 #[derive(Clone, Debug)]
 pub struct Performed {
     /// The walk.
     pub walk: Walk,
-    /// The ways, in turn.
+    /// The paths in order.
     pub stages: Vec<Stage>,
 }
 
-/// Lets a run that stands at its start get to its goal, with changes in the order of their steps; where a change leaves no way, why. A robot that was upright rises in the end.
+/// Runs a task from its start to its goal, with changes in the order of their steps. Returns the proof where a change
+/// leaves no path. A robot that was upright rises at the end.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] for a change that comes behind the last step; as [`Run::step`] and [`Run::change`].
+/// [`ErrorKind::BadValue`] for a change after the last step; as [`Run::step`] and [`Run::change`].
 pub fn perform(mut run: Run, changes: &[Change], watch: &Watch) -> Result<std::result::Result<Performed, Blocked>> {
     let mut stages = Vec::new();
     let mut left = changes.iter().peekable();
@@ -82,8 +84,7 @@ pub fn perform(mut run: Run, changes: &[Change], watch: &Watch) -> Result<std::r
     }
     if let Some(change) = left.next() {
         let steps = run.walk().schedule.route.steps.len();
-        let text =
-            format!("it arrives behind step {steps}; what is to change behind step {} never comes", change.after);
+        let text = format!("it arrives after step {steps}; the change after step {} never happens", change.after);
         return Err(Error::new(ErrorKind::BadValue, text));
     }
     Ok(Ok(Performed { walk: run.finish(watch)?, stages }))
@@ -99,7 +100,7 @@ impl Change {
     }
 }
 
-/// Finds the way through a room to a goal, and notes it; or why there is none.
+/// Finds the path through a room to a goal and records it; or the proof that none exists.
 fn plan(
     run: &mut Run,
     stages: &mut Vec<Stage>,
@@ -126,13 +127,13 @@ fn plan(
 }
 
 impl Performed {
-    /// Its room and its ways, as they are written.
+    /// Its room and its paths, in the form of the JSON file.
     pub fn record(&self) -> TaskRecord {
         let stage = |own: &Stage| RecordedStage {
             from: self.walk.time(own.first),
             steps: own.steps,
             goal: own.course.goal.numbers(),
-            way: own.course.way.points.iter().map(|point| [point.x, point.y]).collect(),
+            way: own.course.path.points.iter().map(|point| [point.x, point.y]).collect(),
             pieces: Interior::of(&own.room).pieces,
             milliseconds: own.milliseconds,
         };
@@ -140,30 +141,31 @@ impl Performed {
     }
 }
 
-/// What a task that was done is asked for.
+/// The checks of a completed task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checks {
-    /// How near each link comes to each thing, nearest first.
+    /// The least distance of each link from each object, nearest first.
     pub clearances: Vec<Clearance>,
-    /// How far corners of soles that stand are off the floor at most, by forward kinematics \[m\].
+    /// The greatest distance of the corners of supporting soles from the floor, by forward kinematics \[m\].
     pub soles_off: f64,
-    /// How deep corners of soles that swing are under the floor at most, by forward kinematics \[m\].
+    /// The greatest depth of the corners of swinging soles below the floor, by forward kinematics \[m\].
     pub soles_under: f64,
     /// The least margin of the zero moment point \[m\].
     pub margin: f64,
-    /// The joint that turns fastest \[rad/s\].
+    /// The joint with the greatest rate \[rad/s\].
     pub fastest: (String, f64),
-    /// Joints beyond limits or speeds, and margins below zero.
+    /// Joints beyond limits or rates, and margins below zero.
     pub findings: Vec<Finding>,
     /// The least and the greatest number of samples of a step.
     pub samples_per_step: (usize, usize),
 }
 
-/// Soles that stand may be so far off the floor \[m\]: near a stretched knee the closed form has half of the digits, 6e-9 m in 200 rooms.
+/// The permitted distance of supporting soles from the floor \[m\]. Near a stretched knee the closed form has half of
+/// the digits: 6e-9 m in 200 rooms.
 const OFF: f64 = 1e-6;
 
 impl Checks {
-    /// Those of a task of `robot`, at all its samples.
+    /// Checks a task of `robot` at all its samples.
     ///
     /// # Errors
     /// As [`Links::of`] and [`Links::clearances`].
@@ -192,7 +194,7 @@ impl Checks {
         })
     }
 
-    /// Whether nothing meets, soles that stand are on the floor, and balance, limits and speeds are kept.
+    /// Whether there is no collision, supporting soles are on the floor, and balance, limits and rates are kept.
     pub fn hold(&self) -> bool {
         self.clearances.iter().all(|own| own.distance > 0.0)
             && self.soles_off <= OFF
@@ -202,7 +204,7 @@ impl Checks {
     }
 }
 
-/// How far soles are off the floor where they stand, and under it where they swing.
+/// The greatest distance of supporting soles from the floor, and the greatest depth of swinging soles below it.
 fn soles(biped: &Biped, walk: &Walk) -> Result<(f64, f64)> {
     let (mut off, mut under) = (0.0_f64, 0.0_f64);
     for (reference, posture) in walk.references.iter().zip(&walk.motion.postures) {
@@ -223,7 +225,7 @@ fn soles(biped: &Biped, walk: &Walk) -> Result<(f64, f64)> {
     Ok((off, under))
 }
 
-/// The joint that turns fastest, and how fast.
+/// The joint with the greatest rate, and that rate.
 fn fastest(biped: &Biped, walk: &Walk) -> (String, f64) {
     let rate = |joint: usize| {
         let pairs = walk.motion.postures.windows(2);

@@ -1,21 +1,21 @@
-//! A furnished room as pictures and distances have it: prisms on a floor. Main type: [`Interior`].
+//! A furnished room for pictures and distances: prisms on a floor. Main type: [`Interior`].
 
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
 use crate::nav::{self, Room, Shape};
 
-/// A circle is drawn as a polygon of so many sides around it.
+/// The number of sides of the polygon around a circle.
 const SIDES: usize = 48;
 
 /// A room \[m, rad\].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Interior {
-    /// How long it is along x and y.
+    /// Its dimensions along x and y.
     pub size: [f64; 2],
-    /// How thick its walls are, which stand inside of its borders.
+    /// The thickness of its walls, which are inside its borders.
     pub wall: f64,
-    /// Its lower left corner, and how it is turned anticlockwise.
+    /// The position of its lower left corner, and its anticlockwise rotation.
     pub origin: [f64; 3],
     /// The furniture.
     pub pieces: Vec<Piece>,
@@ -26,16 +26,16 @@ pub struct Interior {
 pub struct Piece {
     /// Its name.
     pub name: String,
-    /// Corners about its own origin.
+    /// Its corners in its own frame.
     pub outline: Vec<[f64; 2]>,
-    /// How high it is.
+    /// Its height.
     pub height: f64,
-    /// Its place and how it is turned anticlockwise.
+    /// Its position and its anticlockwise rotation.
     pub at: [f64; 3],
 }
 
 impl Interior {
-    /// That of a room.
+    /// The interior of a room.
     pub fn of(room: &Room) -> Self {
         Interior {
             size: room.size,

@@ -1,7 +1,9 @@
-//! RobManSim: a robot that walks through a furnished room while goal, furniture and the figures of its gait change. RH0 5.2, 5.4, 5.5.
+//! RobManSim: a robot walks through a furnished room while goal, furniture and the parameters of its gait change. RH0
+//! 5.2, 5.4, 5.5.
 //!
-//! A [`Run`] goes step by step; between two steps its [`Figures`], its goal and the furniture may change, and the next step obeys. What a walk comes to when physics plays it
-//! is a [`Comparison`], RH0 6.2. Metres, radians, seconds.
+//! A [`Run`] proceeds step by step. Between two steps its [`Figures`], its goal and the furniture may change; the next
+//! step takes them into account. A [`Comparison`] compares a walk with its physical simulation, RH0 6.2. Metres,
+//! radians, seconds.
 
 mod answer;
 mod answer_picture;
@@ -19,7 +21,7 @@ mod record;
 mod rooms;
 mod run;
 
-pub use answer::{Comparison, JointComparison, SIDES, Way, soles};
+pub use answer::{Comparison, Displacement, JointComparison, SIDES, soles};
 pub use answer_picture::Quantity;
 #[cfg(feature = "clearance")]
 pub use clearance::{Clearance, Links};

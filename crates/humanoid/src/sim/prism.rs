@@ -1,4 +1,4 @@
-//! What stands on a floor as convex prisms. Main type: [`Prism`].
+//! Objects on a floor as convex prisms. Main type: [`Prism`].
 
 use std::fmt;
 
@@ -7,17 +7,17 @@ use nalgebra::Point2;
 use super::interior::corners;
 use crate::nav::{Room, Shape, signed_area};
 
-/// How high the walls of a room are \[m\].
+/// The height of the walls of a room \[m\].
 pub const WALL_HEIGHT: f64 = 2.5;
 
-/// What a link may come near to.
+/// An object that a link may collide with.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Thing {
     /// Furniture of that name.
     Furniture(String),
     /// A wall of the room.
     Wall,
-    /// The floor, which feet are not asked about.
+    /// The floor; feet are excluded.
     Floor,
 }
 
@@ -31,7 +31,7 @@ impl fmt::Display for Thing {
     }
 }
 
-/// All over a convex polygon of the floor, up to a height \[m\].
+/// A vertical prism from the floor up to a height \[m\].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prism {
     /// Its corners, anticlockwise.
@@ -40,7 +40,7 @@ pub struct Prism {
     pub height: f64,
 }
 
-/// What stands in a room, furniture first, then its walls: each as prisms that cover it.
+/// The objects of a room, furniture first, then its walls: each as prisms that cover it.
 pub fn prisms(room: &Room) -> Vec<(Thing, Vec<Prism>)> {
     let furniture = room.pieces.iter().map(|piece| (Thing::Furniture(piece.name.clone()), piece.shape(), piece.height));
     let walls = room.walls().into_iter().map(|shape| (Thing::Wall, shape, WALL_HEIGHT));
@@ -55,7 +55,8 @@ pub fn prisms(room: &Room) -> Vec<(Thing, Vec<Prism>)> {
     furniture.chain(walls).map(covered).collect()
 }
 
-/// Cuts ears off a simple polygon, anticlockwise, until what is left is convex (G. Meisters, American Mathematical Monthly 82, 1975).
+/// Cuts ears off a simple polygon, anticlockwise, until the rest is convex (G. Meisters, American Mathematical Monthly
+/// 82, 1975).
 fn triangles(mut open: Vec<Point2<f64>>) -> Vec<Vec<Point2<f64>>> {
     let mut parts = Vec::new();
     loop {
@@ -74,7 +75,7 @@ fn triangles(mut open: Vec<Point2<f64>>) -> Vec<Vec<Point2<f64>>> {
             };
             turn(*at) > 0.0 && (0..count).all(|other| own.contains(&other) || !is_inside(&open[other]))
         };
-        // A polygon whose sides do not cross has an ear; of another one its hull is what covers it.
+        // A polygon whose sides do not cross has an ear; any other one is covered by its convex hull.
         let Some(ear) = (0..count).find(is_ear) else {
             parts.push(crate::gait::Polygon::hull(&open).corners().to_vec());
             return parts;

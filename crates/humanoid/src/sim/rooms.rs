@@ -1,6 +1,7 @@
-//! Rooms that are known by name.
+//! Rooms by name.
 
-/// Names and texts, TOML: the living room of RH0 5.4 and 5.5, Fig. 5-25, and the same with its furniture around the robot, Fig. 5-27.
+/// Names and texts, TOML: the living room of RH0 5.4 and 5.5, Fig. 5-25, and the same room with its furniture around
+/// the robot, Fig. 5-27.
 pub const ROOMS: [(&str, &str); 2] = [
     ("living-room", include_str!("../../examples/living_room.toml")),
     ("encirclement", include_str!("../../examples/encirclement.toml")),

@@ -15,39 +15,39 @@ use groebot_robot::document::shown;
 use groebot_robot::model::Meshes;
 use groebot_robot::robots;
 
-/// How a run begins.
+/// The initial state of a run.
 #[derive(Clone, Debug)]
 pub struct Start {
-    /// Who walks, by one step goal.
+    /// The walker, by one step goal.
     pub walker: Walker,
-    /// What it covers of the floor.
+    /// The area of the floor that it covers.
     pub body: Body,
-    /// Where.
+    /// The room.
     pub room: Room,
-    /// How far the body keeps away from what stands there \[m\].
+    /// The least distance of the body from obstacles \[m\].
     pub apart: f64,
-    /// Where the middle of the feet is at first, and where the robot looks.
+    /// The initial pose of the middle of the feet.
     pub middle: Footprint,
-    /// Where it is to get.
+    /// The destination.
     pub goal: Destination,
-    /// How its ways are found.
+    /// The method that finds its paths.
     pub method: Method,
 }
 
-/// What came of going on.
+/// The result of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Next {
-    /// A step: the samples of the walk that are new.
+    /// A step: the new samples of the walk.
     Step(Range<usize>),
-    /// It stands at the goal.
+    /// The robot is at the goal.
     Arrived,
 }
 
-/// A robot on its way through a room.
+/// A robot that walks through a room.
 #[derive(Clone, Debug)]
 pub struct Run {
     start: Start,
-    /// The gait before any figure was changed.
+    /// The gait before any parameter was changed.
     usual: Usual,
     figures: Figures,
     floor: Floor,
@@ -56,13 +56,13 @@ pub struct Run {
 }
 
 impl Start {
-    /// That of a robot of this crate, by its name, on shortest ways.
+    /// The start of a robot of this crate, by its name, on shortest paths.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] for another name; as [`Body::new`].
     pub fn of_robot(name: &str, room: Room, middle: Footprint, goal: Destination, apart: f64) -> Result<Self> {
         let unknown = || {
-            let text = format!("no robot `{}` walks here; give nao, rh0 or teo", shown(name));
+            let text = format!("there is no walking robot `{}`; give nao, rh0 or teo", shown(name));
             Error::new(ErrorKind::UnknownName, text)
         };
         let (walker, robot) = (walkers::walker(name, Outline::Measured), robots::robot(name));
@@ -71,7 +71,7 @@ impl Start {
         Ok(Start { walker, body, room, apart, middle, goal, method: Method::Exact })
     }
 
-    /// The way from a place.
+    /// The path from a place.
     fn course(
         &self,
         pilot: &Pilot,
@@ -85,10 +85,11 @@ impl Start {
 }
 
 impl Run {
-    /// Stands ready, its trunk lowered, its way found.
+    /// Finds the path, lowers the trunk and waits for the first step.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a walker without a gait by one step goal; as [`Pilot::new`], [`Room::map`], [`Floor::new`], [`Destination::goal`], [`Course::find`] and [`Journey::new`].
+    /// [`ErrorKind::Unsupported`] for a walker without a gait by one step goal; as [`Pilot::new`], [`Room::map`],
+    /// [`Floor::new`], [`Destination::goal`], [`Course::find`] and [`Journey::new`].
     pub fn new(start: Start, watch: &Watch) -> Result<Self> {
         let usual = start.walker.gaits.iter().find(|(_, usual)| usual.gait.is_one_step());
         let usual = usual.map(|(_, usual)| usual.clone()).ok_or_else(|| {
@@ -104,17 +105,17 @@ impl Run {
         Ok(Run { start, usual, figures, floor, course, journey })
     }
 
-    /// The figures that the next step obeys.
+    /// The parameters of the next step.
     pub fn figures(&self) -> &Figures {
         &self.figures
     }
 
-    /// The room as it is now.
+    /// The current room.
     pub fn room(&self) -> &Room {
         &self.start.room
     }
 
-    /// The way from where it was found, or why there is none.
+    /// The path from the place where it was found, or the proof that none exists.
     pub fn course(&self) -> &std::result::Result<Course, Blocked> {
         &self.course
     }
@@ -124,7 +125,7 @@ impl Run {
         self.journey.walk()
     }
 
-    /// How it steps now.
+    /// The current pilot.
     pub fn pilot(&self) -> &Pilot {
         self.journey.pilot()
     }
@@ -132,7 +133,7 @@ impl Run {
     /// Takes the next step.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where there is no way; as [`Journey::step`].
+    /// [`ErrorKind::BadValue`] where no path exists; as [`Journey::step`].
     pub fn step(&mut self, watch: &Watch) -> Result<Next> {
         let course = self.course.as_ref().map_err(|blocked| Error::new(ErrorKind::BadValue, blocked.to_string()))?;
         let before = self.journey.walk().references.len();
@@ -140,31 +141,32 @@ impl Run {
         Ok(if has_stepped { Next::Step(before..self.journey.walk().references.len()) } else { Next::Arrived })
     }
 
-    /// Another goal from now on.
+    /// Changes the goal.
     ///
     /// # Errors
-    /// As [`Destination::goal`] and [`Course::find`]; then all stays as it was.
+    /// As [`Destination::goal`] and [`Course::find`]; then nothing changes.
     pub fn go_to(&mut self, goal: Destination, watch: &Watch) -> Result<()> {
         self.change(self.start.room.clone(), goal, watch)
     }
 
-    /// Another room from now on: furniture that was moved.
+    /// Changes the room, such as the place of furniture.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where it would stand on the robot; as [`Room::map`], [`Destination::goal`] and [`Course::find`]; then all stays as it was.
+    /// [`ErrorKind::BadValue`] where furniture would overlap the robot; as [`Room::map`], [`Destination::goal`] and
+    /// [`Course::find`]; then nothing changes.
     pub fn refurnish(&mut self, room: Room, watch: &Watch) -> Result<()> {
         self.change(room, self.start.goal.clone(), watch)
     }
 
-    /// Another room and another goal at once.
+    /// Changes the room and the goal at once.
     ///
     /// # Errors
-    /// As [`Run::refurnish`] and [`Run::go_to`]; then all stays as it was.
+    /// As [`Run::refurnish`] and [`Run::go_to`]; then nothing changes.
     pub fn change(&mut self, room: Room, goal: Destination, watch: &Watch) -> Result<()> {
         let floor =
             if room == self.start.room { self.floor.clone() } else { Floor::new(&room.map()?, self.start.apart)? };
         if let Some(at) = self.meets(&floor)? {
-            let text = format!("furniture would stand on the robot, at ({:.3}, {:.3})", at.x, at.y);
+            let text = format!("furniture would overlap the robot at ({:.3}, {:.3})", at.x, at.y);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let start = Start { room, goal, ..self.start.clone() };
@@ -174,7 +176,7 @@ impl Run {
         Ok(())
     }
 
-    /// Where the robot as it stands meets an obstacle.
+    /// The point where the robot at its current pose collides with an obstacle.
     fn meets(&self, floor: &Floor) -> Result<Option<Point2<f64>>> {
         let (biped, feet) = (&self.pilot().walker().biped, self.journey.feet());
         let on_sole = |side: Side| floor.under_sole(&biped.sole_at(side, &feet[side as usize]));
@@ -185,15 +187,17 @@ impl Run {
         Ok(floor.beside_body(&self.pilot().body().outline(biped, posture)?))
     }
 
-    /// Where it is to get.
+    /// The destination.
     pub fn goal(&self) -> &Destination {
         &self.start.goal
     }
 
-    /// Another value of a figure of the gait from the next step on; the samples that the robot takes for a new height, none where it stays.
+    /// Sets a parameter of the gait from the next step on. Returns the samples in which the robot takes a new height;
+    /// none where it keeps its height.
     ///
     /// # Errors
-    /// As [`Figures::with`]; what keeps the robot from walking so, as [`Pilot::new`] and [`Pilot::within`]; then all stays as it was.
+    /// As [`Figures::with`]; the reason why such a walk is infeasible, as [`Pilot::new`] and [`Pilot::within`]; then
+    /// nothing changes.
     pub fn set(&mut self, name: &str, value: f64, watch: &Watch) -> Result<Range<usize>> {
         let figures = self.figures.with(name, value)?;
         let Start { walker, body, .. } = &self.start;
@@ -207,7 +211,7 @@ impl Run {
         Ok(before..self.walk().references.len())
     }
 
-    /// Stands where it is; a walker that is upright rises.
+    /// Ends the walk at the current place; an upright walker rises.
     ///
     /// # Errors
     /// As [`Journey::finish`].

@@ -1,4 +1,4 @@
-//! What a walker covers of the floor, seen from above. Main type: [`Body`].
+//! The area of the floor that a walker's body covers, seen from above. Main type: [`Body`].
 
 use nalgebra::{Point2, Point3, Vector2};
 
@@ -8,16 +8,17 @@ use groebot_robot::dynamics::Placed;
 use groebot_robot::model::{Meshes, Robot, Solid};
 use groebot_robot::spatial::Pose;
 
-/// A circle is drawn as a polygon of so many sides around it.
+/// The number of sides of the polygon around a circle.
 const SIDES: usize = 12;
 
-/// All that collides on a walker but for what is fixed to its soles.
+/// All collision shapes of a walker, except those fixed to its soles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     parts: Vec<Part>,
 }
 
-/// All that is within a radius of the hull of some points: in the torso frame at the zero configuration, moved with a body of the model.
+/// All points within a radius of a convex hull, in the torso frame at the zero configuration; it moves with a body of
+/// the model.
 #[derive(Clone, Debug, PartialEq)]
 struct Part {
     body: usize,
@@ -26,10 +27,11 @@ struct Part {
 }
 
 impl Body {
-    /// That of `robot`: spheres and capsules as they are, boxes by their corners, cylinders and meshes by those of the least box around them.
+    /// Makes the body of `robot`. Spheres and capsules are exact, boxes are given by their corners, cylinders and
+    /// meshes by their bounding boxes.
     ///
     /// # Errors
-    /// Those of [`Meshes::points`]; [`ErrorKind::BadValue`] where nothing but the soles has a shape.
+    /// Those of [`Meshes::points`]; [`ErrorKind::BadValue`] where only the soles have a shape.
     pub fn new(robot: &Robot, biped: &Biped, meshes: &Meshes) -> Result<Self> {
         let soles = [biped.feet[0].body, biped.feet[1].body];
         let mut parts = Vec::new();
@@ -52,7 +54,7 @@ impl Body {
         Ok(Body { parts })
     }
 
-    /// A box about the torso's vertical axis: how long it is ahead and how wide \[m\].
+    /// A box about the torso's vertical axis, with its length forward and its width \[m\].
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a size that is not finite and positive.
@@ -66,7 +68,7 @@ impl Body {
         Ok(Body { parts: vec![Part { body: 0, points, radius: 0.0 }] })
     }
 
-    /// Its outline at a posture: the convex hull of all.
+    /// Its outline in a posture: the convex hull of all shapes, seen from above.
     ///
     /// # Errors
     /// As [`groebot_robot::dynamics::Model::place`].
@@ -76,12 +78,12 @@ impl Body {
         Ok(Polygon::hull(&corners))
     }
 
-    /// How far it reaches from a place, seen from above \[m\].
+    /// The greatest distance of the body from a point, seen from above \[m\].
     pub(super) fn reach(&self, placed: &Placed<'_>, from: &Point2<f64>) -> f64 {
         self.seen(placed).map(|(point, radius)| (point - from).norm() + radius).fold(0.0, f64::max)
     }
 
-    /// Its points from above, each with what is around it.
+    /// Its points seen from above, each with its radius.
     fn seen<'a>(&'a self, placed: &'a Placed<'_>) -> impl Iterator<Item = (Point2<f64>, f64)> + 'a {
         self.parts.iter().flat_map(|part| {
             let motion: Pose = placed.motion(part.body);
@@ -100,7 +102,7 @@ pub(super) fn around(middle: Point2<f64>, radius: f64) -> impl Iterator<Item = P
     })
 }
 
-/// Points and a radius around their hull that hold a solid, in its frame.
+/// Points and a radius whose hull contains a solid, in its frame.
 fn corners(solid: &Solid, meshes: &Meshes) -> Result<(Vec<Point3<f64>>, f64)> {
     let ends = |half: f64| vec![Point3::new(0.0, 0.0, -half), Point3::new(0.0, 0.0, half)];
     match solid {

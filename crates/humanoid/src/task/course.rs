@@ -1,4 +1,4 @@
-//! The way that a walker is to follow. Main type: [`Course`].
+//! The path that a walker follows. Main type: [`Course`].
 
 use std::fmt;
 
@@ -8,41 +8,43 @@ use super::floor::Floor;
 use super::pilot::Pilot;
 use super::stance::Stances;
 use crate::gait::Footprint;
-use crate::nav::{self, Enclosure, Field, Forces, Guide, Map, Potential, Way};
+use crate::nav::{self, Enclosure, Field, Forces, Guide, Map, Path, Potential};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// By how much more than it should, as a share, the body keeps away at most: circles are polygons around them.
+/// The greatest excess of the body's distance from obstacles, as a fraction: circles are approximated by polygons
+/// around them.
 const ROUNDED: f64 = 0.04;
 
-/// How the way is found.
+/// The method that finds the path.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The shortest way.
+    /// The shortest path.
     #[default]
     Exact,
-    /// Down a field of fast marching, RH0 (4-15), pulled taut.
+    /// The descent path of a fast marching field, RH0 (4-15), pulled taut.
     FastMarching,
-    /// Down a field of the thesis' M3R, RH0 (4-17), pulled taut.
+    /// The descent path of a field of the thesis' M3R, RH0 (4-17), pulled taut.
     M3r,
-    /// Down an artificial potential field, which may be stuck and then says so, RH0 Fig. 4-12.
+    /// The descent path of an artificial potential field. It may end in a local minimum, which is an error, RH0 Fig.
+    /// 4-12.
     Potential,
 }
 
-/// Where a walker is to get.
+/// The goal of a walker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
-    /// Where the middle of its feet is to be \[m\].
+    /// The position of the middle of its feet \[m\].
     pub place: Point2<f64>,
-    /// Where it is to look \[rad\]; as it comes where there is none.
+    /// The final heading \[rad\]; any heading where none is given.
     pub heading: Option<f64>,
 }
 
 impl Goal {
-    /// That of x and y \[m\], and a heading \[rad\] if one is told.
+    /// Makes a goal from x and y \[m\], and optionally a heading \[rad\].
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for another count of numbers than two or three.
+    /// [`ErrorKind::BadValue`] for a number of values other than two or three.
     pub fn of(numbers: &[f64]) -> Result<Self> {
         match *numbers {
             [x, y] => Ok(Goal { place: Point2::new(x, y), heading: None }),
@@ -51,29 +53,31 @@ impl Goal {
         }
     }
 
-    /// Its numbers, as [`Goal::of`] takes them.
+    /// Its values, as [`Goal::of`] takes them.
     pub fn numbers(&self) -> Vec<f64> {
         [self.place.x, self.place.y].into_iter().chain(self.heading).collect()
     }
 }
 
-/// A way for the middle of a walker's feet.
+/// A path for the middle of a walker's feet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
-    /// Where it leads.
+    /// Its goal.
     pub goal: Goal,
-    /// The way.
-    pub way: Way,
-    /// Whether there is room for the walker on it however it is turned; else steps are to be searched.
+    /// The path.
+    pub path: Path,
+    /// Whether the walker has room on it at every heading; otherwise footsteps must be searched.
     pub is_wide: bool,
 }
 
 impl Course {
-    /// The way from a place to a goal: with room for the walker however it is turned; where there is none, with room for it at some heading everywhere; else with room for its core. Where there is no way for that, either, what encloses start or goal,
-    /// which is proof that the walker gets nowhere.
+    /// Finds a path to a goal, with room for the walker at every heading. If there is none, the path has room at some
+    /// heading everywhere, else room for the walker's core. If even that does not exist, returns the cells that enclose
+    /// start or goal, which prove that the goal cannot be reached.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a start or goal off the map or too near to an obstacle, with the nearest place that is not; [`Watch::check`].
+    /// [`ErrorKind::BadValue`] for a start or goal outside the map or too near to an obstacle, with the nearest
+    /// feasible place; [`Watch::check`].
     pub fn find(
         pilot: &Pilot,
         floor: &Floor,
@@ -90,27 +94,27 @@ impl Course {
             false => Stances::new(pilot, floor)?.places(watch),
         };
         for is_wide in [true, false] {
-            match way(&places(is_wide)?, &start.point(), &goal.place, method, watch) {
-                Ok(Ok(way)) => return Ok(Ok(Course { goal, way, is_wide })),
+            match path(&places(is_wide)?, &start.point(), &goal.place, method, watch) {
+                Ok(Ok(path)) => return Ok(Ok(Course { goal, path, is_wide })),
                 Ok(Err(_)) => {}
                 Err(error) if error.kind() == ErrorKind::BadValue => {}
                 Err(error) => return Err(error),
             }
         }
         let narrow = floor.of_core(pilot)?;
-        let found = way(&narrow, &start.point(), &goal.place, method, watch)?;
+        let found = path(&narrow, &start.point(), &goal.place, method, watch)?;
         Ok(found
-            .map(|way| Course { goal, way, is_wide: false })
+            .map(|path| Course { goal, path, is_wide: false })
             .map_err(|enclosure| Blocked { enclosure, map: narrow }))
     }
 }
 
-/// Why there is no way.
+/// The proof that no path exists.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blocked {
-    /// The cells that no way leaves.
+    /// The cells that no path leaves.
     pub enclosure: Enclosure,
-    /// The map whose cells they are: obstacles grown by the walker's core.
+    /// The map that contains them: obstacles grown by the walker's core.
     pub map: Map,
 }
 
@@ -119,34 +123,34 @@ impl fmt::Display for Blocked {
         let area = self.enclosure.cells.len() as f64 * self.map.resolution().powi(2);
         write!(
             f,
-            "there is no path: {} cells ({area:.2} m^2) that nothing as wide as the body's core leaves enclose start or goal",
+            "there is no path: {} cells ({area:.2} m^2) enclose start or goal; no path with the width of the body's core leaves them",
             self.enclosure.cells.len()
         )
     }
 }
 
-/// The way on a map by a method.
-fn way(
+/// Finds the path on a map by a method.
+fn path(
     map: &Map,
     start: &Point2<f64>,
     goal: &Point2<f64>,
     method: Method,
     watch: &Watch,
-) -> Result<std::result::Result<Way, Enclosure>> {
+) -> Result<std::result::Result<Path, Enclosure>> {
     let down = |method: nav::Method| match Field::new(map, &[*goal], method, watch)?.descend(map, start)? {
-        Ok(way) => way.between(start, goal).taut(map, watch).map(Ok),
+        Ok(path) => path.between(start, goal).taut(map, watch).map(Ok),
         Err(enclosure) => Ok(Err(enclosure)),
     };
     match method {
         Method::Exact => {
-            let found = map.shortest_way(start, goal, &Guide::default(), watch)?;
-            Ok(found.map(|shortest| shortest.way))
+            let found = map.shortest_path(start, goal, &Guide::default(), watch)?;
+            Ok(found.map(|shortest| shortest.path))
         }
         Method::FastMarching => down(nav::Method::FastMarching(1)),
         Method::M3r => down(nav::Method::M3r),
         Method::Potential => match Potential::new(map, goal, &Forces::default())?.descend(map, start)? {
-            Ok(way) => way.between(start, goal).taut(map, watch).map(Ok),
-            Err(stuck) => Err(Error::new(ErrorKind::BadValue, format!("{stuck}; take another method"))),
+            Ok(path) => path.between(start, goal).taut(map, watch).map(Ok),
+            Err(stuck) => Err(Error::new(ErrorKind::BadValue, format!("{stuck}; use another method"))),
         },
     }
 }

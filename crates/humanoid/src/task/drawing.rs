@@ -1,4 +1,5 @@
-//! A plan as a picture, SVG: the map from above with the way, the footsteps, the body at its rests and the path of the centre of mass.
+//! A plan as an SVG picture: the map from above with the path, the footsteps, the body at its rests and the path of the
+//! centre of mass.
 
 use std::collections::HashSet;
 
@@ -13,16 +14,16 @@ use crate::nav::{Cell, Map};
 use groebot_robot::drawing::frame::Frame;
 use groebot_robot::drawing::svg::{Svg, Swatch};
 
-/// The width of the picture, what is left of its frame, and the most that the frame takes each way \[px\].
+/// The width of the picture, the left edge of its frame, and the greatest width and height of the frame \[px\].
 const WIDTH: f64 = 1200.0;
 const LEFT: f64 = 60.0;
 const MOST: (f64, f64) = (WIDTH - LEFT - 24.0, 900.0);
-/// Where the frame begins \[px\].
+/// The upper edge of the frame \[px\].
 const TOP: f64 = 60.0;
 
 const STYLE: &str = "<style>
 .wall { fill: #555; stroke: #555; stroke-width: 0.6 } .near { fill: #e4dccf; stroke: #e4dccf; stroke-width: 0.6 }
-.way { stroke: #2a7d46; stroke-width: 2; stroke-dasharray: 7 4 } .body { fill: none; stroke: #999; stroke-width: 0.8 }
+.path { stroke: #2a7d46; stroke-width: 2; stroke-dasharray: 7 4 } .body { fill: none; stroke: #999; stroke-width: 0.8 }
 .goal { fill: #2a7d46 } .start { fill: #444 } .closed { fill: #f0b8a8; stroke: #f0b8a8; stroke-width: 0.6 }
 </style>";
 
@@ -33,7 +34,7 @@ impl Plan {
         let steps = self.walk.schedule.route.steps.len();
         let title = format!("{}: {steps} steps to ({:.2}, {:.2})", pilot.walker().biped.name, place.x, place.y);
         let legend = [
-            (Swatch::Line, "way", "way"),
+            (Swatch::Line, "path", "path"),
             (Swatch::Area, "left", "left sole"),
             (Swatch::Area, "right", "right sole"),
             (Swatch::Line, "body", "body at rest"),
@@ -59,14 +60,14 @@ impl Plan {
             let sole = biped.sole_at(side, &print);
             svg.polygon(side.name(), 1.0, line(&mut sole.corners().iter().copied()));
         }
-        svg.line("way", line(&mut self.course.way.points.iter().copied()));
+        svg.line("path", line(&mut self.course.path.points.iter().copied()));
         svg.line("com", line(&mut self.walk.motion.centres.iter().map(|centre| centre.xy())));
         dot("goal", frame, &self.course.goal.place, svg);
     }
 }
 
 impl Blocked {
-    /// Why there is no way over a floor as SVG, in the axes of the map's world: the cells that enclose start or goal. Metres.
+    /// The cells that enclose start or goal as SVG, in the axes of the map's world. Metres.
     pub fn to_svg(&self, floor: &Floor, start: &Point2<f64>, goal: &Point2<f64>) -> String {
         let legend =
             [(Swatch::Area, "closed", "enclosed"), (Swatch::Area, "start", "start"), (Swatch::Area, "goal", "goal")];
@@ -78,7 +79,7 @@ impl Blocked {
     }
 }
 
-/// A picture of a floor with some of its cells marked, ready for more.
+/// Starts a picture of a floor with some of its cells marked.
 fn begun(title: &str, legend: &[(Swatch, &str, &str)], floor: &Floor, closed: &[usize]) -> (Frame, Svg) {
     let mut svg = Svg::default();
     svg.add(format_args!("{STYLE}"));
@@ -96,7 +97,7 @@ fn dot(class: &str, frame: &Frame, at: &Point2<f64>, svg: &mut Svg) {
     svg.add(format_args!(r#"<circle class="{class}" cx="{x:.1}" cy="{y:.1}" r="4"/>"#));
 }
 
-/// What is occupied, what is too near to that for the body, and what is closed.
+/// Draws occupied cells, cells too near to them for the body, and enclosed cells.
 fn draw_floor(floor: &Floor, closed: &[usize], frame: &Frame, svg: &mut Svg) {
     let map = floor.map();
     let drawn = |class: &str, holds: &dyn Fn(usize) -> bool, svg: &mut Svg| {
@@ -118,7 +119,7 @@ fn page(frame: &Frame, at: &Point2<f64>) -> (f64, f64) {
     frame.at((at.x, at.y))
 }
 
-/// A frame that holds a map, in one scale for both axes.
+/// A frame that contains a map, with one scale for both axes.
 fn around(map: &Map) -> Frame {
     let (width, height) = (map.columns() as f64, map.rows() as f64);
     let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
@@ -129,7 +130,7 @@ fn around(map: &Map) -> Frame {
     Frame { corner: (LEFT, TOP), size: (size.x * scale, size.y * scale), low: (low.x, low.y), high: (high.x, high.y) }
 }
 
-/// By row of a map the pieces whose cells are such.
+/// By row of a map, the intervals of cells that satisfy a condition.
 fn runs<'a>(
     map: &'a Map,
     holds: &'a dyn Fn(usize) -> bool,

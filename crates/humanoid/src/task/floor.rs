@@ -1,4 +1,4 @@
-//! The floor as a walker needs it. Main type: [`Floor`].
+//! The floor with the distances that a walker needs. Main type: [`Floor`].
 
 use nalgebra::Point2;
 
@@ -8,8 +8,8 @@ use crate::gait::Polygon;
 use crate::nav::{Map, Shape};
 use crate::{Error, ErrorKind, Result};
 
-/// A map and how far each of its places is from what stands there. Soles may touch obstacles; the body keeps away from them. Cells that have not been
-/// seen are taken to be occupied.
+/// A map and the distance of each cell from obstacles. Soles may touch obstacles; the body keeps a distance from them.
+/// Unknown cells count as occupied.
 #[derive(Clone, Debug)]
 pub struct Floor {
     map: Map,
@@ -18,14 +18,15 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// That of a map, with how far the body keeps away from obstacles \[m\].
+    /// Makes the floor of a map, with the least distance of the body from obstacles \[m\].
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for another distance than a finite one that is not below zero.
+    /// [`ErrorKind::BadValue`] for a distance that is not finite or below zero.
     pub fn new(map: &Map, apart: f64) -> Result<Self> {
         if !(apart.is_finite() && apart >= 0.0) {
-            let text =
-                format!("the body keeps {apart} m away from obstacles; give a finite number, not below zero (--apart)");
+            let text = format!(
+                "the least distance of the body from obstacles is {apart} m; give a finite number, not below zero (--apart)"
+            );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let map = map.clone().with_unknown_occupied();
@@ -38,12 +39,13 @@ impl Floor {
         &self.map
     }
 
-    /// How far the body keeps away from obstacles \[m\].
+    /// The least distance of the body from obstacles \[m\].
     pub fn apart(&self) -> f64 {
         self.apart
     }
 
-    /// Where a disc of this radius \[m\], which keeps away from obstacles, may have its middle: at the middles of cells that are free.
+    /// The map of positions for the centre of a disc of this radius \[m\] that keeps its distance from obstacles: the
+    /// middles of the free cells.
     ///
     /// # Errors
     /// As [`Map::grown`].
@@ -51,7 +53,8 @@ impl Floor {
         self.map.keeping(&self.clearances, radius + self.apart)
     }
 
-    /// Where the middle of a pilot's core may be, at any place of a cell: what is not free here holds no pilot.
+    /// The map of positions for the middle of a pilot's core, anywhere in a cell. No position in an occupied cell is
+    /// feasible.
     ///
     /// # Errors
     /// As [`Map::grown`].
@@ -59,32 +62,33 @@ impl Floor {
         self.of_disc((pilot.core() - self.map.half_diagonal()).max(0.0))
     }
 
-    /// Whether all within a radius of a place \[m\] keeps away from obstacles, for sure: where this says no there may yet be room.
+    /// Whether all points within a radius of a place \[m\] surely keep their distance from obstacles. The test is
+    /// conservative: there may be room where it returns false.
     pub fn is_far(&self, place: &Point2<f64>, radius: f64) -> bool {
         let own = self.map.in_map(place);
         let ends = [own.x, self.map.columns() as f64 - own.x, own.y, self.map.rows() as f64 - own.y];
         let border = ends.into_iter().fold(f64::INFINITY, f64::min) * self.map.resolution();
-        // From the cell's middle to the place.
+        // The distance from the cell's middle to the place.
         let off = self.map.half_diagonal();
         border > radius && self.map.cell_at(place).is_ok_and(|cell| self.clearances[cell] - off > radius + self.apart)
     }
 
-    /// A place where a sole would stand on an obstacle.
+    /// A point where a sole would overlap an obstacle.
     pub fn under_sole(&self, sole: &Polygon) -> Option<Point2<f64>> {
         self.under(sole.corners().to_vec())
     }
 
-    /// A place where a body would come too near to an obstacle.
+    /// A point where a body would come too near to an obstacle.
     pub fn beside_body(&self, outline: &Polygon) -> Option<Point2<f64>> {
         self.under(self.grown(outline).corners().to_vec())
     }
 
-    /// An outline and all that keeps away from it.
+    /// An outline grown by the least distance.
     pub(super) fn grown(&self, outline: &Polygon) -> Polygon {
         Polygon::hull(&outline.corners().iter().flat_map(|corner| around(*corner, self.apart)).collect::<Vec<_>>())
     }
 
-    /// A place under a polygon that is not free.
+    /// A point of a polygon that is not free.
     pub(super) fn under(&self, corners: Vec<Point2<f64>>) -> Option<Point2<f64>> {
         self.map.obstacle_under(&Shape::Polygon(corners))
     }

@@ -1,4 +1,5 @@
-//! Steps along a way: ahead as far as the legs reach, on the spot where the way bends by more than they turn.
+//! Footsteps along a path: forward as far as the legs reach, and turns on the spot where the path bends by more than a
+//! step can turn.
 
 use super::course::Course;
 use super::pilot::Pilot;
@@ -6,24 +7,24 @@ use super::reach::bearing;
 use crate::gait::Footprint;
 use groebot_robot::spatial::angle;
 
-/// How near to a corner of a way its next piece begins \[m\].
+/// The distance from a corner of a path at which its next segment begins \[m\].
 const REACHED: f64 = 1e-3;
-/// How near to a heading counts as there \[rad\].
+/// The tolerance of a heading \[rad\].
 const TURNED: f64 = 1e-6;
-/// How far steps are shortened in turn where they cannot be walked as they are wanted.
+/// Factors that shorten steps, tried in order where they are infeasible at full length.
 const EASED: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];
 
-/// What a walker does next to follow a way.
+/// The next action of a walker that follows a path.
 pub(super) enum Next {
-    /// One of these steps, the best first: where the middle of the feet would be if both stood side by side.
+    /// One of these steps, the best first: the middle of the feet after both are side by side.
     Lead(Vec<Footprint>),
-    /// It has only to bring its feet side by side.
+    /// Only the feet must be closed.
     Close,
 }
 
-/// The next steps from a place on a way; `corner` is the corner that it goes to.
+/// The next steps from a place on a path; `corner` is the index of the next corner.
 pub(super) fn next(pilot: &Pilot, lead: &Footprint, course: &Course, corner: &mut usize) -> Next {
-    let points = &course.way.points;
+    let points = &course.path.points;
     while points.get(*corner).is_some_and(|point| (point - lead.point()).norm() < REACHED) {
         *corner += 1;
     }
@@ -48,7 +49,8 @@ pub(super) fn next(pilot: &Pilot, lead: &Footprint, course: &Course, corner: &mu
     Next::Lead(wanted.into_iter().map(step).collect())
 }
 
-/// How far to turn and to go ahead to a place in that direction and so far away: who turns as far as the legs let it does so on the spot.
+/// The turn and the distance forward to a place at a bearing and a distance. A turn by the greatest angle is on the
+/// spot.
 fn towards(pilot: &Pilot, bearing: f64, distance: f64) -> (f64, f64) {
     let reach = pilot.reach();
     let turn = bearing.clamp(-reach.turn, reach.turn);

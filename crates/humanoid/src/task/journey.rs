@@ -16,30 +16,32 @@ use crate::gait::{Action, Footprint, Footstep, MAX_STEPS, Side, Walk};
 use crate::nav::{self, Field};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How many steps ahead on its course a search looks for a place at first.
+/// The number of steps to the first target of a search along the course.
 const STEPS_AHEAD: f64 = 6.0;
-/// How often steps are searched anew on a course at least, once more for so many steps that were taken, and how often to a place some steps ahead.
+/// The number of searches permitted on a course before the first step, the number of steps that permit one more, and
+/// the number of searches to a place some steps forward.
 const MOST_SEARCHES: usize = 60;
 const STEPS_A_SEARCH: usize = 4;
 const MOST_NEAR: usize = 8;
 
-/// Trunks whose heights differ by less are at the same \[m\].
+/// The tolerance of a trunk's height \[m\].
 const SAME_HEIGHT: f64 = 1e-9;
 
-/// A walk that grows step by step. Between two steps the robot rests on both feet: floor and course may change there.
+/// A walk that grows step by step. Between two steps the robot rests in double support; floor and course may change
+/// there.
 #[derive(Clone, Debug)]
 pub struct Journey<'p> {
     pilot: Cow<'p, Pilot>,
     walk: Walk,
-    /// Where the middle of the feet would be if the one behind came to the side of the other.
+    /// The middle of the feet after the rear one would come beside the other.
     lead: Footprint,
-    /// The foot that steps next.
+    /// The next swing foot.
     side: Option<Side>,
-    /// The corner of the course that it goes to.
+    /// The index of the corner that it walks to.
     corner: usize,
-    /// Steps that were searched and are still to be taken.
+    /// Steps that were found by a search and are still to be taken.
     searched: Vec<Footstep>,
-    /// What led them to the goal, as long as there are some.
+    /// The lattice that led to the goal, while such steps are left.
     lattice: Option<Lattice>,
     searches: usize,
     refused: Refused,
@@ -47,7 +49,7 @@ pub struct Journey<'p> {
 }
 
 impl<'p> Journey<'p> {
-    /// From feet that stand, left and right; a walker that is upright lowers its trunk first.
+    /// Starts from two footprints, left and right; an upright walker lowers its trunk first.
     ///
     /// # Errors
     /// As [`crate::gait::plan`]; [`ErrorKind::BadValue`] for feet or a body on an obstacle.
@@ -73,7 +75,7 @@ impl<'p> Journey<'p> {
         })
     }
 
-    /// Who walks.
+    /// The pilot.
     pub fn pilot(&self) -> &Pilot {
         &self.pilot
     }
@@ -88,7 +90,7 @@ impl<'p> Journey<'p> {
         &self.refusals
     }
 
-    /// Where the feet stand, left and right.
+    /// The current footprints, left and right.
     pub fn feet(&self) -> [Footprint; 2] {
         self.walk.schedule.route.end()
     }
@@ -99,23 +101,25 @@ impl<'p> Journey<'p> {
         left.middle(&right)
     }
 
-    /// To be said when the course or the floor has become another one: what was searched counts no longer.
+    /// Must be called when the course or the floor has changed: steps of earlier searches become invalid.
     pub fn turn_to_new_course(&mut self) {
-        // A course begins where the robot is.
+        // A course begins at the robot.
         (self.corner, self.searches) = (1, 0);
         self.searched.clear();
         self.lattice = None;
         self.refused = Refused::default();
     }
 
-    /// To be said when the robot is to walk otherwise from the next step on: other lengths, another pace, or another height, which it takes at once: then the walk grows by that.
+    /// Changes the gait from the next step on: other lengths, another pace, or another height. A new height is taken at
+    /// once, so that the walk grows.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for the pilot of another robot, or one with samples another time apart; as [`crate::gait::plan`].
+    /// [`ErrorKind::BadValue`] for the pilot of another robot, or another time between samples; as
+    /// [`crate::gait::plan`].
     pub fn walk_as(&mut self, pilot: Pilot, watch: &Watch) -> Result<()> {
         let [own, other] = [&*self.pilot, &pilot].map(|pilot| &pilot.walker().biped);
         if own.name != other.name || own.joints != other.joints {
-            let text = format!("{} walks here; {} cannot go on for it", own.name, other.name);
+            let text = format!("the walk is that of {}; {} cannot continue it", own.name, other.name);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let height = |walk: &Walk| walk.motion.postures.last().map(|posture| posture.world_from_torso.translation.z);
@@ -131,20 +135,21 @@ impl<'p> Journey<'p> {
         Ok(())
     }
 
-    /// The same journey with a pilot of its own.
+    /// The journey with its own copy of the pilot.
     pub fn into_owned(self) -> Journey<'static> {
         let Journey { pilot, walk, lead, side, corner, searched, lattice, searches, refused, refusals } = self;
         let pilot = Cow::Owned(pilot.into_owned());
         Journey { pilot, walk, lead, side, corner, searched, lattice, searches, refused, refusals }
     }
 
-    /// Takes the next step along a course; false where it has arrived, with its feet side by side.
+    /// Takes the next step along a course; returns false at the goal with the feet side by side.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where no step leads on, with the last reason, also after searches of many footprints; [`ErrorKind::Budget`] for too many steps; [`Watch::check`].
+    /// [`ErrorKind::BadValue`] where no step is feasible, also after searches over many footprints, with the last
+    /// reason; [`ErrorKind::Budget`] for too many steps; [`Watch::check`].
     pub fn step(&mut self, floor: &Floor, course: &Course, watch: &Watch) -> Result<bool> {
         if self.walk.schedule.route.steps.len() >= MAX_STEPS {
-            return Err(Error::new(ErrorKind::Budget, format!("the walk takes more than {MAX_STEPS} steps")));
+            return Err(Error::new(ErrorKind::Budget, format!("the walk needs more than {MAX_STEPS} steps")));
         }
         loop {
             if !self.searched.is_empty() {
@@ -160,7 +165,7 @@ impl<'p> Journey<'p> {
             } else {
                 let open = self.open();
                 let leads = match (next(&self.pilot, &self.lead, course, &mut self.corner), open) {
-                    // From feet side by side more can be stepped than from others.
+                    // From feet side by side more steps are feasible than from others.
                     (Next::Lead(leads), Some(_)) => leads.into_iter().chain([self.lead]).collect(),
                     (Next::Lead(leads), None) => leads,
                     (Next::Close, Some(side)) => {
@@ -177,7 +182,7 @@ impl<'p> Journey<'p> {
         }
     }
 
-    /// Stands where it is; a walker that is upright rises.
+    /// Ends the walk at the current place; an upright walker rises.
     ///
     /// # Errors
     /// As [`crate::gait::plan`].
@@ -189,7 +194,7 @@ impl<'p> Journey<'p> {
         Ok(self.walk)
     }
 
-    /// The foot that is not at its side of the lead.
+    /// The foot that is not beside the lead.
     fn open(&self) -> Option<Side> {
         let (own, wanted) = (self.feet(), self.lead.feet(self.pilot.half_width()));
         let is_open = |side: &Side| {
@@ -199,9 +204,9 @@ impl<'p> Journey<'p> {
         [Side::Left, Side::Right].into_iter().find(is_open)
     }
 
-    /// Takes the first of some steps that can be taken.
+    /// Takes the first feasible one of some steps.
     fn take_one(&mut self, floor: &Floor, leads: &[Footprint], watch: &Watch) -> Result<bool> {
-        // Who turns starts with the foot on that side.
+        // A turn starts with the foot on its side.
         let turns = leads.first().map_or(0.0, |lead| lead.yaw - self.lead.yaw);
         let side = self.side.unwrap_or(if turns < 0.0 { Side::Right } else { Side::Left });
         let step = |lead: &Footprint| Footstep { side, print: lead.feet(self.pilot.half_width())[side as usize] };
@@ -215,7 +220,7 @@ impl<'p> Journey<'p> {
         Ok(false)
     }
 
-    /// Whether the floor has room for a foot where it is to land, and for the body between both.
+    /// Whether the floor has room for a foot at its landing pose, and for the body between both feet.
     fn fits(&self, floor: &Floor, step: &Footstep) -> bool {
         let mut feet = self.feet();
         feet[step.side as usize] = step.print;
@@ -225,7 +230,7 @@ impl<'p> Journey<'p> {
                 || floor.beside_body(&self.pilot.outline_at(&middle)).is_none())
     }
 
-    /// Takes a step, or notes why not.
+    /// Takes a step, or notes the reason why it is infeasible.
     fn take(&mut self, floor: &Floor, footstep: Footstep, watch: &Watch) -> Result<bool> {
         let reason = match self.pilot.step(self.feet(), footstep, watch) {
             Ok(walk) => match met(&self.pilot, floor, &walk)? {
@@ -250,14 +255,15 @@ impl<'p> Journey<'p> {
         Ok(false)
     }
 
-    /// Searches for steps around what is in the way: to a place some steps ahead on the course, or where none lead there to the goal, by what stances get there.
+    /// Searches for steps around obstacles: to a place some steps forward on the course. Where none lead from there to
+    /// the goal, it uses stances that reach the goal.
     fn search(&mut self, floor: &Floor, course: &Course, watch: &Watch) -> Result<()> {
         if self.searches >= MOST_SEARCHES + self.walk.schedule.route.steps.len() / STEPS_A_SEARCH {
-            return self.stuck("steps were searched too often; none leads on");
+            return self.stuck("too many searches; no feasible step was found");
         }
         self.searches += 1;
         let sides = self.side.map_or([Side::Left, Side::Right], |side| [side, side.other()]);
-        let last = course.way.points.len().saturating_sub(1);
+        let last = course.path.points.len().saturating_sub(1);
         let stances = Stances::new(&self.pilot, floor)?;
         if self.lattice.is_none()
             && self.searches <= MOST_NEAR
@@ -270,7 +276,7 @@ impl<'p> Journey<'p> {
             }
         }
         let goal = course.goal.place;
-        // One that was made farther back knows little of what is far from there.
+        // A lattice that was made farther back is inaccurate far from that place.
         for known in self.lattice.take().map(Some).into_iter().chain([None]) {
             let lattice = known.map_or_else(|| Lattice::new(&stances, &goal, &self.middle(), watch), Ok)?;
             let steps = self.found(&stances, goal, Guide::Lattice(&lattice), &sides, watch)?;
@@ -279,16 +285,16 @@ impl<'p> Journey<'p> {
                 return Ok(());
             }
         }
-        // Beside the goal a stance may fit elsewhere than at the middles of cells.
+        // Beside the goal a stance may fit at places other than the middles of cells.
         let steps = self.found_by_field(&stances, goal, &sides, watch)?;
         if steps.is_empty() {
-            return self.stuck("no steps of this robot lead on");
+            return self.stuck("no step of this robot is feasible");
         }
         (self.searched, self.corner) = (steps, last);
         Ok(())
     }
 
-    /// The steps to a place that a search by the times of arrival there finds.
+    /// The steps to a place found by a search with the arrival times at that place as heuristic.
     fn found_by_field(
         &self,
         stances: &Stances<'_>,
@@ -297,7 +303,7 @@ impl<'p> Journey<'p> {
         watch: &Watch,
     ) -> Result<Vec<Footstep>> {
         let map = stances.floor.of_core(&self.pilot)?;
-        // A way along a border of cells is beside obstacles: what is near may be none of the places.
+        // A path along a border of cells is beside obstacles; the nearest cell may not be free.
         if map.free_cell_at(&target).is_err() {
             return Ok(Vec::new());
         }
@@ -305,7 +311,7 @@ impl<'p> Journey<'p> {
         self.found(stances, target, Guide::Field(&map, &field), sides, watch)
     }
 
-    /// The steps that a search finds, with one foot or the other one first.
+    /// The steps that a search finds, with either foot first.
     fn found(
         &self,
         stances: &Stances<'_>,
@@ -323,11 +329,12 @@ impl<'p> Journey<'p> {
         Ok(Vec::new())
     }
 
-    /// The first place some steps ahead on the course where the body has room looking along it, and the corner behind that.
+    /// The first place some steps forward on the course where the body has room at the course's heading, and the corner
+    /// after it.
     fn near(&self, floor: &Floor, course: &Course) -> Option<(usize, Point2<f64>)> {
         let stride = self.pilot.reach().ahead;
         let has_room = |(corner, at): &(usize, Point2<f64>)| {
-            let [from, to] = [corner - 1, *corner].map(|corner| course.way.points[corner]);
+            let [from, to] = [corner - 1, *corner].map(|corner| course.path.points[corner]);
             let looks = Footprint { x: at.x, y: at.y, yaw: (to.y - from.y).atan2(to.x - from.x) };
             floor.beside_body(&self.pilot.outline_at(&looks)).is_none()
         };
@@ -336,7 +343,7 @@ impl<'p> Journey<'p> {
         places.find(has_room)
     }
 
-    /// That there is no next step, with the last reason.
+    /// The error that no step is feasible, with the last reason.
     fn stuck(&self, text: &str) -> Result<()> {
         let (at, turned) = (self.middle(), self.lead.yaw.to_degrees());
         let reason = self.refusals.last().map_or_else(String::new, |refusal| format!("; {refusal}"));
@@ -345,10 +352,10 @@ impl<'p> Journey<'p> {
     }
 }
 
-/// The place so far ahead on a course \[m\], and the corner that comes behind it; `None` beyond its end.
+/// The place at a distance forward on a course \[m\], and the corner after it; `None` beyond its end.
 fn ahead(course: &Course, corner: usize, lead: &Footprint, mut distance: f64) -> Option<(usize, Point2<f64>)> {
     let mut at = lead.point();
-    for (place, point) in course.way.points.iter().enumerate().skip(corner) {
+    for (place, point) in course.path.points.iter().enumerate().skip(corner) {
         let piece = (point - at).norm();
         if piece >= distance {
             return Some((place, at + (point - at) * (distance / piece)));
@@ -358,7 +365,7 @@ fn ahead(course: &Course, corner: usize, lead: &Footprint, mut distance: f64) ->
     None
 }
 
-/// The middle of the feet if the other one came to the side of a step.
+/// The middle of the feet after the other one would come beside a step.
 fn beside(pilot: &Pilot, step: &Footstep) -> Footprint {
     step.print.then(&Footprint { y: -step.side.sign() * pilot.half_width(), ..Footprint::default() })
 }

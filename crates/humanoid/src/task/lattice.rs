@@ -1,4 +1,4 @@
-//! How many steps a walker is away from a goal, over places and headings of its stance. Main type: [`Lattice`].
+//! The number of steps from a stance to a goal, over cells and headings. Main type: [`Lattice`].
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -12,19 +12,21 @@ use super::stance::{HEADINGS, Stances, yaw};
 use crate::gait::Footprint;
 use crate::{Result, Watch};
 
-/// The cells around one, by columns and rows.
+/// Offsets to the neighbouring cells, by columns and rows.
 const AROUND: [[i64; 2]; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
-/// States are looked at until they are so many times, and so many steps, farther from the goal than the walker is.
+/// The search ends at states that are farther from the goal than the walker by this factor, and by this number of
+/// steps.
 const BEYOND: (f32, f32) = (1.2, 6.0);
 
-/// The least counts of steps to a goal, nearly, by cell and heading: an own Dijkstra search (1959) over stances with the feet side by side, which go to the cells around them or turn.
+/// Approximate least numbers of steps to a goal, by cell and heading. They are from Dijkstra's algorithm (1959) over
+/// stances with the feet side by side. A move goes to a neighbouring cell or turns.
 #[derive(Clone, Debug)]
 pub(super) struct Lattice {
     steps: Vec<f32>,
 }
 
 impl Lattice {
-    /// Those within half a step of `goal`, and all that lead there and are not much farther away than where a walker stands.
+    /// Computes the states from half a step around `goal` to those not much farther away than a walker at `from`.
     ///
     /// # Errors
     /// [`Watch::check`].
@@ -36,7 +38,7 @@ impl Lattice {
         let count = map.cells().len() * HEADINGS;
         watch.check_memory(count * (size_of::<f32>() + size_of::<Option<bool>>()))?;
         let mut lattice = Lattice { steps: vec![f32::INFINITY; count] };
-        let mut stands = Stands { stances, known: vec![None; count] };
+        let mut stands = RoomCache { stances, known: vec![None; count] };
         let mut waiting = BinaryHeap::new();
         let near = |cell: &usize| (map.centre(*cell) - goal).norm() < pilot.reach().ahead / 2.0;
         for state in (0..map.cells().len()).filter(near).flat_map(|cell| states(cell, 0..HEADINGS)) {
@@ -46,7 +48,7 @@ impl Lattice {
             }
         }
         let (own, mut farthest, mut looked) = (lattice.around(floor, from), f32::INFINITY, 0u32);
-        // Bits of numbers that are not below nought have their order.
+        // The bits of numbers that are not negative sort correctly.
         while let Some(Reverse((bits, state))) = waiting.pop() {
             let steps = f32::from_bits(bits);
             if steps > lattice.steps[state] {
@@ -74,9 +76,9 @@ impl Lattice {
             for turn in [1, HEADINGS - 1] {
                 reach(cell * HEADINGS + (heading + turn) % HEADINGS, costs.turn);
             }
-            for (way, cost) in AROUND.iter().zip(&costs.ways[heading]) {
-                // It comes from there.
-                let [column, row] = [column - way[0], row - way[1]];
+            for (neighbour, cost) in AROUND.iter().zip(&costs.moves[heading]) {
+                // The predecessor of the state.
+                let [column, row] = [column - neighbour[0], row - neighbour[1]];
                 if (0..columns).contains(&column) && (0..rows).contains(&row) {
                     reach((row * columns + column) as usize * HEADINGS + heading, *cost);
                 }
@@ -85,13 +87,14 @@ impl Lattice {
         Ok(lattice)
     }
 
-    /// How many steps are left where the middle of the feet is there; `None` where it gets not to the goal.
+    /// The number of remaining steps with the middle of the feet at a place; `None` where the goal cannot be reached
+    /// from there.
     pub(super) fn left(&self, floor: &Floor, middle: &Footprint) -> Option<f64> {
         let steps = self.around(floor, middle).into_iter().map(|state| self.steps[state]);
         Some(f64::from(steps.fold(f32::INFINITY, f32::min))).filter(|steps| steps.is_finite())
     }
 
-    /// The states beside a place: of its cell and those around it, at the headings beside its own.
+    /// The states next to a place: of its cell and its neighbours, at the two nearest headings.
     fn around(&self, floor: &Floor, middle: &Footprint) -> Vec<usize> {
         let map = floor.map();
         let Ok(cell) = map.cell_at(&middle.point()) else { return Vec::new() };
@@ -104,42 +107,43 @@ impl Lattice {
         let (column, row) = ((cell % map.columns()) as i64, (cell / map.columns()) as i64);
         let beside = AROUND
             .iter()
-            .map(|way| [column + way[0], row + way[1]])
+            .map(|neighbour| [column + neighbour[0], row + neighbour[1]])
             .filter(|[column, row]| (0..map.columns() as i64).contains(column) && (0..map.rows() as i64).contains(row));
         let cells = beside.map(|[column, row]| row as usize * map.columns() + column as usize);
         own.clone().chain(cells.flat_map(|cell| states(cell, headings))).collect()
     }
 }
 
-/// What a move costs in steps.
+/// The costs of moves in steps.
 struct Costs {
     /// To the next heading.
     turn: f32,
-    /// To each of the cells around, by heading.
-    ways: Vec<[f32; 8]>,
+    /// To each of the neighbouring cells, by heading.
+    moves: Vec<[f32; 8]>,
 }
 
 impl Costs {
-    /// On cells of a side \[m\], whose rows are turned \[rad\]; sideways each foot steps once.
+    /// Computes the costs for cells of a side \[m\] whose rows are rotated \[rad\]; sideways each foot steps once.
     fn new(reach: &Reach, side: f64, turned: f64) -> Self {
-        let cost = |heading: usize, way: &[i64; 2]| {
-            let own =
-                nalgebra::Rotation2::new(turned - yaw(heading)) * Vector2::new(way[0] as f64, way[1] as f64) * side;
+        let cost = |heading: usize, neighbour: &[i64; 2]| {
+            let own = nalgebra::Rotation2::new(turned - yaw(heading))
+                * Vector2::new(neighbour[0] as f64, neighbour[1] as f64)
+                * side;
             let along = if own.x < 0.0 { -own.x / reach.back } else { own.x / reach.ahead };
             along.hypot(2.0 * own.y / reach.aside) as f32
         };
-        let ways = (0..HEADINGS).map(|heading| AROUND.each_ref().map(|way| cost(heading, way))).collect();
-        Costs { turn: (TAU / HEADINGS as f64 / reach.turn) as f32, ways }
+        let moves = (0..HEADINGS).map(|heading| AROUND.each_ref().map(|neighbour| cost(heading, neighbour))).collect();
+        Costs { turn: (TAU / HEADINGS as f64 / reach.turn) as f32, moves }
     }
 }
 
-/// At which states there is room, looked at once.
-struct Stands<'a> {
+/// Cache of the states at which there is room.
+struct RoomCache<'a> {
     stances: &'a Stances<'a>,
     known: Vec<Option<bool>>,
 }
 
-impl Stands<'_> {
+impl RoomCache<'_> {
     fn at(&mut self, state: usize) -> bool {
         *self.known[state].get_or_insert_with(|| self.stances.stands(state / HEADINGS, state % HEADINGS))
     }

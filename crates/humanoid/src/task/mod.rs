@@ -1,7 +1,10 @@
-//! The whole task: from a map to a way, to footsteps, to joint angles, every sample checked. RH0 4.4, 5.4, 5.5 and 6.3.
+//! The whole task: from a map to a path, to footsteps, to joint angles, every sample checked. RH0 4.4, 5.4, 5.5 and
+//! 6.3.
 //!
-//! A [`Pilot`] is a walker with its [`Body`] and how far it steps, [`Reach`]. On a [`Floor`] it gets a [`Course`] to its [`Goal`], and makes a [`Journey`] of it step by step: each step is
-//! a walk of its own by one step goal (OSG; UPA in the thesis), so that goal and obstacles may change between two of them. The world has z up and the floor at 0; metres, seconds, radians.
+//! A [`Pilot`] is a walker with its [`Body`] and its step limits, [`Reach`]. On a [`Floor`] it finds a [`Course`] to
+//! its [`Goal`], and follows it step by step in a [`Journey`]. Each step is a walk of its own by one step goal (OSG;
+//! UPA in the thesis), so that goal and obstacles may change between two steps. The world has z up and the floor at 0;
+//! metres, seconds, radians.
 
 mod body;
 mod course;

@@ -1,4 +1,4 @@
-//! A walker that finds its way. Main type: [`Pilot`].
+//! A walker that plans its path. Main type: [`Pilot`].
 
 use nalgebra::Point2;
 
@@ -9,40 +9,40 @@ use crate::gait::{
 };
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// A step that would have to be slower than so many times its pace is not taken: another one is.
+/// A step is infeasible if it would have to be slower than its pace by more than this factor.
 const SLOWEST: f64 = 2.0;
 
-/// Every so many samples of a step are looked at to see what the body covers.
+/// The number of samples between two outlines of the body in a step.
 const EVERY: usize = 4;
 
-/// A walker with its body, how far it steps, and what it covers of the floor.
+/// A walker with its body, its step limits, and the area that it covers.
 #[derive(Clone, Debug)]
 pub struct Pilot {
     walker: Walker,
     usual: Usual,
     body: Body,
     reach: Reach,
-    /// What the body covers while it steps in its place, seen from the middle of the feet.
+    /// The area that the body covers while it steps on the spot, in the frame of the middle of the feet.
     outline: Polygon,
-    /// What it covers while it makes its greatest steps and turns.
+    /// The area that it covers during its greatest steps and turns.
     stride: Polygon,
-    /// How far the body always reaches, whichever way it looks \[m\].
+    /// The radius of the largest circle inside the body at every heading \[m\].
     core: f64,
-    /// How far body and soles reach at most \[m\].
+    /// The greatest distance of body and soles from the middle of the feet \[m\].
     radius: f64,
-    /// How far a sole reaches from its origin, left and right \[m\].
+    /// The greatest distance of a sole's points from its origin, left and right \[m\].
     soles: [f64; 2],
 }
 
 impl Pilot {
-    /// That of a walker that goes by one step goal with these figures. It walks from its crouch, and stands upright before the first and behind the last
-    /// step where `is_upright`.
+    /// Makes the pilot of a walker that walks by one step goal with these parameters. It walks in its crouch. With
+    /// `is_upright` it stands upright before the first and after the last step.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] for another gait; as [`Reach::of`].
     pub fn new(walker: Walker, usual: Usual, body: Body, is_upright: bool, watch: &Watch) -> Result<Self> {
         if !usual.gait.is_one_step() {
-            let text = "steps are planned one by one, so that goal and obstacles may change between them: that takes a gait by one step goal";
+            let text = "steps are planned one by one, so that goal and obstacles may change between them: this needs a gait by one step goal";
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
         let crouched = crouched(&usual);
@@ -75,16 +75,16 @@ impl Pilot {
         Ok(pilot)
     }
 
-    /// The same with steps that are no longer than `ahead` \[m\] and turn by no more than `turn` \[rad\].
+    /// Limits steps to `ahead` \[m\] and turns to `turn` \[rad\].
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where steps of these measures cannot be walked, with the reason; [`Watch::check`].
+    /// [`ErrorKind::BadValue`] where steps of these limits are infeasible, with the reason; [`Watch::check`].
     pub fn within(mut self, ahead: f64, turn: f64, watch: &Watch) -> Result<Self> {
         self.reach.bounded(&self.walker, &crouched(&self.usual), (ahead, turn), watch)?;
         Ok(self)
     }
 
-    /// The same with steps that are no longer than `ahead` \[m\] and turn by no more than `turn` \[rad\], without a trial of the greatest ones.
+    /// Same as [`Pilot::within`], but without a test of the greatest steps.
     #[must_use]
     pub fn at_most(mut self, ahead: f64, turn: f64) -> Self {
         self.reach.at_most(ahead, turn);
@@ -101,47 +101,49 @@ impl Pilot {
         &self.body
     }
 
-    /// How far it steps.
+    /// Its step limits.
     pub fn reach(&self) -> &Reach {
         &self.reach
     }
 
-    /// Half of the way from foot to foot, sideways \[m\].
+    /// Half of the lateral distance between the feet \[m\].
     pub fn half_width(&self) -> f64 {
         self.usual.half_width(&self.walker.biped)
     }
 
-    /// Whether it stands upright before the first and behind the last step.
+    /// Whether it stands upright before the first and after the last step.
     pub fn is_upright(&self) -> bool {
         matches!(self.usual.gait, Gait::OneStep(one_step) if one_step.upright.is_some())
     }
 
-    /// What the body covers while it steps in its place, with the middle of its feet there.
+    /// The area that the body covers while it steps on the spot, with the middle of its feet at a place.
     pub fn outline_at(&self, middle: &Footprint) -> Polygon {
         Polygon::hull(&middle.carry_all(self.outline.corners()))
     }
 
-    /// What the body covers while it steps in its place, and while it makes its greatest steps and turns, seen from the middle of the feet.
+    /// The areas that the body covers while it steps on the spot, and during its greatest steps and turns, in the frame
+    /// of the middle of the feet.
     pub(super) fn outlines(&self) -> [&Polygon; 2] {
         [&self.outline, &self.stride]
     }
 
-    /// How far from the middle of its feet it reaches at most, with its body and the soles side by side \[m\].
+    /// The greatest distance of the body, and of the soles side by side, from the middle of its feet \[m\].
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// How far the sole of a side reaches from its origin \[m\].
+    /// The greatest distance of a sole's points from its origin \[m\].
     pub(super) fn sole_reach(&self, side: Side) -> f64 {
         self.soles[side as usize]
     }
 
-    /// How far from the middle of its feet its body reaches on every side while it rests: no way that is narrower lets it through \[m\].
+    /// The radius around the middle of its feet that its body covers on every side at rest \[m\]: no narrower passage
+    /// is feasible.
     pub fn core(&self) -> f64 {
         self.core
     }
 
-    /// One step of its own, from feet that rest to feet that rest.
+    /// One step as a walk of its own, from rest to rest.
     ///
     /// # Errors
     /// As [`crate::gait::plan`].
@@ -150,7 +152,7 @@ impl Pilot {
         self.walk(route, &[Action::Shift(0), Action::Swing(0), Action::Balance(0)], watch)
     }
 
-    /// What it does on both feet.
+    /// A phase in double support as a walk of its own.
     ///
     /// # Errors
     /// As [`crate::gait::plan`].
@@ -158,7 +160,7 @@ impl Pilot {
         self.walk(Route::standing(feet), &[action], watch)
     }
 
-    /// The same with the trunk at another height before it is lowered or when it has risen \[m\].
+    /// Same as [`Pilot::stand`], but with another height of the upright trunk \[m\].
     pub(super) fn stand_from(
         &self,
         feet: [Footprint; 2],
@@ -173,12 +175,12 @@ impl Pilot {
         plan_actions(&self.walker.biped, &self.walker.legs, &request, &[action], watch)
     }
 
-    /// What the body covers while each foot, one first and then the other one, steps by as much as the lead does, seen from where the middle of the feet is at
-    /// each time; steps that cannot be walked are left out.
+    /// The area that the body covers while both feet, one after the other, make the step of the lead, in the moving
+    /// frame of the middle of the feet. Infeasible steps are ignored.
     fn covered(&self, step: &Footprint, watch: &Watch) -> Result<Polygon> {
         let mut corners = Vec::new();
         for first in [Side::Left, Side::Right] {
-            // A foot turns outwards first.
+            // The outer foot of a turn moves first.
             let step = Footprint { yaw: first.sign() * step.yaw, ..*step };
             let (mut lead, mut feet) = (Footprint::default(), Footprint::default().feet(self.half_width()));
             for side in [first, first.other()] {
@@ -210,7 +212,7 @@ impl Pilot {
     }
 }
 
-/// The same figures without lowering and rising.
+/// The parameters without lowering and rising.
 fn crouched(usual: &Usual) -> Usual {
     let mut usual = usual.clone();
     if let Gait::OneStep(one_step) = &mut usual.gait {
@@ -219,12 +221,12 @@ fn crouched(usual: &Usual) -> Usual {
     usual
 }
 
-/// The hull of polygons.
+/// The convex hull of polygons.
 fn hull(polygons: &[&Polygon]) -> Polygon {
     Polygon::hull(&polygons.iter().flat_map(|polygon| polygon.corners()).copied().collect::<Vec<_>>())
 }
 
-/// How far points are from the origin at most.
+/// The greatest distance of points from the origin.
 fn farthest(points: &[Point2<f64>]) -> f64 {
     points.iter().map(|point| point.coords.norm()).fold(0.0, f64::max)
 }

@@ -1,4 +1,4 @@
-//! A whole journey over one floor to one goal. Main type: [`Plan`].
+//! A complete journey on one floor to one goal. Main type: [`Plan`].
 
 use std::fmt;
 
@@ -10,10 +10,10 @@ use super::refusal::Refusal;
 use crate::gait::{Footprint, Walk};
 use crate::{Result, Watch};
 
-/// What came of it.
+/// The result of planning.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The way.
+    /// The path.
     pub course: Course,
     /// The walk.
     pub walk: Walk,
@@ -22,7 +22,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// From feet that stand, left and right, to a goal; where there is no way, why.
+    /// Plans from two footprints, left and right, to a goal; returns the proof where no path exists.
     ///
     /// # Errors
     /// As [`Course::find`], [`Journey::new`] and [`Journey::step`].
@@ -47,8 +47,8 @@ impl Plan {
 
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let room = if self.course.is_wide { "room to turn everywhere" } else { "room for the body's core alone" };
-        writeln!(f, "  course          {:.3} m, {room}", self.course.way.length())?;
+        let room = if self.course.is_wide { "room at every heading" } else { "room for the body's core only" };
+        writeln!(f, "  course          {:.3} m, {room}", self.course.path.length())?;
         match self.refusals.as_slice() {
             [] => writeln!(f, "  steps refused   none"),
             [first, ..] => writeln!(f, "  steps refused   {}, the first: {first}", self.refusals.len()),

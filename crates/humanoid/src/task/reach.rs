@@ -1,40 +1,42 @@
-//! How far a walker steps. Main type: [`Reach`].
+//! The step limits of a walker. Main type: [`Reach`].
 
 use nalgebra::Point2;
 
 use crate::gait::{Action, Footprint, Footstep, Route, Side, Usual, Walk, Walker, plan_actions};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How often an interval is halved to find how far a step can be.
+/// The number of bisections that find the greatest step.
 const HALVINGS: usize = 5;
-/// Samples of a trial are so many times as far apart as those of a walk.
-const COARSER: f64 = 4.0;
-/// How far a turn is tried \[rad\].
+/// The factor between the time between samples of a trial and that of a walk.
+const TICK_FACTOR: f64 = 4.0;
+/// The greatest turn that is tried \[rad\].
 const MOST_TURN: f64 = 1.0;
-/// What of what was found is stepped: walks of other shapes than the trials are nearer to the limits.
-const KEPT: f64 = 0.9;
+/// The fraction of the found limits that is used: walks of other shapes than the trials are nearer to the limits.
+const USED_FRACTION: f64 = 0.9;
 
-/// How far a walker steps by one step goal: found on its legs, with their limits, at the gait's pace. Metres, radians.
+/// The step limits of a walker with one step goal, from the joint limits of its legs at the gait's pace. Metres,
+/// radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// How far ahead of the standing foot the other one lands.
+    /// The greatest distance forward from the supporting foot to the landing foot.
     pub ahead: f64,
-    /// How far behind it.
+    /// The greatest distance backward.
     pub back: f64,
-    /// How far out to its side, beyond where both are side by side.
+    /// The greatest lateral distance outwards, beyond the parallel stance.
     pub aside: f64,
-    /// How far against the standing foot it is turned.
+    /// The greatest angle between landing and supporting foot.
     pub turn: f64,
-    /// The height of the axes of the hip over the floor.
+    /// The height of the hip axes above the floor.
     pub hip_height: f64,
 }
 
 impl Reach {
-    /// That of a walker with these figures of its gait: at the first of their heights at which it steps as far as they have it, or a part of that, trial walks of
-    /// four steps tell how far it can go each way before a joint meets a limit of place or speed, a sole is out of reach, or the balance is lost.
+    /// Determines the limits for the parameters of a gait. The hip height is the first one at which steps of full
+    /// length, or of a fraction of it, are feasible. Trial walks of four steps then give the limit in each direction,
+    /// before a joint exceeds its limits, a sole is out of reach, or the balance is lost.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where no step can be walked; [`Watch::check`].
+    /// [`ErrorKind::BadValue`] where no step is feasible; [`Watch::check`].
     pub fn of(walker: &Walker, usual: &Usual, watch: &Watch) -> Result<Self> {
         let mut last = None;
         for share in [1.0, 0.5, 0.25] {
@@ -47,13 +49,13 @@ impl Reach {
                 }
             }
         }
-        let text = "this gait has no height of the hip";
+        let text = "this gait has no hip height";
         Err(last.unwrap_or_else(|| Error::new(ErrorKind::BadValue, text)))
     }
 }
 
 impl Reach {
-    /// Bounds how far it steps ahead \[m\] and turns \[rad\], where such steps can be walked.
+    /// Limits steps forward \[m\] and turns \[rad\], where such steps are feasible.
     ///
     /// # Errors
     /// As [`Reach::of`].
@@ -71,13 +73,13 @@ impl Reach {
         Ok(())
     }
 
-    /// Bounds how far it steps ahead \[m\] and turns \[rad\].
+    /// Limits steps forward \[m\] and turns \[rad\].
     pub(super) fn at_most(&mut self, ahead: f64, turn: f64) {
         (self.ahead, self.back, self.turn) = (self.ahead.min(ahead), self.back.min(ahead), self.turn.min(turn));
     }
 }
 
-/// Trial walks at a height of the hip.
+/// Trial walks at a hip height.
 struct Trials<'a> {
     walker: &'a Walker,
     usual: &'a Usual,
@@ -98,7 +100,7 @@ impl Trials<'_> {
         })
     }
 
-    /// The greatest measure up to `most`, nearly, with which steps can be walked.
+    /// The approximate greatest value up to `most` with which steps are feasible.
     fn farthest(&self, most: f64, step: impl Fn(f64) -> (f64, f64, f64)) -> Result<f64> {
         let (mut low, mut high) = (0.0, most);
         for _ in 0..HALVINGS {
@@ -110,10 +112,11 @@ impl Trials<'_> {
                 Err(error) => return Err(error),
             }
         }
-        Ok(KEPT * low)
+        Ok(USED_FRACTION * low)
     }
 
-    /// Three steps of these measures, the last two of them from behind, and one that closes the feet; sideways the other foot closes each time.
+    /// Tries three steps of these dimensions, the last two of them from the rear, and one that closes the feet. In
+    /// lateral walks the other foot closes each time.
     fn steps(&self, ahead: f64, aside: f64, turn: f64) -> Result<()> {
         let half = self.usual.half_width(&self.walker.biped);
         let mut lead = Footprint::default();
@@ -134,14 +137,14 @@ impl Trials<'_> {
         let Walker { biped, legs, .. } = self.walker;
         let actions: Vec<Action> = self.usual.gait.actions(route.steps.len());
         let mut request = self.usual.request(biped, route, self.hip_height);
-        request.tick *= COARSER;
+        request.tick *= TICK_FACTOR;
         request.slowest = 1.0;
         plan_actions(biped, legs, &request, &actions, self.watch)
     }
 }
 
-/// Where a walker with its middle at a place looks to another one from \[rad\].
+/// The bearing of a point from a pose \[rad\].
 pub(super) fn bearing(from: &Footprint, to: &Point2<f64>) -> f64 {
-    let way = to - from.point();
-    groebot_robot::spatial::angle::difference(way.y.atan2(way.x), from.yaw)
+    let offset = to - from.point();
+    groebot_robot::spatial::angle::difference(offset.y.atan2(offset.x), from.yaw)
 }

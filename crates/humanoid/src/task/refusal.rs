@@ -1,4 +1,4 @@
-//! Why a step is not taken, and what a walk meets on its floor. Main type: [`Refusal`].
+//! Reasons against a step, and collisions of a walk with its floor. Main type: [`Refusal`].
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use crate::Result;
 use crate::gait::{Footstep, Polygon, Side, Walk};
 use groebot_robot::spatial::Pose;
 
-/// What meets an obstacle.
+/// The part that collides with an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Obstacle {
     /// The sole of that side.
@@ -19,24 +19,24 @@ pub enum Obstacle {
     Body,
 }
 
-/// Why a step is not taken.
+/// The reason why a step is not taken.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Reason {
-    /// It cannot be walked: a joint's limit or speed, a sole out of reach, the balance.
+    /// It is infeasible: a joint's limit or rate, a sole out of reach, the balance.
     Gait(String),
-    /// It would meet an obstacle, at a place of the floor \[m\].
+    /// It would collide with an obstacle, at a point of the floor \[m\].
     Obstacle(Obstacle, Point2<f64>),
 }
 
 /// A step that was planned and is not taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refusal {
-    /// The number of the step that it would have been, from 1.
+    /// The number of the planned step, from 1.
     pub step: usize,
-    /// The foot and where it would have landed.
+    /// The foot and its planned landing pose.
     pub footstep: Footstep,
-    /// Why it is not taken.
+    /// The reason.
     pub reason: Reason,
 }
 
@@ -47,16 +47,16 @@ impl fmt::Display for Refusal {
         match &self.reason {
             Reason::Gait(text) => write!(f, "{text}"),
             Reason::Obstacle(Obstacle::Body, at) => {
-                write!(f, "the body meets an obstacle at ({:.3}, {:.3})", at.x, at.y)
+                write!(f, "the body collides with an obstacle at ({:.3}, {:.3})", at.x, at.y)
             }
             Reason::Obstacle(Obstacle::Sole(side), at) => {
-                write!(f, "the {} sole meets an obstacle at ({:.3}, {:.3})", side.name(), at.x, at.y)
+                write!(f, "the {} sole collides with an obstacle at ({:.3}, {:.3})", side.name(), at.x, at.y)
             }
         }
     }
 }
 
-/// What of a walk meets an obstacle first, and where: soles and body as they are swept from sample to sample.
+/// The first collision of a walk with an obstacle: soles and body are swept from sample to sample.
 ///
 /// # Errors
 /// As [`groebot_robot::dynamics::Model::place`].
@@ -88,12 +88,12 @@ pub(super) fn met(pilot: &Pilot, floor: &Floor, walk: &Walk) -> Result<Option<(O
     Ok(None)
 }
 
-/// What two outlines and all between them cover.
+/// The convex hull of two outlines.
 fn both(outlines: [Polygon; 2]) -> Polygon {
     Polygon::hull(&outlines.iter().flat_map(|outline| outline.corners()).copied().collect::<Vec<_>>())
 }
 
-/// A sole from above.
+/// The outline of a sole, seen from above.
 fn sole(pilot: &Pilot, side: Side, world_from_sole: &Pose) -> Polygon {
     let corners = &pilot.walker().biped.feet[side as usize].corners;
     let at = |corner: &Point2<f64>| (world_from_sole * Point3::new(corner.x, corner.y, 0.0)).xy();

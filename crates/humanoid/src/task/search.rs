@@ -1,6 +1,8 @@
-//! Steps where following a way fails: a search over footprints.
+//! Footstep search, for places where following a path fails.
 //!
-//! A* over the steps of a walker with a field's time of arrival as heuristic, or the steps that a [`Lattice`] has left (A. Hornung, A. Dornbush, M. Likhachev and M. Bennewitz, Anytime search-based footstep planning with suboptimality bounds, Humanoids 2012).
+//! A* over the steps of a walker. The heuristic is a field's arrival time, or the number of steps of a [`Lattice`] (A.
+//! Hornung, A. Dornbush, M. Likhachev and M. Bennewitz, Anytime search-based footstep planning with suboptimality
+//! bounds, Humanoids 2012).
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
@@ -16,30 +18,30 @@ use crate::nav::{Field, Map};
 use crate::{Result, Watch};
 use groebot_robot::spatial::angle::difference;
 
-/// The most footprints that are looked at, by a field and by a lattice.
+/// The greatest number of footprints that are expanded, with a field and with a lattice.
 const MOST: [usize; 2] = [10_000, 60_000];
-/// By so much what a lattice has left counts more than what was stepped: it knows where no walker gets through.
-const GREED: f64 = 1.5;
-/// Into how many parts a step and a turn are cut to tell two footprints apart.
+/// The weight of a lattice's heuristic relative to the steps taken: it includes narrow passages.
+const LATTICE_WEIGHT: f64 = 1.5;
+/// The number of parts of a step and of a turn that distinguish two footprints.
 const PARTS: f64 = 6.0;
-/// Steps and turns that are a greater share of the greatest ones are strides.
+/// Steps and turns above this fraction of the greatest ones are strides.
 const STRIDE: f64 = 0.5;
-/// What a turn by the whole reach costs beside a step ahead.
-const TURNING: f64 = 0.2;
+/// The cost of the greatest turn, added to that of a step forward.
+const TURN_COST: f64 = 0.2;
 
-/// A footprint that tells others apart from itself: the foot and its place in parts of a step.
+/// The key of a footprint: the foot, and its place and heading in parts of a step.
 pub(super) type Key = (usize, i64, i64, i64);
 
-/// Steps that are not searched.
+/// Steps that are excluded from the search.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Refused {
-    /// Pairs of footprints between which something is in the way.
+    /// Pairs of footprints between which there is an obstacle.
     pub(super) pairs: HashSet<(Key, Key)>,
-    /// Steps that cannot be walked anywhere: from where the foot leaves to where it lands, seen from the one that stands.
+    /// Steps that are infeasible anywhere: start and landing in the frame of the supporting foot.
     pub(super) steps: HashSet<(Key, Key)>,
 }
 
-/// Steps from feet to a place near a goal.
+/// A search for steps to a place near a goal.
 pub(super) struct Search<'a> {
     stances: &'a Stances<'a>,
     pilot: &'a Pilot,
@@ -48,16 +50,16 @@ pub(super) struct Search<'a> {
     refused: &'a Refused,
 }
 
-/// What tells how far it is to the goal.
+/// The heuristic of the search.
 #[derive(Clone, Copy)]
 pub(super) enum Guide<'a> {
-    /// The times of arrival on a map that holds the places of the body's middle.
+    /// The arrival times on a map of positions for the body's middle.
     Field(&'a Map, &'a Field),
-    /// The steps of stances.
+    /// The number of steps of stances.
     Lattice(&'a Lattice),
 }
 
-/// A foot that has landed: where it and the other one stand, how it got there, and how many steps it took and will take.
+/// A landed foot: both footprints, the predecessor, and the numbers of steps taken and remaining.
 struct Node {
     feet: [Footprint; 2],
     landed: Side,
@@ -66,12 +68,12 @@ struct Node {
 }
 
 impl<'a> Search<'a> {
-    /// A search by a guide to the goal.
+    /// A search with a heuristic to the goal.
     pub(super) fn new(stances: &'a Stances<'a>, goal: Point2<f64>, guide: Guide<'a>, refused: &'a Refused) -> Self {
         Search { stances, pilot: stances.pilot, goal, guide, refused }
     }
 
-    /// The steps; `None` where none were found among all that can be stepped to, or the first [`MOST`] of them.
+    /// The steps; `None` where none were found among all reachable footprints, or the first [`MOST`] of them.
     ///
     /// # Errors
     /// [`Watch::check`].
@@ -79,7 +81,7 @@ impl<'a> Search<'a> {
         let most = MOST[usize::from(matches!(self.guide, Guide::Lattice(_)))];
         let mut nodes = vec![Node { feet, landed: first.other(), from: None, steps: 0.0 }];
         let mut best: HashMap<Key, f64> = HashMap::new();
-        // Bits of numbers that are not below nought have their order.
+        // The bits of numbers that are not negative sort correctly.
         let mut waiting = BinaryHeap::from([Reverse((0, 0))]);
         while let Some(Reverse((_, node))) = waiting.pop() {
             let own = key(self.pilot, nodes[node].landed, &nodes[node].feet[nodes[node].landed as usize]);
@@ -87,7 +89,7 @@ impl<'a> Search<'a> {
                 continue;
             }
             if (middle(&nodes[node].feet).point() - self.goal).norm() < self.pilot.reach().ahead / 2.0 {
-                return Ok(Some(way_to(&nodes, node)));
+                return Ok(Some(steps_to(&nodes, node)));
             }
             if node.is_multiple_of(64) {
                 watch.check()?;
@@ -110,18 +112,20 @@ impl<'a> Search<'a> {
         Ok(None)
     }
 
-    /// How many steps are left at least, nearly.
+    /// The approximate least number of remaining steps.
     fn left(&self, feet: &[Footprint; 2]) -> Option<f64> {
         match self.guide {
             Guide::Field(map, field) => {
                 let cell = map.cell_at(&middle(feet).point()).ok()?;
                 Some(field.times()[cell] / self.pilot.reach().ahead).filter(|steps| steps.is_finite())
             }
-            Guide::Lattice(lattice) => lattice.left(self.stances.floor, &middle(feet)).map(|steps| GREED * steps),
+            Guide::Lattice(lattice) => {
+                lattice.left(self.stances.floor, &middle(feet)).map(|steps| LATTICE_WEIGHT * steps)
+            }
         }
     }
 
-    /// The steps of the other foot that the floor has room for, with their costs.
+    /// The steps of the other foot that have room on the floor, with their costs.
     fn beside(&self, node: &Node, own: Key) -> impl Iterator<Item = (Node, f64)> + '_ {
         let (before, side) = (node.feet, node.landed.other());
         let stance = before[node.landed as usize];
@@ -142,7 +146,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Steps of the lead seen from where it is, outwards for y, with their costs in steps.
+/// Steps of the lead in its own frame, with y outwards, and their costs in steps.
 fn moves(pilot: &Pilot) -> impl Iterator<Item = (Footprint, f64)> {
     let reach = *pilot.reach();
     let turns = [0.0, 0.5, -0.5, 1.0, -1.0];
@@ -154,18 +158,18 @@ fn moves(pilot: &Pilot) -> impl Iterator<Item = (Footprint, f64)> {
         let share: f64 = if x < 0.0 { x / reach.back } else { x / reach.ahead };
         let is_within = share * share + turn * turn <= 1.0 + 1e-9;
         let step = Footprint { x, y, yaw: turn * reach.turn };
-        is_within.then_some((step, 1.0 + TURNING * f64::abs(turn)))
+        is_within.then_some((step, 1.0 + TURN_COST * f64::abs(turn)))
     })
 }
 
-/// The parts of a step that a footprint is in.
+/// The key of a footprint.
 pub(super) fn key(pilot: &Pilot, side: Side, print: &Footprint) -> Key {
     let (part, turn) = (pilot.reach().ahead / PARTS, pilot.reach().turn / PARTS);
     let whole = |value: f64, part: f64| (value / part).round() as i64;
     (side as usize, whole(print.x, part), whole(print.y, part), whole(print.yaw, turn))
 }
 
-/// The parts that the foot of `side` steps from and to, seen from the one that stands.
+/// The keys of a step's start and landing, in the frame of the supporting foot.
 pub(super) fn step_key(pilot: &Pilot, feet: &[Footprint; 2], side: Side, print: &Footprint) -> (Key, Key) {
     let stance = &feet[side.other() as usize];
     let seen = |print: &Footprint| {
@@ -179,7 +183,7 @@ fn middle(feet: &[Footprint; 2]) -> Footprint {
     feet[0].middle(&feet[1])
 }
 
-fn way_to(nodes: &[Node], last: usize) -> Vec<Footstep> {
+fn steps_to(nodes: &[Node], last: usize) -> Vec<Footstep> {
     let mut steps = Vec::new();
     let mut at = last;
     while let Some(from) = nodes[at].from {

@@ -1,4 +1,4 @@
-//! Where a walker has room on a floor. Main type: [`Stances`].
+//! Feasible stances of a walker on a floor. Main type: [`Stances`].
 
 use std::f64::consts::TAU;
 
@@ -10,16 +10,17 @@ use crate::gait::{Footprint, Polygon, Side};
 use crate::nav::{Map, Shape};
 use crate::{Result, Watch};
 
-/// At so many headings a stance is tried.
+/// The number of headings at which a stance is tried.
 pub(super) const HEADINGS: usize = 16;
 
-/// A walker on a floor, and what it covers together with what it keeps away from.
+/// A walker on a floor, with the areas that it covers including its distance from obstacles.
 pub(super) struct Stances<'a> {
     pub(super) pilot: &'a Pilot,
     pub(super) floor: &'a Floor,
-    /// While it steps in its place, and while it makes its greatest steps, seen from the middle of the feet.
+    /// The area during steps on the spot, and during its greatest steps, in the frame of the middle of the feet.
     outlines: [Polygon; 2],
-    /// By heading, the cells that body and soles cover side by side about the middle of a cell, as columns and rows from it.
+    /// By heading, the cells that body and soles cover side by side about the middle of a cell, as columns and rows
+    /// relative to it.
     covered: [Vec<[i64; 2]>; HEADINGS],
 }
 
@@ -33,7 +34,7 @@ impl<'a> Stances<'a> {
         Ok(stances)
     }
 
-    /// What is covered by heading.
+    /// The covered cells by heading.
     fn cells(&self) -> Result<[Vec<[i64; 2]>; HEADINGS]> {
         let map = self.floor.map();
         let reach =
@@ -55,7 +56,8 @@ impl<'a> Stances<'a> {
         Ok(all)
     }
 
-    /// Whether there is room for a foot where it has landed, and for the body between both; with its greatest steps where it strides.
+    /// Whether there is room for a foot at its landing pose, and for the body between both feet; for a stride, the area
+    /// of the greatest steps counts.
     pub(super) fn fits(&self, feet: &[Footprint; 2], landed: Side, strides: bool) -> bool {
         self.is_on_floor(feet, landed) && self.has_room(&feet[0].middle(&feet[1]), strides)
     }
@@ -87,12 +89,13 @@ impl<'a> Stances<'a> {
         &self.pilot.walker().biped.feet[side as usize].corners
     }
 
-    /// Where the middle of the feet may be when they are side by side, at one heading at least, at the middle of a cell: narrower than what the core gets through, and no proof.
+    /// The map of positions for the middle of the feet side by side, at the middles of cells, at one heading at least.
+    /// It is narrower than the map of the core, and no proof.
     ///
     /// # Errors
     /// As [`Map::grown`]; [`Watch::check`].
     pub(super) fn places(&self, watch: &Watch) -> Result<Map> {
-        // What fits in a cell mostly fits in the next one.
+        // A heading that fits in a cell usually fits in the next one.
         let (mut last, mut looked, mut ended) = (0, 0u32, Ok(()));
         let map = self.floor.of_core(self.pilot)?.keeping_where(|cell| {
             looked += 1;

@@ -1,4 +1,4 @@
-//! Numbers as text that loses no bit: little-endian, in base64 (RFC 4648, section 4).
+//! Lossless encoding of numbers as text: little-endian, in base64 (RFC 4648, section 4).
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
@@ -6,11 +6,11 @@ use super::data::Column;
 
 const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// How hard the packing tries, from 0 to 10.
+/// The compression level, from 0 to 10.
 const EFFORT: u8 = 9;
 
-/// Doubles, packed: the first bytes of all of them, then the second ones and so on, which are much alike from sample to sample; as zlib (RFC 1950) in
-/// base64.
+/// Packs 64-bit floats: the first bytes of all numbers, then the second ones and so on, which are similar from sample
+/// to sample. The result is zlib (RFC 1950) in base64.
 pub fn packed(numbers: impl IntoIterator<Item = f64>) -> String {
     let doubles: Vec<[u8; 8]> = numbers.into_iter().map(f64::to_le_bytes).collect();
     let planes: Vec<u8> = (0..8).flat_map(|place| doubles.iter().map(move |double| double[place])).collect();
@@ -22,7 +22,7 @@ pub fn file(bytes: &[u8]) -> String {
     base64(&compress_to_vec_zlib(bytes, EFFORT))
 }
 
-/// Numbers of all samples: one where all are the same to the last bit, else packed.
+/// The numbers of all samples: one number where all are identical, else packed.
 pub fn column(numbers: impl Iterator<Item = f64> + Clone) -> Column {
     let mut bits = numbers.clone().map(f64::to_bits);
     match bits.next() {
@@ -31,17 +31,17 @@ pub fn column(numbers: impl Iterator<Item = f64> + Clone) -> Column {
     }
 }
 
-/// The same for each of `N` numbers of a sample.
+/// Same as [`column`], for each of `N` numbers of a sample.
 pub fn columns<const N: usize>(rows: &[[f64; N]]) -> Vec<Column> {
     (0..N).map(|place| column(rows.iter().map(|row| row[place]))).collect()
 }
 
-/// Singles in base64.
+/// 32-bit floats in base64.
 pub fn singles(numbers: impl IntoIterator<Item = f32>) -> String {
     base64(&numbers.into_iter().flat_map(f32::to_le_bytes).collect::<Vec<u8>>())
 }
 
-/// Whole numbers in base64.
+/// Integers in base64.
 pub fn wholes(numbers: impl IntoIterator<Item = u32>) -> String {
     base64(&numbers.into_iter().flat_map(u32::to_le_bytes).collect::<Vec<u8>>())
 }

@@ -1,4 +1,4 @@
-//! A chain as a page shows it: its axes in turn, with a link between each two.
+//! A chain in the format of a page: its axes in order, with a link between each two.
 
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 
@@ -7,7 +7,7 @@ use super::robot::frame;
 use groebot_robot::kinematics::{Chain, JointKind};
 use groebot_robot::spatial::{Pose, Screw};
 
-/// The chain with a link for its base, one behind each joint, and one for its tip; lengths are told in metres.
+/// The chain with a link for its base, one after each joint, and one for its tip; lengths are in metres.
 pub fn described(chain: &Chain) -> Robot {
     let metres = chain.length_unit().metres();
     let link = |name: String| Link { name, shapes: Vec::new(), hidden: false };
@@ -57,7 +57,7 @@ pub fn described(chain: &Chain) -> Robot {
     Robot { name: chain.name().to_owned(), base: 0, links, joints, notes: Vec::new() }
 }
 
-/// The chain as a limb whose solutions are shown, by the text of its solver.
+/// The chain as a limb whose solutions are shown, with the text of its solver.
 pub fn limb(chain: &Chain, program: String, certificate: Option<String>) -> Limb {
     Limb {
         name: chain.name().to_owned(),
@@ -70,7 +70,8 @@ pub fn limb(chain: &Chain, program: String, certificate: Option<String>) -> Limb
     }
 }
 
-/// The direction of a joint's axis and where its link stands: the foot on the axis of what comes before, or that place itself where it slides.
+/// The direction of a joint's axis and the origin of its link: the foot of the perpendicular from the last origin. For
+/// a prismatic joint it is the last origin.
 fn axis(screw: &Screw, last: &Point3<f64>) -> (Vector3<f64>, Point3<f64>) {
     match screw {
         Screw::Revolute(line) => {

@@ -1,4 +1,5 @@
-//! What a page shows, as its script reads it: `viewer/src/data.ts` says the same in TypeScript. Metres, radians, seconds.
+//! The data of a page, as its script reads them; `viewer/src/data.ts` has the TypeScript types. Metres, radians,
+//! seconds.
 
 use serde::Serialize;
 
@@ -7,7 +8,7 @@ use crate::sim::{Interior, TaskRecord};
 /// The version of the format.
 pub const FORMAT: u32 = 1;
 
-/// A frame in another one: the rows of its 3x4 matrix.
+/// A frame relative to another one: the rows of its 3x4 matrix.
 pub type Frame = [f64; 12];
 
 #[derive(Clone, Debug, Serialize)]
@@ -26,7 +27,7 @@ pub struct Data {
     pub task: Option<TaskRecord>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reach: Option<Reach>,
-    /// What solves for them, packed: WebAssembly.
+    /// The WebAssembly of their solver, packed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wasm: Option<String>,
 }
@@ -35,10 +36,10 @@ pub struct Data {
 #[derive(Clone, Debug, Serialize)]
 pub struct Limb {
     pub name: String,
-    /// Links, by their places.
+    /// Indices of links.
     pub base: usize,
     pub tip: usize,
-    /// Joints in the solver's order, by their places.
+    /// Indices of joints in the solver's order.
     pub joints: Vec<usize>,
     /// The solver's unit of length.
     pub metres: f64,
@@ -49,30 +50,30 @@ pub struct Limb {
     pub certificate: Option<String>,
 }
 
-/// What a limb reaches: places of a grid, by x, y and z in the frame of a link, of which z changes first.
+/// The reachability of a limb: the points of a grid in x, y and z in the frame of a link, with z varying fastest.
 #[derive(Clone, Debug, Serialize)]
 pub struct Reach {
-    /// A link, by its place.
+    /// The index of a link.
     pub base: usize,
-    /// The solver and what is asked of its tip, in words.
+    /// The solver and its task, as text.
     pub of: String,
-    /// By x, y and z: from, to, and how many.
+    /// For x, y and z: the first value, the last value, and the number of values.
     pub axes: [(f64, f64, usize); 3],
-    /// How many orientations each place has.
+    /// The number of orientations per point.
     pub orientations: usize,
-    /// Whether only answers within limits were counted.
+    /// Whether only solutions within limits were counted.
     pub limited: bool,
-    /// By place, how many orientations have an answer, how many answers there are, and the mean manipulability.
+    /// By point, the number of orientations with a solution, the number of solutions, and the mean manipulability.
     pub reached: Column,
     pub answers: Column,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub manipulability: Option<Column>,
 }
 
-/// A run of the simulator: what it is asked for, and the room as it is drawn.
+/// A run of the simulator: its parameters, and the room as drawn.
 #[derive(Clone, Debug, Serialize)]
 pub struct Run {
-    /// A robot of this crate that walks, by its name.
+    /// The name of a walking robot of this crate.
     pub robot: String,
     /// TOML.
     pub room: String,
@@ -85,12 +86,12 @@ pub struct Run {
 #[derive(Clone, Debug, Serialize)]
 pub struct Robot {
     pub name: String,
-    /// The link whose pose is the motion's base.
+    /// The index of the link whose pose is the motion's base.
     pub base: usize,
     pub links: Vec<Link>,
     /// Parents before children.
     pub joints: Vec<Joint>,
-    /// What could not be shown, and why.
+    /// The objects that could not be shown, with the reasons.
     pub notes: Vec<String>,
 }
 
@@ -140,13 +141,13 @@ pub struct Joint {
 
 #[derive(Clone, Debug, Serialize)]
 pub struct Follows {
-    /// The joint that leads in the end, by its place.
+    /// The index of the leading joint.
     pub joint: usize,
     pub factor: f64,
     pub offset: f64,
 }
 
-/// A number for each sample: the same for all, or doubles packed.
+/// A number for each sample: one for all, or 64-bit floats, packed.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub enum Column {
@@ -157,7 +158,7 @@ pub enum Column {
 #[derive(Clone, Debug, Serialize)]
 pub struct Motion {
     pub times: Column,
-    /// The joint of each column of `q`, by its place.
+    /// The index of the joint of each column of `q`.
     pub joints: Vec<usize>,
     pub q: Vec<Column>,
     /// Position and quaternion xyzw.
@@ -179,9 +180,9 @@ pub struct Contact {
     pub name: String,
     /// Position and quaternion xyzw.
     pub poses: Vec<Column>,
-    /// `1` where it stands, else `0`: a letter a sample.
+    /// `1` in contact, else `0`: one character per sample.
     pub stands: String,
-    /// What of it touches the floor, in its frame.
+    /// Its contact area, in its frame.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outline: Vec<[f64; 2]>,
 }
@@ -199,12 +200,12 @@ pub struct Figure {
     pub values: Column,
 }
 
-/// Polygons on the floor. Doubles, packed.
+/// Polygons on the floor; 64-bit floats, packed.
 #[derive(Clone, Debug, Serialize)]
 pub struct Support {
-    /// The sample from which on each holds, until the next one does.
+    /// The first sample of each; it is valid until the next one.
     pub starts: String,
-    /// How many corners each has.
+    /// The number of corners of each.
     pub counts: String,
     /// The corners of all of them: x and y.
     pub corners: String,
@@ -221,7 +222,7 @@ pub struct Step {
 #[derive(Clone, Debug, Serialize)]
 pub struct Phase {
     pub action: String,
-    /// The step that it belongs to, from 1.
+    /// The number of its step, from 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<usize>,
     pub from: f64,

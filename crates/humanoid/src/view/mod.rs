@@ -1,6 +1,7 @@
-//! A page to see a robot and how it moves: one HTML file that asks nobody for anything. Main type: [`Page`].
+//! Self-contained HTML pages of a robot and its motion, without network requests. Main type: [`Page`].
 //!
-//! The page's program and its frame are built from `viewer/` and stand in `viewer/dist/`; here its data are written. What these hold, `viewer/src/data.ts` says.
+//! The page's script and its frame are built from `viewer/` into `viewer/dist/`; this module writes the data.
+//! `viewer/src/data.ts` describes them.
 
 mod bytes;
 mod chain;
@@ -14,6 +15,6 @@ mod sole;
 mod walk;
 
 pub use page::Page;
-pub use run::Asked;
+pub use run::RunRequest;
 pub use sole::Sole;
 pub use walk::WalkRecord;

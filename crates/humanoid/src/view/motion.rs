@@ -1,4 +1,4 @@
-//! A trajectory as a page shows it.
+//! A trajectory in the format of a page.
 
 use nalgebra::{Point2, Point3};
 
@@ -19,7 +19,7 @@ use groebot_robot::spatial::Pose;
 pub fn motion(robot: &Robot, trajectory: &Trajectory, record: Option<&WalkRecord>, soles: &[Sole]) -> Result<Motion> {
     trajectory.check()?;
     if trajectory.times.is_empty() {
-        return Err(Error::new(ErrorKind::BadValue, "the trajectory has no sample; give one at least"));
+        return Err(Error::new(ErrorKind::BadValue, "the trajectory has no sample; give at least one"));
     }
     if let Some(record) = record {
         record.check(trajectory.times.len())?;
@@ -65,7 +65,7 @@ pub fn motion(robot: &Robot, trajectory: &Trajectory, record: Option<&WalkRecord
     })
 }
 
-/// The joint of a track, by its place.
+/// The index of a track's joint.
 fn place(robot: &Robot, track: &JointTrack) -> Result<usize> {
     let named = |kind, text: String| Error::new(kind, format!("joint `{}`: {text}", shown(&track.name)));
     let place = robot.joints.iter().position(|joint| joint.name == track.name).ok_or_else(|| {
@@ -76,13 +76,13 @@ fn place(robot: &Robot, track: &JointTrack) -> Result<usize> {
     match (robot.joints[place].kind, track.slides) {
         ("prismatic", true) | ("revolute" | "continuous", false) => Ok(place),
         (kind, _) => {
-            let text = format!("the trajectory gives it in {}, the robot says that it is {kind}", track.unit());
+            let text = format!("the trajectory gives it in {}, but in the robot it is {kind}", track.unit());
             Err(named(ErrorKind::BadValue, text))
         }
     }
 }
 
-/// The hull of the soles that stand, sample by sample; nothing where their outlines are not known.
+/// The support polygon at each sample; `None` where the outlines of the soles are not known.
 fn supports<'s>(trajectory: &Trajectory, corners: &impl Fn(&str) -> &'s [Point2<f64>]) -> Option<Vec<Vec<[f64; 2]>>> {
     let contacts: Vec<_> = trajectory.contacts.iter().map(|own| (own, corners(&own.name))).collect();
     if contacts.is_empty() || contacts.iter().any(|(_, outline)| outline.is_empty()) {

@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 use super::data::{Data, FORMAT, Limb};
 use super::motion::motion;
 use super::robot::described;
-use super::run::{Asked, run};
+use super::run::{RunRequest, run};
 use super::sole::Sole;
 use super::walk::WalkRecord;
 use super::{bytes, chain, data, reach};
@@ -17,34 +17,36 @@ use groebot_robot::kinematics::Chain;
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::motion::Trajectory;
 
-/// The frame of the page, with its style; title, data and script are put in.
+/// The frame of the page, with its style; title, data and script are inserted.
 const SHELL: &str = include_str!("dist/page.html");
-/// The program of the page.
+/// The script of the page.
 const SCRIPT: &str = include_str!("dist/viewer.js");
 
-/// What solves and walks in the page.
+/// The WebAssembly that solves and walks in the page.
 #[cfg(not(target_family = "wasm"))]
 const WASM: &[u8] = include_bytes!("dist/groebot.wasm");
-/// It does not hold itself.
+/// The WebAssembly build does not contain itself.
 #[cfg(target_family = "wasm")]
 const WASM: &[u8] = &[];
 
-/// A page that shows a robot, and how it moves.
+/// A page that shows a robot and its motion.
 #[derive(Clone, Debug)]
 pub struct Page {
     data: Data,
 }
 
 impl Page {
-    /// A page of `robot` at rest, its joints moved by hand. Meshes are shown where their folders are given; what cannot be read of them is told in the page.
+    /// A page of `robot` at rest, with joints that the user moves. Meshes are shown where their folders are given; the
+    /// page lists those that cannot be read.
     ///
     /// # Errors
-    /// As [`Robot::check`]; [`ErrorKind::BadValue`] for a robot with neither a shape nor a joint away from another one.
+    /// As [`Robot::check`]; [`ErrorKind::BadValue`] for a robot with neither a shape nor two distinct joints.
     pub fn of_robot(robot: &Robot, meshes: Option<&Meshes>) -> Result<Self> {
         Ok(Page::of(described(robot, meshes)?))
     }
 
-    /// A page of a chain whose solutions are shown while its target is moved, by the text of its solver, a `5_program.json`, and of its certificate.
+    /// A page of a chain whose solutions are shown while its target is moved, from the text of its solver, a
+    /// `5_program.json`, and of its certificate.
     pub fn of_chain(chain: &Chain, program: String, certificate: Option<&str>) -> Self {
         let mut page = Page::of(chain::described(chain));
         page.data.limbs.push(chain::limb(chain, program, certificate.map(hash)));
@@ -52,8 +54,9 @@ impl Page {
         page
     }
 
-    /// The same robot with a limb whose solutions are shown while its target, the pose of the link `tip` in the link `base`, is moved: by the texts of the solver and of the certificate of its chain,
-    /// whose joints are all that move between the two.
+    /// Adds a limb whose solutions are shown while its target, the pose of the link `tip` in the link `base`, is moved.
+    /// It needs the texts of the solver and of the certificate of its chain, whose joints are all moving ones between
+    /// the two links.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] for a link or a joint that the robot does not have.
@@ -87,24 +90,25 @@ impl Page {
         Ok(self)
     }
 
-    /// The same robot, one of this crate that walks, in a room of this text: its goal, the furniture and the figures of its gait may be changed while it walks.
+    /// Adds a run of the simulator, for a walking robot of this crate in a room of this text. Its goal, the furniture
+    /// and the parameters of its gait can be changed while it walks.
     ///
     /// # Errors
     /// As [`crate::nav::Room::from_toml`], [`crate::sim::Start::of_robot`] and [`crate::sim::Run::new`].
-    pub fn with_run(mut self, asked: &Asked<'_>) -> Result<Self> {
+    pub fn with_run(mut self, asked: &RunRequest<'_>) -> Result<Self> {
         self.data.run = Some(run(asked)?);
         self.data.wasm = Some(bytes::file(WASM));
         Ok(self)
     }
 
-    /// The same robot in the room of a task, whose furniture and way are shown as they are at each time of its motion.
+    /// Adds the room of a task, with its furniture and path at each time of the motion.
     #[must_use]
     pub fn with_task(mut self, task: TaskRecord) -> Self {
         self.data.task = Some(task);
         self
     }
 
-    /// The same page with what its last limb reaches, or a chain from the robot's root.
+    /// Adds the reachability map of the last limb, or of a chain from the robot's root.
     #[must_use]
     pub fn with_reach(mut self, map: &ReachMap) -> Self {
         let base = self.data.limbs.last().map_or(self.data.robot.base, |limb| limb.base);
@@ -129,26 +133,28 @@ impl Page {
         }
     }
 
-    /// The same page under another title.
+    /// Sets the title.
     #[must_use]
     pub fn titled(mut self, title: &str) -> Self {
         title.clone_into(&mut self.data.title);
         self
     }
 
-    /// The same robot moved by `trajectory`, whose joints are found by their names. Support polygons come from `record`, else from `soles`.
+    /// Adds a motion by `trajectory`, whose joints are found by their names. Support polygons are taken from `record`,
+    /// else from `soles`.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for a joint that the robot does not have; [`ErrorKind::BadValue`] for one that does not turn or slide as
-    /// the trajectory says, no sample, or a record of another number of samples; as [`Trajectory::check`].
+    /// [`ErrorKind::UnknownName`] for a joint that the robot does not have; [`ErrorKind::BadValue`] for a joint of
+    /// another type than in the trajectory, no sample, or a record with another number of samples; as
+    /// [`Trajectory::check`].
     pub fn with_motion(mut self, trajectory: &Trajectory, record: Option<&WalkRecord>, soles: &[Sole]) -> Result<Self> {
         self.data.motion = Some(motion(&self.data.robot, trajectory, record, soles)?);
         Ok(self)
     }
 
-    /// The data of the page, as JSON that may stand in HTML.
+    /// The data of the page, as JSON that is safe inside HTML.
     pub fn data(&self) -> String {
-        let text = serde_json::to_string(&self.data).expect("the data hold nothing that JSON cannot say");
+        let text = serde_json::to_string(&self.data).expect("the data can be represented in JSON");
         text.replace('<', "\\u003c")
     }
 

@@ -1,4 +1,4 @@
-//! A map of what a limb reaches as a page shows it.
+//! A reachability map in the format of a page.
 
 use super::bytes::column;
 use super::data::Reach;

@@ -1,4 +1,4 @@
-//! A robot as a page shows it.
+//! A robot in the format of a page.
 
 use super::bytes;
 use super::data::{Follows, Frame, Joint, Link, Robot, Shape, Solid};
@@ -8,20 +8,20 @@ use groebot_robot::model::Meshes;
 use groebot_robot::spatial::Pose;
 use groebot_robot::spatial::exact::normalized;
 
-/// What is nearer is at the same place \[m\].
+/// Points within this distance are at the same place \[m\].
 const APART: f64 = 1e-6;
 
-/// The robot with what is to be seen of it: of each link what it looks like, else what it collides with.
+/// The robot with its visible shapes: the visual shapes of each link, else its collision shapes.
 ///
 /// # Errors
-/// As [`model::Robot::check`]; [`ErrorKind::BadValue`] for a robot of which nothing is to be seen.
+/// As [`model::Robot::check`]; [`ErrorKind::BadValue`] for a robot without anything visible.
 pub fn described(robot: &model::Robot, meshes: Option<&Meshes>) -> Result<Robot> {
     robot.check()?;
     let mut notes = Vec::new();
     let links: Vec<Link> = robot.links().iter().map(|own| link(own, meshes, &mut notes)).collect();
     let hidden = links.iter().filter(|link| link.hidden).count();
     if meshes.is_none() && hidden > 0 {
-        notes.push(format!("Meshes of {hidden} links are left out; --meshes shows them."));
+        notes.push(format!("Meshes of {hidden} links are not included; --meshes includes them."));
     }
     let order = robot.limb_by_limb();
     let joints: Vec<Joint> = order.iter().map(|place| joint(robot, &order, *place)).collect();
@@ -44,7 +44,7 @@ fn link(own: &model::Link, meshes: Option<&Meshes>, notes: &mut Vec<String>) -> 
     Link { name: own.name.clone(), shapes, hidden }
 }
 
-/// The shape, unless it is a mesh that is not asked for or cannot be read.
+/// The shape, unless it is a mesh that is not requested or cannot be read.
 fn shape(own: &model::Shape, meshes: Option<&Meshes>, notes: &mut Vec<String>) -> Option<Shape> {
     let solid = match own.solid.clone() {
         model::Solid::Box { size } => Solid::Box { size },

@@ -1,4 +1,4 @@
-//! A run of the simulator as a page asks for it. Main type: [`Asked`].
+//! The request for a run of the simulator in a page. Main type: [`RunRequest`].
 
 use super::data::Run;
 use crate::gait::Footprint;
@@ -7,18 +7,18 @@ use crate::sim::{self, Interior, Start};
 use crate::task::Goal;
 use crate::{Result, Watch};
 
-/// What runs where.
+/// The parameters of a run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked<'a> {
-    /// A robot of this crate that walks: `nao`, `rh0` or `teo`.
+pub struct RunRequest<'a> {
+    /// The name of a walking robot of this crate: `nao`, `rh0` or `teo`.
     pub robot: &'a str,
     /// The room, as [`Room::from_toml`] reads it.
     pub room: &'a str,
-    /// Where the middle of its feet is at first, and where it looks \[m, rad\].
+    /// The initial position of the middle of its feet, and its heading \[m, rad\].
     pub start: [f64; 3],
-    /// Where it is to get, and where it is to look there if that is asked for.
+    /// The goal, with the final heading if one is requested \[m, rad\].
     pub goal: &'a [f64],
-    /// How far the body keeps away from obstacles \[m\].
+    /// The least distance of the body from obstacles \[m\].
     pub apart: f64,
 }
 
@@ -26,8 +26,8 @@ pub struct Asked<'a> {
 ///
 /// # Errors
 /// As [`super::Page::with_run`].
-pub fn run(asked: &Asked<'_>) -> Result<Run> {
-    let Asked { robot, room: text, start, goal, apart } = asked;
+pub fn run(asked: &RunRequest<'_>) -> Result<Run> {
+    let RunRequest { robot, room: text, start, goal, apart } = asked;
     let room = Room::from_toml(text)?;
     let [x, y, yaw] = *start;
     let begun = Start::of_robot(robot, room.clone(), Footprint { x, y, yaw }, Goal::of(goal)?.into(), *apart)?;

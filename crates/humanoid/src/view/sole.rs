@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 
-/// What of a contact touches the floor.
+/// The contact area of a contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sole {
     /// The name of the contact, such as `left`.

@@ -1,4 +1,4 @@
-//! What the JSON of a walk says beside its trajectory. Main type: [`WalkRecord`].
+//! The part of a walk's JSON that is not the trajectory. Main type: [`WalkRecord`].
 
 use nalgebra::{Point2, Point3};
 use serde::Deserialize;
@@ -55,15 +55,15 @@ struct File {
 }
 
 impl WalkRecord {
-    /// The record in the JSON of a walk; nothing where there is a trajectory alone.
+    /// Reads the record in the JSON of a walk; `None` where there is only a trajectory.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for another `walk`, with the line.
+    /// [`ErrorKind::Syntax`] for an invalid `walk`, with the line.
     pub fn from_json(text: &str) -> Result<Option<Self>> {
         let read: std::result::Result<File, _> = serde_json::from_str(text);
         read.map(|file| file.walk).map_err(|error| {
             let line = error.line().max(1);
-            Error::new(ErrorKind::Syntax, format!("`walk` is not what groebot writes: {error}")).at_line(line)
+            Error::new(ErrorKind::Syntax, format!("`walk` does not have the format of groebot: {error}")).at_line(line)
         })
     }
 
@@ -80,7 +80,7 @@ impl WalkRecord {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// The soles as the polygons tell them: each where its contact stands alone.
+    /// The soles, from the polygons of single support.
     pub(super) fn soles(&self, trajectory: &Trajectory) -> Vec<Sole> {
         let stands = |sample: usize| trajectory.contacts.iter().filter(move |own| own.stands[sample]).count();
         let sole = |own: &groebot_robot::motion::Contact| {
@@ -94,7 +94,7 @@ impl WalkRecord {
         trajectory.contacts.iter().filter_map(sole).collect()
     }
 
-    /// Where the feet stand, those of the start first.
+    /// The footprints, the initial ones first.
     pub(super) fn shown_steps(&self) -> Vec<Step> {
         let step = |foot: &str, Print { x, y, yaw }: Print| Step { foot: foot.to_owned(), x, y, yaw };
         let start = self.start.map(|start| [step("left", start.left), step("right", start.right)]);

@@ -1,5 +1,5 @@
-//! Humanoids that walk, by name: NAO, RH0 and TEO of [`groebot_robot::robots`] with the figures of their walks and the generated solvers of their legs;
-//! the sagittal kinematics division of RH0. Main function: [`walker`].
+//! Walking humanoids by name: NAO, RH0 and TEO of [`groebot_robot::robots`], with the parameters of their walks and the
+//! generated solvers of their legs. Also the sagittal kinematics division of RH0. Main function: [`walker`].
 
 mod nao;
 mod printed;
@@ -7,7 +7,7 @@ mod rh0;
 mod skd;
 mod teo;
 
-pub use nao::{NAO_ONE_STEP, NAO_PREVIEW, NAO_SEED, nao_walker};
+pub use nao::{NAO_ONE_STEP, NAO_PREVIEW, NAO_SINE, nao_walker};
 pub use rh0::{RH0_EXPERIMENT, RH0_GENERIC, RH0_SIMULATION, rh0_walker};
 pub use skd::{Manipulator, Real, Virtual, coordinated_arm};
 pub use teo::{TEO_ONE_STEP, teo_walker};
@@ -15,17 +15,17 @@ pub use teo::{TEO_ONE_STEP, teo_walker};
 use crate::Result;
 use crate::gait::{Biped, Side, Walker};
 
-/// Which outline the soles have.
+/// The outline of the soles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Outline {
-    /// As it was measured on the robot.
+    /// As measured on the robot.
     #[default]
     Measured,
-    /// As the source document states it: 160 x 90 mm for NAO.
-    Seed,
+    /// As published: 160 x 90 mm for NAO.
+    Published,
 }
 
-/// How a humanoid of this crate walks, by the names of [`robot`].
+/// The walker of a humanoid of this crate; the names are those of [`robot`].
 pub fn walker(name: &str, outline: Outline) -> Option<Result<Walker>> {
     match name {
         "nao" | "nao_v5" => Some(nao_walker(outline)),
@@ -35,7 +35,8 @@ pub fn walker(name: &str, outline: Outline) -> Option<Result<Walker>> {
     }
 }
 
-/// The value of each joint of `biped` \[rad\]: those that `values` names for a side, without the `L` or `R` of their names, zero elsewhere.
+/// The value of each joint of `biped` \[rad\]. `values` gives the values for a side by names without the prefix `L` or
+/// `R`; other joints are zero.
 ///
 /// # Errors
 /// [`crate::ErrorKind::UnknownName`] when a named joint is missing on one side.

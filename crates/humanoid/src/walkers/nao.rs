@@ -1,4 +1,4 @@
-//! NAO V5: the posture that its walks start from, and the figures that they have unless others are given.
+//! NAO V5: the initial posture of its walks, and their default parameters.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -14,14 +14,16 @@ use groebot_robot::robots::nao_v5;
 
 /// Bent knees, soles below the hips \[rad\].
 const CROUCH: [(&str, f64); 3] = [("HipPitch", -0.5), ("KneePitch", 1.0), ("AnklePitch", -0.5)];
-/// Arms that hang near the trunk, NAO 6.8: the values of the left arm \[rad\]; the right one mirrors all but the first.
+/// Arms near the trunk, NAO 6.8: the values of the left arm \[rad\]. The right one has the opposite sign in all but the
+/// first.
 const ARM: [(&str, f64); 5] =
     [("ShoulderPitch", 1.55), ("ShoulderRoll", 0.15), ("ElbowYaw", -1.2), ("ElbowRoll", -0.5), ("WristYaw", 0.0)];
 
-/// The seed's rectangle \[m\], NAO 6.8; it does not say where it is: it is laid about the centre of the measured sole.
-const SEED_SOLE: (f64, f64) = (0.160, 0.090);
+/// The published rectangle of the sole \[m\], NAO 6.8. The source gives no position; it is placed about the centre of
+/// the measured sole.
+const PUBLISHED_SOLE: (f64, f64) = (0.160, 0.090);
 
-/// NAO V5 on the measured or the seed's soles, with the derived solvers of its legs.
+/// NAO V5 with the measured or the published soles, and the derived solvers of its legs.
 ///
 /// # Errors
 /// None with the crate's own data; those of [`Biped::new`] and [`Legs::new`] otherwise.
@@ -29,12 +31,14 @@ pub fn nao_walker(outline: Outline) -> Result<Walker> {
     let robot = nao_v5();
     let soles = ["l_sole", "r_sole"];
     let mut biped = Biped::new(&robot, soles, &Meshes::default())?;
-    if outline == Outline::Seed {
+    if outline == Outline::Published {
         let outlines = biped.feet.each_ref().map(|foot| {
             let middle =
                 foot.corners.iter().map(|corner| corner.coords).sum::<Vector2<f64>>() / foot.corners.len() as f64;
             let corners = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)];
-            corners.map(|(x, y)| Point2::from(middle + Vector2::new(x * SEED_SOLE.0, y * SEED_SOLE.1))).to_vec()
+            corners
+                .map(|(x, y)| Point2::from(middle + Vector2::new(x * PUBLISHED_SOLE.0, y * PUBLISHED_SOLE.1)))
+                .to_vec()
         });
         biped = Biped::on_outlines(&robot, soles, 0.0, outlines)?;
     }
@@ -44,16 +48,17 @@ pub fn nao_walker(outline: Outline) -> Result<Walker> {
     };
     let crouch = posture(&biped, values)?;
     let legs = Legs::new(&biped, [Arc::new(NAO_LEFT_LEG), Arc::new(NAO_RIGHT_LEG)], crouch)?;
-    let gaits = vec![("seed", NAO_SEED), ("preview", NAO_PREVIEW), ("osg", NAO_ONE_STEP)];
+    let gaits = vec![("sine", NAO_SINE), ("preview", NAO_PREVIEW), ("osg", NAO_ONE_STEP)];
     Ok(Walker { biped, legs, gaits })
 }
 
-/// Heights of the hip that are tried in turn \[m\]: higher ones leave the ankles' roll more room, lower ones reach further.
+/// Heights of the hip that are tried in order \[m\]. Greater heights leave more range for the ankles' roll, smaller
+/// ones have a longer reach.
 const HIP_HEIGHTS: [f64; 6] = [0.228, 0.225, 0.232, 0.222, 0.215, 0.205];
 
-/// The seed's sine, NAO 6.8.1.
-pub const NAO_SEED: Usual = Usual {
-    gait: Gait::Seed,
+/// The sine gait of NAO (6.8.1).
+pub const NAO_SINE: Usual = Usual {
+    gait: Gait::Sine,
     length: 0.04,
     lift: 0.02,
     half_width: None,
@@ -66,7 +71,8 @@ pub const NAO_SEED: Usual = Usual {
     rest: 0.5,
     margin: 0.01,
     speed_share: 0.9,
-    // At 0.14 rad a swinging foot's AnkleRoll meets its limit on the way to some goals, at 0.2 rad the feet meet.
+    // At 0.14 rad the AnkleRoll of a swing foot reaches its limit on the path to some goals; at 0.2 rad the feet
+    // collide.
     most_turn: 0.1,
     tick: TICK,
 };
@@ -77,9 +83,9 @@ pub const NAO_ONE_STEP: Usual = Usual {
     amplitude: 0.04,
     period: 2.4,
     rest: 0.0,
-    ..NAO_SEED
+    ..NAO_SINE
 };
 
 /// Preview control.
 pub const NAO_PREVIEW: Usual =
-    Usual { gait: Gait::Preview, length: 0.05, lift: 0.03, period: 0.8, double_support: 0.3, rest: 1.5, ..NAO_SEED };
+    Usual { gait: Gait::Preview, length: 0.05, lift: 0.03, period: 0.8, double_support: 0.3, rest: 1.5, ..NAO_SINE };

@@ -1,4 +1,5 @@
-//! The printed solvers of the humanoids' legs, those of `derivations/`: bit for bit what `Program::solve` answers. Main type: [`Printed`].
+//! The generated solvers of the humanoids' legs, from `derivations/`. Their results equal those of `Program::solve` to
+//! the last bit. Main type: [`Printed`].
 
 use groebot_runtime::Solve;
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
@@ -23,10 +24,10 @@ mod rh0_right_leg;
 #[path = "legs/teo_leg.rs"]
 mod teo_leg;
 
-/// A printed solver of a leg with six joints, for the pose of its tip in its base.
+/// A generated solver of a leg with six joints, for the pose of its tip in its base.
 #[derive(Clone, Copy, Debug)]
 pub struct Printed {
-    /// Puts all solutions in place of what is there; `None` when a number is not finite.
+    /// Replaces the content of the vector by all solutions; `None` when a number is not finite.
     solve: fn(&[f64; 12], &mut Vec<Solution>) -> Option<()>,
 }
 
@@ -62,12 +63,12 @@ printed! {
 impl InverseKinematics for Printed {
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
         let numbers = Target::numbers(target).try_into().ok().filter(|_| given.is_empty());
-        let wrong = || Error::new(ErrorKind::BadValue, "a leg is asked for the pose of its tip; give finite numbers");
+        let wrong = || Error::new(ErrorKind::BadValue, "the pose of a leg's tip is not finite; give finite numbers");
         numbers.and_then(|numbers| (self.solve)(&numbers, out)).ok_or_else(wrong)
     }
 }
 
-/// A leg that is the mirror image in y = 0 of the one that is solved: pitches keep their sense, yaw and rolls turn round.
+/// A leg that is the mirror image in y = 0 of the solved one: pitches keep their sign, yaw and rolls change it.
 #[derive(Clone, Copy, Debug)]
 pub struct Mirrored {
     /// The solver of the image.

@@ -1,4 +1,4 @@
-//! RH0: the posture that its walks start from, and the figures of RH0 5.3 and 6.2.
+//! RH0: the initial posture of its walks, and the parameters of RH0 5.3 and 6.2.
 
 use std::borrow::Cow;
 use std::f64::consts::PI;
@@ -15,7 +15,8 @@ use groebot_robot::robots::rh0;
 /// Bent knees \[rad\]: the thesis' joints 2, 3 and 4 of the right leg, 11, 10 and 9 of the left one.
 const CROUCH: [(&str, f64); 3] = [("AnklePitch", 0.2), ("KneePitch", -0.4), ("HipPitch", 0.2)];
 
-/// The sagittal coordination, RH0 (3-23), (3-38): joints of the arms, and those of the other side's leg whose values they take.
+/// The sagittal coordination, RH0 (3-23), (3-38): joints of the arms, and the joints of the opposite leg whose values
+/// they take.
 const COORDINATED: [(&str, &str); 6] = [
     ("RClavicle", "LHipPitch"),
     ("RShoulder", "LHipRoll"),
@@ -25,7 +26,7 @@ const COORDINATED: [(&str, &str); 6] = [
     ("LElbow", "RKneePitch"),
 ];
 
-/// RH0, its mass a point at the trunk's frame, with the derived solvers of its legs.
+/// RH0 with its mass as a point at the trunk's frame, and the derived solvers of its legs.
 ///
 /// # Errors
 /// None with the crate's own data; those of [`Biped::new`] and [`Legs::new`] otherwise.
@@ -46,17 +47,18 @@ pub fn rh0_walker() -> Result<Walker> {
     Ok(Walker { biped, legs, gaits })
 }
 
-/// The height of the ankle over the sole \[m\]: assumed, `src/robots/data/rh0.toml`.
+/// The height of the ankle above the sole \[m\]: assumed, `crates/robot/src/robots/data/rh0.toml`.
 const ANKLE_HEIGHT: f64 = 0.09;
-/// From the hip to the trunk's frame \[m\]: inferred and assumed, `src/robots/data/rh0.toml`.
+/// The distance from the hip to the trunk's frame \[m\]: inferred and assumed, `crates/robot/src/robots/data/rh0.toml`.
 const HIP_TO_TRUNK: f64 = 0.0265;
-/// Thigh and shank \[m\]: inferred, `src/robots/data/rh0.toml`.
+/// The length of thigh and shank together \[m\]: inferred, `crates/robot/src/robots/data/rh0.toml`.
 const LEG: f64 = 0.56;
-/// `H_CM`, the height of the centre of mass over the ankles \[m\]: RH0 5.3.1.
+/// `H_CM`, the height of the centre of mass above the ankles \[m\]: RH0 5.3.1.
 const CENTRE_HEIGHT: f64 = 0.58;
-/// `W_p`, half of the way from foot to foot \[m\]: RH0 5.3.1.
+/// `W_p`, half of the lateral distance between the feet \[m\]: RH0 5.3.1.
 const HALF_WIDTH: f64 = 0.112;
-/// Heights of the hip over the floor that are tried in turn \[m\]: `H_CM`, and up to 3 mm less where that is out of reach (6.2.1).
+/// Heights of the hip above the floor that are tried in order \[m\]: `H_CM`, and up to 3 mm less where that is out of
+/// reach (6.2.1).
 const HIP_HEIGHTS: [f64; 4] = {
     let height = ANKLE_HEIGHT + CENTRE_HEIGHT - HIP_TO_TRUNK;
     [height, height - 0.001, height - 0.002, height - 0.003]
@@ -72,13 +74,14 @@ pub const RH0_SIMULATION: Usual = Usual {
     length: 0.16,
     lift: 0.1,
     half_width: None,
-    // RA_AS = 0.06 m: so far from the middle of the standing sole the centre of mass is over it.
+    // RA_AS = 0.06 m: at this distance from the middle of the supporting sole the centre of mass is above it.
     amplitude: HALF_WIDTH - 0.06,
     ahead: 0.0,
     hip_heights: Cow::Borrowed(&HIP_HEIGHTS),
     upright_hip: ANKLE_HEIGHT + LEG,
     period: SAMPLES[0] * TICKS[0],
-    // Of 81 samples 17 + 17: the share from which on the zero moment point stays inside, with a knee slower than 25 rpm.
+    // Of 81 samples 17 + 17: the least fraction for which the zero moment point stays inside, with a knee slower than
+    // 25 rpm.
     double_support: 0.42,
     rest: 0.0,
     margin: 0.0,
@@ -95,10 +98,10 @@ pub const RH0_GENERIC: Usual = Usual {
     ..RH0_SIMULATION
 };
 
-/// Heights of the hip for the generic laws, which want longer legs \[m\].
+/// Heights of the hip for the generic laws, which need longer legs \[m\].
 const LOWER_HIP_HEIGHTS: [f64; 5] = [0.6435, 0.635, 0.625, 0.615, 0.6];
 
-/// RH0 6.2: walks of the robot itself.
+/// RH0 6.2: walks of the physical robot.
 pub const RH0_EXPERIMENT: Usual = Usual {
     amplitude: HALF_WIDTH - 0.03,
     period: SAMPLES[1] * TICKS[1],

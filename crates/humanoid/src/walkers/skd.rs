@@ -1,8 +1,9 @@
-//! The sagittal kinematics division (SKD; DCS in the thesis) of RH0, 3.4: the biped as two manipulators, left and right, from the
-//! ground to the hands. Main type: [`Manipulator`].
+//! The sagittal kinematics division (SKD; DCS in the thesis) of RH0, 3.4: the biped as two manipulators, left and
+//! right, from the ground to the hands. Main type: [`Manipulator`].
 //!
-//! Frames and joints are the thesis': x to the robot's left, y up, z ahead; S lies below the trunk's middle at the height of the ankles,
-//! H is the trunk. Six virtual joints put the foot where it is: three translations, then turns about y, z and x through S.
+//! Frames and joints are those of the thesis: x to the robot's left, y up, z forward. S is below the trunk's middle at
+//! the height of the ankles, H is the trunk. Six virtual joints position the foot: three translations, then rotations
+//! about y, z and x through S.
 
 use nalgebra::{Point3, Vector3};
 
@@ -35,10 +36,10 @@ pub struct Real {
 pub struct Manipulator {
     /// The leg, from S to the trunk.
     chain: Chain,
-    /// Leg, column and arm, from S to the hand; of column and arm the lengths are assumed.
+    /// Leg, column and arm, from S to the hand; the lengths of column and arm are assumed.
     whole: Chain,
     solver: Printed,
-    /// Of the virtual joints, RH0 (3-10), (3-11), (3-25), (3-26).
+    /// The screws of the virtual joints, RH0 (3-10), (3-11), (3-25), (3-26).
     foot: Vec<Screw>,
 }
 
@@ -58,13 +59,13 @@ impl Manipulator {
         Ok(Manipulator { chain, whole, solver, foot: slide.into_iter().chain(turn).collect::<Result<_>>()? })
     }
 
-    /// The motion of the foot since the reference configuration.
+    /// The motion of the foot relative to the reference configuration.
     pub fn foot(&self, virtual_joints: &Virtual) -> Pose {
         product(&self.foot, virtual_joints)
     }
 
-    /// The virtual joints that make the motion `foot` since the reference configuration; where the turn about z is a quarter, the turn
-    /// about x is zero.
+    /// The virtual joints of the motion `foot` relative to the reference configuration. Where the rotation about z is a
+    /// quarter turn, the rotation about x is zero.
     pub fn virtual_joints(&self, foot: &Pose) -> Virtual {
         let (p, r) = (foot.translation.vector, foot.rotation.to_rotation_matrix().into_inner());
         let z = r[(1, 0)].atan2(r[(0, 0)].hypot(r[(2, 0)]));
@@ -85,8 +86,8 @@ impl Manipulator {
         self.foot(virtual_joints) * product(self.whole.screws(), &q) * self.whole.base_from_tip()
     }
 
-    /// All joint values of the leg that bring the trunk to `trunk` with the foot at `virtual_joints`, up to eight (3-24), (3-39), by the
-    /// derived solver.
+    /// All joint values of the leg that move the trunk to `trunk` with the foot at `virtual_joints`: up to eight
+    /// solutions, (3-24), (3-39), by the derived solver.
     ///
     /// # Errors
     /// [`crate::ErrorKind::BadValue`] when a value is not finite.
@@ -102,7 +103,7 @@ impl Manipulator {
     }
 }
 
-/// The joints 14 to 16 of the right arm, or 18 to 20 of the left one, from the leg of the other side: RH0 (3-23), (3-38).
+/// The joints 14 to 16 of the right arm, or 18 to 20 of the left one, from the opposite leg: RH0 (3-23), (3-38).
 pub fn coordinated_arm(other_leg: &LegValues) -> [f64; 3] {
     let [_, _, knee, hip_pitch, hip_roll, _] = *other_leg;
     [hip_pitch, hip_roll, knee]

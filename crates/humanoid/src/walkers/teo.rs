@@ -1,4 +1,4 @@
-//! TEO: the posture that its walks start from, and their figures.
+//! TEO: the initial posture of its walks, and their parameters.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -13,10 +13,10 @@ use groebot_robot::robots::teo;
 /// Bent knees \[rad\].
 const CROUCH: [(&str, f64); 3] = [("HipPitch", -0.3), ("KneePitch", 0.6), ("AnklePitch", -0.3)];
 
-/// What the right leg's joints do for the value 1 of the left one's: yaw and rolls turn the other way.
+/// The value of the right leg's joint for the value 1 of the left one's: yaw and rolls have the opposite sign.
 const SENSES: [f64; 6] = [-1.0, -1.0, 1.0, 1.0, 1.0, -1.0];
 
-/// TEO with the derived solver of its left leg, of which the right one is the mirror image.
+/// TEO with the derived solver of its left leg; the right leg is the mirror image.
 ///
 /// # Errors
 /// None with the crate's own data; those of [`Biped::new`] and [`Legs::new`] otherwise.
@@ -28,7 +28,8 @@ pub fn teo_walker() -> Result<Walker> {
     Ok(Walker { biped, legs, gaits: vec![("osg", TEO_ONE_STEP)] })
 }
 
-/// One step goal by the generic laws of RH0 3.3, on a circle of 30 mm about the point below the ankle; all figures are ours.
+/// One step goal by the generic laws of RH0 3.3, on a circle of 30 mm about the point below the ankle. All parameters
+/// are our own.
 pub const TEO_ONE_STEP: Usual = Usual {
     gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.004, pitch: 0.0, upright: None }),
     length: 0.1,

@@ -32,7 +32,7 @@ fn a_walk_keeps_its_promises_or_is_refused() {
         asked.style = Style { lift, amplitude, ahead, torso_height, half_width: 0.05 };
         asked.margin = margin;
         asked.durations = Durations { rest: if preview { 1.5 } else { 0.2 }, shift, swing, lower: None };
-        asked.gait = if preview { Gait::Preview } else { Gait::Seed };
+        asked.gait = if preview { Gait::Preview } else { Gait::Sine };
         match walk(&asked) {
             Err(error) => {
                 assert_eq!(error.kind(), ErrorKind::BadValue);

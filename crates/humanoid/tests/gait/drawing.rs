@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::gait::{Biped, Gait, Measures, Regular, Route, Side, Walk, plan};
-use groebot_humanoid::walkers::{NAO_SEED, Outline};
+use groebot_humanoid::walkers::{NAO_SINE, Outline};
 use groebot_robot::motion::Trajectory;
 use nalgebra::Point2;
 use quick_xml::events::Event;
@@ -220,7 +220,7 @@ fn soles_on_one_place_are_one_with_all_its_steps() {
 
 #[test]
 fn a_walk_of_many_steps_leaves_out_what_has_no_room() {
-    let measures = Measures { length: NAO_SEED.length, half_width: 0.05, most_turn: NAO_SEED.most_turn };
+    let measures = Measures { length: NAO_SINE.length, half_width: 0.05, most_turn: NAO_SINE.most_turn };
     let route = Route::towards(&Point2::new(8.0, 0.0), None, Side::Left, &measures).unwrap();
     let count = route.steps.len();
     let far = walk(&groebot_humanoid::gait::Request { route, ..request(&regular()) }).unwrap();

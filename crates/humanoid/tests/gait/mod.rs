@@ -12,7 +12,7 @@ mod preview;
 mod refused;
 mod rh0;
 mod route;
-mod seed;
+mod sine;
 mod tables;
 mod zmp;
 
@@ -42,11 +42,11 @@ fn style() -> Style {
     Style { lift: 0.02, amplitude: 0.05, half_width: 0.05, ahead: 0.005, torso_height: 0.313 }
 }
 
-/// The seed's gait on a regular route.
+/// The sine gait on a regular route.
 fn request(regular: &Regular) -> Request {
     Request {
         route: Route::regular(regular).unwrap(),
-        gait: Gait::Seed,
+        gait: Gait::Sine,
         style: style(),
         durations: Durations { rest: 0.3, shift: 0.96, swing: 0.54, lower: None },
         margin: 0.01,

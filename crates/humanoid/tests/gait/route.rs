@@ -52,7 +52,7 @@ fn side_steps_lead_aside_and_close() {
         let leading = route.steps[..7].iter().filter(|step| step.side.sign() == aside.signum()).count();
         let total = leading as f64 * aside;
         assert!((left.y - 0.05 - total).abs() < 1e-12 && (right.y + 0.05 - total).abs() < 1e-12, "{aside}");
-        // The swinging foot's AnkleRoll is near its limit with the seed's 50 mm; 40 mm leave it room.
+        // The swinging foot's AnkleRoll is near its limit with the published 50 mm; 40 mm leave it room.
         let mut asked = groebot_humanoid::gait::Request { route, ..request(&regular()) };
         asked.style.amplitude = 0.04;
         super::nao::feet_are_where_they_should_be(&walk(&asked).unwrap());

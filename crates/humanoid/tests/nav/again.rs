@@ -146,7 +146,7 @@ fn what_cannot_be_marched_again_is_refused() {
     };
     let watch = Watch::none();
     let other = Map::from_text("..\n..\n..\n", 1.0).unwrap();
-    bad(field.clone().after(&other, &watch).map(drop), "give the same cells");
+    bad(field.clone().after(&other, &watch).map(drop), "both must be equal");
     let without = Map::from_text("...\n#..\n", 1.0).unwrap();
     bad(field.clone().after(&without, &watch).map(drop), "occupied");
     for window in [Window { columns: 0..4, rows: 0..1 }, Window { columns: 1..1, rows: 0..1 }] {

@@ -139,9 +139,9 @@ pub(super) fn point(map: &Map, spot: Spot) -> Point2<f64> {
 fn shortest(map: &Map, ends: [Spot; 2], guide: &Guide) -> Option<Shortest> {
     let [start, goal] = ends.map(|end| point(map, end));
     let cells = [&start, &goal].map(|end| map.free_cell_at(end).unwrap());
-    match map.shortest_way(&start, &goal, guide, &Watch::none()).unwrap() {
+    match map.shortest_path(&start, &goal, guide, &Watch::none()).unwrap() {
         Ok(found) => {
-            assert!(found.way.points[0] == start && *found.way.points.last().unwrap() == goal);
+            assert!(found.path.points[0] == start && *found.path.points.last().unwrap() == goal);
             Some(found)
         }
         Err(enclosure) => {
@@ -160,8 +160,8 @@ fn agrees(map: &Map, ends: [Spot; 2], guide: &Guide) -> bool {
         assert!(expected.is_infinite(), "{ends:?}: a way of {expected}");
         return false;
     };
-    let length = found.way.length();
-    assert!((length - expected).abs() < 1e-9, "{ends:?}: {length} {expected} {:?}", found.way);
+    let length = found.path.length();
+    assert!((length - expected).abs() < 1e-9, "{ends:?}: {length} {expected} {:?}", found.path);
     assert!(found.is_proved() && found.bound == length);
     true
 }
@@ -202,13 +202,13 @@ fn a_field_and_a_bounded_effort_leave_what_is_true() {
         let (expected, pinches) = (floor.shortest(ends[0], ends[1]) * map.resolution(), floor.pinches());
         for (effort, field) in [0, 10, 40].into_iter().flat_map(|effort| [(effort, None), (effort, Some(&field))]) {
             let found = shortest(&map, ends, &Guide { field, effort: Some(effort) }).unwrap();
-            assert!(found.bound <= expected + 1e-12 && expected <= found.way.length() + 1e-12);
+            assert!(found.bound <= expected + 1e-12 && expected <= found.path.length() + 1e-12);
             if found.is_proved() {
                 proved += 1
             } else {
                 open += 1
             }
-            let spots: Vec<Spot> = found.way.points.iter().map(|point| spot(&map, point)).collect();
+            let spots: Vec<Spot> = found.path.points.iter().map(|point| spot(&map, point)).collect();
             assert!(spots.windows(2).all(|pair| floor.sees(pair[0], pair[1], &pinches)));
         }
     }
@@ -227,17 +227,17 @@ fn distances_of_all_corners_lead_the_same_way() {
         let distances = Distances::new(&map, &point(&map, goal), &Watch::none()).unwrap();
         for _ in 0..20 {
             let start = place(&map, &mut numbers);
-            let found = distances.way(&map, &point(&map, start), &Watch::none()).unwrap();
+            let found = distances.path(&map, &point(&map, start), &Watch::none()).unwrap();
             let expected = shortest(&map, [start, goal], &Guide::default());
             let Ok(found) = found else {
                 assert!(expected.is_none());
                 enclosed += 1;
                 continue;
             };
-            let length = expected.unwrap().way.length();
-            assert!((found.way.length() - length).abs() < 1e-9 && found.is_proved(), "{found:?} {length}");
-            assert_eq!(found.way.points[0], point(&map, start));
-            assert_eq!(found.way.points.last(), Some(distances.goal()));
+            let length = expected.unwrap().path.length();
+            assert!((found.path.length() - length).abs() < 1e-9 && found.is_proved(), "{found:?} {length}");
+            assert_eq!(found.path.points[0], point(&map, start));
+            assert_eq!(found.path.points.last(), Some(distances.goal()));
             reached += 1;
         }
     }
@@ -245,7 +245,7 @@ fn distances_of_all_corners_lead_the_same_way() {
     let distances = Distances::new(&Map::new(5, 5, 0.1).unwrap(), &Point2::new(0.1, 0.1), &Watch::none()).unwrap();
     let shape = groebot_humanoid::nav::Shape::rectangle(Point2::new(0.35, 0.35), 0.05, 0.05, 0.0);
     for other in [Map::new(4, 5, 0.1).unwrap(), Map::new(5, 5, 0.1).unwrap().with(&[shape]).unwrap()] {
-        let error = distances.way(&other, &Point2::new(0.1, 0.1), &Watch::none()).unwrap_err();
+        let error = distances.path(&other, &Point2::new(0.1, 0.1), &Watch::none()).unwrap_err();
         assert!(error.message().contains("other free cells"), "{error}");
     }
 }
@@ -265,10 +265,10 @@ fn a_turned_map_has_the_same_ways() {
     for pair in free.windows(90).step_by(7) {
         let (start, goal) = (pair[0], pair[89]);
         let way = |map: &Map| {
-            map.shortest_way(&map.centre(start), &map.centre(goal), &Guide::default(), &Watch::none()).unwrap()
+            map.shortest_path(&map.centre(start), &map.centre(goal), &Guide::default(), &Watch::none()).unwrap()
         };
         let (Ok(one), Ok(other)) = (way(&map), way(&turned)) else { continue };
-        assert!((one.way.length() - other.way.length()).abs() < 1e-9);
+        assert!((one.path.length() - other.path.length()).abs() < 1e-9);
         reached += 1;
     }
     assert!(reached > 10);
@@ -286,7 +286,7 @@ fn a_small_enclosure_is_found_from_either_side() {
         // One that looked at the floor outside would ask its watch more than once.
         let patience = std::sync::Arc::new(std::sync::atomic::AtomicUsize::new(1));
         let watch = Watch::none().with_patience(patience);
-        let enclosure = map.shortest_way(&start, &goal, &Guide::default(), &watch).unwrap().unwrap_err();
+        let enclosure = map.shortest_path(&start, &goal, &Guide::default(), &watch).unwrap().unwrap_err();
         assert!(enclosure.cells.len() < 1000);
         assert!(enclosure.parts(&map, map.cell_at(&inside).unwrap(), map.cell_at(&outside).unwrap()));
     }
@@ -296,20 +296,20 @@ fn a_small_enclosure_is_found_from_either_side() {
 fn what_cannot_be_asked_is_refused() {
     let map = Map::from_text("..#\n...\n", 1.0).unwrap();
     let (start, goal) = (Point2::new(0.5, 0.5), Point2::new(1.5, 1.5));
-    let ask = |start: &Point2<f64>, guide: &Guide| map.shortest_way(start, &goal, guide, &Watch::none());
+    let ask = |start: &Point2<f64>, guide: &Guide| map.shortest_path(start, &goal, guide, &Watch::none());
     let error = ask(&Point2::new(2.5, 1.5), &Guide::default()).unwrap_err();
     assert!(error.kind() == ErrorKind::BadValue && error.message().contains("occupied"), "{error}");
     assert!(ask(&Point2::new(-1.0, 0.5), &Guide::default()).is_err());
     let field = Field::new(&map, &[start], Method::M3r, &Watch::none()).unwrap();
     let error = ask(&start, &Guide { field: Some(&field), effort: None }).unwrap_err();
-    assert!(error.message().contains("the field that guides"), "{error}");
+    assert!(error.message().contains("the field of the guide"), "{error}");
     let still = ask(&goal, &Guide::default()).unwrap().unwrap();
-    assert_eq!((still.way.length(), still.bound), (0.0, 0.0));
+    assert_eq!((still.path.length(), still.bound), (0.0, 0.0));
     let stopped = Watch::none().with_cancel(std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true)));
     let large = random_map(300, 300, 0.3, 1);
     let free: Vec<usize> = (0..90_000).filter(|cell| large.is_free(*cell)).collect();
     let (first, last) = (large.centre(free[5000]), large.centre(free[free.len() - 5000]));
-    let error = large.shortest_way(&first, &last, &Guide::default(), &stopped).unwrap_err();
+    let error = large.shortest_path(&first, &last, &Guide::default(), &stopped).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Cancelled);
 }
 
@@ -329,7 +329,7 @@ fn the_record_that_python_checks_is_up_to_date() {
             // In parts of 64, which text holds.
             (x / 16_384 * 16_384, y / 16_384 * 16_384)
         });
-        let length = shortest(&map, ends, &Guide::default()).map(|found| found.way.length() / map.resolution());
+        let length = shortest(&map, ends, &Guide::default()).map(|found| found.path.length() / map.resolution());
         let line = |y: usize| (0..columns).map(move |x| y * columns + x);
         let row = |y| line(y).map(|cell| if map.is_free(cell) { '.' } else { '#' }).collect::<String>();
         table += &(0..rows).map(row).collect::<Vec<_>>().join("/");

@@ -49,7 +49,7 @@ fn a_description_tells_where_its_image_stands() {
         ("resolution: 0.05", "", ErrorKind::MissingKey, "`resolution`"),
         ("0.05", "wide", ErrorKind::BadValue, "give a positive number of metres"),
         ("0.05", "-1", ErrorKind::BadValue, "line 2: `resolution` is `-1`; give a positive number"),
-        ("0.65", "65", ErrorKind::BadValue, "a share from 0 to 1"),
+        ("0.65", "65", ErrorKind::BadValue, "a fraction from 0 to 1"),
         ("room.pgm", "room.yaml", ErrorKind::Unsupported, "an image of a map is a .pgm or .png"),
         ("[-1.0, 2.0, 0.5]", "[1, 2]", ErrorKind::BadValue, "[x, y, yaw]"),
         ("negate: 1", "negate: 2", ErrorKind::BadValue, "0 or 1"),
@@ -110,7 +110,7 @@ fn yaml_that_is_none_has_a_line() {
         ("image: a.pgm", "image: {a: b}", ErrorKind::BadValue, Some(1), "give the name of a file"),
         ("-1.5, 2.0, 0.25", "-1.5, 2.0, .inf", ErrorKind::BadValue, Some(3), "[x, y, yaw]"),
         ("-1.5, 2.0, 0.25", "[-1.5], 2.0, 0.25", ErrorKind::BadValue, Some(3), "[x, y, yaw]"),
-        ("0.7", ".nan", ErrorKind::BadValue, Some(5), "a share from 0 to 1"),
+        ("0.7", ".nan", ErrorKind::BadValue, Some(5), "a fraction from 0 to 1"),
     ] {
         let error = Meaning::from_yaml(&YAML.replacen(from, to, 1)).unwrap_err();
         assert!(error.kind() == kind && error.message().contains(words), "{to}: {error}");
@@ -216,7 +216,7 @@ fn what_is_no_map_is_refused() {
     let error = Map::from_text("..\n...\n", 0.1).unwrap_err();
     assert!(error.place().line == Some(2) && error.message().contains("3 cells"), "{error}");
     let error = Map::from_text("type octile\nheight 9\nwidth 2\nmap\n..\n..\n", 0.1).unwrap_err();
-    assert!(error.place().line == Some(2) && error.message().contains("make it 2"), "{error}");
+    assert!(error.place().line == Some(2) && error.message().contains("the rows give 2"), "{error}");
     assert!(Map::from_text("", 0.1).is_err() && Map::new(3, 3, f64::NAN).is_err());
 }
 

@@ -40,15 +40,15 @@ fn octile_ways_are_shortest_and_cut_no_corner() {
         let expected = lengths(&map, goal);
         for start in free.iter().copied().step_by(13) {
             let [from, to] = [start, goal].map(|cell| map.centre(cell) + Vector2::new(0.01, -0.02));
-            let Ok(way) = map.octile_way(&from, &to, &Watch::none()).unwrap() else {
+            let Ok(way) = map.octile_path(&from, &to, &Watch::none()).unwrap() else {
                 assert!(expected[start].is_infinite());
                 continue;
             };
             assert!((way.length() / map.resolution() - expected[start]).abs() < 1e-9);
             assert!(way.points[0] == map.centre(start) && *way.points.last().unwrap() == map.centre(goal));
             check_steps(&map, &way.points);
-            let exact = map.shortest_way(&map.centre(start), &map.centre(goal), &Guide::default(), &Watch::none());
-            assert!(exact.unwrap().unwrap().way.length() <= way.length() + 1e-12);
+            let exact = map.shortest_path(&map.centre(start), &map.centre(goal), &Guide::default(), &Watch::none());
+            assert!(exact.unwrap().unwrap().path.length() <= way.length() + 1e-12);
             reached += 1;
         }
     }
@@ -75,8 +75,8 @@ fn check_steps(map: &Map, points: &[nalgebra::Point2<f64>]) {
 fn what_has_no_octile_way_is_enclosed() {
     let map = Map::from_text(".#.\n#..\n...\n", 1.0).unwrap();
     let [start, goal] = [6, 2].map(|cell| map.centre(cell));
-    let enclosure = map.octile_way(&start, &goal, &Watch::none()).unwrap().unwrap_err();
+    let enclosure = map.octile_path(&start, &goal, &Watch::none()).unwrap().unwrap_err();
     assert!(enclosure.cells == [6] && enclosure.parts(&map, 6, 2));
-    assert!(map.octile_way(&map.centre(3), &goal, &Watch::none()).is_err());
-    assert_eq!(map.octile_way(&goal, &goal, &Watch::none()).unwrap().unwrap().length(), 0.0);
+    assert!(map.octile_path(&map.centre(3), &goal, &Watch::none()).is_err());
+    assert_eq!(map.octile_path(&goal, &goal, &Watch::none()).unwrap().unwrap().length(), 0.0);
 }

@@ -1,13 +1,13 @@
 //! Ways pulled taut and rounded: each by what it is, against the cells of the map.
 
 use groebot_humanoid::Watch;
-use groebot_humanoid::nav::{Field, Map, Method, Part, Way};
+use groebot_humanoid::nav::{Field, Map, Method, Part, Path};
 use nalgebra::{Point2, Vector2};
 
 use super::random_map;
 
 /// Ways over the middles of cells, of random maps.
-fn ways() -> Vec<(Map, Way)> {
+fn ways() -> Vec<(Map, Path)> {
     let mut all = vec![];
     for (seed, share) in [(1, 0.05), (2, 0.15), (3, 0.25), (4, 0.35)] {
         let map = random_map(50, 45, share, 6000 + seed);
@@ -45,10 +45,10 @@ fn a_taut_way_bends_about_corners_only() {
         assert!(taut.length() <= way.length() + 1e-12 && taut.time(&map).is_some());
         assert_eq!((taut.points[0], taut.points.last()), (way.points[0], way.points.last()));
         let [start, goal] = [taut.points[0], *taut.points.last().unwrap()];
-        let shortest = map.shortest_way(&start, &goal, &Default::default(), &Watch::none()).unwrap().unwrap();
-        assert!(shortest.way.length() <= taut.length() + 1e-12);
-        let again = shortest.way.taut(&map, &Watch::none()).unwrap();
-        assert!((again.length() - shortest.way.length()).abs() < 1e-12, "{again:?} {shortest:?}");
+        let shortest = map.shortest_path(&start, &goal, &Default::default(), &Watch::none()).unwrap().unwrap();
+        assert!(shortest.path.length() <= taut.length() + 1e-12);
+        let again = shortest.path.taut(&map, &Watch::none()).unwrap();
+        assert!((again.length() - shortest.path.length()).abs() < 1e-12, "{again:?} {shortest:?}");
         for three in taut.points.windows(3) {
             let [into, out] = [three[1] - three[0], three[2] - three[1]];
             let corner = map.in_map(&three[1]);
@@ -98,7 +98,7 @@ fn a_smooth_way_goes_on_in_its_direction() {
 fn a_right_angle_is_a_quarter_of_a_circle() {
     let map = Map::new(40, 40, 0.1).unwrap();
     let points = [(1.0, 1.0), (3.0, 1.0), (3.0, 3.0)].map(|(x, y)| Point2::new(x, y)).to_vec();
-    let way = Way { points };
+    let way = Path { points };
     let smooth = way.smoothed(&map, 0.5).unwrap();
     assert!(
         (smooth.length() - (4.0 - 0.5 * (2.0 - std::f64::consts::FRAC_PI_2))).abs() < 1e-12 && smooth.sharp.is_empty()
@@ -116,13 +116,13 @@ fn a_right_angle_is_a_quarter_of_a_circle() {
 #[test]
 fn what_cannot_be_pulled_or_rounded_is_refused() {
     let map = Map::from_text("...\n.#.\n...\n", 1.0).unwrap();
-    let way = Way { points: vec![Point2::new(0.5, 0.5), Point2::new(2.5, 2.5)] };
+    let way = Path { points: vec![Point2::new(0.5, 0.5), Point2::new(2.5, 2.5)] };
     let error = way.taut(&map, &Watch::none()).unwrap_err();
-    assert!(error.message().contains("passes an obstacle between (0.5, 0.5)"), "{error}");
+    assert!(error.message().contains("crosses an obstacle between (0.5, 0.5)"), "{error}");
     assert!(way.smoothed(&map, 0.1).is_err());
-    let none = Way { points: vec![] };
+    let none = Path { points: vec![] };
     assert!(none.taut(&map, &Watch::none()).is_err() && none.smoothed(&map, 0.1).is_err());
-    let clear = Way { points: vec![Point2::new(0.5, 0.5)] };
+    let clear = Path { points: vec![Point2::new(0.5, 0.5)] };
     assert!(clear.smoothed(&map, 0.0).is_err() && clear.smoothed(&map, f64::NAN).is_err());
     assert_eq!(clear.taut(&map, &Watch::none()).unwrap(), clear);
     let smooth = clear.smoothed(&map, 0.1).unwrap();

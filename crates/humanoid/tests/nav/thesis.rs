@@ -1,6 +1,6 @@
 //! The thesis' own cases: two media (Fig. 4-11), the trap (4-12, 4-13), ten starts of one field (4-14), and what it claims of M3R.
 
-use groebot_humanoid::nav::{Field, Forces, Map, Method, Potential, Shape, Way};
+use groebot_humanoid::nav::{Field, Forces, Map, Method, Path, Potential, Shape};
 use groebot_humanoid::{ErrorKind, Watch};
 use nalgebra::Point2;
 
@@ -11,14 +11,14 @@ fn field(map: &Map, goal: &Point2<f64>, method: Method) -> Field {
 }
 
 /// Asserts that a way leads from cell to cell, over free ones only, to a goal.
-fn assert_leads(map: &Map, way: &Way, start: &Point2<f64>, goal: &Point2<f64>) {
+fn assert_leads(map: &Map, way: &Path, start: &Point2<f64>, goal: &Point2<f64>) {
     let cells: Vec<usize> = way.points.iter().map(|point| map.free_cell_at(point).unwrap()).collect();
     assert_eq!((cells[0], cells[cells.len() - 1]), (map.cell_at(start).unwrap(), map.cell_at(goal).unwrap()));
     assert!(way.points.windows(2).all(|pair| (pair[1] - pair[0]).norm() < 1.5 * map.resolution()));
 }
 
 /// How long a way takes, each step half in the one and half in the other cell.
-fn duration(map: &Map, way: &Way) -> f64 {
+fn duration(map: &Map, way: &Path) -> f64 {
     let slowness = |point: &Point2<f64>| 1.0 / f64::from(map.speeds().unwrap()[map.cell_at(point).unwrap()]);
     let step = |pair: &[Point2<f64>]| (pair[1] - pair[0]).norm() * 0.5 * (slowness(&pair[0]) + slowness(&pair[1]));
     way.points.windows(2).map(step).sum()
@@ -110,7 +110,7 @@ fn a_potential_field_is_stuck_in_the_bay() {
     let stuck = potential.descend(&map, &start).unwrap().unwrap_err();
     // Between the cylinders, short of the goal.
     assert!((stuck.place - Point2::new(3.0, 2.5)).norm() < 1.1, "{}", stuck.place);
-    assert_leads(&map, &stuck.way, &start, &stuck.place);
+    assert_leads(&map, &stuck.path, &start, &stuck.place);
     let text = format!("({:.3}, {:.3})", stuck.place.x, stuck.place.y);
     assert!(stuck.to_string().contains("local minimum") && stuck.to_string().contains(&text), "{stuck}");
     // A local minimum: no neighbour is lower.

@@ -1,15 +1,15 @@
 //! Quickest ways beside Snell's law, solved by minimising over the points where borders are crossed.
 
-use groebot_humanoid::nav::{Map, Quickest, Shape, Way};
+use groebot_humanoid::nav::{Map, Path, Quickest, Shape};
 use groebot_humanoid::{ErrorKind, Watch};
 use nalgebra::Point2;
 
 use super::{Random, random_map};
 
 fn quickest(map: &Map, start: Point2<f64>, goal: Point2<f64>) -> Quickest {
-    let found = map.quickest_way(&start, &goal, None, &Watch::none()).unwrap().unwrap();
-    assert!((found.way.time(map).unwrap() - found.time).abs() < 1e-9 * found.time);
-    assert!(found.way.points[0] == start && *found.way.points.last().unwrap() == goal);
+    let found = map.quickest_path(&start, &goal, None, &Watch::none()).unwrap().unwrap();
+    assert!((found.path.time(map).unwrap() - found.time).abs() < 1e-9 * found.time);
+    assert!(found.path.points[0] == start && *found.path.points.last().unwrap() == goal);
     assert!(found.bound <= found.time);
     found
 }
@@ -84,10 +84,10 @@ fn no_obstacle_is_passed() {
         let slow = map.clone().with_speed(&disc, 0.4).unwrap();
         let free: Vec<usize> = (0..1600).filter(|cell| map.is_free(*cell)).collect();
         let [start, goal] = [(); 2].map(|()| map.centre(free[(numbers.number() * free.len() as f64) as usize]));
-        let shortest = match map.shortest_way(&start, &goal, &Default::default(), &Watch::none()).unwrap() {
-            Ok(shortest) => shortest.way,
+        let shortest = match map.shortest_path(&start, &goal, &Default::default(), &Watch::none()).unwrap() {
+            Ok(shortest) => shortest.path,
             Err(enclosure) => {
-                let found = slow.quickest_way(&start, &goal, None, &Watch::none()).unwrap();
+                let found = slow.quickest_path(&start, &goal, None, &Watch::none()).unwrap();
                 assert_eq!(found.unwrap_err(), enclosure);
                 continue;
             }
@@ -96,13 +96,13 @@ fn no_obstacle_is_passed() {
         assert!((even.time - shortest.length()).abs() < 1e-6 && even.bound > 0.999_999 * even.time, "{even:?}");
         let found = quickest(&slow, start, goal);
         assert!(found.time <= shortest.time(&slow).unwrap() + 1e-9 && found.bound >= shortest.length() * (1.0 - 1e-6));
-        samples_are_free(&map, &found.way);
+        samples_are_free(&map, &found.path);
         reached += 1;
     }
     assert!(reached > 8);
 }
 
-fn samples_are_free(map: &Map, way: &Way) {
+fn samples_are_free(map: &Map, way: &Path) {
     for pair in way.points.windows(2) {
         for part in 0..=1000 {
             let own = map.in_map(&(pair[0] + (pair[1] - pair[0]) * (f64::from(part) / 1000.0)));
@@ -122,7 +122,7 @@ fn times_are_integrals_over_cells() {
     let map = Map::from_text("..#\n...\n", 2.0).unwrap();
     let map = map.with_speed(&Shape::rectangle(Point2::new(1.0, 1.0), 2.0, 2.0, 0.0), 0.5).unwrap();
     let time =
-        |points: &[(f64, f64)]| Way { points: points.iter().map(|(x, y)| Point2::new(*x, *y)).collect() }.time(&map);
+        |points: &[(f64, f64)]| Path { points: points.iter().map(|(x, y)| Point2::new(*x, *y)).collect() }.time(&map);
     assert_eq!(time(&[(0.0, 1.0), (6.0, 1.0)]), Some(2.0 / 0.5 + 4.0));
     // Along the border of the slow cell the faster one counts.
     assert_eq!(time(&[(0.0, 2.0), (2.0, 2.0)]), Some(2.0));
@@ -130,9 +130,9 @@ fn times_are_integrals_over_cells() {
     // It may touch an obstacle, but not slip between two.
     assert_eq!(time(&[(3.0, 2.0), (6.0, 2.0)]), Some(3.0));
     let pinched = Map::from_text("#.\n.#\n", 1.0).unwrap();
-    let through = Way { points: vec![Point2::new(0.5, 0.5), Point2::new(1.5, 1.5)] };
-    let bent = Way { points: vec![Point2::new(0.5, 0.5), Point2::new(1.0, 1.0), Point2::new(1.5, 1.5)] };
+    let through = Path { points: vec![Point2::new(0.5, 0.5), Point2::new(1.5, 1.5)] };
+    let bent = Path { points: vec![Point2::new(0.5, 0.5), Point2::new(1.0, 1.0), Point2::new(1.5, 1.5)] };
     assert!(through.time(&pinched).is_none() && bent.time(&pinched).is_none());
-    let error = map.quickest_way(&Point2::new(5.0, 3.0), &Point2::new(0.5, 0.5), None, &Watch::none()).unwrap_err();
+    let error = map.quickest_path(&Point2::new(5.0, 3.0), &Point2::new(0.5, 0.5), None, &Watch::none()).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::BadValue);
 }

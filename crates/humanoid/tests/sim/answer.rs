@@ -60,7 +60,7 @@ fn an_answer_is_seen_beside_its_plan() {
     near(knee.torque, 12.0);
     // 10 N m on 500 N m/rad.
     near(knee.sag.unwrap(), -0.02);
-    near(knee.unforetold.unwrap(), 0.0);
+    near(knee.unpredicted.unwrap(), 0.0);
     near(compared.planned.ahead, 0.1);
     near(compared.walked.ahead, 0.08);
     near(compared.walked.turn, 0.1);

@@ -231,7 +231,7 @@ fn what_cannot_be_shown_is_refused() {
         changed
     };
     says(&with(&|own| own.joints[2].name = "knukle".into()), ErrorKind::UnknownName, "did you mean `knuckle`");
-    says(&with(&|own| own.joints[0].slides = true), ErrorKind::BadValue, "gives it in m, the robot says");
+    says(&with(&|own| own.joints[0].slides = true), ErrorKind::BadValue, "gives it in m, but in the robot it is");
     says(&with(&|own| own.q[4][1] = f64::NAN), ErrorKind::BadValue, "sample 5: a value is not finite");
     says(&with(&|own| own.base[2].translation.x = f64::INFINITY), ErrorKind::BadValue, "not finite");
     says(&Trajectory { robot: "finger".into(), ..Trajectory::default() }, ErrorKind::BadValue, "no sample");
@@ -249,10 +249,10 @@ fn what_cannot_be_shown_is_refused() {
     };
     refused(&|own| own.nodes[2].pose.translation.x = f64::NAN, "node `swivel`: a number is not finite");
     refused(&|own| own.nodes[2].parts[0].material.diffuse[0] = f64::NAN, "not finite");
-    refused(&|own| own.nodes[3].parent = Some(7), "does not stand behind its parent");
-    refused(&|own| own.nodes[3].parent = Some(3), "does not stand behind its parent");
+    refused(&|own| own.nodes[3].parent = Some(7), "does not follow its parent");
+    refused(&|own| own.nodes[3].parent = Some(3), "does not follow its parent");
     refused(&|own| own.nodes[1].turns.truncate(11), "node `palm`: it moves at another number of samples than 12");
-    refused(&|own| own.times[3] = own.times[2], "sample 4: its time is not behind the one before");
+    refused(&|own| own.times[3] = own.times[2], "sample 4: its time is not after the previous one");
     refused(&|own| own.times[0] = -1.0, "begin at zero");
     // Singles are what glTF has, and it alone.
     let mut near = scene.clone();
@@ -359,9 +359,9 @@ mod vrml {
         let long = format!("Transform {{ }}{}", " ".repeat(1_000_000));
         for (text, kind, line, words) in [
             ("#VRML V1.0 ascii\nSeparator { }", Unsupported, 1, "only `#VRML V2.0 utf8` is read"),
-            ("#VRML V2.0 utf8\n\nDEF t TimeSensor { }", Unsupported, 3, "`TimeSensor` is not read here"),
-            ("Transform {\n children USE arm }", Unsupported, 2, "`USE` is not read here"),
-            ("Shape { geometry\nSphere { radius 1 } }", Unsupported, 2, "`Sphere` is not read here"),
+            ("#VRML V2.0 utf8\n\nDEF t TimeSensor { }", Unsupported, 3, "`TimeSensor` is not supported here"),
+            ("Transform {\n children USE arm }", Unsupported, 2, "`USE` is not supported here"),
+            ("Shape { geometry\nSphere { radius 1 } }", Unsupported, 2, "`Sphere` is not supported here"),
             ("ROUTE a.b TO c.d", Unsupported, 1, "allowed: `Transform`, `Shape`"),
             (&deep, Unsupported, 1, "deeper than 64"),
             ("Transform {\ncenter 0 0 0 }", UnknownKey, 2, "Transform has no field `center` here"),
@@ -381,7 +381,7 @@ mod vrml {
             ("Transform {\n children [\n Shape { }", Syntax, 3, "the text ends here; a node is missing"),
             ("DEF", Syntax, 1, "a name is missing"),
             ("DEF { }", Syntax, 1, "give a name"),
-            ("}", Unsupported, 1, "`}` is not read here"),
+            ("}", Unsupported, 1, "`}` is not supported here"),
         ] {
             let error = Scene::from_vrml(text).unwrap_err();
             assert!(error.kind() == kind && error.message().contains(words), "{text}: {error}");

@@ -57,7 +57,7 @@ fn rh0_gets_to_the_sofa_past_a_piano_that_was_moved() {
     let ahead = at.point() + at.ahead() * 0.5;
     let inside = |at: Point2<f64>| (at.x - 4.0).abs() < 1.0 && (at.y - 0.7).abs() < 0.45;
     assert!(inside(ahead) && !inside(at.point()), "{at:?}");
-    assert!(performed.stages.len() == 1 && performed.stages[0].course.way.points.len() > 2);
+    assert!(performed.stages.len() == 1 && performed.stages[0].course.path.points.len() > 2);
 }
 
 /// Furniture and goal change on the way; the way is found anew from where the robot is, and what held before does not count any more.
@@ -78,7 +78,7 @@ fn what_changes_on_the_way_is_obeyed() {
     // Where the robot rests is where the next way begins.
     for stage in &stages[1..] {
         let rest = performed.walk.schedule.route.rests[stage.steps];
-        assert!((stage.course.way.points[0] - rest.point()).norm() < 1e-9);
+        assert!((stage.course.path.points[0] - rest.point()).norm() < 1e-9);
     }
     let [left, right] = performed.walk.schedule.route.end();
     let lamp = room.piece("lamp").unwrap().place;
@@ -101,5 +101,5 @@ fn rh0_leaves_what_nearly_encloses_it_and_is_told_when_it_is_shut_in() {
     assert!(blocked.enclosure.parts(&blocked.map, inside, outside));
     let (performed, checks) = does(&room, goal(7.0, 3.0).into(), &[]).unwrap();
     is_done(&checks);
-    assert!(performed.stages[0].course.way.length() > 8.0);
+    assert!(performed.stages[0].course.path.length() > 8.0);
 }

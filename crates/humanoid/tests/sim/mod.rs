@@ -90,7 +90,7 @@ fn the_next_step_obeys_goal_furniture_and_figures() {
     // A box on the way.
     let room = run.room().clone().with_moved("box", Point2::new(2.0, 1.2), 0.3).unwrap();
     run.refurnish(room, &watch).unwrap();
-    assert!(run.course().as_ref().unwrap().way.length() > 3.0 - middle(run.walk()).x + 0.02);
+    assert!(run.course().as_ref().unwrap().path.length() > 3.0 - middle(run.walk()).x + 0.02);
     // Steps half as long.
     let (samples, steps) = (run.set("Lp", 0.07, &watch).unwrap(), run.walk().schedule.route.steps.len());
     assert!(samples.end == run.walk().references.len() && run.pilot().reach().ahead <= 0.07);
@@ -131,7 +131,7 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
         assert!(*run.figures() == figures && run.walk().references.len() == samples);
     }
     let on_it = run.room().clone().with_moved("box", middle(run.walk()).point(), 0.0).unwrap();
-    assert!(run.refurnish(on_it, &watch).unwrap_err().message().contains("would stand on the robot"));
+    assert!(run.refurnish(on_it, &watch).unwrap_err().message().contains("would overlap the robot"));
     let error = run.go_to(goal(3.6, 0.4).into(), &watch).unwrap_err();
     assert!(error.kind() == ErrorKind::BadValue && error.message().contains("the nearest free place is"), "{error}");
     assert!(run.room().pieces[0].place == Point2::new(3.6, 0.4) && arrive(&mut run) > 10);

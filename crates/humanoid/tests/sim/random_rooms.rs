@@ -144,7 +144,7 @@ fn outcome(seed: u64) -> Option<(bool, String)> {
             let (stage, steps) = (&performed.stages[0], performed.walk.schedule.route.steps.len());
             let line = format!(
                 "{:.3},{steps},{near:.4},{:.4},{:.2},{odd}",
-                stage.course.way.length(),
+                stage.course.path.length(),
                 checks.margin,
                 stage.milliseconds
             );

@@ -83,5 +83,5 @@ fn the_next_step_obeys_other_figures_of_the_gait() {
     assert!(highest(0, changed) > 0.09 && highest(changed, walk.references.len()) < 0.06);
     let (_, nao) = pilot("nao");
     let mut journey = Journey::new(&own, &floor, start.feet(own.half_width()), &watch).unwrap();
-    assert!(journey.walk_as(nao, &watch).unwrap_err().message().contains("cannot go on for it"));
+    assert!(journey.walk_as(nao, &watch).unwrap_err().message().contains("cannot continue it"));
 }

@@ -2,7 +2,7 @@
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::gait::Footprint;
-use groebot_humanoid::nav::Way;
+use groebot_humanoid::nav::Path;
 use groebot_humanoid::task::{Course, Floor, Journey, Method};
 use nalgebra::Point2;
 
@@ -20,7 +20,7 @@ fn rh0_walks_around_a_wall() {
         arrives(&pilot, &found.walk, &goal);
         is_walked(&pilot, &found.walk);
         keeps_away(&robot, &pilot, &found.walk, &map, 0..found.walk.references.len());
-        lengths.push(found.course.way.length());
+        lengths.push(found.course.path.length());
         // As long as steps are, no fewer lead there; turning on the spot takes some more.
         let least = (lengths[lengths.len() - 1] / pilot.reach().ahead) as usize;
         let steps = found.walk.schedule.route.steps.len();
@@ -80,7 +80,7 @@ fn a_body_keeps_away_where_its_course_does_not() {
     let start = Footprint { x: 0.5, y: 1.0, yaw: 0.0 };
     let soles = |y: f64| map.is_free(map.cell_at(&Point2::new(1.5, y - pilot.half_width() - 0.06)).unwrap());
     assert!(soles(1.0));
-    let course = Course { goal, way: Way { points: vec![start.point(), goal.place] }, is_wide: true };
+    let course = Course { goal, path: Path { points: vec![start.point(), goal.place] }, is_wide: true };
     let mut journey = Journey::new(&pilot, &floor, start.feet(pilot.half_width()), &watch).unwrap();
     let end = loop {
         match journey.step(&floor, &course, &watch) {
@@ -89,7 +89,10 @@ fn a_body_keeps_away_where_its_course_does_not() {
         }
     };
     if let Err(error) = end {
-        assert!(error.message().contains("leads on from (") || error.message().contains("lead on from ("), "{error}");
+        assert!(
+            error.message().contains("was found from (") || error.message().contains("is feasible from ("),
+            "{error}"
+        );
     }
     let walk = journey.walk();
     is_walked(&pilot, walk);

@@ -56,8 +56,8 @@ fn rh0_leaves_what_nearly_encloses_it() {
     assert!((stuck.place - INSIDE.point()).norm() < 1.2, "{stuck}");
     let found = super::plan(&pilot, &map, INSIDE, goal, task::Method::Exact);
     // Out on the left, and around.
-    let leftmost = found.course.way.points.iter().map(|point| point.x).fold(f64::INFINITY, f64::min);
-    assert!(found.course.is_wide && leftmost < 1.35 && found.course.way.length() > 8.0);
+    let leftmost = found.course.path.points.iter().map(|point| point.x).fold(f64::INFINITY, f64::min);
+    assert!(found.course.is_wide && leftmost < 1.35 && found.course.path.length() > 8.0);
     arrives(&pilot, &found.walk, &goal);
     is_walked(&pilot, &found.walk);
     keeps_away(&robot, &pilot, &found.walk, &map, 0..found.walk.references.len());

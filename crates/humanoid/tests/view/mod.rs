@@ -1,7 +1,7 @@
 //! The data of a page against what they were made of; how the page shows them is tested in Chromium: `viewer/tests`.
 
 use groebot_humanoid::ErrorKind;
-use groebot_humanoid::view::{Asked, Page, Sole, WalkRecord};
+use groebot_humanoid::view::{Page, RunRequest, Sole, WalkRecord};
 use groebot_robot::kinematics::Chain;
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::motion::{Contact, Figure, JointTrack, Track, Trajectory};
@@ -168,7 +168,7 @@ fn what_cannot_be_shown_is_refused() {
     assert!(unknown.message().contains("joint `turm`") && unknown.message().contains("`turn`"), "{unknown}");
     let kind = with(|own| own.joints[1].slides = true);
     assert!(
-        kind.kind() == ErrorKind::BadValue && kind.message().contains("in m, the robot says that it is continuous"),
+        kind.kind() == ErrorKind::BadValue && kind.message().contains("in m, but in the robot it is continuous"),
         "{kind}"
     );
     let empty = with(|own| *own = Trajectory::default());
@@ -269,7 +269,7 @@ fn a_run_holds_its_room_with_furniture_from_above() {
     let robot = groebot_robot::robots::robot("rh0").unwrap();
     let room = "size = [3, 2]\nwall = 0.1\n[[furniture]]\nname = \"ball\"\ncircle = 0.3\nat = [2, 1, 90]\nheight = 0.6\n[[furniture]]\nname = \"box\"\nbox = [0.4, 0.2]\nat = [0.5, 0.5]\n";
     let page = |robot_name: &str, room: &str| {
-        let asked = Asked { robot: robot_name, room, start: [1.0, 1.0, 0.0], goal: &[2.0, 0.4], apart: 0.02 };
+        let asked = RunRequest { robot: robot_name, room, start: [1.0, 1.0, 0.0], goal: &[2.0, 0.4], apart: 0.02 };
         Page::of_robot(&robot, None).unwrap().with_run(&asked)
     };
     let told = data(&page("rh0", room).unwrap());

@@ -1,4 +1,4 @@
-//! What the head of a printed file says of the program's source, and the joints' limits.
+//! The header comment of a printed file about the program's source, and the joints' limits.
 
 use serde::Serialize;
 
@@ -6,10 +6,10 @@ use super::language::Expressions;
 use super::names::remark;
 use crate::solver::{About, Program};
 
-/// Lines of the head, and limits.
+/// The lines of the header, and the limits.
 #[derive(Serialize)]
 pub(super) struct AboutText {
-    /// Such as `Task: pose`.
+    /// Lines such as `Task: pose`.
     lines: Vec<String>,
     /// By joint: its least and greatest value.
     limits: Vec<[String; 2]>,

@@ -6,28 +6,28 @@ use super::printer::Printer;
 use super::samples::Table;
 use crate::solver::{Demand, Following, Instruction, Layout, Operand, ParameterDemand, Program, Rule};
 
-/// What all bodies of one file share.
+/// The data that all bodies of one file share.
 pub(super) struct Scene<'a> {
     pub program: &'a Program,
     pub layout: Layout<'a>,
     pub language: &'a dyn Expressions,
     pub names: Names,
-    /// Values at which cases put free joints.
+    /// Sample values of free joints.
     pub tables: Vec<Table>,
 }
 
 impl Scene<'_> {
-    /// A printer for code with registers from `base` on.
+    /// A printer for code whose registers begin at `base`.
     pub fn printer(&self, demand: Demand, base: usize) -> Printer<'_> {
         Printer::new(self.language, &self.names, demand, base)
     }
 
-    /// Code of the checks in a language of its own as far as `rows` ask for it, and the rows themselves as lists of expressions.
+    /// The code of the checks in a language, as far as `rows` need it, and the rows as lists of expressions.
     pub fn checks(&self, language: &dyn Expressions, rows: &[&[Operand]]) -> (Vec<String>, Vec<Vec<String>>) {
         self.equations(language, &self.program.checks.code, rows)
     }
 
-    /// The same of other code over the same parameters and unknowns.
+    /// Same as [`Scene::checks`], for other code over the same parameters and unknowns.
     pub fn equations(
         &self,
         language: &dyn Expressions,
@@ -69,7 +69,7 @@ impl Scene<'_> {
         lines
     }
 
-    /// The value that follows an input.
+    /// The expression of a value that follows an input.
     fn following(&self, law: &Following) -> String {
         let Following { input, factor, offset } = *law;
         format!("{} * target[{input}] + {}", self.language.literal(factor), self.language.literal(offset))

@@ -1,4 +1,4 @@
-//! C99: a robot's header and source file on the run time `groebot.h` and `groebot.c`. Main type: [`Pair`].
+//! C99: a header and a source file of a robot that need the run time `groebot.h` and `groebot.c`. Main type: [`Pair`].
 
 use groebot_runtime::six_axes::{Chain, Rigid};
 
@@ -16,7 +16,7 @@ const SOURCE: &str = include_str!("skeleton/robot.c.txt");
 
 const NUMBERS: Declaration = Declaration { head: "const T ", glue: ", " };
 
-/// A solver in two files: what it declares, and a translation unit that includes that and is to be linked with `groebot.c` and `-lm`.
+/// A solver in two files: a header, and a translation unit that includes it. It is linked with `groebot.c` and `-lm`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pair {
     /// The text of the header, for C99 and C++.
@@ -26,8 +26,8 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// The solver of a valid program ([`Program::validate`]); `stem` is the name of both files but for `.h` and `.c`. The code allocates nothing and has no
-    /// state. With `GB_FLOAT` defined all numbers are `float`.
+    /// Prints the solver of a valid program ([`Program::validate`]); `stem` is the name of both files without `.h` and
+    /// `.c`. The code allocates no memory and has no state. With `GB_FLOAT` defined all numbers are `float`.
     pub fn new(program: &Program, stem: &str) -> Self {
         let mut outline = outline(program);
         stem.clone_into(&mut outline.stem);
@@ -36,12 +36,12 @@ impl Pair {
     }
 }
 
-/// What a program puts into its files.
+/// The values of a program for the skeleton.
 pub(super) fn outline(program: &Program) -> Outline {
     Outline::new(program, &WORDS, &C { kind: Kind::One })
 }
 
-/// What is computed with: a type that the run time tells, or one number.
+/// The number type of the code: the type of the run time, or a single number.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Any,
@@ -52,7 +52,7 @@ pub(super) struct C {
     kind: Kind,
 }
 
-/// The words that C keeps for itself.
+/// The language for checks of reserved words.
 pub(super) const WORDS: C = C { kind: Kind::Any };
 
 impl Expressions for C {
@@ -93,7 +93,7 @@ impl Expressions for C {
         if positive { "INFINITY" } else { "-INFINITY" }.to_owned()
     }
 
-    /// All but plain ASCII as octal escapes, `?` too: `??` would begin a trigraph.
+    /// Quotes text with octal escapes for all but plain ASCII, and for `?`, because `??` would begin a trigraph.
     fn quote(&self, text: &str) -> String {
         let body: String = text
             .bytes()
@@ -299,7 +299,7 @@ impl Dialect for C {
     }
 }
 
-/// Numbers as an initialiser: what Rust writes in brackets.
+/// Numbers as a C initialiser, from Rust's notation in brackets.
 fn braces(numbers: &impl std::fmt::Debug) -> String {
     let text = format!("{numbers:?}").replace('[', "{").replace(']', "}");
     let mut out = String::with_capacity(text.len() * 2);
@@ -313,7 +313,7 @@ fn braces(numbers: &impl std::fmt::Debug) -> String {
     out + rest
 }
 
-/// The length of the number at the front.
+/// The length of the number at the start.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let is_part = |at: &usize| {

@@ -1,14 +1,16 @@
-//! What differs between the languages in the statements of a thin file ([`Dialect`]).
+//! The statements of a printed file that differ between the languages ([`Dialect`]).
 
 use super::language::Expressions;
 use crate::solver::eigenvalue::SixAxes;
 
-/// What differs between the languages in statements. Roots, loops and what is found have numbers, which stand behind their names.
+/// The statements that differ between the languages. Roots, loops and results have numbers, which are appended to their
+/// names.
 pub(super) trait Dialect: Expressions {
-    /// Roots of `x^2 + constant`; `typical` is the unknown's typical size, and they are `grazing` where what the constant follows from is less exact.
+    /// Finds the roots of `x^2 + constant`; `typical` is the unknown's typical size. With `grazing` the constant is
+    /// computed from less exact values.
     fn find_square_roots(&self, number: usize, constant: &str, typical: &str, grazing: bool) -> String;
-    /// The roots of the first polynomial that leads, each a list of coefficients, of a degree of at most `degree`; of a half angle's
-    /// polynomial with its spread as typical size.
+    /// Finds the roots of the first polynomial whose leading coefficient is not negligible, each a list of
+    /// coefficients, of a degree of at most `degree`. A polynomial in a half angle has its spread as typical size.
     fn find_roots(
         &self,
         number: usize,
@@ -17,43 +19,43 @@ pub(super) trait Dialect: Expressions {
         typical: &str,
         half_angle: bool,
     ) -> Vec<String>;
-    /// The loop over roots, and over their values if they have a name; over the first alone where it stands for a pair.
+    /// The loop over roots, and over their values if they have a name; over the first only if it represents a pair.
     fn open_roots(&self, number: usize, name: Option<&str>, is_pair: bool) -> Vec<String>;
-    /// The loop over the rows of the table of samples with a number, of which there are `rows`.
+    /// The loop over the `rows` rows of a table of samples.
     fn open_samples(&self, number: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String>;
-    /// The loop over the answers of the chain with a number at a target.
+    /// The loop over the solutions of a six-axes chain at a target.
     fn open_six_axes(&self, number: usize, chain: usize, target: &[String]) -> Vec<String>;
-    /// The tables of a chain, a constant.
+    /// The tables of a chain, as a constant.
     fn chain(&self, six: &SixAxes) -> String;
-    /// The value of a joint in that loop; typed.
+    /// The value of a joint in that loop, typed.
     fn six_axes_joint(&self, number: usize, joint: usize) -> String;
-    /// Where all of these hold.
+    /// The condition that all of these hold.
     fn guard(&self, guards: &[GuardText]) -> String;
-    /// What is done where a case applies.
+    /// The head of the block in which a case applies.
     fn open_case(&self, applies: &Applies) -> String;
-    /// A stratum that could not be derived.
+    /// Reports a stratum that could not be derived.
     fn is_open(&self, number: usize, condition: &str) -> String;
-    /// A case's claim to be the best conditioned of its group.
+    /// Computes a case's claim to be the best conditioned of its group.
     fn claim(&self, number: usize, lines: Vec<String>, pivot: &str, condition: Option<&str>) -> Vec<String>;
-    /// What is done with the case elected by these claims: as many bodies.
+    /// Runs the case that is elected by these claims: one body per claim.
     fn elect(&self, claims: &[usize], bodies: Vec<Vec<String>>) -> Vec<String>;
-    /// Lines that declare `magnitude`, the greatest among a positive number and the magnitudes of names.
+    /// Lines that declare `magnitude`, the greatest of a positive number and the magnitudes of names.
     fn magnitude(&self, least: f64, names: &[String]) -> Vec<String>;
     /// A row of a table.
     fn row(&self, numbers: &[f64]) -> String;
-    /// How many candidates there have been.
+    /// The number of candidates so far.
     fn count(&self, number: usize) -> String;
-    /// How a choice has been found, under a number, after what has one already.
+    /// Declares the code of the choices so far, under a number, combined with an earlier one.
     fn found(&self, before: usize, number: usize, how: &[How]) -> String;
-    /// Going on to a block that stands for itself, with how its choices so far have been found and what is known.
+    /// Calls the function of a block, with the code of the choices so far and the known values.
     fn go_on(&self, block: usize, found: usize, is_rare: bool, known: &[String]) -> Vec<String>;
-    /// Handing over a candidate that has been found so.
+    /// Reports a candidate with the code of its choices.
     fn finish(&self, found: usize, at: &[String]) -> Vec<String>;
-    /// Whether the names of one case must not stand in another.
+    /// Whether the names of one case must not be visible in another.
     fn needs_scopes(&self) -> bool {
         false
     }
-    /// A remark.
+    /// A comment.
     fn comment(&self, text: &str) -> String {
         format!("// {text}")
     }
@@ -66,28 +68,29 @@ pub(super) struct GuardText {
     pub near: bool,
 }
 
-/// When a case applies.
+/// The condition under which a case applies.
 pub(super) enum Applies {
-    /// At hardly any target it does not.
+    /// The case applies at almost all targets.
     Usually(String),
-    /// At hardly any target it does.
+    /// The case applies at very few targets.
     Rarely(String),
-    /// Near a stratum, or beside it where the candidates since a count with this number have sufficed.
+    /// The case applies near a stratum, and otherwise if the candidates since a count with this number have not
+    /// sufficed.
     Near { count: usize, guard: String },
 }
 
-/// A part of how something has been found.
+/// A part of the code of a choice.
 pub(super) enum How {
-    /// By a choice of the first block's case whose numbers end at `last`.
+    /// A choice of the first block's case whose numbers end at `last`.
     First { branch: String, last: usize },
-    /// By a choice of a later block.
+    /// A choice of a later block.
     Next { radix: usize, branch: String },
-    /// By a root of these roots.
+    /// One of these roots.
     Root(usize),
-    /// By both.
+    /// Both roots of a pair.
     Pair(usize),
-    /// With free joints: bit `j` for joint `j`.
+    /// Free joints: bit `j` for joint `j`.
     Free(u32),
-    /// By an answer of six axes, whose joints have these indices.
+    /// A solution of six axes, whose joints have these indices.
     SixAxes { number: usize, joints: Vec<Option<usize>> },
 }

@@ -1,6 +1,6 @@
-//! C++ in the interface of IKFast, which MoveIt's plugin template and OpenRAVE include: `docs/ikfast.md`.
+//! C++ with the interface of IKFast, for MoveIt's plugin template and OpenRAVE: `docs/ikfast.md`.
 //!
-//! The solver is the one of [`super::c99`].
+//! The solver is that of [`super::c99`].
 
 use serde::Serialize;
 
@@ -16,23 +16,24 @@ use groebot_robot::document::shown;
 
 const SKELETON: &str = include_str!("skeleton/ikfast.cpp.txt");
 
-/// Targets in single precision are rounded by up to this, as shares of the sizes of the equations: several units in the last place of a number.
+/// The rounding error of targets in single precision, relative to the sizes of the equations: several units in the last
+/// place.
 const SINGLE: f64 = 1e-6;
-/// A digit of a branch number is below this: a solution's indices are bytes, and the greatest byte stands for none.
+/// The upper bound of a digit of a branch number. A solution's indices are bytes, and the greatest byte means none.
 const MOST_DIGITS: usize = 250;
 
-/// What is asked of the file.
+/// Options of the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The namespace of its functions, a word; none for the namespace that includes it.
+    /// The namespace of its functions, a word; `None` uses the enclosing namespace.
     pub namespace: Option<String>,
-    /// Whether callers speak in single precision; the solver computes in double precision.
+    /// Whether the interface is in single precision; the solver computes in double precision.
     pub single: bool,
-    /// The name of the file, by which it includes itself; the mechanism's name and `_ikfast.cpp` unless it is told.
+    /// The name of the file, by which it includes itself; by default the mechanism's name and `_ikfast.cpp`.
     pub file: Option<String>,
 }
 
-/// The solver of a valid program ([`Program::validate`]) as one C++11 file for `ikfast.h`, which needs nothing else.
+/// Prints the solver of a valid program ([`Program::validate`]) as one C++11 file that needs only `ikfast.h`.
 ///
 /// # Errors
 /// As [`emit_beside`].
@@ -40,16 +41,18 @@ pub fn emit(program: &Program, options: &Options) -> Result<String> {
     file(program, options, None)
 }
 
-/// The interface alone, for `ikfast.h` and the solver in C whose files are called `stem` but for their ends ([`super::c99::Pair`]).
+/// Prints only the interface, for `ikfast.h` and the solver in C whose files have the name `stem`
+/// ([`super::c99::Pair`]).
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a program without forward kinematics, with more than one given joint, with a task that IKFast has no
-/// type for, or in single precision with one whose equations accept no rounded target; [`ErrorKind::BadValue`] for a namespace that is no word.
+/// [`ErrorKind::Unsupported`] for a program without forward kinematics, with more than one given joint, with a task
+/// that IKFast has no type for, or in single precision with equations that accept no rounded target.
+/// [`ErrorKind::BadValue`] for a namespace that is not a word.
 pub fn emit_beside(program: &Program, options: &Options, stem: &str) -> Result<String> {
     file(program, options, Some(stem))
 }
 
-/// The file: beside a solver with this stem, or with it.
+/// The file: for a solver with this stem, or including it.
 fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<String> {
     let refuse = |text: String| Error::new(ErrorKind::Unsupported, format!("`{}`: {text}", program.name));
     let forward = program.forward().filter(|_| program.cases().any(|case| !case.open)).ok_or_else(|| {
@@ -59,17 +62,14 @@ fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<Stri
     })?;
     let kind = Kind::of(program, &forward).map_err(refuse)?;
     let program = &if options.single { program.tolerant(SINGLE) } else { Some(program.clone()) }.ok_or_else(|| {
-        let text = "the task asks for more than the joints can do, and no target that is rounded to single precision is consistent; leave --float out, so that \
+        let text = "the task has more numbers than the joints can reach, and no target that is rounded to single precision is consistent; omit --float, so that \
                     callers use double precision";
         refuse(text.to_owned())
     })?;
     if let Some(name) = options.namespace.as_ref().filter(|name| !is_word(name) || WORDS.is_reserved(name)) {
         return Err(Error::new(
             ErrorKind::BadValue,
-            format!(
-                "namespace `{}`: give a word of letters, digits and `_` that C++ does not keep for itself",
-                shown(name)
-            ),
+            format!("namespace `{}`: give a word of letters, digits and `_` that is not reserved in C++", shown(name)),
         ));
     }
     let mut outline = super::c99::outline(program);
@@ -82,12 +82,12 @@ fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<Stri
     Ok(super::fill(SKELETON, &File::new(program, outline, (solver, own), &kind, options)))
 }
 
-/// A type of IKFast.
+/// A task type of IKFast.
 struct Type {
     name: &'static str,
     code: &'static str,
     meaning: &'static str,
-    /// Numbers of `eetrans`, then of `eerot`, that it has.
+    /// The numbers of values in `eetrans` and in `eerot`.
     numbers: [usize; 2],
     usage: &'static str,
 }
@@ -142,7 +142,7 @@ const PLANAR_POSE: Type = Type {
     usage: "x y angle",
 };
 
-/// By coordinate of the axis about which the angle is asked.
+/// By coordinate of the axis of the angle.
 const ABOUT: [Type; 3] = [
     Type {
         name: "TranslationYAxisAngleXNorm4D",
@@ -182,7 +182,7 @@ impl Kind {
         };
         let free: Vec<(usize, usize)> = forward.inputs.iter().enumerate().filter_map(given).collect();
         if free.len() > 1 {
-            return Err(format!("{} joints are given; IKFast's callers give the value of one at most", free.len()));
+            return Err(format!("{} joints are given; IKFast has at most one free joint", free.len()));
         }
         let own = program.inputs.len() - free.len();
         let first_given = free.first().map_or(own, |(_, input)| *input);
@@ -221,7 +221,7 @@ fn ikfast_type(program: &Program, own: usize) -> Option<&'static Type> {
     }
 }
 
-/// What the skeleton names, beside the outline.
+/// The values that the skeleton uses in addition to the outline.
 #[derive(Serialize)]
 struct File<'a> {
     #[serde(flatten)]
@@ -233,7 +233,7 @@ struct File<'a> {
     single: bool,
     kind: KindText,
     free_joint: Option<usize>,
-    /// How many of the equations' unit of length are a metre.
+    /// The number of the equations' length units per metre.
     units: String,
     reading: Vec<String>,
     writing: Vec<String>,
@@ -254,7 +254,7 @@ struct KindText {
     direction: bool,
     uses_translation: bool,
     uses_rotation: bool,
-    /// Numbers of `eetrans`.
+    /// The number of values in `eetrans`.
     translation: usize,
 }
 
@@ -332,7 +332,7 @@ fn transfers(program: &Program, kind: &Kind, line: impl Fn(usize, String, &str) 
     own.chain(free).map(|(index, name)| line(index, name, if is_length(index) { " * UNITS" } else { "" })).collect()
 }
 
-/// By joint: the base of its digit of the branch number, the first joint's being the lowest; 0 for the given one.
+/// By joint, the base of its digit of the branch number, the first joint's being the lowest; 0 for the given one.
 fn bases(program: &Program, free: Option<usize>) -> Vec<usize> {
     let mut left = program.blocks.iter().map(|block| block.branches()).fold(1, usize::saturating_mul);
     let mut base = |joint: usize| {

@@ -1,18 +1,18 @@
-//! Short declarations on one line, as far as that is not long.
+//! Joins short declarations on one line.
 
 /// The longest line of joined declarations, in characters.
 const LINE: usize = 112;
 
 /// How a language declares a constant number.
 pub(super) struct Declaration {
-    /// What stands before its name.
+    /// The text before its name.
     pub head: &'static str,
-    /// What stands between two on one line.
+    /// The separator between two on one line.
     pub glue: &'static str,
 }
 
 impl Declaration {
-    /// The text with plain declarations that follow one another on one line.
+    /// The text with consecutive plain declarations joined on one line.
     pub fn joined(&self, text: &str) -> String {
         let mut lines: Vec<String> = Vec::new();
         for line in text.lines() {
@@ -29,7 +29,7 @@ impl Declaration {
         lines.join("\n") + "\n"
     }
 
-    /// The indentation of a line that declares numbers by plain expressions, and what it declares.
+    /// The indentation of a line that declares numbers by plain expressions, and the declarations.
     fn declared<'a>(&self, line: &'a str) -> Option<(&'a str, &'a str)> {
         let start = line.trim_start();
         let rest = start.strip_prefix(self.head)?;

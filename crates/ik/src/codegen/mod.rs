@@ -1,9 +1,10 @@
-//! Printing a [`Program`] as source code: [`rust::emit`], [`c99::Pair`] and [`ikfast::emit`].
+//! Code generation from a [`Program`]: [`rust::emit`], [`c99::Pair`] and [`ikfast::emit`].
 //!
-//! A printed file holds what is particular to a robot: its program as straight-line code in nested loops, its equations, and its
-//! facts. All else is called from the run time `groebot-runtime`, which [`Program::solver`](crate::solver::Program::solver) calls
-//! too; [`single_file`] puts both together. A language prints expressions (`language::Expressions`) and statements (`dialect::Dialect`), and has the skeleton
-//! of a file (`skeleton/`), filled from one `outline::Outline`.
+//! A printed file contains the parts that are specific to a robot: its program as straight-line code in nested loops,
+//! its equations, and its facts. The rest is in the run time `groebot-runtime`, which
+//! [`Program::solver`](crate::solver::Program::solver) uses too; [`single_file`] prints both together. A language has
+//! expressions (`language::Expressions`), statements (`dialect::Dialect`), and the skeleton of a file (`skeleton/`),
+//! which is filled from an `outline::Outline`.
 
 pub mod c99;
 pub mod dynamics;
@@ -31,12 +32,12 @@ use serde::Serialize;
 
 use crate::solver::Program;
 
-/// Whether a step of `program` finds six joints together, by an eigenvalue problem.
+/// Whether a step of `program` solves six joints together, as an eigenvalue problem.
 pub fn has_six_axes(program: &Program) -> bool {
     !six_axes::steps(program).is_empty()
 }
 
-/// The skeleton with the outline's values; both come with the crate and fit one another.
+/// Fills the skeleton with the outline's values. Both are part of the crate and fit each other.
 fn fill(skeleton: &str, outline: &impl Serialize) -> String {
     let mut environment = minijinja::Environment::new();
     environment.set_trim_blocks(true);

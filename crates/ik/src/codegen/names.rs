@@ -1,4 +1,4 @@
-//! Names of a program as identifiers of a language: kept where they can be, else changed as little as possible.
+//! Names of a program as identifiers of a language: unchanged where valid, else changed as little as possible.
 
 use std::collections::HashSet;
 
@@ -6,12 +6,12 @@ use super::language::Expressions;
 use crate::solver::Program;
 use groebot_robot::document::word;
 
-/// Names that the printed functions use themselves, beside `r0`, `i0`, `roots0` and the like.
+/// Names that the printed functions use themselves, in addition to `r0`, `i0`, `roots0` and similar ones.
 const TAKEN: &str = "p c at all rows tip values value sizes size columns target magnitude memcpy rarely jacobian short parameters walk FACTS Solver \
     INPUTS JOINTS CAPACITY EMPTY INPUT_NAMES JOINT_NAMES LIMITS OPEN_STRATA Solution Pairs Error Solve Candidates Condition Facts Fixed Found Joint \
     Mechanism Number Preference Reached Short With Chain Formulation Formulations Rigid groebot_runtime";
 
-/// Letters that a number follows in the printed functions.
+/// Prefixes of numbered names in the printed functions.
 const NUMBERED: [&str; 14] = [
     "r", "i", "roots", "choice", "choices", "found", "before", "claim", "claims", "six", "answer", "answers", "count",
     "block_",
@@ -21,7 +21,7 @@ const NUMBERED: [&str; 14] = [
 pub(super) struct Names {
     /// By parameter.
     pub parameters: Vec<String>,
-    /// By unknown; apart from those of the parameters.
+    /// By unknown; different from those of the parameters.
     pub unknowns: Vec<String>,
 }
 
@@ -48,7 +48,7 @@ fn unique(text: &str, language: &dyn Expressions, used: &mut HashSet<String>) ->
     name
 }
 
-/// Whether a text is a word that every language takes as part of a name: a letter, then letters, digits and `_`.
+/// Whether a text is a valid part of a name in every language: a letter, then letters, digits and `_`.
 pub fn is_word(text: &str) -> bool {
     word(text) == text
 }
@@ -63,7 +63,7 @@ fn is_taken(name: &str, language: &dyn Expressions) -> bool {
         || language.is_reserved(name)
 }
 
-/// The text fit for a comment of any language: printable ASCII on one line that neither opens nor ends anything.
+/// The text for a comment in any language: printable ASCII on one line without comment delimiters.
 pub(super) fn remark(text: &str) -> String {
     let printable = |c: char| if c == ' ' || c.is_ascii_graphic() { c } else { '?' };
     let line: String = text.chars().map(printable).collect();

@@ -1,4 +1,4 @@
-//! What a program puts into the skeleton of a thin file. Main type: [`Outline`].
+//! The values of a program for the skeleton of a printed file. Main type: [`Outline`].
 
 use serde::Serialize;
 
@@ -15,11 +15,11 @@ use crate::solver::{
     Case, Demand, Described, Facts, JointValue, Layout, Operand, ParameterDemand, Program, Rule, Short, Unit,
 };
 
-/// Everything that the skeletons name.
+/// All values that the skeletons use.
 #[derive(Serialize)]
 pub(super) struct Outline {
     pub name: String,
-    /// The name of files but for their ends.
+    /// The name of files without extension.
     pub stem: String,
     pub version: &'static str,
     pub about: AboutText,
@@ -39,13 +39,13 @@ pub(super) struct Outline {
     target_lines: Vec<String>,
     functions: Vec<FunctionText>,
     tip: Option<Body>,
-    /// The equations' values, where they are not all what the tip is compared with.
+    /// The equations' values, unless all of them are comparisons with the tip.
     values: Option<Body>,
     /// The values as described, where the equations are those of the ideal mechanism, and the tolerance.
     described: Option<Body>,
     within: Option<String>,
     sizes: Body,
-    /// The derivatives, where the run time does not find them from the values.
+    /// The derivatives, unless the run time computes them from the values.
     jacobian: Option<Body>,
     short: Option<Body>,
 }
@@ -87,7 +87,7 @@ struct Body {
 }
 
 impl Outline {
-    /// That of a valid program; what computes one number alone is in `plain`.
+    /// The outline of a valid program. The printer `plain` is for code that computes with a single number.
     pub fn new(program: &Program, dialect: &dyn Dialect, plain: &dyn Expressions) -> Self {
         let (names, tables) = (Names::new(program, dialect), Table::all(program));
         let scene = Scene { program, layout: Layout::new(program), language: dialect, names, tables };
@@ -172,7 +172,7 @@ impl Body {
     }
 }
 
-/// Declarations of the parameters that are computed: those that are the target's numbers together, where all are.
+/// Declarations of the computed parameters; the target's numbers together, if all are parameters.
 fn target_lines(scene: &Scene<'_>, demand: &ParameterDemand) -> Vec<String> {
     let rules = scene.program.parameters.iter().enumerate();
     let are_inputs =
@@ -184,7 +184,7 @@ fn target_lines(scene: &Scene<'_>, demand: &ParameterDemand) -> Vec<String> {
     scene.parameters(demand)
 }
 
-/// The parameters in order, each where lines read it; none if they read none.
+/// The parameters in order, each if lines read it; none if they read none.
 fn read_of(parameters: &[String], lines: &[String]) -> Vec<Option<String>> {
     let read: Vec<Option<String>> = parameters.iter().map(|name| reads(lines, name).then(|| name.clone())).collect();
     if read.iter().all(Option::is_none) { Vec::new() } else { read }
@@ -205,7 +205,7 @@ impl Quantity {
     }
 }
 
-/// Which parameters the printed code asks for.
+/// The parameters that the printed code needs.
 fn demanded(scene: &Scene<'_>, has_answers: bool) -> ParameterDemand {
     let program = scene.program;
     let last = program.blocks.len() - 1;

@@ -10,16 +10,16 @@ use super::names::Names;
 use crate::solver::Demand;
 use crate::solver::{Instruction, Operand, Operation};
 
-/// Longest expression that becomes part of another one, in characters.
+/// The greatest length of an expression that becomes part of another one, in characters.
 const INLINE: usize = 44;
 
-/// Longest line of listed values, in characters, without indentation.
+/// The greatest length of a line of listed values, in characters, without indentation.
 const LINE: usize = 96;
 
 /// One level of indentation.
 pub(super) const INDENT: &str = "    ";
 
-/// How tightly a text binds: what it needs parentheses for.
+/// The precedence of a text, which decides about parentheses.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Binding {
     Sum,
@@ -40,13 +40,13 @@ impl Expression {
         Expression { text: text.into(), binding: Binding::Atom }
     }
 
-    /// The text, in parentheses if it binds less than `least`.
+    /// The text, in parentheses if its precedence is below `least`.
     fn within(self, least: Binding) -> String {
         if self.binding < least { format!("({})", self.text) } else { self.text }
     }
 }
 
-/// `head`, the items and `tail` on one line, or, where that would be long, on lines of their own.
+/// `head`, the items and `tail` on one line, or on separate lines if that is too long.
 pub(super) fn spread(head: &str, items: &[String], tail: &str) -> Vec<String> {
     let line = format!("{head}{}{tail}", items.join(", "));
     if line.len() <= LINE {
@@ -56,7 +56,7 @@ pub(super) fn spread(head: &str, items: &[String], tail: &str) -> Vec<String> {
     [head.to_owned()].into_iter().chain(items).chain([tail.to_owned()]).collect()
 }
 
-/// The items, a comma behind each, on lines that are not long.
+/// The items, each with a comma, on lines of limited length.
 fn packed(items: &[String]) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for item in items {
@@ -68,33 +68,33 @@ fn packed(items: &[String]) -> Vec<String> {
     lines
 }
 
-/// The filter of that name: lists, the last comma left out, on lines that begin with `lead` but for the first.
+/// The template filter of that name: lists without the last comma; all lines but the first begin with `lead`.
 pub(super) fn packed_lines(items: Vec<String>, lead: &str) -> String {
     let lines = packed(&items).join(&format!("\n{lead}"));
     lines.strip_suffix(',').unwrap_or(&lines).to_owned()
 }
 
-/// Prints code of one function.
+/// Prints the code of one function.
 pub(super) struct Printer<'a> {
     language: &'a dyn Expressions,
     /// By parameter and by unknown.
     parameters: &'a [String],
     unknowns: &'a [String],
     demand: Demand,
-    /// Number of register 0.
+    /// The number of register 0.
     first_register: usize,
-    /// Registers that are read once, until they are.
+    /// Registers that are read once, until they are read.
     waiting: HashMap<usize, Expression>,
 }
 
 impl<'a> Printer<'a> {
-    /// For code whose registers count from `first_register`.
+    /// A printer for code whose registers begin at `first_register`.
     pub fn new(language: &'a dyn Expressions, names: &'a Names, demand: Demand, first_register: usize) -> Self {
         let (parameters, unknowns) = (&names.parameters[..], &names.unknowns[..]);
         Printer { language, parameters, unknowns, demand, first_register, waiting: HashMap::new() }
     }
 
-    /// For code that reads parameters alone.
+    /// A printer for code that reads only parameters.
     pub fn of(language: &'a dyn Expressions, parameters: &'a [String], demand: Demand) -> Self {
         Printer { language, parameters, unknowns: &[], demand, first_register: 0, waiting: HashMap::new() }
     }
@@ -108,7 +108,7 @@ impl<'a> Printer<'a> {
         &self.demand
     }
 
-    /// Declarations of the registers that are read, but for those that become part of an expression.
+    /// Declarations of the registers that are read, except those that become part of an expression.
     pub fn code(&mut self, code: &[Instruction]) -> Vec<String> {
         let mut lines = Vec::new();
         for instruction in code {
@@ -126,14 +126,14 @@ impl<'a> Printer<'a> {
         lines
     }
 
-    /// Declarations of all registers that wait to become part of an expression.
+    /// Declarations of all registers that still wait to become part of an expression.
     pub fn settle(&mut self) -> Vec<String> {
         let mut waiting: Vec<(usize, Expression)> = self.waiting.drain().collect();
         waiting.sort_by_key(|(index, _)| *index);
         waiting.iter().map(|(index, value)| self.language.declare(&self.register(*index), &value.text)).collect()
     }
 
-    /// An operand that stands alone, as an expression.
+    /// An operand as an expression of its own.
     pub fn operand(&mut self, operand: Operand) -> String {
         match operand {
             Operand::Constant(value) => self.language.alone(self.language.literal(value)),

@@ -1,9 +1,9 @@
-//! Names that printed code cannot have.
+//! Names that printed code must not use.
 
 use groebot_algebra::limits::RUN_TIME_FILES;
 use groebot_robot::document::word;
 
-/// Words that C, C++, their libraries and the run time keep for themselves.
+/// Reserved words of C, C++, their libraries and the run time.
 const RESERVED: &str = "auto break case char const continue default do double else enum extern float for goto if inline int \
     long register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while \
     bool true false asm typeof \
@@ -15,22 +15,22 @@ const RESERVED: &str = "auto break case char const continue default do double el
     float_t double_t math_errhandling signgam linux unix i386 T R GROEBOT_H \
     sin cos sqrt fabs fmax fmin atan2 round copysign isfinite isnan free_joints assert";
 
-/// How other such words begin.
+/// Prefixes of other reserved words.
 const PREFIXES: [&str; 9] = ["FLT_", "DBL_", "LDBL_", "FP_", "MATH_", "M_", "__", "gb_", "GB_"];
 
-/// Whether C or C++ keeps this word.
+/// Whether the word is reserved in C or C++.
 pub(super) fn is_reserved(word: &str) -> bool {
     RESERVED.split_whitespace().any(|reserved| reserved == word)
         || PREFIXES.iter().any(|prefix| word.starts_with(prefix))
 }
 
-/// Whether a file called so would stand in the place of one of the run time.
+/// Whether a file of this name would replace one of the run time.
 pub fn is_run_time(stem: &str) -> bool {
     RUN_TIME_FILES.iter().any(|own| stem.eq_ignore_ascii_case(own))
 }
 
-/// A program's or robot's name as what the names of its functions and, in capitals, of its constants begin with: a word that no language and not the run
-/// time has, nor with which their names begin.
+/// The prefix of function names and, in capitals, of constants, from a program's or robot's name. It is not a reserved
+/// word of a language or the run time, and does not begin like one.
 pub(super) fn prefix(name: &str) -> String {
     let name = word(name);
     let begun = format!("{name}_");

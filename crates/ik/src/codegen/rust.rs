@@ -1,4 +1,4 @@
-//! Rust: a file on the run time `groebot-runtime`, or with it.
+//! Rust: a file that needs the run time `groebot-runtime`, or includes it.
 
 use groebot_runtime::six_axes::Chain;
 
@@ -19,12 +19,13 @@ const RESERVED: &str = "as async await break const continue crate dyn else enum 
 
 const NUMBERS: Declaration = Declaration { head: "let ", glue: "; let " };
 
-/// The solver of a valid program ([`Program::validate`]) as one Rust file on the crate `groebot-runtime` (edition 2024, Rust 1.89 or later).
+/// Prints the solver of a valid program ([`Program::validate`]) as one Rust file that needs the crate `groebot-runtime`
+/// (edition 2024, Rust 1.89 or later).
 pub fn emit(program: &Program) -> String {
     NUMBERS.joined(&super::fill(SKELETON, &Outline::new(program, &Rust { kind: "N" }, &Rust { kind: "f64" })))
 }
 
-/// The language, by the kind of numbers that are computed with.
+/// The language, by the type of numbers in the code.
 struct Rust {
     kind: &'static str,
 }

@@ -1,8 +1,8 @@
-//! Tables of the values at which cases put free joints: cases with the same values share one.
+//! Tables of sample values of free joints: cases with the same values share one.
 
 use crate::solver::{JointValue, Program, Step};
 
-/// A table: numbers by rows.
+/// A table of numbers by rows.
 #[derive(Clone, PartialEq)]
 pub(super) struct Table {
     rows: Vec<Vec<f64>>,
@@ -18,7 +18,7 @@ impl Table {
         Table { rows: values.iter().map(row).collect() }
     }
 
-    /// The tables of a program, each once.
+    /// The tables of a program without duplicates.
     pub fn all(program: &Program) -> Vec<Self> {
         let mut tables = Vec::new();
         for step in program.cases().flat_map(|case| &case.steps) {

@@ -1,4 +1,5 @@
-//! Run time and robot in one file: in Rust the modules of the crate `groebot-runtime` inside a module of that name, in C the text of its files.
+//! Run time and robot in one file: in Rust the modules of the crate `groebot-runtime` inside a module of that name, in
+//! C the text of its files.
 
 use groebot_runtime::sources::{C, C_HEADER, C_PARTS, C_SIX_AXES, C_SIX_AXES_HEADER, ROOT, RUST, SIX_AXES};
 
@@ -6,8 +7,9 @@ use super::c99::Pair;
 use super::rust;
 use crate::solver::Program;
 
-/// The solver of a valid program ([`Program::validate`]) as one Rust file (edition 2024, Rust 1.89 or later) that needs no other crate: a module or the root
-/// of a crate. With the feature `libm` (in Cargo, or `--cfg feature="libm"`) it needs `core` and the C library's `sqrt` only.
+/// Prints the solver of a valid program ([`Program::validate`]) as one Rust file (edition 2024, Rust 1.89 or later)
+/// without dependencies: a module or the root of a crate. With the feature `libm` (in Cargo, or `--cfg feature="libm"`)
+/// it needs only `core` and the C library's `sqrt`.
 pub fn rust(program: &Program) -> String {
     let robot = rust::emit(program);
     let (head, body) = robot.split_once("\nuse ").unwrap_or((&robot, ""));
@@ -29,8 +31,9 @@ pub fn rust(program: &Program) -> String {
     text + "}\n\nuse " + &body
 }
 
-/// The solver of a valid program ([`Program::validate`]) as one C99 file, a translation unit to be linked with `-lm`; all numbers are `float` if they are to
-/// be `single`. The text includes itself by the name `file`, or by another one that `GB_FILE` is defined as. With `NAME_DECLARATIONS_ONLY` defined it is its own header.
+/// Prints the solver of a valid program ([`Program::validate`]) as one C99 file, a translation unit to be linked with
+/// `-lm`; with `single` all numbers are `float`. The text includes itself by the name `file`, or by the value of
+/// `GB_FILE`. With `NAME_DECLARATIONS_ONLY` defined it is its own header.
 pub fn c(program: &Program, file: &str, single: bool) -> String {
     let Pair { header, source } = Pair::new(program, "");
     let name = super::reserved::prefix(&program.name).to_ascii_uppercase();
@@ -55,7 +58,7 @@ pub fn c(program: &Program, file: &str, single: bool) -> String {
     )
 }
 
-/// A file of the run time in C with its parts in their places.
+/// A file of the run time in C with its parts inserted.
 fn whole(text: &str) -> String {
     let part = |line: &str| {
         let path = line.strip_prefix("#include \"")?.strip_suffix('"')?;
@@ -76,18 +79,18 @@ fn without_comments(text: &str) -> String {
     kept.lines().map(str::trim).filter(|line| !line.is_empty()).map(|line| format!("{line}\n")).collect()
 }
 
-/// The head of a robot's file that holds the run time.
+/// The header comment of a robot's file that contains the run time.
 fn alone(head: &str) -> String {
     let head = head.replace("the crate `groebot-runtime`", "the module `groebot_runtime` below");
     head.replace("without its feature `std`", "with the feature `libm`").trim_end().to_owned()
 }
 
-/// What the crate's root hands on.
+/// The public items of the crate's root.
 fn root() -> String {
     inner(ROOT, "self").lines().filter(|line| line.starts_with("pub use ")).map(|line| format!("{line}\n")).collect()
 }
 
-/// A module's text without comments and declarations of modules, as one of a crate whose root is called so.
+/// A module's text without comments and declarations of modules, for a crate whose root has this name.
 fn inner(text: &str, root: &str) -> String {
     let is_kept = |line: &&str| {
         let line = line.trim_start();

@@ -1,4 +1,5 @@
-//! The walk through the blocks as text: nested loops, a function of its own for each block that several cases lead to. Main type: [`Walk`].
+//! Traversal of the blocks as text: nested loops, with a separate function for each block that several cases lead to.
+//! Main type: [`Walk`].
 
 use super::body::Scene;
 use super::dialect::{Applies, Dialect, GuardText, How};
@@ -10,17 +11,17 @@ use crate::solver::Demand;
 use crate::solver::eigenvalue::SixAxes;
 use crate::solver::{Block, Case, JointValue, Operand, Program, Step, square};
 
-/// A block as a function of its own.
+/// A block as a separate function.
 pub(super) struct Function {
     /// Its number, from 1.
     pub number: usize,
     pub label: String,
-    /// The names that it is told, behind the parameters.
+    /// The known values that are its arguments, after the parameters.
     pub known: Vec<String>,
     pub lines: Vec<String>,
-    /// Whether one place that is often passed leads here, so that a language had better put it in that place.
+    /// Whether it has one call that runs often, so that a language should inline it.
     pub is_inlined: bool,
-    /// Whether a rare case leads here.
+    /// Whether a rare case calls it.
     pub is_led_to_rarely: bool,
 }
 
@@ -63,7 +64,7 @@ fn stands_alone(blocks: &[Block], index: usize) -> bool {
     index == 0 || blocks[index - 1].cases.iter().filter(|case| !case.open).count() != 1
 }
 
-/// Whether a word stands in lines.
+/// Whether a word occurs in lines.
 pub(super) fn reads(lines: &[String], word: &str) -> bool {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     lines.iter().any(|line| {
@@ -73,18 +74,18 @@ pub(super) fn reads(lines: &[String], word: &str) -> bool {
     })
 }
 
-/// A function on its way to text.
+/// A function while it is printed.
 struct Walk<'a> {
     scene: &'a Scene<'a>,
     dialect: &'a dyn Dialect,
-    /// Those of later blocks.
+    /// The functions of later blocks.
     functions: &'a [Function],
     lines: Vec<String>,
     depth: usize,
-    /// How many loops and claims there are so far.
+    /// The number of loops and claims so far.
     loops: usize,
     claims: usize,
-    /// The number of the name of how the choices so far have been found.
+    /// The number in the name of the code of the choices so far.
     found: usize,
 }
 
@@ -111,7 +112,7 @@ impl<'a> Walk<'a> {
         self.push([comment]);
     }
 
-    /// The block with this index, whose registers begin at `base`.
+    /// Prints the block with this index, whose registers begin at `base`.
     fn block(&mut self, index: usize, base: usize) {
         let scene = self.scene;
         let block = &scene.program.blocks[index];
@@ -132,13 +133,13 @@ impl<'a> Walk<'a> {
                 let is_member = |case: &usize| block.cases[*case].pivot.map(|pivot| pivot.group) == group;
                 self.elect(index, base, behind, (0..block.cases.len()).filter(is_member).collect());
             } else {
-                self.told_case(index, first, base, behind);
+                self.described_case(index, first, base, behind);
             }
         }
     }
 
-    /// What a case is, and the case.
-    fn told_case(&mut self, index: usize, case: usize, base: usize, behind: usize) {
+    /// Prints a case with its description.
+    fn described_case(&mut self, index: usize, case: usize, base: usize, behind: usize) {
         let block = &self.scene.program.blocks[index];
         let depth = self.depth;
         if block.cases.len() > 1 {
@@ -151,7 +152,7 @@ impl<'a> Walk<'a> {
         self.close(depth);
     }
 
-    /// One of the cases of a pivot group.
+    /// Prints one of the cases of a pivot group.
     fn elect(&mut self, index: usize, base: usize, behind: usize, members: Vec<usize>) {
         let (scene, block) = (self.scene, &self.scene.program.blocks[index]);
         let first = self.claims;
@@ -172,7 +173,7 @@ impl<'a> Walk<'a> {
         self.push(lines);
     }
 
-    /// The lines of a case by themselves.
+    /// The lines of a case as a separate text.
     fn apart(&mut self, index: usize, member: usize, base: usize, behind: usize) -> Vec<String> {
         let (lines, depth) = (std::mem::take(&mut self.lines), std::mem::take(&mut self.depth));
         let case = &self.scene.program.blocks[index].cases[member];
@@ -215,7 +216,7 @@ impl<'a> Walk<'a> {
         self.steps(index, case, &mut printer, behind);
     }
 
-    /// The steps of a case, and what is behind.
+    /// Prints the steps of a case, and the blocks after it.
     fn steps(&mut self, index: usize, case: &'a Case, printer: &mut Printer<'_>, behind: usize) {
         let scene = self.scene;
         let mut terms = if case.first_branch > 0 { vec![case.first_branch.to_string()] } else { Vec::new() };
@@ -325,7 +326,7 @@ impl<'a> Walk<'a> {
         self.open(self.dialect.open_samples(self.loops, &names, table_number, table.len()));
     }
 
-    /// The loop over solutions of six axes, and how they are found.
+    /// Prints the loop over solutions of six axes; returns the code of the choice.
     fn six_axes(&mut self, six: &SixAxes, printer: &mut Printer<'_>) -> How {
         let (scene, dialect) = (self.scene, self.dialect);
         self.loops += 1;
@@ -363,7 +364,7 @@ fn guards(case: &Case, printer: &mut Printer<'_>) -> Vec<GuardText> {
     case.guards.iter().map(text).collect()
 }
 
-/// What a case is, where it runs and what it frees.
+/// The description of a case: its label, its condition and its free joints.
 fn description(program: &Program, index: usize, case: &Case) -> String {
     let guard = |guard: &crate::solver::Guard| {
         format!("{} is {}", remark(&guard.text), if guard.near { "near zero" } else { "not zero" })

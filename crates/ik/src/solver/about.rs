@@ -1,29 +1,29 @@
-//! What a program says of its source: [`About`].
+//! Information about a program's source: [`About`].
 
 use serde::{Deserialize, Serialize};
 
 use groebot_robot::kinematics::Mimic;
 
-/// What is known of a program's source, for people and for the heads of printed solvers.
+/// Information about a program's source, for users and for the header comments of printed solvers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct About {
-    /// What is asked of the tip: `pose`, `planar_pose in xz`, `position, ElbowYaw given`.
+    /// The task: `pose`, `planar_pose in xz`, `position, ElbowYaw given`.
     pub task: String,
-    /// The link where the chain starts, when the source names it.
+    /// The first link of the chain, if the source names it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<String>,
-    /// The link where the chain ends, when the source names it.
+    /// The last link of the chain, if the source names it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip: Option<String>,
-    /// The number of complex solutions of a generic reachable target, where it was counted.
+    /// The number of complex solutions of a generic reachable target, if it was counted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub solutions: Option<usize>,
     /// A hash of the source, in hexadecimal digits.
     pub hash: String,
-    /// By joint: its least and greatest value in its unit, where the source says them.
+    /// By joint, its least and greatest value in its unit, if the source gives them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub limits: Vec<Option<(f64, f64)>>,
-    /// By joint: how it follows another one; empty where none does.
+    /// By joint, how it follows another one; empty where none does.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub follows: Vec<Option<Mimic>>,
 }

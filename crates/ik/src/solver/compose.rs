@@ -1,5 +1,5 @@
-//! One program of two: mechanisms that share actuators are solved one after the other, the second with the shared joints where the
-//! first has put them ([`Program::followed_by`]).
+//! Composition of two programs: mechanisms that share actuators are solved one after the other. The second has the
+//! shared joints at the values from the first ([`Program::followed_by`]).
 
 use super::instruction::{Instruction, Operand, Operation};
 use super::joint::{Joint, JointValue};
@@ -9,7 +9,7 @@ use super::validate::MOST_ANSWERS;
 use crate::{Error, ErrorKind, Result};
 
 impl Program {
-    /// The same program with `prefix` before the names of its inputs, parameters, unknowns and joints.
+    /// Same as `self`, but with `prefix` before the names of its inputs, parameters, unknowns and joints.
     #[must_use]
     pub fn prefixed(&self, prefix: &str) -> Program {
         let mut program = self.clone();
@@ -22,13 +22,14 @@ impl Program {
         program
     }
 
-    /// The program that solves this one and then `next`. In each pair of `shared`, a joint of this program and one that `next`
-    /// takes as given are one actuator: it is once among the joints, and is no input of `next` any more. Inputs of one name are one
-    /// input. Other inputs and joints of `next` follow this program's; name, version and preference are this program's.
+    /// The program that solves this one and then `next`. In each pair of `shared`, a joint of this program and a given
+    /// joint of `next` are one actuator. It occurs once among the joints, and is no longer an input of `next`. Inputs
+    /// of one name are one input. Other inputs and joints of `next` follow this program's; name, version and preference
+    /// are this program's.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a shared joint that is not there, that moves otherwise, or that `next` does not take as given;
-    /// for more than [`super::MAX_JOINTS`] joints and what else [`Program::validate`] refuses.
+    /// [`ErrorKind::BadValue`] for a shared joint that does not exist, that moves differently, or that `next` does not
+    /// take as given; for more than [`super::MAX_JOINTS`] joints and other faults that [`Program::validate`] refuses.
     pub fn followed_by(&self, next: &Program, shared: &[(usize, usize)]) -> Result<Program> {
         let places = Places::new(self, next, shared)?;
         let mut program = self.clone();
@@ -53,7 +54,7 @@ impl Program {
         program.scale = self.scale.max(next.scale);
         program.capacity = self.capacity.saturating_mul(next.capacity).min(MOST_ANSWERS);
         program.isolated = self.isolated.zip(next.isolated).map(|(own, other)| own.saturating_mul(other));
-        // The two have no one source to tell about.
+        // The two programs have different sources.
         program.about = None;
         program.validate()?;
         Ok(program)
@@ -69,11 +70,11 @@ fn refuse(text: String) -> Error {
     Error::new(ErrorKind::BadValue, text)
 }
 
-/// Where the second program's things stand in the composed one.
+/// The indices of the second program's parts in the composed one.
 struct Places {
-    /// None for the value of a shared joint.
+    /// `None` for the value of a shared joint.
     inputs: Vec<Option<usize>>,
-    /// A parameter, or for the value of a shared joint an unknown of the first program.
+    /// A parameter, or an unknown of the first program for the value of a shared joint.
     parameters: Vec<Operand>,
     unknowns: Vec<usize>,
     joints: Vec<usize>,
@@ -173,7 +174,7 @@ impl Places {
         Ok(ParameterRule { rule, ..parameter })
     }
 
-    /// The block; none when it only put shared joints where they are.
+    /// The block; `None` if it only sets shared joints.
     fn block(&self, block: &Block) -> Option<Block> {
         let cases: Vec<Case> = block.cases.iter().map(|case| self.case(case)).collect();
         let idle = |case: &Case| case.steps.is_empty() && case.guards.is_empty() && !case.open;
@@ -199,7 +200,7 @@ impl Places {
         }
     }
 
-    /// The step; none when it sets an unknown to itself.
+    /// The step; `None` if it sets an unknown to itself.
     fn step(&self, step: &Step) -> Option<Step> {
         Some(match step {
             Step::Compute(code) => Step::Compute(self.code(code)),
@@ -224,8 +225,8 @@ impl Places {
         list.iter().map(|&operand| self.operand(operand)).collect()
     }
 
-    /// The equations, with derivatives by all `joints`; those that put shared joints where they are hold by themselves and are left
-    /// out.
+    /// The equations, with derivatives by all `joints`. Equations that only set shared joints hold automatically and
+    /// are removed.
     fn checks(&self, checks: &Checks, joints: usize) -> Checks {
         let code = self.code(&checks.code);
         let holds = |residual: Operand| match residual {
@@ -248,7 +249,7 @@ impl Places {
     }
 }
 
-/// Where there is no place yet, the next one from `first` on.
+/// Fills missing places with consecutive ones from `first` on.
 fn counted<T>(places: Vec<Option<T>>, first: usize, place: impl Fn(usize) -> T) -> Vec<T> {
     let mut next = first..;
     places.into_iter().map(|known| known.unwrap_or_else(|| place(next.next().unwrap_or(usize::MAX)))).collect()
@@ -261,7 +262,7 @@ fn unknowns_of(value: JointValue) -> Vec<usize> {
     }
 }
 
-/// The unknowns of two joints that are one actuator, side by side.
+/// The pairs of unknowns of two joints that are one actuator.
 fn paired(first: &Joint, next: &Joint) -> Result<Vec<(usize, usize)>> {
     let (mine, theirs) = (unknowns_of(first.value), unknowns_of(next.value));
     if first.unit != next.unit || mine.len() != theirs.len() {
@@ -271,7 +272,7 @@ fn paired(first: &Joint, next: &Joint) -> Result<Vec<(usize, usize)>> {
     Ok(mine.into_iter().zip(theirs).collect())
 }
 
-/// The parameters that a program only copies into unknowns that have a place, with these unknowns.
+/// The parameters that a program only copies into unknowns with a place, with these unknowns.
 fn given_parameters(next: &Program, unknowns: &[Option<usize>]) -> Vec<(usize, usize)> {
     let steps = next.cases().flat_map(|case| &case.steps);
     let copied = steps.filter_map(|step| match step {
@@ -308,7 +309,7 @@ fn both(first: &Checks, next: Checks, joints: usize) -> Checks {
     without_repeats(&checks)
 }
 
-/// The same equations with each value computed once: what mechanisms on one base have in common.
+/// Removes repeated values, which mechanisms on one base have in common.
 fn without_repeats(checks: &Checks) -> Checks {
     let mut code: Vec<Instruction> = Vec::with_capacity(checks.code.len());
     let mut places: Vec<usize> = Vec::with_capacity(checks.code.len());
@@ -330,7 +331,7 @@ fn without_repeats(checks: &Checks) -> Checks {
     }
 }
 
-/// The operand with its register where `places` puts it.
+/// The operand with its register renumbered by `places`.
 fn placed(operand: Operand, places: &[usize]) -> Operand {
     match operand {
         Operand::Register(index) => Operand::Register(places[index]),
@@ -338,7 +339,7 @@ fn placed(operand: Operand, places: &[usize]) -> Operand {
     }
 }
 
-/// The same equations with other registers.
+/// The equations with renumbered registers.
 fn moved(checks: &Checks, place: &dyn Fn(usize) -> usize) -> Checks {
     let operand = |operand: Operand| match operand {
         Operand::Register(index) => Operand::Register(place(index)),
@@ -356,7 +357,7 @@ fn moved(checks: &Checks, place: &dyn Fn(usize) -> usize) -> Checks {
     }
 }
 
-/// How many instructions of the checks the equations' values and sizes need; the others are for the derivatives.
+/// The number of instructions that the equations' values and sizes need; the others are for the derivatives.
 fn measured(checks: &Checks) -> usize {
     let end = |operand: &Operand| if let Operand::Register(index) = operand { index + 1 } else { 0 };
     checks.residuals.iter().chain(&checks.scales).map(end).max().unwrap_or(0)

@@ -1,10 +1,10 @@
-//! What a target must fulfil: rotations and unit vectors.
+//! Conditions on a target: rotations and unit vectors.
 
 use super::CONSISTENT;
 use super::program::{Condition, Input};
 
 impl Condition {
-    /// Index of the first input, and how many there are.
+    /// The index of the first input, and the number of inputs.
     pub fn inputs(&self) -> (usize, usize) {
         match *self {
             Condition::Rotation(first) => (first, 9),
@@ -12,7 +12,7 @@ impl Condition {
         }
     }
 
-    /// How far `values` are from what they must be: the largest magnitude in `R R^T - 1`, or `|v v^T - 1|`.
+    /// The deviation of `values` from the condition: the largest magnitude in `R R^T - 1`, or `|v v^T - 1|`.
     fn deviation(&self, values: &[f64]) -> f64 {
         match self {
             Condition::Rotation(_) => {
@@ -37,7 +37,7 @@ fn determinant(m: &[f64]) -> f64 {
     m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6])
 }
 
-/// Why a finite target of the right length misses a condition, if it does.
+/// The reason why a finite target of the right length violates a condition, if it does.
 pub(super) fn conform(conditions: &[Condition], inputs: &[Input], target: &[f64]) -> Option<String> {
     conditions.iter().find_map(|condition| condition.refusal(inputs, target))
 }
@@ -49,7 +49,7 @@ impl Condition {
         let deviation = self.deviation(values);
         let mirrored = matches!(self, Condition::Rotation(_)) && determinant(values) < 0.0;
         let names = format!("`{}` to `{}`", inputs[first].name, inputs[first + count - 1].name);
-        // A deviation that is not a number is refused too.
+        // A NaN deviation is refused too.
         let is_missed = mirrored || deviation.is_nan() || deviation > CONSISTENT;
         is_missed.then(|| match self {
             Condition::Rotation(_) if mirrored => {

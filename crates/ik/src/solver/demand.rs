@@ -1,10 +1,10 @@
-//! Which values straight-line code is asked for: only those are computed and printed.
+//! Demand analysis of straight-line code: only requested values are computed and printed.
 
 use super::instruction::{Instruction, Operand};
 use super::program::{Block, Case, Program, Step};
 use super::rule::Rule;
 
-/// How often each value is read by what is asked for.
+/// The number of reads of each value.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Demand {
     /// Reads by register.
@@ -29,7 +29,7 @@ fn at(counts: &[usize], index: usize) -> usize {
 }
 
 impl Demand {
-    /// What the case's guards, its root steps and the unknowns in `wanted` ask for.
+    /// The demand of the case's guards, its root steps and the unknowns in `wanted`.
     pub fn of_case(program: &Program, case: &Case, wanted: &[usize]) -> Self {
         let mut demand = Demand::default();
         if !case.open {
@@ -40,7 +40,7 @@ impl Demand {
         demand
     }
 
-    /// What the case's guards and its pivot ask for.
+    /// The demand of the case's guards and its pivot.
     pub fn of_claim(case: &Case) -> Self {
         let mut demand = Demand::default();
         case.pivot.iter().for_each(|pivot| demand.read(pivot.value));
@@ -48,8 +48,8 @@ impl Demand {
         demand
     }
 
-    /// What the block's cases ask of its code, and what that asks for in turn. Registers that a case reads count twice: they
-    /// become values of their own.
+    /// The demand of the block's cases on its code, including indirect reads. Registers that a case reads count twice:
+    /// they become separate values.
     pub fn of_block(program: &Program, block: &Block, wanted: &[usize]) -> Self {
         let mut demand = Demand::default();
         for case in &block.cases {
@@ -72,7 +72,7 @@ impl Demand {
         self.code(&case.guard_code);
     }
 
-    /// What `results` ask of `code`.
+    /// The demand of `results` on `code`.
     pub fn of_code<'a>(code: &[Instruction], results: impl IntoIterator<Item = &'a Operand>) -> Self {
         let mut demand = Demand::default();
         results.into_iter().for_each(|&operand| demand.read(operand));
@@ -115,7 +115,7 @@ impl Demand {
         }
     }
 
-    /// Adds what something else asks for.
+    /// Adds another demand.
     pub fn add(&mut self, other: &Demand) {
         let lists = [(&mut self.registers, &other.registers), (&mut self.unknowns, &other.unknowns)];
         for (own, others) in lists {
@@ -135,7 +135,7 @@ impl Demand {
     }
 }
 
-/// Which parameters the printed code asks for.
+/// The parameters that the printed code needs.
 #[derive(Clone, Debug)]
 pub(crate) struct ParameterDemand {
     /// By parameter: whether cases or checks read it.
@@ -147,7 +147,7 @@ pub(crate) struct ParameterDemand {
 }
 
 impl ParameterDemand {
-    /// What `readers`, the code behind the parameters, ask for, and what those parameters need in turn.
+    /// The demand of `readers`, the code after the parameters, including indirect reads.
     pub fn new(program: &Program, readers: &[&Demand]) -> Self {
         let count = program.parameters.len();
         let fields: Vec<bool> =

@@ -1,4 +1,4 @@
-//! Running a [`Program`] for once: [`Program::solver`] makes it ready for many targets.
+//! One-off evaluation of a [`Program`]; [`Program::solver`] prepares it for many targets.
 
 use super::program::Program;
 use super::{Batch, Nearest, Pairs, Solver};
@@ -7,12 +7,12 @@ use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
 
 /// The program must be valid ([`Program::validate`]).
 impl Program {
-    /// The program made ready to run.
+    /// Prepares the program for evaluation.
     pub fn solver(&self) -> Solver {
         Solver::new(self)
     }
 
-    /// As [`Solver::solve`], which takes a tenth of the time where there are many targets.
+    /// Same as [`Solver::solve`], which takes a tenth of the time if there are many targets.
     ///
     /// # Errors
     /// As [`Solver::solve`].
@@ -20,7 +20,7 @@ impl Program {
         self.solver().solve(target, given)
     }
 
-    /// As [`Solver::solve_numbers`].
+    /// Same as [`Solver::solve_numbers`].
     ///
     /// # Errors
     /// As [`Solver::solve_numbers`].
@@ -28,7 +28,7 @@ impl Program {
         self.solver().solve_numbers(target)
     }
 
-    /// As [`Solver::solve_pairs`].
+    /// Same as [`Solver::solve_pairs`].
     ///
     /// # Errors
     /// As [`Solver::solve_numbers`].
@@ -36,7 +36,7 @@ impl Program {
         self.solver().solve_pairs(target)
     }
 
-    /// As [`Solver::nearest`].
+    /// Same as [`Solver::nearest`].
     ///
     /// # Errors
     /// As [`Solver::solve_numbers`].
@@ -44,7 +44,7 @@ impl Program {
         self.solver().nearest(target)
     }
 
-    /// As [`Solver::solve_batch`].
+    /// Same as [`Solver::solve_batch`].
     ///
     /// # Errors
     /// As [`Solver::solve_batch`].
@@ -52,7 +52,7 @@ impl Program {
         self.solver().solve_batch(targets)
     }
 
-    /// As [`Solver::reached`].
+    /// Same as [`Solver::reached`].
     pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
         self.solver().reached(q)
     }

@@ -1,4 +1,4 @@
-//! What holds for all targets of a program, in the run time's terms. Main type: [`Facts`].
+//! Properties of a program for all targets, in the types of the run time. Main type: [`Facts`].
 
 use serde::Serialize;
 
@@ -10,14 +10,14 @@ use super::mirror;
 use super::program::{Block, Case, Condition, Described, Program, Step, square};
 use super::rule::Rule;
 
-/// The most candidates that wait to be measured together.
+/// The greatest number of candidates that wait to be measured together.
 const MOST: usize = 16;
 
-/// What holds for all targets.
+/// Properties that hold for all targets.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Facts {
     pub inputs: usize,
-    /// By joint: where its cosine and its sine, or its value, stand among the numbers that the equations read.
+    /// By joint, the indices of its cosine and sine, or of its value, among the numbers that the equations read.
     pub joints: Vec<Vec<usize>>,
     pub last_first: Vec<usize>,
     pub places: usize,
@@ -27,16 +27,16 @@ pub(crate) struct Facts {
     #[serde(skip)]
     pub are_affine: bool,
     pub size_of: Vec<usize>,
-    /// The sizes that equations have, each once.
+    /// The sizes of equations without duplicates.
     #[serde(skip)]
     pub sizes: Vec<Operand>,
     pub shorts: usize,
-    /// By equation: the parameter that it compares with the tip; empty where one does not.
+    /// By equation, the parameter that it compares with the tip; empty if one does not.
     pub compared: Vec<usize>,
     pub turned: Vec<usize>,
     pub candidates: usize,
     pub twins: usize,
-    /// By joint; empty where several targets are not solved at once.
+    /// By joint; empty if several targets are not solved at once.
     pub runs: Vec<usize>,
     pub scale: f64,
     pub capacity: usize,
@@ -48,12 +48,12 @@ pub(crate) struct Facts {
     pub reached: Vec<(&'static str, Vec<usize>)>,
     pub nearby: bool,
     pub within: Option<f64>,
-    /// The place, and whether the greatest value is preferred.
+    /// The index, and whether the greatest value is preferred.
     pub preference: Option<(usize, bool)>,
 }
 
 impl Facts {
-    /// Those of a program.
+    /// The facts of a program.
     pub fn new(layout: &Layout<'_>) -> Self {
         let program = layout.program;
         let places = layout.places();
@@ -104,7 +104,7 @@ impl Facts {
     }
 }
 
-/// Each operand once, in the order of their first places.
+/// Operands without duplicates, in the order of their first occurrence.
 fn once(operands: &[Operand]) -> Vec<Operand> {
     let mut unique: Vec<Operand> = Vec::new();
     for operand in operands {
@@ -115,7 +115,8 @@ fn once(operands: &[Operand]) -> Vec<Operand> {
     unique
 }
 
-/// Whether each equation is affine in the numbers of each joint, by the form of its code: no product of two values that read one joint.
+/// Whether each equation is affine in the numbers of each joint, by the form of its code: no product of two values that
+/// depend on one joint.
 fn are_affine(program: &Program, code: &[Instruction], residuals: &[Operand]) -> bool {
     let demand = Demand::of_code(code, residuals);
     let mut read: Vec<u32> = vec![0; code.len()];
@@ -155,7 +156,7 @@ fn condition(condition: &Condition) -> (&'static str, usize) {
 }
 
 fn reached(program: &Program, forward: &Forward) -> Vec<(&'static str, Vec<usize>)> {
-    // Two equations may have one value; as described they have two.
+    // Two equations may have the same value; as described they have two.
     let is_own =
         |parameter: usize, rule: Rule| program.described.is_none() || program.parameters[parameter].rule == rule;
     let at = |value: Operand, rule: &dyn Fn() -> Rule| {
@@ -174,15 +175,15 @@ fn reached(program: &Program, forward: &Forward) -> Vec<(&'static str, Vec<usize
     forward.inputs.iter().enumerate().map(input).collect()
 }
 
-/// How many candidates wait to be measured together: as many as there are at ordinary targets, an even number.
+/// The number of candidates that wait to be measured together: the number at ordinary targets, made even.
 pub(crate) fn room(program: &Program) -> usize {
     let often = |block: &Block| block.cases.iter().filter(|case| !Case::is_rare(case)).map(Program::branches).max();
     let candidates = program.blocks.iter().filter_map(often).fold(1_usize, usize::saturating_mul);
     candidates.next_multiple_of(2).clamp(2, MOST)
 }
 
-/// Whether all candidates of an ordinary target come from one case of each block, by square roots alone; other cases lie on strata that
-/// a guard tells. What else a file may hold is printed for one number only.
+/// Whether all candidates of an ordinary target come from one case of each block, by square roots only. Guards detect
+/// the other cases, on strata. Other programs are printed for a single number only.
 pub(crate) fn is_solved_abreast(program: &Program) -> bool {
     let only_roots = program.cases().flat_map(|case| &case.steps).all(|step| match step {
         Step::Roots { polynomials, .. } => square(polynomials).is_some(),
@@ -201,7 +202,7 @@ pub(crate) fn is_solved_abreast(program: &Program) -> bool {
         && candidates(program, 0) <= program.capacity
 }
 
-/// The case of a block that runs at ordinary targets, if that is one and guards tell where others do.
+/// The case of a block that runs at ordinary targets, if there is only one and guards detect the others.
 fn usual(block: &Block) -> Option<&Case> {
     let is_told = |case: &Case| !case.open && case.pivot.is_none() && !(case.is_rare() && case.guards.is_empty());
     let mut usual = block.cases.iter().filter(|case| !case.is_rare());
@@ -210,13 +211,13 @@ fn usual(block: &Block) -> Option<&Case> {
     (!samples).then_some(first)
 }
 
-/// How many candidates the blocks from this one on make of each of those before.
+/// The number of candidates that the blocks from this one on make of each earlier one.
 pub(crate) fn candidates(program: &Program, block: usize) -> usize {
     program.blocks[block..].iter().filter_map(usual).map(Program::branches).fold(1, usize::saturating_mul)
 }
 
-/// In how many candidates in a row an angle is the same but for signs. Such are those that the roots of later blocks tell apart, and
-/// the two of a root that turns signs of the cosine and the sine.
+/// The number of consecutive candidates in which an angle is equal up to signs. These are candidates that the roots of
+/// later blocks distinguish, and the pair of a root that changes the signs of the cosine and the sine.
 pub(crate) fn run(layout: &Layout<'_>, joint: usize) -> usize {
     let (program, block) = (layout.program, layout.finder(joint));
     let unknowns = program.joints[joint].value.unknowns();

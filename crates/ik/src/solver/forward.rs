@@ -1,41 +1,41 @@
-//! Forward kinematics out of a program's own equations: [`Program::forward`].
+//! Forward kinematics from a program's own equations: [`Program::forward`].
 //!
-//! The checks of a chain compare the tip with the target, `value(q) - parameter = 0`, one equation a parameter; `value` then is what
-//! the joints reach.
+//! The checks of a chain compare the tip with the target, `value(q) - parameter = 0`, one equation per parameter;
+//! `value` is the pose that the joints reach.
 
 use super::instruction::{Instruction, Operand, Operation};
 use super::joint::JointValue;
 use super::program::Program;
 use super::rule::Rule;
 
-/// What joint values reach, as operands of the checks' code.
+/// The target that joint values reach, as operands of the checks' code.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Forward {
     /// The inputs of the target, in order.
     pub inputs: Vec<Reached>,
-    /// By equation: the part that only the joints have, and the parameter that it is compared with.
+    /// By equation, the part that depends only on the joints, and the parameter that it is compared with.
     pub equations: Vec<Option<(Operand, usize)>>,
 }
 
-/// How an input of the target follows from the joints.
+/// The expression of an input of the target by the joints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reached {
-    /// It is this value.
+    /// This value.
     Value(Operand),
-    /// It is the angle of this cosine and sine.
+    /// The angle of this cosine and sine.
     Angle {
         /// The cosine.
         cosine: Operand,
         /// The sine.
         sine: Operand,
     },
-    /// It is the value of the joint with this index, which the user gives.
+    /// The value of the joint with this index, which the user gives.
     Joint(usize),
 }
 
 impl Program {
-    /// What joint values reach; none for a program whose equations do not compare each number of the target with something that only
-    /// the joints have.
+    /// The target that joint values reach. `None` for a program whose equations do not compare each number of the
+    /// target with an expression of the joints.
     pub fn forward(&self) -> Option<Forward> {
         let pure = self.pure_registers();
         let equations: Vec<_> = self.checks.residuals.iter().map(|&residual| self.compared(residual, &pure)).collect();
@@ -44,7 +44,7 @@ impl Program {
         Some(Forward { inputs, equations })
     }
 
-    /// By register of the checks: whether it depends on the joints alone.
+    /// By register of the checks, whether it depends only on the joints.
     fn pure_registers(&self) -> Vec<bool> {
         let mut pure = Vec::with_capacity(self.checks.code.len());
         for Instruction { operation, .. } in &self.checks.code {

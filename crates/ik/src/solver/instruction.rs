@@ -22,7 +22,7 @@ pub enum Operand {
     Magnitude,
 }
 
-/// What an instruction computes.
+/// The operation of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation {
     /// `a + b`
@@ -45,7 +45,7 @@ pub enum Operation {
 pub struct Instruction {
     /// The register that is written, once.
     pub target: usize,
-    /// What is computed.
+    /// The operation.
     pub operation: Operation,
 }
 

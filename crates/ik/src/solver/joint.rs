@@ -1,4 +1,4 @@
-//! The joints of a program's answers. Main type: [`Joint`].
+//! The joints of a program's solutions. Main type: [`Joint`].
 
 use serde::{Deserialize, Serialize};
 
@@ -12,12 +12,12 @@ pub enum Unit {
     Millimetre,
     /// Radians.
     Radian,
-    /// A plain number.
+    /// A dimensionless number.
     One,
 }
 
 impl Unit {
-    /// `m`, `mm`, `rad`, or nothing for a plain number.
+    /// `m`, `mm`, `rad`, or empty for a dimensionless number.
     pub fn symbol(self) -> &'static str {
         match self {
             Unit::Metre => "m",
@@ -28,7 +28,7 @@ impl Unit {
     }
 }
 
-/// How the value of a joint follows from the unknowns.
+/// The value of a joint as a function of the unknowns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointValue {
@@ -53,13 +53,13 @@ impl JointValue {
     }
 }
 
-/// One joint of the answer.
+/// A joint of the solution.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
     /// Its name, such as `HipPitch`.
     pub name: String,
     /// The unit of its value.
     pub unit: Unit,
-    /// How its value follows from the unknowns.
+    /// Its value as a function of the unknowns.
     pub value: JointValue,
 }

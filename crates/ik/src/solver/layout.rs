@@ -1,28 +1,29 @@
-//! Where numbers are stored while a program runs: which block finds what, what later ones read, and the numbers that the equations read. Main type: [`Layout`].
+//! Storage of numbers while a program runs: the unknowns that each block finds, those that later blocks read, and the
+//! numbers that the equations read. Main type: [`Layout`].
 
 use super::demand::Demand;
 use super::joint::JointValue;
 use super::mirror::Mirror;
 use super::program::{Block, Case, Program, Step};
 
-/// Where the values of a program are stored.
+/// The storage of a program's values.
 pub(crate) struct Layout<'a> {
     pub program: &'a Program,
-    /// Unknowns that the equations read and that are no joint's: cases hand their values over.
+    /// Unknowns that the equations read and that belong to no joint: cases report their values.
     pub extra: Vec<usize>,
     /// The case whose candidates come in pairs.
     pub mirror: Option<Mirror>,
 }
 
 impl<'a> Layout<'a> {
-    /// That of a valid program.
+    /// The layout of a valid program.
     pub fn new(program: &'a Program) -> Self {
         let layout = Layout { program, extra: extra_unknowns(program), mirror: None };
         let mirror = Mirror::of(program, &layout.wanted()).filter(|_| layout.extra.is_empty());
         Layout { mirror, ..layout }
     }
 
-    /// By unknown: whether a block before the one with this index finds it.
+    /// By unknown, whether a block before the one with this index finds it.
     pub fn known_before(&self, block: usize) -> Vec<bool> {
         let mut known = vec![false; self.program.unknowns.len()];
         for case in self.program.blocks[..block].iter().flat_map(|block| &block.cases) {
@@ -31,7 +32,8 @@ impl<'a> Layout<'a> {
         known
     }
 
-    /// The unknowns that the block with this index must find: of those of answers and of what later blocks read, its own.
+    /// The unknowns that the block with this index must find: its own among those of solutions and those that later
+    /// blocks read.
     pub fn wanted_of(&self, block: usize) -> Vec<usize> {
         let (before, after) = (self.known_before(block), self.known_before(block + 1));
         let mut wanted = vec![false; self.program.unknowns.len()];
@@ -45,7 +47,7 @@ impl<'a> Layout<'a> {
         (0..wanted.len()).filter(|&unknown| wanted[unknown] && after[unknown] && !before[unknown]).collect()
     }
 
-    /// What a block's code and cases ask for when these unknowns are wanted of it.
+    /// The demand of a block's code and cases when these unknowns are wanted.
     pub fn block_demands(&self, block: &Block, wanted: &[usize]) -> Vec<Demand> {
         let mut demands = vec![Demand::of_block(self.program, block, wanted)];
         for case in &block.cases {
@@ -61,7 +63,7 @@ impl<'a> Layout<'a> {
         self.mirror.as_ref().is_some_and(is_here)
     }
 
-    /// The unknowns that answers need.
+    /// The unknowns that solutions need.
     pub fn wanted(&self) -> Vec<usize> {
         let joints = self.program.joints.iter().flat_map(|joint| match joint.value {
             JointValue::Angle { cosine, sine } => vec![cosine, sine],
@@ -70,7 +72,7 @@ impl<'a> Layout<'a> {
         joints.chain(self.extra.iter().copied()).collect()
     }
 
-    /// The unknowns that the equations can read, each once.
+    /// The unknowns that the equations can read, without duplicates.
     pub fn places(&self) -> Vec<usize> {
         let mut places: Vec<usize> = Vec::new();
         for unknown in self.wanted() {
@@ -81,7 +83,7 @@ impl<'a> Layout<'a> {
         places
     }
 
-    /// By joint: where its cosine and its sine, or its value, stand among the places.
+    /// By joint, the indices of its cosine and sine, or of its value, among the places.
     pub fn stands(&self) -> Vec<Vec<usize>> {
         let unknowns = self.program.joints.iter().map(|joint| joint.value.unknowns());
         unknowns.map(|unknowns| unknowns.into_iter().map(|unknown| self.place(unknown)).collect()).collect()
@@ -98,7 +100,7 @@ impl<'a> Layout<'a> {
         (0..self.program.blocks.len()).find(|&block| known(block)).unwrap_or(self.program.blocks.len() - 1)
     }
 
-    /// The joints, those that are found last first: in these answers differ most.
+    /// The joints in the reverse order of solution: solutions differ most in the first of these.
     pub fn last_first(&self) -> Vec<usize> {
         let mut joints: Vec<usize> = (0..self.program.joints.len()).collect();
         joints.sort_by_key(|&joint| std::cmp::Reverse(self.finder(joint)));

@@ -1,6 +1,7 @@
-//! Candidates that come in pairs: behind a root step `x^2 + constant` nothing else may branch, and all that follows from the root may
-//! keep its value or turn its sign with it. Then the second root's candidate is the first one's with some signs turned, to the last bit:
-//! negation is exact. (Only the sign of a zero may differ, which neither the equations nor angles see.)
+//! Candidates in pairs. After a root step `x^2 + constant` there must be no other branch, and all values that depend on
+//! the root must keep or change their sign with it. Then the second root's candidate is the first one's with some signs
+//! changed, to the last bit, because negation is exact. (Only the sign of a zero may differ, which neither the
+//! equations nor angles depend on.)
 
 use std::collections::HashMap;
 
@@ -8,14 +9,14 @@ use super::instruction::{Instruction, Operand, Operation};
 use super::joint::JointValue;
 use super::program::{Block, Case, Program, Step, square};
 
-/// What a value does when the root turns its sign.
+/// The parity of a value when the root changes its sign.
 #[derive(Clone, Copy, PartialEq)]
 enum Parity {
     /// It stays.
     Even,
-    /// It turns its sign too.
+    /// It changes its sign too.
     Odd,
-    /// Something else.
+    /// Neither of these.
     Mixed,
 }
 
@@ -25,12 +26,12 @@ pub(crate) struct Mirror {
     pub block: usize,
     /// The index of the case in the block.
     pub case: usize,
-    /// By unknown: whether it turns its sign.
+    /// By unknown, whether it changes its sign.
     pub odd: Vec<bool>,
 }
 
 impl Mirror {
-    /// That of a program, if it has one; `wanted` are the unknowns that candidates consist of.
+    /// The mirror of a program, if it has one; `wanted` are the unknowns of a candidate.
     pub fn of(program: &Program, wanted: &[usize]) -> Option<Self> {
         let block = (0..program.blocks.len()).rev().find(|&block| !is_straight(&program.blocks[block]))?;
         let mut often = program.blocks[block].cases.iter().enumerate().filter(|(_, case)| !case.is_rare());
@@ -57,7 +58,7 @@ impl Mirror {
         wanted.iter().all(is_clear).then_some(Mirror { block, case: index, odd })
     }
 
-    /// Whether both candidates of a pair miss the equations by the same: none of these turns its sign with the root.
+    /// Whether both candidates of a pair have equal residuals: none of them changes its sign with the root.
     pub fn keeps_misses(&self, program: &Program) -> bool {
         let parity = |odd: &bool| if *odd { Parity::Odd } else { Parity::Even };
         let unknowns: Vec<Parity> = self.odd.iter().map(parity).collect();
@@ -68,7 +69,7 @@ impl Mirror {
     }
 }
 
-/// Whether the only root step of a case keeps the sizes of these unknowns, which the case finds.
+/// Whether the only root step of a case keeps the magnitudes of these unknowns, which the case finds.
 pub(crate) fn turns(program: &Program, case: &Case, found: &[usize]) -> bool {
     let mut unknowns = vec![Parity::Even; program.unknowns.len()];
     behind_root(case, &mut unknowns) && found.iter().all(|&unknown| unknowns[unknown] != Parity::Mixed)
@@ -82,7 +83,7 @@ fn is_straight(block: &Block) -> bool {
     is_plain && case.first_branch == 0 && case.steps.iter().all(is_code)
 }
 
-/// Follows a case whose only root step is `x^2 + constant`; false for any other.
+/// Analyses a case whose only root step is `x^2 + constant`; false for any other case.
 fn behind_root(case: &Case, unknowns: &mut [Parity]) -> bool {
     let mut registers = HashMap::new();
     let mut roots = 0;
@@ -114,7 +115,7 @@ fn run(code: &[Instruction], unknowns: &[Parity], registers: &mut HashMap<usize,
     }
 }
 
-/// Registers that are not listed were computed before the root.
+/// The parity of an operand. Registers that are not listed were computed before the root.
 fn parity(operand: Operand, unknowns: &[Parity], registers: &HashMap<usize, Parity>) -> Parity {
     match operand {
         Operand::Unknown(unknown) => unknowns[unknown],

@@ -1,6 +1,6 @@
-//! The solver itself: a small straight-line program with branches ([`Program`]), and its evaluator.
+//! The solver: a small straight-line program with branches ([`Program`]), and its evaluator.
 //!
-//! A program is plain data: it prints, serialises, and is what every language of [`crate::codegen`] is printed from.
+//! A program is plain data: it prints and serialises, and every language of [`crate::codegen`] is printed from it.
 
 mod about;
 mod compose;
@@ -41,5 +41,5 @@ pub use groebot_runtime::tolerances::{
     NARROWS, NEAR, OVERSHOT, PACES, PATIENCE, PIVOT, PLAIN, POLISH_STEPS, POLISHED, REGULAR, RETURNS, ROUNDING, SHORT,
     SINGULAR, STEEP, STIFF, TINY, TURN, TWIN, TWIN_AT, TWIN_WITHIN,
 };
-/// The most joints that a program may have.
+/// The greatest number of joints of a program.
 pub const MAX_JOINTS: usize = groebot_algebra::limits::SOLVER_JOINTS;

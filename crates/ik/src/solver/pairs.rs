@@ -1,4 +1,4 @@
-//! Answers without an arc tangent: [`Program::solve_pairs`].
+//! Solutions by cosines and sines, without an arc tangent: [`Program::solve_pairs`].
 
 use serde::Serialize;
 
@@ -8,10 +8,10 @@ use super::program::{Program, Step};
 #[cfg(doc)]
 use groebot_robot::kinematics::Solution;
 
-/// One answer of a program, by cosines and sines.
+/// A solution of a program, by cosines and sines.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pairs {
-    /// By joint: the cosine and the sine of an angle; a length's value, in the program's unit, and zero.
+    /// By joint, the cosine and the sine of an angle; for a length its value, in the program's unit, and zero.
     pub joints: Vec<[f64; 2]>,
     /// [`Solution::residual`].
     pub residual: f64,
@@ -22,8 +22,8 @@ pub struct Pairs {
 }
 
 impl Program {
-    /// Whether all equations compare the tip with the target, by sums and products of joints' cosines and sines: candidates can be
-    /// measured then without their angles.
+    /// Whether all equations compare the tip with the target, by sums and products of joints' cosines and sines. Then
+    /// candidates can be measured without their angles.
     pub(crate) fn compares_tip(&self) -> bool {
         let is_angle = |value| matches!(value, JointValue::Angle { .. });
         let mut steps = self.cases().flat_map(|case| &case.steps);
@@ -35,7 +35,7 @@ impl Program {
             && values.is_some_and(|values| self.are_polynomials(values))
     }
 
-    /// Whether all unknowns that an instruction reads are joints'.
+    /// Whether all unknowns that an instruction reads belong to joints.
     fn reads_joints(&self, instruction: &Instruction) -> bool {
         let (left, right) = instruction.operation.operands();
         let is_joints = |unknown: usize| self.joints.iter().any(|joint| joint.value.unknowns().contains(&unknown));

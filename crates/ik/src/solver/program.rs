@@ -1,4 +1,5 @@
-//! [`Program`]: the derived solver as plain data, a list of [`Block`]s that find the unknowns one group after the other.
+//! [`Program`]: the derived solver as plain data, a list of [`Block`]s that find the unknowns one group after the
+//! other.
 
 use std::ops::Range;
 
@@ -23,8 +24,8 @@ pub struct Input {
     pub unit: Unit,
 }
 
-/// What the inputs must fulfil. Deviations within [`super::CONSISTENT`] are removed before the target is used; larger ones are an
-/// error.
+/// A condition on the inputs. Deviations within [`super::CONSISTENT`] are removed before the target is used; larger
+/// ones are an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Condition {
@@ -34,10 +35,10 @@ pub enum Condition {
     Unit(usize),
 }
 
-/// When a case runs: its factor is near zero (a stratum) or away from it (a denominator).
+/// The condition under which a case runs: its factor is near zero (a stratum) or not (a denominator).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Guard {
-    /// The factor as text, for people.
+    /// The factor as text.
     pub text: String,
     /// The factor's value.
     pub value: Operand,
@@ -51,7 +52,7 @@ pub struct Guard {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Step {
-    /// Straight-line code; registers count on from the guards' code, and those from the block's.
+    /// Straight-line code; registers are numbered after those of the guards' code, and those after the block's.
     Compute(Vec<Instruction>),
     /// The unknown gets this value.
     Set {
@@ -60,31 +61,31 @@ pub enum Step {
         /// Its value.
         value: Operand,
     },
-    /// The unknown is each real root in turn; the steps behind run once for each.
+    /// The unknown is each real root in turn; the following steps run once for each.
     Roots {
         /// Index of the unknown.
         unknown: usize,
         /// Polynomials, coefficients from degree 0 up. The first whose leading coefficient is not negligible
-        /// ([`super::PIVOT`]) is solved; the last is taken when all others are.
+        /// ([`super::PIVOT`]) is solved; the last is used if all others are negligible.
         polynomials: Vec<Vec<Operand>>,
-        /// The unknown's typical size, by which a tangency is told from a miss; `None` for the length scale when the unknown is a
-        /// joint's value itself, else for one. A larger size proposes more double roots.
+        /// The unknown's typical size, which distinguishes a tangency from a miss. `None` is the length scale if the
+        /// unknown is a joint's value itself, else one. A larger size proposes more double roots.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         typical: Option<Operand>,
-        /// Whether the unknown is the tangent of half an angle of a polynomial that may miss the axis by more than rounding: its terms are measured at
-        /// `typical` times the greater of the tangent and one.
+        /// Whether the unknown is the tangent of half an angle, of a polynomial that may miss the axis by more than
+        /// rounding. Its terms are then measured at `typical` times the greater of the tangent and one.
         #[serde(default, skip_serializing_if = "is_false")]
         half_angle: bool,
     },
-    /// A free joint is put at each of these values (rad, or the program's length unit) in turn; the steps behind run once for
-    /// each. All are members of one self-motion: they have the same branch number.
+    /// A free joint has each of these values (rad, or the program's length unit) in turn; the following steps run once
+    /// for each. All are members of one self-motion: they have the same branch number.
     Sample {
-        /// How the joint's value follows from the unknowns that are set here.
+        /// The joint's value as a function of the unknowns that are set here.
         joint: JointValue,
         /// The values.
         values: Vec<f64>,
     },
-    /// The values of six joints are each solution in turn; the steps behind run once for each.
+    /// The values of six joints are each solution in turn; the following steps run once for each.
     SixAxes(Box<SixAxes>),
 }
 
@@ -93,35 +94,37 @@ pub enum Step {
 pub struct Pivot {
     /// Cases of one block with the same number are a group: of those whose guards hold only one runs.
     pub group: usize,
-    /// It is the one whose value has the greatest magnitude; the first of equals.
+    /// The case whose value has the greatest magnitude runs; the first of equals.
     pub value: Operand,
 }
 
-/// One way to a block's unknowns, valid where its guards hold. All cases that apply are run and their answers united.
+/// A method for a block's unknowns, valid where its guards hold. All cases that apply are run, and their solutions are
+/// united.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Case {
-    /// What it is, for people: `generic`, `pz = 0`, ...
+    /// Its label: `generic`, `pz = 0`, ...
     pub label: String,
-    /// Code of the guards and the pivot; registers count on from the block's code.
+    /// Code of the guards and the pivot; registers are numbered after those of the block's code.
     pub guard_code: Vec<Instruction>,
     /// All must hold.
     pub guards: Vec<Guard>,
-    /// Set where only the best conditioned of several cases is to run.
+    /// Set if only the best conditioned of several cases runs.
     pub pivot: Option<Pivot>,
-    /// The way, unknown by unknown.
+    /// The steps of the method.
     pub steps: Vec<Step>,
     /// Joints (indices) that are free on this stratum: the case gives one member of the self-motion.
     pub free: Vec<usize>,
-    /// The case is a gap: it could not be derived, and a target here is an error. It has no steps and no pivot then.
+    /// Whether the case is a gap: it could not be derived, and a target here is an error. It has no steps and no pivot
+    /// then.
     pub open: bool,
-    /// Number, within the block, of the case's first choice of roots; the others count on from it in mixed radix.
+    /// The number, within the block, of the case's first choice of roots; the others follow in mixed radix.
     pub first_branch: usize,
 }
 
 /// Unknowns that are found together, given those of the blocks before.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Block {
-    /// What it finds, for people: `KneePitch`, ...
+    /// Its label: `KneePitch`, ...
     pub label: String,
     /// Code that runs once on entry, from register 0; all cases of the block read its registers.
     pub code: Vec<Instruction>,
@@ -129,18 +132,20 @@ pub struct Block {
     pub cases: Vec<Case>,
 }
 
-/// The equations and their derivatives by the joints, to measure and polish each answer.
+/// The equations and their derivatives by the joints, to measure and polish each solution.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Checks {
-    /// Code over parameters and unknowns, from register 0. Where the derivatives' code comes last, it runs only for Newton steps.
+    /// Code over parameters and unknowns, from register 0. If the derivatives' code comes last, it runs only for Newton
+    /// steps.
     pub code: Vec<Instruction>,
-    /// The equations' values, zero at a solution, circle relations left out.
+    /// The equations' values, zero at a solution, without circle relations.
     pub residuals: Vec<Operand>,
     /// The size of each equation: the sum of its terms' magnitudes.
     pub scales: Vec<Operand>,
     /// `jacobian[i][j]`: the derivative of equation `i` by joint `j`.
     pub jacobian: Vec<Vec<Operand>>,
-    /// As few equations that say the same near a solution, for the short way there: empty where nothing is polished.
+    /// A minimal set of equations that are equivalent near a solution, for fast polishing; empty where nothing is
+    /// polished.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub short: Vec<Short>,
 }
@@ -151,23 +156,23 @@ pub struct Checks {
 pub struct Short {
     /// Its value, zero at a solution.
     pub residual: Operand,
-    /// What the value is a share of.
+    /// The size that the value is relative to.
     pub scale: Operand,
     /// The derivatives of the value by the joints, at a solution.
     pub derivatives: Vec<Operand>,
 }
 
 impl Short {
-    /// All that it reads.
+    /// All operands that it reads.
     pub(crate) fn operands(&self) -> impl Iterator<Item = &Operand> {
         [&self.residual, &self.scale].into_iter().chain(&self.derivatives)
     }
 }
 
-/// Which solutions are marked as the source's own choice.
+/// The solutions that are marked as the published choice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Preference {
-    /// Index of the unknown whose root the source chooses.
+    /// The index of the unknown whose root the source chooses.
     pub unknown: usize,
     /// The greater root, else the smaller.
     pub greatest: bool,
@@ -178,12 +183,12 @@ pub struct Preference {
 pub struct Program {
     /// Name of the mechanism: letters, digits and `_`.
     pub name: String,
-    /// What is known of its source.
+    /// Information about its source.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<About>,
     /// The target's numbers, in order.
     pub inputs: Vec<Input>,
-    /// What the target must fulfil.
+    /// Conditions on the target.
     pub conditions: Vec<Condition>,
     /// The parameters, in order.
     pub parameters: Vec<ParameterRule>,
@@ -193,28 +198,29 @@ pub struct Program {
     pub joints: Vec<Joint>,
     /// A length typical of the mechanism, in the unit of the inputs; positive.
     pub scale: f64,
-    /// The blocks. For each result of a block the next one runs; results of the last are candidates for answers.
+    /// The blocks. For each result of a block the next one runs; results of the last are candidates for solutions.
     pub blocks: Vec<Block>,
     /// The equations.
     pub checks: Checks,
-    /// The source's choice of root.
+    /// The published choice of root.
     pub preference: Option<Preference>,
-    /// The most answers that a target can have, at most 4096; if there were more, the best are kept.
+    /// The greatest number of solutions of a target, at most 4096; if there were more, the best are kept.
     pub capacity: usize,
-    /// The certified number of complex solutions of a generic target, when no target has more isolated ones. Of more, the nearest are
-    /// one that rounding has doubled.
+    /// The certified number of complex solutions of a generic target, if no target has more isolated ones. If more are
+    /// found, the two nearest are one that rounding has doubled.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub isolated: Option<usize>,
-    /// The blocks are those of a mechanism near the one that the equations are of: what they propose is a beginning, and of two answers
-    /// next to each other, or of none, they may propose one double one.
+    /// Whether the blocks are those of a mechanism near the one of the equations. Their results are then only start
+    /// values. For two solutions close to each other, or for none, they may give one double result.
     #[serde(default, skip_serializing_if = "is_false")]
     pub nearby: bool,
-    /// The mechanism as described, where blocks and equations are those of the ideal one that it means, and the task asks for more than the joints can do.
+    /// The mechanism as described, if blocks and equations are those of the ideal one, and the task has more numbers
+    /// than the joints can reach.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub described: Option<Described>,
 }
 
-/// A mechanism as described, beside the ideal one that decides which answers a target has.
+/// A mechanism as described, in addition to the ideal one that decides which solutions a target has.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Described {
@@ -222,7 +228,7 @@ pub struct Described {
     pub code: Vec<Instruction>,
     /// The equations' values, in the order of [`Checks::residuals`]: each is affine in the numbers of each joint.
     pub residuals: Vec<Operand>,
-    /// A target is one that the ideal mechanism reaches if it misses each equation by at most this share of its size.
+    /// The tolerance relative to each equation's size within which the ideal mechanism reaches a target.
     pub within: f64,
 }
 
@@ -234,7 +240,7 @@ const FORMAT: JsonFormat =
     JsonFormat { what: "program", number: 2, renew: "`groebot derive` on its folder writes it anew" };
 
 impl Program {
-    /// By joint, the least and the greatest value that its source describes in the joint's unit; infinite where it has none.
+    /// By joint, the least and the greatest value in its source, in the joint's unit; infinite where it has none.
     pub fn limits(&self) -> Vec<[f64; 2]> {
         let told = self.about.as_ref().map(|about| about.limits.as_slice()).unwrap_or_default();
         let of = |joint: usize| {
@@ -243,13 +249,14 @@ impl Program {
         (0..self.joints.len()).map(of).collect()
     }
 
-    /// By joint, how it follows another one, as its source describes.
+    /// By joint, how it follows another one in its source.
     pub fn follows(&self) -> Vec<Option<&Mimic>> {
         let described = self.about.as_ref().map(|about| about.follows.as_slice()).unwrap_or_default();
         (0..self.joints.len()).map(|joint| described.get(joint)?.as_ref()).collect()
     }
 
-    /// The places of the inputs that are values of given joints: they come last. What the source says decides, as a task may have a number of a joint's name; without that, the names do.
+    /// The indices of the inputs that are values of given joints: they come last. The source decides, because a task
+    /// may have a number with a joint's name; without it, the names decide.
     pub fn given(&self) -> Range<usize> {
         let is_joint = |input: &&Input| self.joints.iter().any(|joint| joint.name == input.name);
         let count = match self.about.as_ref().map(|about| about.task.as_str()).filter(|task| !task.contains(';')) {
@@ -265,8 +272,9 @@ impl Program {
     /// Reads a program from JSON and validates it.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Syntax`] with the line; [`crate::ErrorKind::Unsupported`] for JSON of another format, such as of an older groebot, with what
-    /// makes it new; [`crate::ErrorKind::BadValue`] as [`Program::validate`].
+    /// [`crate::ErrorKind::Syntax`] with the line; [`crate::ErrorKind::Unsupported`] for JSON of another format, such
+    /// as that of an older groebot, with the command that updates it; [`crate::ErrorKind::BadValue`] as
+    /// [`Program::validate`].
     pub fn from_json(text: &str) -> Result<Self> {
         let program: Program = FORMAT.read(text)?;
         program.validate()?;
@@ -285,7 +293,7 @@ impl Program {
         serde_json::to_string_pretty(&written).expect("a program holds nothing that JSON cannot say") + "\n"
     }
 
-    /// Number of root choices of `case`: the product of its root degrees.
+    /// The number of root choices of `case`: the product of its root degrees.
     pub fn branches(case: &Case) -> usize {
         if case.open { 0 } else { case.steps.iter().map(Step::slots).fold(1, usize::saturating_mul) }
     }
@@ -295,37 +303,38 @@ impl Program {
         self.blocks.iter().flat_map(|block| &block.cases)
     }
 
-    /// The highest degree of a polynomial whose roots a case takes; 0 without one.
+    /// The highest degree of a polynomial whose roots a case needs; 0 without one.
     pub fn degree(&self) -> usize {
         let steps = self.cases().filter(|case| !case.open).flat_map(|case| &case.steps);
         steps.filter(|step| matches!(step, Step::Roots { .. })).map(Step::slots).max().unwrap_or(0)
     }
 
-    /// The joints that some case frees, ascending.
+    /// The joints that some case leaves free, ascending.
     pub fn freed(&self) -> impl Iterator<Item = usize> {
         (0..self.joints.len()).filter(|joint| self.cases().any(|case| case.free.contains(joint)))
     }
 
-    /// The most solutions when in each block one case gives all of them: the product of the blocks' largest numbers of root
-    /// choices.
+    /// An upper bound for the number of solutions, if in each block one case gives all of them: the product of the
+    /// blocks' largest numbers of root choices.
     pub fn bound(&self) -> usize {
         let largest = |block: &Block| block.cases.iter().map(Program::branches).max().unwrap_or(0);
         self.blocks.iter().map(largest).fold(1, usize::saturating_mul)
     }
 
-    /// Whether an unknown is a joint's value itself, not a cosine or sine: its typical size is the length scale, not one.
+    /// Whether an unknown is a joint's value itself, not a cosine or sine: its typical size is the length scale, not
+    /// one.
     pub(crate) fn is_plain(&self, unknown: usize) -> bool {
         self.joints.iter().any(|joint| joint.value == JointValue::Plain(unknown))
     }
 }
 
 impl Case {
-    /// Whether it runs near a stratum, whatever the pivots of others, and there has been derived.
+    /// Whether it runs near a stratum, independent of the pivots of others, and is derived there.
     pub(crate) fn is_of_stratum(&self) -> bool {
         !self.open && self.pivot.is_none() && self.guards.iter().any(|guard| guard.near)
     }
 
-    /// Whether it runs at targets only that are singular, or all but that.
+    /// Whether it runs only at targets that are singular or nearly singular.
     pub(crate) fn is_rare(&self) -> bool {
         !self.free.is_empty() || self.guards.iter().any(|guard| guard.near)
     }
@@ -343,7 +352,7 @@ pub(crate) fn square(polynomials: &[Vec<Operand>]) -> Option<Operand> {
 }
 
 impl Block {
-    /// A block whose cases get branch numbers one after the other; cases of one pivot group share theirs.
+    /// A block whose cases get consecutive branch numbers; cases of one pivot group share theirs.
     pub fn numbered(label: &str, code: Vec<Instruction>, mut cases: Vec<Case>) -> Self {
         let mut next = 0;
         for index in 0..cases.len() {
@@ -357,20 +366,20 @@ impl Block {
         Block { label: label.to_owned(), code, cases }
     }
 
-    /// Number of branch numbers of the block, the radix of its digit in an answer's branch.
+    /// The number of branch numbers of the block, the radix of its digit in a solution's branch.
     pub fn branches(&self) -> usize {
         let end = |case: &Case| case.first_branch.saturating_add(Program::branches(case));
         self.cases.iter().map(end).max().unwrap_or(0).max(1)
     }
 
-    /// Registers that the block needs, those of its largest case counted.
+    /// The registers that the block needs, including those of its largest case.
     pub(crate) fn registers(&self) -> usize {
         let code = |step: &Step| if let Step::Compute(code) = step { code.len() } else { 0 };
         let case = |case: &Case| case.guard_code.len() + case.steps.iter().map(code).sum::<usize>();
         self.code.len() + self.cases.iter().map(case).max().unwrap_or(0)
     }
 
-    /// Whether the case is alone or the first of its pivot group: where the group takes its turn.
+    /// Whether the case is alone or the first of its pivot group, at which the group runs.
     pub(crate) fn opens_group(&self, case: usize) -> bool {
         let Some(pivot) = self.cases[case].pivot else { return true };
         !self.cases[..case].iter().any(|other| other.pivot.is_some_and(|other| other.group == pivot.group))
@@ -378,7 +387,7 @@ impl Block {
 }
 
 impl Step {
-    /// Solutions that the step can give: the largest degree among the polynomials of a root step, else one.
+    /// The number of solutions of the step: the largest degree among the polynomials of a root step, else one.
     pub fn slots(&self) -> usize {
         match self {
             Step::Roots { polynomials, .. } => {

@@ -1,4 +1,4 @@
-//! A program without instructions whose results nothing reads.
+//! Removal of instructions whose results are not read.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,7 @@ use super::instruction::{Instruction, Operand, Operation};
 use super::program::{Block, Case, Checks, Program, Short, Step};
 
 impl Program {
-    /// The same program without the instructions whose results nothing reads.
+    /// Same as `self`, without the instructions whose results are not read.
     pub(crate) fn pruned(mut self) -> Program {
         self.blocks.iter_mut().for_each(prune_block);
         self.checks = self.checks.pruned();
@@ -15,18 +15,19 @@ impl Program {
 }
 
 impl Checks {
-    /// The same checks without the instructions whose results nothing reads: first what values and sizes need, then the rest.
+    /// Same as `self`, without the instructions whose results are not read: first those for values and sizes, then the
+    /// rest.
     pub(crate) fn pruned(mut self) -> Checks {
         prune_checks(&mut self);
         self
     }
 
-    /// How many instructions the values and sizes need.
+    /// The number of instructions that the values and sizes need.
     pub(crate) fn work(&self) -> usize {
         self.measured().0.len()
     }
 
-    /// What values and sizes need.
+    /// The registers that values and sizes need.
     fn measured(&self) -> Live {
         let mut live = Live::default();
         self.residuals.iter().chain(&self.scales).for_each(|operand| live.read(*operand));
@@ -46,7 +47,7 @@ impl Live {
         }
     }
 
-    /// What code behind which these registers are read reads itself.
+    /// Adds the registers that code reads, if these registers are read after it.
     fn code(&mut self, code: &[Instruction]) {
         for instruction in code.iter().rev() {
             if self.0.contains(&instruction.target) {
@@ -82,7 +83,7 @@ impl Live {
 struct Numbers(BTreeMap<usize, usize>);
 
 impl Numbers {
-    /// Takes what is not live out of `code`, and numbers the rest on.
+    /// Removes dead instructions from `code`, and renumbers the rest.
     fn code(&mut self, code: &mut Vec<Instruction>, live: &Live) {
         code.retain(|instruction| live.0.contains(&instruction.target));
         for instruction in code {
@@ -165,7 +166,7 @@ fn prune_checks(checks: &mut Checks) {
         live.code(&whole);
         live
     };
-    // First what measures, then what the short way needs beyond that, then the rest.
+    // First the code for measuring, then the additional code for fast polishing, then the rest.
     let mut parts = [
         live(&mut checks.residuals.iter().chain(&checks.scales)),
         live(&mut checks.short.iter().flat_map(Short::operands)),

@@ -1,4 +1,4 @@
-//! How the parameters of a program's equations follow from its inputs: [`ParameterRule`], [`Rule`].
+//! The parameters of a program's equations as functions of its inputs: [`ParameterRule`], [`Rule`].
 
 use serde::{Deserialize, Serialize};
 
@@ -9,11 +9,11 @@ use super::instruction::{Instruction, Operand};
 pub struct ParameterRule {
     /// Its name in the equations.
     pub name: String,
-    /// How its value follows from the inputs.
+    /// Its value as a function of the inputs.
     pub rule: Rule,
 }
 
-/// How a parameter's value follows from the inputs and the parameters before it.
+/// The value of a parameter as a function of the inputs and the parameters before it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rule {
@@ -58,7 +58,7 @@ impl Following {
 }
 
 impl Rule {
-    /// The same rule with the input that `place` tells.
+    /// The rule with its input index mapped by `place`.
     ///
     /// # Errors
     /// Those of `place`.

@@ -1,11 +1,11 @@
-//! Programs that accept targets which their joints reach only nearly: [`Program::tolerant`].
+//! Programs for targets that their joints reach only approximately: [`Program::tolerant`].
 
 use super::program::{Checks, Described, Program};
 
 impl Program {
-    /// The program for targets whose numbers are rounded by up to `within`, a share of the size of each equation. Where the task asks for more than the joints
-    /// can do, a rounded target has no exact answer: the answers are then those of the nearest target that the mechanism reaches. None where
-    /// the equations do not allow that.
+    /// The program for targets whose numbers are rounded by up to `within`, relative to the size of each equation. If
+    /// the task has more numbers than the joints can reach, a rounded target has no exact solution. The solutions are
+    /// then those of the nearest target that the mechanism reaches. `None` if the equations do not permit that.
     pub(crate) fn tolerant(&self, within: f64) -> Option<Program> {
         if self.isolated.is_some() || self.nearby {
             return Some(self.clone());
@@ -15,7 +15,7 @@ impl Program {
         Some(Program { described: Some(described), ..self.clone() })
     }
 
-    /// The mechanism of the program itself as one that is described.
+    /// The mechanism of the program itself as a described one.
     fn as_described(&self) -> Option<Described> {
         let Checks { code, residuals, .. } =
             Checks { scales: Vec::new(), jacobian: Vec::new(), short: Vec::new(), ..self.checks.clone() }.pruned();

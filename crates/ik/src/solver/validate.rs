@@ -1,4 +1,4 @@
-//! The check that a program is well formed: [`Program::validate`].
+//! Validation of programs: [`Program::validate`].
 
 use super::instruction::{Instruction, Operand};
 use super::joint::JointValue;
@@ -10,21 +10,21 @@ use groebot_algebra::limits::{check_name, is_name};
 use groebot_algebra::roots;
 use groebot_robot::kinematics::Mimic;
 
-/// The most answers of a program.
+/// The greatest number of solutions of a program.
 pub(super) const MOST_ANSWERS: usize = groebot_algebra::limits::PROGRAM_ANSWERS;
-/// The most blocks.
+/// The greatest number of blocks.
 const MOST_BLOCKS: usize = groebot_algebra::limits::PROGRAM_BLOCKS;
-/// The most unknowns.
+/// The greatest number of unknowns.
 const MOST_UNKNOWNS: usize = groebot_algebra::limits::PROGRAM_UNKNOWNS;
-/// Branch numbers stay below this, 2^53 - 1: a double holds them all.
+/// Branch numbers stay below this, 2^53 - 1, so that a double represents all of them.
 const MOST_BRANCHES: usize = usize::MAX >> usize::BITS.saturating_sub(53);
 
 impl Program {
-    /// Checks that every index is in range, registers are written once and before they are read, every unknown is set once along
-    /// every path through the blocks, and sizes agree: a valid program never panics.
+    /// Checks that every index is in range, registers are written once and before they are read, every unknown is set
+    /// once along every path through the blocks, and sizes agree: a valid program never panics.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] saying which part is wrong.
+    /// [`ErrorKind::BadValue`] with the wrong part.
     pub fn validate(&self) -> Result<()> {
         self.validate_names()?;
         self.conditions.iter().try_for_each(|condition| self.validate_condition(condition))?;
@@ -90,7 +90,7 @@ impl Program {
         ensure(plain, "condition: its inputs do not exist or are no plain numbers")
     }
 
-    /// No input is an entry of two rotations: each may be given as a quaternion in its place.
+    /// Checks that no input belongs to two rotations, because each may be given as a quaternion.
     fn validate_rotations(&self) -> Result<()> {
         let rotation = |condition: &Condition| match condition {
             Condition::Rotation(first) => Some(*first),
@@ -107,7 +107,7 @@ fn ensure(condition: bool, place: &str) -> Result<()> {
     if condition { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, format!("malformed program: {place}"))) }
 }
 
-/// What is defined at a point of the program.
+/// The values that are defined at a point of the program.
 struct Context<'a> {
     program: &'a Program,
     parameters: usize,
@@ -169,7 +169,7 @@ impl Context<'_> {
         Ok(())
     }
 
-    /// The blocks one after the other. Only a single block may be all open.
+    /// Checks the blocks one after the other. Only a single block may be entirely open.
     fn blocks(&mut self, blocks: &[Block]) -> Result<()> {
         self.unknowns = vec![false; self.program.unknowns.len()];
         for block in blocks {

@@ -347,6 +347,6 @@ fn single_precision_of_a_task_that_asks_too_much_without_a_comparison_is_refused
     scara.checks.jacobian.push(scara.checks.jacobian[0].clone());
     let error = emit(&scara, &Options { single: true, ..Options::default() }).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
-    assert!(error.message().contains("leave --float out"), "{error}");
+    assert!(error.message().contains("omit --float"), "{error}");
     assert!(emit(&scara, &Options::default()).is_ok());
 }

@@ -11,30 +11,30 @@ use groebot_robot::spatial::angle;
 
 /// The greatest height of the view \[px\].
 const MOST_HEIGHT: f64 = 640.0;
-/// What is left free around the soles \[px\].
+/// The margin around the soles \[px\].
 const ROOM: f64 = 36.0;
-/// Soles that are this near to one another are drawn as one: \[m\], \[rad\].
+/// Soles within this distance \[m\] and angle \[rad\] are drawn as one.
 const SAME: (f64, f64) = (5e-4, 5e-3);
-/// How solid the first sole is drawn; the last one is 1.
+/// The opacity of the first sole; that of the last one is 1.
 const PALEST: f64 = 0.4;
 /// The width of a digit, and the height of a number \[px\].
 const DIGIT: (f64, f64) = (6.8, 11.0);
-/// How many soles' numbers are told one by one where they all stand on one place.
+/// The greatest number of steps that are listed one by one at one place.
 const MOST_NUMBERS: usize = 5;
-/// How many places beside a sole, from its border outwards, are tried for its number.
+/// The number of places beside a sole, from its border outwards, that are tried for its number.
 const PLACES_BESIDE: usize = 5;
 
-/// Soles on one place, and the steps that set them there; 0 is the start.
+/// Soles at one place, and the steps that land there; 0 is the start.
 struct Sole {
     side: Side,
     print: Footprint,
     steps: Vec<usize>,
 }
 
-/// Draws the view with its title at `top` \[px\], and tells where it ends.
+/// Draws the view with its title at `top` \[px\], and returns its lower end.
 pub(super) fn draw(walk: &Walk, biped: &Biped, top: f64, svg: &mut Svg) -> f64 {
     let count = walk.schedule.route.steps.len();
-    let title = format!("{}: {count} steps from above, ahead to the right, left up", biped.name);
+    let title = format!("{}: {count} steps from above, forward to the right, left up", biped.name);
     svg.text("title", (LEFT, top + 12.0), &title);
     let legend = [
         (Swatch::Area, "left", "left sole"),
@@ -59,7 +59,7 @@ pub(super) fn draw(walk: &Walk, biped: &Biped, top: f64, svg: &mut Svg) -> f64 {
     frame.end()
 }
 
-/// The soles in the order in which they are first stood on; those on one place are one.
+/// The soles in the order of their first use; those at one place are one.
 fn soles(walk: &Walk) -> Vec<Sole> {
     let route = &walk.schedule.route;
     let start = [(Side::Left, route.start[0], 0), (Side::Right, route.start[1], 0)];
@@ -82,7 +82,7 @@ fn corners(biped: &Biped, sole: &Sole) -> Vec<Point2<f64>> {
     biped.sole_at(sole.side, &sole.print).corners().to_vec()
 }
 
-/// The frame at `top` that holds all `points`, in one scale for both axes.
+/// The frame at `top` that contains all `points`, with one scale for both axes.
 fn around(points: impl Iterator<Item = Point2<f64>>, top: f64) -> Frame {
     let (mut low, mut high) = (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
     for point in points {
@@ -96,8 +96,8 @@ fn around(points: impl Iterator<Item = Point2<f64>>, top: f64) -> Frame {
     Frame { corner: (LEFT, top), size: (size.x, size.y), low: (low.x, low.y), high: (high.x, high.y) }
 }
 
-/// Writes each sole's number where no other one is: on the toes, or elsewhere with a line that leads there. The first and the last soles
-/// come first; a number without room is left out.
+/// Writes each sole's number where it overlaps no other: on the toes, or elsewhere with a line to the sole. The first
+/// and the last soles are placed first; a number without room is omitted.
 fn draw_numbers(biped: &Biped, soles: &[Sole], frame: &Frame, svg: &mut Svg) {
     let count = soles.len();
     let mut order: Vec<usize> = (0..count).collect();
@@ -128,8 +128,8 @@ fn numbers(steps: &[usize]) -> String {
     }
 }
 
-/// The places for a number that is twice `half` wide and high \[px\], the best first: on the toes; beside them and ahead, farther and
-/// farther; on the heel and in the middle.
+/// The places for a number that is twice `half` wide and high \[px\], the best first: on the toes; beside them and
+/// forward, at increasing distance; on the heel and in the middle.
 fn places(biped: &Biped, sole: &Sole, frame: &Frame, half: (f64, f64)) -> Vec<(f64, f64)> {
     let metres = (frame.high.0 - frame.low.0) / frame.size.0;
     let outline = &biped.feet[sole.side as usize].corners;

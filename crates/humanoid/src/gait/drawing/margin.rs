@@ -1,4 +1,5 @@
-//! How far the zero moment point is inside the support polygon, in time, with the phases in which one foot stands alone.
+//! The dynamic margin over time: the distance of the zero moment point from the border of the support polygon, with the
+//! single support phases.
 
 use super::{INNER, LEFT, Walk};
 use crate::gait::footprint::Side;
@@ -12,25 +13,29 @@ const HEIGHT: f64 = 200.0;
 /// The width of a digit of a step's number \[px\].
 const DIGIT: f64 = 6.8;
 
-/// A time in which one foot stands alone: from the instant at which both stood to that at which both stand again.
+/// A single support phase: from the last instant with both feet in contact to the first one with both again.
 struct Alone {
     side: Side,
     /// The number of the step, from 1.
     step: usize,
-    /// From and to \[s\].
+    /// Start and end \[s\].
     times: (f64, f64),
 }
 
-/// Draws the panel with its title at `top` \[px\], and tells where it ends.
+/// Draws the panel with its title at `top` \[px\], and returns its lower end.
 pub(super) fn draw(walk: &Walk, top: f64, svg: &mut Svg) -> f64 {
-    svg.text("title", (LEFT, top + 12.0), "margin of the zero moment point: how far it is inside the support polygon");
-    let asked = format!("the {:.1} mm that are asked for", 1e3 * walk.request.margin);
+    svg.text(
+        "title",
+        (LEFT, top + 12.0),
+        "margin of the zero moment point: its distance from the border of the support polygon",
+    );
+    let asked = format!("required: {:.1} mm", 1e3 * walk.request.margin);
     let legend = [
         (Swatch::Line, "margin", "margin, RH0 (3-5)"),
         (Swatch::Line, "limit", asked.as_str()),
-        (Swatch::Area, "left-stands", "the left foot stands alone while step n swings"),
+        (Swatch::Area, "left-stands", "the left foot supports alone in the swing of step n"),
         (Swatch::Area, "right-stands", "the right one"),
-        (Swatch::Area, "both-stand", "both feet stand"),
+        (Swatch::Area, "both-stand", "double support"),
     ];
     svg.legend((LEFT, top + 32.0), &legend);
     let margins: Vec<f64> = walk.balances.iter().map(|balance| 1e3 * balance.margin).collect();
@@ -45,7 +50,7 @@ pub(super) fn draw(walk: &Walk, top: f64, svg: &mut Svg) -> f64 {
     frame.end()
 }
 
-/// The frame of the panel: from zero, or below it, to a little over the greatest margin \[mm\].
+/// The frame of the panel: from zero, or below it, to a little above the greatest margin \[mm\].
 fn around(walk: &Walk, margins: &[f64], top: f64) -> Frame {
     let greatest = margins.iter().copied().fold(1e3 * walk.request.margin, f64::max);
     let least = margins.iter().copied().fold(0.0, f64::min);
@@ -54,7 +59,7 @@ fn around(walk: &Walk, margins: &[f64], top: f64) -> Frame {
     Frame { corner: (LEFT, top), size: (INNER, HEIGHT), low, high }
 }
 
-/// Shades the times in which one foot stands alone, with the number of the step where there is room for it.
+/// Shades the single support phases, with the number of the step where there is room for it.
 fn draw_alone(walk: &Walk, frame: &Frame, svg: &mut Svg) {
     let mut written = f64::NEG_INFINITY;
     for alone in times_alone(walk) {
@@ -69,7 +74,7 @@ fn draw_alone(walk: &Walk, frame: &Frame, svg: &mut Svg) {
     }
 }
 
-/// The times in which one foot stands alone, in turn.
+/// The single support phases in order.
 fn times_alone(walk: &Walk) -> Vec<Alone> {
     let mut found: Vec<Alone> = Vec::new();
     let mut stood = None;
@@ -91,7 +96,7 @@ fn times_alone(walk: &Walk) -> Vec<Alone> {
     found
 }
 
-/// Marks where the margin is least, with the words of the summary.
+/// Marks the least margin, with the text of the summary.
 fn mark_least(walk: &Walk, frame: &Frame, svg: &mut Svg) {
     let least = least_margin(walk);
     let (x, y) = frame.at((least.time, 1e3 * least.value));
@@ -100,7 +105,7 @@ fn mark_least(walk: &Walk, frame: &Frame, svg: &mut Svg) {
     let (class, aside) = if is_late { ("least end", -7.0) } else { ("least", 7.0) };
     let text = format!("least: {:.1} mm at {:.2} s", 1e3 * least.value, least.time);
     let levels = [0.0, 1e3 * walk.request.margin].map(|value| frame.at((0.0, value)).1);
-    // Below the mark, or below the zero line where a level would go through the words.
+    // Below the mark, or below the zero line where a grid line would cross the text.
     let is_crossed = |base: f64| levels.iter().any(|level| (base - 13.0..base + 5.0).contains(level));
     let base = [y + 15.0, levels[0].max(y) + 14.0].into_iter().find(|base| !is_crossed(*base));
     svg.text(class, (x + aside, base.unwrap_or(y + 15.0)), &text);

@@ -1,4 +1,5 @@
-//! A walk as a picture, SVG: from above, the margin of the zero moment point in time, the paths in space, and the joints in time.
+//! A walk as an SVG picture: from above, the margin of the zero moment point over time, the paths in space, and the
+//! joints over time.
 
 mod floor;
 mod margin;
@@ -8,17 +9,18 @@ use super::biped::Biped;
 use super::plan::Walk;
 use groebot_robot::drawing::svg::Svg;
 
-/// The width of the picture, what is left of its frames, and the width of those that take all of it \[px\].
+/// The width of the picture, the left edge of its frames, and the width of frames that fill the picture \[px\].
 const WIDTH: f64 = 1200.0;
 const LEFT: f64 = 60.0;
 const INNER: f64 = WIDTH - LEFT - 24.0;
-/// What is left free between two panels \[px\].
+/// The gap between two panels \[px\].
 const GAP: f64 = 18.0;
 
 impl Walk {
-    /// The walk as SVG: from above (x to the right, y up) with the number of the step on each sole; below it the margin of the zero moment
-    /// point in time, with the least one marked and the times shaded in which one foot stands alone; the paths of ankles and trunk; each
-    /// joint that moves, against its limits. Metres, millimetres for the margin, seconds, degrees.
+    /// The walk as SVG. The first panel is the view from above (x to the right, y up) with the number of the step on
+    /// each sole. The second is the margin of the zero moment point over time, with the least one marked and single
+    /// support shaded. Then follow the paths of ankles and trunk, and each moving joint with its limits. Metres,
+    /// millimetres for the margin, seconds, degrees.
     pub fn to_svg(&self, biped: &Biped) -> String {
         let mut svg = Svg::default();
         let above = floor::draw(self, biped, GAP, &mut svg);

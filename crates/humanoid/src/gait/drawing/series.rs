@@ -1,4 +1,4 @@
-//! The paths of ankles and trunk in space, and the joints in time.
+//! The paths of ankles and trunk in space, and the joints over time.
 
 use nalgebra::{Point2, Point3, Vector3};
 
@@ -8,7 +8,7 @@ use crate::gait::footprint::Side;
 use groebot_robot::drawing::frame::Frame;
 use groebot_robot::drawing::svg::Svg;
 
-/// The width and height of a joint's panel, and what is left free beside it and above it \[px\].
+/// The width and height of a joint's panel, and the margins beside it and above it \[px\].
 const PANEL: (f64, f64) = (332.0, 110.0);
 const BESIDE: f64 = (INNER - COLUMNS as f64 * PANEL.0) / (COLUMNS - 1) as f64;
 const ABOVE: f64 = 16.0;
@@ -16,12 +16,13 @@ const COLUMNS: usize = 3;
 /// The greatest and the least height of a view of paths \[px\].
 const PATHS: f64 = 200.0;
 const FLATTEST: f64 = 90.0;
-/// A path that is smaller than this is not drawn larger \[m\].
+/// The least extent of a path that is scaled to the view \[m\].
 const LEAST_PATH: f64 = 0.01;
-/// How far a metre to the left is drawn to the right and up.
+/// The displacement to the right and up in the picture of a metre to the left.
 const LEFTWARDS: (f64, f64) = (0.35, 0.3);
 
-/// The paths of ankles and trunk in space, seen aslant from the right: RH0 Fig. 5-14, 5-20. Tells where they end \[px\].
+/// Draws the paths of ankles and trunk in an oblique view from the right: RH0 Fig. 5-14, 5-20. Returns the lower end
+/// \[px\].
 pub(super) fn draw_paths(walk: &Walk, biped: &Biped, top: f64, svg: &mut Svg) -> f64 {
     let aslant = |at: Vector3<f64>| Point2::new(at.x + LEFTWARDS.0 * at.y, at.z + LEFTWARDS.1 * at.y);
     let ankle = |side: Side| -> Vec<Point2<f64>> {
@@ -37,7 +38,8 @@ pub(super) fn draw_paths(walk: &Walk, biped: &Biped, top: f64, svg: &mut Svg) ->
     ankles.max(trunk)
 }
 
-/// Paths in a frame of the width `width` below a title at `corner`, in one scale for both axes; where it ends \[px\].
+/// Draws paths in a frame of the width `width` below a title at `corner`, with one scale for both axes. Returns the
+/// lower end \[px\].
 fn draw_path(name: &str, paths: &[(&str, Vec<Point2<f64>>)], corner: (f64, f64), width: f64, svg: &mut Svg) -> f64 {
     let (mut low, mut high) = (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
     for point in paths.iter().flat_map(|(_, path)| path) {
@@ -50,7 +52,7 @@ fn draw_path(name: &str, paths: &[(&str, Vec<Point2<f64>>)], corner: (f64, f64),
     svg.text(
         "title",
         (corner.0, corner.1 + 12.0),
-        &format!("{name} aslant from the right; the axes are those at y = 0"),
+        &format!("{name}, oblique view from the right; the axes are those at y = 0"),
     );
     let frame = Frame {
         corner: (corner.0, corner.1 + ABOVE + 4.0),
@@ -65,7 +67,7 @@ fn draw_path(name: &str, paths: &[(&str, Vec<Point2<f64>>)], corner: (f64, f64),
     frame.end()
 }
 
-/// Each joint that moves, against its limits; where they end \[px\].
+/// Draws each moving joint with its limits; returns the lower end \[px\].
 pub(super) fn draw_joints(walk: &Walk, biped: &Biped, top: f64, svg: &mut Svg) -> f64 {
     let moving = (0..biped.joints.len()).filter(|joint| moves(walk, *joint));
     let mut end = top;
@@ -83,7 +85,7 @@ fn moves(walk: &Walk, joint: usize) -> bool {
     postures.iter().any(|posture| (posture.q[joint] - postures[0].q[joint]).abs() > 1e-9)
 }
 
-/// A joint in time against its limits, in degrees; where its panel ends \[px\].
+/// Draws a joint over time with its limits, in degrees; returns the lower end of its panel \[px\].
 fn draw_joint(walk: &Walk, biped: &Biped, joint: usize, corner: (f64, f64), svg: &mut Svg) -> f64 {
     let range = &biped.joints[joint];
     let values: Vec<f64> = walk.motion.postures.iter().map(|posture| posture.q[joint].to_degrees()).collect();

@@ -1,21 +1,22 @@
-//! How far it is at least, or about, from a window to the goal. Main type: [`Aim`].
+//! Heuristics: the least, or the approximate, distance from a window to the goal. Main type: [`Aim`].
 
 use super::plane::Spot;
 use super::rows::Rows;
 use super::windows::{Goal, Root, Window};
 
-/// What a search goes by.
+/// The heuristic of a search.
 pub(super) enum Aim<'a> {
-    /// The straight line to the goal: no way is shorter.
+    /// The straight line to the goal: a lower bound.
     Straight,
-    /// How far it is to the window: there is no goal.
+    /// The distance to the window: there is no goal.
     Nearest,
-    /// The times of a field by cell, and by how much to multiply them to have cells, about as far as it is; the straight line where that is longer.
+    /// The times of a field by cell, with the factor to cells, which approximate the distance; the straight line where
+    /// that is longer.
     Field(&'a [f64], f64),
 }
 
 impl Aim<'_> {
-    /// The length of a way by a window of a root.
+    /// The length of a path through a window of a root.
     pub fn through(&self, rows: &Rows, goal: &Goal, root: &Root, window: &Window) -> f64 {
         let line = window.view.line() as f64;
         let at = |ray: Spot| root.real.x + ray.x as f64 / ray.y as f64 * (line - root.real.y);
@@ -33,7 +34,7 @@ impl Aim<'_> {
         root.length + beyond
     }
 
-    /// How far it is from a corner.
+    /// The distance from a corner to the goal.
     pub fn from(&self, rows: &Rows, goal: &Goal, x: usize, y: usize) -> f64 {
         let straight = norm(goal.real.x - x as f64, goal.real.y - y as f64);
         match self {
@@ -44,21 +45,22 @@ impl Aim<'_> {
     }
 }
 
-/// The square root of the squares' sum; coordinates of a map do not overflow.
+/// The square root of the sum of squares; coordinates of a map do not overflow.
 pub(super) fn norm(x: f64, y: f64) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// The time at a corner: the mean of those of the free cells about it.
+/// The time at a corner: the mean of the free cells around it.
 fn about(rows: &Rows, times: &[f64], x: usize, y: usize) -> f64 {
     let cells = [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)];
     let free = cells.iter().filter(|(x, y)| rows.has(*x, *y));
     let sum = free.map(|(x, y)| times[rows.cell(*x, *y)]).sum::<f64>();
-    // It is convex: one of the four is an obstacle.
+    // The corner is convex, so one of the four cells is an obstacle.
     sum / 3.0
 }
 
-/// From a root by a stretch of a line to the goal, which is seen in the line's mirror where it is on the root's side.
+/// The straight distance from a root through an interval of a line to the goal. Where the goal is on the root's side,
+/// its mirror image in the line is used.
 fn by_straight(goal: &Goal, root: f64, height: f64, line: f64, ends: [f64; 2]) -> f64 {
     let depth = (goal.real.y - line).abs();
     let share = if height + depth > 0.0 { height / (height + depth) } else { 0.0 };
@@ -71,7 +73,7 @@ fn by_straight(goal: &Goal, root: f64, height: f64, line: f64, ends: [f64; 2]) -
     }
 }
 
-/// The time on the line of a window, between those of the cells beside.
+/// The time on the line of a window, interpolated between the adjacent cells.
 fn on_line(rows: &Rows, times: &[f64], window: &Window, x: f64) -> f64 {
     let (first, last) = (f64::from(window.opening.0), f64::from(window.opening.1));
     let place = (x - 0.5).clamp(first, last - 1.0);
@@ -82,7 +84,7 @@ fn on_line(rows: &Rows, times: &[f64], window: &Window, x: f64) -> f64 {
     0.5 * ((1.0 - share) * at(left) + share * at(right))
 }
 
-/// The least value of a function that falls and rises.
+/// The minimum of a unimodal function.
 fn least(of: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     let mut found = of(low).min(of(high));
     while high - low > 0.5 {

@@ -1,7 +1,7 @@
 //! Exact distances of a goal from all corners. Main type: [`Distances`].
 //!
-//! The windows of the search for one way, taken from the goal in the order of their distance (J. Mitchell, D. Mount and C. Papadimitriou, The Discrete Geodesic Problem, SIAM Journal on Computing
-//! 16, 1987).
+//! The windows of the search for one path are expanded from the goal in the order of their distance (J. Mitchell, D.
+//! Mount and C. Papadimitriou, The Discrete Geodesic Problem, SIAM Journal on Computing 16, 1987).
 
 use nalgebra::{Point2, Vector2};
 
@@ -11,10 +11,11 @@ use super::search::Search;
 use super::windows::{Goal, NONE, Root};
 use super::{Floor, Plane, Rows, Shortest, enclosure};
 use crate::nav::map::Map;
-use crate::nav::way::{Enclosure, Way};
+use crate::nav::path::{Enclosure, Path};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// How far each corner of an obstacle is from a goal, so that a shortest way from anywhere is found by looking about once.
+/// The distance of each corner of an obstacle from a goal. With it, one visibility query finds the shortest path from
+/// any place.
 #[derive(Clone, Debug)]
 pub struct Distances {
     goal: Point2<f64>,
@@ -24,7 +25,7 @@ pub struct Distances {
 }
 
 impl Distances {
-    /// Those of a goal \[m\].
+    /// Computes the distances of a goal \[m\].
     ///
     /// # Errors
     /// As [`Map::free_cell_at`]; [`Watch::check`].
@@ -32,7 +33,7 @@ impl Distances {
         let cell = map.free_cell_at(goal)?;
         let (rows, plane) = (Rows::new(map), Plane::new(map));
         let start = map.in_map(goal) + Vector2::repeat(1.0);
-        // Nowhere: no run holds a cell of the border.
+        // A dummy goal: no run contains a cell of the border.
         let nowhere = Goal { cell: (0, 0), spot: plane.lattice(0, 0), real: Point2::origin() };
         let mut search = Search::new(&rows, plane, nowhere, Aim::Nearest);
         search.start(start, rows.place(cell));
@@ -48,11 +49,11 @@ impl Distances {
         &self.goal
     }
 
-    /// The shortest way from a place to the goal, proved; or the cells that enclose one of them.
+    /// The shortest path from a place to the goal, proved; or the cells that enclose one of them.
     ///
     /// # Errors
     /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a map with other free cells; [`Watch::check`].
-    pub fn way(
+    pub fn path(
         &self,
         map: &Map,
         start: &Point2<f64>,
@@ -60,7 +61,7 @@ impl Distances {
     ) -> Result<std::result::Result<Shortest, Enclosure>> {
         let cells = [map.free_cell_at(start)?, self.cell];
         if self.rows != Rows::new(map) {
-            let text = "the distances are those of a map with other free cells; give the one that they were made of";
+            let text = "the distances belong to a map with other free cells; give that map";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let floor = Floor { map, rows: &self.rows, plane: Plane::new(map), ends: [*start, self.goal], cells };
@@ -68,7 +69,7 @@ impl Distances {
         search.run(None, watch)?;
         if search.best.1 == NONE {
             let enclosure = enclosure(map, &self.rows, cells, watch)?;
-            return Ok(Err(enclosure.unwrap_or_else(|| unreachable!("cells that are connected have a way"))));
+            return Ok(Err(enclosure.unwrap_or_else(|| unreachable!("connected cells have a path"))));
         }
         let mut points = vec![*start];
         let mut next = search.via;
@@ -77,7 +78,7 @@ impl Distances {
             next = corner.next;
         }
         points.push(self.goal);
-        let way = Way { points };
-        Ok(Ok(Shortest { bound: way.length(), way }))
+        let path = Path { points };
+        Ok(Ok(Shortest { bound: path.length(), path }))
     }
 }

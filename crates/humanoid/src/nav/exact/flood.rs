@@ -1,11 +1,11 @@
-//! Whether two cells are connected, by runs of free cells from both at once.
+//! Connectivity of two cells, by a bidirectional flood fill over runs of free cells.
 
 use super::rows::Rows;
 use crate::nav::map::Map;
-use crate::nav::way::Enclosure;
+use crate::nav::path::Enclosure;
 use crate::{Result, Watch};
 
-/// Runs that one place is connected to.
+/// The runs that are connected to one place.
 struct Flood {
     seen: Rows,
     waiting: Vec<(usize, usize, usize)>,
@@ -25,7 +25,7 @@ impl Flood {
         self.waiting.push((y, from, to));
     }
 
-    /// One run further: whether the other flood is met.
+    /// Expands one run; returns whether the other flood is met.
     fn step(&mut self, rows: &Rows, other: &Flood) -> bool {
         let (row, from, to) = self.waiting[self.next];
         self.next += 1;
@@ -45,7 +45,7 @@ impl Flood {
     }
 }
 
-/// The cells that enclose one of two cells against the other, where they are not connected.
+/// The cells that enclose one of two cells, where they are not connected.
 pub(super) fn enclosure(map: &Map, rows: &Rows, ends: [(usize, usize); 2], watch: &Watch) -> Result<Option<Enclosure>> {
     let mut floods = ends.map(|end| Flood::new(map, rows, end));
     if floods[0].seen.has(ends[1].0, ends[1].1) {

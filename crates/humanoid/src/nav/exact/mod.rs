@@ -1,11 +1,12 @@
-//! Shortest ways for a point, exact and proved. Main types: [`Shortest`], [`Distances`].
+//! Shortest any-angle paths for a point, exact and proved. Main types: [`Shortest`], [`Distances`].
 //!
-//! After D. Harabor, A. Grastien, D. Oz and V. Aksakalli, Optimal Any-Angle Pathfinding in Practice (Journal of Artificial Intelligence Research 56, 2016), and M. Cui, D. Harabor and
-//! A. Grastien, Compromise-free Pathfinding on a Navigation Mesh (IJCAI 2017): here the mesh is the runs of free cells of each row, read off bits, and who sees whom is decided in whole
-//! numbers.
+//! Based on D. Harabor, A. Grastien, D. Oz and V. Aksakalli, Optimal Any-Angle Pathfinding in Practice (Journal of
+//! Artificial Intelligence Research 56, 2016), and M. Cui, D. Harabor and A. Grastien, Compromise-free Pathfinding on a
+//! Navigation Mesh (IJCAI 2017). Here the mesh is the runs of free cells of each row, read from bits, and visibility is
+//! decided in integers.
 //!
-//! A way is in the closure of the cells that are free: it may touch obstacles, but does not slip through where two of them meet at a corner. Unknown cells and what is off the map are
-//! obstacles. The map's speeds do not matter.
+//! A path is in the closure of the free cells. It may touch obstacles, but does not pass between two that meet at a
+//! corner. Unknown cells and the outside of the map are obstacles. The map's speeds are ignored.
 
 mod aim;
 mod corners;
@@ -28,43 +29,47 @@ use self::search::{End, Search};
 use self::windows::{Goal, NONE};
 use super::field::Field;
 use super::map::Map;
-use super::way::{Enclosure, Way};
+use super::path::{Enclosure, Path};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// By how much a field's times, made as long as a way is, may still be too long.
-const CAUTION: f64 = 0.98;
+/// A factor below one on a field's times after they are scaled to the length of a known path, because they may still be
+/// too long.
+const FIELD_FACTOR: f64 = 0.98;
 
-/// A way, and what is proved of it.
+/// A path with a lower bound.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shortest {
-    /// The way: it turns at corners of obstacles only, about them.
-    pub way: Way,
-    /// No way is shorter than this \[m\]: the way's length where it is proved to be shortest.
+    /// The path: it turns only at corners of obstacles, around them.
+    pub path: Path,
+    /// A lower bound for the length of all paths \[m\]. It equals the path's length where that is proved to be
+    /// shortest.
     pub bound: f64,
 }
 
 impl Shortest {
-    /// Whether no way is shorter.
+    /// Whether the path is proved to be shortest.
     pub fn is_proved(&self) -> bool {
-        self.bound >= self.way.length() * (1.0 - 1e-12)
+        self.bound >= self.path.length() * (1.0 - 1e-12)
     }
 }
 
-/// What helps the search for a shortest way, and how long it lasts.
+/// Hints and the effort limit for a search.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Guide<'a> {
-    /// A field of the goal on the same map: along it a way is known soon, which matters where the effort is bounded. What proves a way does not need it.
+    /// A field of the goal on the same map. With it a path is found early, which matters where the effort is bounded.
+    /// The proof does not need it.
     pub field: Option<&'a Field>,
-    /// How many steps a proof may take once a way is known, each about 0.3 us; as many as it takes where none is told.
+    /// The greatest number of steps of a proof once a path is known, each about 0.3 us; unlimited where none is given.
     pub effort: Option<usize>,
 }
 
 impl Map {
-    /// The shortest way from one place to another one \[m\], or the cells that enclose one of them.
+    /// Finds the shortest path from one place to another \[m\], or the cells that enclose one of them.
     ///
     /// # Errors
-    /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a field of another goal or another count of cells; [`Watch::check`].
-    pub fn shortest_way(
+    /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a field of another goal or another number of cells;
+    /// [`Watch::check`].
+    pub fn shortest_path(
         &self,
         start: &Point2<f64>,
         goal: &Point2<f64>,
@@ -84,21 +89,21 @@ impl Map {
     }
 }
 
-/// By how much to multiply a field's times to have cells.
+/// The factor from a field's times to cells.
 fn scale(map: &Map, field: &Field, goal: usize) -> Result<f64> {
     if field.times().len() != map.cells().len() || !field.goals().contains(&goal) {
-        let text = "the field that guides is not one of this map and goal; give one of both, or none";
+        let text = "the field of the guide has another map or goal; give a field of this map and goal, or none";
         return Err(Error::new(ErrorKind::BadValue, text));
     }
     Ok(1.0 / map.resolution())
 }
 
-/// The cells that enclose one of two cells against the other, where they are not connected.
+/// The cells that enclose one of two cells, where they are not connected.
 pub(super) fn enclosure(map: &Map, rows: &Rows, cells: [usize; 2], watch: &Watch) -> Result<Option<Enclosure>> {
     flood::enclosure(map, rows, cells.map(|cell| rows.place(cell)), watch)
 }
 
-/// A map between whose places one goes.
+/// A map, and the ends of a path on it.
 struct Floor<'a> {
     map: &'a Map,
     rows: &'a Rows,
@@ -108,7 +113,8 @@ struct Floor<'a> {
 }
 
 impl Floor<'_> {
-    /// First a way that the times of a field lead to, then what the straight line to the goal leaves of shorter ones; where the effort does not last for that, once more by the times.
+    /// First finds a path by the times of a field, then searches for shorter ones with the straight line as heuristic.
+    /// Where the effort does not suffice for that, it searches once more by the times.
     fn shortest(&self, times: Option<(&[f64], f64)>, effort: Option<usize>, watch: &Watch) -> Result<Shortest> {
         let mut best = None;
         if let Some((times, scale)) = times {
@@ -118,29 +124,29 @@ impl Floor<'_> {
         let end = self.improve(&mut best, Aim::Straight, effort, watch)?;
         if let (Some((times, scale)), Some(length), End::Open(_)) = (times, known, &end) {
             let told = times[self.cells[0]] * scale;
-            let less = CAUTION * (length / told).min(1.0);
+            let less = FIELD_FACTOR * (length / told).min(1.0);
             self.improve(&mut best, Aim::Field(times, scale * less), effort, watch)?;
         }
-        let Some((length, way)) = best else { unreachable!("cells that are connected have a way") };
+        let Some((length, path)) = best else { unreachable!("connected cells have a path") };
         let bound = match end {
-            End::Closed => way.length(),
-            End::Open(least) => least.min(length) / length * way.length() * (1.0 - 1e-12),
+            End::Closed => path.length(),
+            End::Open(least) => least.min(length) / length * path.length() * (1.0 - 1e-12),
         };
-        Ok(Shortest { way, bound })
+        Ok(Shortest { path, bound })
     }
 
-    /// Looks for a way that is shorter than the best one, which is told with its length in cells.
-    fn improve(&self, best: &mut Option<(f64, Way)>, aim: Aim, effort: Option<usize>, watch: &Watch) -> Result<End> {
+    /// Searches for a path that is shorter than `best`, which has its length in cells.
+    fn improve(&self, best: &mut Option<(f64, Path)>, aim: Aim, effort: Option<usize>, watch: &Watch) -> Result<End> {
         let mut search = self.search(aim, None);
         search.best.0 = best.as_ref().map_or(f64::INFINITY, |(length, _)| *length).min(search.best.0);
         let end = search.run(effort, watch)?;
         if search.best.1 != NONE {
-            *best = Some((search.best.0, self.way(&search)));
+            *best = Some((search.best.0, self.path(&search)));
         }
         Ok(end)
     }
 
-    /// A search that has looked about from the start.
+    /// A search whose start has been expanded.
     fn search<'a>(&'a self, aim: Aim<'a>, distances: Option<&'a Corners>) -> Search<'a> {
         let [start, end] = self.ends.map(|place| self.map.in_map(&place) + Vector2::repeat(1.0));
         let cell = self.rows.place(self.cells[1]);
@@ -151,8 +157,8 @@ impl Floor<'_> {
         search
     }
 
-    /// The best way of a search, whose roots follow one another.
-    fn way(&self, search: &Search) -> Way {
+    /// The best path of a search, from its chain of roots.
+    fn path(&self, search: &Search) -> Path {
         let mut points = vec![self.ends[1]];
         let mut root = search.best.1;
         while root != 0 {
@@ -162,6 +168,6 @@ impl Floor<'_> {
         }
         points.push(self.ends[0]);
         points.reverse();
-        Way { points }
+        Path { points }
     }
 }

@@ -1,10 +1,10 @@
-//! Points as whole numbers, so that who is left of whom is decided exactly. Main types: [`Spot`], [`Plane`].
+//! Points in integer coordinates, so that orientations are decided exactly. Main types: [`Spot`], [`Plane`].
 
 use nalgebra::Point2;
 
 use crate::nav::map::Map;
 
-/// A point or a vector in parts of a cell.
+/// A point or a vector in fractions of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::nav) struct Spot {
     pub x: i64,
@@ -16,14 +16,15 @@ impl Spot {
         Spot { x: self.x - other.x, y: self.y - other.y }
     }
 
-    /// Above nought where `other` is left of this vector, nought where both are parallel.
+    /// The cross product: positive where `other` is left of this vector, zero where both are parallel.
     #[inline]
     pub fn cross(self, other: Spot) -> i128 {
         i128::from(self.x) * i128::from(other.y) - i128::from(self.y) * i128::from(other.x)
     }
 }
 
-/// How points are made whole: a cell has a power of two of parts, as many as its map's size leaves of 60 bits, at most 2^50.
+/// The scale of integer coordinates. A cell has a power of two of parts: as many as its map's size leaves of 60 bits,
+/// at most 2^50.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::nav) struct Plane {
     shift: u32,
@@ -41,14 +42,15 @@ impl Plane {
         Spot { x: (x as i64) << self.shift, y: (y as i64) << self.shift }
     }
 
-    /// A point of a cell, counted in cells: below the upper side of its cell, by one part where it is not.
+    /// The integer coordinates of a point of a cell, given in cells. A point on the upper side of its cell is moved one
+    /// part below it.
     pub fn spot(self, point: &Point2<f64>, (x, y): (usize, usize)) -> Spot {
         let whole = |x: f64| (x * (1u64 << self.shift) as f64).round() as i64;
         let (low, high) = (self.lattice(x, y), self.lattice(x + 1, y + 1));
         Spot { x: whole(point.x).clamp(low.x, high.x), y: whole(point.y).clamp(low.y, high.y - 1) }
     }
 
-    /// The lattice point at or below.
+    /// The lattice point at the lower left of a point.
     pub fn floor(self, spot: Spot) -> (usize, usize) {
         ((spot.x >> self.shift) as usize, (spot.y >> self.shift) as usize)
     }

@@ -1,6 +1,7 @@
-//! What is free, one bit by cell. Main type: [`Rows`].
+//! The free cells of a map, one bit per cell. Main type: [`Rows`].
 //!
-//! Lattice points and cells count from the lower left corner of a border of obstacles one cell wide, so that each cell has neighbours: cell (x, y) has the corners (x, y) and (x + 1, y + 1).
+//! Lattice points and cells are numbered from the lower left corner of a border of obstacles one cell wide, so that
+//! each cell has neighbours. Cell (x, y) has the corners (x, y) and (x + 1, y + 1).
 
 use crate::nav::map::{Cell, Map};
 
@@ -10,13 +11,13 @@ const WORD: usize = 64;
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::nav) struct Rows {
     words: Vec<u64>,
-    /// Words of a row.
+    /// The number of words per row.
     width: usize,
     columns: usize,
 }
 
 impl Rows {
-    /// Those of a map.
+    /// The rows of a map.
     pub fn new(map: &Map) -> Self {
         let mut rows = Rows::none(map);
         for (own, cells) in rows.words.chunks_exact_mut(rows.width).skip(1).zip(map.cells().chunks_exact(map.columns()))
@@ -35,13 +36,13 @@ impl Rows {
         rows
     }
 
-    /// No cell of a map.
+    /// The rows of a map without free cells.
     pub fn none(map: &Map) -> Self {
         let width = (map.columns() + 2).div_ceil(WORD);
         Rows { words: vec![0; width * (map.rows() + 2)], width, columns: map.columns() }
     }
 
-    /// The cell of the map in a place.
+    /// The cell of the map at a place.
     pub fn cell(&self, x: usize, y: usize) -> usize {
         (y - 1) * self.columns + x - 1
     }
@@ -51,7 +52,7 @@ impl Rows {
         (cell % self.columns + 1, cell / self.columns + 1)
     }
 
-    /// Lattice points are numbered from nought to below this.
+    /// The number of lattice points.
     pub fn points(&self) -> usize {
         self.words.len() * WORD
     }
@@ -66,7 +67,7 @@ impl Rows {
         self.words[y * self.width + x / WORD] >> (x % WORD) & 1 == 1
     }
 
-    /// Sets the bits from one to below another.
+    /// Sets the bits from `from` to before `to`.
     pub fn set(&mut self, y: usize, from: usize, to: usize) {
         for place in from / WORD..to.div_ceil(WORD) {
             let (low, high) = (from.max(place * WORD) % WORD, to.min((place + 1) * WORD) - place * WORD);
@@ -74,7 +75,7 @@ impl Rows {
         }
     }
 
-    /// The first cell at `x` or right of it that is free, or is not; the width of all words where there is none.
+    /// The first cell at `x` or right of it whose state is `is_free`; the width of all words where there is none.
     #[inline]
     pub fn next(&self, x: usize, y: usize, is_free: bool) -> usize {
         let row = &self.words[y * self.width..][..self.width];
@@ -90,7 +91,7 @@ impl Rows {
         self.width * WORD
     }
 
-    /// Right of the last cell left of `x` that is free, or is not; nought where there is none.
+    /// The place right of the last cell left of `x` whose state is `is_free`; zero where there is none.
     #[inline]
     pub fn after_last(&self, x: usize, y: usize, is_free: bool) -> usize {
         let row = &self.words[y * self.width..][..self.width];
@@ -106,13 +107,13 @@ impl Rows {
         0
     }
 
-    /// The run of free cells that holds a free cell: its first lattice point and its last one.
+    /// The run of free cells that contains a free cell: its first and its last lattice point.
     #[inline]
     pub fn run(&self, x: usize, y: usize) -> (usize, usize) {
         (self.after_last(x, y, false), self.next(x, y, false))
     }
 
-    /// The lattice point up to which cells are alike, from one on in a direction along the row.
+    /// The last lattice point, from a start in a direction along the row, up to which the cells have equal states.
     pub fn alike(&self, x: usize, y: usize, is_right: bool) -> usize {
         let other = !self.has(x, y);
         if is_right { self.next(x, y, other) } else { self.after_last(x, y, other) }

@@ -1,6 +1,7 @@
-//! The search for a shortest way over windows. Main type: [`Search`].
+//! The search for a shortest path over windows. Main type: [`Search`].
 //!
-//! A window is a stretch of a lattice line that a root sees; through it one enters a row. Where its end is a convex corner, a way may turn there, and the corner becomes a root.
+//! A window is an interval of a lattice line that is visible from a root; through it the search enters a row. If its
+//! end is a convex corner, a path may turn there, and the corner becomes a root.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -14,9 +15,10 @@ use super::rows::Rows;
 use super::windows::{Goal, NONE, Rays, Root, View, Window};
 use crate::{Result, Watch};
 
-/// Two lengths that differ by less, in parts of themselves, are one.
+/// The relative difference below which two lengths are equal.
 const SAME: f64 = 1e-12;
-/// What a way does at a corner: it looks between two rays, and it follows the line to the left or to the right.
+/// The turn of a path at a corner: the interval of rays that it can continue in, and whether it follows the line to the
+/// left or to the right.
 #[derive(Clone, Copy)]
 pub(super) struct Turn {
     pub view: View,
@@ -39,28 +41,28 @@ pub(super) struct Search<'a> {
     pub goal: Goal,
     aim: Aim<'a>,
     pub roots: Vec<Root>,
-    /// By lattice point its root, nought where it is none.
+    /// By lattice point, its root; zero where it has none.
     numbers: Vec<u32>,
     steps: Vec<Step>,
-    /// Steps that have been taken, whose places are free.
+    /// Indices of steps that have been taken and can be used again.
     taken: Vec<u32>,
-    /// By the bits of the least length that a way by it has: those of positive numbers have their order.
+    /// Steps by the bits of the least length of a path through them. The bits of positive numbers sort correctly.
     queue: BinaryHeap<Reverse<(u64, u32)>>,
     fresh: Vec<Window>,
-    /// The shortest way that is known: its length and its last root.
+    /// The shortest known path: its length and its last root.
     pub best: (f64, u32),
-    /// The corner from which distances tell the rest of that way, as they number it; nought for none.
+    /// The number of the corner from which [`Corners`] give the rest of that path; zero for none.
     pub via: u32,
     pub distances: Option<&'a Corners>,
-    /// Steps that have been taken.
+    /// The number of steps that have been taken.
     pub count: usize,
 }
 
-/// How a search ended.
+/// The end state of a search.
 pub(super) enum End {
-    /// Nothing below the limit is left.
+    /// No step below the limit is left.
     Closed,
-    /// The effort is spent; no way that is not known is shorter than this.
+    /// The effort is spent; this is a lower bound for all paths that are not known.
     Open(f64),
 }
 
@@ -86,14 +88,15 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Looks about from a start in a cell.
+    /// Expands the start in a cell.
     pub fn start(&mut self, real: Point2<f64>, cell: (usize, usize)) {
         let spot = self.plane.spot(&real, cell);
         self.roots.push(Root { spot, real, length: 0.0, before: NONE, turns: [None; 2] });
         self.begin(cell);
     }
 
-    /// Takes the most promising step until none is below the best length, or `effort` steps are taken and a way is known.
+    /// Takes the most promising step until none is below the best length, or until `effort` steps are taken and a path
+    /// is known.
     pub fn run(&mut self, effort: Option<usize>, watch: &Watch) -> Result<End> {
         let mut checked = self.count;
         while let Some(Reverse((bits, step))) = self.queue.pop() {
@@ -106,7 +109,7 @@ impl<'a> Search<'a> {
             }
             if self.count >= checked + 1024 {
                 checked = self.count;
-                watch.report("shortest way", self.count, self.queue.len());
+                watch.report("shortest path", self.count, self.queue.len());
                 watch.check()?;
             }
             self.taken.push(step);
@@ -118,7 +121,7 @@ impl<'a> Search<'a> {
         Ok(End::Closed)
     }
 
-    /// Into the row behind a window, and on while there is but one way.
+    /// Enters the row after a window, and continues while there is only one successor.
     fn enter(&mut self, mut window: Window) {
         loop {
             self.count += 1;
@@ -136,7 +139,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// On from a corner.
+    /// Continues from a corner.
     fn turn(&mut self, turn: &Turn) {
         self.count += 1;
         if self.is_overtaken(&turn.view) {
@@ -149,12 +152,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether a shorter way to the root has been found since.
+    /// Whether a shorter path to the root has been found since.
     fn is_overtaken(&self, view: &View) -> bool {
         view.length > self.roots[view.root as usize].length * (1.0 + SAME)
     }
 
-    /// Whether all of a window is reached sooner along its line, from a corner at an end of its opening.
+    /// Whether the whole window is reached sooner along its line, from a corner at an end of its opening.
     fn is_dominated(&self, window: &Window) -> bool {
         let root = &self.roots[window.view.root as usize];
         let line = window.view.line();
@@ -162,7 +165,7 @@ impl<'a> Search<'a> {
         let sooner = |end: u32, ray: Spot| {
             let number = self.numbers[self.rows.point(end as usize, line)];
             let across = ray.x as f64 / ray.y as f64 * height;
-            // Nowhere in the window is the difference less than at the end that is farther from the corner.
+            // In the window the difference is least at the end that is farther from the corner.
             let along = (root.real.x + across - f64::from(end)).abs();
             let here = (root.length + norm(across, height)) * (1.0 - SAME);
             number > 0 && self.roots[number as usize].length + along < here
@@ -170,14 +173,14 @@ impl<'a> Search<'a> {
         sooner(window.opening.0, window.rays[1]) || sooner(window.opening.1, window.rays[0])
     }
 
-    /// All windows that a root at the border of a row, or inside of it, sees there.
+    /// All windows that are visible from a root, at the border of a row or inside it.
     pub fn look(&mut self, view: &View, rays: Rays, cell: usize) {
         let run = self.rows.run(cell, view.row as usize);
         self.spread(view, rays, run);
         self.queue_fresh();
     }
 
-    /// The windows through which one leaves a run of a row, as fresh ones; the goal where it is seen in the run.
+    /// Adds the windows through which a path leaves a run of a row; the goal where it is visible in the run.
     fn spread(&mut self, view: &View, rays: Rays, run: (usize, usize)) {
         self.fresh.clear();
         if self.goal.cell.1 == view.row as usize && (run.0..run.1).contains(&self.goal.cell.0) {
@@ -210,7 +213,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The part of a run beside which rays meet the line behind it, a cell more than that on both sides.
+    /// The part of a run next to which rays meet the far line, with one more cell on both sides.
     fn reach(&self, behind: &View, rays: Rays, run: (usize, usize)) -> (usize, usize) {
         let root = &self.roots[behind.root as usize].real;
         let at = |ray: Spot| root.x + ray.x as f64 / ray.y as f64 * (behind.line() as f64 - root.y);
@@ -237,12 +240,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// By lattice point the number of its root, nought where it is none.
+    /// By lattice point, the number of its root; zero where it has none.
     pub fn into_numbers(self) -> Vec<u32> {
         self.numbers
     }
 
-    /// The length of a way by a window at least, or about, as the search goes by it.
+    /// The least, or the approximate, length of a path through a window: the key of the queue.
     fn through(&self, window: &Window) -> f64 {
         self.aim.through(self.rows, &self.goal, &self.roots[window.view.root as usize], window)
     }
@@ -267,7 +270,8 @@ impl<'a> Search<'a> {
         self.queue.push(Reverse((least.to_bits(), place)));
     }
 
-    /// A way from a root turns at a corner, `is_left` or right, where it came in a direction: worth a step where it is not longer than another one, nor seen by another one as short.
+    /// A path from a root turns at a corner, left if `is_left` or right, and arrives in a direction. It is expanded
+    /// unless it is longer than another one, or another one of equal length sees as much.
     pub fn turn_at(&mut self, from: u32, (x, y): (usize, usize), is_left: bool, turn: Turn) {
         let before = &self.roots[from as usize];
         let spot = self.plane.lattice(x, y);
@@ -294,7 +298,7 @@ impl<'a> Search<'a> {
         if length < own.length * (1.0 - SAME) {
             (own.length, own.before, own.turns) = (length, from, [None; 2]);
         }
-        // From farther outside one sees more.
+        // A path that arrives from farther outside sees more.
         let is_wider = |known: Spot| if is_left { came.cross(known) > 0 } else { came.cross(known) < 0 };
         let known = &mut own.turns[usize::from(!is_left)];
         if known.is_none_or(is_wider) {

@@ -1,10 +1,10 @@
-//! Where a way turns: at the ends of windows, and along lattice lines.
+//! Turns of a path: at the ends of windows, and along lattice lines.
 
 use super::search::{Search, Turn};
 use super::windows::{View, Window};
 
 impl Search<'_> {
-    /// Looks for corners at the ends of a window.
+    /// Finds corners at the ends of a window.
     pub fn corners(&mut self, window: &Window) {
         let root = self.roots[window.view.root as usize].spot;
         let line = window.view.line();
@@ -17,14 +17,14 @@ impl Search<'_> {
         }
     }
 
-    /// Turns at the left or right end of an opening, where a ray comes that leans inwards so much.
+    /// Turns at the left or right end of an opening, where a ray arrives with this inward slope.
     fn corner(&mut self, window: &Window, x: usize, is_right: bool, leans: i64) {
         let view = window.view;
         let row = view.row as usize;
         let from = if view.is_up { row - 1 } else { row + 1 };
         let (outside, inside) = if is_right { (x, x - 1) } else { (x - 1, x) };
         let is_open = [self.rows.has(outside, from), self.rows.has(outside, row)];
-        // Over the end of what bounds the row that it leaves, or around that of the row that it enters.
+        // Over the end of the obstacle that bounds the row left, or around that of the row entered.
         let follows = match is_open {
             [false, true] => Some(is_right),
             [true, false] if leans > 0 => None,
@@ -36,7 +36,8 @@ impl Search<'_> {
         self.turn_at(view.root, (x, view.line()), view.is_up != is_right, turn);
     }
 
-    /// Follows a lattice line from a point of it to the first corner where a way may turn, or to the goal. What lies above the line and below it before the point is within reach or is not.
+    /// Follows a lattice line from one of its points to the first corner where a path may turn, or to the goal.
+    /// `reaches` is whether the cells above the line and below it, before the point, can be reached.
     pub fn walk(&mut self, root: u32, (mut x, y): (usize, usize), is_right: bool, mut reaches: [bool; 2]) {
         let sides = [y, y - 1];
         loop {
@@ -59,7 +60,7 @@ impl Search<'_> {
                 let view = View { root, row: sides[usize::from(!is_up)] as u32, is_up, length: 0.0 };
                 let turn = Turn { view, rays: [None; 2], cell: ahead as u32, follows: Some(is_right) };
                 self.turn_at(root, (x, y), is_up == is_right, turn);
-                // There the corner follows the line, unless all about it is known.
+                // There the corner follows the line, unless all distances from it are known.
                 if self.distances.is_none() {
                     return;
                 }
@@ -67,13 +68,13 @@ impl Search<'_> {
         }
     }
 
-    /// Whether the goal is on the lower side of its cell, which is between two lattice points of a line.
+    /// Whether the goal is on the lower side of its cell, between two lattice points of a line.
     fn passes_goal(&self, from: usize, to: usize, y: usize) -> bool {
         let (cell, row) = self.goal.cell;
         row == y && self.goal.spot.y == self.plane.lattice(0, y).y && (from.min(to)..from.max(to)).contains(&cell)
     }
 
-    /// What a start sees, inside of its cell or on its border.
+    /// Expands a start inside its cell or on its border.
     pub(super) fn begin(&mut self, (cell, row): (usize, usize)) {
         let spot = self.roots[0].spot;
         let view = |row: usize, is_up: bool| View { root: 0, row: row as u32, is_up, length: 0.0 };

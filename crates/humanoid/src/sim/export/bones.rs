@@ -1,4 +1,5 @@
-//! Bones between joints, as `viewer/src/body.ts` draws them: thin ones join shapes; a robot without shapes is made of thick ones, with its axes.
+//! Bones between joints, as `viewer/src/body.ts` draws them. Thin bones connect shapes; a robot without shapes is drawn
+//! with thick bones and its axes.
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
@@ -7,15 +8,15 @@ use groebot_robot::model::{Joint, Robot, Solid};
 use groebot_robot::spatial::Pose;
 use groebot_robot::spatial::exact::normalized;
 
-/// A robot that is smaller is at one place \[m\].
+/// A smaller robot is at one point \[m\].
 const APART: f64 = 1e-6;
-/// The radius of a bone where there are no shapes, and where there are; of the robot's size.
+/// The radius of a bone without and with shapes, as a fraction of the robot's size.
 const THICK: f64 = 0.016;
 const THIN: f64 = 0.008;
-/// Bones that are shorter are left out; of the robot's size.
+/// Shorter bones are omitted; as a fraction of the robot's size.
 const SHORT: f64 = 1e-3;
 
-/// What is seen of a link.
+/// The visible parts of a link.
 #[derive(Clone, Default)]
 pub struct Seen {
     pub parts: Vec<Part>,
@@ -23,7 +24,7 @@ pub struct Seen {
     pub hidden: bool,
 }
 
-/// Adds the bones of the robot, and where it has no shapes the axes of its joints.
+/// Adds the bones of the robot, and the axes of its joints where it has no shapes.
 pub fn add(robot: &Robot, seen: &mut [Seen]) {
     let is_bare = seen.iter().all(|link| link.parts.is_empty());
     let has_meshes = seen.iter().flat_map(|link| &link.parts).any(|part| matches!(part.body, Body::Surface(_)));
@@ -61,13 +62,13 @@ fn axle(joint: &Joint, radius: f64) -> Part {
     Part { pose, body: Body::Solid(Solid::Cylinder { radius: 1.9 * radius, length: 4.5 * radius }), material }
 }
 
-/// A rotation that takes z to a direction.
+/// A rotation from z to a direction.
 fn from_z(to: Unit<Vector3<f64>>) -> UnitQuaternion<f64> {
     let half_turn = || UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI);
     UnitQuaternion::rotation_between_axis(&Vector3::z_axis(), &to).unwrap_or_else(half_turn)
 }
 
-/// The diagonal of the box about all shapes and joints, with all joints at zero \[m\].
+/// The diagonal of the bounding box of all shapes and joints, with all joints at zero \[m\].
 fn span(robot: &Robot, seen: &[Seen]) -> f64 {
     let mut frames = vec![Pose::identity(); robot.links().len()];
     for joint in robot.order() {
@@ -84,7 +85,7 @@ fn span(robot: &Robot, seen: &[Seen]) -> f64 {
     box_of.map_or(0.0, |(low, high)| (high - low).norm())
 }
 
-/// The joints that move, or carry a shape or a joint that matters.
+/// The joints that move, or carry a shape or another such joint.
 fn mattering(robot: &Robot, seen: &[Seen]) -> Vec<bool> {
     let (mut matters, mut links) = (vec![false; robot.joints().len()], vec![false; robot.links().len()]);
     for joint in robot.order().iter().rev() {

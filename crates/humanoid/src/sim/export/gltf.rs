@@ -1,4 +1,4 @@
-//! Scenes as binary glTF 2.0 (ISO/IEC 12113): one file with its JSON and one buffer of singles.
+//! Scenes as binary glTF 2.0 (ISO/IEC 12113): one file with its JSON and one buffer of 32-bit floats.
 
 use nalgebra::UnitQuaternion;
 use serde_json::{Map, Value, json};
@@ -7,7 +7,7 @@ use super::skin::Skin;
 use super::{Material, Node, Part, Scene};
 use crate::{Error, ErrorKind, Result};
 
-/// What a view of the buffer is for, and the types of numbers, as OpenGL counts them.
+/// Targets of buffer views and component types of numbers, as OpenGL constants.
 const VERTICES: u32 = 34962;
 const INDICES: u32 = 34963;
 const FLOAT: u32 = 5126;
@@ -18,11 +18,12 @@ const JSON: &[u8; 4] = b"JSON";
 const BINARY: &[u8; 4] = b"BIN\0";
 
 impl Scene {
-    /// The scene as a file of glTF: `.glb`. Between two samples rotations go by the shorter arc, places on the line.
+    /// The scene as a glTF file: `.glb`. Between two samples rotations are interpolated along the shorter arc, and
+    /// positions linearly.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] as [`Scene::check`], and for what singles cannot tell: numbers that are too large, times that are too near to each other,
-    /// more than four gigabytes.
+    /// [`ErrorKind::BadValue`] as [`Scene::check`], and for data that 32-bit floats cannot represent: too large
+    /// numbers, times too near to each other, more than four gigabytes.
     pub fn to_glb(&self) -> Result<Vec<u8>> {
         self.check()?;
         let mut file = File::default();
@@ -47,13 +48,13 @@ impl Scene {
             "buffers": if file.bytes.is_empty() { json!([]) } else { json!([{ "byteLength": file.bytes.len() }]) },
         });
         drop_empty(&mut told);
-        // The generator is in the head of the file, where it is looked for before the file is replaced.
+        // The generator is at the start of the file, where it is checked before the file is replaced.
         let rest = told.to_string();
         glb(format!("{{\"asset\":{asset},{}", &rest[1..]).into_bytes(), file.bytes)
     }
 }
 
-/// An empty list is not allowed to stand.
+/// Removes empty lists, which glTF does not permit.
 fn drop_empty(told: &mut Value) {
     let is_empty = |value: &Value| value.as_array().is_some_and(Vec::is_empty);
     if let Some(fields) = told.as_object_mut() {
@@ -63,7 +64,7 @@ fn drop_empty(told: &mut Value) {
     told.as_array_mut().into_iter().flatten().for_each(drop_empty);
 }
 
-/// The container: a head, then each chunk behind its length and name, filled up to four bytes.
+/// The container: a header, then each chunk after its length and name, padded to four bytes.
 fn glb(json: Vec<u8>, binary: Vec<u8>) -> Result<Vec<u8>> {
     let mut bytes = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
     for (mut chunk, name, fill) in [(json, JSON, b' '), (binary, BINARY, 0)] {
@@ -84,7 +85,7 @@ fn bad(text: &str) -> Error {
     Error::new(ErrorKind::BadValue, text)
 }
 
-/// What stands in a file beside its nodes.
+/// The parts of a file other than its nodes.
 #[derive(Default)]
 struct File {
     bytes: Vec<u8>,
@@ -92,7 +93,7 @@ struct File {
     accessors: Vec<Value>,
     meshes: Vec<Value>,
     materials: Vec<Value>,
-    /// The materials as they were told.
+    /// The materials without duplicates.
     known: Vec<Material>,
 }
 
@@ -118,7 +119,7 @@ impl File {
         Ok(told)
     }
 
-    /// The triangles of a part in its node's frame; nothing where there are none.
+    /// The triangles of a part in its node's frame; `None` where there are none.
     fn primitive(&mut self, part: &Part) -> Result<Option<Value>> {
         let skin = Skin::of(&part.body);
         if skin.triangles.is_empty() {
@@ -159,7 +160,7 @@ impl File {
         self.materials.len() - 1
     }
 
-    /// The motion of all nodes; none where nothing moves.
+    /// The motion of all nodes; empty where nothing moves.
     fn animation(&mut self, scene: &Scene) -> Result<Vec<Value>> {
         let (mut channels, mut samplers) = (Vec::new(), Vec::new());
         let mut times = None;
@@ -192,12 +193,13 @@ impl File {
     fn times(&mut self, times: &[f64]) -> Result<usize> {
         if let Some(at) = times.windows(2).position(|pair| pair[0] as f32 >= pair[1] as f32) {
             let text = format!("sample {}: its time is the same as the one before in single precision", at + 2);
-            return Err(bad(&format!("{text}, which is what glTF has; give fewer samples, or X3D")));
+            return Err(bad(&format!("{text}, which glTF uses; give fewer samples, or use X3D")));
         }
         self.floats(&times.iter().map(|time| [*time]).collect::<Vec<_>>(), "SCALAR", None, true)
     }
 
-    /// Puts rows of singles into the buffer, with their least and greatest values where `bounds` asks for them; the number of their accessor.
+    /// Appends rows of 32-bit floats to the buffer, with their least and greatest values if `bounds`; returns the
+    /// number of their accessor.
     fn floats<const N: usize>(
         &mut self,
         rows: &[[f64; N]],
@@ -207,7 +209,7 @@ impl File {
     ) -> Result<usize> {
         let singles: Vec<[f32; N]> = rows.iter().map(|row| row.map(|x| x as f32)).collect();
         if !singles.iter().flatten().all(|x| x.is_finite()) {
-            return Err(bad("a number is too large for single precision, which is what glTF has"));
+            return Err(bad("a number is too large for single precision, which glTF uses"));
         }
         let mut told = json!({ "componentType": FLOAT, "count": rows.len(), "type": kind });
         if bounds {
@@ -222,7 +224,7 @@ impl File {
         Ok(self.accessor(&bytes, told, target))
     }
 
-    /// Puts bytes, a multiple of four, into the buffer behind the others.
+    /// Appends bytes, a multiple of four, to the buffer.
     fn accessor(&mut self, bytes: &[u8], mut told: Value, target: Option<u32>) -> usize {
         let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
         if let Some(target) = target {
@@ -241,7 +243,7 @@ fn quaternion(rotation: &UnitQuaternion<f64>) -> [f64; 4] {
     rotation.coords.map(|x| x + 0.0).into()
 }
 
-/// A share of sRGB as the share of light that it means (IEC 61966-2-1).
+/// Converts an sRGB component to linear light (IEC 61966-2-1).
 fn linear(share: f64) -> f64 {
     let share = share.clamp(0.0, 1.0);
     if share <= 0.040_45 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }

@@ -1,14 +1,14 @@
-//! Nodes and their fields in XML and in the words of VRML. Main type: [`Markup`].
+//! Nodes and their fields in XML and in VRML. Main type: [`Markup`].
 
 use std::fmt::Write;
 
 /// Decimals of a number.
 const DECIMALS: f64 = 1e10;
 
-/// Deeper nodes are not moved in further.
+/// The greatest depth that is indented.
 const DEEPEST: usize = 40;
 
-/// How a scene is written down.
+/// The language of the scene.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Dialect {
     /// X3D 4.0 in XML.
@@ -19,7 +19,7 @@ pub enum Dialect {
 
 /// The value of a field.
 pub enum Field<'f> {
-    /// One number or several that belong together.
+    /// One number or several of one value.
     Numbers(&'f [f64]),
     /// A list of these.
     Rows(&'f [Vec<f64>]),
@@ -27,13 +27,13 @@ pub enum Field<'f> {
     Triangles(&'f [[u32; 3]]),
     /// Yes or no.
     Flag(bool),
-    /// Text without signs that need care.
+    /// Text without special characters.
     Text(&'f str),
     /// A list of words.
     Words(&'f [&'f str]),
 }
 
-/// The text of nodes, as it grows.
+/// The text of nodes, built step by step.
 pub struct Markup {
     dialect: Dialect,
     text: String,
@@ -41,7 +41,7 @@ pub struct Markup {
 }
 
 impl Markup {
-    /// The text before all nodes.
+    /// Starts the text with the header.
     pub fn begin(dialect: Dialect) -> Self {
         let text = match dialect {
             Dialect::X3d => {
@@ -60,13 +60,14 @@ impl Markup {
         self.text
     }
 
-    /// A node without others in it, in the field `role` of the node around it; that is empty for children and roots. So is the name of one that has none.
+    /// Writes a node without inner nodes, in the field `role` of its parent node; an empty `role` is for children and
+    /// roots. An empty `name` is no name.
     pub fn leaf(&mut self, role: &str, kind: &str, name: &str, fields: &[(&str, Field<'_>)]) {
         self.head(role, kind, name, fields);
         self.text.push_str(if self.dialect == Dialect::X3d { "/>\n" } else { " }\n" });
     }
 
-    /// A node with what `inside` puts in its fields.
+    /// Writes a node; `inside` writes the nodes in its fields.
     pub fn node(&mut self, role: &str, kind: &str, fields: &[(&str, Field<'_>)], inside: impl FnOnce(&mut Self)) {
         self.head(role, kind, "", fields);
         self.text.push_str(if self.dialect == Dialect::X3d { ">\n" } else { "\n" });
@@ -80,7 +81,7 @@ impl Markup {
         }
     }
 
-    /// Begins a `Transform`; what follows are its children.
+    /// Begins a `Transform`; the next nodes are its children.
     pub fn open(&mut self, name: &str, fields: &[(&str, Field<'_>)]) {
         self.head("", "Transform", name, fields);
         self.text.push_str(if self.dialect == Dialect::X3d { ">\n" } else { " children [\n" });
@@ -94,7 +95,7 @@ impl Markup {
         self.text.push_str(if self.dialect == Dialect::X3d { "</Transform>\n" } else { "] }\n" });
     }
 
-    /// Sends what a node tells to a field of another one.
+    /// Routes an event from one node to a field of another.
     pub fn route(&mut self, from: [&str; 2], to: [&str; 2]) {
         let ([node, field], [target, taken]) = (from, to);
         match self.dialect {
@@ -105,7 +106,7 @@ impl Markup {
         }
     }
 
-    /// A node up to the last of its plain fields.
+    /// Writes a node up to the last of its plain fields.
     fn head(&mut self, role: &str, kind: &str, name: &str, fields: &[(&str, Field<'_>)]) {
         self.indent();
         match self.dialect {
@@ -165,9 +166,9 @@ fn joined(parts: impl Iterator<Item = String>, between: &str) -> String {
     parts.collect::<Vec<_>>().join(between)
 }
 
-/// A number with ten decimals, those at the end that are zero left out.
+/// A number with up to ten decimals.
 fn number(x: f64) -> String {
     let scaled = (x * DECIMALS).round();
-    // No negative zero; a number beyond the doubles' decimals stays as it is.
+    // No negative zero; a number too large for ten decimals is unchanged.
     if scaled.is_finite() { (scaled / DECIMALS + 0.0).to_string() } else { x.to_string() }
 }

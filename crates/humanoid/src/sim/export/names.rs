@@ -1,4 +1,4 @@
-//! Names that X3D and VRML97 take. Main type: [`Names`].
+//! Valid names for X3D and VRML97. Main type: [`Names`].
 
 use std::collections::HashMap;
 
@@ -7,12 +7,12 @@ use groebot_robot::document::word;
 /// Words of VRML97 that cannot be names.
 const RESERVED: &str = " DEF USE PROTO EXTERNPROTO ROUTE TO IS NULL TRUE FALSE eventIn eventOut exposedField field ";
 
-/// Names that are given once each, with the last number that was put behind one.
+/// Unique names, with the last number that was appended to each.
 #[derive(Default)]
 pub struct Names(HashMap<String, usize>);
 
 impl Names {
-    /// The name of letters, digits and lines that is nearest to `name` and not yet given.
+    /// The unused name of letters, digits and underscores that is nearest to `name`.
     pub fn legal(&mut self, name: &str) -> String {
         let mut legal = word(name);
         if RESERVED.contains(&format!(" {legal} ")) {

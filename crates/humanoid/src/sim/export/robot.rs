@@ -1,4 +1,4 @@
-//! A robot as a scene, at rest or as a trajectory moves it.
+//! A robot as a scene, at rest or moved by a trajectory.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -13,17 +13,18 @@ use groebot_robot::motion::{JointTrack, Trajectory};
 use groebot_robot::spatial::Pose;
 use groebot_robot::spatial::exact::normalized;
 
-/// Readers compute in single precision: where the base goes further from the origin than this \[m\], a node above it takes what singles tell of its place, and
-/// the base has the rest.
+/// Readers compute in single precision. Where the base goes further from the origin than this \[m\], a node above it
+/// has the position rounded to single precision, and the base has the rest.
 const NEAR: f64 = 8.0;
 
 impl Scene {
-    /// The robot, where `trajectory` moves it, else at rest; meshes only where their folders are given. A node a link, the last ones of the tree below
-    /// one that turns the robot's z axis to y.
+    /// The robot, moved by `trajectory` or at rest; meshes only where their folders are given. There is a node per
+    /// link, below one that rotates the robot's z axis to y.
     ///
     /// # Errors
-    /// As [`Robot::check`] and [`Trajectory::check`]; [`ErrorKind::UnknownName`] for a joint that the robot does not have; [`ErrorKind::BadValue`] for one that does not turn
-    /// or slide as the trajectory says, no sample, or a robot of which nothing is to be seen.
+    /// As [`Robot::check`] and [`Trajectory::check`]; [`ErrorKind::UnknownName`] for a joint that the robot does not
+    /// have; [`ErrorKind::BadValue`] for a joint of another type than in the trajectory, no sample, or a robot without
+    /// anything visible.
     pub fn of_robot(robot: &Robot, meshes: Option<&Meshes>, trajectory: Option<&Trajectory>) -> Result<Self> {
         robot.check()?;
         let values = values(robot, trajectory)?;
@@ -55,7 +56,7 @@ impl Scene {
         Ok(scene)
     }
 
-    /// The node that turns the robot's z axis to y, and the robot's root below it.
+    /// Adds the node that rotates the robot's z axis to y, and the robot's root below it.
     fn add_base(&mut self, robot: &Robot, base: &[Pose]) {
         let mut base = if base.is_empty() { vec![Pose::identity()] } else { base.to_vec() };
         if base.iter().any(|pose| pose.translation.vector.amax() > NEAR) {
@@ -74,7 +75,7 @@ impl Scene {
     }
 }
 
-/// Where a joint of this value brings its child from the joint's origin.
+/// The transformation of a joint at this value, relative to the joint's origin.
 fn motion(joint: &Joint, value: f64) -> Pose {
     match joint.kind {
         JointType::Prismatic => Translation3::from(normalized(&joint.axis).into_inner() * value).into(),
@@ -85,14 +86,14 @@ fn motion(joint: &Joint, value: f64) -> Pose {
     }
 }
 
-/// The values of each joint, one a sample or one for all: those of the trajectory, of joints that follow others what these bring, else the value within
-/// limits that is nearest to zero.
+/// The values of each joint, one per sample or one for all: those of the trajectory, those of the leader for followers,
+/// else the value within limits that is nearest to zero.
 fn values(robot: &Robot, trajectory: Option<&Trajectory>) -> Result<Vec<Vec<f64>>> {
     let mut told: Vec<Option<Vec<f64>>> = vec![None; robot.joints().len()];
     if let Some(trajectory) = trajectory {
         trajectory.check()?;
         if trajectory.times.is_empty() {
-            return Err(Error::new(ErrorKind::BadValue, "the trajectory has no sample; give one at least"));
+            return Err(Error::new(ErrorKind::BadValue, "the trajectory has no sample; give at least one"));
         }
         for (column, track) in trajectory.joints.iter().enumerate() {
             told[place(robot, track)?] = Some(trajectory.q.iter().map(|q| q[column]).collect());
@@ -110,20 +111,20 @@ fn values(robot: &Robot, trajectory: Option<&Trajectory>) -> Result<Vec<Vec<f64>
     Ok(robot.joints().iter().enumerate().map(value).collect())
 }
 
-/// The joint of a track, by its place.
+/// The index of a track's joint.
 fn place(robot: &Robot, track: &JointTrack) -> Result<usize> {
     let place = robot.joint(&track.name)?;
     match (robot.joints()[place].kind, track.slides) {
         (JointType::Prismatic, true) | (JointType::Revolute | JointType::Continuous, false) => Ok(place),
         (kind, _) => {
             let (name, unit, kind) = (shown(&track.name), track.unit(), kind.name());
-            let text = format!("joint `{name}`: the trajectory gives it in {unit}, the robot says that it is {kind}");
+            let text = format!("joint `{name}`: the trajectory gives it in {unit}, but in the robot it is {kind}");
             Err(Error::new(ErrorKind::BadValue, text))
         }
     }
 }
 
-/// The shape, unless it is a mesh that is not asked for or cannot be read.
+/// The shape, unless it is a mesh that is not requested or cannot be read.
 fn part(own: &Shape, meshes: Option<&Meshes>, notes: &mut Vec<String>) -> Option<Part> {
     let body = match &own.solid {
         mesh @ Solid::Mesh { .. } => Body::Surface(meshes?.triangles_or_note(mesh, notes)?),

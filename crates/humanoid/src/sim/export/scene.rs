@@ -1,4 +1,4 @@
-//! What is written: a tree of nodes that move in time. Main type: [`Scene`].
+//! Scenes: trees of nodes that move in time. Main type: [`Scene`].
 
 use nalgebra::{Matrix4, Point3, UnitQuaternion, Vector3};
 
@@ -10,32 +10,32 @@ use groebot_robot::spatial::Pose;
 /// A tree of nodes that move in time. Metres, radians, seconds; y is up.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
-    /// What it shows.
+    /// Its title.
     pub title: String,
-    /// When the samples of the motion are: ascending from zero; empty where nothing moves.
+    /// The times of the motion's samples: ascending from zero; empty where nothing moves.
     pub times: Vec<f64>,
-    /// The nodes, each right behind its parent or what hangs on that.
+    /// The nodes in depth-first order, each after its parent.
     pub nodes: Vec<Node>,
-    /// What could not be shown, and why.
+    /// The objects that could not be shown, with the reasons.
     pub notes: Vec<String>,
 }
 
-/// A frame, and what is seen in it.
+/// A frame and the visible parts in it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
     /// Its name.
     pub name: String,
-    /// The node that it hangs on.
+    /// Its parent node.
     pub parent: Option<usize>,
-    /// Its frame in that of its parent; where it moves, at the first sample.
+    /// Its frame in that of its parent; for a moving node, at the first sample.
     pub pose: Pose,
-    /// Factors along x, y and z of all that is in it.
+    /// Factors along x, y and z of all its content.
     pub scale: [f64; 3],
-    /// Its rotation at each sample; empty where it does not turn.
+    /// Its rotation at each sample; empty where it does not rotate.
     pub turns: Vec<UnitQuaternion<f64>>,
-    /// Its place at each sample; empty where that does not move.
+    /// Its position at each sample; empty where it does not move.
     pub slides: Vec<Vector3<f64>>,
-    /// What is seen.
+    /// The visible parts.
     pub parts: Vec<Part>,
 }
 
@@ -46,31 +46,31 @@ pub struct Part {
     pub pose: Pose,
     /// Its form.
     pub body: Body,
-    /// How it looks.
+    /// Its appearance.
     pub material: Material,
 }
 
-/// A form.
+/// A shape.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Body {
-    /// One with a name; no mesh.
+    /// A primitive; no mesh.
     Solid(Solid),
     /// Triangles.
     Surface(Surface),
 }
 
-/// A material with the fields and the defaults of VRML97. Colours are red, green and blue from 0 to 1, as screens take them (sRGB).
+/// A material with the fields and the defaults of VRML97. Colours are red, green and blue from 0 to 1 in sRGB.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
-    /// How much light from all around it returns.
+    /// The reflected fraction of ambient light.
     pub ambient: f64,
-    /// Its colour in light.
+    /// The diffuse colour.
     pub diffuse: [f64; 3],
-    /// Its colour in the dark.
+    /// The emissive colour.
     pub emissive: [f64; 3],
     /// The colour of its highlights.
     pub specular: [f64; 3],
-    /// 1 for a body that cannot be looked through.
+    /// 1 for an opaque body.
     pub opacity: f64,
 }
 
@@ -81,7 +81,7 @@ impl Default for Material {
 }
 
 impl Node {
-    /// A node at the places of `poses`, one a sample or one for all.
+    /// A node with the frames `poses`, one per sample or one for all.
     ///
     /// # Panics
     /// Without a pose.
@@ -89,7 +89,8 @@ impl Node {
         let mut node = Node::at(name, parent, poses[0]);
         if poses.iter().any(|pose| pose.rotation != node.pose.rotation) {
             node.turns = poses.iter().map(|pose| pose.rotation).collect();
-            // A quaternion and its negative are one rotation: the way between two samples is the shorter one.
+            // A quaternion and its negative are one rotation; the sign is chosen for the shorter arc between two
+            // samples.
             for place in 1..node.turns.len() {
                 if node.turns[place - 1].coords.dot(&node.turns[place].coords) < 0.0 {
                     node.turns[place] = UnitQuaternion::new_unchecked(-node.turns[place].into_inner());
@@ -102,7 +103,7 @@ impl Node {
         node
     }
 
-    /// A node that stays.
+    /// A node that does not move.
     pub(crate) fn at(name: &str, parent: Option<usize>, pose: Pose) -> Self {
         let name = name.to_owned();
         Node { name, parent, pose, scale: [1.0; 3], turns: Vec::new(), slides: Vec::new(), parts: Vec::new() }
@@ -126,7 +127,7 @@ impl Node {
 }
 
 impl Body {
-    /// Points whose hull is that of the body, or nearly so \[m\].
+    /// Points whose convex hull is that of the body, approximately \[m\].
     pub(super) fn points(&self) -> Vec<Point3<f64>> {
         match self {
             Body::Solid(solid) => solid.points(),
@@ -147,26 +148,25 @@ impl Material {
 }
 
 impl Scene {
-    /// Checks that the nodes are a tree in order, that each moves at every sample or at none, that time goes on, and that all numbers are finite.
+    /// Checks that the nodes are an ordered tree, that each moves at every sample or at none, that times ascend, and
+    /// that all numbers are finite.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`].
     pub fn check(&self) -> Result<()> {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         if self.times.iter().any(|time| !(0.0..f64::INFINITY).contains(time)) {
-            return bad("a time is not finite or before zero; begin at zero".to_owned());
+            return bad("a time is not finite or below zero; begin at zero".to_owned());
         }
         if let Some(at) = self.times.windows(2).position(|pair| pair[0] >= pair[1]) {
-            return bad(format!("sample {}: its time is not behind the one before; let time go on", at + 2));
+            return bad(format!("sample {}: its time is not after the previous one; times must ascend", at + 2));
         }
         let mut open = Vec::new();
         for (place, node) in self.nodes.iter().enumerate() {
             let named = |text: &str| bad(format!("node `{}`: {text}", shown(&node.name)));
             while open.last().copied() != node.parent {
                 if open.pop().is_none() {
-                    return named(
-                        "it does not stand behind its parent; give each node right behind its parent or what hangs on that",
-                    );
+                    return named("it does not follow its parent; give nodes in depth-first order");
                 }
             }
             open.push(place);
@@ -191,7 +191,8 @@ impl Scene {
         frames
     }
 
-    /// The least and the greatest coordinates of all that is seen, over the whole motion; nothing where nothing is.
+    /// The least and the greatest coordinates of all visible parts, over the whole motion; `None` where nothing is
+    /// visible.
     pub(super) fn bounds(&self) -> Option<[Vector3<f64>; 2]> {
         let corners = |part: &Part| part.body.points().iter().map(|point| part.pose * point).collect::<Vec<_>>();
         let seen: Vec<Vec<Point3<f64>>> =
@@ -210,5 +211,5 @@ impl Scene {
     }
 }
 
-/// At so many samples it is looked how far a motion goes.
+/// The number of samples at which the extent of a motion is measured.
 const LOOKS: usize = 50;

@@ -7,10 +7,11 @@ use nalgebra::{Point3, Vector3};
 use super::Body;
 use groebot_robot::model::Solid;
 
-/// Into how many pieces a circle is cut; a multiple of four.
+/// The number of segments of a circle; a multiple of four.
 const ROUND: u32 = 20;
 
-/// The triangles of a box about the origin: the bits of a corner's number, from the lowest, tell on which side of x, y and z it is.
+/// The triangles of a box about the origin. The bits of a corner's number, from the lowest, are its sides in x, y and
+/// z.
 const BOX: [[u32; 3]; 12] = [
     [0, 4, 6],
     [0, 6, 2],
@@ -26,15 +27,15 @@ const BOX: [[u32; 3]; 12] = [
     [4, 7, 6],
 ];
 
-/// Triangles, each counterclockwise where it is seen from outside.
+/// Triangles, each counterclockwise as seen from outside.
 pub struct Skin {
     pub points: Vec<Point3<f64>>,
-    /// One a point; none where each triangle is flat.
+    /// One per point; empty where each triangle is flat.
     pub normals: Vec<Vector3<f64>>,
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// A ring of a round body: how far from the axis, how high, and the latitude of its normal.
+/// A ring of a body of revolution: its radius, its height, and the latitude of its normal.
 type Ring = (f64, f64, f64);
 
 impl Skin {
@@ -82,7 +83,7 @@ fn ball(radius: f64, half: f64) -> Vec<Ring> {
     lower.chain((count / 2..=count).map(|place| ring(place, half))).collect()
 }
 
-/// The surface that rings, from the lowest up, are on.
+/// The surface through rings, from the lowest up.
 fn turned(rings: &[Ring]) -> Skin {
     let turn = |step: u32| TAU * f64::from(step) / f64::from(ROUND);
     let around = |(out, height): (f64, f64)| {

@@ -18,20 +18,21 @@ use groebot_robot::document::{TEXT_LIMIT, one_among, shown};
 use groebot_robot::model::Solid;
 use groebot_robot::spatial::Pose;
 
-/// How deep nodes may stand in each other.
+/// The greatest depth of nested nodes.
 const DEEPEST: usize = groebot_algebra::limits::VRML_DEPTH;
-/// What the first line of a whole file is; the figure is a piece of one.
+/// The first line of a complete file; the figure is a fragment.
 const HEAD: &str = "#VRML V2.0 utf8";
-/// What is a word of its own wherever it stands.
+/// Characters that are always words of their own.
 const BRACKETS: [char; 4] = ['{', '}', '[', ']'];
 
 impl Scene {
-    /// The scene that VRML97 tells by the nodes of RH0 Fig. 5-4. Names of shapes, materials and boxes are not kept; a node without a name is called by its kind.
+    /// Reads a scene from VRML97 with the nodes of RH0 Fig. 5-4. Names of shapes, materials and boxes are not kept; a
+    /// node without a name gets that of its type.
     ///
     /// # Errors
-    /// With the line: [`ErrorKind::Unsupported`] for another node, another version of VRML, or nodes deeper than 64; [`ErrorKind::UnknownKey`] and
-    /// [`ErrorKind::DuplicateName`] for a field; [`ErrorKind::Syntax`] for other words than are asked for; [`ErrorKind::BadValue`] for a number that is
-    /// out of its range, and for more than a megabyte.
+    /// With the line: [`ErrorKind::Unsupported`] for another node, another version of VRML, or nodes deeper than 64;
+    /// [`ErrorKind::UnknownKey`] and [`ErrorKind::DuplicateName`] for a field; [`ErrorKind::Syntax`] for unexpected
+    /// words; [`ErrorKind::BadValue`] for a number that is out of its range, and for more than a megabyte.
     pub fn from_vrml(text: &str) -> Result<Self> {
         if text.len() as u64 > TEXT_LIMIT {
             let text = format!("the text is too long; at most {TEXT_LIMIT} bytes are read");
@@ -53,7 +54,7 @@ impl Scene {
     }
 }
 
-/// The words with their lines. Remarks go from `#` to the end of a line; commas are blanks.
+/// The words with their lines. Comments go from `#` to the end of a line; commas are blanks.
 fn words(text: &str) -> Vec<(usize, &str)> {
     let mut words = Vec::new();
     for (place, line) in text.lines().enumerate() {
@@ -71,7 +72,7 @@ fn words(text: &str) -> Vec<(usize, &str)> {
     words
 }
 
-/// Words, how far they are read, and the nodes that were found.
+/// The words, the reading position, and the nodes found.
 struct Reader<'t> {
     words: Vec<(usize, &'t str)>,
     next: usize,
@@ -85,13 +86,13 @@ impl<'t> Reader<'t> {
         word.ok_or_else(|| self.error(ErrorKind::Syntax, format!("the text ends here; {wanted} is missing")))
     }
 
-    /// An error at the word that was read last.
+    /// An error at the last word read.
     fn error(&self, kind: ErrorKind, text: String) -> Error {
         let last = self.words.len().saturating_sub(1).min(self.next.saturating_sub(1));
         Error::new(kind, text).at_line(self.words.get(last).map_or(1, |(line, _)| *line))
     }
 
-    /// The head of a node up to its bracket: its kind, and its name or else its kind again.
+    /// Reads the head of a node up to its bracket: its type, and its name or else its type again.
     fn head(&mut self, allowed: &[&str]) -> Result<[&'t str; 2]> {
         let (mut kind, mut name) = (self.word("a node")?, None);
         if kind == "DEF" {
@@ -102,14 +103,17 @@ impl<'t> Reader<'t> {
             kind = self.word("a node")?;
         }
         if !allowed.contains(&kind) {
-            let text =
-                format!("`{}` is not read here, only what RH0 Fig. 5-4 shows{}", shown(kind), one_among(kind, allowed));
+            let text = format!(
+                "`{}` is not supported here; only the nodes of RH0 Fig. 5-4 are{}",
+                shown(kind),
+                one_among(kind, allowed)
+            );
             return Err(self.error(ErrorKind::Unsupported, text));
         }
         match self.word("`{`")? {
             "{" => Ok([kind, name.unwrap_or(kind)]),
             other => {
-                let text = format!("`{}` stands behind {kind}; give `{{`", shown(other));
+                let text = format!("`{}` follows {kind}; give `{{`", shown(other));
                 Err(self.error(ErrorKind::Syntax, text))
             }
         }
@@ -140,7 +144,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Numbers, each of which is `good`.
+    /// Reads numbers, each of which must satisfy `good`.
     fn numbers<const N: usize>(&mut self, good: fn(f64) -> bool, wanted: &str) -> Result<[f64; N]> {
         let mut numbers = [0.0; N];
         for number in &mut numbers {
@@ -171,12 +175,12 @@ impl<'t> Reader<'t> {
         self.numbers(|x| (0.0..=1.0).contains(&x), "a number from 0 to 1")
     }
 
-    /// A node that is a child of another one, or of none.
+    /// Reads a node with a parent or none.
     fn child(&mut self, parent: Option<usize>, depth: usize) -> Result<()> {
         match self.head(&["Transform", "Shape"])? {
             ["Transform", name] if depth < DEEPEST => self.transform(name, parent, depth),
             ["Transform", _] => {
-                Err(self.error(ErrorKind::Unsupported, format!("nodes stand deeper than {DEEPEST} in each other")))
+                Err(self.error(ErrorKind::Unsupported, format!("nodes are nested deeper than {DEEPEST}")))
             }
             [_, name] => self.shape(name, parent),
         }
@@ -212,7 +216,7 @@ impl<'t> Reader<'t> {
     fn rotation(&mut self) -> Result<UnitQuaternion<f64>> {
         let [x, y, z, angle] = self.any()?;
         let axis = Vector3::new(x, y, z);
-        // Divided by its greatest part first: the square of a large one would be infinite.
+        // Divided by its greatest component first: the square of a large number would be infinite.
         match Unit::try_new(axis / axis.amax(), 0.0).filter(|axis| axis.iter().all(|x| x.is_finite())) {
             Some(axis) => Ok(UnitQuaternion::from_axis_angle(&axis, angle)),
             None => {
@@ -223,7 +227,7 @@ impl<'t> Reader<'t> {
     }
 
     fn shape(&mut self, name: &str, parent: Option<usize>) -> Result<()> {
-        // Without a material light has no say: white.
+        // Without a material there is no shading: white.
         let mut material = Material { diffuse: [0.0; 3], emissive: [1.0; 3], ..Material::default() };
         let mut body = None;
         self.fields("Shape", &["appearance", "geometry"], |reader, field| {

@@ -1,4 +1,4 @@
-//! Scenes as X3D 4.0 in XML (ISO/IEC 19775-1, 19776-1) and as VRML97 (ISO/IEC 14772-1): one tree, written down in two ways.
+//! Scenes as X3D 4.0 in XML (ISO/IEC 19775-1, 19776-1) and as VRML97 (ISO/IEC 14772-1): one tree in two languages.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_8};
 
@@ -13,19 +13,20 @@ use groebot_robot::document::shown;
 use groebot_robot::model::Solid;
 use groebot_robot::spatial::Pose;
 
-/// From where it is looked, with y up.
+/// The direction of the viewpoint, with y up.
 const FROM: [f64; 3] = [1.0, 0.5, 1.0];
-/// Where the light beside that of the viewer shines.
+/// The direction of the light, in addition to that of the viewer.
 const LIGHT: [f64; 3] = [-0.3, -1.0, -0.4];
 /// The colour of the sky.
 const SKY: [f64; 3] = [0.93, 0.94, 0.96];
-/// Faces that meet at a smaller angle are shown smooth \[rad\].
+/// Faces that meet at a smaller angle are shaded smoothly \[rad\].
 const CREASE: f64 = 1.0;
 
 impl Scene {
-    /// The scene as X3D: `.x3d`. The motion goes round and round; between two samples rotations go by the shorter arc, places on the line.
+    /// The scene as X3D: `.x3d`. The motion repeats. Between two samples rotations are interpolated along the shorter
+    /// arc, and positions linearly.
     ///
-    /// Names of nodes keep letters and digits; what else stands in them becomes `_`, and the second one of a name gets a number.
+    /// Names of nodes keep letters and digits; other characters become `_`, and a repeated name gets a number.
     ///
     /// # Errors
     /// As [`Scene::check`].
@@ -33,7 +34,7 @@ impl Scene {
         self.written(Dialect::X3d)
     }
 
-    /// The scene as VRML97: `.wrl`. Otherwise as [`Scene::to_x3d`].
+    /// Same as [`Scene::to_x3d`], but as VRML97: `.wrl`.
     ///
     /// # Errors
     /// As [`Scene::check`].
@@ -61,11 +62,12 @@ impl Scene {
         Ok(out.end())
     }
 
-    /// A view of the whole motion.
+    /// A viewpoint that shows the whole motion.
     fn view(&self, out: &mut Markup) {
         let Some([low, high]) = self.bounds() else { return };
         let back = Vector3::from(FROM).normalize();
-        // The default field of view is a quarter of pi: all of a ball is seen from its radius over the sine of half of that.
+        // The default field of view is a quarter of pi. A ball is visible from its radius over the sine of half of
+        // that.
         let away = (high - low).norm() / 2.0 / FRAC_PI_8.sin();
         let turn = UnitQuaternion::face_towards(&back, &Vector3::y());
         let (place, turn) = ((low + high) / 2.0 + back * away, axis_angle(&turn));
@@ -93,7 +95,7 @@ impl Scene {
         open.iter().for_each(|_| out.close());
     }
 
-    /// The clock, and for each node that moves what tells it where it is.
+    /// The clock, and the interpolators of each moving node.
     fn motion(&self, out: &mut Markup, names: &[String], free: &mut Names) {
         let moving: Vec<_> = self.nodes.iter().zip(names).collect();
         let end = self.times.last().copied().unwrap_or(0.0);
@@ -120,7 +122,7 @@ impl Scene {
     }
 }
 
-/// Begins a `Transform`, with the fields that are not as usual.
+/// Begins a `Transform` with the fields that differ from the defaults.
 fn transform(out: &mut Markup, name: &str, pose: &Pose, scale: [f64; 3]) {
     let (turn, place) = (axis_angle(&pose.rotation), pose.translation.vector);
     let mut told = Vec::new();
@@ -137,7 +139,7 @@ fn transform(out: &mut Markup, name: &str, pose: &Pose, scale: [f64; 3]) {
 }
 
 fn shape(out: &mut Markup, part: &Part) {
-    // The axis of a cylinder is y there.
+    // The axis of a cylinder is y in X3D.
     let upright = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);
     let pose = match part.body {
         Body::Solid(Solid::Cylinder { .. }) => part.pose * Pose::from_parts(Translation3::identity(), upright),

@@ -1,24 +1,24 @@
-//! What is printed of equations of motion. Main type: [`Function`].
+//! The printable functions of equations of motion. Main type: [`Function`].
 
-/// A function that can be printed.
+/// A printable function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Function {
-    /// Torques of a motion.
+    /// Inverse dynamics (RNEA): the torques of a motion.
     Inverse,
-    /// Torques against gravity.
+    /// The torques against gravity.
     Gravity,
-    /// The inertia matrix.
+    /// The mass matrix (CRBA).
     Inertia,
-    /// The Coriolis matrix of Christoffel's symbols.
+    /// The Coriolis matrix of Christoffel symbols.
     Coriolis,
-    /// What torques change the velocity by.
+    /// Forward dynamics (ABA): the accelerations from torques.
     Forward,
-    /// What inverse dynamics changes by with the configuration and the velocity.
+    /// The derivatives of inverse dynamics by the configuration and the velocity.
     Derivatives,
 }
 
 impl Function {
-    /// All of them.
+    /// All functions.
     pub const ALL: [Function; 6] = [
         Function::Inverse,
         Function::Gravity,
@@ -42,18 +42,18 @@ impl Function {
 
     pub(super) fn about(self) -> &'static str {
         match self {
-            Function::Inverse => "The torques that a motion asks for.",
-            Function::Gravity => "The torques that hold the robot against gravity.",
-            Function::Inertia => "The inertia matrix M, by rows.",
-            Function::Coriolis => "The Coriolis matrix C of Christoffel's symbols, by rows: M' - 2 C is skew.",
-            Function::Forward => "What torques change the velocity by.",
+            Function::Inverse => "Inverse dynamics (RNEA): the torques of a motion.",
+            Function::Gravity => "The torques against gravity.",
+            Function::Inertia => "The mass matrix M (CRBA), by rows.",
+            Function::Coriolis => "The Coriolis matrix C of Christoffel symbols, by rows: M' - 2 C is skew.",
+            Function::Forward => "Forward dynamics (ABA): the accelerations by torques.",
             Function::Derivatives => {
-                "What the torques of a motion change by with the configuration, and with the velocity, by rows."
+                "The derivatives of inverse dynamics by the configuration, and by the velocity, by rows."
             }
         }
     }
 
-    /// What it reads beside q.
+    /// Its inputs in addition to q.
     pub(super) fn inputs(self) -> &'static [&'static str] {
         match self {
             Function::Gravity | Function::Inertia => &[],

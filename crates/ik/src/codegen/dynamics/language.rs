@@ -1,4 +1,4 @@
-//! What differs between the languages in equations of motion. Main type: [`Language`].
+//! The parts of equations of motion that differ between the languages. Main type: [`Language`].
 
 use super::function::Function;
 use crate::codegen::language::Expressions;
@@ -7,36 +7,36 @@ use groebot_robot::dynamics::Equations;
 
 /// A table of the robot: by body, the base first.
 pub(super) enum Table {
-    /// Counts.
+    /// Integers.
     Places(&'static str, Vec<usize>),
     /// Rows of numbers.
     Numbers(&'static str, Vec<Vec<f64>>),
 }
 
-/// What differs between the languages.
+/// The parts that differ between the languages.
 pub(super) trait Language {
     fn expressions(&self) -> &dyn Expressions;
-    /// What is done with the results: statements, and an expression at last.
+    /// The results of a function: statements, and a last expression.
     fn answer(&self, function: Function, freedoms: usize, results: Vec<String>) -> (Vec<String>, String);
     /// The list of parameters.
     fn parameters(&self, function: Function, equations: &Equations) -> String;
-    /// The results of a recursive function, nought at first, and what is returned.
+    /// The results of a recursive function, zero at first.
     fn start(&self, function: Function) -> Vec<String>;
-    /// As told.
+    /// The return expression.
     fn finish(&self, function: Function) -> String;
     /// The entry of a matrix of results.
     fn entry(&self, matrix: &str, row: &str, column: &str) -> String;
-    /// New numbers, nought at first: so many of each body.
+    /// New variables, zero at first: `count` of each body.
     fn zeros(&self, name: &str, count: usize) -> String;
-    /// So many alone.
+    /// New variables, zero at first: `count` in all.
     fn zero_row(&self, name: &str, count: usize) -> String;
-    /// A place in a table that does not change.
+    /// A constant integer.
     fn index(&self, name: &str, value: &str) -> String;
-    /// The head of a loop through the bodies: `i`.
+    /// The head of a loop over the bodies with the variable `i`.
     fn bodies(&self, inward: bool) -> &'static str;
-    /// What begins with a body and goes on while there is one: `j`.
+    /// Start and continuation of a loop from a body to its ancestors with the variable `j`.
     fn climb(&self) -> [&'static str; 2];
-    /// The head of a block.
+    /// The head of a conditional block.
     fn when(&self, condition: &str) -> String;
     /// Tables of a file.
     fn tables(&self, tables: &[Table]) -> Vec<String>;

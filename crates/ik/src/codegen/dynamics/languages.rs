@@ -6,7 +6,7 @@ use crate::codegen::language::{Expressions, number};
 use crate::codegen::printer::{INDENT, spread};
 use groebot_robot::dynamics::Equations;
 
-/// Rust, on the crate groebot-runtime.
+/// Rust, with the crate groebot-runtime.
 pub(super) struct Rust;
 
 impl Language for Rust {
@@ -89,7 +89,7 @@ impl Language for Rust {
     }
 }
 
-/// C99, on groebot_dynamics.h.
+/// C99, with groebot_dynamics.h.
 pub(super) struct C;
 
 impl Language for C {
@@ -159,7 +159,7 @@ impl Language for C {
 
     fn tables(&self, tables: &[Table]) -> Vec<String> {
         let table = |table: &Table| {
-            // Whole numbers are numbers of either precision.
+            // Integers are valid in either precision.
             let literal = |value: f64| if value == value.trunc() { value.to_string() } else { self.literal(value) };
             let rows = rows(table, ["{", "}"], literal);
             match table {

@@ -1,7 +1,8 @@
-//! Code that goes through the bodies of a robot in loops. Main type: [`Loops`].
+//! Code in loops over the bodies of a robot. Main type: [`Loops`].
 //!
-//! Bodies count from 1, each behind those that carry it; 0 is the base. What is computed of each stands in arrays, in cells such as `force[i][2]`; `i` is a body, `p` its parent,
-//! `j` what carries it, from itself down to the base. A [`Step`] is straight-line code that reads cells and writes others.
+//! Bodies are numbered from 1, each after its parent; 0 is the base. Results of each body are in arrays, in cells such
+//! as `force[i][2]`. `i` is a body, `p` its parent, `j` runs from the body over its ancestors to the base. A [`Step`]
+//! is straight-line code that reads cells and writes others.
 
 use super::language::Language;
 use super::tape::{Recorded, Tape};
@@ -14,13 +15,13 @@ use groebot_robot::dynamics::recursions::Six;
 /// Lines of loops, as they are written.
 pub(super) struct Loops<'a> {
     language: &'a dyn Language,
-    /// How the robot's joints move: one way or both.
+    /// The motions of the robot's joints: rotation, translation, or both kinds.
     freedoms: &'a [Freedom],
     lines: Vec<String>,
     depth: usize,
 }
 
-/// Straight-line code on cells, which are all read before any is written.
+/// Straight-line code on cells; it reads all of them before it writes any.
 #[derive(Default)]
 pub(super) struct Step {
     tape: Tape,
@@ -49,24 +50,24 @@ impl<'a> Loops<'a> {
         self.line("}");
     }
 
-    /// New arrays, nought at first: their names, and how many numbers of each body they hold.
+    /// New arrays, zero at first: their names, and the number of values of each body.
     pub fn arrays(&mut self, arrays: &[(&str, usize)]) {
         for (name, count) in arrays {
             self.line(&self.language.zeros(name, *count));
         }
     }
 
-    /// A new array, nought at first.
+    /// A new array, zero at first.
     pub fn row(&mut self, name: &str, count: usize) {
         self.line(&self.language.zero_row(name, count));
     }
 
-    /// Through the bodies, from the base on.
+    /// A loop over the bodies, from the base outward.
     pub fn outward(&mut self, inner: impl FnOnce(&mut Self)) {
         self.bodies(false, inner);
     }
 
-    /// Through the bodies, back to the base.
+    /// A loop over the bodies, inward to the base.
     pub fn inward(&mut self, inner: impl FnOnce(&mut Self)) {
         self.bodies(true, inner);
     }
@@ -83,7 +84,7 @@ impl<'a> Loops<'a> {
         });
     }
 
-    /// From the body itself through what carries it down to the base, which is left out.
+    /// A loop from the body itself over its ancestors; the base is excluded.
     pub fn climb(&mut self, inner: impl FnOnce(&mut Self)) {
         let [start, head] = self.language.climb();
         self.line(start);
@@ -93,7 +94,7 @@ impl<'a> Loops<'a> {
         });
     }
 
-    /// By how the joint of the body with this index moves.
+    /// A case distinction by the joint type of the body with this index.
     pub fn by_freedom(&mut self, index: &str, inner: impl Fn(&mut Self, Freedom)) {
         if let [one] = self.freedoms {
             return inner(self, *one);
@@ -102,7 +103,7 @@ impl<'a> Loops<'a> {
         self.when(&format!("SLIDES[{index}] == 0"), |loops| inner(loops, Freedom::Turn));
     }
 
-    /// Where a condition holds.
+    /// A conditional block.
     pub fn when(&mut self, condition: &str, inner: impl FnOnce(&mut Self)) {
         let head = self.language.when(condition);
         self.block(&head, inner);
@@ -135,7 +136,7 @@ impl<'a> Loops<'a> {
 }
 
 impl Step {
-    /// What stands in a cell.
+    /// Reads a cell.
     pub fn read(&mut self, cell: impl Into<String>) -> Recorded {
         let cell = cell.into();
         let known = self.cells.iter().position(|other| *other == cell);
@@ -146,12 +147,12 @@ impl Step {
         self.tape.input(place)
     }
 
-    /// What stands in cells that follow one another.
+    /// Reads consecutive cells.
     pub fn list<const N: usize>(&mut self, row: &str, from: usize) -> [Recorded; N] {
         std::array::from_fn(|at| self.read(format!("{row}[{}]", from + at)))
     }
 
-    /// Six of them.
+    /// Reads six consecutive cells.
     pub fn six(&mut self, row: &str, from: usize) -> Six<Recorded> {
         Six::of(&self.list::<6>(row, from))
     }
@@ -161,7 +162,7 @@ impl Step {
         self.written.push((cell.into(), value));
     }
 
-    /// Writes cells that follow one another.
+    /// Writes consecutive cells.
     pub fn write_list(&mut self, row: &str, from: usize, values: impl IntoIterator<Item = Recorded>) {
         for (at, value) in (from..).zip(values) {
             self.write(format!("{row}[{at}]"), value);
@@ -175,7 +176,7 @@ impl Step {
         self.write(cell, sum);
     }
 
-    /// Adds to cells that follow one another.
+    /// Adds to consecutive cells.
     pub fn add_list(&mut self, row: &str, from: usize, values: impl IntoIterator<Item = Recorded>) {
         for (at, value) in (from..).zip(values) {
             self.add(format!("{row}[{at}]"), value);

@@ -1,7 +1,8 @@
-//! Printing equations of motion: Rust ([`Printed::rust`]) and C99 ([`Printed::c99`]).
+//! Code generation for equations of motion: Rust ([`Printed::rust`]) and C99 ([`Printed::c99`]).
 //!
-//! The recursions of [`groebot_robot::dynamics`] run over numbers that write down how they are computed; what is known beforehand is computed at once, and nothing twice. Where
-//! such straight-line code would be long, a step of the recursion is written down alone, in a loop over the bodies.
+//! The recursive algorithms of [`groebot_robot::dynamics`] (RNEA, CRBA, ABA) run on numbers that record their
+//! operations. Known values are computed at once, and common subexpressions once. Where such straight-line code would
+//! be long, one step of the recursion is recorded instead, and printed in a loop over the bodies.
 
 mod function;
 mod language;
@@ -28,33 +29,34 @@ const RUST: &str = include_str!("../skeleton/dynamics.rs.txt");
 const HEADER: &str = include_str!("../skeleton/dynamics.h.txt");
 const SOURCE: &str = include_str!("../skeleton/dynamics.c.txt");
 
-/// How a function is printed.
+/// The form of a printed function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Form {
-    /// As straight-line code where that has at most [`LONGEST`] characters in Rust, otherwise recursive.
+    /// Straight-line code if it has at most [`LONGEST`] characters in Rust, otherwise loops.
     #[default]
     Shorter,
-    /// As straight-line code, which is fastest.
+    /// Straight-line code, the fastest form.
     Straight,
-    /// As loops over the bodies, whose figures stand in tables; forward dynamics with joints that follow others is straight-line code all the same.
+    /// Loops over the bodies, whose parameters are in tables. Forward dynamics with joints that follow others is
+    /// straight-line code anyway.
     Recursive,
 }
 
-/// The most characters of a function's straight-line code, unless it is asked for.
+/// The greatest length of a function's straight-line code in characters, unless that form is requested.
 pub const LONGEST: usize = 100_000;
 
-/// What is printed of a robot.
+/// A request for printed code of a robot.
 #[derive(Clone, Debug)]
 pub struct Printed<'a> {
     /// The robot's name.
     pub name: &'a str,
-    /// Its equations of motion; friction is left out.
+    /// Its equations of motion; friction is ignored.
     pub equations: &'a Equations,
-    /// Lines for the head of the file.
+    /// Lines for the header comment of the file.
     pub remarks: Vec<String>,
     /// The functions, in order.
     pub functions: Vec<Function>,
-    /// How they are printed.
+    /// Their form.
     pub form: Form,
 }
 
@@ -65,7 +67,7 @@ struct Body {
 }
 
 impl Printed<'_> {
-    /// A Rust file on the crate `groebot-runtime` (edition 2024).
+    /// Prints a Rust file that needs the crate `groebot-runtime` (edition 2024).
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for forward dynamics where bodies without mass would move.
@@ -73,7 +75,8 @@ impl Printed<'_> {
         Ok(super::fill(RUST, &self.outline(&Rust, "")?))
     }
 
-    /// A header and a source file in C99 on `groebot_dynamics.h`, of files `stem.h` and `stem.c`; names begin with the robot's.
+    /// Prints a header and a source file in C99 that need `groebot_dynamics.h`, for files `stem.h` and `stem.c`; names
+    /// begin with the robot's.
     ///
     /// # Errors
     /// As [`Printed::rust`].
@@ -82,7 +85,7 @@ impl Printed<'_> {
         Ok([HEADER, SOURCE].map(|skeleton| super::fill(skeleton, &outline)))
     }
 
-    /// How many operations a function takes.
+    /// The number of operations of a function.
     ///
     /// # Errors
     /// As [`Printed::rust`].
@@ -134,7 +137,7 @@ impl Printed<'_> {
         Ok(self.text(function, language, code, answer, is_recursive))
     }
 
-    /// Straight-line code, and its answer.
+    /// Straight-line code, and its result.
     fn straight(&self, function: Function, body: &Body, language: &dyn Language) -> (Vec<String>, String) {
         let names = self.names(function, language);
         let demand = Demand::of_code(&body.code, &body.results);
@@ -171,7 +174,8 @@ impl Printed<'_> {
         }
     }
 
-    /// The inputs of the recorded code, in order: cosines, sines, ways, the root's quaternion, and what else is read.
+    /// The inputs of the recorded code, in order: cosines, sines, displacements, the root's quaternion, and the other
+    /// inputs.
     fn names(&self, function: Function, language: &dyn Language) -> Vec<String> {
         let values = self.equations.values();
         let turning = values.iter().filter(|value| value.freedom == Freedom::Turn).count();
@@ -184,7 +188,7 @@ impl Printed<'_> {
         pairs.chain(ways).chain(turn).chain(lists).collect()
     }
 
-    /// Runs the recursion and writes it down.
+    /// Runs the algorithm and records it.
     fn record(&self, function: Function) -> Result<Body> {
         let (tape, formal) = (Tape::default(), self.equations.formal(Recorded::constant));
         let values = self.equations.values();
@@ -224,7 +228,7 @@ impl Printed<'_> {
     }
 }
 
-/// The value of a joint by the configuration.
+/// The value of a joint, as an expression of the configuration.
 fn joint_value(value: &Value, language: &dyn Language) -> String {
     let Value { place, factor, offset, .. } = *value;
     let mut text = format!("q[{place}]");
@@ -234,7 +238,7 @@ fn joint_value(value: &Value, language: &dyn Language) -> String {
     if offset != 0.0 { format!("{text} + {}", language.expressions().literal(offset)) } else { text }
 }
 
-/// What a skeleton is filled with.
+/// The values for a skeleton.
 #[derive(Serialize)]
 struct Outline {
     version: &'static str,

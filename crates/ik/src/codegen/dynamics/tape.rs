@@ -1,4 +1,4 @@
-//! Numbers that write down how they are computed. Main type: [`Recorded`].
+//! Numbers that record their operations (tape). Main type: [`Recorded`].
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -8,7 +8,7 @@ use std::rc::Rc;
 use crate::solver::{Instruction, Operand, Operation};
 use groebot_robot::dynamics::Scalar;
 
-/// What has been written down: each operation on the same operands once.
+/// The recorded operations, each on the same operands once.
 #[derive(Debug, Default)]
 struct Record {
     operations: Vec<Operation>,
@@ -18,7 +18,7 @@ struct Record {
 /// An operation and its operands.
 type Key = (char, [(u8, u64); 2]);
 
-/// Straight-line code as it is written down.
+/// A tape of straight-line code.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tape(Rc<RefCell<Record>>);
 
@@ -28,9 +28,9 @@ impl Tape {
         Recorded { value: Value::Recorded(self.clone(), Operand::Parameter(index)), negative: false }
     }
 
-    /// The code that `results` ask for, in order, and where they stand in it; registers count from zero.
+    /// The code that `results` need, in order, and their operands; registers are numbered from zero.
     pub fn code(&self, results: &[Recorded]) -> (Vec<Instruction>, Vec<Operand>) {
-        // What is negated at last is computed here.
+        // A final negation is computed here.
         let outputs: Vec<Operand> = results.iter().map(|result| self.output(result)).collect();
         let record = self.0.borrow();
         let mut asked = vec![false; record.operations.len()];
@@ -114,7 +114,7 @@ fn moved_operand(operand: Operand, places: &[usize]) -> Operand {
     if let Operand::Register(index) = operand { Operand::Register(places[index]) } else { operand }
 }
 
-/// What tells operands apart, and their order.
+/// The identity of an operand, and its order.
 fn key(operand: Operand) -> (u8, u64) {
     match operand {
         Operand::Constant(number) => (0, number.to_bits()),
@@ -125,7 +125,7 @@ fn key(operand: Operand) -> (u8, u64) {
     }
 }
 
-/// A number that writes down how it is computed. Signs are carried along, and what is known beforehand is computed at once.
+/// A number that records its operations. Its sign is separate, and known values are computed at once.
 #[derive(Clone, Debug)]
 pub(super) struct Recorded {
     value: Value,
@@ -134,18 +134,18 @@ pub(super) struct Recorded {
 
 #[derive(Clone, Debug)]
 enum Value {
-    /// Not below zero.
+    /// A constant that is not negative.
     Constant(f64),
     Recorded(Tape, Operand),
 }
 
 impl Recorded {
-    /// A number that does not change.
+    /// A constant.
     pub fn constant(number: f64) -> Self {
         Recorded { value: Value::Constant(number.abs()), negative: number < 0.0 }
     }
 
-    /// Whether it is not a constant beyond doubles.
+    /// Whether it is not a constant outside the range of doubles.
     pub fn is_finite(&self) -> bool {
         self.known().is_none_or(f64::is_finite)
     }
@@ -211,7 +211,7 @@ impl Add for Recorded {
         if key(a) == key(b) {
             return Recorded::zero();
         }
-        // The greater one less the other, as they were written down, and the sign beside it.
+        // The greater operand minus the other, in the order of recording, with a separate sign.
         let first_is_negative = if first == a { self.negative } else { other.negative };
         Recorded::written(tape, Operation::Sub(first, second), first_is_negative)
     }

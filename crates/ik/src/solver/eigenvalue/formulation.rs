@@ -1,14 +1,15 @@
-//! The loop of six axes seen from one of them ([`Formulation`]).
+//! The formulation of the closed loop of six axes with one of them hidden ([`Formulation`]).
 
 use groebot_runtime::six_axes;
 use serde::{Deserialize, Serialize};
 
-/// Which angle is hidden in the pencil, and which is doubled.
+/// The choice of the joint that is hidden in the pencil, and of the joint whose equations are doubled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Formulation {
-    /// The joint, from 0, whose angle or way is the eigenvalue.
+    /// The joint, from 0, whose angle or displacement is the eigenvalue.
     pub hidden: usize,
-    /// Whether the equations are multiplied by half the angle, or by the way, of the second joint behind it, and not of the first.
+    /// Whether the equations are multiplied by half the angle, or by the displacement, of the second joint after it
+    /// instead of the first.
     pub second: bool,
 }
 
@@ -18,12 +19,12 @@ impl Formulation {
         (self.hidden + steps) % 6
     }
 
-    /// The joint whose half angle or way the equations are multiplied by.
+    /// The joint whose half angle or displacement the equations are multiplied by.
     pub fn doubled(&self) -> usize {
         self.joint(if self.second { 2 } else { 1 })
     }
 
-    /// Whether it is one: whether there is such a joint.
+    /// Whether the joint exists.
     pub fn is_valid(&self) -> bool {
         self.hidden < 6
     }

@@ -18,16 +18,17 @@ pub struct Line {
 /// The axes of six joints at zero, from base to tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
-    /// Directions of length one, and points; of a joint that slides any point.
+    /// Directions of length one, and points; for a prismatic joint any point.
     pub lines: [Line; 6],
-    /// By joint: whether it slides along its axis.
+    /// By joint, whether it is prismatic.
     pub slides: [bool; 6],
     /// A typical length of the chain, in the same unit.
     pub length: f64,
 }
 
 impl Layout {
-    /// The solver of the chain whose tip is at `tip` at zero, in the unit of the lines; the formulations are taken in this order.
+    /// The solver of the chain whose tip is at `tip` at zero, in the unit of the lines; the formulations are tried in
+    /// this order.
     ///
     /// # Panics
     /// As [`Formulations::new`].
@@ -56,7 +57,7 @@ impl Layout {
     }
 }
 
-/// Two directions across the line and each other.
+/// Two unit vectors that are perpendicular to the line and to each other.
 fn across(line: &Line) -> [[f64; 3]; 2] {
     let w = Vector3::from(line.direction);
     let e = w.cross(&Vector3::ith(w.iamin(), 1.0));
@@ -64,7 +65,7 @@ fn across(line: &Line) -> [[f64; 3]; 2] {
     [e.into(), w.cross(&e).into()]
 }
 
-/// The motion that takes the base frame to one whose z axis is the line.
+/// The motion from the base frame to a frame whose z axis is the line.
 fn frame(line: &Line, [x, y]: &[[f64; 3]; 2]) -> Rigid {
     Rigid { rotation: [0, 1, 2].map(|k| [x[k], y[k], line.direction[k]]), translation: line.point }
 }

@@ -1,5 +1,5 @@
-//! Six joints with axes in any place, found together: a step of a program ([`SixAxes`]), and their axes ([`Layout`]) as what the run time
-//! solves ([`groebot_runtime::six_axes`], which describes the method).
+//! Six joints with axes in general position, solved together: a step of a program ([`SixAxes`]), and their axes
+//! ([`Layout`]) for the run time ([`groebot_runtime::six_axes`], which describes the method).
 
 mod formulation;
 mod layout;

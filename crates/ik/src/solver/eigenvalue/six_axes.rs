@@ -16,12 +16,12 @@ pub struct SixAxes {
     chain: Chain,
 }
 
-/// What [`SixAxes`] is made of.
+/// The parts of [`SixAxes`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SixAxesParts {
     /// The axes at zero, from base to tip: directions of length one, points in the unit of the target.
     pub lines: [Line; 6],
-    /// By joint: whether it slides.
+    /// By joint, whether it is prismatic.
     #[serde(default, skip_serializing_if = "is_none")]
     pub slides: [bool; 6],
     /// A typical length of the chain, in the same unit.
@@ -31,16 +31,17 @@ pub struct SixAxesParts {
     pub tip: Rigid,
     /// The eigenvalue problems, in the order in which they are tried.
     pub formulations: Vec<Formulation>,
-    /// How far the robot on which answers are polished may be from this one, in shares of its reach, and rad; zero where it is this one.
+    /// The distance from this robot to the one on which solutions are polished, in fractions of its reach and rad; zero
+    /// if they are equal.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub within: f64,
-    /// The unknowns that are set: angles, and values of the joints that slide.
+    /// The unknowns that are set: angles, and values of the prismatic joints.
     pub joints: [JointValue; 6],
     /// The target: the position of the tip, then its rotation matrix by rows.
     pub target: [Operand; 12],
 }
 
-/// How a [`Rigid`] is written.
+/// The serialised form of a [`Rigid`].
 #[derive(Serialize, Deserialize)]
 #[serde(remote = "Rigid")]
 struct RigidParts {
@@ -49,11 +50,11 @@ struct RigidParts {
 }
 
 impl SixAxes {
-    /// The step.
+    /// Makes the step.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a direction that is not of length one, a length that is not positive, an angle of a joint that slides
-    /// or another one that is no angle, no formulation, or one that is not for these joints.
+    /// [`ErrorKind::BadValue`] for a direction that is not of length one, a length that is not positive, a joint value
+    /// of the wrong type, no formulation, or a formulation that does not exist for these joints.
     pub fn new(parts: SixAxesParts) -> Result<Self> {
         let is_unit = |line: &Line| (line.direction.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= 1e-9;
         let is_finite = parts.lines.iter().all(|line| line.point.iter().all(|entry| entry.is_finite()));
@@ -71,17 +72,17 @@ impl SixAxes {
         Ok(SixAxes { parts, chain })
     }
 
-    /// What it is made of.
+    /// Its parts.
     pub fn parts(&self) -> &SixAxesParts {
         &self.parts
     }
 
-    /// The chain in the run time's terms.
+    /// The chain in the types of the run time.
     pub(crate) fn chain(&self) -> Chain {
         self.chain
     }
 
-    /// The step of a robot that answers are polished on, which is so far from this one.
+    /// The step for a robot at this distance, on which solutions are polished.
     ///
     /// # Errors
     /// As [`SixAxes::new`].

@@ -13,29 +13,30 @@ use crate::{Error, ErrorKind, Result};
 #[cfg(doc)]
 use groebot_robot::kinematics::Solution;
 
-/// So many targets are one piece of work.
+/// The number of targets in one piece of work.
 const PIECE: usize = 64;
 
-/// The answers for many targets, as arrays: entry `i` of each array belongs to the same answer. The answers for one target stand
-/// together, by branch, and targets follow one another.
+/// The solutions of many targets, as arrays: entry `i` of each array belongs to the same solution. The solutions of one
+/// target are consecutive, by branch, and targets follow one another.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Batch {
-    /// Where each target's answers begin, and behind the last target the number of all answers: one number more than targets.
+    /// The index of each target's first solution, and after the last target the number of all solutions: one number
+    /// more than targets.
     starts: Vec<usize>,
-    /// By joint, the values of all answers.
+    /// By joint, the values of all solutions.
     joints: Vec<Vec<f64>>,
     residuals: Vec<f64>,
     branches: Vec<usize>,
-    /// By answer: bit `j` is set where joint `j` is free.
+    /// By solution, bit `j` is set where joint `j` is free.
     free: Vec<u32>,
     settled: Vec<bool>,
     refused: Vec<(usize, Error)>,
 }
 
-/// What comes of many targets, in turn: the answers for a target, by branch, then its end.
+/// The results of many targets in order: the solutions of a target, by branch, then its end.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Solved<'a> {
-    /// An answer.
+    /// A solution.
     Answer {
         /// Joint values in the program's joint order.
         q: &'a [f64],
@@ -43,14 +44,14 @@ pub enum Solved<'a> {
         residual: f64,
         /// [`Solution::branch`].
         branch: usize,
-        /// Bit `j` is set where joint `j` may take any value.
+        /// Bit `j` is set where joint `j` may have any value.
         free: u32,
         /// [`Solution::settled`].
         settled: bool,
     },
     /// The end of a target.
     Target {
-        /// Why it is none.
+        /// The reason why it is invalid.
         refused: Option<Error>,
     },
 }
@@ -61,12 +62,12 @@ impl Batch {
         self.starts.len().saturating_sub(1)
     }
 
-    /// The number of all answers.
+    /// The number of all solutions.
     pub fn answers(&self) -> usize {
         self.residuals.len()
     }
 
-    /// The entries of the arrays that are answers for the target with this index.
+    /// The entries of the arrays that are solutions of the target with this index.
     ///
     /// # Panics
     /// For an index that is not below [`Batch::targets`].
@@ -77,7 +78,7 @@ impl Batch {
     /// The values of one joint: radians in (-pi, pi], or lengths in the program's unit.
     ///
     /// # Panics
-    /// For an index that is no joint's.
+    /// For an index that is not a joint's.
     pub fn joint(&self, index: usize) -> &[f64] {
         &self.joints[index]
     }
@@ -92,22 +93,22 @@ impl Batch {
         &self.branches
     }
 
-    /// By answer: bit `j` is set where joint `j` may take any value.
+    /// By solution, bit `j` is set where joint `j` may have any value.
     pub fn free(&self) -> &[u32] {
         &self.free
     }
 
-    /// By answer: whether the work on its target was done ([`Solution::settled`]).
+    /// By solution, whether the solver completed its work on the target ([`Solution::settled`]).
     pub fn settled(&self) -> &[bool] {
         &self.settled
     }
 
-    /// The targets that are none, each with its index and the reason; they have no answers.
+    /// The invalid targets, each with its index and the reason; they have no solutions.
     pub fn refused(&self) -> &[(usize, Error)] {
         &self.refused
     }
 
-    /// Forgets all answers, and keeps their room for others of so many joints.
+    /// Removes all solutions, and keeps the memory for others with this number of joints.
     fn clear(&mut self, joints: usize) {
         self.starts.clear();
         self.starts.push(0);
@@ -145,7 +146,7 @@ impl Batch {
         }
     }
 
-    /// Adds those of targets behind.
+    /// Appends the solutions of the following targets.
     fn append(&mut self, behind: Batch) {
         let (targets, answers) = (self.targets(), self.answers());
         self.starts.extend(behind.starts[1..].iter().map(|start| answers + start));
@@ -159,7 +160,7 @@ impl Batch {
 }
 
 impl<S: Storage + 'static> Shaped<S> {
-    /// As [`Solver::solve_batch_into`].
+    /// Same as [`Solver::solve_batch_into`].
     pub fn solve_batch_into(&self, targets: &[f64], batch: &mut Batch) -> Result<()> {
         let (inputs, threads) = (self.facts().inputs, rayon::current_num_threads());
         batch.clear(self.facts().joints.len());
@@ -168,7 +169,7 @@ impl<S: Storage + 'static> Shaped<S> {
             self.share(targets, batch);
             return Ok(());
         }
-        // Several shares a thread even out what they cost.
+        // Several parts per thread balance their costs.
         let share = (targets.len() / inputs).div_ceil(8 * threads).next_multiple_of(PIECE);
         let shares = targets.par_chunks(share.max(PIECE) * inputs).map(|targets| {
             let mut batch = Batch::default();
@@ -182,7 +183,7 @@ impl<S: Storage + 'static> Shaped<S> {
         Ok(())
     }
 
-    /// Adds the answers for these targets, piece by piece.
+    /// Adds the solutions of these targets, piece by piece.
     fn share(&self, targets: &[f64], batch: &mut Batch) {
         let facts = self.facts();
         let count = targets.len() / facts.inputs;
@@ -190,7 +191,7 @@ impl<S: Storage + 'static> Shaped<S> {
         targets.chunks(PIECE * facts.inputs).for_each(|piece| self.piece(piece, &mut |solved| batch.push(solved)));
     }
 
-    /// As [`Solver::solve_each`].
+    /// Same as [`Solver::solve_each`].
     pub fn solve_each(&self, targets: &[f64], take: &mut impl FnMut(Solved<'_>)) -> Result<()> {
         self.check_count(targets)?;
         targets.chunks(PIECE * self.facts().inputs).for_each(|piece| self.piece(piece, take));
@@ -206,7 +207,7 @@ impl<S: Storage + 'static> Shaped<S> {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// Hands over the answers for these targets.
+    /// Reports the solutions of these targets.
     fn piece(&self, targets: &[f64], take: &mut impl FnMut(Solved<'_>)) {
         let facts = self.facts();
         let rows: Vec<Inputs<Self>> =

@@ -1,4 +1,4 @@
-//! Blocks, cases and steps with their operands as places of the memory. Main type: [`Blocks`].
+//! Blocks, cases and steps with their operands as memory addresses. Main type: [`Blocks`].
 
 use groebot_runtime::six_axes::Chain;
 
@@ -10,9 +10,9 @@ use crate::solver::{Block, Case, Demand, JointValue, Layout, Operand, Program, S
 pub(super) struct Blocks {
     pub memory: Memory,
     pub list: Vec<Prepared>,
-    /// Where the numbers that the equations read stand.
+    /// The addresses of the numbers that the equations read.
     pub places: Vec<u32>,
-    /// Whether what squares of unknowns follow from is less exact.
+    /// Whether the squares of unknowns are computed from less exact values.
     pub grazing: bool,
 }
 
@@ -20,7 +20,7 @@ pub(super) struct Blocks {
 #[derive(Clone, Debug)]
 pub(super) struct Prepared {
     pub code: Code,
-    /// Number of branch numbers.
+    /// The number of branch numbers.
     pub radix: usize,
     pub turns: Vec<Turn>,
 }
@@ -28,9 +28,9 @@ pub(super) struct Prepared {
 /// Cases of which one runs.
 #[derive(Clone, Debug)]
 pub(super) enum Turn {
-    /// One that its guards tell.
+    /// A case that its guards select.
     Told(Told),
-    /// The best conditioned of several, each with its pivot.
+    /// The best conditioned of several cases, each with its pivot.
     Elected(Vec<(u32, Told)>),
     /// A gap, with its number.
     Open(usize, Told),
@@ -46,7 +46,7 @@ pub(super) struct Told {
     pub first_branch: usize,
     /// The end of its branch numbers.
     pub last: usize,
-    /// Joints that are free: bit `j` for joint `j`.
+    /// Free joints: bit `j` for joint `j`.
     pub free: u32,
 }
 
@@ -57,7 +57,7 @@ pub(super) struct Guard {
     pub near: bool,
 }
 
-/// When a case whose guards hold applies.
+/// The condition under which a case whose guards hold applies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Applies {
     Usually,
@@ -87,7 +87,7 @@ pub(super) struct Six {
     pub stride: usize,
 }
 
-/// Where a joint's value goes.
+/// The destination of a joint's value.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum JointPlace {
     Angle([u32; 2]),

@@ -1,4 +1,4 @@
-//! Straight-line code whose operands are places of one memory. Main type: [`Code`].
+//! Straight-line code whose operands are addresses of one memory. Main type: [`Code`].
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -8,7 +8,7 @@ use groebot_runtime::{Number, With};
 use super::spare::with_spare;
 use crate::solver::{Demand, Instruction, Operand, Operation};
 
-/// What an instruction does.
+/// The operation of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Add,
@@ -34,7 +34,7 @@ impl Kind {
     }
 }
 
-/// An instruction between places of the memory: where its result goes, and its operands.
+/// An instruction between addresses of the memory: the address of its result, and its operands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Step {
     target: u32,
@@ -42,16 +42,16 @@ struct Step {
     b: u32,
 }
 
-/// Instructions that run one after the other, those of a kind in a row: what is done next is asked once a row.
+/// Instructions that run one after the other, grouped by operation, so that there is one dispatch per group.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Code {
     steps: Vec<Step>,
-    /// The rows' kinds and ends.
+    /// The operation and the end of each group.
     rows: Vec<(Kind, usize)>,
 }
 
 impl Code {
-    /// Runs the instructions, those of several numbers in the widest registers that the processor has.
+    /// Runs the instructions; those of several numbers use the widest registers of the processor.
     #[inline]
     pub fn run<N: Number>(&self, memory: &mut [Line<N>])
     where
@@ -95,31 +95,31 @@ fn each<N: Number>(row: &[Step], memory: &mut [Line<N>], operation: impl Fn(N, N
     }
 }
 
-/// Where operands stand: parameters, the magnitude, unknowns, and behind them registers and constants as they come. The place of a register that
-/// is read by its own piece of code alone is given to others behind its last reader.
+/// The memory layout of operands: parameters, the magnitude, unknowns, and after them registers and constants in the
+/// order of use. The address of a register that only its own piece of code reads is used again after its last read.
 #[derive(Clone, Debug)]
 pub(super) struct Assembler {
-    /// Where the unknowns begin.
+    /// The address of the first unknown.
     unknowns: usize,
-    /// By unknown, where it stands among those; an unknown without a place is not read.
+    /// By unknown, its index among those; an unknown without an index is not read.
     place_of: Vec<usize>,
-    /// By register, of the block at hand.
+    /// By register of the current block.
     registers: Vec<u32>,
-    /// The places that are given on.
+    /// The addresses that are used again.
     passing: Vec<u32>,
     constants: Vec<(u32, f64)>,
     size: usize,
 }
 
 impl Assembler {
-    /// For code with so many parameters, and unknowns of which each stands where `place_of` tells.
+    /// An assembler for code with this number of parameters, and unknowns at the indices `place_of`.
     pub fn new(parameters: usize, place_of: Vec<usize>) -> Self {
         let (unknowns, count) = (parameters + 1, place_of.iter().map(|place| place + 1).max().unwrap_or(0));
         let (registers, passing, constants) = (Vec::new(), Vec::new(), Vec::new());
         Assembler { unknowns, place_of, registers, passing, constants, size: unknowns + count }
     }
 
-    /// Where an operand stands: a register whose code has been assembled, or anything else.
+    /// The address of an operand: a register whose code has been assembled, or any other operand.
     pub fn place(&mut self, operand: Operand) -> u32 {
         match operand {
             Operand::Parameter(index) => narrow(index),
@@ -139,20 +139,20 @@ impl Assembler {
         })
     }
 
-    /// A place that nothing has.
+    /// A new address.
     fn another(&mut self) -> u32 {
         self.size += 1;
         narrow(self.size - 1)
     }
 
-    /// The same, to be given on.
+    /// A new address that may be used again.
     fn another_passing(&mut self) -> u32 {
         let place = self.another();
         self.passing.push(place);
         place
     }
 
-    /// The instructions that are asked for.
+    /// Assembles the requested instructions.
     pub fn code(&mut self, code: &[Instruction], demand: &Demand) -> Code {
         let wanted = in_rows(code.iter().filter(|line| demand.register(line.target) > 0).collect());
         let mut readers: HashMap<usize, (usize, usize)> = HashMap::new();
@@ -162,7 +162,7 @@ impl Assembler {
                 (*count, *last) = (*count + 1, index);
             }
         }
-        // Who reads a register last, if nothing behind this code does.
+        // The last reader of a register, if no later code reads it.
         let ends = |register: usize| {
             readers.get(&register).filter(|(count, _)| *count == demand.register(register)).map(|(_, last)| *last)
         };
@@ -170,7 +170,7 @@ impl Assembler {
         let (mut steps, mut rows) = (Vec::with_capacity(wanted.len()), Vec::new());
         for (index, line) in wanted.iter().enumerate() {
             let [a, b] = self.read(line);
-            // Each once, be it read on both sides.
+            // Each register once, even if it is both operands.
             free.extend(
                 registers(line)
                     .filter(|&register| ends(register) == Some(index))
@@ -207,8 +207,8 @@ impl Assembler {
     }
 }
 
-/// The instructions in an order in which those of a kind stand in long rows: a row goes on while an instruction of its kind has all that it reads, and the next
-/// is of the kind of which most are ready.
+/// The instructions in an order with long groups of one operation. A group continues while an instruction of its
+/// operation has all its operands; the next group is of the operation with the most ready instructions.
 fn in_rows(code: Vec<&Instruction>) -> Vec<&Instruction> {
     let writer: HashMap<usize, usize> = code.iter().enumerate().map(|(index, line)| (line.target, index)).collect();
     let mut readers = vec![Vec::new(); code.len()];
@@ -250,22 +250,23 @@ fn narrow(place: usize) -> u32 {
     u32::try_from(place).expect("a program's values are fewer than 2^32")
 }
 
-/// A number in memory. Those of several targets begin where a line of the cache does, for a register is loaded from two lines in twice the time.
+/// A number in memory. Numbers of several targets are aligned to cache lines, because a load from two lines takes twice
+/// the time.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub(super) struct Line<N>(pub N);
 
-/// How a memory is laid out.
+/// The layout of a memory.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Memory {
-    /// Where the unknowns begin, behind the parameters and the magnitude.
+    /// The address of the first unknown, after the parameters and the magnitude.
     pub unknowns: usize,
     size: usize,
     constants: Vec<(u32, f64)>,
 }
 
 impl Memory {
-    /// Runs code on a memory with parameters, the magnitude behind them, and the unknowns' first values.
+    /// Runs code on a memory with parameters, the magnitude after them, and the unknowns' initial values.
     #[inline]
     pub fn with<N: Number, R>(&self, parameters: &[N], unknowns: &[N], run: impl FnOnce(&mut [Line<N>]) -> R) -> R
     where

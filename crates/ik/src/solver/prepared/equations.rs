@@ -6,7 +6,7 @@ use groebot_runtime::{Number, With};
 use super::code::{Assembler, Code, Line, Memory};
 use crate::solver::{Demand, Instruction, Layout, Operand};
 
-/// Values that code computes from parameters and from what the equations read of joints.
+/// Values that code computes from parameters and from the joints' numbers that the equations read.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Equations {
     memory: Memory,
@@ -15,12 +15,12 @@ pub(super) struct Equations {
 }
 
 impl Equations {
-    /// Those of the checks' code with these results.
+    /// The equations of the checks' code with these results.
     pub fn new<'a>(layout: &Layout<'_>, results: impl IntoIterator<Item = &'a Operand> + Clone) -> Self {
         Equations::of_code(layout, &layout.program.checks.code, results)
     }
 
-    /// Those of this code.
+    /// The equations of this code.
     pub fn of_code<'a>(
         layout: &Layout<'_>,
         code: &[Instruction],
@@ -37,7 +37,7 @@ impl Equations {
         Equations { memory: assembler.memory(), code, results }
     }
 
-    /// What is made of the results.
+    /// Runs the code and passes the results to `make`.
     #[inline]
     pub fn with<N: Number, R>(&self, parameters: &[N], at: &[N], make: impl FnOnce(Results<'_, N>) -> R) -> R
     where
@@ -59,7 +59,7 @@ impl Equations {
     }
 }
 
-/// What code has left in memory.
+/// The results of code in memory.
 pub(super) struct Results<'a, N> {
     memory: &'a [Line<N>],
     places: &'a [u32],

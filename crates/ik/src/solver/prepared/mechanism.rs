@@ -1,4 +1,4 @@
-//! What the run time asks of a mechanism, answered from a prepared program.
+//! The interface of the run time to a mechanism, implemented for a prepared program.
 
 use groebot_runtime::mechanism::{Equations, Inputs, Joints, Parameters, Places, Sizes};
 use groebot_runtime::storage::{Array, Storage};

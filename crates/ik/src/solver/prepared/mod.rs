@@ -1,6 +1,7 @@
-//! A program made ready to run: its code on one flat memory, on the run time that printed solvers call. Main type: [`Solver`].
+//! A prepared program: its code on one flat memory, with the run time that printed solvers call. Main type: [`Solver`].
 //!
-//! One target is solved number by number, many by several at once: each instruction then runs over all of them.
+//! A single target is solved with plain numbers, many targets several at once: each instruction then runs over all of
+//! them.
 
 mod batch;
 mod blocks;
@@ -23,20 +24,21 @@ use super::{Facts, Layout, Pairs};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
 
-/// A [`Program`] made ready to run. It is made once and solves any number of targets, from several threads at once.
+/// A [`Program`] prepared for evaluation. It is made once and solves any number of targets, also from several threads
+/// at once.
 #[derive(Clone, Debug)]
 pub struct Solver(Shape);
 
-/// By where its numbers stand.
+/// The variants by the storage of numbers.
 #[derive(Clone, Debug)]
 enum Shape {
     /// A pose of six joints.
     SixJoints(Box<Shaped<SixJoints>>),
-    /// Anything else.
+    /// Any other program.
     Dynamic(Box<Shaped<Dynamic>>),
 }
 
-/// Calls what both have.
+/// Calls a method of either variant.
 macro_rules! shaped {
     ($solver:expr, $shaped:ident => $call:expr) => {
         match &$solver.0 {
@@ -54,7 +56,7 @@ pub struct Nearest {
     pub q: Vec<f64>,
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// The largest share of an equation's value in its size.
+    /// The largest ratio of an equation's value to its size.
     pub relative: f64,
 }
 
@@ -70,8 +72,8 @@ impl Solver {
         })
     }
 
-    /// All real solutions for `target` and the values `given` of the joints that the user gives, by branch: empty when the target is unreachable. Lengths
-    /// are in the program's unit.
+    /// Computes all real solutions of `target` with the values `given` of the given joints, by branch; empty if the
+    /// target is unreachable. Lengths are in the program's unit.
     ///
     /// # Errors
     /// As [`Solver::solve_numbers`]; [`ErrorKind::BadValue`] for a target of another task.
@@ -91,18 +93,19 @@ impl Solver {
         self.solve_numbers(&[&numbers[..], given].concat())
     }
 
-    /// The same for a target in numbers: one an input, in order and unit of [`Program::inputs`]; for programs of equations, which have parameters in
-    /// place of a tip, and for targets from files.
+    /// Same as [`Solver::solve`], but for a target in numbers: one per input, in order and unit of [`Program::inputs`].
+    /// It is for programs of equations, which have parameters instead of a tip, and for targets from files.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a wrong count of numbers, NaN or infinity, or a condition that does not hold
-    /// ([`Program::conditions`]); [`ErrorKind::Unsupported`] when the target lies on a stratum that could not be derived.
+    /// [`ErrorKind::BadValue`] for a wrong number of values, NaN or infinity, or a condition that does not hold
+    /// ([`Program::conditions`]); [`ErrorKind::Unsupported`] if the target is on a stratum that could not be derived.
     pub fn solve_numbers(&self, target: &[f64]) -> Result<Vec<Solution>> {
         shaped!(self, shaped => shaped.solve(target))
     }
 
-    /// The answers of [`Solver::solve_numbers`] by cosines and sines. Where all candidates solve the equations within rounding and are apart, as
-    /// at ordinary targets, these are the numbers that angles are taken of, and no arc tangent is; else they are those of the angles.
+    /// The solutions of [`Solver::solve_numbers`] by cosines and sines. At ordinary targets, where all candidates solve
+    /// the equations within rounding and are distinct, no arc tangent is computed. At others they are the cosines and
+    /// sines of the angles.
     ///
     /// # Errors
     /// As [`Solver::solve_numbers`].
@@ -110,8 +113,8 @@ impl Solver {
         shaped!(self, shaped => shaped.solve_pairs(target))
     }
 
-    /// Where `target` has no solution: of the candidates the one that misses the equations by the least share of their size, as far as polishing brings
-    /// it; none when there is no such candidate.
+    /// For a `target` without solution, the candidate with the least residual relative to the equations' size, after
+    /// polishing; `None` without such a candidate.
     ///
     /// # Errors
     /// As [`Solver::solve_numbers`].
@@ -119,32 +122,35 @@ impl Solver {
         shaped!(self, shaped => shaped.nearest(target))
     }
 
-    /// The solutions of [`Solver::solve_numbers`] that have a turn within `limits`, one pair a joint: each is moved there by as few turns of each angle
-    /// as can be. A member of a self-motion is moved along it where it is not within limits itself.
+    /// The solutions of [`Solver::solve_numbers`] that are within `limits` after adding whole turns, one pair per
+    /// joint; each angle is moved by the fewest turns. A member of a self-motion is moved along it if it is not within
+    /// limits itself.
     ///
     /// # Errors
-    /// As [`Solver::solve_numbers`]; [`ErrorKind::BadValue`] for another number of pairs than joints.
+    /// As [`Solver::solve_numbers`]; [`ErrorKind::BadValue`] if the number of pairs differs from that of joints.
     pub fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
         shaped!(self, shaped => shaped.solve_within(target, limits))
     }
 
-    /// The target that joint values reach (radians, and the program's length unit): the one that [`Solver::solve_numbers`] takes. None for a program whose
-    /// equations do not compare each number of the target with something that only the joints have, or for another number of joint values.
+    /// The target that joint values reach (radians, and the program's length unit), in the form for
+    /// [`Solver::solve_numbers`]. `None` for a program whose equations do not compare each number of the target with an
+    /// expression of the joints, or for a wrong number of joint values.
     pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
         shaped!(self, shaped => shaped.reached(q))
     }
 
-    /// What a target's numbers become before anything else: the values of the program's parameters, `p0` and so on in its code, and behind them the
-    /// magnitude, `m`.
+    /// The values of the program's parameters for a target, `p0` and so on in its code, and after them the magnitude,
+    /// `m`.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a wrong count of numbers.
+    /// [`ErrorKind::BadValue`] for a wrong number of values.
     pub fn parameters(&self, target: &[f64]) -> Result<Vec<f64>> {
         shaped!(self, shaped => shaped.parameters_of(target))
     }
 
-    /// By equation, the derivatives of its value by the joint values, at these: by radian, or by the program's length unit. None for another number of
-    /// joint values, and where equations read numbers that follow from no joint.
+    /// By equation, the derivatives of its value by the joint values, at these: per radian, or per length unit of the
+    /// program. `None` for a wrong number of joint values, and where equations read numbers that do not depend on a
+    /// joint.
     ///
     /// # Errors
     /// As [`Solver::parameters`].
@@ -152,20 +158,22 @@ impl Solver {
         shaped!(self, shaped => shaped.derivatives(target, q))
     }
 
-    /// All real solutions for many targets: `targets` holds those of one after those of another, each as [`Solver::solve_numbers`] takes it.
+    /// Computes all real solutions of many targets: `targets` has their numbers one after the other, each as for
+    /// [`Solver::solve_numbers`].
     ///
-    /// The work is shared among rayon's threads. The answers are those of [`Solver::solve_numbers`], whatever their number.
+    /// The work is shared among rayon's threads. The solutions are those of [`Solver::solve_numbers`], independent of
+    /// the number of threads.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when the count of numbers is no multiple of the inputs'. Targets that [`Solver::solve_numbers`] refuses are
-    /// told by [`Batch::refused`].
+    /// [`ErrorKind::BadValue`] if the number of values is not a multiple of the number of inputs. [`Batch::refused`]
+    /// lists the targets that [`Solver::solve_numbers`] refuses.
     pub fn solve_batch(&self, targets: &[f64]) -> Result<Batch> {
         let mut batch = Batch::default();
         self.solve_batch_into(targets, &mut batch)?;
         Ok(batch)
     }
 
-    /// As [`Solver::solve_batch`], in the room that `batch` has: batches that follow one another need no memory of their own.
+    /// Same as [`Solver::solve_batch`], but in the memory of `batch`: consecutive batches need no memory of their own.
     ///
     /// # Errors
     /// As [`Solver::solve_batch`]; `batch` is empty then.
@@ -173,8 +181,8 @@ impl Solver {
         shaped!(self, shaped => shaped.solve_batch_into(targets, batch))
     }
 
-    /// As [`Solver::solve_batch`], on the calling thread alone, and all that comes of it is handed to `take` in turn: for callers that have threads and arrays of
-    /// their own. (It is compiled where it is called, with what that crate is compiled with.)
+    /// Same as [`Solver::solve_batch`], but on the calling thread only, with all results passed to `take` in order: for
+    /// callers with their own threads and arrays. (It is compiled in the calling crate, with its options.)
     ///
     /// # Errors
     /// As [`Solver::solve_batch`].

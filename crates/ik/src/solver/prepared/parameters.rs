@@ -14,9 +14,9 @@ pub(super) struct Parameters {
 
 #[derive(Clone, Debug)]
 enum Computed {
-    /// It follows from the target.
+    /// A rule of the target.
     Rule(Rule),
-    /// The square root of what code leaves at a place.
+    /// The square root of a value that code computes.
     Root { code: Code, memory: Memory, value: u32 },
 }
 
@@ -34,7 +34,7 @@ impl Parameters {
         Parameters { scale: program.scale, rules: program.parameters.iter().enumerate().map(computed).collect() }
     }
 
-    /// The values, and the magnitude behind them.
+    /// The values, and the magnitude after them.
     pub fn values<N: Number>(&self, target: &[N]) -> Vec<N>
     where
         f64: With<N>,

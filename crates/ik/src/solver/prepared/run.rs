@@ -1,4 +1,4 @@
-//! The walk through prepared blocks, for any kind of number. Main type: [`Run`].
+//! The traversal of prepared blocks, for any type of number. Main type: [`Run`].
 
 use groebot_runtime as runtime;
 use groebot_runtime::storage::{Array, Storage};
@@ -9,7 +9,7 @@ use super::code::Line;
 use super::shaped::Shaped;
 use groebot_algebra::roots::MAX_DEGREE;
 
-/// A walk for one target, or several at once.
+/// A traversal for one target, or several at once.
 pub(super) struct Run<'a, S, N, C> {
     pub solver: &'a Shaped<S>,
     pub memory: &'a mut [Line<N>],
@@ -24,7 +24,7 @@ where
         self.memory[place as usize].0
     }
 
-    /// The block with this index and all behind it.
+    /// Runs the block with this index and all after it.
     pub fn block(&mut self, index: usize, found: Found<N>) {
         let solver = self.solver;
         let Some(block) = solver.blocks.list.get(index) else {
@@ -68,7 +68,7 @@ where
         }
     }
 
-    /// Where all guards hold.
+    /// The mask of targets for which all guards hold.
     fn guard(&self, guards: &[Guard]) -> runtime::Guard<N> {
         let guard = |guard: &Guard| {
             let (value, scale) = (self.at(guard.value), self.at(guard.scale));
@@ -77,7 +77,7 @@ where
         guards.iter().map(guard).reduce(|all, one| all & one).unwrap_or_else(|| N::of(1.0).away(N::of(1.0)))
     }
 
-    /// The best conditioned of a group; its guards' code has run last.
+    /// The best conditioned case of a group; its guards' code has run last.
     fn elect<'m>(&mut self, members: &'m [(u32, Told)]) -> Option<&'m Told> {
         let mut claims = Vec::with_capacity(members.len());
         for (pivot, case) in members {
@@ -94,7 +94,8 @@ where
         self.steps(index, case, &case.steps, found.freeing(case.free), case.first_branch);
     }
 
-    /// Runs the steps, once for each choice of roots and samples, and then the next block; `number` tells the choices of this block.
+    /// Runs the steps, once for each choice of roots and samples, and then the next block; `number` is the code of this
+    /// block's choices.
     fn steps(&mut self, index: usize, case: &Told, steps: &[Way], found: Found<N>, number: usize) {
         for (done, step) in steps.iter().enumerate() {
             let behind = &steps[done + 1..];

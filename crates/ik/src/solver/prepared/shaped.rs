@@ -1,4 +1,4 @@
-//! A program made ready to run, with its numbers in rows of one kind. Main type: [`Shaped`].
+//! A prepared program with its numbers in rows of one kind. Main type: [`Shaped`].
 
 use std::marker::PhantomData;
 
@@ -21,7 +21,7 @@ use crate::solver::{Facts, Layout, Operand, Pairs};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Solution;
 
-/// A program made ready to run.
+/// A prepared program.
 #[derive(Clone, Debug)]
 pub(super) struct Shaped<S> {
     pub inputs: Vec<Input>,
@@ -34,12 +34,12 @@ pub(super) struct Shaped<S> {
     pub(super) blocks: Blocks,
     pub(super) tip: Equations,
     pub(super) values: Equations,
-    /// The values as described, where the equations are those of the ideal mechanism.
+    /// The values as described, if the equations are those of the ideal mechanism.
     pub(super) described: Equations,
     pub(super) sizes: Equations,
-    /// The derivatives, where the run time does not find them from the values.
+    /// The derivatives, unless the run time computes them from the values.
     pub(super) jacobian: Option<Equations>,
-    /// The values of the short way's equations, then what they are shares of, then their derivatives, joint by joint.
+    /// The values of the equations for fast polishing, then their sizes, then their derivatives, joint by joint.
     pub(super) short: Equations,
     storage: PhantomData<fn() -> S>,
 }
@@ -76,7 +76,7 @@ impl Kinds {
 }
 
 impl Shaped<SixJoints> {
-    /// Whether a program's numbers stand so.
+    /// Whether a program's numbers have this storage.
     pub fn are_of_six_joints(layout: &Layout<'_>, facts: &Facts) -> bool {
         let lengths = [facts.inputs, layout.program.parameters.len(), facts.places, facts.equations];
         let rows = [facts.joints.len(), facts.sizes.len(), facts.candidates];
@@ -84,7 +84,7 @@ impl Shaped<SixJoints> {
     }
 }
 
-/// What forward kinematics computes of the tip.
+/// The operands of forward kinematics of the tip.
 fn tip(layout: &Layout<'_>) -> Vec<Operand> {
     let forward = layout.program.forward().filter(|forward| !forward.inputs.is_empty());
     let equations = forward.iter().flat_map(|forward| &forward.equations);
@@ -92,7 +92,7 @@ fn tip(layout: &Layout<'_>) -> Vec<Operand> {
 }
 
 impl<S: Storage + 'static> Shaped<S> {
-    /// That of a valid program with these facts.
+    /// Prepares a valid program with these facts.
     pub fn new(layout: &Layout<'_>, facts: Facts) -> Self {
         let (program, checks) = (layout.program, &layout.program.checks);
         let mut short: Vec<_> = checks.short.iter().map(|short| short.residual).collect();
@@ -119,7 +119,7 @@ impl<S: Storage + 'static> Shaped<S> {
         }
     }
 
-    /// As [`super::Solver::solve_numbers`].
+    /// Same as [`super::Solver::solve_numbers`].
     pub fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
         let row = self.row(target)?;
         self.with_room(self.facts.capacity, |out| {
@@ -128,7 +128,7 @@ impl<S: Storage + 'static> Shaped<S> {
         })
     }
 
-    /// As [`super::Solver::solve_within`].
+    /// Same as [`super::Solver::solve_within`].
     pub fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
         let (row, joints) = (self.row(target)?, self.facts.joints.len());
         if limits.len() != joints {
@@ -142,7 +142,7 @@ impl<S: Storage + 'static> Shaped<S> {
         })
     }
 
-    /// As [`super::Solver::solve_pairs`].
+    /// Same as [`super::Solver::solve_pairs`].
     pub fn solve_pairs(&self, target: &[f64]) -> Result<Vec<Pairs>> {
         let mut out = vec![runtime::Pairs::empty(self); self.facts.capacity];
         let found = Solve::solve_pairs(self, &self.row(target)?, &mut out);
@@ -156,7 +156,7 @@ impl<S: Storage + 'static> Shaped<S> {
         Ok(out[..count].iter().map(pairs).collect())
     }
 
-    /// As [`super::Solver::nearest`].
+    /// Same as [`super::Solver::nearest`].
     pub fn nearest(&self, target: &[f64]) -> Result<Option<Nearest>> {
         let row = self.row(target)?;
         let found = self.with_room(self.facts.capacity, |out| Solve::solve_or_nearest(self, &row, out));
@@ -168,18 +168,18 @@ impl<S: Storage + 'static> Shaped<S> {
         }))
     }
 
-    /// As [`super::Solver::reached`].
+    /// Same as [`super::Solver::reached`].
     pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
         let q = (q.len() == self.facts.joints.len()).then(|| Array::by(q.len(), |i| q[i]))?;
         self.forward(&q).map(|target| target.as_ref().to_vec())
     }
 
-    /// As [`super::Solver::parameters`].
+    /// Same as [`super::Solver::parameters`].
     pub fn parameters_of(&self, target: &[f64]) -> Result<Vec<f64>> {
         Ok(Mechanism::parameters(self, &self.row(target)?).as_ref().to_vec())
     }
 
-    /// As [`super::Solver::derivatives`].
+    /// Same as [`super::Solver::derivatives`].
     pub fn derivatives(&self, target: &[f64], q: &[f64]) -> Result<Option<Vec<Vec<f64>>>> {
         let p = Mechanism::parameters(self, &self.row(target)?);
         if q.len() != self.kinds.joints.len() || self.facts.has_extras {
@@ -196,7 +196,7 @@ impl<S: Storage + 'static> Shaped<S> {
         Ok(Some(rows.as_ref().iter().map(|row| row.as_ref().to_vec()).collect()))
     }
 
-    /// Lends room for so many solutions.
+    /// Lends memory for this number of solutions.
     pub fn with_room<R>(&self, solutions: usize, solve: impl FnOnce(&mut [runtime::Solution<Self>]) -> R) -> R {
         with_spare(|room: &mut Vec<runtime::Solution<Self>>| {
             if room.len() < solutions {
@@ -216,7 +216,7 @@ impl<S: Storage + 'static> Shaped<S> {
         Ok(Array::by(target.len(), |i| target[i]))
     }
 
-    /// Why a target of the right length is refused.
+    /// The reason why a target of the right length is refused.
     pub fn refused(&self, target: &[f64], error: runtime::Error) -> Error {
         if let runtime::Error::OpenStratum(number) = error {
             let label = self.open.get(number.wrapping_sub(1)).map_or("", String::as_str);
@@ -235,7 +235,7 @@ impl<S: Storage + 'static> Shaped<S> {
     }
 }
 
-/// An answer as all solvers give it.
+/// A solution in the common type of all solvers.
 fn solution<S: Storage + 'static>(found: &runtime::Solution<Shaped<S>>) -> Solution {
     Solution {
         q: found.q.as_ref().to_vec(),

@@ -1,14 +1,14 @@
-//! Memory that a thread keeps from one call to the next: [`with_spare`].
+//! Memory that a thread keeps between calls: [`with_spare`].
 
 use std::any::Any;
 use std::cell::RefCell;
 
 thread_local! {
-    /// What no call uses at the moment, one of a type unless calls have met.
+    /// The values that no call uses at the moment, one per type unless calls were nested.
     static SPARE: RefCell<Vec<Box<dyn Any>>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Lends a value of this type with whatever the last user left in it.
+/// Lends a value of this type, with the content from its last use.
 #[inline]
 pub(super) fn with_spare<T: Default + 'static, R>(run: impl FnOnce(&mut T) -> R) -> R {
     let kept = SPARE.with_borrow_mut(|spare| {

@@ -1,9 +1,10 @@
-//! Rows of a prepared program: as long as the program asks for, in place where they are short. Main type: [`Dynamic`].
+//! Rows of a prepared program: of the length that the program needs, without allocation where they are short. Main
+//! type: [`Dynamic`].
 
 use groebot_runtime::storage::{Array, Storage};
 use smallvec::SmallVec;
 
-/// A row of values, up to so many of them in place.
+/// A row of values, up to `L` of them without allocation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row<T, const L: usize>(SmallVec<[T; L]>)
 where
@@ -36,7 +37,7 @@ macro_rules! rows {
 
 rows!(2 8 12 16);
 
-/// Arrays as long as a pose of six joints asks for, which has eight answers as most do, and rows of what else a program tells.
+/// Arrays for a pose of six joints, which usually has eight solutions, and rows for the other data of a program.
 #[derive(Clone, Copy, Debug)]
 pub struct SixJoints;
 
@@ -53,7 +54,7 @@ impl Storage for SixJoints {
     type Triangle = [f64; 126];
 }
 
-/// Rows whose lengths a program tells.
+/// Rows whose lengths depend on the program.
 #[derive(Clone, Copy, Debug)]
 pub struct Dynamic;
 

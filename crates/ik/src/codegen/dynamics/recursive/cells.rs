@@ -1,20 +1,20 @@
-//! What stands in cells: frames, masses and motions of bodies.
+//! The layout of cells: frames, masses and motions of bodies.
 
 use crate::codegen::dynamics::loops::Step;
 use crate::codegen::dynamics::tape::Recorded;
 use groebot_robot::dynamics::recursions::{ArticulatedInertia, Composite};
 use groebot_robot::dynamics::{Body, Frame, Freedom, Mass, Scalar, Six};
 
-/// Where in a row of the table what a body weighs begins, and where the inertia of its rotor stands.
+/// The index in a row of the table of a body's mass parameters, and of the inertia of its rotor.
 pub(super) const WEIGHS: usize = 12;
 pub(super) const ROTOR: usize = 22;
 
-/// Six numbers as cells have them.
+/// Six numbers in the order of the cells.
 pub(super) fn numbers(six: &Six<Recorded>) -> impl Iterator<Item = Recorded> + '_ {
     (0..6).map(|at| six.at(at).clone())
 }
 
-/// A frame.
+/// Reads a frame.
 pub(super) fn frame(step: &mut Step, row: &str) -> Frame<Recorded> {
     let list = step.list::<12>(row, 0);
     let entry = |at: usize| list[at].clone();
@@ -24,22 +24,23 @@ pub(super) fn frame(step: &mut Step, row: &str) -> Frame<Recorded> {
     }
 }
 
-/// Writes one.
+/// Writes a frame.
 pub(super) fn write_frame(step: &mut Step, row: &str, frame: Frame<Recorded>) {
     step.write_list(row, 0, frame.rotation.into_iter().flatten().chain(frame.position));
 }
 
-/// Ten numbers of a mass.
+/// Reads the ten mass parameters.
 pub(super) fn mass(step: &mut Step, row: &str, from: usize) -> Mass<Recorded> {
     Mass::of(step.list::<10>(row, from))
 }
 
-/// A body whose joint moves so; where its frame and mass are not needed they are not read.
+/// A body with this type of joint; its frame and mass are not read where they are not needed.
 pub(super) fn body(freedom: Freedom) -> Body<Recorded> {
     Body { parent: None, freedom, frame: Frame::identity(), mass: Mass::of(std::array::from_fn(|_| Recorded::zero())) }
 }
 
-/// The numbers of a composite: its mass, how that changes (the mass itself does not), its momentum.
+/// The number of values of a composite: its mass parameters, their rate of change (without the mass itself), its
+/// momentum.
 pub(super) const COMPOSITE: usize = 25;
 
 pub(super) fn composite(step: &mut Step, row: &str) -> Composite<Recorded> {

@@ -1,4 +1,4 @@
-//! What inverse dynamics changes by, in loops.
+//! The derivatives of inverse dynamics, in loops.
 
 use super::Recursive;
 use super::cells::{COMPOSITE, body, composite, frame, numbers};
@@ -61,7 +61,7 @@ impl Recursive {
         self.changes_of_base(loops);
     }
 
-    /// What a joint and those that carry it have to do with one another.
+    /// The terms of a joint and its ancestors.
     fn changes_of_carriers(&self, loops: &mut Loops<'_>) {
         loops.climb(|loops| {
             let [on, felt] = [("AT[j]", "AT[i]"), ("AT[i]", "AT[j]")].map(|(i, j)| cells(loops, i, j));
@@ -85,7 +85,7 @@ impl Recursive {
         });
     }
 
-    /// What a joint and the base have to do with one another.
+    /// The terms of a joint and the base.
     fn changes_with_base(&self, loops: &mut Loops<'_>) {
         for freedom in 0..self.formal.first {
             let row = freedom.to_string();
@@ -99,7 +99,7 @@ impl Recursive {
         }
     }
 
-    /// What the base's freedoms have to do with one another.
+    /// The terms of the base's freedoms with each other.
     fn changes_of_base(&self, loops: &mut Loops<'_>) {
         for column in 0..self.formal.first {
             let rows: Vec<_> = (0..6).map(|row| cells(loops, &row.to_string(), &column.to_string())).collect();
@@ -113,7 +113,7 @@ impl Recursive {
         }
     }
 
-    /// Enters what changes with the configuration and with the velocity.
+    /// Adds the derivatives by the configuration and by the velocity.
     fn enter_both(&self, step: &mut Step, cells: &[String; 2], of: &[&str], [q, v, _]: [Recorded; 3]) {
         for (cell, entry) in cells.iter().zip([q, v]) {
             self.enter(step, cell.clone(), of, entry);

@@ -1,4 +1,4 @@
-//! Forward dynamics in loops.
+//! Forward dynamics (ABA) in loops.
 
 use super::Recursive;
 use super::cells::{ROTOR, WEIGHS, articulated_inertia, body, frame, inertia_numbers, mass, numbers};

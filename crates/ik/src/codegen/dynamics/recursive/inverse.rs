@@ -1,4 +1,4 @@
-//! Inverse dynamics, and gravity, in loops.
+//! Inverse dynamics (RNEA) and gravity in loops.
 
 use super::Recursive;
 use super::cells::{ROTOR, WEIGHS, body, frame, mass, numbers};
@@ -7,7 +7,7 @@ use groebot_robot::dynamics::Six;
 use groebot_robot::dynamics::recursions::net_force;
 
 impl Recursive {
-    /// The velocity of the base, and its acceleration less gravity's.
+    /// The velocity of the base, and its acceleration minus gravity.
     pub(super) fn start(&self, loops: &mut Loops<'_>, moves: bool) {
         loops.step(|step| {
             let pull = self.pull(step);
@@ -25,7 +25,7 @@ impl Recursive {
         });
     }
 
-    /// Places a body, moves it and tells the force that it asks for.
+    /// The forward pass for a body: its frame, its motion, and the force that the motion needs.
     pub(super) fn move_on(&self, loops: &mut Loops<'_>, moves: bool) {
         self.place(loops);
         loops.by_freedom("i", |loops, freedom| {
@@ -74,7 +74,7 @@ impl Recursive {
         self.finish(loops, "force[0]");
     }
 
-    /// Tells what the base feels.
+    /// The wrench on the base.
     pub(super) fn finish(&self, loops: &mut Loops<'_>, row: &str) {
         if self.floats() {
             loops.step(|step| {

@@ -1,4 +1,4 @@
-//! The inertia and the Coriolis matrix in loops.
+//! The mass matrix (CRBA) and the Coriolis matrix in loops.
 
 use super::Recursive;
 use super::cells::{COMPOSITE, ROTOR, WEIGHS, body, composite, composite_numbers, frame, mass, numbers};
@@ -85,7 +85,7 @@ impl Recursive {
         }
     }
 
-    /// Tells the composite of a body alone, and how its axis turns.
+    /// The composite of a body alone, and the rate of its axis.
     pub(super) fn compose(&self, loops: &mut Loops<'_>) {
         loops.by_freedom("i", |loops, freedom| {
             loops.step(|step| {
@@ -105,7 +105,7 @@ impl Recursive {
         });
     }
 
-    /// Places a body and tells its velocity.
+    /// The frame of a body and its velocity.
     pub(super) fn add_motion(&self, loops: &mut Loops<'_>) {
         self.place(loops);
         loops.by_freedom("i", |loops, freedom| {

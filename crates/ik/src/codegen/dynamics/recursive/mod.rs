@@ -1,7 +1,7 @@
-//! The recursions as loops over tables, for robots of which straight-line code would be long. Main type: [`Recursive`].
+//! The recursive algorithms as loops over tables, for robots with long straight-line code. Main type: [`Recursive`].
 //!
-//! Steps are those of [`groebot_robot::dynamics`] on one body, whose figures come from a table. By body there are: where its frame stands in its parent's (a rotation by rows, and an
-//! origin), ten numbers of what it weighs, and the inertia of its rotor.
+//! Each step is that of [`groebot_robot::dynamics`] on one body, with its parameters from a table. A row has the body's
+//! frame in its parent's (a rotation by rows, and an origin), ten mass parameters, and the inertia of its rotor.
 
 mod cells;
 mod derivatives;
@@ -30,7 +30,7 @@ impl Recursive {
         Recursive { is_plain: formal.is_plain(), freedoms, formal }
     }
 
-    /// Whether each joint is a freedom of its own.
+    /// Whether each joint is independent.
     pub fn is_plain(&self) -> bool {
         self.is_plain
     }
@@ -39,7 +39,7 @@ impl Recursive {
         self.formal.first > 0
     }
 
-    /// The tables of the robot: each body behind those that carry it.
+    /// The tables of the robot: each body after its parent.
     pub fn tables(&self) -> Vec<Table> {
         let tree = &self.formal.tree;
         let behind = |joint: usize| tree.order.iter().position(|other| *other == joint).map_or(0, |at| at + 1);
@@ -76,7 +76,7 @@ impl Recursive {
         tables
     }
 
-    /// The code of a function; results stand in `out`, or in `by_q` and `by_v`, which are nought at first.
+    /// The code of a function; results are in `out`, or in `by_q` and `by_v`, which are zero at first.
     pub fn code(&self, function: Function, language: &dyn Language) -> Vec<String> {
         let mut loops = Loops::new(language, &self.freedoms);
         match function {
@@ -90,7 +90,7 @@ impl Recursive {
         loops.lines()
     }
 
-    /// How much a joint moves with its freedom.
+    /// The ratio of a joint's motion to its freedom.
     fn factor(&self, step: &mut Step, index: &str) -> Recorded {
         if self.is_plain { Recorded::one() } else { step.read(format!("FACTOR[{index}][0]")) }
     }
@@ -108,7 +108,7 @@ impl Recursive {
         pull(&self.formal.gravity.map(Recorded::constant), turn.as_ref())
     }
 
-    /// Places the frame of a body.
+    /// Computes the frame of a body.
     fn place(&self, loops: &mut Loops<'_>) {
         loops.by_freedom("i", |loops, freedom| {
             loops.step(|step| {
@@ -122,7 +122,7 @@ impl Recursive {
         });
     }
 
-    /// Adds to the entry of a matrix what two freedoms have to do with one another.
+    /// Adds the term of two freedoms to the entry of a matrix.
     fn enter(&self, step: &mut Step, cell: String, of: &[&str], value: Recorded) {
         if self.is_plain {
             step.write(cell, value);

@@ -1,4 +1,4 @@
-//! Ways to a goal, and why there is none. Main types: [`Way`], [`Enclosure`].
+//! Paths to a goal, and the proof when none exists. Main types: [`Path`], [`Enclosure`].
 
 use nalgebra::Point2;
 
@@ -6,15 +6,15 @@ use super::field::Field;
 use super::map::Map;
 use crate::{Error, ErrorKind, Result};
 
-/// A way over the floor, from its start to its goal.
+/// A path over the floor, from its start to its goal.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Way {
+pub struct Path {
     /// Its corners \[m\].
     pub points: Vec<Point2<f64>>,
 }
 
-impl Way {
-    /// The same way from and to places in its first and last cell \[m\].
+impl Path {
+    /// Replaces the ends by points in its first and last cell \[m\].
     #[must_use]
     pub fn between(mut self, start: &Point2<f64>, goal: &Point2<f64>) -> Self {
         self.points.insert(0, *start);
@@ -22,13 +22,13 @@ impl Way {
         self
     }
 
-    /// How long it is \[m\].
+    /// Its length \[m\].
     pub fn length(&self) -> f64 {
         self.points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
     }
 }
 
-/// Cells that no way leaves: of each of them all neighbours that are free are among them.
+/// A set of cells that no path leaves: it contains all free neighbours of its cells.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Enclosure {
     /// The cells, in order.
@@ -36,7 +36,8 @@ pub struct Enclosure {
 }
 
 impl Enclosure {
-    /// Whether it holds: `inside` is one of the cells, `outside` is not, and no free cell beside them is missing. It looks at each cell once.
+    /// Checks the proof: `inside` is one of the cells, `outside` is not, and no free neighbour is missing. It visits
+    /// each cell once.
     pub fn parts(&self, map: &Map, inside: usize, outside: usize) -> bool {
         let mut is_in = vec![false; map.cells().len()];
         for cell in &self.cells {
@@ -51,7 +52,7 @@ impl Enclosure {
 }
 
 impl Map {
-    /// The cells beside a cell: left, right, below, above, as far as they are on the map.
+    /// The neighbours of a cell on the map: left, right, below, above.
     pub fn beside(&self, cell: usize) -> impl Iterator<Item = usize> {
         let (columns, count) = (self.columns(), self.cells().len());
         let column = cell % columns;
@@ -66,12 +67,14 @@ impl Map {
 }
 
 impl Field {
-    /// The way from a place down the field, RH0 4.3.6: over the middles of cells, each the one of eight neighbours to which T falls most for its distance, or of four where it would cut a
-    /// corner. Where there is no way, the cells that enclose start or goals.
+    /// Descends the field from a place, RH0 4.3.6, over the middles of cells. Each move is to the one of eight
+    /// neighbours with the steepest slope of T, or of four where a diagonal would cut a corner. Where no path exists,
+    /// returns the cells that enclose start or goals.
     ///
     /// # Errors
-    /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a map of another count of cells, and where a field that was marched in a window ([`Field::within`]) falls no further.
-    pub fn descend(&self, map: &Map, start: &Point2<f64>) -> Result<std::result::Result<Way, Enclosure>> {
+    /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a map with another number of cells, and where a field that
+    /// was computed in a window ([`Field::within`]) does not descend further.
+    pub fn descend(&self, map: &Map, start: &Point2<f64>) -> Result<std::result::Result<Path, Enclosure>> {
         self.check_of(map)?;
         let mut cell = map.free_cell_at(start)?;
         let times = self.times();
@@ -85,7 +88,7 @@ impl Field {
             let Some((next, _)) = steepest.filter(|step| fall(step) > 0.0) else {
                 let at = map.centre(cell);
                 let text = format!(
-                    "the field falls no further at ({:.3}, {:.3}), where no goal is; march it anew",
+                    "the field has no descent at ({:.3}, {:.3}), which is no goal; compute it anew",
                     at.x, at.y
                 );
                 return Err(Error::new(ErrorKind::BadValue, text));
@@ -93,10 +96,10 @@ impl Field {
             cell = next;
             points.push(map.centre(cell));
         }
-        Ok(Ok(Way { points }))
+        Ok(Ok(Path { points }))
     }
 
-    /// The cells that a start is enclosed in, or the goals, whichever are fewer.
+    /// The cells that enclose the start, or the goals, whichever are fewer.
     fn enclosure(&self, map: &Map, start: usize) -> Enclosure {
         let reached = |time: &(usize, &f64)| time.1.is_finite();
         let goals: Vec<usize> = self.times().iter().enumerate().filter(reached).map(|(cell, _)| cell).collect();
@@ -120,7 +123,7 @@ impl Field {
     }
 }
 
-/// The cells around one that a straight step leads to without cutting a corner, and how far they are.
+/// The neighbours of a cell that a straight move reaches without cutting a corner, with their distances.
 pub(super) fn around(map: &Map, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
     let (columns, rows) = (map.columns() as isize, map.rows() as isize);
     let (column, row) = (cell as isize % columns, cell as isize / columns);
