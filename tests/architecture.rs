@@ -4,6 +4,8 @@ mod copies;
 mod cycles;
 mod lexer;
 mod licences;
+mod links;
+mod phrases;
 mod scan;
 mod scanner;
 mod table;

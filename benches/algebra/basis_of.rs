@@ -58,7 +58,7 @@ fn prove(
     Ok(())
 }
 
-/// The way that the engine chooses, in the order itself.
+/// The method that the engine chooses, in the order itself.
 fn with_parameters(arguments: &Arguments) -> Result<()> {
     let (ring, generators) = read(arguments, Fractions::new(Rationals, &arguments.input.parameters)?)?;
     let compute = || Ok(parametric::basis(&ring, &generators, &parametric::Options::default(), &Watch::none())?);

@@ -23,7 +23,7 @@ use groebot::{Watch, codegen, dynamics};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// A count that is larger by more than this factor is an alarm; one that is as much smaller asks for a new table.
+/// A count that is larger by more than this factor is an alarm; one that is as much smaller requires a new table.
 const SLACK: f64 = 1.25;
 
 /// A call, ready to be made.

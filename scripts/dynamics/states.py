@@ -3,7 +3,7 @@
     python3 states.py strip        the descriptions of example-robot-data without shapes
     python3 states.py witness      the tables beside all descriptions
 
-States are those of a generator that the test in tests/dynamics/pinocchio.rs has too, so that only answers are stored; matrices are stored as products with two
+States are those of a generator that the test in crates/robot/tests/dynamics/pinocchio.rs has too, so that only answers are stored; matrices are stored as products with two
 vectors w and x of the same generator.
 """
 

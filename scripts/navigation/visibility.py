@@ -1,4 +1,4 @@
-"""Shortest ways of tests/nav/shortest_ways.csv, by a graph of all corners that see one another in shapely.
+"""Shortest ways of crates/humanoid/tests/nav/shortest_ways.csv, by a graph of all corners that see one another in shapely.
 
     python3 -m venv /tmp/navigation && /tmp/navigation/bin/pip install -r scripts/navigation/requirements.txt
     /tmp/navigation/bin/python scripts/navigation/visibility.py
@@ -13,7 +13,7 @@ from pathlib import Path
 import shapely
 from shapely import LineString, Point, box
 
-TABLE = Path(__file__).resolve().parents[2] / "tests/nav/shortest_ways.csv"
+TABLE = Path(__file__).resolve().parents[2] / "crates/humanoid/tests/nav/shortest_ways.csv"
 # Obstacles are made smaller by this many cells, so that what touches them does not meet them.
 LESS = 1e-9
 

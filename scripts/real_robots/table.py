@@ -7,22 +7,25 @@ from measure import Row
 
 HEAD = """# Real robots
 
-Chains of robots whose descriptions come with public Python packages, derived by `groebot derive URDF --base LINK --tip LINK --task TASK` on
-one core, and solved at {poses:,} poses each. Pinocchio (the package `pin`) makes the poses, from joint values drawn uniformly
-within their limits, and checks every answer ([scripts/real_robots](../scripts/real_robots/README.md)). Made on {date} by
+Look up whether a real robot has a solver, how long the derivation takes, and how many of {poses:,} poses it finds. The descriptions come with public Python
+packages. This page was made on {date} by
 
     {command}
 
-* *joints*: those between base and tip. Where the planner chose one whose value is given with each target, the task names it.
-* *seconds*: processor time of the whole derivation: reading, deriving, proving, checking, printing.
-* *solutions*: the most answers to one of the poses, of so many complex ones.
-* *found*: poses for which the drawn joint values are among the answers, angles modulo 2 pi: within 1e-6 where the pose is ordinary, that is
-  where no singular value of the Jacobian (lengths over the chain's reach) is below 1e-3, else within 1e-4. Where not all are found,
-  parentheses tell how many of the ordinary ones are.
-* *residual*: the most by which a coordinate (metres, entries of a rotation) of an answer's pose differs from the target.
-* *C*, *Rust*: the printed solvers, in kilobytes.
-* *exit*: the exit status of `derive`. 3 is a solver that was written, and whose check (`6_check.csv`, 240 targets, half of them singular or next
-  to such) failed at singular targets; they are listed below the table.
+The command derives each chain with `groebot derive URDF --base LINK --tip LINK --task TASK` on one core. Pinocchio (the package `pin`) computes the poses from joint
+values drawn uniformly within their limits, and checks every answer ([scripts/real_robots](../scripts/real_robots/README.md)).
+
+| column | meaning |
+| --- | --- |
+| joints | those between base and tip. If the planner chose a joint whose value is given with each target, the task names it |
+| seconds | processor time of the whole derivation: reading, deriving, proving, checking, printing |
+| solutions | the greatest number of answers to one of the poses, and the number of complex solutions |
+| found | poses whose drawn joint values are among the answers, modulo 2 pi, within 1e-6 for ordinary poses, else within 1e-4. Parentheses: how many of the ordinary ones |
+| residual | the greatest difference of a coordinate (metres, entries of a rotation) between an answer's pose and the target |
+| C, Rust | the generated solvers, in kilobytes |
+| exit | the exit status of `derive`. 3: the solver was written, and its check (`6_check.csv`, 240 targets) failed at singular targets, which are listed below the table |
+
+A pose is ordinary if no singular value of the Jacobian (lengths over the chain's reach) is below 1e-3.
 """
 
 COLUMNS = ("robot", "chain", "joints", "task", "seconds", "solutions", "found", "residual", "C", "Rust", "exit")

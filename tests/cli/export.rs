@@ -116,7 +116,14 @@ fn motions_robots_and_vrml_become_scenes() {
     assert!(still.starts_with(b"glTF") && !String::from_utf8_lossy(&still).contains("\"animations\""));
     let x3d = succeed(&["export", text(&csv), "--to", "x3d"]);
     assert!(x3d.contains("<X3D profile='Interchange' version='4.0'") && x3d.contains("<TimeSensor DEF='Clock'"));
-    let wrl = succeed(&["export", text(&csv), "--robot", text(&root("src/robots/data/nao_v5.toml")), "--to", "wrl"]);
+    let wrl = succeed(&[
+        "export",
+        text(&csv),
+        "--robot",
+        text(&root("crates/robot/src/robots/data/nao_v5.toml")),
+        "--to",
+        "wrl",
+    ]);
     assert!(wrl.starts_with("#VRML V2.0 utf8\n") && wrl.contains("TO LTibia.set_rotation"));
     assert!(succeed(&["export", text(&root(FIGURE)), "--to", "x3d"]).contains("<Box size='0.02 0.25 0.02'/>"));
 }

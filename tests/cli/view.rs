@@ -30,14 +30,15 @@ fn walks_and_robots_become_pages() {
     assert!(walk.contains("<title>walk.csv</title>"));
     has(&walk, [true, true, false]);
     has(&html(&[text(&json)]), [true, true, true]);
-    for robot in ["nao", "nao_v5", "rh0", "teo", text(&root(ARM)), text(&root("src/robots/data/teo.toml"))] {
+    for robot in ["nao", "nao_v5", "rh0", "teo", text(&root(ARM)), text(&root("crates/robot/src/robots/data/teo.toml"))]
+    {
         has(&html(&[robot]), [false, false, false]);
     }
     // A walk whose robot is given by name, and by a file.
     let foreign = fs::read_to_string(&csv).unwrap().replace("# robot: nao_v5", "# robot: somebody");
     fs::write(&csv, foreign).unwrap();
     assert_eq!(html(&[text(&csv), "--robot", "nao"]), walk);
-    has(&html(&[text(&csv), "--robot", text(&root("src/robots/data/nao_v5.toml"))]), [true, true, false]);
+    has(&html(&[text(&csv), "--robot", text(&root("crates/robot/src/robots/data/nao_v5.toml"))]), [true, true, false]);
     let error = refused(&["view", text(&csv), "-o", text(&page)]);
     assert!(
         error.contains("walk.csv: its robot `somebody` is not a robot of groebot") && error.contains("--robot"),

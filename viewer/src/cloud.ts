@@ -6,7 +6,7 @@ import { matrix } from "./body";
 import type { Reached } from "./map";
 import type { Frame, Vector } from "./pose";
 
-/** From least to greatest: viridis of matplotlib, as src/reach/drawing.rs has it. */
+/** From least to greatest: viridis of matplotlib, as crates/ik/src/reach/drawing.rs has it. */
 export const VIRIDIS = [
   [68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37],
 ] as const;

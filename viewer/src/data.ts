@@ -1,5 +1,5 @@
 /**
- * What the page shows, as `groebot view` writes it into `<script type="application/json" id="groebot-data">`; src/view/data.rs says the same in
+ * What the page shows, as `groebot view` writes it into `<script type="application/json" id="groebot-data">`; crates/humanoid/src/view/data.rs says the same in
  * Rust. Metres, radians, seconds; frames are the twelve numbers of a 3x4 matrix by rows; poses are position and quaternion xyzw.
  */
 
@@ -203,7 +203,7 @@ export interface Data {
 }
 
 const FORMAT = 1;
-/** The most places of a grid, as src/reach/grid.rs says. */
+/** The most places of a grid, as crates/ik/src/reach/grid.rs says. */
 const MOST_PLACES = 1e8;
 
 /** The data that `text` holds; rejected with an Error that says what is wrong with them. */

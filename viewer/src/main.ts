@@ -56,7 +56,7 @@ export interface Groebot {
   way(): [number, number][] | null;
   /** Where the goal and the furniture are now [m, rad]. */
   room(): { goal: number[]; furniture: Record<string, Spot> };
-  /** What has been walked, as src/motion/table.rs says. */
+  /** What has been walked, as crates/robot/src/motion/table.rs says. */
   csv(): string;
   /** How long the last replanning took [ms]. */
   readonly replan_ms: number;

@@ -142,7 +142,7 @@ export class Run implements Furnished {
     this.tell();
   }
 
-  /** The walk as `groebot view` and others read it: src/motion/table.rs. */
+  /** The walk as `groebot view` and others read it: crates/robot/src/motion/table.rs. */
   csv(): string {
     const pose = (name: string) => ["x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]"].map((end) => `${name}_${end}`);
     const point = (name: string) => ["x", "y", "z"].map((end) => `${name}_${end} [m]`);

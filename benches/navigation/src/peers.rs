@@ -6,7 +6,7 @@ use std::process::{Child, ChildStdout, Command, Stdio};
 
 use groebot::nav::Map;
 
-/// `peers.py`, which is asked round by round.
+/// `peers.py`, which runs round by round.
 pub struct Peers {
     child: Child,
     answers: BufReader<ChildStdout>,

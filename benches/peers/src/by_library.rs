@@ -1,4 +1,4 @@
-//! groebot's library: the programs `5_program.json` of `derivations/`, run as they are read.
+//! groebot's library: the programs `5_program.json` of `derivations/`, run without compilation.
 
 use std::cell::RefCell;
 

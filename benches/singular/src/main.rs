@@ -10,7 +10,7 @@ include!(concat!(env!("OUT_DIR"), "/robots.rs"));
 
 use groebot_runtime::Solve;
 
-/// What is asked for on the command line.
+/// The options of the command line.
 struct Arguments {
     command: String,
     poses: usize,

@@ -85,7 +85,7 @@ impl<M: Solve> Chain<'_, M> {
         DMatrix::from_fn(6, 6, rows).determinant()
     }
 
-    /// Whether joint values are told by a list of answers.
+    /// Whether joint values are in a list of answers.
     pub fn is_told(&self, q: &[f64], answers: &[Answer]) -> bool {
         let target = self.tip(q);
         answers.iter().any(|answer| distance(&answer.q, q) <= NEAR)
@@ -94,7 +94,7 @@ impl<M: Solve> Chain<'_, M> {
             || answers.iter().any(|answer| answer.free != 0 && self.runs_to(&target, q, &answer.q))
     }
 
-    /// Whether joint values next to the straight way from one place to another reach the target.
+    /// Whether joint values next to the straight line between two places reach the target.
     fn is_joined(&self, target: &DVector<f64>, a: &[f64], b: &[f64]) -> bool {
         let width = distance(a, b);
         let all: Vec<usize> = (0..self.joints()).collect();

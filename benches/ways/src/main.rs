@@ -1,4 +1,4 @@
-//! Shortest ways beside published lengths, and how long they take.
+//! Shortest paths compared with published lengths, and how long they take.
 //!
 //!     cargo run --release > ../record/YYYY-MM-DD-navigation-ways.csv
 //!

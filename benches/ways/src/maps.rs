@@ -1,4 +1,4 @@
-//! Maps of 1000 x 1000 cells: rooms with doors, and cells that are occupied by chance.
+//! Maps of 1000 x 1000 cells: rooms with doors, and cells that are occupied at random.
 
 use groebot::nav::{Cell, Map};
 

@@ -41,7 +41,7 @@ pub fn tests(text: &str) -> Vec<Problem> {
     text.split(".path(").skip(1).filter_map(problem).collect()
 }
 
-/// The cells whose middles are in a polygon of a mesh, which is told in Polyanya's format, version 2.
+/// The cells whose middles are in a polygon of a mesh, in Polyanya's format, version 2.
 pub fn mesh(path: &Path, columns: usize, rows: usize) -> Map {
     let text = std::fs::read_to_string(path).expect("a mesh");
     let mut lines = text.lines().skip(2).filter(|line| !line.is_empty()).map(numbers);

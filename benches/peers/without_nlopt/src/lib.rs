@@ -5,14 +5,14 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WithoutNlopt;
 
-/// The algorithms that are asked for.
+/// The algorithms that are requested.
 #[derive(Clone, Copy, Debug)]
 pub enum Algorithm {
     GnMlslLds,
     Neldermead,
 }
 
-/// The direction that is asked for.
+/// The direction that is requested.
 #[derive(Clone, Copy, Debug)]
 pub enum Target {
     Minimize,

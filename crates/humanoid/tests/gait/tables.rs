@@ -8,7 +8,7 @@ use groebot_humanoid::walkers::{RH0_EXPERIMENT, RH0_SIMULATION};
 
 use super::rh0::{LINE, request, walker};
 
-/// Thigh and shank of RH0 \[m\], as inferred: `src/robots/data/rh0_right_leg.toml`.
+/// Thigh and shank of RH0 \[m\], as inferred: `crates/robot/src/robots/data/`.
 const SEGMENT: f64 = 0.28;
 
 #[test]

@@ -94,7 +94,7 @@ fn a_target_out_of_reach_has_no_answer() {
     assert_eq!(solver.solve(&far).as_slice().len(), 0);
 }
 
-/// The axes of the links in `tests/real/sixteen.rs`, at zero.
+/// The axes of the links in `crates/algebra/tests/real/sixteen.rs`, at zero.
 pub fn lines_of(links: &[sixteen::Link<f64>; 6]) -> [Line; 6] {
     let frame = |count: usize| sixteen::chain(&vec![[1.0, 0.0]; count], &links[..count]);
     std::array::from_fn(|joint| match joint {

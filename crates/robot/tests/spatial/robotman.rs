@@ -38,9 +38,9 @@ fn text_below(folder: &Path) -> String {
     paths.iter().map(text).collect()
 }
 
-/// The sources in the folder `root` of the repository, in the module at the start of `path`.
+/// The sources in the folder `root` of the crate, in the module in which `path` starts.
 fn sources(root: &str, path: &str) -> String {
-    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join(root);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(root);
     let module = path.split("::").next().unwrap();
     if path.contains("::") { text_below(&root.join(module)) } else { text_below(&root) }
 }
