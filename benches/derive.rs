@@ -6,8 +6,7 @@ use std::path::{Path, PathBuf};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use groebot::Watch;
-use groebot::derive::sequential::{self, Derived};
-use groebot::derive::{Derivation, Ends, InputFile, Source, certificate};
+use groebot::derive::{Derivation, Ends, InputFile, Source};
 use groebot::kinematics::Chain;
 
 const MECHANISMS: [&str; 2] = ["nao_leg_sagittal", "nao_arm_planar"];
@@ -36,7 +35,7 @@ fn derive_chain(c: &mut Criterion) {
     let mut group = c.benchmark_group("derive_chain");
     group.sample_size(10);
     for name in CHAINS {
-        group.bench_function(name, |b| b.iter(|| Derived::of_chain(black_box(&chain(name)), &Watch::none())));
+        group.bench_function(name, |b| b.iter(|| Derivation::sequentially(black_box(&chain(name)), &Watch::none())));
     }
     group.finish();
 }
@@ -46,9 +45,9 @@ fn prove_chain(c: &mut Criterion) {
     group.sample_size(10);
     for name in CHAINS {
         let chain = chain(name);
-        let derived = Derived::of_chain(&chain, &Watch::none()).expect("it derives");
-        let text = sequential::certificate::write(&derived).expect("it prints");
-        group.bench_function(name, |b| b.iter(|| sequential::certificate::prove(black_box(&chain), &text)));
+        let derived = Derivation::sequentially(&chain, &Watch::none()).expect("it derives");
+        let text = derived.certificate().expect("it prints");
+        group.bench_function(name, |b| b.iter(|| Derivation::prove(black_box(&chain), &text)));
     }
     group.finish();
 }
@@ -58,7 +57,7 @@ fn derive(c: &mut Criterion) {
     group.sample_size(10);
     for name in MECHANISMS {
         let system = source(name).system.unwrap();
-        group.bench_function(name, |b| b.iter(|| Derivation::new(black_box(system.clone()), &Watch::none())));
+        group.bench_function(name, |b| b.iter(|| Derivation::of_problem(black_box(system.clone()), &Watch::none())));
     }
     group.finish();
 }
@@ -68,9 +67,9 @@ fn prove(c: &mut Criterion) {
     group.sample_size(10);
     for name in MECHANISMS {
         let system = source(name).system.unwrap();
-        let derivation = Derivation::new(system.clone(), &Watch::none()).expect("it derives");
-        let text = certificate::write(&derivation).expect("it prints");
-        group.bench_function(name, |b| b.iter(|| certificate::prove(black_box(&system), &text)));
+        let derivation = Derivation::of_problem(system.clone(), &Watch::none()).expect("it derives");
+        let text = derivation.certificate().expect("it prints");
+        group.bench_function(name, |b| b.iter(|| Derivation::prove(black_box(system.clone()), &text)));
     }
     group.finish();
 }
@@ -78,7 +77,8 @@ fn prove(c: &mut Criterion) {
 fn solve(c: &mut Criterion) {
     let mut group = c.benchmark_group("solve");
     for name in MECHANISMS {
-        let program = Derivation::new(source(name).system.unwrap(), &Watch::none()).expect("it derives").program;
+        let derivation = Derivation::of_problem(source(name).system.unwrap(), &Watch::none()).expect("it derives");
+        let program = derivation.program();
         group.bench_function(name, |b| b.iter(|| program.solve_numbers(black_box(&[60.0, 150.0]))));
     }
     group.finish();
@@ -89,9 +89,9 @@ fn solve_chain(c: &mut Criterion) {
     let mut group = c.benchmark_group("solve_chain");
     for name in CHAINS {
         let chain = chain(name);
-        let derived = Derived::of_chain(&chain, &Watch::none()).expect("it derives");
+        let derived = Derivation::sequentially(&chain, &Watch::none()).expect("it derives");
         let target = derived.reached(&ORDINARY[..chain.joints().len()]).expect("as many values as joints");
-        group.bench_function(name, |b| b.iter(|| derived.program.solve_numbers(black_box(&target))));
+        group.bench_function(name, |b| b.iter(|| derived.program().solve_numbers(black_box(&target))));
     }
     group.finish();
 }

@@ -41,7 +41,7 @@ fn main() -> Result<()> {
     let log = logged.collect::<Result<Vec<_>>>()?;
     let found = known.identify(&log, false)?;
     for estimate in &found.base {
-        println!("{:>12.6} where {:>12.6} is told  {}", estimate.value, estimate.told, estimate.name);
+        println!("{:>12.6} where {:>12.6} is told  {}", estimate.value, estimate.described, estimate.name);
     }
     Ok(())
 }

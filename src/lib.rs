@@ -3,29 +3,29 @@
 //! The modules stand in the order of the way that the data goes; each stage is plain data that prints.
 //!
 //! ```
-//! use groebot::derive::Proved;
+//! use groebot::codegen;
 //! use groebot::kinematics::Target;
 //! use groebot::model::Robot;
-//! use groebot::{Watch, codegen};
 //!
 //! // A robot as its file describes it, here with angles of 1.5708, and the chain from its root to its tip.
-//! let robot = Robot::read_urdf("tests/corpus/urdf/ur5.urdf".as_ref())?;
+//! let robot = Robot::read("tests/corpus/urdf/ur5.urdf")?;
 //! let chain = robot.chain(None, None)?;
 //!
 //! // Its solver: the order of the joints, a Groebner basis for each step with its proof, a program.
-//! let derived = Proved::of_chain(&chain, &Watch::none())?;
+//! let derivation = groebot::derive(&chain)?;
+//! let solver = derivation.solver();
 //!
 //! // All solutions of a pose, and forward kinematics as their witness.
-//! let target = Target::Pose(chain.forward(&[0.1, -1.2, 1.4, -0.3, 0.8, 0.5])?);
-//! let solutions = derived.program().solve(&target, &[])?;
+//! let pose = chain.forward(&[0.1, -1.2, 1.4, -0.3, 0.8, 0.5])?;
+//! let solutions = solver.solve(&pose)?;
 //! assert_eq!(solutions.len(), 8);
 //! for solution in &solutions {
-//!     let [distance, angle] = target.missed(&chain, &solution.q);
+//!     let [distance, angle] = Target::Pose(pose).missed(&chain, &solution.q);
 //!     assert!(distance < 1e-12 && angle < 1e-12);
 //! }
 //!
 //! // The same solver as source code.
-//! assert!(codegen::rust::emit(derived.program()).contains("shoulder_pan"));
+//! assert!(codegen::rust::emit(derivation.program()).contains("shoulder_pan"));
 //! # Ok::<(), groebot::Error>(())
 //! ```
 //!

@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-use groebot::derive::{Proved, Source};
+use groebot::derive::{Derivation, Source};
 use groebot::gait::{Regular, Route, Side, Walker, plan};
 use groebot::groebner::{Options, Strategy, basis, modular};
 use groebot::kinematics::screw::ScrewSolver;
@@ -90,7 +90,7 @@ fn katsura() -> Result<Call> {
 fn derive() -> Result<Call> {
     let source = Source::read(&folder("puma"))?;
     Ok(Box::new(move || {
-        let proved = Proved::of(black_box(&source), &Watch::none()).expect("PUMA is derived");
+        let proved = Derivation::of(black_box(&source), &Watch::none()).expect("PUMA is derived");
         drop(black_box(codegen::rust::emit(proved.program())));
     }))
 }

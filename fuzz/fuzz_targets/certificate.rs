@@ -1,4 +1,4 @@
-//! Certificates, `derive::Proved::again`.
+//! Certificates, `derive::Derivation::again`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

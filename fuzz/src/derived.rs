@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use groebot::Watch;
 use groebot::cli::readers;
 use groebot::codegen::{c99::Pair, rust};
-use groebot::derive::Proved;
+use groebot::derive::Derivation;
 use groebot::dynamics::exact::Certificate;
 use groebot::folder::{self, CERTIFICATE, DYNAMICS, DYNAMICS_TEXT, Finding, Stored, Verdict};
 use groebot::reach::ReachMap;
@@ -23,7 +23,7 @@ pub(super) const TARGETS: [Target; 6] = [
         run: program_json,
         damaged: 100,
     },
-    Target { name: "certificate", about: "certificates, `derive::Proved::again`", run: certificate, damaged: 60 },
+    Target { name: "certificate", about: "certificates, `derive::Derivation::again`", run: certificate, damaged: 60 },
     Target { name: "dynamics_json", about: "certificates of equations of motion", run: dynamics_json, damaged: 100 },
     Target {
         name: "dynamics_text",
@@ -62,10 +62,10 @@ fn program_json(bytes: &[u8]) {
 /// A certificate that proves a derivation is printed again as one that proves the same.
 fn certificate(bytes: &[u8]) {
     for source in &*SOURCES {
-        let Some(proved) = read(Proved::again(source, &text(bytes))) else { continue };
+        let Some(proved) = read(Derivation::again(source, &text(bytes))) else { continue };
         let files = proved.stage_files().expect("what is proved is printed");
         let (_, printed) = files.iter().find(|(name, _)| name == CERTIFICATE).expect("each kind has a certificate");
-        assert_eq!(Proved::again(source, &text(printed)).as_ref(), Ok(&proved));
+        assert_eq!(Derivation::again(source, &text(printed)).as_ref(), Ok(&proved));
     }
 }
 
@@ -88,9 +88,9 @@ fn dynamics_text(bytes: &[u8]) {
 }
 
 /// The derivation of a chain of two joints, its numeric checks, and the files of its folder.
-static HONEST: LazyLock<(Proved, Report, Stored)> = LazyLock::new(|| {
+static HONEST: LazyLock<(Derivation, Report, Stored)> = LazyLock::new(|| {
     let source = &SOURCES[1];
-    let proved = Proved::again(source, PLANAR_2R_CERTIFICATE).expect("is committed").about(source);
+    let proved = Derivation::again(source, PLANAR_2R_CERTIFICATE).expect("is committed").about(source);
     let checked = witness::check(source, &proved, &Watch::none()).expect("is committed");
     let written = folder::derived(source, &proved, &checked).expect("is committed");
     let motion = [(DYNAMICS, PLANAR_2R_DYNAMICS), (DYNAMICS_TEXT, PLANAR_2R_EQUATIONS)];
@@ -102,7 +102,7 @@ static HONEST: LazyLock<(Proved, Report, Stored)> = LazyLock::new(|| {
 /// What a check finds of a folder. The numeric checks of the honest derivation, which take long, are made once.
 fn findings(stored: &Stored) -> Vec<Finding> {
     let (source, (honest, report, _)) = (&SOURCES[1], &*HONEST);
-    let measure = |proved: &Proved| {
+    let measure = |proved: &Derivation| {
         if proved == honest { Ok(report.clone()) } else { witness::check(source, proved, &Watch::none()) }
     };
     let checked = read(folder::check_by(source, stored, &Watch::none(), measure));

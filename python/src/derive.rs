@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use groebot::derive::{Ends, Proved, Source};
+use groebot::derive::{Ends, Derivation, Source};
 use groebot::{Error, Result, Watch};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -70,7 +70,7 @@ impl Described {
     fn derived(&self, ends: &Ends, watch: &Watch) -> Result<Stored> {
         let derived = |mut source: Source| {
             source.choose_given(watch)?;
-            let proved = Proved::of(&source, watch)?.about(&source);
+            let proved = Derivation::of(&source, watch)?.about(&source);
             Stored::derived(&source, proved)
         };
         match self {

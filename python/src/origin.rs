@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use groebot::derive::{Ends, Proved, Recount, Source};
+use groebot::derive::{Ends, Derivation, Recount, Source};
 use groebot::document::read_text;
 use groebot::folder::prove_text;
 use groebot::limits::DESCRIPTION_BYTES;
@@ -87,7 +87,7 @@ pub struct Checked {
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] for a proof that does not hold or claims less than the derivation of its input, and an answer that is wrong or missing at an ordinary target.
-pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<Checked> {
+pub fn check(source: &Source, proved: &Derivation, watch: &Watch) -> Result<Checked> {
     let missing = || Error::new(ErrorKind::Certificate, "the derivation has no certificate; derive it again");
     let stages = proved.stage_files()?;
     let certificate = stages.iter().find(|(name, _)| name == CERTIFICATE).ok_or_else(missing)?;

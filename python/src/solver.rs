@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use groebot::codegen::{rust, single_file};
-use groebot::derive::explain::explain;
+use groebot::derive::report::explain::explain;
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};

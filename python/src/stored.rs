@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
-use groebot::derive::{Proved, Source};
+use groebot::derive::{Derivation, Source};
 use groebot::document::read_text;
 use groebot::kinematics::Chain;
 use groebot::solver::{Condition, Program};
@@ -33,7 +33,7 @@ pub struct Stored {
     pub origin: Option<Origin>,
     /// The text of the stored proof.
     certificate: Option<String>,
-    proved: OnceLock<Arc<Proved>>,
+    proved: OnceLock<Arc<Derivation>>,
     pub asked: Asked,
 }
 
@@ -66,7 +66,7 @@ impl Stored {
     }
 
     /// What was derived.
-    pub fn derived(source: &Source, proved: Proved) -> Result<Self> {
+    pub fn derived(source: &Source, proved: Derivation) -> Result<Self> {
         let origin = Origin::of_source(source)?;
         let stored = Stored::new(proved.program().clone(), source.chain.clone(), Some(origin), None);
         let _ = stored.proved.set(Arc::new(proved));
@@ -139,16 +139,16 @@ impl Stored {
     /// The derivation with its proof: kept, proved again from the stored certificate, or derived again.
     ///
     /// # Errors
-    /// As [`Stored::source`] and [`Proved::of`]; [`ErrorKind::Certificate`] where the derivation gives another solver.
-    pub fn proved(&self, watch: &Watch) -> Result<Arc<Proved>> {
+    /// As [`Stored::source`] and [`Derivation::of`]; [`ErrorKind::Certificate`] where the derivation gives another solver.
+    pub fn proved(&self, watch: &Watch) -> Result<Arc<Derivation>> {
         if let Some(proved) = self.proved.get() {
             return Ok(Arc::clone(proved));
         }
         let mut source = self.source()?;
         source.choose_given(watch)?;
         let proved = match &self.certificate {
-            Some(certificate) => Proved::again(&source, certificate)?,
-            None => Proved::of(&source, watch)?,
+            Some(certificate) => Derivation::again(&source, certificate)?,
+            None => Derivation::of(&source, watch)?,
         };
         let proved = Arc::new(proved.about(&source));
         if *proved.program() != self.program {

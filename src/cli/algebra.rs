@@ -5,7 +5,7 @@ use num_traits::{One, Pow, Signed};
 
 use groebot_algebra::number::{BigRational, Rationals};
 use groebot_algebra::poly::{Expression, PolynomialRing};
-use groebot_ik::derive::setting::{ParameterPoly, Poly, Unknowns};
+use groebot_ik::derive::equations::setting::{ParameterPoly, Poly, Unknowns};
 
 /// The greatest power of ten that is tried.
 const MAX_POWER: u32 = 24;

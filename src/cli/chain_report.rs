@@ -1,39 +1,43 @@
 //! The text report of the derivation of a chain, or of chains that share actuators.
 
 use super::page::Page;
-use groebot_ik::derive::coupled::DerivedCoupled;
-use groebot_ik::derive::eigenvalue::DerivedSixAxes;
-use groebot_ik::derive::sequential::{Derived, Form};
+use groebot_ik::derive::coupled::CoupledView;
+use groebot_ik::derive::eigenvalue::EigenvalueView;
+use groebot_ik::derive::sequential::{Form, SequentialView};
 
-/// Reports each chain in the order of solution.
-pub fn describe_coupled(page: &mut Page, derived: &DerivedCoupled) {
-    let parts = derived.coupled.parts();
-    page.heading(&format!("{}: {} solutions at most", parts.name, derived.dimension()));
+/// Tells about each chain in the order in which they are solved.
+pub fn describe_coupled(page: &mut Page, derived: CoupledView<'_>) {
+    let parts = derived.problem.parts();
+    page.heading(&format!("{}: {} solutions at most", parts.name, derived.method.dimension()));
     for text in [&parts.description, &parts.source].into_iter().flatten() {
         page.line(text);
     }
-    if derived.simultaneous.is_some() {
+    if derived.method.simultaneous.is_some() {
         page.heading(&format!("Shared joints: {}", derived.simultaneous_names().join(", ")));
         page.line("solved first, from an equation of each chain without other unknown joints");
     }
-    for stage in &derived.stages {
+    for stage in &derived.method.stages {
         page.heading(&derived.title(stage));
-        page.line(&format!("task {}", stage.derived.chain.asked()));
-        describe(page, &stage.derived);
+        page.line(&format!("task {}", stage.problem.chain.asked()));
+        describe(page, stage.view());
     }
 }
 
-/// Reports an eigenvalue problem.
-pub fn describe_six_axes(page: &mut Page, derived: &DerivedSixAxes) {
-    page.heading(&format!("{}: {} solutions at most, all joints together", derived.chain.name(), derived.dimension()));
+/// Tells about an eigenvalue problem.
+pub fn describe_six_axes(page: &mut Page, derived: EigenvalueView<'_>) {
+    page.heading(&format!(
+        "{}: {} solutions at most, all joints together",
+        derived.problem.chain.name(),
+        derived.method.dimension()
+    ));
     derived.given().iter().chain(&derived.counts()).for_each(|line| page.line(line));
     page.heading("Eigenvalue problems, proved regular");
     derived.choices().iter().for_each(|line| page.line(line));
 }
 
-/// Reports the plan, its steps and the proofs.
-pub fn describe(page: &mut Page, derived: &Derived) {
-    let plan = &derived.plan;
+/// Tells about the plan, its steps and the proofs.
+pub fn describe(page: &mut Page, derived: SequentialView<'_>) {
+    let plan = &derived.method.plan;
     page.heading(&format!("Plan: {} solutions at most", plan.dimension));
     for line in plan.to_string().lines().skip(1) {
         page.line(line);
@@ -45,10 +49,15 @@ pub fn describe(page: &mut Page, derived: &Derived) {
     });
     page.entries(&blocks.collect::<Vec<_>>());
     page.heading("Proved, exactly and without trusting the engine");
-    let relations: usize = derived.steps.iter().map(|step| step.relations.len()).sum();
-    let proofs: usize =
-        derived.form_bases.iter().flat_map(|form_basis| form_basis.tree.walk()).map(|node| node.proofs().len()).sum();
-    let forms: Vec<&str> = derived.form_bases.iter().map(|form_basis| Form::name(form_basis.form)).collect();
+    let relations: usize = derived.method.steps.iter().map(|step| step.relations.len()).sum();
+    let proofs: usize = derived
+        .method
+        .form_bases
+        .iter()
+        .flat_map(|form_basis| form_basis.tree.walk())
+        .map(|node| node.proofs().len())
+        .sum();
+    let forms: Vec<&str> = derived.method.form_bases.iter().map(|form_basis| Form::name(form_basis.form)).collect();
     page.entries(&[
         (relations.to_string(), "equations follow from the loop: their normal forms are zero".to_owned()),
         (proofs.to_string(), format!("Groebner bases of the forms {} on all strata", forms.join(", "))),

@@ -7,7 +7,7 @@ use super::derive::refuse_failures;
 use super::ends::EndArguments;
 use super::{Halt, Outcome, json};
 use crate::{Result, Watch};
-use groebot_ik::derive::{Proved, Source};
+use groebot_ik::derive::{Derivation, Source};
 use groebot_ik::folder::{self, CERTIFICATE, CHECKS, Checked, Finding, Stored, Verdict};
 use groebot_robot::document::{read_text, shown};
 
@@ -58,11 +58,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// The derivation that the stored certificate proves.
 ///
 /// # Errors
-/// As [`Proved::again`], and when the certificate cannot be read.
-pub fn reprove(folder: &Path, source: &Source) -> Result<Proved> {
+/// As [`Derivation::again`], and when the certificate cannot be read.
+pub fn reprove(folder: &Path, source: &Source) -> Result<Derivation> {
     let path = folder.join(CERTIFICATE);
     let text = read_text(&path, LIMIT)?;
-    let proved = Proved::again(source, &text).map_err(|error| error.in_file(&path))?;
+    let proved = Derivation::again(source, &text).map_err(|error| error.in_file(&path))?;
     Ok(proved.about(source))
 }
 

@@ -14,9 +14,9 @@ use super::progress::{Limits, Session, seconds};
 use super::report::{Report, report};
 use super::{Halt, Outcome};
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_ik::derive::ends::solver_name;
 use groebot_ik::derive::planner::{Choice, fitting_task};
-use groebot_ik::derive::{Ends, Proved, Source};
+use groebot_ik::derive::problem::ends::solver_name;
+use groebot_ik::derive::{Derivation, Ends, Source};
 use groebot_ik::witness;
 use groebot_robot::document::shown;
 
@@ -139,8 +139,8 @@ fn weak(checked: &witness::Report) -> Outcome {
     if checked.weak_spots().next().is_some() { Err(Halt::WeakSpots) } else { Ok(()) }
 }
 
-fn derive(source: &Source, watch: &Watch) -> Result<Proved> {
-    Proved::of(source, watch).map(|proved| proved.about(source)).map_err(|error| match error.kind() {
+fn derive(source: &Source, watch: &Watch) -> Result<Derivation> {
+    Derivation::of(source, watch).map(|proved| proved.about(source)).map_err(|error| match error.kind() {
         ErrorKind::Cancelled => error,
         ErrorKind::Unsupported | ErrorKind::Inconsistent => advised(source, error).in_file(&source.path),
         _ => error.in_file(&source.path),
@@ -171,8 +171,13 @@ fn advised(source: &Source, error: Error) -> Error {
 /// is proved.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] with the row, its target and the error.
-pub fn refuse_failures(source: &Source, derivation: &Proved, checked: &witness::Report, strict: bool) -> Result<()> {
+/// [`ErrorKind::Certificate`] with the row, its target and what is wrong.
+pub fn refuse_failures(
+    source: &Source,
+    derivation: &Derivation,
+    checked: &witness::Report,
+    strict: bool,
+) -> Result<()> {
     let Some(row) = checked.failures().find(|row| strict || !row.is_weak_spot()) else { return Ok(()) };
     let target: Vec<String> = row.target.iter().map(|value| exact(*value)).collect();
     let text = format!(
@@ -193,10 +198,10 @@ pub fn refuse_failures(source: &Source, derivation: &Proved, checked: &witness::
     Err(Error::new(ErrorKind::Certificate, text))
 }
 
-/// Near-relations of a chain's axes, and advice: closed forms of such a chain are sensitive to rounding.
-fn nearly_ideal(source: &Source, derivation: &Proved) -> String {
-    let Proved::Chain(derived) = derivation else { return String::new() };
-    let far = derived.measured().remoteness();
+/// What almost holds of a chain's axes, and what to do then: closed forms of such a chain are at the mercy of rounding.
+fn nearly_ideal(source: &Source, derivation: &Derivation) -> String {
+    let Some(derived) = derivation.sequential() else { return String::new() };
+    let far = derived.problem.measured().remoteness();
     if far > FAR {
         let nearer = source.carrier.as_ref().map(|link| format!(", `{}`", shown(link))).unwrap_or_default();
         return format!(
@@ -204,8 +209,8 @@ fn nearly_ideal(source: &Source, derivation: &Proved) -> String {
              the arm{nearer} (--base), and add the place of that link at run time"
         );
     }
-    let near = near_words(derived.measured());
-    if near.is_empty() || derived.truth.is_some() {
+    let near = near_words(derived.problem.measured());
+    if near.is_empty() || derived.problem.truth.is_some() {
         return String::new();
     }
     format!("; {}: `--snap TOLERANCE` derives the robot for which this holds exactly", near.join(", "))

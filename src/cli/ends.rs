@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, parse_rational};
-use groebot_ik::derive::explain::{Line, Part};
+use groebot_ik::derive::report::explain::{Line, Part};
 use groebot_ik::derive::{Ends, Source};
 use groebot_robot::document::shown;
 use groebot_robot::kinematics::{BaseAxis, Chain, ExactVector, LinkPath, Plane, Task, TipChoice};

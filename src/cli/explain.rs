@@ -7,8 +7,8 @@ use super::files::is_derived;
 use super::output::{Force, Kind};
 use super::{Outcome, check, console};
 use crate::Watch;
-use groebot_ik::derive::explain::{Document, explain};
-use groebot_ik::derive::{Ends, Proved, Source};
+use groebot_ik::derive::report::explain::{Document, explain};
+use groebot_ik::derive::{Derivation, Ends, Source};
 
 const EXAMPLES: &str = "Examples:
   groebot explain derivations/puma
@@ -67,10 +67,10 @@ fn told(input: &Path, ends: &Ends) -> crate::Result<(Source, Document)> {
     Ok((source, document))
 }
 
-/// Proves from the stored certificate where there is one.
-fn prove(input: &Path, source: &Source) -> crate::Result<Proved> {
+/// From the stored proof where there is one.
+fn prove(input: &Path, source: &Source) -> crate::Result<Derivation> {
     match is_derived(input) {
         true => check::reprove(input, source),
-        false => Proved::of(source, &Watch::none()).map_err(|error| error.in_file(&source.path)),
+        false => Derivation::of(source, &Watch::none()).map_err(|error| error.in_file(&source.path)),
     }
 }

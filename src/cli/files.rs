@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use super::output::{Force, is_same_file};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_ik::codegen;
-use groebot_ik::derive::ends::TASK_NAME;
-use groebot_ik::derive::input::INPUT_NAMES;
-use groebot_ik::derive::{Ends, Proved, Source, stages};
+use groebot_ik::derive::problem::ends::TASK_NAME;
+use groebot_ik::derive::problem::input::INPUT_NAMES;
+use groebot_ik::derive::report::stages;
+use groebot_ik::derive::{Derivation, Ends, Source};
 use groebot_ik::folder::{CERTIFICATE, DYNAMICS, Written, derived};
 use groebot_ik::solver::Program;
 use groebot_ik::witness::Report;
@@ -175,7 +176,7 @@ fn holds_another(folder: &Path, source: &Source) -> bool {
 /// As [`derived`] and [`read_text`].
 pub fn assemble_files(
     source: &Source,
-    derivation: &Proved,
+    derivation: &Derivation,
     checked: &Report,
     folder: &Path,
 ) -> Result<Vec<(String, Vec<u8>)>> {

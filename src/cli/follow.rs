@@ -11,7 +11,7 @@ use super::targets::Reader;
 use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
-use groebot_ik::derive::{Description, InputFile, Proved};
+use groebot_ik::derive::{Description, InputFile, Options};
 use groebot_robot::document::{is_stdin, open};
 use groebot_robot::dynamics::{Clearance, Model};
 use groebot_robot::kinematics::{Chain, LengthUnit};
@@ -81,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let (poses, times) = read_poses(&arguments.poses, &chain)?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
-    let solver = Proved::of_chain(&chain, &session.watch)?;
+    let solver = Options::new().watch(session.watch.clone()).derive(&chain)?;
     let told =
         if times.is_some() || arguments.every.is_some() { speeds(&input.description, &chain) } else { Vec::new() };
     let pace = match (times, arguments.every) {

@@ -10,7 +10,7 @@ use super::ends::TipLink;
 use super::following::leaders;
 use groebot_ik::derive::coupled::CoupledChains;
 use groebot_ik::derive::planner::{Candidate, Choice};
-use groebot_ik::derive::{Proved, Source, System};
+use groebot_ik::derive::{Derivation, Method, Source, System};
 use groebot_ik::witness;
 use groebot_robot::kinematics::ideal::{RelationKind, Report};
 use groebot_robot::kinematics::screw::Plan;
@@ -22,7 +22,7 @@ pub const FORMAT: u32 = 1;
 /// The result of a derivation.
 pub struct Derived<'a> {
     pub source: &'a Source,
-    pub derivation: &'a Proved,
+    pub derivation: &'a Derivation,
     pub checked: &'a witness::Report,
     pub choice: Option<&'a Choice>,
     pub folder: &'a Path,
@@ -64,12 +64,12 @@ pub fn given(choice: &Choice) -> Value {
     json!({ "joints": choice.given, "candidates": choice.candidates.iter().map(candidate).collect::<Vec<_>>() })
 }
 
-fn method(derivation: &Proved) -> &'static str {
-    match derivation {
-        Proved::Equations(_) => "one block",
-        Proved::Chain(_) => "one joint at a time",
-        Proved::SixAxes(_) => "eigenvalue problem",
-        Proved::Coupled(_) => "one chain at a time",
+fn method(derivation: &Derivation) -> &'static str {
+    match derivation.method() {
+        Method::Equations(_) => "one block",
+        Method::Sequential(_) => "one joint at a time",
+        Method::Eigenvalue(_) => "eigenvalue problem",
+        Method::Coupled(_) => "one chain at a time",
     }
 }
 

@@ -8,7 +8,7 @@ use super::moving::ends;
 use super::progress::begin_output;
 use super::{Halt, Outcome};
 use crate::{Error, ErrorKind, Result};
-use groebot_ik::derive::stages::STAGES;
+use groebot_ik::derive::report::stages::STAGES;
 use groebot_robot::document::is_stdin;
 use groebot_robot::files::{MARK, Target, is_marked, refuse_foreign, write_atomically, write_into};
 

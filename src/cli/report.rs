@@ -11,19 +11,20 @@ use super::files::without_ikfast;
 use super::page::Page;
 use super::strata;
 use crate::Result;
+use groebot_ik::derive::equations::EquationsView;
+use groebot_ik::derive::equations::setting::{Poly, Unknowns};
+use groebot_ik::derive::equations::triangular::{Stair, Triangular};
 use groebot_ik::derive::planner::fitting_task;
-use groebot_ik::derive::setting::{Poly, Unknowns};
-use groebot_ik::derive::triangular::{Stair, Triangular};
-use groebot_ik::derive::{Derivation, JointKindUnknown, ParameterSource, Proved, Quantity, Root, Source, System};
+use groebot_ik::derive::{AnyView, Derivation, JointKindUnknown, ParameterSource, Quantity, Root, Source, System};
 use groebot_ik::witness;
 
 /// The content of the report.
 pub struct Report<'a> {
     /// The input.
     pub source: &'a Source,
-    /// The derivation.
-    pub derivation: &'a Proved,
-    /// The result of the numeric check.
+    /// What came of it.
+    pub derivation: &'a Derivation,
+    /// What the numeric witnesses found.
     pub checked: &'a witness::Report,
     /// The folder of the files.
     pub folder: &'a Path,
@@ -39,14 +40,14 @@ pub struct Report<'a> {
 /// When a setting's field cannot be built, which does not happen for a derivation of this crate.
 pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
     let mut page = Page { text: String::new(), paint };
-    match told.derivation {
-        Proved::Equations(derivation) => block(&mut page, derivation)?,
-        Proved::Chain(derived) => {
-            page.text += &format!("{}\n", derived.chain);
+    match told.derivation.view() {
+        AnyView::Equations(derivation) => block(&mut page, derivation)?,
+        AnyView::Sequential(derived) => {
+            page.text += &format!("{}\n", derived.problem.chain);
             chain_report::describe(&mut page, derived);
         }
-        Proved::SixAxes(derived) => chain_report::describe_six_axes(&mut page, derived),
-        Proved::Coupled(derived) => chain_report::describe_coupled(&mut page, derived),
+        AnyView::Eigenvalue(derived) => chain_report::describe_six_axes(&mut page, derived),
+        AnyView::Coupled(derived) => chain_report::describe_coupled(&mut page, derived),
     }
     meant(&mut page, told);
     ignored(&mut page, told);
@@ -99,11 +100,11 @@ fn ignored(page: &mut Page, told: &Report<'_>) {
 }
 
 /// A derivation of equations that are solved as one block.
-fn block(page: &mut Page, derivation: &Derivation) -> Result<()> {
-    let system = &derivation.system;
+fn block(page: &mut Page, derivation: EquationsView<'_>) -> Result<()> {
+    let system = derivation.problem;
     introduce(page, system);
     equations(page, system);
-    if let Some(solved) = derivation.requested.solved() {
+    if let Some(solved) = derivation.method.requested.solved() {
         basis(page, system, &solved.triangular);
         way(page, system, &solved.triangular);
     }
@@ -229,8 +230,8 @@ fn leading(ring: &Unknowns, f: &Poly, unknown: usize) -> Option<String> {
     (!is_number).then(|| divisor(ground, coefficient.numerator()).to_string())
 }
 
-fn run_time(page: &mut Page, derivation: &Derivation) -> Result<()> {
-    let (asked, used) = (&derivation.requested, derivation.solving());
+fn run_time(page: &mut Page, derivation: EquationsView<'_>) -> Result<()> {
+    let (asked, used) = (&derivation.method.requested, derivation.method.solving());
     page.heading("What runs");
     if strata::order(asked) == strata::order(used) {
         page.line("The solver uses this order: no other tried order has denominators that vanish on fewer targets.");
@@ -243,14 +244,14 @@ fn run_time(page: &mut Page, derivation: &Derivation) -> Result<()> {
     Ok(())
 }
 
-fn count(page: &mut Page, derivation: &Derivation) {
-    let Some(dimension) = derivation.dimension() else { return };
+fn count(page: &mut Page, derivation: EquationsView<'_>) {
+    let Some(dimension) = derivation.method.dimension() else { return };
     page.heading("Solutions");
     let plural = if dimension == 1 { "solution" } else { "solutions" };
     page.line(&format!(
         "{dimension} complex {plural} at a generic target, the dimension of the quotient ring: at most {dimension} real."
     ));
-    if let Some(choice) = &derivation.system.choice {
+    if let Some(choice) = &derivation.problem.choice {
         let root = if choice.root == Root::Minus { "minus" } else { "plus" };
         page.line(&format!(
             "All are returned; the published solution has the {root} root of {}, and is marked.",
@@ -259,8 +260,8 @@ fn count(page: &mut Page, derivation: &Derivation) {
     }
 }
 
-fn proofs(page: &mut Page, derivation: &Derivation) {
-    let trees = derivation.trees();
+fn proofs(page: &mut Page, derivation: EquationsView<'_>) {
+    let trees = derivation.method.trees();
     let nodes = trees.iter().flat_map(|(_, node)| node.walk());
     let proofs: Vec<_> = nodes.flat_map(|node| node.proofs()).map(|(_, certified)| certified.proof).collect();
     let sum = |part: fn(&groebot_algebra::groebner::verify::Proof) -> usize| proofs.iter().map(part).sum::<usize>();

@@ -11,8 +11,8 @@ use super::targets::{self, Row};
 use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::limits;
-use groebot_ik::derive::input::COUPLED_NAME;
-use groebot_ik::derive::{Proved, Source};
+use groebot_ik::derive::Source;
+use groebot_ik::derive::problem::input::COUPLED_NAME;
 use groebot_ik::solver::{Program, Solver};
 use groebot_robot::document::read_text;
 
@@ -115,11 +115,9 @@ fn reason(folder: &Path, target: &[f64]) -> Result<Option<String>> {
     if !folder.is_dir() || !is_derived(folder) || !folder.join(COUPLED_NAME).is_file() {
         return Ok(None);
     }
-    let explained = match reprove(folder, &Source::read(folder)?)? {
-        Proved::Coupled(derived) => derived.explain(target, &Watch::none())?,
-        _ => None,
-    };
-    Ok(explained.map(|explanation| explanation.to_string()))
+    let derivation = reprove(folder, &Source::read(folder)?)?;
+    let explained = derivation.coupled().map(|coupled| coupled.explain(target, &Watch::none())).transpose()?;
+    Ok(explained.flatten().map(|explanation| explanation.to_string()))
 }
 
 /// Solves the targets of the command line; prints text, or JSON.

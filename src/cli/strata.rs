@@ -3,17 +3,18 @@
 use super::page::Page;
 use crate::Result;
 use groebot_algebra::groebner::Basis;
-use groebot_ik::derive::plan::{self, Score};
-use groebot_ik::derive::tree::{Node, Outcome};
-use groebot_ik::derive::{Derivation, System};
+use groebot_ik::derive::System;
+use groebot_ik::derive::equations::EquationsView;
+use groebot_ik::derive::equations::plan::{self, Score};
+use groebot_ik::derive::equations::tree::{Node, Outcome};
 
-/// Reports every stratum of both trees.
-pub fn describe(page: &mut Page, derivation: &Derivation) {
-    let two = derivation.searched.is_some();
-    for (title, root) in derivation.trees() {
+/// Tells about every stratum of both trees.
+pub fn describe(page: &mut Page, derivation: EquationsView<'_>) {
+    let two = derivation.method.searched.is_some();
+    for (title, root) in derivation.method.trees() {
         let title = if two { format!(": {title}, {}", order(root)) } else { String::new() };
-        page.heading(&format!("Strata on which formulas divide by zero{title}"));
-        let entries = entries(root, &derivation.system);
+        page.heading(&format!("Where formulas break down{title}"));
+        let entries = entries(root, derivation.problem);
         if entries.is_empty() {
             page.line("none: the same formulas hold at every target");
         }

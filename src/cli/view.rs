@@ -13,7 +13,7 @@ use groebot_humanoid::gait::{Footprint, Side};
 use groebot_humanoid::nav::Room;
 use groebot_humanoid::view::{Page, RunRequest, Sole};
 use groebot_humanoid::walkers::{self, Outline};
-use groebot_ik::derive::{Ends, InputFile, Proved};
+use groebot_ik::derive::{Ends, InputFile, Options};
 use groebot_ik::folder::CERTIFICATE;
 use groebot_ik::reach::ReachMap;
 use groebot_robot::document::{read_text, shown};
@@ -148,7 +148,7 @@ impl Arguments {
                 let text = format!("`{}`: coupled prismatic joints are not supported in a page", shown(tip));
                 return Err(Error::new(ErrorKind::Unsupported, text));
             }
-            let proved = Proved::of_chain(&chain, &session.watch)?;
+            let proved = Options::new().watch(session.watch.clone()).derive(&chain)?;
             let files = proved.stage_files()?;
             let certificate = files.iter().find(|(name, _)| name == CERTIFICATE);
             let certificate = certificate.and_then(|(_, bytes)| std::str::from_utf8(bytes).ok());

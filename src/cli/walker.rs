@@ -8,7 +8,7 @@ use nalgebra::Point2;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_humanoid::gait::{Biped, LegSolver, Usual, Walker};
 use groebot_humanoid::walkers::{self, Outline};
-use groebot_ik::derive::{Description, InputFile, Proved};
+use groebot_ik::derive::{Description, InputFile, Options};
 use groebot_robot::document::{is_stdin, shown};
 use groebot_robot::model::{Meshes, Robot};
 use groebot_robot::robots;
@@ -72,8 +72,8 @@ pub struct Named {
 /// The robot of that name, or from a file.
 ///
 /// # Errors
-/// [`ErrorKind::UnknownName`] for a name that is neither a robot of this crate nor a file; [`ErrorKind::MissingKey`]
-/// without the soles' links; those of the readers, of [`Biped::new`], of [`Proved::of_chain`] and of [`Walker::new`].
+/// [`ErrorKind::UnknownName`] for what is neither a robot of this crate nor a file; [`ErrorKind::MissingKey`] without the soles' links; those of
+/// the readers, of [`Biped::new`], of [`Options::derive`] and of [`Walker::new`].
 pub fn named(name: &str, outline: Outline, soles: &SoleArguments, watch: &Watch) -> Result<Named> {
     match (walkers::walker(name, outline), robots::robot(name)) {
         (Some(walker), Some(robot)) => Ok(Named { robot, meshes: Meshes::default(), walker: walker? }),
@@ -107,7 +107,7 @@ fn described(file: &Path, soles: &SoleArguments, watch: &Watch) -> Result<Named>
     let biped = biped.map_err(at_file)?;
     let leg = |name: &str| -> Result<LegSolver> {
         let chain = robot.chain(None, Some(name)).map_err(at_file)?;
-        Ok(Arc::new(Proved::of_chain(&chain, watch)?.program().solver()))
+        Ok(Arc::new(Options::new().watch(watch.clone()).derive(&chain)?.solver()))
     };
     let solvers = [leg(names[0])?, leg(names[1])?];
     let walker = Walker::new(&robot, biped, solvers).map_err(at_file)?;

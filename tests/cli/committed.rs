@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use groebot::Watch;
 use groebot::codegen::{c99::Pair, ikfast, rust};
-use groebot::derive::{Proved, Source};
+use groebot::derive::{Derivation, Source};
 
 use super::{run, text};
 
@@ -32,7 +32,7 @@ fn gravity_of(folder: &Path) -> Option<String> {
 /// What is wrong with a folder: a stage that a derivation writes otherwise, a file that none writes, a failing check.
 fn fault(folder: &Path) -> Option<String> {
     let source = Source::read(folder).unwrap();
-    let proved = match Proved::of(&source, &Watch::none()) {
+    let proved = match Derivation::of(&source, &Watch::none()) {
         Ok(proved) => proved.about(&source),
         Err(error) => return Some(error.to_string()),
     };

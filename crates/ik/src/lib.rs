@@ -45,4 +45,5 @@ pub mod codegen;
 
 pub mod folder;
 
+pub use derive::derive;
 pub use groebot_algebra::{Error, ErrorKind, Result, Watch};

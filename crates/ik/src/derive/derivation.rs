@@ -1,56 +1,315 @@
-//! The whole way from a system to its proved solver.
+//! The derivation of a solver: [`Derivation`].
 
-use super::compile::compile;
-use super::tree::Node;
-use super::{Orders, System, derive_tree};
-use crate::solver::Program;
-use crate::{Result, Watch};
-use groebot_algebra::groebner::Basis;
+use crate::derive::Source;
+use crate::derive::coupled::{Coupled, CoupledView};
+use crate::derive::eigenvalue::{self, Eigenvalue, EigenvalueView, fits};
+use crate::derive::equations::certificate;
+use crate::derive::equations::{Equations, EquationsView};
+use crate::derive::problem::{ChainProblem, Problem};
+use crate::derive::sequential::{self, Sequential, SequentialView};
+use crate::derive::view::View;
+use crate::solver::{About, Program, Solver};
+use crate::{Error, ErrorKind, Result, Watch};
+use groebot_robot::kinematics::Chain;
 
-/// What a derivation gives: every stage as plain data.
+/// The derivation of a solver, proved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivation {
-    /// The equations.
-    pub system: System,
-    /// The strata in the order that the system asks for: its first basis is what the source prints.
-    pub requested: Node,
-    /// The strata in the orders whose formulas break down least, when they differ: what the program is made of.
-    pub searched: Option<Node>,
-    /// The solver.
-    pub program: Program,
+    problem: Problem,
+    method: Method,
+    program: Program,
+}
+
+/// How a problem is solved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Method {
+    /// Equations as one block.
+    Equations(Box<Equations>),
+    /// A chain, one joint at a time.
+    Sequential(Box<Sequential>),
+    /// A chain, six joints together.
+    Eigenvalue(Box<Eigenvalue>),
+    /// Chains that share actuators, one chain after the other.
+    Coupled(Box<Coupled>),
+}
+
+/// A derivation with the types of its problem and its method known.
+#[derive(Clone, Copy, Debug)]
+pub enum AnyView<'a> {
+    /// Equations as one block.
+    Equations(EquationsView<'a>),
+    /// A chain, one joint at a time.
+    Sequential(SequentialView<'a>),
+    /// A chain, six joints together.
+    Eigenvalue(EigenvalueView<'a>),
+    /// Chains that share actuators, one chain after the other.
+    Coupled(CoupledView<'a>),
 }
 
 impl Derivation {
-    /// Derives, proves and compiles `system`.
+    /// Derives and proves the solver of `source`.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Inconsistent`], [`crate::ErrorKind::PositiveDimensional`] (naming the free joints),
-    /// [`crate::ErrorKind::Unsupported`] for what a program cannot hold, and what `watch` stops with.
-    pub fn new(system: System, watch: &Watch) -> Result<Self> {
-        let requested = derive_tree(&system, Orders::Requested, watch)?;
-        let searched = derive_tree(&system, Orders::Searched, watch)?;
-        let searched = (searched != requested).then_some(searched);
-        Derivation::assemble(system, requested, searched)
+    /// As [`Source::check_base`], [`Problem::of`] and [`Derivation::of_problem`].
+    pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
+        source.check_base()?;
+        Derivation::of_problem(Problem::of(source)?, watch).map_err(|error| match error.kind() {
+            ErrorKind::Unsupported | ErrorKind::PositiveDimensional => source.advised(error),
+            _ => error,
+        })
     }
 
-    /// The derivation of proved trees.
+    /// Derives and proves the solver of `problem`. A chain is solved one joint at a time, or where that is impossible by one eigenvalue problem of six
+    /// joints.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Unsupported`] for what a program cannot hold.
-    pub(super) fn assemble(system: System, requested: Node, searched: Option<Node>) -> Result<Self> {
-        let program = compile(&system, searched.as_ref().unwrap_or(&requested))?;
-        Ok(Derivation { system, requested, searched, program })
+    /// As [`Chain::check_base`] and [`Chain::check_task`]; [`ErrorKind::Inconsistent`] for equations without a solution, [`ErrorKind::PositiveDimensional`],
+    /// naming the joints, where some are free, [`ErrorKind::Unsupported`] for what no method is for; what `watch` stops with.
+    pub fn of_problem(problem: impl Into<Problem>, watch: &Watch) -> Result<Self> {
+        match problem.into() {
+            Problem::System(system) => {
+                let solved = Equations::derive(&system, watch)?;
+                Ok(Derivation::assemble(Problem::System(system), solved, Method::Equations))
+            }
+            Problem::Chain(problem) => Derivation::of_either(*problem, watch),
+            Problem::Coupled(coupled) => {
+                let solved = Coupled::derive(&coupled, watch)?;
+                Ok(Derivation::assemble(Problem::Coupled(coupled), solved, Method::Coupled))
+            }
+        }
     }
 
-    /// The number of complex solutions at a generic target: the dimension of the quotient ring.
+    /// One joint at a time, or where that is impossible all six joints together.
+    fn of_either(problem: ChainProblem, watch: &Watch) -> Result<Self> {
+        let chain = problem.measured();
+        chain.check_base(None)?;
+        match Sequential::derive(&problem, watch) {
+            Err(refusal) if refusal.kind() == ErrorKind::Unsupported && fits(chain).is_ok() => {
+                Derivation::by_eigenvalues(problem, watch).map_err(|error| match error.kind() {
+                    ErrorKind::Unsupported => refusal,
+                    _ => error,
+                })
+            }
+            solved => Ok(Derivation::assemble(problem.into(), solved?, Method::Sequential)),
+        }
+    }
+
+    /// Derives and proves the solver of a chain that finds one joint at a time.
+    ///
+    /// # Errors
+    /// [`ErrorKind::PositiveDimensional`] where joints are free; [`ErrorKind::Unsupported`] for a chain without such an order of joints; what `watch`
+    /// stops with.
+    pub fn sequentially(problem: impl Into<ChainProblem>, watch: &Watch) -> Result<Self> {
+        let problem = problem.into();
+        let solved = Sequential::derive(&problem, watch)?;
+        Ok(Derivation::assemble(problem.into(), solved, Method::Sequential))
+    }
+
+    /// Derives and proves the solver of a chain that finds six joints together.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`]), with infinitely many solutions, or without a
+    /// formulation that is regular and accurate; what `watch` stops with.
+    pub fn by_eigenvalues(problem: impl Into<ChainProblem>, watch: &Watch) -> Result<Self> {
+        let problem = problem.into();
+        let solved = Eigenvalue::derive(&problem, watch)?;
+        Ok(Derivation::assemble(problem.into(), solved, Method::Eigenvalue))
+    }
+
+    /// Proves the derivation of `source` anew from the text of its certificate, without the Groebner engine.
+    ///
+    /// # Errors
+    /// As [`Problem::of`] and [`Derivation::prove`].
+    pub fn again(source: &Source, text: &str) -> Result<Self> {
+        Derivation::prove(Problem::of(source)?, text)
+    }
+
+    /// Proves the derivation of `problem` anew from the text of its certificate, without searches and without the Groebner engine.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the stratum, step, form or chain for a claim
+    /// that does not hold, is missing or is left over.
+    pub fn prove(problem: impl Into<Problem>, text: &str) -> Result<Self> {
+        let problem = problem.into();
+        Ok(match &problem {
+            Problem::System(system) => {
+                let solved = certificate::prove(system, text)?;
+                Derivation::assemble(problem, solved, Method::Equations)
+            }
+            Problem::Chain(chain) if eigenvalue::is_certificate(text) => {
+                let solved = Eigenvalue::prove(chain, text)?;
+                Derivation::assemble(problem, solved, Method::Eigenvalue)
+            }
+            Problem::Chain(chain) => {
+                let solved = sequential::certificate::prove(chain, text)?;
+                Derivation::assemble(problem, solved, Method::Sequential)
+            }
+            Problem::Coupled(coupled) => {
+                let solved = Coupled::prove(coupled, text)?;
+                Derivation::assemble(problem, solved, Method::Coupled)
+            }
+        })
+    }
+
+    fn assemble<M>(problem: Problem, (method, program): (M, Program), of: impl Fn(Box<M>) -> Method) -> Self {
+        Derivation { problem, method: of(Box::new(method)), program }
+    }
+
+    /// What is solved.
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// How it is solved.
+    pub fn method(&self) -> &Method {
+        &self.method
+    }
+
+    /// The solver as data: what is stored and printed as source code.
+    pub fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// The solver, ready to run: it is prepared once and solves any number of targets.
+    pub fn solver(&self) -> Solver {
+        self.program.solver()
+    }
+
+    /// Its problem and its method with their types known.
+    pub fn view(&self) -> AnyView<'_> {
+        let program = &self.program;
+        match (&self.problem, &self.method) {
+            (Problem::System(problem), Method::Equations(method)) => {
+                AnyView::Equations(View { problem, method, program })
+            }
+            (Problem::Chain(problem), Method::Sequential(method)) => {
+                AnyView::Sequential(View { problem, method, program })
+            }
+            (Problem::Chain(problem), Method::Eigenvalue(method)) => {
+                AnyView::Eigenvalue(View { problem, method, program })
+            }
+            (Problem::Coupled(problem), Method::Coupled(method)) => AnyView::Coupled(View { problem, method, program }),
+            _ => unreachable!("each constructor joins a problem with a method for it"),
+        }
+    }
+
+    /// Equations as one block; none for another method.
+    pub fn equations(&self) -> Option<EquationsView<'_>> {
+        if let AnyView::Equations(view) = self.view() { Some(view) } else { None }
+    }
+
+    /// A chain, one joint at a time; none for another method.
+    pub fn sequential(&self) -> Option<SequentialView<'_>> {
+        if let AnyView::Sequential(view) = self.view() { Some(view) } else { None }
+    }
+
+    /// A chain, six joints together; none for another method.
+    pub fn eigenvalue(&self) -> Option<EigenvalueView<'_>> {
+        if let AnyView::Eigenvalue(view) = self.view() { Some(view) } else { None }
+    }
+
+    /// Chains that share actuators; none for another method.
+    pub fn coupled(&self) -> Option<CoupledView<'_>> {
+        if let AnyView::Coupled(view) = self.view() { Some(view) } else { None }
+    }
+
+    /// The target that the joint values `q` reach by the kinematics of the chains, in the order of the program's inputs.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for another number of joints; [`ErrorKind::Unsupported`] for equations, which have no forward kinematics.
+    pub fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
+        match (&self.problem, self.coupled()) {
+            (Problem::Chain(problem), _) => problem.reached(q),
+            (_, Some(coupled)) => coupled.reached(q),
+            _ => Err(Error::new(ErrorKind::Unsupported, "a system of equations has no forward kinematics")),
+        }
+    }
+
+    /// The text of `certificate.json`.
+    ///
+    /// # Errors
+    /// When a field cannot be built: never for a derivation that was made by this crate.
+    pub fn certificate(&self) -> Result<String> {
+        match self.view() {
+            AnyView::Equations(view) => certificate::write(view),
+            AnyView::Sequential(view) => sequential::certificate::write(view),
+            AnyView::Eigenvalue(view) => Ok(view.certificate()),
+            AnyView::Coupled(view) => view.certificate(),
+        }
+    }
+
+    /// The stage files with their names: the same bytes at every run.
+    ///
+    /// # Errors
+    /// As [`Derivation::certificate`].
+    pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
+        match self.view() {
+            AnyView::Equations(view) => view.stage_files(),
+            AnyView::Sequential(view) => view.stage_files(),
+            AnyView::Eigenvalue(view) => Ok(view.stage_files()),
+            AnyView::Coupled(view) => view.stage_files(),
+        }
+    }
+
+    /// The number of complex solutions of a generic reachable target, where it was counted.
     pub fn dimension(&self) -> Option<usize> {
-        let solved = self.requested.solved()?;
-        let (ring, polynomials) = (solved.triangular.ring.clone(), solved.certified.basis.clone());
-        Basis { ring, polynomials, cofactors: Vec::new() }.quotient_dimension()
+        match &self.method {
+            Method::Equations(method) => method.dimension(),
+            Method::Sequential(method) => Some(method.plan.dimension),
+            Method::Eigenvalue(method) => Some(method.dimension()),
+            Method::Coupled(method) => Some(method.dimension()),
+        }
     }
 
-    /// The tree that the program is made of.
-    pub fn solving(&self) -> &Node {
-        self.searched.as_ref().unwrap_or(&self.requested)
+    /// Same derivation, with the task, the links, a hash, the limits and the followers of `source` in its program.
+    #[must_use]
+    pub fn about(mut self, source: &Source) -> Self {
+        let solutions = self.dimension();
+        self.program.about = Some(About { solutions, ..about(source, &self.program) });
+        self
     }
+}
+
+/// What `source` says of itself, with limits and leaders of the program's joints.
+fn about(source: &Source, program: &Program) -> About {
+    let actuators = match (&source.chain, &source.coupled) {
+        (Some(chain), _) => chain.joints().iter().map(|joint| (joint.name.as_str(), joint.limits)).collect(),
+        (None, Some(coupled)) => {
+            coupled.actuators().iter().map(|actuator| (actuator.name.as_str(), coupled.limits(actuator))).collect()
+        }
+        (None, None) => Vec::new(),
+    };
+    let limits = |name: &str| actuators.iter().find(|(actuator, _)| *actuator == name).and_then(|(_, limits)| *limits);
+    let limits: Vec<_> = program.joints.iter().map(|joint| limits(&joint.name)).collect();
+    let joints = source.chain.as_ref().map_or(&[][..], Chain::joints);
+    let follows = |name: &str| joints.iter().find(|joint| joint.name == name).and_then(|joint| joint.mimic.clone());
+    let follows: Vec<_> = program.joints.iter().map(|joint| follows(&joint.name)).collect();
+    let asked = source.task_file().map_or_else(Vec::new, |(_, text)| text);
+    let [base, tip] = source.links.clone().map_or([None, None], |links| links.map(Some));
+    About {
+        task: task(source),
+        base,
+        tip,
+        solutions: None,
+        hash: format!("{:016x}", hash(source.text.bytes().chain(asked))),
+        limits: if limits.iter().all(Option::is_none) { Vec::new() } else { limits },
+        follows: if follows.iter().all(Option::is_none) { Vec::new() } else { follows },
+    }
+}
+
+/// What is asked of the tip, or of each chain's.
+fn task(source: &Source) -> String {
+    match (&source.chain, &source.coupled) {
+        (Some(chain), _) => chain.asked(),
+        (None, Some(coupled)) => {
+            let asked = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.asked()));
+            asked.collect::<Vec<_>>().join("; ")
+        }
+        (None, None) => "its equations".to_owned(),
+    }
+}
+
+/// The hash of Fowler, Noll and Vo, FNV-1a, of 64 bits (draft-eastlake-fnv).
+fn hash(bytes: impl Iterator<Item = u8>) -> u64 {
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

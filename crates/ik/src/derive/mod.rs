@@ -1,49 +1,32 @@
-//! From a description to polynomial equations, and on to a solver: the stages between kinematics and the solver.
+//! From a description to a proved solver: the stages between kinematics and the solver.
 
-mod assemble;
-pub mod certificate;
-pub mod certify;
-mod check;
 pub mod closure;
-pub mod compile;
-mod constants;
 pub mod coupled;
-pub mod derivation;
+mod derivation;
 pub mod eigenvalue;
-pub mod ends;
-pub mod explain;
-pub mod formulate;
-mod generic;
-mod grow;
-pub mod input;
-pub mod plan;
+pub mod equations;
+mod options;
 pub mod planner;
-mod print;
-pub mod proved;
-mod prover;
-mod radicals;
+pub mod problem;
 mod recount;
+pub mod report;
+mod samples;
 pub mod sequential;
-pub mod setting;
-pub mod stages;
-pub mod strata;
-mod system;
-mod system_parts;
-pub mod system_toml;
-pub mod tree;
-pub mod triangular;
+mod view;
 
-pub use derivation::Derivation;
-pub use ends::Ends;
-pub use formulate::formulate;
+pub use derivation::{AnyView, Derivation, Method};
+pub use equations::grow::{derive_tree, describe};
+pub use equations::prover::Orders;
 pub use groebot_robot::kinematics::{Choice, LengthUnit, Root};
-pub use grow::{derive_tree, describe};
-pub use input::{Description, InputFile, Source};
-pub use proved::Proved;
-pub use prover::Orders;
-pub use recount::Recount;
-pub use system::System;
-pub use system_parts::{
+pub use options::{Options, derive};
+pub use problem::ends::Ends;
+pub use problem::formulate::formulate;
+pub use problem::input::{Description, InputFile, Source};
+pub use problem::system::System;
+pub use problem::system_parts::{
     Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS,
     Parameter, ParameterSource, Quantity, SystemParts,
 };
+pub use problem::{ChainProblem, Problem};
+pub use recount::Recount;
+pub use view::View;

@@ -1,19 +1,19 @@
 //! What a certificate must claim at least, from the input alone. Main type: [`Recount`].
 
-use super::Proved;
-use super::certificate::refused;
-use super::closure::Mechanism;
-use super::coupled::DerivedCoupled;
-use super::eigenvalue::{DerivedSixAxes, Regular, ranked};
-use super::planner::{Evidence, evidence, same_degrees, same_evidence};
-use super::sequential::Derived;
+use crate::derive::closure::Mechanism;
+use crate::derive::coupled::CoupledView;
+use crate::derive::eigenvalue::{EigenvalueView, Regular, ranked};
+use crate::derive::equations::certificate::refused;
+use crate::derive::planner::{Evidence, evidence, same_degrees, same_evidence};
+use crate::derive::sequential::SequentialView;
+use crate::derive::{AnyView, Derivation};
 use crate::{Result, Watch};
 use groebot_robot::kinematics::Chain;
 
 /// Counts the solutions of mechanisms again, at the same targets modulo the same primes as their derivations, and looks for what was left out. It
 /// remembers what it has counted.
 ///
-/// The strata of equations need no count: those that are required follow from the proof itself, and [`Proved::again`] asks the engine about those
+/// The strata of equations need no count: those that are required follow from the proof itself, and [`Derivation::prove`] asks the engine about those
 /// that are claimed to be open.
 pub struct Recount {
     watch: Watch,
@@ -31,38 +31,42 @@ impl Recount {
     ///
     /// # Errors
     /// [`crate::ErrorKind::Certificate`] with what is claimed and what there is; what the watch stops with.
-    pub fn check(&mut self, proved: &Proved) -> Result<()> {
-        match proved {
-            Proved::Equations(_) => Ok(()),
-            Proved::Chain(derived) => self.chain(derived),
-            Proved::SixAxes(derived) => self.six_axes(derived),
-            Proved::Coupled(derived) => self.coupled(derived),
+    pub fn check(&mut self, derivation: &Derivation) -> Result<()> {
+        match derivation.view() {
+            AnyView::Equations(_) => Ok(()),
+            AnyView::Sequential(derived) => self.chain(derived),
+            AnyView::Eigenvalue(derived) => self.six_axes(derived),
+            AnyView::Coupled(derived) => self.coupled(derived),
         }
     }
 
-    fn chain(&mut self, derived: &Derived) -> Result<()> {
-        let mechanism = Mechanism::new(&derived.chain)?;
-        let plan = &derived.plan;
-        same_evidence(self.evidence(&derived.chain, &mechanism)?, &plan.evidence, plan.dimension)?;
+    fn chain(&mut self, derived: SequentialView<'_>) -> Result<()> {
+        let mechanism = Mechanism::new(&derived.problem.chain)?;
+        let plan = &derived.method.plan;
+        same_evidence(self.evidence(&derived.problem.chain, &mechanism)?, &plan.evidence, plan.dimension)?;
         same_degrees(&mechanism, plan, &self.watch)
     }
 
-    fn six_axes(&mut self, derived: &DerivedSixAxes) -> Result<()> {
-        let mechanism = Mechanism::new(&derived.chain)?;
-        same_evidence(self.evidence(&derived.chain, &mechanism)?, &derived.evidence, derived.dimension())?;
-        if *self.formulations(&derived.six)? == derived.formulations {
+    fn six_axes(&mut self, derived: EigenvalueView<'_>) -> Result<()> {
+        let mechanism = Mechanism::new(&derived.problem.chain)?;
+        same_evidence(
+            self.evidence(&derived.problem.chain, &mechanism)?,
+            &derived.method.evidence,
+            derived.method.dimension(),
+        )?;
+        if *self.formulations(&derived.method.six)? == derived.method.formulations {
             return Ok(());
         }
         Err(refused("the formulations are not those that are regular and most accurate, the best first".to_owned()))
     }
 
-    fn coupled(&mut self, derived: &DerivedCoupled) -> Result<()> {
+    fn coupled(&mut self, derived: CoupledView<'_>) -> Result<()> {
         if derived.leaves_shared_joints_out(&self.watch)? {
             return Err(refused("the proof of the shared joints is missing".to_owned()));
         }
-        for stage in &derived.stages {
-            let name = &derived.coupled.chains()[stage.member].name;
-            self.chain(&stage.derived).map_err(|error| error.with_context(format_args!("chain `{name}`")))?;
+        for stage in &derived.method.stages {
+            let name = &derived.problem.chains()[stage.member].name;
+            self.chain(stage.view()).map_err(|error| error.with_context(format_args!("chain `{name}`")))?;
         }
         Ok(())
     }

@@ -10,9 +10,9 @@ use super::words::proof_words;
 use super::written::{Written, derived};
 use super::{motion, names};
 use crate::codegen::{c99::Pair, ikfast, rust, single_file};
-use crate::derive::ends::TASK_NAME;
-use crate::derive::stages::{MARK, PAGE};
-use crate::derive::{Proved, Recount, Source};
+use crate::derive::problem::ends::TASK_NAME;
+use crate::derive::report::stages::{MARK, PAGE};
+use crate::derive::{Derivation, Recount, Source};
 use crate::solver::Program;
 use crate::witness::{self, Report};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -26,7 +26,7 @@ pub struct Checked {
     /// One finding for each file, the input's and the certificate's first.
     pub findings: Vec<Finding>,
     /// The derivation with its numeric checks, where the certificate proves it.
-    pub derivation: Option<(Proved, Report)>,
+    pub derivation: Option<(Derivation, Report)>,
 }
 
 /// Checks every file of a folder that holds the derivation of `source`, or equations of motion of its chain, or both: each file that groebot
@@ -47,7 +47,7 @@ pub fn check_by(
     source: &Source,
     stored: &Stored,
     watch: &Watch,
-    measure: impl FnOnce(&Proved) -> Result<Report>,
+    measure: impl FnOnce(&Derivation) -> Result<Report>,
 ) -> Result<Checked> {
     let mut findings = vec![Finding::holds(source.name, described(source))];
     let mut known: BTreeSet<String> = inputs(source).map(str::to_owned).collect();
@@ -75,8 +75,8 @@ pub fn check_by(
 /// The derivation that the stored certificate proves, which claims as much as that of the input.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] where there is no certificate; as [`Proved::again`] and [`Recount::check`]; with the file.
-pub fn prove(source: &Source, stored: &Stored, recount: &mut Recount) -> Result<Proved> {
+/// [`ErrorKind::Io`] where there is no certificate; as [`Derivation::again`] and [`Recount::check`]; with the file.
+pub fn prove(source: &Source, stored: &Stored, recount: &mut Recount) -> Result<Derivation> {
     let at_file = |error: Error| error.in_file(&stored.folder.join(CERTIFICATE));
     let missing = || {
         let text = "there is no certificate, so nothing proves the other files; `groebot derive` writes it";
@@ -89,9 +89,9 @@ pub fn prove(source: &Source, stored: &Stored, recount: &mut Recount) -> Result<
 /// The derivation that the text of a certificate proves, which claims as much as that of the input.
 ///
 /// # Errors
-/// As [`Proved::again`] and [`Recount::check`].
-pub fn prove_text(source: &Source, certificate: &str, recount: &mut Recount) -> Result<Proved> {
-    let proved = Proved::again(source, certificate)?;
+/// As [`Derivation::again`] and [`Recount::check`].
+pub fn prove_text(source: &Source, certificate: &str, recount: &mut Recount) -> Result<Derivation> {
+    let proved = Derivation::again(source, certificate)?;
     recount.check(&proved)?;
     Ok(proved.about(source))
 }

@@ -1,6 +1,6 @@
 //! The names of files that are written into a mechanism's folder.
 
-use crate::derive::stages::STAGES;
+use crate::derive::report::stages::STAGES;
 
 /// The file of the numeric checks.
 pub const CHECKS: &str = "6_check.csv";

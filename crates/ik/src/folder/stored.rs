@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::names::{CODE, is_printed_solver, is_written_name};
-use crate::derive::stages::{MARK, PAGE};
+use crate::derive::report::stages::{MARK, PAGE};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::read_bytes;
 

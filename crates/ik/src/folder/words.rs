@@ -1,30 +1,31 @@
 //! What a certificate proves, in words.
 
 use crate::derive::coupled::ChainStage;
-use crate::derive::sequential::Derived;
-use crate::derive::{Derivation, Proved};
+use crate::derive::equations::Equations;
+use crate::derive::sequential::Sequential;
+use crate::derive::{AnyView, Derivation};
 
 /// How many steps, bases or eigenvalue problems were proved again.
-pub fn proof_words(proved: &Proved) -> String {
-    match proved {
-        Proved::Equations(derivation) => proved_equations(derivation),
-        Proved::Chain(derived) => proved_chain(derived),
-        Proved::SixAxes(derived) => {
-            format!("{} eigenvalue problems proved regular again", derived.formulations.len())
+pub fn proof_words(derivation: &Derivation) -> String {
+    match derivation.view() {
+        AnyView::Equations(equations) => proved_equations(equations.method),
+        AnyView::Sequential(chain) => proved_chain(chain.method),
+        AnyView::Eigenvalue(six) => {
+            format!("{} eigenvalue problems proved regular again", six.method.formulations.len())
         }
-        Proved::Coupled(derived) => {
+        AnyView::Coupled(derived) => {
             let member = |stage: &ChainStage| {
-                format!("{}: {}", derived.coupled.chains()[stage.member].name, proved_chain(&stage.derived))
+                format!("{}: {}", derived.problem.chains()[stage.member].name, proved_chain(&stage.method))
             };
-            let shared = derived.simultaneous.iter().map(|_| {
+            let shared = derived.method.simultaneous.iter().map(|_| {
                 format!("{}: an equation of each chain proved again", derived.simultaneous_names().join(", "))
             });
-            shared.chain(derived.stages.iter().map(member)).collect::<Vec<_>>().join("; ")
+            shared.chain(derived.method.stages.iter().map(member)).collect::<Vec<_>>().join("; ")
         }
     }
 }
 
-fn proved_chain(derived: &Derived) -> String {
+fn proved_chain(derived: &Sequential) -> String {
     let relations: usize = derived.steps.iter().map(|step| step.relations.len()).sum();
     let bases: usize =
         derived.form_bases.iter().flat_map(|form_basis| form_basis.tree.walk()).map(|node| node.proofs().len()).sum();
@@ -35,7 +36,7 @@ fn proved_chain(derived: &Derived) -> String {
     )
 }
 
-fn proved_equations(derivation: &Derivation) -> String {
+fn proved_equations(derivation: &Equations) -> String {
     let trees = derivation.trees();
     let nodes: Vec<_> = trees.iter().flat_map(|(_, node)| node.walk()).collect();
     let proofs: Vec<_> = nodes.iter().flat_map(|node| node.proofs()).map(|(_, certified)| certified.proof).collect();

@@ -3,7 +3,8 @@
 use super::names::{CHECKS, IKFAST, IKFAST_END, SOLVER};
 use crate::Result;
 use crate::codegen::{self, c99::Pair};
-use crate::derive::{Proved, Source, stages};
+use crate::derive::report::stages;
+use crate::derive::{Derivation, Method, Source};
 use crate::solver::Program;
 use crate::witness::Report;
 use groebot_robot::document::word;
@@ -30,8 +31,8 @@ impl Written {
 /// Every file that a derivation writes beside its input, by name: the stages with the certificate, the page, the printed solvers, the numeric checks.
 ///
 /// # Errors
-/// As [`Proved::stage_files`].
-pub fn derived(source: &Source, derivation: &Proved, checked: &Report) -> Result<Vec<Written>> {
+/// As [`Derivation::stage_files`].
+pub fn derived(source: &Source, derivation: &Derivation, checked: &Report) -> Result<Vec<Written>> {
     let mut files: Vec<Written> = derivation.stage_files()?.into_iter().map(Written::proved).collect();
     if let Some(page) = files.iter_mut().find(|file| file.name == stages::PAGE) {
         page.bytes.extend(measured(derivation, checked).into_bytes());
@@ -43,11 +44,11 @@ pub fn derived(source: &Source, derivation: &Proved, checked: &Report) -> Result
 }
 
 /// What the page tells of the numeric checks.
-fn measured(derivation: &Proved, checked: &Report) -> String {
-    match derivation {
-        Proved::Equations(_) => String::new(),
-        Proved::Chain(_) | Proved::SixAxes(_) => accuracy(checked) + &weak_spots(checked),
-        Proved::Coupled(_) => {
+fn measured(derivation: &Derivation, checked: &Report) -> String {
+    match derivation.method() {
+        Method::Equations(_) => String::new(),
+        Method::Sequential(_) | Method::Eigenvalue(_) => accuracy(checked) + &weak_spots(checked),
+        Method::Coupled(_) => {
             accuracy(checked) + &weak_spots(checked) + &format!("\nWitnesses: {}.\n", checked.summary())
         }
     }

@@ -2,7 +2,7 @@
 
 use super::chain::{self, coupled};
 use super::{Check, Draws, Options, Report};
-use crate::derive::{Proved, Source};
+use crate::derive::{AnyView, ChainProblem, Derivation, Source};
 use crate::solver::Program;
 use crate::{Result, Watch};
 use groebot_robot::kinematics::Chain;
@@ -26,7 +26,7 @@ const MISSES: f64 = 2.0;
 ///
 /// # Errors
 /// As [`Check::run`], [`chain::Check::run`] and [`coupled::check`].
-pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<Report> {
+pub fn check(source: &Source, derivation: &Derivation, watch: &Watch) -> Result<Report> {
     let of = |targets, oracle, exact, seed| Options { targets, oracle, exact, seed, draws: Draws::All };
     let amounts = Amounts {
         equations: Options::default(),
@@ -35,7 +35,7 @@ pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<Report> 
         ideal: of(40, 0, 20, 2),
         coupled: of(60, 1, 6, 1),
     };
-    let report = checked(source, proved, &amounts, watch)?;
+    let report = checked(source, derivation, &amounts, watch)?;
     match &source.chain {
         Some(chain) => Ok(report.turned(chain)),
         None => Ok(report),
@@ -46,37 +46,42 @@ pub fn check(source: &Source, proved: &Proved, watch: &Watch) -> Result<Report> 
 ///
 /// # Errors
 /// As [`check`].
-pub fn check_round(source: &Source, proved: &Proved, targets: usize, watch: &Watch) -> Result<Report> {
+pub fn check_round(source: &Source, derivation: &Derivation, targets: usize, watch: &Watch) -> Result<Report> {
     let options = Options { targets, oracle: 1, exact: 0, seed: 1, draws: Draws::Round };
     let amounts = Amounts { equations: options, chain: options, polished: options, ideal: options, coupled: options };
-    checked(source, proved, &amounts, watch)
+    checked(source, derivation, &amounts, watch)
 }
 
-fn checked(source: &Source, proved: &Proved, amounts: &Amounts, watch: &Watch) -> Result<Report> {
-    match proved {
-        Proved::Equations(derivation) => Check::run(source, &derivation.program, &amounts.equations, watch),
-        Proved::Chain(derived) => match &derived.unpolished {
-            None => {
-                chain::Check::run(&derived.chain, &derived.program, derived.program.isolated, &amounts.chain, watch)
-            }
-            Some(ideal) => check_both(
-                derived.measured(),
-                &derived.program,
-                (&derived.chain, ideal, ideal.isolated),
-                amounts,
-                watch,
-            ),
-        },
-        Proved::SixAxes(derived) => match &derived.unpolished {
-            None => {
-                chain::Check::run(&derived.chain, &derived.program, Some(derived.dimension()), &amounts.chain, watch)
-            }
-            Some(ideal) => {
-                let bound = Some(derived.dimension());
-                check_both(derived.measured(), &derived.program, (&derived.chain, ideal, bound), amounts, watch)
-            }
-        },
-        Proved::Coupled(derived) => coupled::check(derived, &amounts.coupled, watch),
+fn checked(source: &Source, derivation: &Derivation, amounts: &Amounts, watch: &Watch) -> Result<Report> {
+    match derivation.view() {
+        AnyView::Equations(view) => Check::run(source, view.program, &amounts.equations, watch),
+        AnyView::Sequential(view) => {
+            let of_ideal = |ideal: &Program| ideal.isolated;
+            check_chain(view.problem, view.program, (view.unpolished()?, of_ideal), amounts, watch)
+        }
+        AnyView::Eigenvalue(view) => {
+            let of_ideal = |_: &Program| Some(view.method.dimension());
+            check_chain(view.problem, view.program, (view.unpolished()?, of_ideal), amounts, watch)
+        }
+        AnyView::Coupled(view) => coupled::check(view, &amounts.coupled, watch),
+    }
+}
+
+/// The checks of a chain's solver, and where that polishes the answers of an ideal chain's solver, those of this one too; `bound` is the most solutions that
+/// the solver of the ideal chain may have.
+fn check_chain(
+    problem: &ChainProblem,
+    program: &Program,
+    (unpolished, bound): (Option<Program>, impl Fn(&Program) -> Option<usize>),
+    amounts: &Amounts,
+    watch: &Watch,
+) -> Result<Report> {
+    match unpolished {
+        None => chain::Check::run(&problem.chain, program, bound(program), &amounts.chain, watch),
+        Some(ideal) => {
+            let bound = bound(&ideal);
+            check_both(problem.measured(), program, (&problem.chain, &ideal, bound), amounts, watch)
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use groebot_ik::Watch;
 use groebot_ik::codegen;
-use groebot_ik::derive::{Proved, Source};
+use groebot_ik::derive::{Derivation, Source};
 use groebot_ik::solver::Program;
 
 use super::harness::{compare, compile_c, rustc};
@@ -24,7 +24,7 @@ fn a_program_says_what_it_comes_from() {
     for (name, task) in [("planar_2r", "planar_position in xy"), ("nao_head", "direction of [1, 0, 0]")] {
         let mut source = Source::read(&folder(name)).unwrap();
         let about = |source: &Source| {
-            Proved::of(source, &Watch::none()).unwrap().about(source).program().about.clone().unwrap()
+            Derivation::of(source, &Watch::none()).unwrap().about(source).program().about.clone().unwrap()
         };
         let told = about(&source);
         assert_eq!((told.task.as_str(), told.base.as_deref()), (task, None), "{name}");

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use groebot_ik::codegen::ikfast::{Options, emit};
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::Derivation;
 use groebot_ik::solver::{Instruction, Operand, Operation, Program, Unit};
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::Chain;
@@ -167,7 +167,7 @@ fn a_ray_is_a_translation_and_a_direction() {
             .unwrap();
     let (text, _) = text.rsplit_once("[[joint]]").unwrap();
     let chain = Chain::from_toml(&text.replace("\"pose\"", "\"ray\", direction = [0, 0, 1]")).unwrap();
-    let program = Derived::of_chain(&chain, &Watch::none()).unwrap().program;
+    let program = Derivation::sequentially(&chain, &Watch::none()).unwrap().program().clone();
     assert!(emit(&program, &Options::default()).unwrap().contains("TranslationDirection5D (0x56000007)"));
     let stored = Stored { name: "puma_ray".into(), program, chain: Some(chain) };
     let Some(total) = compare(&stored, 200) else { return };

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use groebot_ik::ErrorKind;
-use groebot_ik::derive::{Derivation, certificate};
+use groebot_ik::derive::Derivation;
 use proptest::prelude::*;
 use serde_json::Value;
 
@@ -14,7 +14,7 @@ fn leg() -> &'static (Derivation, String) {
     static LEG: OnceLock<(Derivation, String)> = OnceLock::new();
     LEG.get_or_init(|| {
         let derivation = derive(source("nao_leg_sagittal").system.unwrap());
-        let text = certificate::write(&derivation).unwrap();
+        let text = derivation.certificate().unwrap();
         (derivation, text)
     })
 }
@@ -24,8 +24,8 @@ fn what_is_written_is_proved_again() {
     for system in [source("nao_leg_sagittal").system.unwrap(), source("nao_arm_planar").system.unwrap(), symbolic_leg()]
     {
         let derivation = derive(system);
-        let text = certificate::write(&derivation).unwrap();
-        assert_eq!(certificate::prove(&derivation.system, &text).unwrap(), derivation);
+        let text = derivation.certificate().unwrap();
+        assert_eq!(Derivation::prove(derivation.problem().clone(), &text).unwrap(), derivation);
     }
 }
 
@@ -37,7 +37,7 @@ fn damaged(damage: impl FnOnce(&mut Value)) -> groebot_ik::Error {
     damage(&mut whole["claims"]);
     let value = whole;
     assert_ne!(value, before, "the damage took effect");
-    certificate::prove(&derivation.system, &value.to_string()).unwrap_err()
+    Derivation::prove(derivation.problem().clone(), &value.to_string()).unwrap_err()
 }
 
 fn expect(error: &groebot_ik::Error, words: &str) {
@@ -73,7 +73,7 @@ fn forged_claims_are_refused_and_located() {
     let (derivation, text) = leg();
     let other = text.replacen("\"name\": \"nao_leg_sagittal\"", "\"name\": \"another\"", 1);
     expect(
-        &certificate::prove(&derivation.system, &other).unwrap_err(),
+        &Derivation::prove(derivation.problem().clone(), &other).unwrap_err(),
         "this certificate proves the equations `another`",
     );
     let error = damaged(|v| drop(v.as_object_mut().unwrap().remove("requested")));
@@ -115,12 +115,12 @@ fn a_stratum_that_the_derivation_leaves_open_may_be_open() {
          [[joint]]\nname = \"x\"\nunknown = \"x\"\n[[equation]]\nlabel = \"(1)\"\nequation = \"x/a - b = 0\"\n",
     );
     let derivation = derive(system.unwrap());
-    let text = certificate::write(&derivation).unwrap();
+    let text = derivation.certificate().unwrap();
     assert!(text.contains("\"kind\": \"open\""), "{text}");
-    assert_eq!(certificate::prove(&derivation.system, &text).unwrap(), derivation);
+    assert_eq!(Derivation::prove(derivation.problem().clone(), &text).unwrap(), derivation);
     let start = text.find("\"reason\": \"").unwrap() + "\"reason\": \"".len();
     let forged = format!("{}it is hot{}", &text[..start], &text[start..]);
-    expect(&certificate::prove(&derivation.system, &forged).unwrap_err(), "another reason");
+    expect(&Derivation::prove(derivation.problem().clone(), &forged).unwrap_err(), "another reason");
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn the_certificate_of_another_mechanism_proves_nothing() {
     let mut parts = source("nao_leg_sagittal").system.unwrap().into_parts();
     parts.equations[0].expression = groebot_algebra::poly::parse("100*s3 + 103*(s3*c4 + c3*s4) - px").unwrap();
     let other = groebot_ik::derive::System::new(parts).unwrap();
-    expect(&certificate::prove(&other, text).unwrap_err(), "stratum `generic`");
+    expect(&Derivation::prove(other, text).unwrap_err(), "stratum `generic`");
 }
 
 proptest! {
@@ -143,14 +143,14 @@ proptest! {
         let index = (place * bytes.len() as f64) as usize;
         bytes[index] = letter.as_bytes()[0];
         let changed = String::from_utf8(bytes).unwrap();
-        if let Ok(proved) = certificate::prove(&derivation.system, &changed) {
-            prop_assert_eq!(&proved.program, &derivation.program);
+        if let Ok(proved) = Derivation::prove(derivation.problem().clone(), &changed) {
+            prop_assert_eq!(proved.program(), derivation.program());
         }
     }
 
     #[test]
     fn noise_is_no_certificate(noise in "\\PC{0,400}") {
         let (derivation, _) = leg();
-        prop_assert!(certificate::prove(&derivation.system, &noise).is_err());
+        prop_assert!(Derivation::prove(derivation.problem().clone(), &noise).is_err());
     }
 }

@@ -1,6 +1,7 @@
 //! Chains of other shapes: every task that is derived, checked by forward kinematics of known joints.
 
-use groebot_ik::derive::{Derivation, formulate};
+use groebot_ik::derive::Derivation;
+use groebot_ik::derive::formulate;
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::Chain;
 
@@ -16,7 +17,7 @@ fn chain(task: &str, joints: &[String], tip: &str) -> Chain {
 }
 
 fn derive(chain: &Chain) -> Derivation {
-    Derivation::new(formulate(chain).unwrap(), &Watch::none()).unwrap()
+    Derivation::of_problem(formulate(chain).unwrap(), &Watch::none()).unwrap()
 }
 
 /// Joint values spread over the circle, away from the special angles.
@@ -28,7 +29,7 @@ fn samples(joints: usize) -> Vec<Vec<f64>> {
 fn assert_complete(chain: &Chain, derivation: &Derivation, target: impl Fn(&[f64]) -> Vec<f64>, bound: usize) {
     for q in samples(chain.joints().len()) {
         let target_values = target(&q);
-        let answers = derivation.program.solve_numbers(&target_values).unwrap();
+        let answers = derivation.program().solve_numbers(&target_values).unwrap();
         let near = |a: &f64, b: &f64| (a - b).sin().abs() < 1e-6 && (a - b).cos() > 0.0;
         let found = answers.iter().any(|answer| answer.q.iter().zip(&q).all(|(a, b)| near(a, b)));
         assert!(found, "{q:?} not among {answers:?}");
@@ -83,14 +84,14 @@ fn a_telescope_has_a_prismatic_unknown() {
         [joint("turn", "revolute", "[0, 0, 1]", "[0, 0, 0]"), joint("slide", "prismatic", "[1, 0, 0]", "[0, 0, 0]")];
     let chain = chain("kind = \"planar_position\"\nplane = \"xy\"", &joints, "[0.2, 0, 0]");
     let derivation = derive(&chain);
-    assert_eq!(derivation.program.joints.len(), 2);
+    assert_eq!(derivation.program().joints.len(), 2);
     for q in [[0.3, 0.5], [-2.9, 0.1], [1.2, -0.9]] {
         let tip = chain.forward(&q).unwrap().translation;
-        let answers = derivation.program.solve_numbers(&[tip.x, tip.y]).unwrap();
+        let answers = derivation.program().solve_numbers(&[tip.x, tip.y]).unwrap();
         assert_eq!(answers.len(), 2, "{answers:?}");
         assert!(answers.iter().any(|a| (a.q[0] - q[0]).abs() < 1e-9 && (a.q[1] - q[1]).abs() < 1e-9), "{answers:?}");
     }
-    let answers = derivation.program.solve_numbers(&[0.0, 0.0]).unwrap();
+    let answers = derivation.program().solve_numbers(&[0.0, 0.0]).unwrap();
     assert_eq!(answers.len(), 1, "{answers:?}");
     assert_eq!(answers[0].free, [0], "at the centre the turn is free");
     assert!((answers[0].q[1] + 0.2).abs() < 1e-12);
@@ -110,7 +111,7 @@ fn a_slanted_axis_brings_an_exact_root() {
     let derivation = derive(&chain);
     for q in [[0.3, 0.5, 0.2], [-0.9, 0.1, 0.4], [1.2, -0.9, 0.3]] {
         let tip = chain.forward(&q).unwrap().translation.vector;
-        let answers = derivation.program.solve_numbers(tip.as_slice()).unwrap();
+        let answers = derivation.program().solve_numbers(tip.as_slice()).unwrap();
         let found = answers.iter().any(|a| a.q.iter().zip(&q).all(|(a, b)| (a - b).abs() < 1e-8));
         assert!(found, "{q:?} not among {answers:?}");
     }

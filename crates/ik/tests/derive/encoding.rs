@@ -31,7 +31,7 @@ fn read(bytes: &[u8]) -> groebot_robot::Result<(Robot, String)> {
     let folder = tempdir().unwrap();
     let file = folder.path().join("0_robot.urdf");
     fs::write(&file, bytes).unwrap();
-    let robot = Robot::read_urdf(&file);
+    let robot = Robot::read(&file);
     let input = InputFile::read(&file);
     match (robot, input) {
         (Ok(robot), Ok(input)) => {

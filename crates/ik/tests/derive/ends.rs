@@ -3,7 +3,7 @@
 use std::fs;
 
 use groebot_ik::ErrorKind;
-use groebot_ik::derive::ends::TASK_NAME;
+use groebot_ik::derive::problem::ends::TASK_NAME;
 use groebot_ik::derive::{Ends, InputFile};
 use groebot_robot::kinematics::{BaseAxis, Plane, Task};
 

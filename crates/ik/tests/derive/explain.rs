@@ -1,4 +1,4 @@
-//! `groebot_ik::derive::explain`: the formulas that a report prints are true, it leaves no joint out, and its LaTeX is well formed.
+//! `groebot_ik::derive::report::explain`: the formulas that a report prints are true, it leaves no joint out, and its LaTeX is well formed.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -7,21 +7,20 @@ use std::process::Command;
 use groebot_algebra::number::{BigRational, Rationals};
 use groebot_algebra::poly::{Expression, Order, PolynomialRing, parse};
 use groebot_ik::Watch;
-use groebot_ik::derive::explain::{Document, Line, Part, Span, explain};
-use groebot_ik::derive::sequential::Derived;
-use groebot_ik::derive::{Ends, Proved, Source};
+use groebot_ik::derive::report::explain::{Document, Line, Part, Span, explain};
+use groebot_ik::derive::{Derivation, Ends, Source};
 use groebot_robot::kinematics::Chain;
 use groebot_robot::robots;
 use num_traits::ToPrimitive;
 
 type Values = HashMap<String, BigRational>;
 
-fn derived(chain: &Chain) -> Derived {
-    Derived::of_chain(chain, &Watch::none()).unwrap()
+fn derived(chain: &Chain) -> Derivation {
+    Derivation::sequentially(chain, &Watch::none()).unwrap()
 }
 
-fn report(derived: &Derived) -> Document {
-    explain(&Proved::Chain(Box::new(derived.clone()))).unwrap()
+fn report(derived: &Derivation) -> Document {
+    explain(derived).unwrap()
 }
 
 /// The report of a system that is solved together.
@@ -32,7 +31,7 @@ fn sagittal() -> Document {
 fn of_folder(name: &str) -> Document {
     let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("derivations").join(name);
     let source = Source::read_between(&folder, &Ends::default()).unwrap();
-    explain(&Proved::of(&source, &Watch::none()).unwrap()).unwrap()
+    explain(&Derivation::of(&source, &Watch::none()).unwrap()).unwrap()
 }
 
 fn chains() -> [Chain; 4] {
@@ -44,7 +43,7 @@ fn every_joint_has_its_step_and_every_relation_is_shown() {
     for chain in chains() {
         let derived = derived(&chain);
         let text = report(&derived).to_markdown();
-        for (index, step) in derived.steps.iter().enumerate() {
+        for (index, step) in derived.sequential().unwrap().method.steps.iter().enumerate() {
             let name = &chain.joints()[step.joint].name;
             assert!(text.contains(&format!("## Step {}: joint {}, `{name}`\n", index + 1, step.joint + 1)), "{text}");
             for (number, relation) in step.relations.iter().enumerate() {
@@ -79,7 +78,7 @@ fn the_printed_equations_hold_at_reached_poses() {
         let q: Vec<f64> = (0..chain.joints().len()).map(|k| 0.4 + 0.37 * k as f64).collect();
         let mut values = Values::new();
         let target = derived.reached(&q).unwrap();
-        for (input, value) in derived.program.inputs.iter().zip(target) {
+        for (input, value) in derived.program().inputs.iter().zip(target) {
             values.insert(input.name.clone(), number(value));
         }
         for (joint, q) in chain.joints().iter().zip(&q) {
@@ -87,7 +86,8 @@ fn the_printed_equations_hold_at_reached_poses() {
             values.insert(format!("s{}", joint.symbol), number(q.sin()));
         }
         let checked = check_steps(&report(&derived), &values);
-        let least = derived.steps.iter().map(|step| step.relations.len() + 2).sum::<usize>();
+        let least =
+            derived.sequential().unwrap().method.steps.iter().map(|step| step.relations.len() + 2).sum::<usize>();
         assert!(checked >= least, "{checked} of {least}");
     }
 }

@@ -4,7 +4,7 @@
 use std::f64::consts::{PI, TAU};
 
 use groebot_algebra::number::BigRational;
-use groebot_ik::derive::sequential::{Derived, certificate};
+use groebot_ik::derive::Derivation;
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::{Chain, ChainParts, Joint, JointKind, Mimic, Plane, Task, Tip, along_z};
 use groebot_robot::model::Robot;
@@ -166,8 +166,8 @@ impl Mechanism {
     }
 
     /// The answers of the derived solver, those of the independent joints; each followed by the others, and right by the kinematics of this file.
-    fn solved(&self, derived: &Derived, target: &[f64]) -> Vec<Vec<f64>> {
-        let answers = derived.program.solve_numbers(target).unwrap();
+    fn solved(&self, derived: &Derivation, target: &[f64]) -> Vec<Vec<f64>> {
+        let answers = derived.program().solve_numbers(target).unwrap();
         let part = |q: &[f64]| self.independent().into_iter().map(|place| q[place]).collect::<Vec<f64>>();
         answers
             .iter()
@@ -188,8 +188,8 @@ impl Mechanism {
 
     /// At targets of random joint values, and of multiples of 15 degrees, the solver has the answers of the search, and no other.
     fn agrees(&self, targets: usize, starts: usize) -> Vec<usize> {
-        let derived = Derived::of_chain(&self.chain(), &Watch::none()).unwrap();
-        assert_eq!(derived.program.inputs.len(), self.seen(&vec![0.0; self.joints.len()]).len(), "no joint is given");
+        let derived = Derivation::sequentially(&self.chain(), &Watch::none()).unwrap();
+        assert_eq!(derived.program().inputs.len(), self.seen(&vec![0.0; self.joints.len()]).len(), "no joint is given");
         let mut random = Random(7);
         let mut counts = Vec::new();
         for number in 0..targets {
@@ -251,7 +251,7 @@ fn a_parallelogram_arm_reaches_a_place_in_four_postures() {
         (true, Y, [0.2, 0.0, 0.0], None),
     ];
     let arm = Mechanism::new(Task::Position, [0.35, 0.0, 0.0], &joints);
-    let derived = Derived::of_chain(&arm.chain(), &Watch::none()).unwrap();
+    let derived = Derivation::sequentially(&arm.chain(), &Watch::none()).unwrap();
     let target = arm.seen(&arm.whole(&[0.1, 0.3, 0.4]));
     assert_eq!(arm.solved(&derived, &target).len(), 4);
     arm.agrees(9, 60);
@@ -347,7 +347,7 @@ fn a_hollow_wrist_bends_by_two_joints_that_turn_against_each_other() {
 fn a_fraction_of_a_turn_is_left_to_the_search() {
     let joints = [(true, Y, [0.0; 3], None), (true, Y, [0.04, 0.0, 0.0], Some((0, 0.5, 0.0)))];
     let finger = Mechanism::new(Task::Position, [0.07, 0.0, 0.005], &joints);
-    let error = Derived::of_chain(&finger.chain(), &Watch::none()).unwrap_err();
+    let error = Derivation::sequentially(&finger.chain(), &Watch::none()).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     assert!(error.message().contains("`j1` is 0.5 * j0") && error.message().contains("--numeric"), "{error}");
 }
@@ -364,10 +364,10 @@ fn equations_that_are_solved_together_take_no_followers() {
 #[test]
 fn what_is_derived_is_proved_again_and_a_forged_law_is_refused() {
     let chain = palletizer().chain();
-    let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
-    let text = certificate::write(&derived).unwrap();
-    let again = certificate::prove(&chain, &text).unwrap();
-    assert_eq!(again.program, derived.program);
+    let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
+    let text = derived.certificate().unwrap();
+    let again = Derivation::prove(&chain, &text).unwrap();
+    assert_eq!(again.program(), derived.program());
     let other = Mechanism {
         joints: palletizer()
             .joints
@@ -376,7 +376,7 @@ fn what_is_derived_is_proved_again_and_a_forged_law_is_refused() {
             .collect(),
         ..palletizer()
     };
-    let error = certificate::prove(&other.chain(), &text).unwrap_err();
+    let error = Derivation::prove(&other.chain(), &text).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Certificate, "{error}");
 }
 

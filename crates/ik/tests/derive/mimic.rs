@@ -1,7 +1,7 @@
 //! Solvers of chains in which joints follow others: an arm with a finger whose opening is given, and a finger that is found.
 
 use groebot_algebra::number::BigRational;
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::Derivation;
 use groebot_ik::witness::Options;
 use groebot_ik::witness::chain::Check;
 use groebot_ik::{ErrorKind, Watch};
@@ -30,9 +30,9 @@ fn follows(leader: &str, multiplier: &str, offset: &str) -> Option<Mimic> {
 
 /// The chain's solver at targets of all kinds, by witnesses that share nothing with it; from joint values that follow.
 fn holds(chain: &Chain) {
-    let derived = Derived::of_chain(chain, &Watch::none()).unwrap();
+    let derived = Derivation::sequentially(chain, &Watch::none()).unwrap();
     let options = Options { targets: 60, oracle: 2, ..Options::default() };
-    let report = Check::run(chain, &derived.program, None, &options, &Watch::none()).unwrap();
+    let report = Check::run(chain, derived.program(), None, &options, &Watch::none()).unwrap();
     let wrong: Vec<_> = report.failures().filter(|row| !row.is_weak_spot()).collect();
     assert!(wrong.is_empty(), "{wrong:?}");
 }
@@ -48,7 +48,7 @@ fn an_arm_is_solved_to_a_finger_whose_opening_is_given() {
     parts.joints.extend([finger("knuckle", "1/10", None), finger("pad", "3/20", follows("knuckle", "-3/4", "1/5"))]);
     parts.tip = Tip { point: shifted("9/50"), ..parts.tip };
     let open = Chain::new(parts.clone()).unwrap();
-    assert_eq!(Derived::of_chain(&open, &Watch::none()).unwrap_err().kind(), ErrorKind::Unsupported);
+    assert_eq!(Derivation::sequentially(&open, &Watch::none()).unwrap_err().kind(), ErrorKind::Unsupported);
     parts.given = vec!["knuckle".into()];
     holds(&Chain::new(parts).unwrap());
 }

@@ -13,6 +13,7 @@ mod families;
 mod followers;
 mod mimic;
 mod noisy;
+mod options;
 mod planner;
 mod position_yaw;
 mod random_chains;

@@ -3,7 +3,7 @@
 
 use groebot_algebra::number::BigRational;
 use groebot_ik::Watch;
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::{ChainProblem, Derivation};
 use groebot_robot::kinematics::{Chain, ExactVector};
 use groebot_robot::robots;
 use nalgebra::DMatrix;
@@ -43,11 +43,10 @@ fn numbers(seed: u64) -> impl FnMut() -> f64 {
 
 /// The share of ordinary poses that are lost, of which there are many.
 fn lost(described: &Chain, draw: &mut impl FnMut() -> f64) -> (usize, usize) {
-    let (ideal, report) = described.ideal();
-    let derived = Derived::of_chain(&ideal, &Watch::none()).unwrap();
-    let derived = if report.is_same() { derived } else { derived.polished_on(described, report).unwrap() };
+    let problem = ChainProblem::ideal(described.ideal(), described);
+    let derived = Derivation::sequentially(problem, &Watch::none()).unwrap();
     let (mut lost, mut ordinary) = (0, 0);
-    let solver = derived.program.solver();
+    let solver = derived.program().solver();
     for _ in 0..POSES {
         let q: Vec<f64> = described.joints().iter().map(|_| std::f64::consts::PI * draw()).collect();
         if sigma(described.task_jacobian(&q, &[])) <= ORDINARY {

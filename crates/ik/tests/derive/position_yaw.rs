@@ -1,9 +1,8 @@
 //! The task `position_yaw`: where the tip is, and at which angle about an axis of the base a direction of it points.
 
 use groebot_algebra::number::BigRational;
-use groebot_ik::derive::Proved;
+use groebot_ik::Result;
 use groebot_ik::solver::Program;
-use groebot_ik::{Result, Watch};
 use groebot_robot::kinematics::{BaseAxis, Chain, Target, Task};
 use groebot_robot::model::Robot;
 
@@ -34,7 +33,7 @@ fn asked(chain: &Chain, axis: BaseAxis, direction: [i32; 3]) -> Chain {
 }
 
 fn derived(chain: &Chain) -> Result<Program> {
-    Ok(Proved::of_chain(chain, &Watch::none())?.program().clone())
+    Ok(groebot_ik::derive(chain)?.program().clone())
 }
 
 /// By hand: the tip turns by j1 + j2 - j4 about the vertical, for the quill points down.
@@ -79,7 +78,7 @@ fn every_axis_counts_from_the_next_one() {
                 let k = axis.coordinate();
                 let yaw = points[(k + 2) % 3].atan2(points[(k + 1) % 3]);
                 let target = Target::PositionYaw { point: pose.translation.vector.into(), yaw };
-                let answers = solver.solve(&target, &[]).unwrap();
+                let answers = solver.solve(&target).unwrap();
                 assert_eq!(answers.len(), 2, "{axis:?} {direction:?} {q:?}");
                 assert!(
                     answers.iter().any(|answer| answer

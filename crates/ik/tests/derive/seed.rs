@@ -7,9 +7,9 @@ use std::path::Path;
 
 use groebot_algebra::number::{BigRational, Ring, Style, parse_rational};
 use groebot_algebra::poly::{PolynomialRing, parse};
-use groebot_ik::derive::setting::Poly;
+use groebot_ik::derive::equations::setting::Poly;
 use groebot_ik::derive::{Derivation, Source, System};
-use groebot_ik::{Watch, derive::setting::Unknowns};
+use groebot_ik::{Watch, derive::equations::setting::Unknowns};
 
 const LEG: [&str; 4] = [
     // (6.7.16), its constant exact: 346226.3281 where 346226.3 is printed
@@ -40,12 +40,12 @@ pub fn source(name: &str) -> Source {
 }
 
 pub fn derive(system: System) -> Derivation {
-    Derivation::new(system, &Watch::none()).unwrap()
+    Derivation::of_problem(system, &Watch::none()).unwrap()
 }
 
 /// Asserts that the generic basis is `expected`, each up to a factor from the field.
 fn assert_basis(derivation: &Derivation, expected: &[&str]) {
-    let solved = derivation.requested.solved().unwrap();
+    let solved = derivation.equations().unwrap().method.requested.solved().unwrap();
     let ring = &solved.triangular.ring;
     let expected: Vec<Poly> = expected.iter().map(|text| ring.monic(&polynomial(ring, text))).collect();
     assert_eq!(solved.certified.basis, expected);
@@ -58,14 +58,14 @@ fn polynomial(ring: &Unknowns, text: &str) -> Poly {
 #[test]
 fn the_leg_gives_the_source_s_basis() {
     let derivation = derive(source("nao_leg_sagittal").system.unwrap());
-    assert_eq!(derivation.system.order, ["c4", "c3", "s4", "s3"]);
+    assert_eq!(derivation.equations().unwrap().problem.order, ["c4", "c3", "s4", "s3"]);
     assert_basis(&derivation, &LEG);
 }
 
 #[test]
 fn the_arm_gives_the_source_s_basis() {
     let derivation = derive(source("nao_arm_planar").system.unwrap());
-    assert_eq!(derivation.system.order, ["c4", "c2", "s4", "s2"]);
+    assert_eq!(derivation.equations().unwrap().problem.order, ["c4", "c2", "s4", "s2"]);
     assert_basis(&derivation, &ARM);
 }
 
@@ -74,7 +74,7 @@ fn the_arm_gives_the_source_s_basis() {
 fn cleared_polynomials_differ_from_the_source_s_by_a_number() {
     for (name, expected) in [("nao_leg_sagittal", LEG), ("nao_arm_planar", ARM)] {
         let derivation = derive(source(name).system.unwrap());
-        let triangular = &derivation.requested.solved().unwrap().triangular;
+        let triangular = &derivation.equations().unwrap().method.requested.solved().unwrap().triangular;
         let ring = &triangular.ring;
         for (stair, text) in triangular.stairs.iter().zip(expected) {
             let [ours] = stair.polynomials.as_slice() else { panic!("one polynomial an unknown") };
@@ -171,7 +171,7 @@ fn symbolic_lengths_specialise_to_the_source_s_basis() {
         (symbolic_arm(), [("L1", "105"), ("L2", "113.7")], ARM),
     ] {
         let derivation = derive(system);
-        let solved = derivation.requested.solved().unwrap();
+        let solved = derivation.equations().unwrap().method.requested.solved().unwrap();
         let ring = &solved.triangular.ring;
         let value = |name: &str| {
             let found = lengths.iter().find(|(length, _)| *length == name);
@@ -188,7 +188,7 @@ fn symbolic_lengths_specialise_to_the_source_s_basis() {
 #[test]
 fn the_report_shows_the_source_s_coefficients() {
     let derivation = derive(source("nao_leg_sagittal").system.unwrap());
-    let text = derivation.requested.solved().unwrap().triangular.to_string();
+    let text = derivation.equations().unwrap().method.requested.solved().unwrap().triangular.to_string();
     for part in ["20580*c4", "20588.41", "346226.3281", "235364*px", "1176.82*px^2", "41176.82*pz^2", "588.41"] {
         assert!(text.contains(part), "{part} in\n{text}");
     }

@@ -3,7 +3,7 @@
 //! Bases marked "Singular" are held against tests/corpus/groebner, which Singular computed.
 
 use groebot_algebra::poly::parse;
-use groebot_ik::derive::tree::{Node, Outcome};
+use groebot_ik::derive::equations::tree::{Node, Outcome};
 use groebot_ik::derive::{Derivation, Orders, System, derive_tree};
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::document::Document;
@@ -36,51 +36,64 @@ fn assert_basis(node: &Node, expected: &[String]) {
 fn generic_bases_are_singular_s() {
     for (mechanism, corpus) in [("nao_leg_sagittal", "nao_leg-lex-q_px_pz"), ("nao_arm_planar", "nao_arm-lex-q_py_pz")]
     {
-        assert_basis(&derive(source(mechanism).system.unwrap()).requested, &singular(corpus));
+        assert_basis(
+            &derive(source(mechanism).system.unwrap()).equations().unwrap().method.requested,
+            &singular(corpus),
+        );
     }
-    assert_basis(&derive(symbolic_leg()).requested, &singular("nao_leg_symbolic-lex-q_px_pz_l1_l2"));
-    assert_basis(&derive(super::seed::symbolic_arm()).requested, &singular("nao_arm_symbolic-lex-q_py_pz_l1_l2"));
+    assert_basis(
+        &derive(symbolic_leg()).equations().unwrap().method.requested,
+        &singular("nao_leg_symbolic-lex-q_px_pz_l1_l2"),
+    );
+    assert_basis(
+        &derive(super::seed::symbolic_arm()).equations().unwrap().method.requested,
+        &singular("nao_arm_symbolic-lex-q_py_pz_l1_l2"),
+    );
 }
 
 #[test]
 fn the_stratum_where_the_source_divides_by_zero_is_derived() {
     let leg = derive(source("nao_leg_sagittal").system.unwrap());
-    assert_basis(find(&leg.requested, "pz = 0"), &singular("nao_leg_pz0-lex-q_px"));
+    assert_basis(find(&leg.equations().unwrap().method.requested, "pz = 0"), &singular("nao_leg_pz0-lex-q_px"));
     let arm = derive(source("nao_arm_planar").system.unwrap());
-    assert_basis(find(&arm.requested, "pz = 0"), &singular("nao_arm_pz0-lex-q_py"));
+    assert_basis(find(&arm.equations().unwrap().method.requested, "pz = 0"), &singular("nao_arm_pz0-lex-q_py"));
 }
 
 #[test]
 fn another_order_of_the_leg_has_no_such_stratum() {
     let leg = derive(source("nao_leg_sagittal").system.unwrap());
-    let searched = leg.searched.as_ref().unwrap();
+    let searched = leg.equations().unwrap().method.searched.as_ref().unwrap();
     assert_eq!(searched.solved().unwrap().certified.order, ["c4", "c3", "s3", "s4"]);
     assert_basis(searched, &singular("nao_leg_inverted-lex-q_px_pz"));
     assert!(find(searched, "pz = 0").solved().unwrap().inherited);
-    assert_eq!(leg.program.cases().count(), 1, "one case serves every target");
+    assert_eq!(leg.program().cases().count(), 1, "one case serves every target");
 }
 
 #[test]
 fn the_base_is_out_of_reach_unless_the_links_are_equal() {
     let leg = derive(source("nao_leg_sagittal").system.unwrap());
-    assert!(matches!(find(&leg.requested, "pz = 0, px = 0").outcome, Outcome::Inconsistent(_)));
-    assert_eq!(leg.program.solve_numbers(&[0.0, 0.0]).unwrap(), []);
+    assert!(matches!(
+        find(&leg.equations().unwrap().method.requested, "pz = 0, px = 0").outcome,
+        Outcome::Inconsistent(_)
+    ));
+    assert_eq!(leg.program().solve_numbers(&[0.0, 0.0]).unwrap(), []);
 
     let symbolic = derive(symbolic_leg());
-    let folded = symbolic.requested.walk().into_iter().filter_map(|node| match &node.outcome {
-        Outcome::SelfMotion(self_motion) => Some((node.label.clone(), self_motion.free.clone())),
-        _ => None,
-    });
+    let folded =
+        symbolic.equations().unwrap().method.requested.walk().into_iter().filter_map(|node| match &node.outcome {
+            Outcome::SelfMotion(self_motion) => Some((node.label.clone(), self_motion.free.clone())),
+            _ => None,
+        });
     let folded: Vec<_> = folded.collect();
     assert!(
         !folded.is_empty() && folded.iter().all(|(label, free)| label.contains("L1") && *free == [0]),
         "{folded:?}"
     );
-    let answers = symbolic.program.solve_numbers(&[0.0, 0.0, 100.0, 100.0]).unwrap();
+    let answers = symbolic.program().solve_numbers(&[0.0, 0.0, 100.0, 100.0]).unwrap();
     assert_eq!(answers.len(), 1, "{answers:?}");
     assert_eq!(answers[0].free, [0], "the hip is free when the ankle is at the hip");
     assert!((answers[0].q[1].abs() - std::f64::consts::PI).abs() < 1e-12);
-    assert_eq!(symbolic.program.solve_numbers(&[0.0, 0.0, 100.0, 102.9]).unwrap(), []);
+    assert_eq!(symbolic.program().solve_numbers(&[0.0, 0.0, 100.0, 102.9]).unwrap(), []);
 }
 
 #[test]
@@ -102,18 +115,18 @@ fn targets_near_a_stratum_are_solved_like_any_other() {
             for sign in [-1.0, 1.0] {
                 let small = sign * 10f64.powi(-k);
                 for target in [[free, small], [small, free]] {
-                    let answers = derivation.program.solve_numbers(&target).unwrap();
+                    let answers = derivation.program().solve_numbers(&target).unwrap();
                     assert_eq!(answers.len(), 2, "{name} {target:?}: {answers:?}");
                     assert!(answers.iter().all(|a| a.residual < 1e-11), "{name} {target:?}: {answers:?}");
                 }
             }
         }
-        assert_eq!(derivation.program.solve_numbers(&[free, 0.0]).unwrap().len(), 2);
+        assert_eq!(derivation.program().solve_numbers(&[free, 0.0]).unwrap().len(), 2);
     }
 }
 
 fn error_of(text: &str) -> groebot_ik::Error {
-    Derivation::new(System::from_toml(text).unwrap(), &Watch::none()).unwrap_err()
+    Derivation::of_problem(System::from_toml(text).unwrap(), &Watch::none()).unwrap_err()
 }
 
 const JOINTS: &str = "[[joint]]\nname = \"a\"\ncosine = \"c1\"\nsine = \"s1\"\n\
@@ -151,10 +164,11 @@ fn more_joints_than_equations_names_the_free_ones() {
 fn cancelled_and_bounded_derivations_end_with_their_reason() {
     let system = source("nao_leg_sagittal").system.unwrap();
     let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
-    let error = Derivation::new(system.clone(), &Watch::none().with_cancel(flag)).unwrap_err();
+    let error = Derivation::of_problem(system.clone(), &Watch::none().with_cancel(flag)).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Cancelled);
-    let error = Derivation::new(system.clone(), &Watch::none().with_time(std::time::Duration::ZERO)).unwrap_err();
+    let error =
+        Derivation::of_problem(system.clone(), &Watch::none().with_time(std::time::Duration::ZERO)).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Budget);
-    let error = Derivation::new(system, &Watch::none().with_terms(10)).unwrap_err();
+    let error = Derivation::of_problem(system, &Watch::none().with_terms(10)).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Budget);
 }

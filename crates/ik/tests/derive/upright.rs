@@ -2,7 +2,7 @@
 //! up or down, anywhere, find what made each target.
 
 use groebot_algebra::number::{BigRational, parse_rational};
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::{ChainProblem, Derivation};
 use groebot_ik::witness::chain::Check;
 use groebot_ik::witness::{Options, Report as Checked};
 use groebot_ik::{ErrorKind, Watch};
@@ -32,9 +32,9 @@ fn arm(first: [&str; 3], at: [&str; 3]) -> Chain {
         .unwrap()
 }
 
-fn check(chain: &Chain, derived: &Derived) -> Checked {
+fn check(chain: &Chain, derived: &Derivation) -> Checked {
     let options = Options { targets: 100, oracle: 3, ..Options::default() };
-    Check::run(chain, &derived.program, Some(derived.plan.dimension), &options, &Watch::none()).unwrap()
+    Check::run(chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap()
 }
 
 #[test]
@@ -64,9 +64,9 @@ fn the_loop_closes_where_the_arm_stands() {
 #[test]
 fn arms_are_solved_for_position_with_pitch_and_roll() {
     for chain in [arm(["0", "0", "1"], ["0", "0", "0"]), arm(["0", "0", "-1"], ["0.2", "-0.1", "0.3"])] {
-        let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
-        assert_eq!(derived.plan.dimension, 8);
-        let inputs: Vec<&str> = derived.program.inputs.iter().map(|input| input.name.as_str()).collect();
+        let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
+        assert_eq!(derived.dimension().unwrap(), 8);
+        let inputs: Vec<&str> = derived.program().inputs.iter().map(|input| input.name.as_str()).collect();
         assert_eq!(inputs, ["px", "py", "pz", "pitch", "roll"]);
         let checked = check(&chain, &derived);
         let wrong: Vec<_> = checked.failures().filter(|row| !row.is_weak_spot()).collect();
@@ -84,7 +84,7 @@ fn a_described_arm_is_polished() {
     let described = Chain::new(parts).unwrap();
     let (ideal, report): (Chain, Report) = described.ideal();
     assert_eq!(ideal.joints()[0].axis[1], BigRational::default());
-    let derived = Derived::of_chain(&ideal, &Watch::none()).unwrap().polished_on(&described, report).unwrap();
+    let derived = Derivation::sequentially(ChainProblem::ideal((ideal, report), &described), &Watch::none()).unwrap();
     let checked = check(&described, &derived);
     let wrong: Vec<_> = checked.failures().filter(|row| !row.is_weak_spot()).collect();
     assert!(wrong.is_empty(), "{wrong:?}");
@@ -98,6 +98,6 @@ fn arms_that_do_not_turn_about_a_vertical_are_refused() {
     for chain in [tilted, held] {
         let error = chain.upright().unwrap_err();
         assert!(error.kind() == ErrorKind::Unsupported && error.message().contains("vertical"), "{error}");
-        assert_eq!(Derived::of_chain(&chain, &Watch::none()).unwrap_err().kind(), ErrorKind::Unsupported);
+        assert_eq!(Derivation::sequentially(&chain, &Watch::none()).unwrap_err().kind(), ErrorKind::Unsupported);
     }
 }

@@ -1,6 +1,7 @@
 //! Seven joints of which the first or the last is given, turning or sliding: the six others are found together for every given value.
 
-use groebot_ik::derive::eigenvalue::{DerivedSixAxes, fits};
+use groebot_ik::derive::Derivation;
+use groebot_ik::derive::eigenvalue::fits;
 use groebot_ik::derive::planner::joints_to_give;
 use groebot_ik::witness::Options;
 use groebot_ik::witness::chain::Check;
@@ -33,16 +34,16 @@ fn an_end_joint_is_given() {
     let quill = slid("Joint7");
     for (text, joint) in [(ARM, "Joint1"), (ARM, "Joint7"), (&rail, "Joint1"), (&quill, "Joint7")] {
         let chain = with_given(text, joint);
-        let derived = DerivedSixAxes::of_chain(&chain, &Watch::none()).unwrap();
-        assert_eq!(derived.six.joints().len(), 6);
+        let derived = Derivation::by_eigenvalues(&chain, &Watch::none()).unwrap();
+        assert_eq!(derived.eigenvalue().unwrap().method.six.joints().len(), 6);
         let options = Options { targets: 60, oracle: 1, exact: 4, seed: 3, ..Options::default() };
-        let report = Check::run(&chain, &derived.program, Some(derived.dimension()), &options, &Watch::none()).unwrap();
+        let report = Check::run(&chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap();
         let failures: Vec<String> =
             report.failures().filter(|row| !row.is_weak_spot()).map(|r| r.to_string()).collect();
         assert!(failures.is_empty(), "{joint}: {}", failures.join("\n"));
         assert!(report.rows.iter().filter(|row| row.solutions > 2).count() > 20, "{}", report.summary());
-        let again = DerivedSixAxes::prove(&chain, &derived.certificate()).unwrap();
-        assert_eq!(again.program, derived.program);
+        let again = Derivation::prove(&chain, &derived.certificate().unwrap()).unwrap();
+        assert_eq!(again.program(), derived.program());
     }
 }
 

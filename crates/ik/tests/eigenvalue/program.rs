@@ -1,6 +1,6 @@
 //! Six axes as a program and as a derivation: answers, JSON, certificate.
 
-use groebot_ik::derive::eigenvalue::DerivedSixAxes;
+use groebot_ik::derive::Derivation;
 use groebot_ik::solver::Program;
 use groebot_ik::solver::eigenvalue::{SixAxes, SixAxesParts};
 use groebot_ik::{ErrorKind, Watch};
@@ -16,18 +16,19 @@ fn target(chain: &Chain, q: &[f64; 6]) -> Vec<f64> {
     pose.translation.vector.iter().copied().chain(entries).collect()
 }
 
-fn derived(seed: u64) -> DerivedSixAxes {
-    DerivedSixAxes::of_chain(&random_chain(&mut Random::new(seed)), &Watch::none()).unwrap()
+fn derived(seed: u64) -> Derivation {
+    Derivation::by_eigenvalues(&random_chain(&mut Random::new(seed)), &Watch::none()).unwrap()
 }
 
 #[test]
 fn a_program_gives_back_the_joints() {
     let derived = derived(15);
-    assert_eq!(derived.dimension(), 16);
+    assert_eq!(derived.dimension(), Some(16));
     let mut random = Random::new(16);
     for _ in 0..50 {
         let q = random.angles();
-        let solutions = derived.program.solve_numbers(&target(&derived.chain, &q)).unwrap();
+        let solutions =
+            derived.program().solve_numbers(&target(derived.eigenvalue().unwrap().problem.measured(), &q)).unwrap();
         assert!(solutions.len().is_multiple_of(2) && solutions.len() <= 16);
         let near = |found: &[f64]| distance(&found.try_into().unwrap(), &q) < 1e-9;
         assert_eq!(solutions.iter().filter(|solution| near(&solution.q)).count(), 1);
@@ -37,33 +38,33 @@ fn a_program_gives_back_the_joints() {
 
 #[test]
 fn a_program_is_the_same_after_json() {
-    let program = derived(17).program;
+    let program = derived(17).program().clone();
     assert_eq!(Program::from_json(&program.to_json()).unwrap(), program);
 }
 
 #[test]
 fn a_certificate_proves_the_derivation_again() {
     let derived = derived(18);
-    let text = derived.certificate();
-    assert!(DerivedSixAxes::is_certificate(&text));
-    assert_eq!(DerivedSixAxes::prove(&derived.chain, &text).unwrap(), derived);
+    let text = derived.certificate().unwrap();
+    assert!(text.contains("\"eigenvalue_problem\""), "{text}");
+    assert_eq!(Derivation::prove(derived.problem().clone(), &text).unwrap(), derived);
 }
 
 #[test]
 fn a_wrong_certificate_is_refused() {
     let derived = derived(19);
-    let text = derived.certificate();
-    let value = derived.formulations[0].determinants[0].value;
+    let text = derived.certificate().unwrap();
+    let value = derived.eigenvalue().unwrap().method.formulations[0].determinants[0].value;
     let wrong = text.replacen(&value.to_string(), &(value + 1).to_string(), 1);
-    let error = DerivedSixAxes::prove(&derived.chain, &wrong).unwrap_err();
+    let error = Derivation::prove(derived.problem().clone(), &wrong).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Certificate, "{error}");
     let other = random_chain(&mut Random::new(20));
-    assert_eq!(DerivedSixAxes::prove(&other, &text).unwrap_err().kind(), ErrorKind::Certificate);
+    assert_eq!(Derivation::prove(&other, &text).unwrap_err().kind(), ErrorKind::Certificate);
 }
 
 #[test]
 fn malformed_axes_are_refused() {
-    let program = derived(21).program;
+    let program = derived(21).program().clone();
     let text = program.to_json();
     let wrong = |from: &str, to: &str| Program::from_json(&text.replacen(from, to, 1)).unwrap_err();
     assert!(wrong("\"hidden\": ", "\"hidden\": 1").to_string().contains("six axes"));

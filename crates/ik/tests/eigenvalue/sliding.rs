@@ -1,8 +1,7 @@
 //! Chains of six joints of which some slide.
 
 use groebot_ik::Watch;
-use groebot_ik::derive::eigenvalue::{self, DerivedSixAxes};
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::{Derivation, eigenvalue};
 use groebot_robot::kinematics::Chain;
 use groebot_runtime::six_axes::{self, Answers};
 
@@ -103,8 +102,8 @@ fn blocks_solve_chains_with_three_sliding_joints() {
     let mut random = Random::new(37);
     for sliding in [[0, 1, 2], [0, 2, 4], [1, 2, 5], [0, 3, 5], [3, 4, 5]] {
         let chain = random_chain_of(&mut random, &sliding);
-        let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
-        let solver = derived.program.solver();
+        let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
+        let solver = derived.program().solver();
         for _ in 0..20 {
             let q = values(&mut random, &sliding);
             let target = solver.reached(&q).unwrap();
@@ -169,8 +168,8 @@ fn half_a_turn_beside_a_sliding_joint() {
     assert_eq!(targets, 378);
 }
 
-fn derived(chain: &Chain) -> DerivedSixAxes {
-    DerivedSixAxes::of_chain(chain, &Watch::none()).unwrap()
+fn derived(chain: &Chain) -> Derivation {
+    Derivation::by_eigenvalues(chain, &Watch::none()).unwrap()
 }
 
 /// Sixteen complex solutions, a certificate that proves it again, and a program that is the same after JSON.
@@ -178,9 +177,17 @@ fn derived(chain: &Chain) -> DerivedSixAxes {
 fn a_derivation_with_a_sliding_joint_is_certified() {
     let chain = random_chain_of(&mut Random::new(35), &[3]);
     let derived = derived(&chain);
-    assert_eq!(derived.dimension(), 16);
-    assert!(derived.formulations.iter().all(|regular| regular.determinants.iter().all(|d| d.value != 0)));
-    assert_eq!(DerivedSixAxes::prove(&chain, &derived.certificate()).unwrap(), derived);
-    let again = groebot_ik::solver::Program::from_json(&derived.program.to_json()).unwrap();
-    assert_eq!(again, derived.program);
+    assert_eq!(derived.dimension(), Some(16));
+    assert!(
+        derived
+            .eigenvalue()
+            .unwrap()
+            .method
+            .formulations
+            .iter()
+            .all(|regular| regular.determinants.iter().all(|d| d.value != 0))
+    );
+    assert_eq!(Derivation::prove(&chain, &derived.certificate().unwrap()).unwrap(), derived);
+    let again = groebot_ik::solver::Program::from_json(&derived.program().to_json()).unwrap();
+    assert_eq!(&again, derived.program());
 }

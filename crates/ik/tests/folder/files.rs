@@ -1,6 +1,6 @@
 //! Forged files: removed, emptied, cut, changed, with lines removed, doubled and exchanged, or another robot's.
 
-use groebot_ik::derive::stages::PAGE;
+use groebot_ik::derive::report::stages::PAGE;
 use groebot_ik::folder::{
     CERTIFICATE, CHECKS, Finding, Stored, Verdict, Written, compare, is_printed_solver, is_written_name,
 };

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use groebot_ik::Watch;
-use groebot_ik::derive::{Proved, Recount, Source};
+use groebot_ik::derive::{Derivation, Recount, Source};
 use groebot_ik::folder::{CERTIFICATE, Stored, Written, derived, prove};
 use groebot_ik::witness::{self, Report};
 use serde_json::Value;
@@ -13,7 +13,7 @@ use tempfile::{TempDir, tempdir};
 /// A derivation, and its folder with the certificate alone.
 pub struct Honest {
     pub source: Source,
-    pub proved: Proved,
+    pub proved: Derivation,
     pub stored: Stored,
     pub recount: Recount,
     _folder: Option<TempDir>,
@@ -58,7 +58,7 @@ impl Honest {
             fs::write(folder.path().join(file), text).unwrap();
         }
         let source = Source::read(folder.path()).unwrap();
-        let proved = Proved::of(&source, &Watch::none()).unwrap().about(&source);
+        let proved = Derivation::of(&source, &Watch::none()).unwrap().about(&source);
         let mut stored = Stored::read(folder.path()).unwrap();
         stored.files.extend(proved.stage_files().unwrap());
         Honest { source, proved, stored, recount: Recount::new(&Watch::none()), _folder: Some(folder) }

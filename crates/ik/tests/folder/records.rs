@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use groebot_ik::derive::Proved;
+use groebot_ik::derive::Derivation;
 use groebot_ik::folder::{CERTIFICATE, prove};
 use groebot_ik::solver::Program;
 use serde_json::{Value, json};
@@ -94,7 +94,7 @@ fn evenly<T>(list: Vec<T>, count: usize) -> Vec<T> {
 }
 
 /// What a forger's certificate proves, when it is accepted and written as a certificate is.
-fn accepted(honest: &mut Honest, forged: &Value) -> Option<Proved> {
+fn accepted(honest: &mut Honest, forged: &Value) -> Option<Derivation> {
     let mut stored = honest.stored.clone();
     stored.files.insert(CERTIFICATE.to_owned(), forged.to_string().into_bytes());
     let proved = prove(&honest.source, &stored, &mut honest.recount).ok()?;
@@ -105,7 +105,7 @@ fn accepted(honest: &mut Honest, forged: &Value) -> Option<Proved> {
 }
 
 /// Whether two solvers give the same answers at targets, and claim the same number of them.
-fn agree(honest: &Proved, forged: &Proved, targets: &[Vec<f64>]) -> bool {
+fn agree(honest: &Derivation, forged: &Derivation, targets: &[Vec<f64>]) -> bool {
     let answers = |program: &Program, target: &[f64]| -> Vec<Vec<i64>> {
         let rounded = |q: &f64| (q * 1e6).round() as i64;
         let solutions = program.solve_numbers(target).unwrap();

@@ -2,7 +2,6 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use groebot_ik::derive::Proved;
 use groebot_ik::reach::{Ask, Axis, Grid, Measure, Survey};
 use groebot_ik::solver::Program;
 use groebot_ik::{ErrorKind, Watch};
@@ -72,7 +71,7 @@ fn orientations_are_spread_evenly_over_all() {
     let at_wrist = text.replace("[0, 1.524, 0.15]", "[0, 1.524, 0]");
     assert_ne!(at_wrist, text);
     let chain = Chain::from_toml(&at_wrist).unwrap();
-    let proved = Proved::of_chain(&chain, &Watch::none()).unwrap();
+    let proved = groebot_ik::derive(&chain).unwrap();
     let (program, free) = (proved.program(), [f64::NEG_INFINITY, f64::INFINITY]);
     let places = grid([(0.3, 0.3, 1), (0.8, 0.8, 1), (0.4, 0.4, 1)]);
     let orientations = 2000;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use groebot_ik::derive::Proved;
+use groebot_ik::derive::Derivation;
 use groebot_robot::kinematics::screw::ScrewSolver;
 use groebot_robot::kinematics::{Chain, ChainParts, InverseKinematics, Task, along_z};
 use groebot_robot::motion::{Followed, Pace, follow, follow_from};
@@ -11,7 +11,7 @@ use groebot_robot::robots;
 use groebot_robot::spatial::Pose;
 use groebot_robot::{ErrorKind, Watch};
 
-static SOLVER: LazyLock<Proved> = LazyLock::new(|| Proved::of_chain(&robots::ur5(), &Watch::none()).unwrap());
+static SOLVER: LazyLock<Derivation> = LazyLock::new(|| groebot_ik::derive(&robots::ur5()).unwrap());
 
 /// UR5 with the same limits for all joints.
 fn ur5(limits: Option<(f64, f64)>) -> Chain {

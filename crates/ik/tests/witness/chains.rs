@@ -1,7 +1,7 @@
 //! Whole reports: derived programs pass, damaged ones fail.
 
 use groebot_ik::Watch;
-use groebot_ik::derive::compile::compile;
+use groebot_ik::derive::equations::compile::compile;
 use groebot_ik::solver::{Instruction, Operand, Operation, Program, Step};
 use groebot_ik::witness::{Check, Fault, Kind, Options, Verdict};
 
@@ -12,8 +12,9 @@ fn the_seed_mechanisms_pass_in_both_orders() {
     for folder in ["nao_leg_sagittal", "nao_arm_planar"] {
         let source = read(folder);
         let derivation = derive(&source);
-        let requested = compile(&source.system.clone().unwrap(), &derivation.requested).unwrap();
-        for program in [&derivation.program, &requested] {
+        let requested =
+            compile(&source.system.clone().unwrap(), &derivation.equations().unwrap().method.requested).unwrap();
+        for program in [derivation.program(), &requested] {
             let report = assert_passes(&source, program, 150);
             let summary = report.summary();
             println!("{folder}: {summary}");
@@ -28,7 +29,7 @@ fn the_seed_mechanisms_pass_in_both_orders() {
 #[test]
 fn a_report_has_all_kinds_of_rows_and_the_same_bytes_every_time() {
     let source = read("nao_leg_sagittal");
-    let program = derive(&source).program;
+    let program = derive(&source).program().clone();
     let report = check(&source, &program, 60);
     for wanted in [Kind::Random, Kind::Boundary, Kind::Far] {
         assert!(report.rows.iter().any(|row| row.kind == wanted), "no row is {wanted}");
@@ -44,7 +45,7 @@ fn a_report_has_all_kinds_of_rows_and_the_same_bytes_every_time() {
 #[test]
 fn equal_lengths_pass_with_the_self_motion_at_the_base() {
     let source = from_text(&two_link_text("100", "200"));
-    let report = assert_passes(&source, &derive(&source).program, 150);
+    let report = assert_passes(&source, &derive(&source).program(), 150);
     let at_base = report.rows.iter().filter(|row| row.target == [0.0, 0.0]);
     assert!(at_base.clone().count() > 0, "no row is the base");
     assert!(at_base.clone().all(|row| row.solutions == 1 && row.screw == Some(1)));
@@ -80,7 +81,7 @@ equation = "L2*(c3*c4 - s3*s4) + L1*c3 - pz = 0"
 #[test]
 fn symbolic_lengths_pass() {
     let source = from_text(SYMBOLIC);
-    assert_passes(&source, &derive(&source).program, 150);
+    assert_passes(&source, &derive(&source).program(), 150);
 }
 
 const THREE: &str = r#"
@@ -131,7 +132,7 @@ point = [0.5, 0.2, 0]
 fn a_planar_pose_of_three_joints_passes() {
     let source = from_text(THREE);
     let start = std::time::Instant::now();
-    let program = derive(&source).program;
+    let program = derive(&source).program().clone();
     println!("derived in {:?}, {} cases", start.elapsed(), program.cases().count());
     let report = assert_passes(&source, &program, 100);
     println!("{}", report.summary());
@@ -141,7 +142,7 @@ fn a_planar_pose_of_three_joints_passes() {
 #[test]
 fn a_prismatic_chain_passes() {
     let source = from_text(SLIDING);
-    let report = assert_passes(&source, &derive(&source).program, 100);
+    let report = assert_passes(&source, &derive(&source).program(), 100);
     println!("{}", report.summary());
     assert_eq!(report.summary().exact, 40);
 }
@@ -150,7 +151,7 @@ fn a_prismatic_chain_passes() {
 fn a_wrong_length_is_found() {
     let source = read("nao_leg_sagittal");
     let other = from_text(&two_link_text("100", "203"));
-    let report = check(&source, &derive(&other).program, 20);
+    let report = check(&source, &derive(&other).program(), 20);
     let faults = faults(&report.rows[0].verdict);
     assert!([Fault::Residual, Fault::Missing, Fault::Screw, Fault::Oracle].iter().all(|f| faults.contains(f)));
     assert!(report.failures().count() >= 15);
@@ -176,10 +177,11 @@ fn without(program: &Program, case: usize) -> Program {
 fn a_case_that_is_left_out_is_missed() {
     let seed = read("nao_leg_sagittal");
     let equal = from_text(&two_link_text("100", "200"));
-    let requested = compile(&seed.system.clone().unwrap(), &derive(&seed).requested).unwrap();
+    let requested =
+        compile(&seed.system.clone().unwrap(), &derive(&seed).equations().unwrap().method.requested).unwrap();
     let labels: Vec<&str> = requested.cases().map(|case| case.label.as_str()).collect();
     assert!(labels.contains(&"pz = 0"), "{labels:?}");
-    for (source, program) in [(&seed, requested), (&equal, derive(&equal).program)] {
+    for (source, program) in [(&seed, requested), (&equal, derive(&equal).program().clone())] {
         for (index, case) in program.cases().enumerate() {
             println!("{}: {}", source.system.clone().unwrap().name, case.label);
             let report = check(source, &without(&program, index), 150);
@@ -192,7 +194,7 @@ fn a_case_that_is_left_out_is_missed() {
 #[test]
 fn a_lost_root_is_found() {
     let source = read("nao_leg_sagittal");
-    let mut program = derive(&source).program;
+    let mut program = derive(&source).program().clone();
     for case in &mut program.blocks[0].cases {
         for step in &mut case.steps {
             if let Step::Roots { polynomials, .. } = step {
@@ -211,7 +213,7 @@ fn a_lost_root_is_found() {
 #[test]
 fn a_changed_sign_in_the_equations_is_found() {
     let source = read("nao_leg_sagittal");
-    let program = derive(&source).program;
+    let program = derive(&source).program().clone();
     let residuals = program.checks.residuals.clone();
     let used: Vec<usize> = (0..program.checks.code.len())
         .filter(|&index| feeds(&program.checks.code, index, &residuals))
@@ -252,7 +254,7 @@ fn feeds(code: &[Instruction], index: usize, results: &[Operand]) -> bool {
 #[test]
 fn a_program_of_another_mechanism_is_refused() {
     let (leg, symbolic) = (read("nao_leg_sagittal"), from_text(SYMBOLIC));
-    let program = derive(&symbolic).program;
+    let program = derive(&symbolic).program().clone();
     let error = Check::run(&leg, &program, &Options::default(), &Watch::none()).unwrap_err();
     assert_eq!(error.kind(), groebot_ik::ErrorKind::BadValue);
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use groebot_ik::Watch;
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::Derivation;
 use groebot_robot::robots;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
@@ -24,11 +24,11 @@ fn stretched() -> impl Strategy<Value = [f64; 6]> {
 
 /// Solves the poses that so many joint values reach: each pose has an answer, and each answer reaches it; where no joint is free, the joint
 /// values are among the answers.
-fn answer_all(derived: &Derived, cases: u32, joints: impl Strategy<Value = [f64; 6]>) {
+fn answer_all(derived: &Derivation, cases: u32, joints: impl Strategy<Value = [f64; 6]>) {
     let mut runner = TestRunner::new(Config { failure_persistence: None, ..Config::with_cases(cases) });
     let run = |q: [f64; 6]| {
         let target = derived.reached(&q).unwrap();
-        let found = derived.program.solve_numbers(&target).unwrap();
+        let found = derived.program().solve_numbers(&target).unwrap();
         prop_assert!(!found.is_empty(), "{q:?}: no answer");
         for answer in &found {
             let reached = derived.reached(&answer.q).unwrap();
@@ -43,8 +43,8 @@ fn answer_all(derived: &Derived, cases: u32, joints: impl Strategy<Value = [f64;
     runner.run(&joints, run).unwrap();
 }
 
-fn ur5() -> Derived {
-    Derived::of_chain(&robots::ur5(), &Watch::none()).unwrap()
+fn ur5() -> Derivation {
+    Derivation::sequentially(&robots::ur5(), &Watch::none()).unwrap()
 }
 
 #[test]

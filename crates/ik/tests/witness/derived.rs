@@ -8,8 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use groebot_ik::derive::sequential::Derived;
-use groebot_ik::derive::{Ends, InputFile, Proved};
+use groebot_ik::derive::{Derivation, Ends, InputFile};
 use groebot_ik::witness::chain::{ByScrews, Check, Solver};
 use groebot_ik::witness::{Options, Report};
 use groebot_ik::{Result, Watch};
@@ -50,8 +49,8 @@ fn chains() -> Vec<(String, Chain)> {
     named.filter_map(|folder| Some((name(folder), chain(folder)?))).collect()
 }
 
-fn check(chain: &Chain, derived: &Derived, options: &Options) -> Result<Report> {
-    Check::run(chain, &derived.program, Some(derived.plan.dimension), options, &Watch::none())
+fn check(chain: &Chain, derived: &Derivation, options: &Options) -> Result<Report> {
+    Check::run(chain, derived.program(), derived.dimension(), options, &Watch::none())
 }
 
 fn told(report: &Report, most: usize) -> String {
@@ -64,7 +63,7 @@ fn every_chain_passes_some_of_its_checks() {
     let mut failed = Vec::new();
     for (name, chain) in chains() {
         let start = Instant::now();
-        let derived = match Derived::of_chain(&chain, &Watch::none()) {
+        let derived = match Derivation::sequentially(&chain, &Watch::none()) {
             Ok(derived) => derived,
             Err(error) => {
                 println!("{name}: {error}");
@@ -78,7 +77,7 @@ fn every_chain_passes_some_of_its_checks() {
                 .unwrap();
         println!(
             "{name}: {} solutions, {taken:.2?}; {}\n{}",
-            derived.plan.dimension,
+            derived.dimension().unwrap(),
             report.summary(),
             told(&report, 6)
         );
@@ -93,9 +92,9 @@ fn every_chain_passes_some_of_its_checks() {
 #[test]
 fn an_angle_that_hardly_matters_is_found() {
     let (_, chain) = chains().into_iter().find(|(name, _)| name == "rh0_arm").unwrap();
-    let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
+    let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
     let screws = ByScrews::new(&chain).unwrap();
-    let solver = derived.program.solver();
+    let solver = derived.program().solver();
     for q in [[2.9299499523295327, -0.5595037167059775, -2.730454790267445], [-2.744637149732931, 1.99631, -2.73045479]]
     {
         let target = derived.reached(&q).unwrap();
@@ -108,9 +107,9 @@ fn an_angle_that_hardly_matters_is_found() {
     }
 }
 
-fn named(name: &str) -> (Chain, Derived) {
+fn named(name: &str) -> (Chain, Derivation) {
     let (_, chain) = chains().into_iter().find(|(folder, _)| folder == name).unwrap();
-    let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
+    let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
     (chain, derived)
 }
 
@@ -123,7 +122,7 @@ fn a_self_motion_leaves_the_isolated_answers_next_to_it() {
     let straight = [-1.7449671303623484, -FRAC_PI_2, 1.6596867378555082, PI, 1.04472323442393, 2.0882958610197297];
     let bent =
         [-1.1416860189863716, FRAC_PI_2, 2.7271525371587795, 2.6300492957661383, 0.025887027639579507, 2.3680767039];
-    let solver = derived.program.solver();
+    let solver = derived.program().solver();
     for q in [straight, bent] {
         let target = derived.reached(&q).unwrap();
         let found = solver.solve_numbers(&target).unwrap();
@@ -141,7 +140,7 @@ fn a_self_motion_leaves_the_isolated_answers_next_to_it() {
 fn answers_beside_a_self_motion_are_told_from_it() {
     let (chain, derived) = named("nao_left_arm");
     let screws = ByScrews::new(&chain).unwrap();
-    let solver = derived.program.solver();
+    let solver = derived.program().solver();
     for q in [
         [-2.1181439729666236, -1.1153124227434787, 3.054851516480267, PI, 1.3995036173656856],
         [-2.4952264818136127, -1.712693381399061, -2.7778912204222905, 3.0028530738514303, 0.05311130956628407],
@@ -164,7 +163,7 @@ fn answers_beside_a_self_motion_are_told_from_it() {
 fn a_self_motion_next_to_a_folded_knee_is_found() {
     let (chain, derived) = named("nao_left_leg");
     let screws = ByScrews::new(&chain).unwrap();
-    let solver = derived.program.solver();
+    let solver = derived.program().solver();
     for q in [
         [
             0.45451946273238164,
@@ -217,7 +216,7 @@ fn self_motions_next_to_each_other_are_told_apart() {
     let target = derived.reached(&q).unwrap();
     let self_motions = |list: Vec<Solution>| list.iter().filter(|answer| answer.free == [5]).count();
     let expected = self_motions(screws.solve(&target).unwrap());
-    assert_eq!((self_motions(derived.program.solve_numbers(&target).unwrap()), expected), (4, 4));
+    assert_eq!((self_motions(derived.program().solve_numbers(&target).unwrap()), expected), (4, 4));
 }
 
 /// NAO's arm next to where its answers meet in pairs: eight, of which pairs are 4e-7 rad apart in the shoulder and 2e-6 rad in the wrist,
@@ -228,7 +227,7 @@ fn answers_that_rounding_tells_apart_are_two() {
     let screws = ByScrews::new(&chain).unwrap();
     let q = [0.8627998442172125, -2.3824601626755086, 2.5481778138821483, -1.356032992644737, -1.6545327338122349];
     let target = derived.reached(&q).unwrap();
-    let (found, expected) = (derived.program.solve_numbers(&target).unwrap(), screws.solve(&target).unwrap());
+    let (found, expected) = (derived.program().solve_numbers(&target).unwrap(), screws.solve(&target).unwrap());
     assert_eq!((found.len(), expected.len()), (8, 8), "{found:?}\n{expected:?}");
 }
 
@@ -237,7 +236,7 @@ fn answers_that_rounding_tells_apart_are_two() {
 #[test]
 fn a_self_motion_on_a_small_part_of_the_circle_is_found() {
     let (chain, derived) = named("ur5");
-    let solver = derived.program.solver();
+    let solver = derived.program().solver();
     for q in [
         [1.7831333503075366, 1.7935589547926682, 0.0, -1.596449081918493, PI, 2.6668881695581392],
         [1.9718164955569466, 2.150909511394738, 0.0, -1.574327778109324, PI, -2.0946209055636196],
@@ -260,7 +259,7 @@ fn a_self_motion_along_a_part_of_the_circle_is_found() {
     let (_, derived) = named("offset_wrist");
     let bent = [-2.3196916176, -2.0761626803, 0.0983141029, -1.5544591030, -FRAC_PI_2, 2.1506580949];
     let stretched = [1.5756778981, -0.2200531633, 0.0, -1.2689545032, -FRAC_PI_2, 1.8006871953];
-    let solver = derived.program.solver();
+    let solver = derived.program().solver();
     for q in [bent, stretched] {
         let target = derived.reached(&q).unwrap();
         let found = solver.solve_numbers(&target).unwrap();
@@ -277,18 +276,18 @@ fn a_self_motion_along_a_part_of_the_circle_is_found() {
 #[test]
 fn a_rounded_robot_is_solved_at_singular_poses_too() {
     let source = read("irb4600_rounded");
-    let Proved::Chain(derived) = Proved::of(&source, &Watch::none()).unwrap() else { panic!("it is a chain") };
+    let derived = Derivation::of(&source, &Watch::none()).unwrap();
     let options = Options { targets: 60, oracle: 1, exact: 6, seed: 6, ..Options::default() };
-    let report = Check::run(derived.measured(), &derived.program, None, &options, &Watch::none()).unwrap();
+    let report =
+        Check::run(derived.sequential().unwrap().problem.measured(), derived.program(), None, &options, &Watch::none())
+            .unwrap();
     assert_eq!(report.failures().count(), 0, "{}\n{}", report.summary(), told(&report, 6));
 }
 
 /// Next to the folded arm the ideal robot has one double root, the robot as described two answers, 0.03 rad from one another.
 #[test]
 fn both_answers_of_a_rounded_robot_next_to_its_folded_arm_are_found() {
-    let Proved::Chain(derived) = Proved::of(&read("irb4600_rounded"), &Watch::none()).unwrap() else {
-        panic!("it is a chain")
-    };
+    let derived = Derivation::of(&read("irb4600_rounded"), &Watch::none()).unwrap();
     let q = [
         -2.419657322913249,
         1.0825525108643583,
@@ -299,7 +298,7 @@ fn both_answers_of_a_rounded_robot_next_to_its_folded_arm_are_found() {
     ];
     let elsewhere = [-2.419657094109, 1.054870837519, 1.752177158433, 1.353371642241, -1.852398087691, -0.638629516560];
     let target = derived.reached(&q).unwrap();
-    let found = derived.program.solve_numbers(&target).unwrap();
+    let found = derived.program().solve_numbers(&target).unwrap();
     for near in [q, elsewhere] {
         let is_found = |a: &Solution| a.q.iter().zip(near).all(|(a, b)| (a - b).abs() < 1e-9);
         assert!(found.iter().any(is_found), "{near:?}: {found:?}");
@@ -311,12 +310,10 @@ fn both_answers_of_a_rounded_robot_next_to_its_folded_arm_are_found() {
 /// Next to the stretched and the folded arm the ideal robot has one double root, or none, where the robot as described has two answers.
 #[test]
 fn a_rounded_robot_keeps_both_answers_next_to_its_stretched_arm() {
-    let Proved::Chain(derived) = Proved::of(&read("irb4600_rounded"), &Watch::none()).unwrap() else {
-        panic!("it is a chain")
-    };
+    let derived = Derivation::of(&read("irb4600_rounded"), &Watch::none()).unwrap();
     // The wrist lies 0.96 m ahead of axis 3 and 0.175 m above it, axis 2 right below.
     let stretched = 0.175_f64.atan2(0.96) - FRAC_PI_2;
-    let solver = derived.program.solver();
+    let solver = derived.program().solver();
     for (straight, width) in [(stretched, 1e-3), (stretched, 1e-2), (stretched + PI, 1e-3), (stretched + PI, 1e-2)] {
         let mut runner = TestRunner::new(Config { failure_persistence: None, ..Config::with_cases(250) });
         let run = |mut q: [f64; 6]| {
@@ -325,7 +322,8 @@ fn a_rounded_robot_keeps_both_answers_next_to_its_stretched_arm() {
             prop_assume!(q[4].sin().abs() > 0.05);
             let found = solver.solve_numbers(&derived.reached(&q).unwrap()).unwrap();
             // Where both answers all but meet, what rounding leaves of the target tells the joints less well.
-            let singular_values = derived.measured().spatial_jacobian(&q).unwrap().singular_values();
+            let singular_values =
+                derived.sequential().unwrap().problem.measured().spatial_jacobian(&q).unwrap().singular_values();
             let known = f64::max(1e-6, 1e-13 / singular_values.min());
             let is_found = |a: &Solution| a.q.iter().zip(q).all(|(a, b)| (a - b).abs() < known);
             prop_assert!(found.iter().any(is_found), "{q:?}: {found:?}");
@@ -353,14 +351,14 @@ fn the_counts_of_the_chains() {
     let asked = std::env::var("GROEBOT_CHAINS").unwrap_or_default();
     let asked: Vec<&str> = asked.split(',').filter(|name| !name.is_empty()).collect();
     for (name, chain) in chains().into_iter().filter(|(name, _)| asked.is_empty() || asked.contains(&name.as_str())) {
-        let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
+        let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
         // A third of the targets are random, and the first of them are counted.
         for (run, targets, exact) in [("poses", 100_000, 0), ("counts", 2_860, 1_000)] {
             let start = Instant::now();
             let report =
                 check(&chain, &derived, &Options { targets, oracle: 0, exact, seed: 9, ..Options::default() }).unwrap();
             let seconds = start.elapsed().as_secs_f64();
-            print_classes(&name, run, derived.plan.dimension, &report, seconds);
+            print_classes(&name, run, derived.dimension().unwrap(), &report, seconds);
             if report.failures().count() > 0 {
                 println!(
                     "# {name}\n{}",

@@ -28,7 +28,7 @@ pub fn from_text(text: &str) -> Source {
 }
 
 pub fn derive(source: &Source) -> Derivation {
-    Derivation::new(source.system.clone().unwrap(), &Watch::none()).unwrap()
+    Derivation::of_problem(source.system.clone().unwrap(), &Watch::none()).unwrap()
 }
 
 pub fn check(source: &Source, program: &Program, targets: usize) -> Report {

@@ -1,7 +1,7 @@
 //! Arms on bases that are turned by angles whose sines are roots: the axes keep their relations, and the solvers their answers.
 
 use groebot_ik::Watch;
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::Derivation;
 use groebot_ik::witness::Options;
 use groebot_ik::witness::chain::Check;
 use groebot_robot::kinematics::{Chain, Geometry};
@@ -28,10 +28,9 @@ fn an_arm_on_a_turned_base_is_solved() {
             let product: groebot_algebra::number::BigRational = a.iter().zip(b).map(|(x, y)| x * y).sum();
             assert_eq!(product, Default::default(), "{rpy}: axes {pair:?} are exactly perpendicular");
         }
-        let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
+        let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
         let options = Options { targets: 80, oracle: 1, exact: 6, seed: 4, ..Options::default() };
-        let report =
-            Check::run(&chain, &derived.program, Some(derived.plan.dimension), &options, &Watch::none()).unwrap();
+        let report = Check::run(&chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap();
         let failures: Vec<String> = report.failures().map(|row| row.to_string()).collect();
         assert!(failures.is_empty(), "{rpy}: {}", failures.join("\n"));
         assert_eq!(report.summary().exact, 6, "{rpy}");

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use groebot_ik::Watch;
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::Derivation;
 use groebot_robot::kinematics::Chain;
 
 const RAIL: &str = r#"
@@ -24,8 +24,8 @@ joint = [
 #[test]
 fn an_arm_along_its_rail_is_solved_at_both_ends() {
     let chain = Chain::from_toml(RAIL).unwrap();
-    let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
-    let solver = derived.program.solver();
+    let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
+    let solver = derived.program().solver();
     for place in [0.2, 1.5, 3.0, 4.5, 6.1] {
         for elbow in [-2.0, -0.5, 0.7, 1.9] {
             let q = [place, -FRAC_PI_2, 0.4 * place - 1.0, elbow, 0.6];

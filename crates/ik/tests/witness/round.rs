@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use groebot_ik::derive::{Ends, InputFile, Proved, Source};
+use groebot_ik::derive::{AnyView, Derivation, Ends, InputFile, Source};
 use groebot_ik::witness::{Fault, Report, Row, Verdict, check_round};
 use groebot_ik::{Result, Watch};
 use groebot_robot::kinematics::Chain;
@@ -91,13 +91,13 @@ fn is_degenerate(chain: &Chain) -> bool {
     (0..5).all(|_| chain.body_jacobian(&random.angles()).unwrap().singular_values().min() < 1e-9)
 }
 
-fn kind(proved: &Proved) -> &'static str {
-    match proved {
-        Proved::Equations(_) => "equations",
-        Proved::Chain(derived) if derived.unpolished.is_some() => "joint by joint, described",
-        Proved::Chain(_) => "joint by joint",
-        Proved::SixAxes(_) => "six joints together",
-        Proved::Coupled(_) => "shared actuators",
+fn kind(proved: &Derivation) -> &'static str {
+    match proved.view() {
+        AnyView::Equations(_) => "equations",
+        AnyView::Sequential(derived) if derived.problem.truth.is_some() => "joint by joint, described",
+        AnyView::Sequential(_) => "joint by joint",
+        AnyView::Eigenvalue(_) => "six joints together",
+        AnyView::Coupled(_) => "shared actuators",
     }
 }
 
@@ -107,7 +107,7 @@ fn count(report: &Report, holds: impl Fn(&Row) -> bool) -> usize {
 
 /// Derives and checks a robot, prints its row, and tells whether an ordinary answer was missed.
 fn is_complete(name: &str, source: &Source) -> Result<bool> {
-    let proved = Proved::of(source, &Watch::none())?;
+    let proved = Derivation::of(source, &Watch::none())?;
     let targets = std::env::var("GROEBOT_TARGETS").map_or(TARGETS, |number| number.parse().unwrap());
     let report = check_round(source, &proved, targets, &Watch::none())?;
     let has = |row: &Row, fault: Fault| matches!(&row.verdict, Verdict::Fail(faults) if faults.contains(&fault));

@@ -1,4 +1,4 @@
-//! Derived programs against the screw solver, with a comparison of their own.
+//! Derivation programs against the screw solver, with a comparison of their own.
 
 use std::f64::consts::PI;
 
@@ -95,7 +95,7 @@ fn target(lengths: [f64; 2]) -> impl Strategy<Value = [f64; 2]> {
 
 #[test]
 fn the_derived_leg_and_the_screw_solver_agree() {
-    let program = derive(&read("nao_leg_sagittal")).program;
+    let program = derive(&read("nao_leg_sagittal")).program().clone();
     let links = Links::new(100.0, 102.9);
     let mut runner = proptest::test_runner::TestRunner::new(config(4000));
     let run = runner.run(&target(links.lengths), |target| {
@@ -114,7 +114,8 @@ fn random_two_link_chains_and_the_screw_solver_agree() {
     let run = chains.run(&lengths, |(a, b, equal)| {
         let b = if equal { a } else { b };
         let (first, both) = (f64::from(a) / 16.0, f64::from(a + b) / 16.0);
-        let program = derive(&from_text(&two_link_text(&format!("{a}/16"), &format!("{}/16", a + b)))).program;
+        let program =
+            derive(&from_text(&two_link_text(&format!("{a}/16"), &format!("{}/16", a + b)))).program().clone();
         let links = Links::new(first, both - first);
         let mut targets = proptest::test_runner::TestRunner::new(config(400));
         let run = targets.run(&target(links.lengths), |target| {
@@ -136,7 +137,7 @@ fn arm_answers(program: &Program, target: [f64; 2]) -> Vec<Answer> {
 
 #[test]
 fn the_derived_arm_and_the_screw_solver_agree() {
-    let program = derive(&read("nao_arm_planar")).program;
+    let program = derive(&read("nao_arm_planar")).program().clone();
     let links = Links::new(105.0, 113.7);
     let mut runner = proptest::test_runner::TestRunner::new(config(4000));
     let run = runner.run(&target(links.lengths), |target| {
@@ -150,7 +151,7 @@ fn the_derived_arm_and_the_screw_solver_agree() {
 /// The arm nearly stretched, nearly along y: the two values of s2 differ by less than a discriminant can tell.
 #[test]
 fn the_arm_next_to_a_stratum_and_to_full_stretch_keeps_both_answers() {
-    let program = derive(&read("nao_arm_planar")).program;
+    let program = derive(&read("nao_arm_planar")).program().clone();
     let links = Links::new(105.0, 113.7);
     let targets = [
         [218.699_999_214_967_42, -0.012_839_658_859_070_078],
@@ -174,7 +175,7 @@ fn the_arm_next_to_a_stratum_and_to_full_stretch_keeps_both_answers() {
 fn the_counts_of_the_design() {
     for folder in ["nao_arm_planar", "nao_leg_sagittal"] {
         let source = read(folder);
-        let program = derive(&source).program;
+        let program = derive(&source).program().clone();
         for (targets, exact) in [(100_000, 0), (1_000, 1_000)] {
             let options = Options { targets, exact, oracle: 0, seed: 2, ..Options::default() };
             let start = std::time::Instant::now();
@@ -184,7 +185,7 @@ fn the_counts_of_the_design() {
             assert!(failures.is_empty(), "{}", failures.join("\n"));
         }
     }
-    let program = derive(&read("nao_arm_planar")).program;
+    let program = derive(&read("nao_arm_planar")).program().clone();
     let links = Links::new(105.0, 113.7);
     let mut runner = proptest::test_runner::TestRunner::new(config(100_000));
     let run = runner.run(&target(links.lengths), |target| {

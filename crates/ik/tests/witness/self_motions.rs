@@ -1,8 +1,7 @@
 //! Self-motions, each told: those of one branch that no motion joins, and those of robots in rounded numbers.
 
 use groebot_ik::Watch;
-use groebot_ik::derive::Proved;
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::Derivation;
 use groebot_ik::witness::chain::{ByScrews, Solver};
 use groebot_robot::kinematics::{Chain, Solution};
 
@@ -56,7 +55,7 @@ fn miss(a: &[f64], b: &[f64]) -> f64 {
 #[test]
 fn two_self_motions_of_one_branch_are_both_told() {
     let chain = Chain::from_toml(Z1).unwrap();
-    let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
+    let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
     let screws = ByScrews::new(&chain).unwrap();
     let target = [
         0.05248093419756742,
@@ -72,7 +71,7 @@ fn two_self_motions_of_one_branch_are_both_told() {
         -0.8785404693982705,
         0.10389643030717421,
     ];
-    let found = derived.program.solver().solve_numbers(&target).unwrap();
+    let found = derived.program().solver().solve_numbers(&target).unwrap();
     let expected = screws.solve(&target).unwrap();
     let sides = |list: &[Solution]| [1.0, -1.0].map(|side| list.iter().any(|answer| side * answer.q[4] > 0.5));
     assert_eq!(sides(&expected), [true, true], "{expected:?}");
@@ -86,7 +85,7 @@ fn two_self_motions_of_one_branch_are_both_told() {
 fn a_self_motion_of_a_robot_in_rounded_numbers_is_told_as_one() {
     use std::f64::consts::FRAC_PI_2;
     let chain = Chain::from_toml(LEG).unwrap();
-    let proved = Proved::of_chain(&chain, &Watch::none()).unwrap();
+    let proved = groebot_ik::derive(&chain).unwrap();
     assert!(proved.program().nearby, "the answers of the ideal leg are polished");
     let solver = proved.program().solver();
     for (q, side) in

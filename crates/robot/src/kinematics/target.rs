@@ -243,3 +243,21 @@ fn rotation(entries: &[f64]) -> UnitQuaternion<f64> {
     let matrix = Rotation3::from_matrix_unchecked(Matrix3::from_row_slice(entries));
     UnitQuaternion::from_rotation_matrix(&matrix)
 }
+
+impl From<Pose> for Target {
+    fn from(base_from_tip: Pose) -> Self {
+        Target::Pose(base_from_tip)
+    }
+}
+
+impl From<&Pose> for Target {
+    fn from(base_from_tip: &Pose) -> Self {
+        Target::Pose(*base_from_tip)
+    }
+}
+
+impl From<&Target> for Target {
+    fn from(target: &Target) -> Self {
+        *target
+    }
+}

@@ -14,6 +14,7 @@ mod mesh;
 pub mod mjcf;
 mod outline;
 mod parts;
+mod read;
 mod robot;
 mod stl;
 pub mod toml;

@@ -1,14 +1,12 @@
-//! Reading of robots from TOML: [`Robot::read_toml`], [`Robot::from_toml`].
+//! Reading of robots from TOML: [`Robot::read`], [`Robot::from_toml`].
 //!
 #![doc = include_str!("../../docs/robot_toml.md")]
-
-use std::path::Path;
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use num_traits::One;
 
 use super::{Actuator, Joint, JointType, LengthUnit, Link, Mass, Mimic, Origin, Robot, RobotParts, Shape, Solid};
-use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
+use crate::document::{Document, Node, Table, shown};
 use crate::spatial::exact::{ExactVector, Placement, Turn};
 use crate::spatial::rotation;
 use crate::{Error, ErrorKind, Result};
@@ -23,15 +21,7 @@ const JOINT_KEYS: [&str; 14] = [
 ];
 
 impl Robot {
-    /// Reads a robot from the TOML file at `path`.
-    ///
-    /// # Errors
-    /// Those of [`read_text`] and [`Robot::from_toml`], with the file.
-    pub fn read_toml(path: &Path) -> Result<Robot> {
-        Robot::from_toml(&read_text(path, TEXT_LIMIT)?).map_err(|error| error.in_file(path))
-    }
-
-    /// Reads a robot from `text` in the format of [`crate::model::toml`].
+    /// The robot that `text` describes in the format of [`crate::model::toml`].
     ///
     /// # Errors
     /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`], [`ErrorKind::MissingKey`];

@@ -2,6 +2,7 @@
 
 mod mesh;
 mod mjcf;
+mod read;
 mod robot;
 mod round_trip;
 mod toml;

@@ -2,13 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::derived::{ChainStage, DerivedCoupled, coupling};
+use super::method::{ChainStage, Coupled, CoupledView, coupling};
 use super::model::CoupledChains;
 use crate::Result;
-use crate::derive::certificate::refused;
+use crate::derive::equations::certificate::refused;
+use crate::derive::problem::ChainProblem;
 use crate::derive::sequential::{Simultaneous, StoredSimultaneous, certificate};
+use crate::solver::Program;
 use groebot_robot::document::{Certificate, Proves};
-use groebot_robot::kinematics::Chain;
 
 /// What is claimed about coupled chains.
 #[derive(Debug, Serialize, Deserialize)]
@@ -27,35 +28,37 @@ struct Proof {
     certificate: Certificate<certificate::Claims>,
 }
 
-impl DerivedCoupled {
+impl CoupledView<'_> {
     /// The text of `certificate.json`.
     ///
     /// # Errors
     /// As [`certificate::write`].
-    pub fn certificate(&self) -> Result<String> {
+    pub(in crate::derive) fn certificate(&self) -> Result<String> {
         let proof = |stage: &ChainStage| {
-            let chain = self.coupled.chains()[stage.member].name.clone();
-            Ok(Proof { chain, certificate: certificate::certificate(&stage.derived)? })
+            let chain = self.problem.chains()[stage.member].name.clone();
+            Ok(Proof { chain, certificate: certificate::certificate(stage.view())? })
         };
         let claims = Claims {
-            simultaneous: self.simultaneous.as_ref().map(Simultaneous::stored).transpose()?,
-            chains: self.stages.iter().map(proof).collect::<Result<_>>()?,
+            simultaneous: self.method.simultaneous.as_ref().map(Simultaneous::stored).transpose()?,
+            chains: self.method.stages.iter().map(proof).collect::<Result<_>>()?,
         };
-        Ok(Certificate::new(Proves::CoupledChains, &self.coupled.parts().name, claims).to_json())
+        Ok(Certificate::new(Proves::CoupledChains, &self.problem.parts().name, claims).to_json())
     }
+}
 
-    /// Proves the derivation of `chains` anew from the text of its certificate, without search and without the Groebner engine.
+impl Coupled {
+    /// Proves the solution of `coupled` anew from the text of its certificate, without search and without the Groebner engine, and composes its solver.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the chain, the step
     /// or the form for a claim that does not hold.
-    pub fn prove(coupled: &CoupledChains, text: &str) -> Result<Self> {
+    pub(in crate::derive) fn prove(coupled: &CoupledChains, text: &str) -> Result<(Self, Program)> {
         let claims: Claims = Certificate::read(text, Proves::CoupledChains, &coupled.parts().name)?;
         let mut stored = claims.chains.into_iter();
-        let mut prove = |member: usize, chain: &Chain| match stored.next() {
+        let mut prove = |member: usize, problem: &ChainProblem| match stored.next() {
             Some(proof) if proof.chain == coupled.chains()[member].name => {
-                let claims = proof.certificate.claims(Proves::Chain, chain.name())?;
-                certificate::prove_claims(chain, claims)
+                let claims = proof.certificate.claims(Proves::Chain, problem.chain.name())?;
+                certificate::prove_claims(problem, claims)
             }
             _ => Err(refused("its certificate is missing or not in its place".to_owned())),
         };
@@ -65,7 +68,7 @@ impl DerivedCoupled {
             (_, None) => None,
             _ => return Err(refused("the proof of the shared joints is missing or left over".to_owned())),
         };
-        let derived = DerivedCoupled::assemble(coupled, simultaneous, &mut prove)?;
+        let derived = Coupled::assemble(coupled, simultaneous, &mut prove)?;
         match stored.next() {
             None => Ok(derived),
             Some(proof) => Err(refused(format!("the certificate of `{}` is left over", proof.chain))),

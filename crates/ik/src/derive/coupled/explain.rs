@@ -2,8 +2,9 @@
 
 use std::fmt;
 
-use super::derived::{ChainStage, DerivedCoupled};
-use crate::derive::sequential::Derived;
+use super::method::{ChainStage, CoupledView};
+use crate::derive::problem::ChainProblem;
+use crate::derive::sequential::Sequential;
 use crate::solver::{Nearest, Program, Unit};
 use crate::{ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Solution;
@@ -56,7 +57,7 @@ fn answers_of(program: &Program, target: &[f64]) -> Result<Vec<Solution>> {
     }
 }
 
-impl DerivedCoupled {
+impl CoupledView<'_> {
     /// The first chain that does not reach its part of `target` together with those before it; none when there is a solution.
     ///
     /// # Errors
@@ -65,7 +66,7 @@ impl DerivedCoupled {
         if !answers_of(&self.program, target)?.is_empty() {
             return Ok(None);
         }
-        match &self.simultaneous {
+        match &self.method.simultaneous {
             Some(_) => self.together(target, watch).map(Some),
             None => self.in_turn(target, watch),
         }
@@ -74,18 +75,16 @@ impl DerivedCoupled {
     /// Where the chains are solved one after the other.
     fn in_turn(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
         let mut before = vec![Vec::new()];
-        for stage in &self.stages {
+        for stage in &self.method.stages {
             let answers = answers_of(&stage.program, &target[..stage.program.inputs.len()])?;
             if answers.is_empty() {
-                let nearest = before.iter().map(|q| stage.derived.program.nearest(&stage.target(target, q)));
+                let nearest = before.iter().map(|q| stage.solver.nearest(&stage.target(target, q)));
                 let nearest: Vec<Option<Nearest>> = nearest.collect::<Result<_>>()?;
                 let nearest = nearest.into_iter().flatten().min_by(|a, b| a.relative.total_cmp(&b.relative));
-                let ways = if stage == &self.stages[0] { 0 } else { before.len() };
-                let member = self.coupled.chains()[stage.member].name.clone();
+                let ways = if stage == &self.method.stages[0] { 0 } else { before.len() };
+                let member = self.problem.chains()[stage.member].name.clone();
                 let disagreement = match self.alone(stage, watch)? {
-                    Some(alone) => {
-                        self.disagreement(stage, &before, &alone.program.solve_numbers(&stage.own_target(target))?)
-                    }
+                    Some(alone) => self.disagreement(stage, &before, &alone.solve_numbers(&stage.own_target(target))?),
                     None => None,
                 };
                 return Ok(Some(Explanation { member, before: ways, disagreement, nearest }));
@@ -100,18 +99,13 @@ impl DerivedCoupled {
     fn together(&self, target: &[f64], watch: &Watch) -> Result<Explanation> {
         let mut before: Vec<Vec<f64>> = Vec::new();
         let mut disagreement = None;
-        for stage in &self.stages {
+        for stage in &self.method.stages {
             let Some(alone) = self.alone(stage, watch)? else { break };
             let own = stage.own_target(target);
-            let answers = answers_of(&alone.program, &own)?;
-            let member = self.coupled.chains()[stage.member].name.clone();
+            let answers = answers_of(&alone, &own)?;
+            let member = self.problem.chains()[stage.member].name.clone();
             if answers.is_empty() {
-                return Ok(Explanation {
-                    member,
-                    before: 0,
-                    disagreement: None,
-                    nearest: alone.program.nearest(&own)?,
-                });
+                return Ok(Explanation { member, before: 0, disagreement: None, nearest: alone.nearest(&own)? });
             }
             if !before.is_empty() {
                 disagreement = self.disagreement(stage, &before, &answers);
@@ -119,7 +113,7 @@ impl DerivedCoupled {
             }
             before = answers.iter().map(|answer| stage.put(&answer.q, self.program.joints.len())).collect();
         }
-        let names: Vec<&str> = self.coupled.chains().iter().map(|member| member.name.as_str()).collect();
+        let names: Vec<&str> = self.problem.chains().iter().map(|member| member.name.as_str()).collect();
         Ok(Explanation {
             member: names.join("` and `"),
             before: 0,
@@ -128,15 +122,15 @@ impl DerivedCoupled {
         })
     }
 
-    /// The derivation of a chain that shares joints with those before it, as if it shared none; none where its task does not determine
+    /// The solver of a chain that shares joints with those before it, as if it shared none; none where its task does not determine
     /// them, or the user gives joints.
-    fn alone(&self, stage: &ChainStage, watch: &Watch) -> Result<Option<Derived>> {
-        let chain = &self.coupled.chains()[stage.member].chain;
+    fn alone(&self, stage: &ChainStage, watch: &Watch) -> Result<Option<Program>> {
+        let chain = &self.problem.chains()[stage.member].chain;
         let is_open = chain.joints().len() > chain.task().freedoms() || !chain.given().is_empty();
         if is_open || stage.found().next().is_none() {
             return Ok(None);
         }
-        Derived::of_chain(chain, watch).map(Some)
+        Ok(Some(Sequential::derive(&ChainProblem::from(chain), watch)?.1))
     }
 
     /// How far a chain's own ways `answers` to reach its target are from the ways `before` of the chains before it, by the shared actuators;

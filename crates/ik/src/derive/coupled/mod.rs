@@ -1,4 +1,4 @@
-//! Chains that share actuators, such as two legs on one hip actuator: a solver for the targets of all chains together ([`DerivedCoupled`]).
+//! Chains that share actuators, such as two legs on one hip actuator: a solver for the targets of all chains together ([`Coupled`]).
 //!
 //! The chains are derived one after the other, each by itself ([`super::sequential`]); a joint that a chain before has found is given for those
 //! behind it. So no solution is lost: each solution of all chains is one of the first chain, continued by one of the next with the
@@ -9,12 +9,12 @@
 #![doc = include_str!("../../../docs/coupled_toml.md")]
 
 mod certificate;
-mod derived;
 mod explain;
+mod method;
 mod model;
 mod reader;
 mod stages;
 
-pub use derived::{ChainStage, DerivedCoupled};
 pub use explain::{Disagreement, Explanation};
+pub use method::{ChainStage, Coupled, CoupledView};
 pub use model::{Actuator, CoupledChain, CoupledChains, CoupledParts, JointPlace};

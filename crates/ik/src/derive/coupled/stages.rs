@@ -2,24 +2,24 @@
 
 use std::fmt::Write;
 
-use super::derived::{ChainStage, DerivedCoupled};
+use super::method::{ChainStage, CoupledView};
 use crate::Result;
 use crate::derive::closure::Mechanism;
+use crate::derive::report::stages::{MARK, PAGE, STAGES};
 use crate::derive::sequential::{joint_unknowns, name as name_of};
-use crate::derive::stages::{MARK, PAGE, STAGES};
 use groebot_algebra::escape::markdown;
 use groebot_algebra::number::{Ring, Style};
 use groebot_robot::document::word;
 
-impl DerivedCoupled {
+impl CoupledView<'_> {
     /// The stage files with their names: the same bytes at every run.
     ///
     /// # Errors
     /// When a field cannot be built: never for a derivation that was made by this crate.
     pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
         let mut texts = self.shared_texts()?;
-        for stage in &self.stages {
-            let parts = stage.derived.stage_texts(&Mechanism::new(&stage.derived.chain)?)?;
+        for stage in &self.method.stages {
+            let parts = stage.view().stage_texts(&Mechanism::new(&stage.problem.chain)?)?;
             for (text, part) in texts.iter_mut().zip(parts) {
                 let _ = write!(text, "{}{}\n\n{part}", if text.is_empty() { "" } else { "\n\n" }, self.title(stage));
             }
@@ -34,8 +34,8 @@ impl DerivedCoupled {
 
     /// What the stages say of shared joints that are found from both chains at once; nothing where that is not done.
     fn shared_texts(&self) -> Result<[String; 4]> {
-        let Some(simultaneous) = &self.simultaneous else { return Ok([const { String::new() }; 4]) };
-        let chains = self.coupled.chains();
+        let Some(simultaneous) = &self.method.simultaneous else { return Ok([const { String::new() }; 4]) };
+        let chains = self.problem.chains();
         let mechanisms = [Mechanism::new(&chains[0].chain)?, Mechanism::new(&chains[1].chain)?];
         let head = format!("shared joints: {}, from both chains at once\n", self.simultaneous_names().join(", "));
         let mut equations = head.clone();
@@ -67,20 +67,21 @@ impl DerivedCoupled {
 
     /// The names of the unknown joints that are found from both chains at once, in their order.
     pub fn simultaneous_names(&self) -> Vec<&str> {
-        let steps = self.simultaneous.iter().flat_map(|simultaneous| &simultaneous.steps);
+        let steps = self.method.simultaneous.iter().flat_map(|simultaneous| &simultaneous.steps);
         steps.map(|step| self.program.joints[step.joint].name.as_str()).collect()
     }
 
     /// `chain 2: right, with HipYawPitch where the chains before it have put it`.
     pub fn title(&self, stage: &ChainStage) -> String {
-        let number = self.stages.iter().position(|other| other.member == stage.member).map_or(0, |index| index + 1);
+        let number =
+            self.method.stages.iter().position(|other| other.member == stage.member).map_or(0, |index| index + 1);
         let found: Vec<&str> = self.shared(stage).collect();
-        let shared = match (found.is_empty(), &self.simultaneous) {
+        let shared = match (found.is_empty(), &self.method.simultaneous) {
             (true, _) => String::new(),
             (false, None) => format!(", with {} where the chains before it have put it", found.join(", ")),
             (false, Some(_)) => format!(", with {} known", found.join(", ")),
         };
-        format!("chain {number}: {}{shared}", self.coupled.chains()[stage.member].name)
+        format!("chain {number}: {}{shared}", self.problem.chains()[stage.member].name)
     }
 
     /// The names of the actuators that chains before have found for a chain.
@@ -90,10 +91,10 @@ impl DerivedCoupled {
 
     /// What the page says of shared joints that are found from both chains at once.
     fn shared_page(&self) -> Result<String> {
-        let Some(simultaneous) = &self.simultaneous else { return Ok(String::new()) };
+        let Some(simultaneous) = &self.method.simultaneous else { return Ok(String::new()) };
         let mut text = format!("## Shared joints: {}\n\n", self.simultaneous_names().join(", "));
         text += "They are found first, from one equation of each chain that holds no other unknown joint:\n\n";
-        for (member, relation) in self.coupled.chains().iter().zip(simultaneous.relations()?) {
+        for (member, relation) in self.problem.chains().iter().zip(simultaneous.relations()?) {
             let meaning = relation.meaning(&Mechanism::new(&member.chain)?);
             let _ = writeln!(text, "* **{}**: `{relation}`: {meaning}.", member.name);
         }
@@ -108,12 +109,12 @@ impl DerivedCoupled {
     }
 
     fn readme(&self) -> Result<String> {
-        let parts = self.coupled.parts();
+        let parts = self.problem.parts();
         let mut text = format!("# {}\n\n", markdown(&parts.name));
         for line in [&parts.description, &parts.source].into_iter().flatten() {
             let _ = writeln!(text, "{}\n", markdown(line));
         }
-        let unit = self.coupled.chains()[0].chain.length_unit().symbol();
+        let unit = self.problem.chains()[0].chain.length_unit().symbol();
         let inputs: Vec<String> = self.program.inputs.iter().map(|input| markdown(&input.name)).collect();
         let joints: Vec<String> = self.program.joints.iter().map(|joint| markdown(&joint.name)).collect();
         let (inputs_list, joints_list) = (inputs.join(", "), joints.join(", "));
@@ -123,17 +124,17 @@ impl DerivedCoupled {
             "Up to {} solutions. The chains are solved one after the other; a joint that is found already is given for those behind it.\n\
              Every way of one chain is continued by all ways of the next, so none is lost; the answers are polished on the equations of\n\
              all chains together and measured by them.\n",
-            self.dimension()
+            self.method.dimension()
         );
         text += &self.shared_page()?;
-        for stage in &self.stages {
-            let chain = &stage.derived.chain;
+        for stage in &self.method.stages {
+            let chain = &stage.problem.chain;
             let _ = writeln!(text, "## {}\n", markdown(&capitalised(&self.title(stage))));
             for line in [&chain.parts().description, &chain.parts().source].into_iter().flatten() {
                 let _ = writeln!(text, "{}\n", markdown(line));
             }
             let _ = writeln!(text, "Task: {}.\n", markdown(&chain.asked()));
-            let _ = writeln!(text, "{}", stage.derived.steps_text(&Mechanism::new(chain)?));
+            let _ = writeln!(text, "{}", stage.view().steps_text(&Mechanism::new(chain)?));
         }
         text += MARK;
         text += "; `groebot check` proves it again from `certificate.json`. Solve with\n\n";

@@ -3,7 +3,7 @@
 //! `E1 E2 .. E7 M = T` with E1 known is `E2 .. E7 M = E1^-1 T`; with E7 known it is `E1 .. E6 M = T (M^-1 E7^-1 M)`. So the six joints
 //! in between are solved by one eigenvalue problem, whatever the given values.
 
-use crate::derive::assemble::Assembler;
+use crate::derive::equations::assemble::Assembler;
 use crate::solver::Operand;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::{Chain, Task};

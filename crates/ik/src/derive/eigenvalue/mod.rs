@@ -1,8 +1,8 @@
 //! The solver of any six joints, offline: which formulations of the eigenvalue problem hold for a chain, proved modulo primes,
 //! and which of them are accurate ([`formulations`], [`crate::solver::eigenvalue::SixAxes`]).
 
-mod derived;
 mod given;
+mod method;
 mod profile;
 mod program;
 mod rank;
@@ -13,7 +13,8 @@ mod stages;
 mod survey;
 mod vector;
 
-pub use derived::DerivedSixAxes;
+pub(super) use method::is_certificate;
+pub use method::{Eigenvalue, EigenvalueView};
 pub use rank::Determinant;
 pub use residue::Residue;
 pub use survey::survey;

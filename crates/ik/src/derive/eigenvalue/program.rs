@@ -4,8 +4,8 @@ use groebot_runtime::six_axes::{ROOM, Rigid};
 
 use super::given::Six;
 use super::layout;
-use crate::derive::assemble::Assembler;
 use crate::derive::closure::Mechanism;
+use crate::derive::equations::assemble::Assembler;
 use crate::derive::sequential::frame_of;
 use crate::solver::eigenvalue::{Formulation, Layout, SixAxes, SixAxesParts};
 use crate::solver::{Block, Case, Operand, Program, Step};

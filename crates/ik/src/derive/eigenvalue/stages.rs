@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use super::DerivedSixAxes;
+use super::EigenvalueView;
 use super::rank::Determinant;
-use crate::derive::explain::Document;
-use crate::derive::stages::{MARK, PAGE, STAGES};
+use crate::derive::report::explain::Document;
+use crate::derive::report::stages::{MARK, PAGE, STAGES};
 use crate::solver::eigenvalue::Formulation;
 use groebot_algebra::escape::markdown;
 use groebot_robot::document::word;
@@ -40,7 +40,7 @@ const SLIDING: [&str; 3] = [
      the fourteen functions.",
 ];
 
-impl DerivedSixAxes {
+impl EigenvalueView<'_> {
     /// The stage files with their names: the same bytes at every run.
     pub fn stage_files(&self) -> Vec<(String, Vec<u8>)> {
         let [equations, plan, .., program, certificate] = STAGES;
@@ -55,7 +55,7 @@ impl DerivedSixAxes {
     }
 
     fn equations_text(&self) -> String {
-        let mut text = format!("{}: the equations of any six joints\n", self.chain.name());
+        let mut text = format!("{}: the equations of any six joints\n", self.problem.chain.name());
         for (number, line) in self.told_equations().enumerate() {
             let _ = write!(text, "\n({}) {line}\n", number + 1);
         }
@@ -64,12 +64,12 @@ impl DerivedSixAxes {
 
     /// How the equations come about, and what is different for joints that slide if there are any.
     fn told_equations(&self) -> impl Iterator<Item = &'static str> {
-        let slides = self.six.joints().iter().any(|joint| joint.kind == JointKind::Prismatic);
+        let slides = self.method.six.joints().iter().any(|joint| joint.kind == JointKind::Prismatic);
         EQUATIONS.into_iter().chain(SLIDING.into_iter().filter(move |_| slides))
     }
 
     fn plan_text(&self) -> String {
-        let mut text = format!("{}: plan\n\n", self.chain.name());
+        let mut text = format!("{}: plan\n\n", self.problem.chain.name());
         for line in self.given().into_iter().chain(self.counts()).chain(self.choices()) {
             let _ = writeln!(text, "{line}");
         }
@@ -78,8 +78,8 @@ impl DerivedSixAxes {
 
     /// What is done with the joint that is given.
     pub fn given(&self) -> Option<String> {
-        let given = self.chain.given();
-        let names: Vec<&str> = given.iter().map(|&joint| self.chain.joints()[joint].name.as_str()).collect();
+        let given = self.problem.chain.given();
+        let names: Vec<&str> = given.iter().map(|&joint| self.problem.chain.joints()[joint].name.as_str()).collect();
         let text = match names.as_slice() {
             [] => return None,
             [one] => format!("{one} is given: its motion is taken off the target"),
@@ -102,7 +102,7 @@ impl DerivedSixAxes {
                 degrees.join(", ")
             )
         };
-        self.evidence.iter().map(line).collect()
+        self.method.evidence.iter().map(line).collect()
     }
 
     /// The formulations with their proofs.
@@ -117,14 +117,14 @@ impl DerivedSixAxes {
                 values.join(", ")
             )
         };
-        self.formulations.iter().enumerate().map(line).collect()
+        self.method.formulations.iter().enumerate().map(line).collect()
     }
 
     /// What a formulation hides and doubles.
     fn told(&self, formulation: Formulation) -> String {
-        let name = |joint: usize| self.six.joints()[joint].name.as_str();
+        let name = |joint: usize| self.method.six.joints()[joint].name.as_str();
         let (hidden, doubled) = (formulation.hidden, formulation.doubled());
-        let slides = |joint: usize| self.six.joints()[joint].kind == JointKind::Prismatic;
+        let slides = |joint: usize| self.method.six.joints()[joint].kind == JointKind::Prismatic;
         let what = if slides(hidden) { "way" } else { "angle" };
         let second = match (slides(doubled), slides(hidden)) {
             (true, _) => format!("the equations are multiplied by the way of {}", name(doubled)),
@@ -135,8 +135,8 @@ impl DerivedSixAxes {
     }
 
     fn readme(&self) -> String {
-        let parts = self.chain.parts();
-        let mut text = format!("# {}\n\n", markdown(self.chain.name()));
+        let parts = self.problem.chain.parts();
+        let mut text = format!("# {}\n\n", markdown(self.problem.chain.name()));
         for line in [&parts.description, &parts.source].into_iter().flatten() {
             let _ = writeln!(text, "{}\n", markdown(line));
         }
@@ -144,9 +144,9 @@ impl DerivedSixAxes {
             text,
             "Up to {} solutions, all found together: no order of joints with few solutions each exists. `1_equations.txt` tells how they \
              become one eigenvalue problem. Answers that rounding loses are rare and counted: `6_check.csv`.\n",
-            self.dimension()
+            self.method.dimension()
         );
-        if let Some((_, report)) = &self.truth {
+        if let Some((_, report)) = &self.problem.truth {
             let _ = writeln!(text, "{}", report.paragraph());
         }
         for line in self
@@ -159,13 +159,13 @@ impl DerivedSixAxes {
         }
         let inputs = vec!["..."; self.program.inputs.len()].join(",");
         let _ = writeln!(text, "\n{MARK}; `groebot check` proves it again from `certificate.json`. Solve with\n");
-        let _ = writeln!(text, "    groebot solve derivations/{} --target {inputs}", word(self.chain.name()));
+        let _ = writeln!(text, "    groebot solve derivations/{} --target {inputs}", word(self.problem.chain.name()));
         text
     }
 
     /// The report for a student.
     pub fn document(&self) -> Document {
-        let mut page = Document::new(&format!("{}: its inverse kinematics, explained", self.chain.name()));
+        let mut page = Document::new(&format!("{}: its inverse kinematics, explained", self.problem.chain.name()));
         self.told_equations().for_each(|line| page.say(line));
         self.given().iter().chain(&self.counts()).chain(&self.choices()).for_each(|line| page.say(line));
         page

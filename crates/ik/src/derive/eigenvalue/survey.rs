@@ -2,7 +2,7 @@
 
 use groebot_runtime::six_axes::Rigid;
 
-use crate::derive::planner::Random;
+use crate::derive::samples::specimen::Random;
 use crate::solver::eigenvalue::{Formulation, Layout};
 
 /// Random targets that each formulation is tried at.

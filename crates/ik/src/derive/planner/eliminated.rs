@@ -2,13 +2,13 @@
 
 use std::rc::Rc;
 
-use super::echelon::Echelon;
-use super::evidence::Space;
 use super::one_joint::Candidate;
-use super::sights::{Sample, Sight, Sights, is_number, members, set};
-use super::specimen::Random;
 use super::types::{PlanStep, Way};
 use crate::derive::closure::{Factor, Mechanism};
+use crate::derive::samples::echelon::Echelon;
+use crate::derive::samples::evidence::Space;
+use crate::derive::samples::sights::{Sample, Sight, Sights, is_number, members, set};
+use crate::derive::samples::specimen::Random;
 use crate::{Result, Watch};
 use groebot_algebra::groebner::{basis_modulo_prime, normal_form};
 use groebot_algebra::number::Ring;

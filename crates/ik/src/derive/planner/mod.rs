@@ -6,30 +6,27 @@
 //! D. L. Pieper, *The kinematics of manipulators under computer control* (1968), for steps by quartics; D. Manocha and J. F. Canny,
 //! "Efficient inverse kinematics for general 6R manipulators", IEEE Trans. Robotics and Automation 10 (1994), for what has no plan.
 
-mod echelon;
 mod eliminated;
-mod evidence;
 mod fitting;
 mod given;
 mod one_joint;
 mod recount;
 mod refuse;
 mod search;
-mod sights;
-mod specimen;
 mod types;
 
 pub use fitting::fitting_task;
 pub use given::{Candidate, Choice, joints_to_give};
 pub(super) use recount::{same_degrees, same_evidence};
 pub(super) use refuse::not_derived;
-pub(super) use specimen::Random;
 pub use types::{Evidence, Plan, PlanStep, Way};
 
 use crate::derive::closure::{Mechanism, Relation, prove};
+use crate::derive::samples;
+use crate::derive::samples::sights::Sights;
+use crate::derive::samples::specimen::Random;
 use crate::{Error, ErrorKind, Result, Watch};
 use search::{Reach, Search};
-use sights::Sights;
 
 /// Where joints are eliminated: the first that leads to the right number of solutions is taken.
 const REACHES: [Reach; 4] = [Reach::OneJoint, Reach::WhereStuck(2), Reach::Everywhere(2), Reach::WhereStuck(3)];
@@ -49,7 +46,7 @@ pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
         return Err(refuse::free(mechanism, watch)?);
     }
     let relations = mechanism.relations();
-    let Some(evidence) = evidence::gather(mechanism, &relations, watch)? else {
+    let Some(evidence) = samples::evidence::gather(mechanism, &relations, watch)? else {
         return Err(refuse::free(mechanism, watch)?);
     };
     let dimension = evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(0);
@@ -66,12 +63,12 @@ pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
 /// # Errors
 /// What `watch` stops with.
 pub(super) fn evidence(mechanism: &Mechanism, watch: &Watch) -> Result<Option<Vec<Evidence>>> {
-    evidence::gather(mechanism, &mechanism.relations(), watch)
+    samples::evidence::gather(mechanism, &mechanism.relations(), watch)
 }
 
 /// What the relations look like at random targets modulo a prime.
 fn sights<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) -> Result<Sights<'a>> {
-    let lucky = evidence::lucky_primes(mechanism)?.into_iter().next();
+    let lucky = samples::evidence::lucky_primes(mechanism)?.into_iter().next();
     let (_, arithmetic) =
         lucky.ok_or_else(|| Error::new(ErrorKind::Unsupported, "no prime suits the chain's constants"))?;
     Sights::new(mechanism, relations, arithmetic, &mut Random::new(SEED))

@@ -1,10 +1,10 @@
 //! Steps that find one joint when all others of their relations are known.
 
-use super::echelon::Echelon;
-use super::sights::{SPECIMENS, Sample, Sights, coefficient, is_number, is_sound};
 use super::types::{PlanStep, Way};
 use crate::Result;
 use crate::derive::closure::{Factor, Letter, Measure, Object, Relation};
+use crate::derive::samples::echelon::Echelon;
+use crate::derive::samples::sights::{SPECIMENS, Sample, Sights, coefficient, is_number, is_sound};
 use groebot_algebra::number::Ring;
 
 /// So many relations of each form are looked at: they come with the shortest first.

@@ -1,8 +1,8 @@
 //! Why a chain has no plan, in words: what is free, or what the geometry lacks.
 
-use super::evidence::is_finite;
 use super::types::Evidence;
 use crate::derive::closure::Mechanism;
+use crate::derive::samples::evidence::is_finite;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::ExactVector;
 

@@ -7,8 +7,8 @@ use std::collections::HashMap;
 
 use super::eliminated::{eliminations, followers};
 use super::one_joint::{Candidate, best_step};
-use super::sights::{Sights, members, set};
 use super::types::PlanStep;
+use crate::derive::samples::sights::{Sights, members, set};
 use crate::{Result, Watch};
 
 /// Where the search may eliminate joints.

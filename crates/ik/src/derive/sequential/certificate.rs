@@ -12,15 +12,15 @@ use super::eliminate::{self, Elimination};
 use super::form_basis::{Form, FormBasis};
 use super::half_angle::{self, HalfAngles};
 use super::shape::{eliminated, shape};
-use super::slack::Slack;
-use super::{Derived, Parts, ProvedStep};
+use super::{ProvedStep, Sequential, SequentialView};
 use crate::derive::Orders;
-use crate::derive::certificate::{Entry, entries, refused, replay};
 use crate::derive::closure::{self, Mechanism};
+use crate::derive::equations::certificate::{Entry, entries, refused, replay};
 use crate::derive::planner::{Plan, PlanStep, Way};
+use crate::derive::problem::ChainProblem;
+use crate::solver::Program;
 use crate::{Error, Result};
 use groebot_robot::document::{Certificate, Proves};
-use groebot_robot::kinematics::Chain;
 
 /// What is claimed about a chain.
 #[derive(Debug, Serialize, Deserialize)]
@@ -47,7 +47,7 @@ pub(super) struct Proof {
 ///
 /// # Errors
 /// When a form's field cannot be built: never for a derivation that was made by this crate.
-pub fn write(derived: &Derived) -> Result<String> {
+pub(in crate::derive) fn write(derived: SequentialView<'_>) -> Result<String> {
     Ok(certificate(derived)?.to_json())
 }
 
@@ -55,36 +55,37 @@ pub fn write(derived: &Derived) -> Result<String> {
 ///
 /// # Errors
 /// As [`write`].
-pub(in crate::derive) fn certificate(derived: &Derived) -> Result<Certificate<Claims>> {
+pub(in crate::derive) fn certificate(derived: SequentialView<'_>) -> Result<Certificate<Claims>> {
     let claims = Claims {
-        plan: derived.plan.clone(),
-        form_bases: form_proofs(&derived.form_bases)?,
+        plan: derived.method.plan.clone(),
+        form_bases: form_proofs(&derived.method.form_bases)?,
         eliminations: derived
+            .method
             .steps
             .iter()
             .filter_map(|step| step.elimination.as_ref())
             .map(Elimination::stored)
             .collect(),
-        half_angles: derived.half_angles.as_ref().map(HalfAngles::stored),
+        half_angles: derived.method.half_angles.as_ref().map(HalfAngles::stored),
     };
-    Ok(Certificate::new(Proves::Chain, derived.chain.name(), claims))
+    Ok(Certificate::new(Proves::Chain, derived.problem.chain.name(), claims))
 }
 
-/// Proves the derivation of `chain` anew from the text of its certificate, without search and without the Groebner engine.
+/// Proves the solution of `problem` anew from the text of its certificate, without search and without the Groebner engine, and compiles its solver.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the step or the form
 /// for a claim that does not hold.
-pub fn prove(chain: &Chain, text: &str) -> Result<Derived> {
-    prove_claims(chain, Certificate::read(text, Proves::Chain, chain.name())?)
+pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(Sequential, Program)> {
+    prove_claims(problem, Certificate::read(text, Proves::Chain, problem.chain.name())?)
 }
 
-/// Proves the derivation of `chain` anew from what is claimed about it.
+/// Proves the solution of `problem` anew from what is claimed about it.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Certificate`] as [`prove`].
-pub(in crate::derive) fn prove_claims(chain: &Chain, claims: Claims) -> Result<Derived> {
-    let mechanism = Mechanism::new(chain)?;
+pub(in crate::derive) fn prove_claims(problem: &ChainProblem, claims: Claims) -> Result<(Sequential, Program)> {
+    let mechanism = Mechanism::new(&problem.chain)?;
     let mut stored = claims.eliminations.iter();
     let mut eliminate = |step: &PlanStep, away: &[usize]| match stored.next() {
         Some(stored) => Elimination::again(&mechanism, step, away, stored),
@@ -95,7 +96,7 @@ pub(in crate::derive) fn prove_claims(chain: &Chain, claims: Claims) -> Result<D
         return Err(refused("an elimination is left over".to_owned()));
     }
     let (form_bases, half_angles) = prove_forms(&steps, &claims.form_bases, claims.half_angles.as_deref())?;
-    Derived::assemble(chain, &mechanism, Parts { plan: claims.plan, steps, form_bases, half_angles }, Slack::NONE)
+    Sequential { plan: claims.plan, steps, form_bases, half_angles }.compiled(problem, &mechanism)
 }
 
 /// What is claimed about the bases of forms.

@@ -7,8 +7,8 @@ use num_traits::{One, ToPrimitive};
 
 use super::emit::{Emitted, Emitter};
 use super::layout::Layout;
-use crate::derive::assemble::{Assembler, of_least_work};
 use crate::derive::closure::{Arithmetic, Mechanism, ScrewJoint};
+use crate::derive::equations::assemble::{Assembler, of_least_work};
 use crate::solver::{Checks, JointValue, Operand, Short};
 use groebot_algebra::number::BigRational;
 use groebot_robot::kinematics::{BaseAxis, ExactVector, Plane, Task};

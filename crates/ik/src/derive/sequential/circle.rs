@@ -1,6 +1,6 @@
 //! Values of unknowns as quotients, and cosines and sines put on the circle: [`on_circle`], [`divided`].
 
-use crate::derive::assemble::Assembler;
+use crate::derive::equations::assemble::Assembler;
 use crate::solver::Operand;
 
 /// A value of an unknown.

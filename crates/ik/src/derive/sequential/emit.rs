@@ -2,8 +2,8 @@
 
 use num_traits::{One, Signed, Zero};
 
-use crate::derive::assemble::{Assembler, constant};
 use crate::derive::closure::Arithmetic;
+use crate::derive::equations::assemble::{Assembler, constant};
 use crate::solver::Operand;
 use groebot_algebra::number::BigRational;
 

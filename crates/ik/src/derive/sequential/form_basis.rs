@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::ProvedStep;
-use crate::derive::tree::Node;
+use crate::derive::equations::tree::Node;
 use crate::derive::{
     Equation, Input, JointKindUnknown, JointUnknown, Orders, Parameter, ParameterSource, Quantity, System, SystemParts,
     derive_tree,

@@ -5,8 +5,8 @@ use num_traits::ToPrimitive;
 use super::emit::{Emitted, Emitter};
 use super::ray;
 use crate::Result;
-use crate::derive::assemble::Assembler;
 use crate::derive::closure::{self, Arithmetic, Assignment, Mechanism, ScrewJoint, Standing, Target, yaw_names};
+use crate::derive::equations::assemble::Assembler;
 use crate::solver::{
     Condition, Following, Input, Instruction, JointValue, Operand, Operation, ParameterRule, Rule, Unit,
 };

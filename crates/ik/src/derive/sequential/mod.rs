@@ -2,7 +2,7 @@
 //! become code that computes their values from the target and the joints before.
 
 mod cases;
-pub mod certificate;
+pub(super) mod certificate;
 mod checks;
 mod circle;
 mod combination;
@@ -42,10 +42,10 @@ use slack::Slack;
 
 use super::closure::{Mechanism, Relation};
 use super::planner::{self, Plan, PlanStep};
+use super::problem::ChainProblem;
+use super::view::View;
 use crate::solver::Program;
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_robot::kinematics::Chain;
-use groebot_robot::kinematics::ideal::Report;
 
 /// A step of a plan whose equations have been recognised.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,22 +61,11 @@ pub struct ProvedStep {
     pub shape: Shape,
 }
 
-/// What a program is made of, proved.
-struct Parts {
-    plan: Plan,
-    steps: Vec<ProvedStep>,
-    form_bases: Vec<FormBasis>,
-    half_angles: Option<HalfAngles>,
-}
-
-/// The derivation of a chain's solver.
+/// The solution of a chain one joint at a time, proved.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Derived {
-    /// The chain whose loop is solved.
-    pub chain: Chain,
-    /// The chain that answers are polished and measured on, where `chain` is its ideal, and how they differ.
-    pub truth: Option<(Chain, Report)>,
-    /// In which order its joints are found.
+#[non_exhaustive]
+pub struct Sequential {
+    /// The order in which the joints are found.
     pub plan: Plan,
     /// The steps.
     pub steps: Vec<ProvedStep>,
@@ -84,81 +73,61 @@ pub struct Derived {
     pub form_bases: Vec<FormBasis>,
     /// The half angles, where a step has an equation of degree two in cosine and sine.
     pub half_angles: Option<HalfAngles>,
-    /// The solver.
-    pub program: Program,
-    /// The solver of the ideal chain itself, where `program` polishes its answers on another.
-    pub unpolished: Option<Box<Program>>,
 }
 
-impl Derived {
-    /// Plans, derives and proves the solver of `chain` for its task.
+/// A chain that is solved one joint at a time.
+pub type SequentialView<'a> = View<'a, ChainProblem, Sequential>;
+
+impl Sequential {
+    /// Plans, derives and proves the solution of `problem`, and compiles its solver.
     ///
     /// # Errors
     /// As [`planner::plan`]; [`crate::ErrorKind::Unsupported`] for a step that no form fits.
-    pub fn of_chain(chain: &Chain, watch: &Watch) -> Result<Self> {
-        let mechanism = Mechanism::new(chain)?;
+    pub(super) fn derive(problem: &ChainProblem, watch: &Watch) -> Result<(Self, Program)> {
+        let mechanism = Mechanism::new(&problem.chain)?;
         let plan = planner::plan(&mechanism, watch)?;
         let evidence = plan.evidence[0].clone();
         let told = |error: Error| match error.kind() {
             ErrorKind::Unsupported => planner::not_derived(&mechanism, &evidence, &error),
             _ => error,
         };
-        Derived::of_plan(chain, &mechanism, plan, watch).map_err(told)
+        Sequential::of_plan(&mechanism, plan, watch)
+            .and_then(|method| method.compiled(problem, &mechanism))
+            .map_err(told)
     }
 
-    /// This solver, of an ideal chain, for the chain `truth` that means it: `report` of [`Chain::ideal`] tells how they differ. Every answer of the closed
-    /// form is polished by Newton's method on `truth`, and measured there. Where the task asks for more than the joints can do, the ideal chain decides which
-    /// answers there are.
-    ///
-    /// # Errors
-    /// As [`Mechanism::new`]; [`crate::ErrorKind::Unsupported`] for what a program cannot hold.
-    pub fn polished_on(self, truth: &Chain, report: Report) -> Result<Self> {
-        let Derived { chain, plan, steps, form_bases, half_angles, program: unpolished, .. } = self;
-        let parts = Parts { plan, steps, form_bases, half_angles };
-        let mechanism = Mechanism::new(&chain)?;
-        let mut derived = Derived::assemble(&chain, &mechanism, parts, Slack::within(report.deviation()))?;
-        match program::described_by(&mechanism, truth, &report, &derived.program)? {
-            None => {
-                derived.program.checks = program::checks_on(&chain, truth)?;
-                derived.program.nearby = true;
-            }
-            described => derived.program.described = described,
-        }
-        derived.truth = Some((truth.clone(), report));
-        derived.unpolished = Some(Box::new(unpolished));
-        Ok(derived)
-    }
-
-    /// The chain that answers are measured on.
-    pub fn measured(&self) -> &Chain {
-        self.truth.as_ref().map_or(&self.chain, |(truth, _)| truth)
-    }
-
-    /// Derives and proves `plan`, one of `mechanism`, which is that of `chain`.
+    /// Derives and proves `plan`, one of `mechanism`.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Certificate`] that names the step when the plan is wrong; [`crate::ErrorKind::Unsupported`] for a step that
     /// no form fits; what `watch` stops with.
-    pub fn of_plan(chain: &Chain, mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
+    pub(super) fn of_plan(mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
         let mut eliminate = |step: &PlanStep, away: &[usize]| Elimination::derive(mechanism, step, away, watch);
         let steps = certificate::prove_plan(mechanism, &plan, &mut eliminate)?;
         let (form_bases, half_angles) = forms(&steps, watch)?;
-        Derived::assemble(chain, mechanism, Parts { plan, steps, form_bases, half_angles }, Slack::NONE)
+        Ok(Sequential { plan, steps, form_bases, half_angles })
     }
 
-    fn assemble(chain: &Chain, mechanism: &Mechanism, parts: Parts, slack: Slack) -> Result<Self> {
-        let program = program::compile(chain, mechanism, &parts, slack)?;
-        let Parts { plan, steps, form_bases, half_angles } = parts;
-        Ok(Derived {
-            chain: chain.clone(),
-            truth: None,
-            plan,
-            steps,
-            form_bases,
-            half_angles,
-            program,
-            unpolished: None,
-        })
+    /// With the solver of `problem`, whose mechanism is `mechanism`. Newton's method polishes every answer of the closed form on the described chain, and
+    /// answers are measured there. Where the task asks for more than the joints can do, the ideal chain decides which answers there are.
+    ///
+    /// # Errors
+    /// As [`Mechanism::new`]; [`crate::ErrorKind::Unsupported`] for what a program cannot hold.
+    pub(super) fn compiled(self, problem: &ChainProblem, mechanism: &Mechanism) -> Result<(Self, Program)> {
+        let program = program::of_problem(problem, mechanism, &self)?;
+        Ok((self, program))
+    }
+}
+
+impl SequentialView<'_> {
+    /// The solver of the ideal chain itself, where the program polishes its answers on another.
+    ///
+    /// # Errors
+    /// As [`Mechanism::new`].
+    pub fn unpolished(&self) -> Result<Option<Program>> {
+        let ideal =
+            || program::compile(&self.problem.chain, &Mechanism::new(&self.problem.chain)?, self.method, Slack::NONE);
+        self.problem.truth.as_ref().map(|_| ideal()).transpose()
     }
 }
 

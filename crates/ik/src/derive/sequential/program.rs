@@ -11,9 +11,10 @@ use super::ray;
 use super::samples::Samples;
 use super::slack::Slack;
 use super::symbols::Symbols;
-use super::{Parts, ProvedStep, standing};
-use crate::derive::assemble::Assembler;
+use super::{ProvedStep, Sequential, standing};
 use crate::derive::closure::Mechanism;
+use crate::derive::equations::assemble::Assembler;
+use crate::derive::problem::ChainProblem;
 use crate::solver::{Block, Checks, Described, Guard, NEAR, Operand, Program};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::ideal::Report;
@@ -26,7 +27,7 @@ const DEPENDENT: f64 = 1e-6;
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for what a program cannot hold.
-pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack: Slack) -> Result<Program> {
+pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Sequential, slack: Slack) -> Result<Program> {
     let form_bases = parts.form_bases.as_slice();
     let mut layout = Layout::new(mechanism, chain.length_unit());
     let reach = reach(chain);
@@ -65,6 +66,25 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Parts, slack
     Ok(program)
 }
 
+/// The program of `problem`, whose mechanism is `mechanism`.
+///
+/// # Errors
+/// As [`compile`] and [`Mechanism::of_chain`].
+pub(super) fn of_problem(problem: &ChainProblem, mechanism: &Mechanism, method: &Sequential) -> Result<Program> {
+    let Some((truth, report)) = &problem.truth else {
+        return compile(&problem.chain, mechanism, method, Slack::NONE);
+    };
+    let mut program = compile(&problem.chain, mechanism, method, Slack::within(report.deviation()))?;
+    match described_by(mechanism, truth, report, &program)? {
+        None => {
+            program.checks = checks_on(&problem.chain, truth)?;
+            program.nearby = true;
+        }
+        described => program.described = described,
+    }
+    Ok(program)
+}
+
 /// The checks of a program of `ideal` that is polished on `chain`, which has its joints and its task.
 ///
 /// # Errors
@@ -83,12 +103,7 @@ pub(in crate::derive) fn checks_on(ideal: &Chain, chain: &Chain) -> Result<Check
 ///
 /// # Errors
 /// As [`Mechanism::of_chain`].
-pub(super) fn described_by(
-    mechanism: &Mechanism,
-    truth: &Chain,
-    report: &Report,
-    program: &Program,
-) -> Result<Option<Described>> {
+fn described_by(mechanism: &Mechanism, truth: &Chain, report: &Report, program: &Program) -> Result<Option<Described>> {
     let layout = Layout::new(mechanism, truth.length_unit());
     if !asks_for_more(mechanism) || mechanism.standing().is_some() {
         return Ok(None);

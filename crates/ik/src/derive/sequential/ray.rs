@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 use num_traits::ToPrimitive;
 
 use super::emit::{Emitted, Emitter};
-use crate::derive::assemble::Assembler;
 use crate::derive::closure::{Arithmetic, Mechanism};
+use crate::derive::equations::assemble::Assembler;
 use crate::solver::{Block, Case, Operand, Pivot, Step};
 
 /// Where the parameters of a ray's direction stand.

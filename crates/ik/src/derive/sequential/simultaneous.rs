@@ -19,8 +19,8 @@ use super::shape::{Shape, eliminated};
 use super::slack::Slack;
 use super::symbolic::Symbolic;
 use super::{ProvedStep, forms};
-use crate::derive::certificate::refused;
 use crate::derive::closure::{Mechanism, Relation, Word, prove};
+use crate::derive::equations::certificate::refused;
 use crate::derive::planner::{PlanStep, Way};
 use crate::solver::{
     Block, Checks, Condition, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Program, Rule, Unit,

@@ -6,13 +6,13 @@ use num_traits::One;
 
 use super::form_basis::{Form, FormBasis};
 use super::symbolic::{Symbolic, TargetPoly};
-use super::{Derived, Elimination, ProvedStep, certificate};
+use super::{Elimination, ProvedStep, SequentialView, certificate};
 use crate::Result;
 use crate::derive::closure::{Factor, Mechanism, Multilinear};
 use crate::derive::describe;
-use crate::derive::stages::{MARK, PAGE, STAGES};
-use crate::derive::tree::{Node, Outcome};
-use crate::derive::triangular::presented;
+use crate::derive::equations::tree::{Node, Outcome};
+use crate::derive::equations::triangular::presented;
+use crate::derive::report::stages::{MARK, PAGE, STAGES};
 use groebot_algebra::escape::markdown;
 use groebot_algebra::number::{Ring, Style};
 use groebot_robot::document::word;
@@ -20,15 +20,15 @@ use groebot_robot::document::word;
 /// The most terms of an equation that are written out.
 const MOST_TERMS: usize = 120;
 
-impl Derived {
+impl SequentialView<'_> {
     /// The stage files with their names: the same bytes at every run.
     ///
     /// # Errors
     /// When a field cannot be built: never for a derivation that was made by this crate.
     pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
-        let mechanism = Mechanism::new(&self.chain)?;
+        let mechanism = Mechanism::new(&self.problem.chain)?;
         let [equations, plan, basis, triangular] = self.stage_texts(&mechanism)?;
-        let texts = [equations, plan, basis, triangular, self.program.to_json(), certificate::write(self)?];
+        let texts = [equations, plan, basis, triangular, self.program.to_json(), certificate::write(*self)?];
         let mut files: Vec<(String, Vec<u8>)> =
             STAGES.iter().zip(texts).map(|(name, text)| ((*name).to_owned(), text.into_bytes())).collect();
         files.push((PAGE.to_owned(), self.readme(&mechanism).into_bytes()));
@@ -42,10 +42,10 @@ impl Derived {
     }
 
     fn equations_text(&self, mechanism: &Mechanism) -> Result<String> {
-        let mut text = format!("{}: {} equations of the loop\n\n", self.chain.name(), self.equations());
+        let mut text = format!("{}: {} equations of the loop\n\n", self.problem.chain.name(), self.equations());
         text += &notation(mechanism);
         let mut symbolic = Symbolic::new(mechanism)?;
-        for (index, step) in self.steps.iter().enumerate() {
+        for (index, step) in self.method.steps.iter().enumerate() {
             let _ =
                 writeln!(text, "\n{} for {}", heading(index, mechanism, step), joint_unknowns(mechanism, step.joint));
             for (number, relation) in step.relations.iter().enumerate() {
@@ -63,12 +63,12 @@ impl Derived {
     }
 
     fn equations(&self) -> usize {
-        self.steps.iter().map(|step| step.relations.len()).sum()
+        self.method.steps.iter().map(|step| step.relations.len()).sum()
     }
 
     fn plan_text(&self, mechanism: &Mechanism) -> String {
-        let mut text = format!("{}: plan\n\n", self.chain.name());
-        for evidence in &self.plan.evidence {
+        let mut text = format!("{}: plan\n\n", self.problem.chain.name());
+        for evidence in &self.method.plan.evidence {
             let degrees: Vec<String> = evidence.degrees.iter().map(usize::to_string).collect();
             let _ = writeln!(
                 text,
@@ -79,11 +79,11 @@ impl Derived {
                 degrees.join(", ")
             );
         }
-        let _ = writeln!(text, "\nThe steps give {} solutions together.\n", self.plan.product());
-        for &joint in &self.plan.given {
+        let _ = writeln!(text, "\nThe steps give {} solutions together.\n", self.method.plan.product());
+        for &joint in &self.method.plan.given {
             let _ = writeln!(text, "given: {}", mechanism.joints()[joint].name);
         }
-        for (index, step) in self.steps.iter().enumerate() {
+        for (index, step) in self.method.steps.iter().enumerate() {
             let count = step.shape.form.degree();
             let _ = writeln!(
                 text,
@@ -104,9 +104,9 @@ impl Derived {
         let mut text = format!(
             "{}: reduced Groebner bases of the forms, their coefficients free symbols\n\
              Each polynomial is zero. Denominators are cleared. A stratum is where a denominator vanishes.\n",
-            self.chain.name()
+            self.problem.chain.name()
         );
-        for form_basis in &self.form_bases {
+        for form_basis in &self.method.form_bases {
             let _ = writeln!(text, "\n{}: {}", form_basis.form.name(), equations(form_basis));
             for node in form_basis.tree.walk() {
                 let _ = writeln!(text, "\n  [{}] {}", node.label, describe(node));
@@ -122,14 +122,16 @@ impl Derived {
     }
 
     fn triangular_text(&self, mechanism: &Mechanism) -> String {
-        let mut text = format!("{}: one joint at a time\n", self.chain.name());
-        for (index, step) in self.steps.iter().enumerate() {
+        let mut text = format!("{}: one joint at a time\n", self.problem.chain.name());
+        for (index, step) in self.method.steps.iter().enumerate() {
             let form = step.shape.form;
             let _ = writeln!(text, "\n{}: form `{}`", heading(index, mechanism, step), form.name());
             for line in symbols(index, mechanism, step) {
                 let _ = writeln!(text, "    {line}");
             }
-            let Some(form_basis) = self.form_bases.iter().find(|form_basis| form_basis.form == form) else { continue };
+            let Some(form_basis) = self.method.form_bases.iter().find(|form_basis| form_basis.form == form) else {
+                continue;
+            };
             for node in form_basis.tree.walk() {
                 match &node.outcome {
                     Outcome::Solved(solved) if !solved.inherited => {
@@ -150,8 +152,8 @@ impl Derived {
     }
 
     fn readme(&self, mechanism: &Mechanism) -> String {
-        let parts = self.chain.parts();
-        let mut text = format!("# {}\n\n", markdown(self.chain.name()));
+        let parts = self.problem.chain.parts();
+        let mut text = format!("# {}\n\n", markdown(self.problem.chain.name()));
         for line in [&parts.description, &parts.source].into_iter().flatten() {
             let _ = writeln!(text, "{}\n", markdown(line));
         }
@@ -160,11 +162,11 @@ impl Derived {
         let _ = writeln!(
             text,
             "Lengths in {}, angles in rad. Target: {}. Joints: {}.\n",
-            self.chain.length_unit().symbol(),
+            self.problem.chain.length_unit().symbol(),
             inputs.join(", "),
             joints.join(", ")
         );
-        if let Some((_, report)) = &self.truth {
+        if let Some((_, report)) = &self.problem.truth {
             let _ = writeln!(text, "{}", report.paragraph());
         }
         if mechanism.standing().is_some() {
@@ -179,15 +181,15 @@ impl Derived {
         text += MARK;
         text += "; `groebot check` proves it again from `certificate.json`. Solve with\n\n";
         let example = vec!["..."; inputs.len()].join(",");
-        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", word(self.chain.name()));
+        let _ = writeln!(text, "    groebot solve derivations/{} --target {example}", word(self.problem.chain.name()));
         text
     }
 
     /// The steps, as a numbered list.
     pub(in crate::derive) fn steps_text(&self, mechanism: &Mechanism) -> String {
         let mut text = String::new();
-        let _ = writeln!(text, "Up to {} solutions. The joints are found one at a time:\n", self.plan.dimension);
-        for (index, step) in self.steps.iter().enumerate() {
+        let _ = writeln!(text, "Up to {} solutions. The joints are found one at a time:\n", self.method.plan.dimension);
+        for (index, step) in self.method.steps.iter().enumerate() {
             let form = step.shape.form;
             let _ =
                 writeln!(text, "{}. **{}**: {}.", index + 1, markdown(&mechanism.joints()[step.joint].name), why(form));

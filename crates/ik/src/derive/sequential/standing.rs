@@ -3,8 +3,8 @@
 use num_traits::ToPrimitive;
 
 use super::layout::Layout;
-use crate::derive::assemble::Assembler;
 use crate::derive::closure::Standing;
+use crate::derive::equations::assemble::Assembler;
 use crate::solver::{Block, Case, Guard, JointValue, Operand, Step};
 
 /// Makes `layout` that of the arm itself, and adds the block that finds its first joint to those of the loop. `reach` is the size of its

@@ -10,8 +10,8 @@ use super::form_basis::Form;
 use super::layout::Layout;
 use super::shape::Shape;
 use crate::Result;
-use crate::derive::assemble::{Assembler, FlatTerm, of_least_work};
 use crate::derive::closure::{Factor, Mechanism, Multilinear, Relation, evaluate};
+use crate::derive::equations::assemble::{Assembler, FlatTerm, of_least_work};
 use crate::solver::Operand;
 use groebot_algebra::number::BigRational;
 

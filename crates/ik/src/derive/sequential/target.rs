@@ -1,11 +1,11 @@
 //! What a chain's tip reaches, as the inputs of its program.
 
-use super::Derived;
 use crate::Result;
+use crate::derive::problem::ChainProblem;
 use groebot_robot::kinematics::Task;
 use groebot_robot::spatial::pitch_and_roll;
 
-impl Derived {
+impl ChainProblem {
     /// The target that the joint values `q` reach, in the order of the program's inputs.
     ///
     /// # Errors

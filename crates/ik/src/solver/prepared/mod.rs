@@ -72,12 +72,23 @@ impl Solver {
         })
     }
 
-    /// Computes all real solutions of `target` with the values `given` of the given joints, by branch; empty if the
-    /// target is unreachable. Lengths are in the program's unit.
+    /// All real solutions for `target`, a pose or another [`Target`], by branch: empty when the target is unreachable. Lengths are in the program's unit.
+    ///
+    /// # Errors
+    /// As [`Solver::solve_given`].
+    pub fn solve(&self, target: impl Into<Target>) -> Result<Vec<Solution>> {
+        self.solve_given(target, &[])
+    }
+
+    /// Same as [`Solver::solve`], but with the values `given` of the joints that the user gives.
     ///
     /// # Errors
     /// As [`Solver::solve_numbers`]; [`ErrorKind::BadValue`] for a target of another task.
-    pub fn solve(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
+    pub fn solve_given(&self, target: impl Into<Target>, given: &[f64]) -> Result<Vec<Solution>> {
+        self.solve_target(&target.into(), given)
+    }
+
+    fn solve_target(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
         let (numbers, inputs) = (target.numbers(), shaped!(self, shaped => &shaped.inputs));
         let named = inputs.iter().take(numbers.len()).all(|input| target.has(&input.name));
         if inputs.len() != numbers.len() + given.len() || !named {
@@ -193,7 +204,7 @@ impl Solver {
 
 impl InverseKinematics for Solver {
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
-        *out = self.solve(target, given)?;
+        *out = self.solve_target(target, given)?;
         Ok(())
     }
 }

@@ -10,7 +10,7 @@ use super::model::{Configuration, Model, RESIDUAL};
 use super::rational::Rationals;
 use super::targets::{Target, Targets};
 use super::{Check, Solver};
-use crate::derive::coupled::{ChainStage, DerivedCoupled};
+use crate::derive::coupled::{ChainStage, CoupledView};
 use crate::witness::screws::Screws;
 use crate::witness::{Options, Report};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -20,22 +20,22 @@ use groebot_robot::kinematics::{Chain, Solution};
 ///
 /// # Errors
 /// As [`Check::run`].
-pub fn check(derived: &DerivedCoupled, options: &Options, watch: &Watch) -> Result<Report> {
+pub fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) -> Result<Report> {
     let model = CoupledModel::new(derived);
-    let leading = derived.stages.iter().map(|stage| leading(derived, stage)).collect::<Result<Vec<Chain>>>()?;
+    let leading = derived.method.stages.iter().map(|stage| leading(derived, stage)).collect::<Result<Vec<Chain>>>()?;
     let leading: Vec<Model<'_>> = leading.iter().map(Model::new).collect();
     let mut targets = Sources::new(&model, &leading, options);
     // Two shared joints more than a chain determines make the equations of both chains too large to be counted by.
-    let counts = derived.simultaneous.as_ref().is_none_or(|simultaneous| simultaneous.steps.len() < 2);
+    let counts = derived.method.simultaneous.as_ref().is_none_or(|simultaneous| simultaneous.steps.len() < 2);
     let counter = if counts { model.counter() } else { None };
     let mut rationals = counter.map(|counter| Rationals::new(counter, options.seed));
     let check = Check {
         model: &model,
-        solver: &derived.program,
-        bound: Some(derived.dimension()),
+        solver: derived.program,
+        bound: Some(derived.method.dimension()),
         screws: ByScrews::new(&model).map(|screws| Box::new(screws) as Box<dyn Solver>),
         tolerance: RESIDUAL,
-        options: Options { oracle: if derived.simultaneous.is_some() { 0 } else { options.oracle }, ..*options },
+        options: Options { oracle: if derived.method.simultaneous.is_some() { 0 } else { options.oracle }, ..*options },
         watch,
     };
     let rows = check.rows(&mut |number| match &mut rationals {
@@ -49,12 +49,12 @@ pub fn check(derived: &DerivedCoupled, options: &Options, watch: &Watch) -> Resu
 
 /// The chain of a stage with joints given so that its task determines the others: those that chains before it find, but where both chains find
 /// them together as few as that takes.
-fn leading(derived: &DerivedCoupled, stage: &ChainStage) -> Result<Chain> {
-    let chain = &stage.derived.chain;
+fn leading(derived: CoupledView<'_>, stage: &ChainStage) -> Result<Chain> {
+    let chain = &stage.problem.chain;
     let mut given = chain.parts().given.clone();
     let least = chain.joints().len().saturating_sub(chain.task().freedoms());
-    if derived.simultaneous.is_some() {
-        given.truncate(least.max(derived.coupled.chains()[stage.member].chain.given().len()));
+    if derived.method.simultaneous.is_some() {
+        given.truncate(least.max(derived.problem.chains()[stage.member].chain.given().len()));
     }
     chain.with_task(chain.task(), chain.direction().clone(), given)
 }
@@ -73,20 +73,20 @@ struct Member<'a> {
 
 /// Chains that share actuators; the joints are those of their solver.
 struct CoupledModel<'a> {
-    derived: &'a DerivedCoupled,
+    derived: CoupledView<'a>,
     members: Vec<Member<'a>>,
     unknown: Vec<usize>,
     count: usize,
 }
 
 impl<'a> CoupledModel<'a> {
-    fn new(derived: &'a DerivedCoupled) -> Self {
+    fn new(derived: CoupledView<'a>) -> Self {
         let member = |stage: &'a ChainStage| Member {
             stage,
-            whole: Model::new(&derived.coupled.chains()[stage.member].chain),
-            own: Model::new(&stage.derived.chain),
+            whole: Model::new(&derived.problem.chains()[stage.member].chain),
+            own: Model::new(&stage.problem.chain),
         };
-        let members: Vec<Member<'a>> = derived.stages.iter().map(member).collect();
+        let members: Vec<Member<'a>> = derived.method.stages.iter().map(member).collect();
         let count = derived.program.joints.len();
         let is_given = |actuator: &usize| members.iter().any(|member| member.is_given(*actuator));
         let unknown = (0..count).filter(|actuator| !is_given(actuator)).collect();
@@ -223,7 +223,7 @@ struct ByScrews<'a> {
 impl<'a> ByScrews<'a> {
     /// `None` when screw theory does not solve each chain, one after the other.
     fn new(coupled: &'a CoupledModel<'a>) -> Option<Self> {
-        if coupled.derived.simultaneous.is_some() {
+        if coupled.derived.method.simultaneous.is_some() {
             return None;
         }
         let screws: Option<Vec<Screws>> = coupled.members.iter().map(|member| Screws::new(member.own.chain)).collect();

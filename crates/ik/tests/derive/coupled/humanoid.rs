@@ -5,7 +5,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
-use groebot_ik::derive::coupled::{CoupledChains, DerivedCoupled};
+use groebot_ik::derive::Derivation;
+use groebot_ik::derive::coupled::CoupledChains;
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::screw::ScrewSolver;
 use groebot_robot::kinematics::{Chain, Solution, Target, Task, along_z};
@@ -26,7 +27,7 @@ name = "left"
 chain = "left.toml"
 "#;
 
-fn derive(text: &str) -> DerivedCoupled {
+fn derive(text: &str) -> Derivation {
     let folder = tempfile::tempdir().unwrap();
     for (file, robot) in [("left.toml", "nao_left_leg"), ("right.toml", "nao_right_leg")] {
         let described = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
@@ -37,13 +38,13 @@ fn derive(text: &str) -> DerivedCoupled {
     }
     fs::write(folder.path().join("0_coupled.toml"), text).unwrap();
     let members = CoupledChains::read(&folder.path().join("0_coupled.toml")).unwrap();
-    DerivedCoupled::of_coupled(&members, &Watch::none()).unwrap()
+    Derivation::of_problem(members, &Watch::none()).unwrap()
 }
 
-static LEGS: LazyLock<DerivedCoupled> = LazyLock::new(|| derive(POSE_AND_RAY));
+static LEGS: LazyLock<Derivation> = LazyLock::new(|| derive(POSE_AND_RAY));
 
 /// Both feet's poses: twelve numbers for eleven actuators.
-static BOTH_POSES: LazyLock<DerivedCoupled> =
+static BOTH_POSES: LazyLock<Derivation> =
     LazyLock::new(|| derive(&POSE_AND_RAY.replace("task = { kind = \"ray\", direction = [0, 0, 1] }", "")));
 
 fn names<'a>(list: impl IntoIterator<Item = &'a String>) -> String {
@@ -52,7 +53,7 @@ fn names<'a>(list: impl IntoIterator<Item = &'a String>) -> String {
 
 #[test]
 fn the_solver_has_eleven_joints_and_the_inputs_of_both_feet() {
-    let program = &LEGS.program;
+    let program = LEGS.program();
     program.validate().unwrap();
     assert_eq!(
         names(program.joints.iter().map(|joint| &joint.name)),
@@ -64,8 +65,14 @@ fn the_solver_has_eleven_joints_and_the_inputs_of_both_feet() {
         "left_px left_py left_pz left_r11 left_r12 left_r13 left_r21 left_r22 left_r23 left_r31 left_r32 left_r33 \
          right_px right_py right_pz right_dx right_dy right_dz"
     );
-    let members: Vec<&str> =
-        LEGS.stages.iter().map(|stage| LEGS.coupled.chains()[stage.member].name.as_str()).collect();
+    let members: Vec<&str> = LEGS
+        .coupled()
+        .unwrap()
+        .method
+        .stages
+        .iter()
+        .map(|stage| LEGS.coupled().unwrap().problem.chains()[stage.member].name.as_str())
+        .collect();
     assert_eq!(members, ["left", "right"], "the ray alone does not determine six joints");
 }
 
@@ -95,7 +102,7 @@ fn both_feet_are_reached_in_all_ways_and_as_often_as_screw_theory_says() {
     let screws = [&left, &right].map(|chain| ScrewSolver::new(chain).unwrap());
     let mut random = Random(11);
     let (mut running, mut most) = (Duration::ZERO, 0);
-    let solver = LEGS.program.solver();
+    let solver = LEGS.program().solver();
     for pose in 0..200 {
         let q = random.angles(11);
         let target = LEGS.reached(&q).unwrap();
@@ -104,7 +111,9 @@ fn both_feet_are_reached_in_all_ways_and_as_often_as_screw_theory_says() {
         running += start.elapsed();
         let place = format!("pose {pose} {q:?}");
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{place}: {answers:?}");
-        let feet = |q: &[f64]| [LEGS.joints_of(1, q).unwrap(), LEGS.joints_of(0, q).unwrap()];
+        let feet = |q: &[f64]| {
+            [LEGS.coupled().unwrap().joints_of(1, q).unwrap(), LEGS.coupled().unwrap().joints_of(0, q).unwrap()]
+        };
         let asked = feet(&q);
         for answer in &answers {
             let reached = feet(&answer.q);
@@ -123,20 +132,20 @@ fn both_feet_are_reached_in_all_ways_and_as_often_as_screw_theory_says() {
 fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
     let legs = [robots::nao_left_leg(), robots::nao_right_leg()];
     let mut random = Random(12);
-    let solver = BOTH_POSES.program.solver();
+    let solver = BOTH_POSES.program().solver();
     for pose in 0..40 {
         let q = random.angles(11);
         let target = BOTH_POSES.reached(&q).unwrap();
         let answers = solver.solve_numbers(&target).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "pose {pose} {q:?}: {answers:?}");
         for (member, chain) in [(1, &legs[0]), (0, &legs[1])] {
-            let asked = BOTH_POSES.joints_of(member, &q).unwrap();
+            let asked = BOTH_POSES.coupled().unwrap().joints_of(member, &q).unwrap();
             for answer in &answers {
-                let reached = BOTH_POSES.joints_of(member, &answer.q).unwrap();
+                let reached = BOTH_POSES.coupled().unwrap().joints_of(member, &answer.q).unwrap();
                 assert!(miss(chain, &reached, &asked) <= 1e-12, "pose {pose} {q:?}: {answer:?}");
             }
         }
-        assert_eq!(BOTH_POSES.explain(&target, &Watch::none()).unwrap(), None);
+        assert_eq!(BOTH_POSES.coupled().unwrap().explain(&target, &Watch::none()).unwrap(), None);
     }
 }
 
@@ -146,7 +155,7 @@ fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
 fn two_poses_that_disagree_are_refused_by_the_actuator_and_by_how_much() {
     let mut random = Random(13);
     let mut exact = 0;
-    let solver = BOTH_POSES.program.solver();
+    let solver = BOTH_POSES.program().solver();
     for _ in 0..8 {
         let q = random.angles(11);
         let mut other = q.clone();
@@ -157,7 +166,7 @@ fn two_poses_that_disagree_are_refused_by_the_actuator_and_by_how_much() {
         // Some of these take all steps that a target may take: then none is found, either.
         let found = solver.solve_numbers(&target);
         assert!(found.map_or_else(|error| error.kind() == ErrorKind::Budget, |answers| answers.is_empty()));
-        let explained = BOTH_POSES.explain(&target, &Watch::none()).unwrap().unwrap();
+        let explained = BOTH_POSES.coupled().unwrap().explain(&target, &Watch::none()).unwrap().unwrap();
         assert_eq!((explained.member.as_str(), explained.before), ("left", 8));
         assert!(explained.to_string().contains("chain `left` needs `HipYawPitch` at"), "{explained}");
         let disagreement = explained.disagreement.unwrap();
@@ -172,7 +181,7 @@ fn two_poses_that_disagree_are_refused_by_the_actuator_and_by_how_much() {
 fn the_standing_robot_is_found() {
     let leg = [0.0, -0.4, 0.8, -0.4, 0.0];
     let q = [&[0.0][..], &leg, &leg].concat();
-    let answers = BOTH_POSES.program.solve_numbers(&BOTH_POSES.reached(&q).unwrap()).unwrap();
+    let answers = BOTH_POSES.program().solve_numbers(&BOTH_POSES.reached(&q).unwrap()).unwrap();
     assert_eq!(answers.len(), 32, "{answers:?}");
     assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{answers:?}");
 }
@@ -182,9 +191,10 @@ fn the_standing_robot_is_found() {
 fn a_hip_that_one_leg_leaves_open_is_found_from_the_other() {
     let mut random = Random(15);
     // The first and the third axis are in line where the roll turns the third into the first: by 45 and 135 degrees to either side.
-    let solver = BOTH_POSES.program.solver();
+    let solver = BOTH_POSES.program().solver();
     for (member, roll) in [(1, 2.356_194_490_192_345), (0, -2.356_194_490_192_345)] {
-        let roll_place = BOTH_POSES.stages.iter().find(|stage| stage.member == member).unwrap().joints[1];
+        let roll_place =
+            BOTH_POSES.coupled().unwrap().method.stages.iter().find(|stage| stage.member == member).unwrap().joints[1];
         for _ in 0..10 {
             let mut q = random.angles(11);
             q[roll_place] = roll;
@@ -201,27 +211,27 @@ fn a_foot_out_of_reach_is_named() {
     let q = Random(14).angles(11);
     let mut target = LEGS.reached(&q).unwrap();
     target[12] += 1.0;
-    let explained = LEGS.explain(&target, &Watch::none()).unwrap().unwrap();
+    let explained = LEGS.coupled().unwrap().explain(&target, &Watch::none()).unwrap().unwrap();
     assert_eq!(explained.member, "right");
     target[12] -= 1.0;
     target[0] += 1.0;
-    let explained = LEGS.explain(&target, &Watch::none()).unwrap().unwrap();
+    let explained = LEGS.coupled().unwrap().explain(&target, &Watch::none()).unwrap().unwrap();
     assert_eq!((explained.member.as_str(), explained.before), ("left", 0));
 }
 
 #[test]
 fn the_certificate_proves_the_same_solver_again_and_no_other() {
     let text = LEGS.certificate().unwrap();
-    let again = DerivedCoupled::prove(&LEGS.coupled, &text).unwrap();
-    assert_eq!(again.program, LEGS.program);
+    let again = Derivation::prove(LEGS.problem().clone(), &text).unwrap();
+    assert_eq!(again.program(), LEGS.program());
     let refused = |text: &str, kind: ErrorKind, word: &str| {
-        let error = DerivedCoupled::prove(&LEGS.coupled, text).unwrap_err();
+        let error = Derivation::prove(LEGS.problem().clone(), text).unwrap_err();
         assert!(error.kind() == kind && error.message().contains(word), "`{word}`: {error}");
     };
     refused(&text.replacen("\"chain\": \"left\"", "\"chain\": \"right\"", 1), ErrorKind::Certificate, "`left`");
     refused(&text.replacen("\"name\": \"legs\"", "\"name\": \"arms\"", 1), ErrorKind::Certificate, "`arms`");
     refused(&text.replacen("\"joint\": 0", "\"joint\": 1", 1), ErrorKind::Certificate, "chain `left`");
     refused(&text[..text.len() / 2], ErrorKind::Syntax, "certificate");
-    let both = DerivedCoupled::prove(&BOTH_POSES.coupled, &text).unwrap_err();
+    let both = Derivation::prove(BOTH_POSES.problem().clone(), &text).unwrap_err();
     assert_eq!(both.kind(), ErrorKind::Certificate, "{both}");
 }

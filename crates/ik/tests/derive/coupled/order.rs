@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use groebot_ik::derive::coupled::{CoupledChains, DerivedCoupled};
+use groebot_ik::derive::Derivation;
+use groebot_ik::derive::coupled::CoupledChains;
 use groebot_ik::{Error, ErrorKind, Watch};
 
 use super::distance;
@@ -19,9 +20,9 @@ fn member(name: &str, joints: usize, task: &str) -> String {
     )
 }
 
-fn derive(shared: &str, members: &[String]) -> Result<DerivedCoupled, Error> {
+fn derive(shared: &str, members: &[String]) -> Result<Derivation, Error> {
     let text = format!("name = \"planar\"\nshared = {shared}\n{}", members.concat());
-    DerivedCoupled::of_coupled(&CoupledChains::from_toml(&text, Path::new("")).unwrap(), &Watch::none())
+    Derivation::of_problem(CoupledChains::from_toml(&text, Path::new("")).unwrap(), &Watch::none())
 }
 
 const POSITION: &str = "kind = \"planar_position\"";
@@ -34,12 +35,12 @@ const POSE: &str = "kind = \"planar_pose\"";
 fn each_way_of_the_first_chain_is_continued_by_the_second() {
     let members = [member("b", 3, POSITION), member("a", 2, POSITION)];
     let arms = derive("[[\"b.j0\", \"a.j0\"]]", &members).unwrap();
-    assert_eq!(arms.stages.iter().map(|stage| stage.member).collect::<Vec<_>>(), [1, 0]);
-    let joints: Vec<&str> = arms.program.joints.iter().map(|joint| joint.name.as_str()).collect();
+    assert_eq!(arms.coupled().unwrap().method.stages.iter().map(|stage| stage.member).collect::<Vec<_>>(), [1, 0]);
+    let joints: Vec<&str> = arms.program().joints.iter().map(|joint| joint.name.as_str()).collect();
     assert_eq!(joints, ["j0", "a_j1", "b_j1", "b_j2"]);
     let half = std::f64::consts::FRAC_PI_2;
     let target = [1.0, 1.0, 1.9, 1.0];
-    let answers = arms.program.solve_numbers(&target).unwrap();
+    let answers = arms.program().solve_numbers(&target).unwrap();
     // The second arm from (1, 0) to (1.9, 1) and from (0, 1) to (1.9, 1): two elbows each.
     assert_eq!(answers.len(), 4, "{answers:?}");
     for hip in [0.0, half] {
@@ -60,8 +61,8 @@ fn each_way_of_the_first_chain_is_continued_by_the_second() {
 fn an_actuator_of_three_chains_stands_once() {
     let members = [member("a", 2, POSITION), member("b", 2, POSITION), member("c", 3, POSITION)];
     let arms = derive("[[\"a.j0\", \"c.j0\", \"b.j0\"]]", &members).unwrap();
-    assert_eq!(arms.program.joints.len(), 5);
-    let solver = arms.program.solver();
+    assert_eq!(arms.program().joints.len(), 5);
+    let solver = arms.program().solver();
     for q in [[0.3, 0.7, -1.1, 0.4, 0.9], [-2.0, 1.0, 2.0, -1.5, 0.5]] {
         let target = arms.reached(&q).unwrap();
         let answers = solver.solve_numbers(&target).unwrap();
@@ -77,8 +78,8 @@ fn an_actuator_of_three_chains_stands_once() {
 #[test]
 fn two_arms_that_must_agree_on_the_shoulder() {
     let arms = derive("[[\"a.j0\", \"b.j0\"]]", &[member("a", 2, POSITION), member("b", 2, POSITION)]).unwrap();
-    assert!(arms.simultaneous.is_some() && arms.dimension() == 2);
-    let solver = arms.program.solver();
+    assert!(arms.coupled().unwrap().method.simultaneous.is_some() && arms.dimension() == Some(2));
+    let solver = arms.program().solver();
     for q in [[0.3, 0.7, -1.1], [-2.0, 1.0, 2.0], [0.0, std::f64::consts::PI, 0.5]] {
         let answers = solver.solve_numbers(&arms.reached(&q).unwrap()).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-7), "{q:?}: {answers:?}");
@@ -87,7 +88,7 @@ fn two_arms_that_must_agree_on_the_shoulder() {
     let (near, far) = (0.25_f64, 0.85_f64);
     let target = [1.0, 1.0, near.cos() + far.cos(), near.sin() + far.sin()];
     assert!(solver.solve_numbers(&target).unwrap().is_empty());
-    let explained = arms.explain(&target, &Watch::none()).unwrap().unwrap();
+    let explained = arms.coupled().unwrap().explain(&target, &Watch::none()).unwrap().unwrap();
     let disagreement = explained.disagreement.unwrap();
     assert_eq!((explained.member.as_str(), disagreement.actuator.as_str()), ("b", "j0"));
     assert!((disagreement.off() - 0.25).abs() < 1e-9, "{disagreement:?}");
@@ -114,10 +115,10 @@ fn a_joint_that_is_found_before_is_not_given_too() {
 fn a_given_shared_joint_is_given_once() {
     let given = |text: String| text.replace("\n[chain.chain]\n", "\ngiven = [\"j0\"]\n[chain.chain]\n");
     let arms = derive("[[\"a.j0\", \"b.j0\"]]", &[given(member("a", 3, POSITION)), member("b", 3, POSITION)]).unwrap();
-    let inputs: Vec<&str> = arms.program.inputs.iter().map(|input| input.name.as_str()).collect();
+    let inputs: Vec<&str> = arms.program().inputs.iter().map(|input| input.name.as_str()).collect();
     assert_eq!(inputs, ["a_px", "a_py", "a_j0", "b_px", "b_py"]);
     let q = [0.4, 0.5, 0.6, -0.7, -0.8];
-    let answers = arms.program.solve_numbers(&arms.reached(&q).unwrap()).unwrap();
+    let answers = arms.program().solve_numbers(&arms.reached(&q).unwrap()).unwrap();
     assert_eq!(answers.len(), 4, "{answers:?}");
     assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-12), "{answers:?}");
 }

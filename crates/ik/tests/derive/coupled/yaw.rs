@@ -5,7 +5,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
-use groebot_ik::derive::coupled::{CoupledChains, DerivedCoupled};
+use groebot_ik::derive::Derivation;
+use groebot_ik::derive::coupled::CoupledChains;
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::Target;
 use groebot_robot::kinematics::screw::ScrewSolver;
@@ -15,9 +16,9 @@ use nalgebra::{Translation3, UnitQuaternion};
 
 use super::{Random, distance};
 
-static STANDING: LazyLock<DerivedCoupled> = LazyLock::new(|| {
+static STANDING: LazyLock<Derivation> = LazyLock::new(|| {
     let file = concat!(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), "/derivations/nao_legs_yaw/0_coupled.toml");
-    DerivedCoupled::of_coupled(&CoupledChains::read(Path::new(file)).unwrap(), &Watch::none()).unwrap()
+    Derivation::of_problem(CoupledChains::read(Path::new(file)).unwrap(), &Watch::none()).unwrap()
 });
 
 /// Places of the yaw at which the legs are solved.
@@ -31,7 +32,8 @@ fn torso(q: &[f64]) -> Pose {
 /// The poses of both feet, left first, by forward kinematics of the robot's legs.
 fn feet(q: &[f64]) -> [Pose; 2] {
     let legs = [robots::nao_left_leg(), robots::nao_right_leg()];
-    [0, 1].map(|leg| torso(q) * legs[leg].forward(&STANDING.joints_of(leg, q).unwrap()[3..]).unwrap())
+    [0, 1]
+        .map(|leg| torso(q) * legs[leg].forward(&STANDING.coupled().unwrap().joints_of(leg, q).unwrap()[3..]).unwrap())
 }
 
 /// The largest miss of two poses (m, and of the rotation's entries).
@@ -42,24 +44,24 @@ fn miss(a: &Pose, b: &Pose) -> f64 {
 
 #[test]
 fn the_solver_asks_for_both_feet_and_the_torso_s_tilt() {
-    STANDING.program.validate().unwrap();
-    let names: Vec<&str> = STANDING.program.joints.iter().map(|joint| joint.name.as_str()).collect();
+    STANDING.program().validate().unwrap();
+    let names: Vec<&str> = STANDING.program().joints.iter().map(|joint| joint.name.as_str()).collect();
     assert_eq!(names[..5], ["TorsoYaw", "TorsoPitch", "TorsoRoll", "HipYawPitch", "left_HipRoll"]);
     assert_eq!(names.len(), 14);
-    let inputs: Vec<&str> = STANDING.program.inputs.iter().map(|input| input.name.as_str()).collect();
+    let inputs: Vec<&str> = STANDING.program().inputs.iter().map(|input| input.name.as_str()).collect();
     assert_eq!(
         (inputs.len(), &inputs[11..15]),
         (26, &["left_r33", "left_TorsoPitch", "left_TorsoRoll", "right_px"][..])
     );
-    assert_eq!(STANDING.dimension(), 4 * 2 * 4 * 4);
-    assert_eq!(STANDING.simultaneous_names(), ["TorsoYaw", "HipYawPitch"]);
+    assert_eq!(STANDING.dimension(), Some(4 * 2 * 4 * 4));
+    assert_eq!(STANDING.coupled().unwrap().simultaneous_names(), ["TorsoYaw", "HipYawPitch"]);
 }
 
 #[test]
 fn the_joints_that_made_a_target_are_found_and_every_answer_reaches_it() {
     let mut random = Random(21);
     let (mut running, mut most) = (Duration::ZERO, 0);
-    let solver = STANDING.program.solver();
+    let solver = STANDING.program().solver();
     for _ in 0..12 {
         let q = random.angles(14);
         let target = STANDING.reached(&q).unwrap();
@@ -73,7 +75,7 @@ fn the_joints_that_made_a_target_are_found_and_every_answer_reaches_it() {
             let reached = feet(&answer.q);
             assert!((0..2).all(|leg| miss(&reached[leg], &asked[leg]) < 1e-12), "{q:?}: {answer:?}");
         }
-        assert!(answers.len() <= STANDING.dimension());
+        assert!(answers.len() <= STANDING.dimension().unwrap());
         most = most.max(answers.len());
     }
     println!("at most {most} answers, {:?} each", running / 12);
@@ -82,7 +84,7 @@ fn the_joints_that_made_a_target_are_found_and_every_answer_reaches_it() {
 /// Both feet below the hips, soles level, knees bent, upright or bowed; one foot ahead, and turned out.
 #[test]
 fn the_standing_robot_is_found() {
-    let solver = STANDING.program.solver();
+    let solver = STANDING.program().solver();
     for (pitch, hip) in [(0.0, 0.0), (0.1, 0.0), (0.0, -0.3), (0.1, -0.3)] {
         for (ahead, knee) in [(-0.4, 0.8), (-0.2, 0.9)] {
             let leg = |thigh: f64| [0.0, thigh - pitch, knee, -thigh - knee, 0.0];
@@ -148,14 +150,14 @@ fn going_round_with_the_yaw_finds_the_same_answers() {
     let legs = [robots::nao_left_leg(), robots::nao_right_leg()].map(|leg| ScrewSolver::new(&leg).unwrap());
     let mut random = Random(22);
     let (mut ours, mut theirs) = (0, 0);
-    let solver = STANDING.program.solver();
+    let solver = STANDING.program().solver();
     for _ in 0..6 {
         let q = random.angles(14);
         let answers = solver.solve_numbers(&STANDING.reached(&q).unwrap()).unwrap();
         let found = meetings(&legs, &feet(&q), &q[1..3]);
         for (yaw, [left, right]) in &found {
             let is_ours = |other: &Vec<f64>| {
-                let legs = [0, 1].map(|leg| STANDING.joints_of(leg, other).unwrap()[3..].to_vec());
+                let legs = [0, 1].map(|leg| STANDING.coupled().unwrap().joints_of(leg, other).unwrap()[3..].to_vec());
                 distance(&other[..1], &[*yaw]) < 1e-6
                     && distance(&legs[0], left) < 1e-6
                     && distance(&legs[1], right) < 1e-6
@@ -171,11 +173,11 @@ fn going_round_with_the_yaw_finds_the_same_answers() {
 #[test]
 fn the_certificate_proves_it_again_and_no_other() {
     let text = STANDING.certificate().unwrap();
-    assert_eq!(DerivedCoupled::prove(&STANDING.coupled, &text).unwrap().program, STANDING.program);
+    assert_eq!(Derivation::prove(STANDING.problem().clone(), &text).unwrap().program(), STANDING.program());
     let refused = |from: &str, to: &str, words: &str| {
         let changed = text.replacen(from, to, 1);
         assert_ne!(changed, text, "{from}");
-        let error = DerivedCoupled::prove(&STANDING.coupled, &changed).unwrap_err();
+        let error = Derivation::prove(STANDING.problem().clone(), &changed).unwrap_err();
         assert!(error.kind() == ErrorKind::Certificate && error.message().contains(words), "`{words}`: {error}");
     };
     refused("\"member\": \"", "\"member\": \"x3 + ", "do not multiply out");

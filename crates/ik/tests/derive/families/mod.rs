@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use groebot_ik::Watch;
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::Derivation;
 use groebot_ik::witness::chain::Check;
 use groebot_ik::witness::{Options, Report};
 use groebot_robot::kinematics::Chain;
@@ -38,7 +38,7 @@ impl Tally {
         for number in 0..chains {
             let chain = family.chain(number, options.seed);
             let start = Instant::now();
-            let derived = Derived::of_chain(&chain, &Watch::none());
+            let derived = Derivation::sequentially(&chain, &Watch::none());
             tally.slowest = tally.slowest.max(start.elapsed());
             tally.chains += 1;
             match derived {
@@ -50,10 +50,10 @@ impl Tally {
         tally
     }
 
-    fn check(&mut self, number: usize, chain: &Chain, derived: &Derived, options: &Options) {
-        let dimension = derived.plan.dimension;
+    fn check(&mut self, number: usize, chain: &Chain, derived: &Derivation, options: &Options) {
+        let dimension = derived.dimension().unwrap();
         *self.dimensions.entry(dimension).or_default() += 1;
-        match Check::run(chain, &derived.program, Some(dimension), options, &Watch::none()) {
+        match Check::run(chain, derived.program(), Some(dimension), options, &Watch::none()) {
             Ok(report) => self.add(number, &report),
             Err(error) => self.failures.push(format!("chain {number}: {error}\n{chain}")),
         }
@@ -116,7 +116,7 @@ fn a_straight_wrist_is_found_behind_an_arm_whose_quartic_costs_digits() {
     // Of this chain's arm the cosines and sines are off by up to 1e-9, and with them what the wrist's double root is zero by.
     let family = FAMILIES.iter().find(|family| family.name == "three joints, spherical wrist").expect("it is listed");
     let chain = family.chain(40, 12);
-    let derived = Derived::of_chain(&chain, &Watch::none()).unwrap();
+    let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
     let mut tally = Tally::default();
     tally.check(40, &chain, &derived, &Options { targets: 200, oracle: 0, exact: 0, seed: 12, ..Options::default() });
     assert!(tally.failures.is_empty(), "{}", tally.failures.join("\n"));

@@ -1,7 +1,7 @@
 //! The certificate of a chain: proved again without search, refused where it is forged.
 
 use groebot_ik::ErrorKind;
-use groebot_ik::derive::sequential::certificate;
+use groebot_ik::derive::Derivation;
 use groebot_robot::kinematics::Chain;
 use groebot_robot::robots;
 use serde_json::Value;
@@ -10,7 +10,7 @@ use super::derive;
 
 fn puma() -> (groebot_robot::kinematics::Chain, String) {
     let chain = robots::puma();
-    let text = certificate::write(&derive(&chain)).unwrap();
+    let text = derive(&chain).certificate().unwrap();
     (chain, text)
 }
 
@@ -18,9 +18,9 @@ fn puma() -> (groebot_robot::kinematics::Chain, String) {
 fn it_proves_the_same_derivation_again() {
     for robot in robots::ALL {
         let derived = derive(&robot.chain());
-        let text = certificate::write(&derived).unwrap();
-        assert_eq!(certificate::prove(&robot.chain(), &text).unwrap(), derived, "{}", robot.name());
-        assert_eq!(text, certificate::write(&derive(&robot.chain())).unwrap(), "the same bytes at every run");
+        let text = derived.certificate().unwrap();
+        assert_eq!(Derivation::prove(&robot.chain(), &text).unwrap(), derived, "{}", robot.name());
+        assert_eq!(text, derive(&robot.chain()).certificate().unwrap(), "the same bytes at every run");
         let size: usize = derived.stage_files().unwrap().iter().map(|(_, bytes)| bytes.len()).sum();
         assert!(size < 500_000 && text.len() < 200_000, "{}: {size} {}", robot.name(), text.len());
     }
@@ -30,7 +30,7 @@ fn refused(change: impl Fn(&mut Value)) -> String {
     let (chain, text) = puma();
     let mut value: Value = serde_json::from_str(&text).unwrap();
     change(&mut value["claims"]);
-    let error = certificate::prove(&chain, &value.to_string()).unwrap_err();
+    let error = Derivation::prove(&chain, &value.to_string()).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Certificate, "{error}");
     error.message().to_owned()
 }
@@ -66,10 +66,10 @@ fn a_forged_relation_or_basis_is_refused() {
 #[test]
 fn an_equation_about_what_the_task_does_not_see_is_refused() {
     let chain = Chain::from_toml(include_str!("../../../../../derivations/polar/0_chain.toml")).unwrap();
-    let mut value: Value = serde_json::from_str(&certificate::write(&derive(&chain)).unwrap()).unwrap();
+    let mut value: Value = serde_json::from_str(&derive(&chain).certificate().unwrap()).unwrap();
     let point = &mut value["claims"]["plan"]["steps"][0]["way"]["single"]["moved"]["point"];
     assert!(point.as_array().is_some_and(|point| point.len() == 3), "{point}");
     point.as_array_mut().unwrap().swap(0, 1);
-    let error = certificate::prove(&chain, &value.to_string()).unwrap_err();
+    let error = Derivation::prove(&chain, &value.to_string()).unwrap_err();
     assert!(error.kind() == ErrorKind::Certificate && error.message().contains("than the task sees"), "{error}");
 }

@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use groebot_algebra::number::BigRational;
-use groebot_ik::derive::sequential::{Derived, Form};
+use groebot_ik::derive::Derivation;
+use groebot_ik::derive::sequential::Form;
 use groebot_robot::kinematics::screw::ScrewSolver;
 use groebot_robot::kinematics::{Chain, Plane, Target, Task};
 use groebot_robot::robots;
@@ -15,14 +16,14 @@ const SEEDS: u64 = 3;
 const POSES: usize = 25;
 
 /// The joints that made a pose are among its answers, all of which reach it; as many as the screw solver's where that one applies.
-fn check(name: &str, chain: &Chain) -> Derived {
+fn check(name: &str, chain: &Chain) -> Derivation {
     let start = Instant::now();
     let derived = derive(chain);
-    let forms: Vec<Form> = derived.steps.iter().map(|step| step.shape.form).collect();
-    println!("{name}: {} solutions, {forms:?}, {:?}", derived.plan.dimension, start.elapsed());
+    let forms: Vec<Form> = derived.sequential().unwrap().method.steps.iter().map(|step| step.shape.form).collect();
+    println!("{name}: {} solutions, {forms:?}, {:?}", derived.dimension().unwrap(), start.elapsed());
     let screws = ScrewSolver::new(chain);
     let mut random = Random(11);
-    let solver = derived.program.solver();
+    let solver = derived.program().solver();
     for pose in 0..POSES {
         let q = random.joints(chain);
         let target = derived.reached(&q).unwrap();
@@ -30,7 +31,7 @@ fn check(name: &str, chain: &Chain) -> Derived {
         let place = format!("{name} pose {pose} {q:?}: {answers:?}");
         assert!(answers.iter().any(|answer| distance(chain, &answer.q, &q, &answer.free) < 1e-7), "{place}");
         assert!(answers.iter().all(|answer| miss(&derived, &target, answer) <= 1e-12), "{place}");
-        assert!(answers.len() <= derived.plan.dimension, "{place}");
+        assert!(answers.len() <= derived.dimension().unwrap(), "{place}");
         if let Ok(screws) = &screws {
             // The given joints are the last inputs.
             let given = &target[target.len() - chain.parts().given.len()..];
@@ -79,16 +80,16 @@ fn a_general_arm_needs_half_angles() {
     family("general three joints", "RRR", &[], Task::Position);
     family("general arm and spherical wrist", "RRRRRR", &[Shared::Point(3, 5)], Task::Pose);
     let derived = check("general three joints", &chain("RRR", &[], Task::Position, 9));
-    assert!(derived.steps.iter().any(|step| step.shape.form == Form::Quartic));
-    let text = groebot_ik::derive::sequential::certificate::write(&derived).unwrap();
-    assert_eq!(groebot_ik::derive::sequential::certificate::prove(&derived.chain, &text).unwrap(), derived);
+    assert!(derived.sequential().unwrap().method.steps.iter().any(|step| step.shape.form == Form::Quartic));
+    let text = derived.certificate().unwrap();
+    assert_eq!(Derivation::prove(derived.problem().clone(), &text).unwrap(), derived);
     println!("certificate {} bytes", text.len());
     let forged = text.replace(
         "\"eliminations\": [\n      {\n        \"member\": \"",
         "\"eliminations\": [\n      {\n        \"member\": \"x2 + ",
     );
     assert_ne!(forged, text);
-    let error = groebot_ik::derive::sequential::certificate::prove(&derived.chain, &forged).unwrap_err();
+    let error = Derivation::prove(derived.problem().clone(), &forged).unwrap_err();
     assert!(error.message().contains("cofactors of an elimination"), "{error}");
 }
 
@@ -120,6 +121,6 @@ fn a_given_joint_stays_where_it_is() {
         let mut parts = chain.parts().clone();
         parts.given = vec!["joint1".to_owned()];
         let derived = check("seven joints", &Chain::new(parts).unwrap());
-        assert_eq!(derived.program.inputs.last().unwrap().name, "joint1");
+        assert_eq!(derived.program().inputs.last().unwrap().name, "joint1");
     }
 }

@@ -2,8 +2,8 @@
 
 use groebot_algebra::number::{Ring, Style};
 use groebot_ik::Watch;
+use groebot_ik::derive::equations::tree::Outcome;
 use groebot_ik::derive::sequential::{Form, FormBasis};
-use groebot_ik::derive::tree::Outcome;
 
 fn form_basis(form: Form) -> FormBasis {
     FormBasis::derive(form, &Watch::none()).unwrap()

@@ -9,12 +9,12 @@ mod singular;
 use std::f64::consts::TAU;
 
 use groebot_ik::Watch;
-use groebot_ik::derive::sequential::Derived;
+use groebot_ik::derive::Derivation;
 use groebot_robot::kinematics::{Chain, JointKind, Solution};
 
 /// The derivation of a chain.
-fn derive(chain: &Chain) -> Derived {
-    Derived::of_chain(chain, &Watch::none()).unwrap_or_else(|error| panic!("{}: {error}", chain.name()))
+fn derive(chain: &Chain) -> Derivation {
+    Derivation::sequentially(chain, &Watch::none()).unwrap_or_else(|error| panic!("{}: {error}", chain.name()))
 }
 
 /// Knuth's linear congruential generator (The Art of Computer Programming 2, 3.3.4).
@@ -51,13 +51,13 @@ fn distance(chain: &Chain, a: &[f64], b: &[f64], free: &[usize]) -> f64 {
 }
 
 /// The distance of the answer's tip from the target, lengths as shares of the reach.
-fn miss(derived: &Derived, target: &[f64], answer: &Solution) -> f64 {
+fn miss(derived: &Derivation, target: &[f64], answer: &Solution) -> f64 {
     let reached = derived.reached(&answer.q).unwrap();
-    let size = |name: &str| if name.starts_with('p') && name != "phi" { derived.program.scale } else { 1.0 };
+    let size = |name: &str| if name.starts_with('p') && name != "phi" { derived.program().scale } else { 1.0 };
     let gap = |((a, b), name): ((&f64, &f64), &str)| {
         let difference = if name == "phi" { (a - b) - TAU * ((a - b) / TAU).round() } else { a - b };
         difference.abs() / size(name)
     };
-    let names = derived.program.inputs.iter().map(|input| input.name.as_str());
+    let names = derived.program().inputs.iter().map(|input| input.name.as_str());
     reached.iter().zip(target).zip(names).map(gap).fold(0.0, f64::max)
 }

@@ -17,7 +17,7 @@ fn answers_are_complete_exact_and_as_many_as_the_screw_solver_s() {
         let start = Instant::now();
         let derived = derive(&chain);
         let time = start.elapsed();
-        let solver = derived.program.solver();
+        let solver = derived.program().solver();
         let screws = ScrewSolver::new(&chain).unwrap();
         let mut random = Random(7);
         let mut running = Duration::ZERO;
@@ -30,11 +30,15 @@ fn answers_are_complete_exact_and_as_many_as_the_screw_solver_s() {
             let place = format!("{} pose {pose} {q:?}: {answers:?}", robot.name());
             assert!(answers.iter().any(|answer| distance(&chain, &answer.q, &q, &answer.free) < 1e-9), "{place}");
             assert!(answers.iter().all(|answer| miss(&derived, &target, answer) <= 1e-12), "{place}");
-            assert!(answers.len() <= derived.plan.dimension, "{place}");
+            assert!(answers.len() <= derived.dimension().unwrap(), "{place}");
             let expected = screws.solve(&Target::reached(&chain, &q).unwrap()).unwrap();
             assert_eq!(answers.len(), expected.len(), "{place}\n{expected:?}");
         }
         let each = running / POSES as u32;
-        println!("{}: derived in {time:?}, solved in {each:?}, {}", robot.name(), derived.plan);
+        println!(
+            "{}: derived in {time:?}, solved in {each:?}, {}",
+            robot.name(),
+            derived.sequential().unwrap().method.plan
+        );
     }
 }

@@ -2,20 +2,25 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use groebot_ik::derive::sequential::Derived;
-use groebot_robot::kinematics::Solution;
+use groebot_ik::derive::Derivation;
+use groebot_robot::kinematics::{Chain, Solution};
 use groebot_robot::robots;
 
 use super::{Random, derive, distance, miss};
 
-fn derived(name: &str) -> Derived {
+fn derived(name: &str) -> Derivation {
     derive(&robots::by_name(name).unwrap())
 }
 
+/// The chain that is solved.
+fn chain_of(derived: &Derivation) -> &Chain {
+    derived.sequential().unwrap().problem.measured()
+}
+
 /// The answers at the pose of `q`, all of which reach it.
-fn answers(derived: &Derived, q: &[f64]) -> Vec<Solution> {
+fn answers(derived: &Derivation, q: &[f64]) -> Vec<Solution> {
     let target = derived.reached(q).unwrap();
-    let answers = derived.program.solve_numbers(&target).unwrap();
+    let answers = derived.program().solve_numbers(&target).unwrap();
     for answer in &answers {
         assert!(miss(derived, &target, answer) <= 1e-12, "{q:?}: {answer:?}");
     }
@@ -37,10 +42,10 @@ fn a_straight_wrist_leaves_one_joint_free_and_says_which() {
         let derived = derived(name);
         let mut random = Random(3);
         for _ in 0..25 {
-            let mut q = random.joints(&derived.chain);
+            let mut q = random.joints(chain_of(&derived));
             q[joint] = angle;
             let found = answers(&derived, &q);
-            let same = |a: &&Solution| distance(&derived.chain, &a.q, &q, &pair) < 1e-6;
+            let same = |a: &&Solution| distance(chain_of(&derived), &a.q, &q, &pair) < 1e-6;
             let self_motion: Vec<&Solution> = found.iter().filter(same).collect();
             assert_eq!(self_motion.len(), 1, "{name} {q:?}: {found:?}");
             let free = &self_motion[0].free;
@@ -55,12 +60,12 @@ fn nothing_is_lost_near_a_straight_wrist() {
         let derived = derived(name);
         let mut random = Random(4);
         for k in 1..=15 {
-            let mut q = random.joints(&derived.chain);
+            let mut q = random.joints(chain_of(&derived));
             q[joint] = angle + 10f64.powi(-k);
             let found = answers(&derived, &q);
             // sigma is about 10^-k: the joints of the pair are only as certain as rounding over sigma.
             let ignored = if k > 6 { pair.to_vec() } else { Vec::new() };
-            let nearest = found.iter().map(|a| distance(&derived.chain, &a.q, &q, &ignored)).fold(9.0, f64::min);
+            let nearest = found.iter().map(|a| distance(chain_of(&derived), &a.q, &q, &ignored)).fold(9.0, f64::min);
             assert!(nearest < 1e-7, "{name} 1e-{k} {q:?} {nearest:e}: {found:?}");
             let called = found.iter().filter(|a| !a.free.is_empty()).count();
             assert!(k > 10 || called == 0, "{name} 1e-{k}: no joint is free here: {found:?}");
@@ -76,11 +81,11 @@ fn a_stretched_arm_keeps_its_answer() {
         let mut random = Random(5);
         for bend in [0.0, 1e-12, 1e-9, 1e-6, 1e-3] {
             for _ in 0..20 {
-                let mut q = random.joints(&derived.chain);
+                let mut q = random.joints(chain_of(&derived));
                 q[elbow] = bend;
                 let found = answers(&derived, &q);
                 // A double root is uncertain by the square root of rounding.
-                let nearest = found.iter().map(|a| distance(&derived.chain, &a.q, &q, &a.free)).fold(9.0, f64::min);
+                let nearest = found.iter().map(|a| distance(chain_of(&derived), &a.q, &q, &a.free)).fold(9.0, f64::min);
                 assert!(nearest < 1e-6, "{name} {bend} {q:?} {nearest:e}: {found:?}");
             }
         }
@@ -93,12 +98,12 @@ fn the_wrist_above_the_shoulder_leaves_the_shoulder_free() {
     let derived = derived("puma");
     let mut random = Random(6);
     for _ in 0..25 {
-        let mut q = random.joints(&derived.chain);
+        let mut q = random.joints(chain_of(&derived));
         // Both links are 0.432 m: RH0 A.2.
         q[2] = -2.0 * q[1];
         let found = answers(&derived, &q);
         let ignored = [0, 3, 4, 5];
-        let self_motion = found.iter().filter(|a| distance(&derived.chain, &a.q, &q, &ignored) < 1e-6);
+        let self_motion = found.iter().filter(|a| distance(chain_of(&derived), &a.q, &q, &ignored) < 1e-6);
         assert!(self_motion.clone().count() >= 1, "{q:?}: {found:?}");
         assert!(self_motion.into_iter().all(|a| a.free == [0]), "{q:?}: {found:?}");
     }
@@ -122,8 +127,8 @@ fn rays_of_nao_next_to_singular_ones_keep_the_joints_that_made_them() {
         let derived = derived(name);
         let found = answers(&derived, &q);
         // What rounding leaves of the target, 1e-16, divided by the distance from the singular one, moves the joints.
-        let nearest = found.iter().map(|a| distance(&derived.chain, &a.q, &q, &a.free)).fold(9.0, f64::min);
+        let nearest = found.iter().map(|a| distance(chain_of(&derived), &a.q, &q, &a.free)).fold(9.0, f64::min);
         assert!(nearest < tolerance, "{name} {q:?} {nearest:e}: {found:?}");
-        assert!(found.len() <= derived.plan.dimension, "{name} {q:?}: {found:?}");
+        assert!(found.len() <= derived.dimension().unwrap(), "{name} {q:?}: {found:?}");
     }
 }

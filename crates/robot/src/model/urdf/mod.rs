@@ -1,4 +1,4 @@
-//! Robots as URDF: read by [`Robot::read_urdf`], [`Robot::from_urdf`], written by [`Robot::to_urdf`].
+//! Robots as URDF: read by [`Robot::read`], [`Robot::from_urdf`], written by [`Robot::to_urdf`].
 //!
 #![doc = include_str!("../../../docs/urdf.md")]
 
@@ -10,10 +10,9 @@ mod xacro;
 mod xml;
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use super::{Fault, Part, Robot, RobotParts};
-use crate::document::{did_you_mean, explained, read_xml};
+use crate::document::did_you_mean;
 use crate::{ErrorKind, Result};
 use groebot_algebra::limits;
 use joint::read_joint;
@@ -25,19 +24,8 @@ use xml::Element;
 pub const URDF_LIMIT: u64 = limits::XML_BYTES;
 
 impl Robot {
-    /// Reads a robot from the URDF file at `path`.
-    ///
-    /// # Errors
-    /// Those of [`read_xml`], with a limit of four megabytes, and of [`Robot::from_urdf`], with the file;
-    /// [`ErrorKind::Unsupported`] for JSON, YAML and tables.
-    pub fn read_urdf(path: &Path) -> Result<Robot> {
-        let file = read_xml(path, URDF_LIMIT)?;
-        let robot = Robot::from_urdf(&file.text).map_err(|error| explained(error, &file.text).in_file(path))?;
-        Ok(robot.with_notes(file.notes))
-    }
-
-    /// Reads a robot from `text` in the format of [`crate::model::urdf`]. Errors of a single link or joint are stored
-    /// in [`Robot::faults`]: [`Robot::chain`] refuses it in a chain, and [`Robot::check`] in the whole robot.
+    /// The robot that `text` describes in the format of [`crate::model::urdf`]. What is wrong with a single link or joint is kept in [`Robot::faults`]:
+    /// [`Robot::chain`] refuses it in a chain, and [`Robot::check`] in the whole robot.
     ///
     /// # Errors
     /// [`ErrorKind::Syntax`] for text that is not XML; [`ErrorKind::MissingKey`] for links and joints without a name,

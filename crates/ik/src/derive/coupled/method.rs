@@ -1,0 +1,407 @@
+//! From chains to one solver: [`Coupled`].
+
+use super::model::{CoupledChain, CoupledChains, JointPlace};
+use crate::derive::closure::Mechanism;
+use crate::derive::planner::{self, Plan, PlanStep, Way};
+use crate::derive::problem::ChainProblem;
+use crate::derive::sequential::{Sequential, SequentialView, Side, Simultaneous};
+use crate::derive::view::View;
+use crate::solver::{Input, MAX_JOINTS, Program};
+use crate::{Error, ErrorKind, Result, Watch};
+
+/// A chain's solution, and its place in the solver of all.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ChainStage {
+    /// Index of the chain.
+    pub member: usize,
+    /// The chain, with the joints given that chains before have found.
+    pub problem: ChainProblem,
+    /// Its solution.
+    pub method: Sequential,
+    /// Its own solver.
+    pub solver: Program,
+    /// The solver of this chain and all before it.
+    pub program: Program,
+    /// By joint of the chain: its place among the joints of the solver.
+    pub joints: Vec<usize>,
+    /// By input of the chain's own solver: where its value comes from.
+    pub(super) inputs: Vec<Origin>,
+}
+
+/// Where the value of a chain's input comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// The input of the whole solver with this index.
+    Target(usize),
+    /// The joint of the whole solver with this index.
+    Joint(usize),
+}
+
+/// Gives the solution of one of the chains, and its solver.
+pub(super) type Derive<'a> = dyn FnMut(usize, &ChainProblem) -> Result<(Sequential, Program)> + 'a;
+
+/// The solution of several chains that share actuators, one chain after the other.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Coupled {
+    /// How the joints that two chains share are found first, where neither chain determines them alone.
+    pub simultaneous: Option<Simultaneous>,
+    /// The chains' solutions, in the order in which they are found.
+    pub stages: Vec<ChainStage>,
+}
+
+/// Chains that share actuators, solved one after the other.
+pub type CoupledView<'a> = View<'a, CoupledChains, Coupled>;
+
+impl Coupled {
+    /// Orders the chains, derives each by itself with the joints given that are found before it, and composes their solvers. Of the
+    /// chains that can be solved next, the first is taken. Where none can, the joints that two chains share are found first.
+    ///
+    /// # Errors
+    /// [`ErrorKind::PositiveDimensional`] when the tasks leave joints of the chains that are left undetermined;
+    /// [`ErrorKind::BadValue`] for a given joint that another chain finds; as [`Sequential::derive`], with the chain; as
+    /// [`Simultaneous::derive`].
+    pub(in crate::derive) fn derive(coupled: &CoupledChains, watch: &Watch) -> Result<(Self, Program)> {
+        let simultaneous = match coupling(coupled)? {
+            Some((sides, shared)) => found_together(Simultaneous::derive(sides, shared, watch), coupled)?,
+            None => None,
+        };
+        Coupled::assemble(coupled, simultaneous, &mut |member, problem| {
+            derived(problem, coupled.chains()[member].chain.given().len(), watch)
+        })
+    }
+
+    /// Composes the solvers that `derive` gives of the chains, which it gets in their order with their indices.
+    pub(super) fn assemble(
+        coupled: &CoupledChains,
+        simultaneous: Option<Simultaneous>,
+        derive: &mut Derive<'_>,
+    ) -> Result<(Self, Program)> {
+        let mut found = Found { coupled, simultaneous: simultaneous.as_ref(), stages: Vec::new() };
+        while found.stages.len() < coupled.chains().len() {
+            let member = found.next_member()?;
+            let named = |error: Error| error.with_context(format_args!("chain `{}`", coupled.chains()[member].name));
+            let stage = ChainStage::derive(&found, member, derive).map_err(named)?;
+            found.stages.push(stage);
+        }
+        let stages = found.stages;
+        let last = stages.last().map(|stage| stage.program.clone());
+        let mut program = last.ok_or_else(|| Error::new(ErrorKind::BadValue, "there is no chain"))?;
+        let all = Coupled { simultaneous, stages };
+        let most = 2 * all.dimension() + program.blocks.len();
+        program.capacity = most.min(program.capacity);
+        all.name_actuators(coupled, &mut program);
+        Ok((all, program))
+    }
+
+    /// The number of complex solutions at a generic target that the chains can reach: each way of the chains before is continued in as
+    /// many ways as the next chain has.
+    pub fn dimension(&self) -> usize {
+        let shared = self.simultaneous.as_ref().map_or(1, Simultaneous::dimension);
+        self.stages.iter().map(|stage| stage.method.plan.dimension).fold(shared, usize::saturating_mul)
+    }
+
+    /// The actuators' names in place of the joints'.
+    fn name_actuators(&self, coupled: &CoupledChains, program: &mut Program) {
+        program.name.clone_from(&coupled.parts().name);
+        for stage in &self.stages {
+            for (joint, &place) in stage.joints.iter().enumerate() {
+                let actuator = coupled.actuator_of(JointPlace { member: stage.member, joint });
+                program.joints[place].name =
+                    actuator.map(|actuator| coupled.actuators()[actuator].name.clone()).unwrap_or_default();
+            }
+        }
+    }
+}
+
+impl CoupledView<'_> {
+    /// Whether joints that two chains share can be found from both at once, and are not.
+    ///
+    /// # Errors
+    /// As [`Simultaneous::derive`].
+    pub(in crate::derive) fn leaves_shared_joints_out(&self, watch: &Watch) -> Result<bool> {
+        if self.method.simultaneous.is_some() {
+            return Ok(false);
+        }
+        let Some((sides, shared)) = coupling(self.problem)? else { return Ok(false) };
+        Ok(found_together(Simultaneous::derive(sides, shared, watch), self.problem)?.is_some())
+    }
+
+    /// The values of a chain's joints, of the chain's index, in an answer `q` of the solver.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for no such chain or another number of joints.
+    pub fn joints_of(&self, member: usize, q: &[f64]) -> Result<Vec<f64>> {
+        let stage = self.method.stages.iter().find(|stage| stage.member == member);
+        match stage {
+            Some(stage) if q.len() == self.program.joints.len() => Ok(stage.own(q)),
+            _ => {
+                let (chains, joints) = (self.method.stages.len(), self.program.joints.len());
+                Err(Error::new(
+                    ErrorKind::BadValue,
+                    format!("chain {member} of {chains}, {} joint values of {joints}", q.len()),
+                ))
+            }
+        }
+    }
+
+    /// The target, as the solver takes it, that the chains reach with the solver's joints at `q`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for another number of joints.
+    pub fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
+        let mut target = vec![0.0; self.program.inputs.len()];
+        for stage in &self.method.stages {
+            stage.write(&stage.problem.reached(&self.joints_of(stage.member, q)?)?, &mut target);
+        }
+        self.write_given(q, &mut target);
+        Ok(target)
+    }
+
+    /// Writes the values of joints that the user gives to both chains alike into a target of the solver.
+    pub fn write_given(&self, q: &[f64], target: &mut [f64]) {
+        let (Some(_), CoupledChain { prefix, chain, .. }) = (&self.method.simultaneous, &self.problem.chains()[0])
+        else {
+            return;
+        };
+        for joint in chain.given() {
+            let name = format!("{prefix}{}", chain.joints()[joint].name);
+            if let Some(place) = self.program.inputs.iter().position(|input| input.name == name) {
+                target[place] = q[joint];
+            }
+        }
+    }
+}
+
+impl ChainStage {
+    /// The chain's solution after those of `before`.
+    fn derive(before: &Found<'_>, member: usize, derive: &mut Derive<'_>) -> Result<Self> {
+        let CoupledChain { prefix, chain, .. } = &before.coupled.chains()[member];
+        let found: Vec<Option<usize>> = (0..chain.joints().len()).map(|joint| before.place(member, joint)).collect();
+        let mut given = chain.parts().given.clone();
+        for (joint, _) in chain.joints().iter().zip(&found).filter(|(_, found)| found.is_some()) {
+            match (given.contains(&joint.name), before.simultaneous) {
+                (false, _) => given.push(joint.name.clone()),
+                // The user gives it to both chains alike.
+                (true, Some(_)) => {}
+                (true, None) => {
+                    let text =
+                        format!("`{}` is given, but a chain before it finds its actuator; leave it out", joint.name);
+                    return Err(Error::new(ErrorKind::BadValue, text));
+                }
+            }
+        }
+        let chain = chain.with_task(chain.task(), chain.direction().clone(), given)?;
+        let problem = ChainProblem::from(&chain);
+        let (method, solver) = derive(member, &problem)?;
+        let own = solver.prefixed(prefix);
+        let shared: Vec<(usize, usize)> =
+            found.iter().enumerate().filter_map(|(joint, &found)| found.map(|place| (place, joint))).collect();
+        let last = before.program();
+        let program = last.map_or_else(|| Ok(own.clone()), |last| last.followed_by(&own, &shared))?;
+        let mut fresh = last.map_or(0, |last| last.joints.len())..MAX_JOINTS;
+        let joints: Vec<usize> = found.iter().filter_map(|found| found.or_else(|| fresh.next())).collect();
+        let inputs = origins(&method.plan.given, &own.inputs, &program.inputs, &found);
+        Ok(ChainStage { member, problem, method, solver, program, joints, inputs })
+    }
+
+    /// The chain by itself.
+    pub fn view(&self) -> SequentialView<'_> {
+        View { problem: &self.problem, method: &self.method, program: &self.solver }
+    }
+
+    /// The chain's joints `own` among `count` joints of the solver, others at zero.
+    pub(super) fn put(&self, own: &[f64], count: usize) -> Vec<f64> {
+        let mut q = vec![0.0; count];
+        self.joints.iter().zip(own).for_each(|(&place, &value)| q[place] = value);
+        q
+    }
+
+    /// The values of the chain's joints among those of the solver.
+    pub fn own(&self, q: &[f64]) -> Vec<f64> {
+        self.joints.iter().map(|&place| q[place]).collect()
+    }
+
+    /// Writes what the chain's own solver is asked into a target of the solver; what other chains find has no place there.
+    pub fn write(&self, own: &[f64], target: &mut [f64]) {
+        for (&value, origin) in own.iter().zip(&self.inputs) {
+            if let Origin::Target(index) = *origin {
+                target[index] = value;
+            }
+        }
+    }
+
+    /// The joints of the solver whose values the chain takes from chains before it.
+    pub fn found(&self) -> impl Iterator<Item = usize> {
+        self.inputs.iter().filter_map(|origin| match *origin {
+            Origin::Joint(index) => Some(index),
+            Origin::Target(_) => None,
+        })
+    }
+
+    /// What the chain is asked in a target of the solver, without the joints that chains before find.
+    pub fn own_target(&self, target: &[f64]) -> Vec<f64> {
+        let asked = |origin: &Origin| match *origin {
+            Origin::Target(index) => Some(target[index]),
+            Origin::Joint(_) => None,
+        };
+        self.inputs.iter().filter_map(asked).collect()
+    }
+
+    /// What the chain's own solver is asked, for a target of the solver and its joints.
+    pub fn target(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
+        let value = |origin: &Origin| match *origin {
+            Origin::Target(index) => target[index],
+            Origin::Joint(index) => q[index],
+        };
+        self.inputs.iter().map(value).collect()
+    }
+}
+
+/// Where the chain's inputs, whose names are those of `own`, come from: inputs of the solver, and behind the target's the `given` joints
+/// from the base, of which those already `found` are joints of chains before.
+fn origins(given: &[usize], own: &[Input], inputs: &[Input], found: &[Option<usize>]) -> Vec<Origin> {
+    let target = own.len() - given.len();
+    let known = std::iter::repeat_n(None, target).chain(given.iter().map(|&joint| found[joint].map(Origin::Joint)));
+    let named = |name: &str| inputs.iter().position(|input| input.name == name).map(Origin::Target);
+    known.zip(own).filter_map(|(known, input)| known.or_else(|| named(&input.name))).collect()
+}
+
+/// What is derived so far.
+struct Found<'a> {
+    coupled: &'a CoupledChains,
+    simultaneous: Option<&'a Simultaneous>,
+    stages: Vec<ChainStage>,
+}
+
+impl Found<'_> {
+    /// The solver so far.
+    fn program(&self) -> Option<&Program> {
+        self.stages.last().map(|stage| &stage.program).or(self.simultaneous.map(|simultaneous| &simultaneous.program))
+    }
+
+    /// The place among the solver's joints of a joint whose actuator is found already.
+    fn place(&self, member: usize, joint: usize) -> Option<usize> {
+        if let Some(simultaneous) = self.simultaneous.filter(|simultaneous| joint < simultaneous.shared) {
+            debug_assert!(simultaneous.program.joints.len() == simultaneous.shared);
+            return Some(joint);
+        }
+        let actuator = &self.coupled.actuators()[self.coupled.actuator_of(JointPlace { member, joint })?];
+        let place = |stage: &ChainStage| {
+            let twin = actuator.joints.iter().find(|place| place.member == stage.member)?;
+            Some(stage.joints[twin.joint])
+        };
+        self.stages.iter().find_map(place)
+    }
+
+    /// The number of a chain's joints that are neither given nor found.
+    fn open(&self, member: usize) -> usize {
+        let chain = &self.coupled.chains()[member].chain;
+        let given = chain.given();
+        (0..chain.joints().len()).filter(|joint| !given.contains(joint) && self.place(member, *joint).is_none()).count()
+    }
+
+    /// The first chain whose task can determine what is not found yet of its joints.
+    fn next_member(&self) -> Result<usize> {
+        let left = |member: &usize| self.stages.iter().all(|stage| stage.member != *member);
+        let freedoms = |member: usize| self.coupled.chains()[member].chain.task().freedoms();
+        let remaining: Vec<usize> = (0..self.coupled.chains().len()).filter(left).collect();
+        remaining.iter().copied().find(|&member| self.open(member) <= freedoms(member)).ok_or_else(|| {
+            let told = |&member: &usize| {
+                let CoupledChain { name, chain, .. } = &self.coupled.chains()[member];
+                let (open, task) = (self.open(member), chain.task().name());
+                format!("`{name}` has {open} joints to find, its task `{task}` determines {}", freedoms(member))
+            };
+            let list: Vec<String> = remaining.iter().map(told).collect();
+            let text = format!("no chain can be solved next: {}; ask more of one, or give a joint", list.join("; "));
+            Error::new(ErrorKind::PositiveDimensional, text)
+        })
+    }
+}
+
+/// The solution of one of the chains, of whose given joints the first `least` are the user's. Where joints are given that the task
+/// determines, the plan is the one that finds them, without their steps. The relations of these serve beside those of a joint that
+/// both determine: where one says nothing the other does.
+///
+/// # Errors
+/// As [`Sequential::derive`].
+fn derived(problem: &ChainProblem, least: usize, watch: &Watch) -> Result<(Sequential, Program)> {
+    let chain = &problem.chain;
+    let mut given = chain.parts().given.clone();
+    let open = chain.joints().len().saturating_sub(chain.task().freedoms()).max(least);
+    if given.len() <= open {
+        return Sequential::derive(problem, watch);
+    }
+    given.truncate(open);
+    let wider = chain.with_task(chain.task(), chain.direction().clone(), given)?;
+    let steps = match planner::plan(&Mechanism::new(&wider)?, watch) {
+        Ok(plan) => plan.steps,
+        Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::PositiveDimensional) => {
+            return Sequential::derive(problem, watch);
+        }
+        Err(error) => return Err(error),
+    };
+    let mechanism = Mechanism::new(chain)?;
+    let own = planner::plan(&mechanism, watch)?;
+    let steps = without(&own.given, steps);
+    Sequential::of_plan(&mechanism, Plan { steps, ..own }, watch)?.compiled(problem, &mechanism)
+}
+
+/// The steps but those of joints that are known, whose relations stand beside the one relation of a step for the same joint.
+fn without(known: &[usize], steps: Vec<PlanStep>) -> Vec<PlanStep> {
+    let (gone, mut kept): (Vec<PlanStep>, Vec<PlanStep>) =
+        steps.into_iter().partition(|step| known.contains(&step.joint));
+    for other in gone.iter().flat_map(|step| step.way.relations()) {
+        let left: Vec<usize> = other.joints().into_iter().filter(|joint| !known.contains(joint)).collect();
+        for step in &mut kept {
+            if let Way::Single(own) = &step.way
+                && left == [step.joint]
+            {
+                step.way = Way::Pair([own.clone(), other.clone()]);
+                step.degree = 1;
+            }
+        }
+    }
+    kept
+}
+
+/// The derivation of shared joints; none where no relations fit, but a chain determines its joints alone.
+///
+/// # Errors
+/// Those of the derivation.
+fn found_together(simultaneous: Result<Simultaneous>, coupled: &CoupledChains) -> Result<Option<Simultaneous>> {
+    match simultaneous {
+        Err(error) if error.kind() == ErrorKind::Unsupported => {
+            let alone = Found { coupled, simultaneous: None, stages: Vec::new() }.next_member();
+            alone.map(|_| None).map_err(|_| error)
+        }
+        simultaneous => simultaneous.map(Some),
+    }
+}
+
+/// Two chains and the number of joints that stand first in both and are shared, where these joints are found from both chains at once:
+/// two that neither chain determines alone, or one on which both must agree.
+///
+/// # Errors
+/// [`ErrorKind::PositiveDimensional`] when both together do not determine their joints either.
+pub(super) fn coupling(coupled: &CoupledChains) -> Result<Option<([Side<'_>; 2], usize)>> {
+    let found = Found { coupled, simultaneous: None, stages: Vec::new() };
+    let [first, second] = coupled.chains() else { return Ok(None) };
+    let is_shared = |joint: &usize| {
+        let actuator =
+            coupled.actuator_of(JointPlace { member: 0, joint: *joint }).map(|actuator| &coupled.actuators()[actuator]);
+        actuator.is_some_and(|actuator| actuator.joints.contains(&JointPlace { member: 1, joint: *joint }))
+    };
+    let shared = (0..first.chain.joints().len()).take_while(is_shared).count();
+    let given = first.chain.given();
+    let common = (0..shared).filter(|joint| !given.contains(joint)).count();
+    let excess =
+        |member: usize| found.open(member) as isize - coupled.chains()[member].chain.task().freedoms() as isize;
+    let sides = Some(([first, second].map(|member| Side { chain: &member.chain, prefix: &member.prefix }), shared));
+    match (common, excess(0), excess(1)) {
+        (1, ..=0, ..=0) | (2, 1, 1) => Ok(sides),
+        (_, 1.., 1..) => found.next_member().map(|_| None),
+        _ => Ok(None),
+    }
+}

@@ -1,0 +1,144 @@
+//! The solution by eigenvalue problems ([`Eigenvalue`]), and its proof from the text of a certificate.
+
+use groebot_runtime::six_axes::SIZE;
+use serde::{Deserialize, Serialize};
+
+use super::given::Six;
+use super::program::{program, within};
+use super::{Determinant, Regular, ranked};
+use crate::derive::closure::Mechanism;
+use crate::derive::equations::certificate::refused;
+use crate::derive::planner::{self, Evidence};
+use crate::derive::problem::ChainProblem;
+use crate::derive::sequential::checks_on;
+use crate::derive::view::View;
+use crate::solver::Program;
+use crate::solver::eigenvalue::Formulation;
+use crate::{Error, ErrorKind, Result, Watch};
+use groebot_robot::document::{Certificate, Proves, head_of};
+use groebot_robot::kinematics::Chain;
+
+/// The solution of a chain of six joints with axes in any place, or of seven of which the first or the last is given, by eigenvalue problems.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Eigenvalue {
+    /// The six joints that are found together, the given ones at zero.
+    pub six: Chain,
+    /// How many complex solutions random targets modulo primes had.
+    pub evidence: Vec<Evidence>,
+    /// The eigenvalue problems in the order in which they are tried, each proved regular.
+    pub formulations: Vec<Regular>,
+}
+
+/// A chain that is solved by eigenvalue problems.
+pub type EigenvalueView<'a> = View<'a, ChainProblem, Eigenvalue>;
+
+/// What is claimed about six axes.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Claims {
+    evidence: Vec<Evidence>,
+    formulations: Vec<Entry>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    formulation: Formulation,
+    determinants: Vec<Determinant>,
+}
+
+impl Eigenvalue {
+    /// Counts the solutions of `problem`, finds the regular formulations and ranks them, and compiles its solver.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`](super::fits)), with infinitely many solutions, or
+    /// without a formulation that is regular and accurate; what `watch` stops with.
+    pub(in crate::derive) fn derive(problem: &ChainProblem, watch: &Watch) -> Result<(Self, Program)> {
+        let six = Six::of(&problem.chain)?;
+        let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
+        let evidence = planner::evidence(&Mechanism::new(&problem.chain)?, watch)?;
+        let evidence = evidence.ok_or_else(|| unsupported("joints are free at every target"))?;
+        let formulations = ranked(&six.chain)?;
+        Eigenvalue { six: six.chain, evidence, formulations }.compiled(problem)
+    }
+
+    /// Proves the solution of `problem` anew from the text of its certificate: every determinant is evaluated again.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] for a claim that does not hold.
+    pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(Self, Program)> {
+        let claims: Claims = Certificate::read(text, Proves::EigenvalueProblem, problem.chain.name())?;
+        let six = Six::of(&problem.chain)?.chain;
+        let formulations: Result<Vec<Regular>> = claims.formulations.iter().map(|entry| entry.prove(&six)).collect();
+        let formulations = formulations?;
+        let claimed = claims.evidence.iter().map(|evidence| evidence.dimension).max().unwrap_or(0);
+        if formulations.is_empty() || claimed == 0 || claimed > SIZE {
+            return Err(refused(format!("{} formulations, {claimed} solutions", formulations.len())));
+        }
+        Eigenvalue { six, evidence: claims.evidence, formulations }.compiled(problem)
+    }
+
+    /// The least number of complex solutions that was counted.
+    pub fn dimension(&self) -> usize {
+        self.evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(SIZE)
+    }
+
+    /// With the solver of `problem`, which polishes its answers on the described chain.
+    fn compiled(self, problem: &ChainProblem) -> Result<(Self, Program)> {
+        let mut program = self.unpolished(&problem.chain)?;
+        if let Some((truth, report)) = &problem.truth {
+            program.checks = checks_on(&problem.chain, truth)?;
+            within(&mut program, report.deviation())?;
+            (program.nearby, program.isolated) = (true, None);
+        }
+        Ok((self, program))
+    }
+
+    /// The solver of the ideal chain itself.
+    fn unpolished(&self, chain: &Chain) -> Result<Program> {
+        let order = self.formulations.iter().map(|regular| regular.formulation).collect();
+        program(chain, &Six::of(chain)?, order, self.dimension())
+    }
+}
+
+impl EigenvalueView<'_> {
+    /// The solver of the ideal chain itself, where the program polishes its answers on another.
+    ///
+    /// # Errors
+    /// As [`Mechanism::new`].
+    pub fn unpolished(&self) -> Result<Option<Program>> {
+        self.problem.truth.as_ref().map(|_| self.method.unpolished(&self.problem.chain)).transpose()
+    }
+
+    /// The text of `certificate.json`.
+    pub(in crate::derive) fn certificate(&self) -> String {
+        let entry =
+            |regular: &Regular| Entry { formulation: regular.formulation, determinants: regular.determinants.clone() };
+        let formulations = self.method.formulations.iter().map(entry).collect();
+        let claims = Claims { evidence: self.method.evidence.clone(), formulations };
+        Certificate::new(Proves::EigenvalueProblem, self.problem.chain.name(), claims).to_json()
+    }
+}
+
+/// Whether `text` is the certificate of eigenvalue problems.
+pub(in crate::derive) fn is_certificate(text: &str) -> bool {
+    head_of(text).is_some_and(|(proves, _)| proves == Proves::EigenvalueProblem)
+}
+
+impl Entry {
+    fn prove(&self, chain: &Chain) -> Result<Regular> {
+        let formulation = self.formulation;
+        let name = format!("the formulation that hides joint {}", formulation.hidden + 1);
+        if !formulation.is_valid() || self.determinants.iter().all(|determinant| determinant.value == 0) {
+            return Err(refused(format!("{name} is not shown to be regular")));
+        }
+        for determinant in &self.determinants {
+            let again = Determinant::evaluate(chain, formulation, determinant.prime, determinant.seed)?;
+            if again != *determinant {
+                return Err(refused(format!("{name}: the determinant modulo {} is another", determinant.prime)));
+            }
+        }
+        Ok(Regular { formulation, determinants: self.determinants.clone() })
+    }
+}

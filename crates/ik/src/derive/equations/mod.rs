@@ -1,0 +1,77 @@
+//! The solution of equations as one block, proved: [`Equations`].
+
+pub(super) mod assemble;
+pub(super) mod certificate;
+pub mod certify;
+pub mod compile;
+mod generic;
+pub(super) mod grow;
+pub mod plan;
+pub(super) mod prover;
+pub mod setting;
+pub mod strata;
+pub mod tree;
+pub mod triangular;
+
+use crate::derive::equations::compile::compile;
+use crate::derive::equations::tree::Node;
+use crate::derive::view::View;
+use crate::derive::{Orders, System, derive_tree};
+use crate::solver::Program;
+use crate::{Result, Watch};
+use groebot_algebra::groebner::Basis;
+
+/// The solution of equations as one block, proved.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Equations {
+    /// The strata in the order that the system asks for: its first basis is what the source prints.
+    pub requested: Node,
+    /// The strata in the orders whose formulas break down least, when they differ: what the program is made of.
+    pub searched: Option<Node>,
+}
+
+/// Equations that are solved as one block.
+pub type EquationsView<'a> = View<'a, System, Equations>;
+
+impl Equations {
+    /// Derives and proves the solution of `system`, and compiles its solver.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Inconsistent`], [`crate::ErrorKind::PositiveDimensional`] (naming the free joints),
+    /// [`crate::ErrorKind::Unsupported`] for what a program cannot hold, and what `watch` stops with.
+    pub(super) fn derive(system: &System, watch: &Watch) -> Result<(Self, Program)> {
+        let requested = derive_tree(system, Orders::Requested, watch)?;
+        let searched = derive_tree(system, Orders::Searched, watch)?;
+        let searched = (searched != requested).then_some(searched);
+        Equations { requested, searched }.compiled(system)
+    }
+
+    /// With the solver of `system`.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Unsupported`] for what a program cannot hold.
+    pub(super) fn compiled(self, system: &System) -> Result<(Self, Program)> {
+        let program = compile(system, self.solving())?;
+        Ok((self, program))
+    }
+
+    /// The number of complex solutions at a generic target: the dimension of the quotient ring.
+    pub fn dimension(&self) -> Option<usize> {
+        let solved = self.requested.solved()?;
+        let (ring, polynomials) = (solved.triangular.ring.clone(), solved.certified.basis.clone());
+        Basis { ring, polynomials, cofactors: Vec::new() }.quotient_dimension()
+    }
+
+    /// The tree that the program is made of.
+    pub fn solving(&self) -> &Node {
+        self.searched.as_ref().unwrap_or(&self.requested)
+    }
+
+    /// The trees with a title each: the requested order, then the solver's own when it differs.
+    pub fn trees(&self) -> Vec<(&'static str, &Node)> {
+        let mut trees = vec![("requested order", &self.requested)];
+        trees.extend(self.searched.iter().map(|node| ("order of the solver", node)));
+        trees
+    }
+}

@@ -1,0 +1,388 @@
+//! Reading what a derivation starts from: a chain, coupled chains, a robot or a system of equations, from a file or a mechanism's folder.
+
+use std::path::{Path, PathBuf};
+
+use crate::derive::System;
+use crate::derive::coupled::CoupledChains;
+use crate::derive::planner::{Choice, joints_to_give};
+use crate::derive::problem::ends::{Ends, TASK_NAME};
+use crate::derive::problem::formulate::formulate;
+use crate::{Error, ErrorKind, Result, Watch};
+use groebot_robot::document::{
+    Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_bytes, refuse_binary, text_of,
+};
+use groebot_robot::kinematics::ideal::Report;
+use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
+use groebot_robot::model::Robot;
+use groebot_robot::model::urdf::URDF_LIMIT;
+
+/// The names that an input may have in a mechanism's folder: a chain (also as a DH table), a system, a robot, chains that share actuators.
+pub const INPUT_NAMES: [&str; 5] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", COUPLED_NAME, "0_robot.toml"];
+/// The name of the description of chains that share actuators, in a mechanism's folder.
+pub const COUPLED_NAME: &str = "0_coupled.toml";
+
+/// What a file describes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Description {
+    /// One chain: `chain.toml` or a DH table.
+    Chain(Box<Chain>),
+    /// Equations.
+    System(System),
+    /// A robot with any number of chains: URDF, or TOML.
+    Robot(Robot),
+    /// Chains that share actuators.
+    Coupled(Box<CoupledChains>),
+}
+
+/// A file as it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InputFile {
+    /// Where it was read from.
+    pub path: PathBuf,
+    /// The file's name in a mechanism's folder: one of [`INPUT_NAMES`].
+    pub name: &'static str,
+    /// Its text.
+    pub text: String,
+    /// What it describes.
+    pub description: Description,
+    /// What the folder's [`TASK_NAME`] says; nothing without one.
+    pub ends: Ends,
+}
+
+impl InputFile {
+    /// Reads a mechanism's folder, an input file or, as `-`, standard input; in a folder with its [`TASK_NAME`]. What standard input refers to, meshes
+    /// and the files of coupled chains, is looked for from the current folder. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot, and so is one with
+    /// a `[[link]]`; one with `[[chain]]` holds coupled chains, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] for what cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input; [`ErrorKind::Unsupported`] for archives,
+    /// JSON, YAML, tables and other files that are no description; as [`decode_xml`], [`Robot::from_urdf`], [`CoupledChains::from_toml`],
+    /// [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
+    pub fn read(path: &Path) -> Result<InputFile> {
+        let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
+        let at_file = |error: Error| error.in_file(&file);
+        let ends_in_xml =
+            file.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf") || end.eq_ignore_ascii_case("xml"));
+        let bytes = read_bytes(&file, if ends_in_xml || is_stdin(&file) { URDF_LIMIT } else { TEXT_LIMIT })?;
+        refuse_binary(&bytes).map_err(at_file)?;
+        let is_xml = ends_in_xml || is_xml(&bytes);
+        let (text, notes) = if is_xml {
+            decode_xml(&bytes).map(|decoded| (decoded.text, decoded.notes))
+        } else {
+            text_of(bytes).map(|text| (text, Vec::new()))
+        }
+        .map_err(at_file)?;
+        let robot = || Robot::from_urdf(&text).map(|robot| Description::Robot(robot.with_notes(notes)));
+        let described = if is_xml { robot() } else { from_toml(&text, &file) };
+        let description = described.map_err(|error| at_file(explained(error, &text)))?;
+        let name = match description {
+            Description::Chain(_) => INPUT_NAMES[0],
+            Description::System(_) => INPUT_NAMES[1],
+            Description::Robot(_) => INPUT_NAMES[if is_xml { 2 } else { 4 }],
+            Description::Coupled(_) => COUPLED_NAME,
+        };
+        let ends = read_ends(&file)?;
+        Ok(InputFile { path: file, name, text, description, ends })
+    }
+
+    /// The path between the links of a robot that `ends` asks for, and for the rest the folder's task file; none for other descriptions.
+    ///
+    /// # Errors
+    /// As [`Robot::path`], with the file.
+    pub fn path(&self, ends: &Ends) -> Result<Option<LinkPath>> {
+        let Description::Robot(robot) = &self.description else { return Ok(None) };
+        let ends = ends.or(&self.ends);
+        robot.path(ends.base.as_deref(), ends.tip.as_deref()).map(Some).map_err(|error| error.in_file(&self.path))
+    }
+
+    /// What of a robot is [ignored](Robot::ignored), for its chain between `ends`; nothing of other inputs.
+    ///
+    /// # Errors
+    /// As [`InputFile::path`].
+    pub fn ignored(&self, ends: &Ends) -> Result<Vec<String>> {
+        let Description::Robot(robot) = &self.description else { return Ok(Vec::new()) };
+        Ok(self.path(ends)?.map(|path| robot.ignored(&path)).unwrap_or_default())
+    }
+
+    /// The link on a path that carries its first joint that moves.
+    pub fn carrier(&self, path: Option<&LinkPath>) -> Option<String> {
+        let Description::Robot(robot) = &self.description else { return None };
+        path.map(|path| robot.carrier(path).to_owned())
+    }
+
+    /// The chain of this input for what `ends` asks, and for the rest the folder's task file; none when it is a system,
+    /// or coupled chains.
+    ///
+    /// # Errors
+    /// As [`Robot::chain`] and [`Chain::with_task`]; [`ErrorKind::BadValue`] for ends of an input that has no links, and for a task
+    /// of a system or of coupled chains. All name the file.
+    pub fn chain(&self, ends: &Ends) -> Result<Option<Chain>> {
+        let ends = ends.or(&self.ends);
+        let bad = |text| Err(Error::new(ErrorKind::BadValue, text));
+        let chain = match &self.description {
+            Description::Robot(tree) => tree.chain(ends.base.as_deref(), ends.tip.as_deref()).map(Some),
+            _ if ends.base.is_some() || ends.tip.is_some() => {
+                bad("base and tip are chosen, but only a URDF has links to choose from; leave them out")
+            }
+            Description::Chain(chain) => Ok(Some((**chain).clone())),
+            Description::System(_) if ends != Ends::default() => bad(
+                "a task is chosen, but a system of equations states its own; leave task, direction and given joints out",
+            ),
+            Description::Coupled(_) if ends != Ends::default() => bad(
+                "a task is chosen, but each chain states its own; leave task, direction, given joints and tolerance out",
+            ),
+            Description::System(_) | Description::Coupled(_) => Ok(None),
+        };
+        let asked = chain.and_then(|chain| chain.map(|chain| ends.ask(chain)).transpose());
+        asked.map_err(|error| error.in_file(&self.path))
+    }
+}
+
+/// What the task file beside `file` asks, when `file` is the input of a mechanism's folder.
+fn read_ends(file: &Path) -> Result<Ends> {
+    let is_named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
+    let beside = file.with_file_name(TASK_NAME);
+    if is_named && beside.is_file() { Ends::read(&beside) } else { Ok(Ends::default()) }
+}
+
+/// What the text of `file` describes.
+fn from_toml(text: &str, file: &Path) -> Result<Description> {
+    let has = {
+        let document = Document::parse(text)?;
+        ["link", "chain", "dh", "tip", "task"].map(|key| document.root().optional(key).is_some())
+    };
+    let boxed = |chain| Description::Chain(Box::new(chain));
+    let folder = file.parent().unwrap_or(Path::new(""));
+    match has {
+        [true, ..] => Robot::from_toml(text).map(Description::Robot),
+        [_, true, ..] => CoupledChains::from_toml(text, folder).map(|coupled| Description::Coupled(Box::new(coupled))),
+        [_, _, true, ..] => Chain::from_dh_toml(text).map(boxed),
+        [_, _, _, false, false] => System::from_toml(text).map(Description::System),
+        _ => Chain::from_toml(text).map(boxed),
+    }
+}
+
+/// An input as it was read, and the equations that it amounts to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// Where it was read from.
+    pub path: PathBuf,
+    /// The file's name in a mechanism's folder: one of [`INPUT_NAMES`].
+    pub name: &'static str,
+    /// Its text.
+    pub text: String,
+    /// The chain, when it describes one, as described.
+    pub chain: Option<Chain>,
+    /// The ideal chain that it means, and what was taken for what.
+    pub ideal: Option<(Chain, Report)>,
+    /// The equations; none for coupled chains, and for a chain whose task is only solved joint by joint.
+    pub system: Option<System>,
+    /// The chains, when it describes chains that share actuators.
+    pub coupled: Option<CoupledChains>,
+    /// What was asked of it, when not all by default.
+    pub ends: Ends,
+    /// The links where the chain starts and ends, when the source names them.
+    pub links: Option<[String; 2]>,
+    /// What of the source was ignored.
+    pub notes: Vec<String>,
+    /// How the link where the chain ends was chosen, when the source has links.
+    pub choice: Option<TipChoice>,
+    /// The link that carries the first joint that moves, when the source has links.
+    pub carrier: Option<String>,
+}
+
+impl Source {
+    /// Reads a mechanism's folder or an input file, as [`InputFile::read`] does, for what its task file asks; of a robot without
+    /// one, the chain from its root to its only leaf.
+    ///
+    /// # Errors
+    /// As [`InputFile::read`], [`InputFile::chain`] and [`mod@formulate`], with file and line.
+    pub fn read(path: &Path) -> Result<Source> {
+        Source::read_between(path, &Ends::default())
+    }
+
+    /// The same, for what `ends` asks.
+    ///
+    /// # Errors
+    /// As [`InputFile::read`], [`InputFile::chain`], [`Ends::ideal`] and [`mod@formulate`], with file and line.
+    pub fn read_between(path: &Path, ends: &Ends) -> Result<Source> {
+        Source::of(InputFile::read(path)?, ends)
+    }
+
+    /// The source that an input is for what `ends` asks. A tip that was chosen by its name among several is asked for from then on.
+    ///
+    /// # Errors
+    /// As [`InputFile::chain`], [`Ends::ideal`] and [`mod@formulate`], with file and line.
+    pub fn of(input: InputFile, ends: &Ends) -> Result<Source> {
+        let (chain, way, notes) = (input.chain(ends)?, input.path(ends)?, input.ignored(ends)?);
+        let mut ends = ends.or(&input.ends);
+        if let Some(LinkPath { tip, choice: TipChoice::OnlyFrame(_), .. }) = &way {
+            ends.tip = Some(tip.clone());
+        }
+        let carrier = input.carrier(way.as_ref());
+        let InputFile { path, name, text, description, .. } = input;
+        let (system, coupled) = match (&chain, description) {
+            (Some(_), _) => (None, None),
+            (None, Description::System(system)) => (Some(system), None),
+            (None, Description::Coupled(coupled)) => (None, Some(*coupled)),
+            (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
+        };
+        let choice = way.as_ref().map(|way| way.choice);
+        let links = way.map(|way| [way.base, way.tip]);
+        let mut source =
+            Source { path, name, text, chain: None, ideal: None, system, coupled, ends, links, notes, choice, carrier };
+        chain.map(|chain| source.take(chain)).transpose().map_err(|error| error.in_file(&source.path))?;
+        Ok(source)
+    }
+
+    /// A chain without a file, for what was asked of it.
+    ///
+    /// # Errors
+    /// As [`Ends::ideal`] and [`mod@formulate`].
+    pub fn of_chain(chain: Chain, ends: &Ends) -> Result<Source> {
+        let mut source = Source {
+            path: PathBuf::new(),
+            name: INPUT_NAMES[0],
+            text: String::new(),
+            chain: None,
+            ideal: None,
+            system: None,
+            coupled: None,
+            ends: ends.clone(),
+            links: None,
+            notes: Vec::new(),
+            choice: None,
+            carrier: None,
+        };
+        source.take(chain)?;
+        Ok(source)
+    }
+
+    /// Fails where the chain is too far from its base frame to be solved.
+    ///
+    /// # Errors
+    /// As [`Chain::check_base`], with the link that is near, and the file.
+    pub fn check_base(&self) -> Result<()> {
+        let checked = self.chain.as_ref().map_or(Ok(()), |chain| chain.check_base(self.carrier.as_deref()));
+        checked.map_err(|error| error.in_file(&self.path))
+    }
+
+    /// `error`, after a remark that the table of this source may be of the other convention, where neighbouring axes say so.
+    #[must_use]
+    pub fn advised(&self, error: Error) -> Error {
+        match DhTable::doubt_of(&self.text) {
+            Some(doubt) => Error::new(error.kind(), format!("{doubt}; {}", error.message())),
+            None => error,
+        }
+    }
+
+    /// Gives the values of joints with each target where the task leaves some too many: those that the planner chooses, which this returns with
+    /// what else there was. More than one are chosen only where that is asked for: [`Ends::AUTO`].
+    ///
+    /// # Errors
+    /// As [`Source::check_base`], [`joints_to_give`] and [`Ends::ideal`]; [`ErrorKind::PositiveDimensional`] with a proposal for more than one joint too many. With the
+    /// file.
+    pub fn choose_given(&mut self, watch: &Watch) -> Result<Option<Choice>> {
+        self.check_base()?;
+        self.give(watch).map_err(|error| self.advised(error).in_file(&self.path))
+    }
+
+    fn give(&mut self, watch: &Watch) -> Result<Option<Choice>> {
+        let led = self.give_leaders()?;
+        let (Some(chain), Some((ideal, _))) = (self.chain_by_steps(), &self.ideal) else { return Ok(None) };
+        let Some(choice) = joints_to_give(ideal, watch)? else { return Ok(led) };
+        if choice.given.len() > chain.given_inputs().len() + 1 && !self.ends.chooses {
+            return Err(proposed(chain, &choice));
+        }
+        let chain = chain.with_task(chain.task(), chain.direction().clone(), choice.given.clone())?;
+        self.ends.given.clone_from(&choice.given);
+        self.take(chain)?;
+        Ok(Some(choice))
+    }
+
+    /// Where the task leaves so many joints free, gives the values of those that others of the chain follow by a law of which no closed form is
+    /// derived: one value then moves them all.
+    fn give_leaders(&mut self) -> Result<Option<Choice>> {
+        let Some(chain) = self.chain_by_steps() else { return Ok(None) };
+        let leaders = chain.open_leaders();
+        if leaders.is_empty() || chain.independent().len() < chain.task().freedoms() + leaders.len() {
+            return Ok(None);
+        }
+        let given = [chain.parts().given.clone(), leaders].concat();
+        let chain = chain.with_task(chain.task(), chain.direction().clone(), given.clone())?;
+        self.ends.given.clone_from(&given);
+        self.take(chain)?;
+        Ok(Some(Choice { given, candidates: Vec::new() }))
+    }
+
+    /// `chain` is what is described: with its ideal robot and, where its task has any that are solved together, its equations.
+    fn take(&mut self, chain: Chain) -> Result<()> {
+        let (ideal, report) = self.ends.ideal(&chain)?;
+        self.system = formulated(if report.is_same() { &ideal } else { &chain })?;
+        (self.chain, self.ideal) = (Some(chain), Some((ideal, report)));
+        Ok(())
+    }
+
+    /// The names of the files beside the input that it refers to: those of coupled chains.
+    pub fn beside(&self) -> impl Iterator<Item = &str> {
+        self.coupled.iter().flat_map(CoupledChains::chains).filter_map(|member| member.file.as_deref())
+    }
+
+    /// The file that keeps in a derivation's folder what was asked of the input: its name, [`TASK_NAME`], and its text.
+    pub fn task_file(&self) -> Option<(String, Vec<u8>)> {
+        (self.ends != Ends::default()).then(|| (TASK_NAME.to_owned(), self.ends.to_toml().into_bytes()))
+    }
+
+    /// The chain, when it is to be solved joint by joint: it asks for no order of unknowns and no choice of root, which belong to
+    /// equations that are solved together.
+    pub fn chain_by_steps(&self) -> Option<&Chain> {
+        self.chain.as_ref().filter(|chain| chain.order().is_none() && chain.choice().is_none())
+    }
+}
+
+/// The error of a chain with several joints too many: which of them may be given.
+fn proposed(chain: &Chain, choice: &Choice) -> Error {
+    let last = choice.candidates.iter().find(|candidate| choice.given.contains(&candidate.joint));
+    let share = last.map(|last| format!(", with solutions on {:.0} % of the last one's range", 100.0 * last.share));
+    let options: Vec<String> = choice.given.iter().map(|joint| format!("--given {joint}")).collect();
+    let text = format!(
+        "{} joints must be given: the `{}` task determines {} of the {}; `--given {}` takes {}{}",
+        choice.given.len(),
+        chain.task().name(),
+        chain.task().freedoms(),
+        chain.independent().len() + chain.given_inputs().len(),
+        Ends::AUTO,
+        options.join(" "),
+        share.unwrap_or_default()
+    );
+    Error::new(ErrorKind::PositiveDimensional, text)
+}
+
+/// The equations of `chain`, where its task has any that are solved together.
+fn formulated(chain: &Chain) -> Result<Option<System>> {
+    let by_steps = chain.order().is_none() && chain.choice().is_none();
+    let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
+    match formulate(chain) {
+        Ok(system) => Ok(Some(system)),
+        Err(error) if error.kind() == ErrorKind::Unsupported && (by_steps || !follows) => Ok(None),
+        // A chain that is solved joint by joint needs no names that equations can have.
+        Err(_) if by_steps => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+/// The one input of a folder.
+fn input_in(folder: &Path) -> Result<PathBuf> {
+    let present: Vec<&str> = INPUT_NAMES.into_iter().filter(|name| folder.join(name).is_file()).collect();
+    match present.as_slice() {
+        [file] => Ok(folder.join(file)),
+        [] => {
+            let text = "this folder has no input; put a `0_chain.toml`, a `0_system.toml`, a `0_robot.urdf` or a `0_coupled.toml` in it";
+            Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
+        }
+        [first, second, ..] => {
+            let text = format!("this folder has both `{first}` and `{second}`; keep one of them");
+            Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! The report of a chain that is solved joint by joint.
+
+use super::document::{Document, Line};
+use super::{forms, geometry, step};
+use crate::Result;
+use crate::derive::closure::{Mechanism, show};
+use crate::derive::sequential::{SequentialView, joint_unknowns};
+use crate::solver::{Block, Program};
+use groebot_robot::kinematics::Task;
+
+/// The report of `derived`.
+///
+/// # Errors
+/// When a field cannot be built: never for a derivation that was made by this crate.
+pub fn document(derived: SequentialView<'_>) -> Result<Document> {
+    let mechanism = Mechanism::new(&derived.problem.chain)?;
+    let mut page = Document::new(&format!("{}: its inverse kinematics, explained", derived.problem.chain.name()));
+    introduce(&mut page, derived);
+    chain(&mut page, derived, &mechanism);
+    closure(&mut page);
+    plan(&mut page, derived, &mechanism);
+    for index in 0..derived.method.steps.len() {
+        step::explain(&mut page, derived, &mechanism, index)?;
+    }
+    branches(&mut page, derived);
+    singularities(&mut page);
+    forms::explain(&mut page, derived)?;
+    proof(&mut page, derived, &mechanism);
+    Ok(page)
+}
+
+fn introduce(page: &mut Document, derived: SequentialView<'_>) {
+    let parts = derived.problem.chain.parts();
+    for text in [&parts.description, &parts.source].into_iter().flatten() {
+        page.paragraph(Line::plain(text));
+    }
+    let inputs: Vec<&str> = derived.program.inputs.iter().map(|input| input.name.as_str()).collect();
+    page.paragraph(
+        Line::of(&format!("Given is {}: ", task(derived.problem.chain.task()))).formula(&inputs.join(", ")).and(&format!(
+            ", lengths in {}. Wanted are all values of the joints that reach it. A generic target has {} complex solutions, and no \
+             more than that many real ones. They are found one joint at a time: a step is an equation or two in a single unknown \
+             joint, for the others cancel in it, are known from the steps before, or are eliminated.",
+            derived.problem.chain.length_unit().symbol(),
+            derived.method.plan.dimension
+        )),
+    );
+}
+
+fn task(task: Task) -> &'static str {
+    match task {
+        Task::Pose => "the pose of the tip, its position and by rows its rotation",
+        Task::Position => "the position of the tip",
+        Task::PlanarPosition { .. } => "the position of the tip in a plane",
+        Task::PlanarPose { .. } => {
+            "the position of the tip in a plane and its angle, counted from the zero configuration"
+        }
+        Task::Ray => "the position of the tip and a direction for it to point in",
+        Task::Direction => "a direction for the tip to point in",
+        Task::Rotation => "the rotation of the tip, by rows",
+        Task::PositionYaw { .. } => {
+            "the position of the tip and the angle about an axis of the base at which a direction of it points; the relations have the turn since the zero configuration"
+        }
+        Task::PositionPitchRoll => "the position of the tip, its pitch and its roll, whatever its yaw",
+    }
+}
+
+fn chain(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism) {
+    page.section(Line::of("The chain"));
+    let head = ["joint", "name", "motion", "unknowns", "axis", "through"];
+    let mut rows = vec![head.map(Line::of).to_vec()];
+    for (index, joint) in mechanism.joints().iter().enumerate() {
+        rows.push(vec![
+            Line::of(&(index + 1).to_string()),
+            Line::default().name(&joint.name),
+            Line::of(if joint.is_revolute() { "turns" } else { "slides" }),
+            Line::default().formula(&joint_unknowns(mechanism, index)),
+            Line::default().formula(&show(&joint.axis)),
+            Line::default().formula(&show(&joint.point)),
+        ]);
+    }
+    page.table(rows);
+    page.say(
+        "Axes and points are given in the base frame at zero. Of a joint that turns the unknowns are the cosine and the sine of its \
+         angle, $c^2 + s^2 = 1$, so that its motion is polynomial. Where no vector of length one along an axis has rational \
+         coordinates the sine is divided by the length of the vector, which keeps all numbers rational.",
+    );
+    let common = geometry::common(mechanism);
+    match common.is_empty() {
+        true => page.say("No two neighbouring axes meet or are parallel."),
+        false => page.items(common),
+    }
+    if mechanism.standing().is_some() {
+        page.say(
+            "The yaw is left open, and the first joint turns about a vertical as the yaw does. So the loop is cut there: behind the tip follow the \
+             roll and the pitch, which are given, the turn about the vertical that is left, the way from the first axis to the tip and the tip's \
+             height, which are given, and last the first joint, counted from where the tip is to be, seen from above. This loop closes where its \
+             tip is back at the base: its target never changes.",
+        );
+    } else if let Some(hidden) = mechanism.hidden() {
+        page.say(&format!(
+            "A ray does not say how the tip is turned about it. Any turn is chosen, two directions across the ray, which makes the target a \
+             pose. Joint {} is none of the chain's: it turns the tip about the ray from where the chain brings it to there. Its angle is found \
+             with the others and is no part of an answer.",
+            hidden + 1
+        ));
+    }
+    if !derived.method.plan.given.is_empty() && mechanism.standing().is_none() {
+        let given = geometry::numbers(derived.method.plan.given.iter().copied());
+        page.say(&format!("The user gives the value of {given}."));
+    }
+}
+
+fn closure(page: &mut Document) {
+    page.section(Line::of("The loop, and what cancels in it"));
+    page.say(
+        "Let $Ei$ be the motion of joint $i$ and $G$ the motion that takes the tip from its place at zero to the target ($G = T*M^-1$ with the \
+         target $T$ and the tip's place $M$ at zero). The chain reaches the target when",
+    );
+    page.equation("0.1", "E1 ... En = G");
+    page.say(
+        "Cut this loop twice. If the joints of one piece leave something in place (a point on their axes, a direction along \
+         them), and the joints of another piece leave something else in place, then both pieces drop out of whatever rigid \
+         motions keep between the two things: the scalar product $a . x$ of two directions, the coordinate of a point along a \
+         direction, the distance $|a - x|$ of two points, the mutual moment of two lines. Each is one polynomial equation in the \
+         joints that are left.",
+    );
+    page.say(
+        "Every such equation follows from the loop, and this has been computed, not assumed: with $G$ replaced by $E1 ... En$ \
+         and each $c^2$ by $1 - s^2$ it becomes zero identically. Because the equations of the loop and the circles have coprime \
+         leading terms, they are a Groebner basis, and this remainder zero means membership in their ideal.",
+    );
+}
+
+fn plan(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism) {
+    page.section(Line::of("The order of the joints"));
+    let mut rows = vec![["step", "joint", "name", "form", "solutions"].map(Line::of).to_vec()];
+    for (index, (step, planned)) in derived.method.steps.iter().zip(&derived.method.plan.steps).enumerate() {
+        rows.push(vec![
+            Line::of(&(index + 1).to_string()),
+            Line::of(&(step.joint + 1).to_string()),
+            Line::default().name(&mechanism.joints()[step.joint].name),
+            Line::of(step.shape.form.name()),
+            Line::of(&planned.degree.to_string()),
+        ]);
+    }
+    page.table(rows);
+    let degrees: Vec<String> = derived.method.plan.steps.iter().map(|step| step.degree.to_string()).collect();
+    page.say(&format!("Together: $({}) = {}$ solutions.", degrees.join(")("), derived.method.plan.product()));
+}
+
+/// How an answer's branch number is made of the steps' choices.
+fn branches(page: &mut Document, derived: SequentialView<'_>) {
+    page.section(Line::of("Which branch is which"));
+    page.say(
+        "Each step that has several roots makes a choice, such as the left or the right shoulder, the elbow up or down, the wrist \
+         turned or not: here they are simply the first and the second root. An answer's branch number is made of these choices, \
+         those of the first step first, as a number is of its digits; each step has a base of its own:",
+    );
+    let mut rows = vec![["choice", "joint", "base", "values"].map(Line::of).to_vec()];
+    for block in derived.program.blocks.iter().filter(|block| block.branches() > 1) {
+        let choice = format!("b{}", rows.len());
+        rows.push(vec![
+            Line::default().formula(&choice),
+            Line::default().name(&block.label),
+            Line::of(&block.branches().to_string()),
+            Line::of(&digits(block)),
+        ]);
+    }
+    if rows.len() > 1 {
+        page.table(rows);
+        let bases: Vec<&Block> = derived.program.blocks.iter().filter(|block| block.branches() > 1).collect();
+        let sum = bases.iter().enumerate().skip(1).fold("b1".to_owned(), |sum, (index, block)| {
+            let sum = if index > 1 { format!("({sum})") } else { sum };
+            format!("{sum}*{} + b{}", block.branches(), index + 1)
+        });
+        page.display(format!("branch = {sum}"));
+    } else {
+        page.say("No step of this chain has more than one root: there is one branch.");
+    }
+}
+
+/// `0 to 1 generic, 2 where A = 0, B = 0`.
+fn digits(block: &Block) -> String {
+    let mut cases: Vec<(usize, usize, String)> = Vec::new();
+    for case in &block.cases {
+        let last = (case.first_branch + Program::branches(case)).saturating_sub(1);
+        let label = if case.label.contains('=') { format!("where ${}$", case.label) } else { case.label.clone() };
+        let entry = (case.first_branch, last, label);
+        if !cases.contains(&entry) {
+            cases.push(entry);
+        }
+    }
+    let text = |(first, last, label): (usize, usize, String)| match last > first {
+        true => format!("{first} to {last} {label}"),
+        false => format!("{first} {label}"),
+    };
+    cases.into_iter().map(text).collect::<Vec<_>>().join("; ")
+}
+
+fn singularities(page: &mut Document) {
+    page.section(Line::of("At singularities"));
+    page.say(
+        "The formulas of a step divide by something; where that vanishes the step has formulas of its own, a stratum (below, with \
+         its proof). The program never asks whether a rounded number is zero. It runs every stratum that may apply, near a \
+         boundary both sides of it, polishes each candidate on forward kinematics by Newton's method, measures it, and merges \
+         equal ones.",
+    );
+    page.say(
+        "Where a joint is free there is a self-motion. The program puts an angle at eight places, a length at five, \
+         goes on with the later steps, and returns the best member that it finds; the answer names the joints that are free, \
+         and all members share one branch number.",
+    );
+}
+
+fn proof(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism) {
+    page.section(Line::of("Why no solution is lost and none is added"));
+    let relations: usize = derived.method.steps.iter().map(|step| step.relations.len()).sum();
+    page.say(&format!(
+        "None is lost: all {relations} equations of the steps are members of the ideal of the loop, by exact computation, and \
+         every form is proved on all its strata."
+    ));
+    page.say(
+        "None is added: at random targets that the chain reaches, modulo primes, the number of complex solutions was counted as \
+         the dimension of the quotient by all equations, from a Groebner basis of them:",
+    );
+    let mut head = vec![Line::of("prime"), Line::of("solutions")];
+    head.extend(mechanism.joints().iter().enumerate().map(|(index, _)| Line::of(&format!("joint {}", index + 1))));
+    let mut rows = vec![head];
+    for evidence in &derived.method.plan.evidence {
+        let numbers = [evidence.prime as usize, evidence.dimension].into_iter().chain(evidence.degrees.iter().copied());
+        rows.push(numbers.map(|number| Line::of(&number.to_string())).collect());
+    }
+    page.table(rows);
+    let tight = derived.method.plan.product() == derived.method.plan.dimension;
+    page.say(&format!(
+        "The numbers under a joint say how many values it takes. The degrees of the steps multiply to {}, {}. Besides, each answer \
+         of the program is measured by forward kinematics before it is returned.",
+        derived.method.plan.product(),
+        match tight {
+            true => "just this number, so that a branch of the steps is a solution",
+            false => "more than that: the task asks for more than the joints can do, and the equations that are left over are measured when the program runs",
+        }
+    ));
+    page.paragraph(
+        Line::of("What is counted modulo a prime at random targets is evidence, not proof; the rest is proved, and ")
+            .name("groebot check")
+            .and(" proves it again from ")
+            .name("certificate.json")
+            .and(" without search and without the engine."),
+    );
+}

@@ -1,0 +1,72 @@
+//! The report of chains that share actuators: how they are put together, then the report of each.
+
+use super::chain;
+use super::document::{Document, Line};
+use crate::Result;
+use crate::derive::closure::Mechanism;
+use crate::derive::coupled::CoupledView;
+
+/// The report of `derived`.
+///
+/// # Errors
+/// When a field cannot be built: never for a derivation that was made by this crate.
+pub fn document(derived: CoupledView<'_>) -> Result<Document> {
+    let parts = derived.problem.parts();
+    let mut page = Document::new(&format!("{}: its inverse kinematics, explained", parts.name));
+    for text in [&parts.description, &parts.source].into_iter().flatten() {
+        page.paragraph(Line::plain(text));
+    }
+    actuators(&mut page, derived);
+    page.say(&format!(
+        "The chains are solved one after the other. A joint whose actuator a chain has found is given for the chains after it. Every \
+         solution of all chains is one of the first chain, continued by one of the next with the shared joints held, and so on: none \
+         is lost. A generic target that the chains can reach has {} complex solutions. Each answer is polished and measured on the \
+         equations of all chains together.",
+        derived.method.dimension()
+    ));
+    shared(&mut page, derived)?;
+    for stage in &derived.method.stages {
+        page.section(Line::default().name(&derived.title(stage)));
+        page.parts.extend(chain::document(stage.view())?.parts);
+    }
+    Ok(page)
+}
+
+/// How shared joints are found from both chains at once.
+fn shared(page: &mut Document, derived: CoupledView<'_>) -> Result<()> {
+    let Some(simultaneous) = &derived.method.simultaneous else { return Ok(()) };
+    page.section(Line::default().name(&derived.simultaneous_names().join(", ")).and(": from both chains at once"));
+    page.say(
+        "Of each chain an equation is taken that holds no unknown joint but shared ones. What is measured stays the same on the arc whose \
+         joints drop out, which has been computed; so the equation follows from the chain's loop.",
+    );
+    for (index, (member, relation)) in derived.problem.chains().iter().zip(simultaneous.relations()?).enumerate() {
+        let meaning = relation.meaning(&Mechanism::new(&member.chain)?);
+        page.paragraph(Line::default().name(&member.name).and(&format!(": {meaning}.")));
+        page.equation(&format!("0.{}", index + 2), relation.to_string());
+    }
+    page.say(match simultaneous.steps.as_slice() {
+        [_] => "Both are linear in the cosine and sine of the joint, and each is solved alone where the other vanishes.",
+        _ => {
+            "Both are linear in the cosine and sine of the second joint. Their determinant is an equation in the first joint, of \
+             degree two in its cosine and sine; its cofactors are multiplied out in the proof."
+        }
+    });
+    Ok(())
+}
+
+/// Which actuator moves which joints.
+fn actuators(page: &mut Document, derived: CoupledView<'_>) {
+    page.section(Line::of("The chains and their actuators"));
+    let mut rows = vec![["actuator", "chain", "joint"].map(Line::of).to_vec()];
+    for actuator in derived.problem.actuators() {
+        for place in &actuator.joints {
+            let member = &derived.problem.chains()[place.member];
+            let name = member.chain.joints()[place.joint].name.as_str();
+            rows.push(
+                [actuator.name.as_str(), member.name.as_str(), name].map(|text| Line::default().name(text)).to_vec(),
+            );
+        }
+    }
+    page.table(rows);
+}

@@ -1,0 +1,310 @@
+//! One step of a chain's report: its relations, what cancels in them, the equation in its joint, and its roots.
+
+use num_traits::One;
+
+use super::algebra::{Sorted, product, renamed, signs};
+use super::document::{Document, Line};
+use super::{forms, geometry, strata};
+use crate::Result;
+use crate::derive::closure::{Factor, Mechanism, ScrewJoint};
+use crate::derive::planner::Way;
+use crate::derive::sequential::{Elimination, Form, ProvedStep, SequentialView, name};
+use groebot_algebra::number::{BigRational, Ring, Style};
+
+/// The longest combination that is written out, in characters.
+const LONGEST: usize = 1500;
+
+/// Adds the section of step `index`.
+pub fn explain(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism, index: usize) -> Result<()> {
+    let step = &derived.method.steps[index];
+    let laws: Vec<String> = step.relations.iter().filter_map(|relation| relation.law(mechanism)).collect();
+    let relations = if laws.len() == step.relations.len() { &[] } else { step.relations.as_slice() };
+    let sorted = relations.iter().map(|relation| Sorted::new(mechanism, relation, step.joint));
+    let sorted = sorted.collect::<Result<Vec<_>>>()?;
+    Writer { page, derived, mechanism, step, index, sorted, numbers: step.relations.len() }.section()
+}
+
+struct Writer<'a> {
+    page: &'a mut Document,
+    derived: SequentialView<'a>,
+    mechanism: &'a Mechanism,
+    step: &'a ProvedStep,
+    index: usize,
+    /// The relations by the joint's unknowns.
+    sorted: Vec<Sorted>,
+    /// The last number of an equation.
+    numbers: usize,
+}
+
+impl Writer<'_> {
+    fn section(mut self) -> Result<()> {
+        let heading = format!("Step {}: joint {}, ", self.index + 1, self.step.joint + 1);
+        self.page.section(Line::of(&heading).name(&self.joint().name));
+        self.known();
+        if self.sorted.is_empty() {
+            self.follows();
+            return Ok(());
+        }
+        (0..self.step.relations.len()).for_each(|number| self.relation(number));
+        match &self.step.elimination {
+            Some(elimination) => self.elimination(elimination),
+            None => self.symbols(),
+        }
+        self.triangular()?;
+        self.singular();
+        Ok(())
+    }
+
+    /// A joint that follows another one.
+    fn follows(&mut self) {
+        for relation in &self.step.relations {
+            self.page.say(&format!("Here {}:", relation.meaning(self.mechanism)));
+            self.page.display(relation.law(self.mechanism).unwrap_or_default());
+        }
+        self.page.say("Nothing is to be solved, and no solution is added or lost.");
+    }
+
+    fn joint(&self) -> &ScrewJoint {
+        &self.mechanism.joints()[self.step.joint]
+    }
+
+    fn known(&mut self) {
+        let before = self.derived.method.steps[..self.index].iter().map(|step| step.joint);
+        let mut known: Vec<usize> = self.derived.method.plan.given.iter().copied().chain(before).collect();
+        known.sort_unstable();
+        let used: Vec<usize> = known
+            .into_iter()
+            .filter(|joint| self.step.relations.iter().any(|relation| relation.joints().contains(joint)))
+            .collect();
+        match used.as_slice() {
+            [] => self.page.say("This step needs the target only."),
+            list => {
+                let text = format!("From the steps before it uses {}.", geometry::numbers(list.iter().copied()));
+                self.page.say(&text);
+            }
+        }
+    }
+
+    fn relation(&mut self, number: usize) {
+        let relation = &self.step.relations[number];
+        self.page.items(geometry::cancelled(self.mechanism, relation));
+        self.page.say(&format!(
+            "What stays in place on either side of the cut drops out of the loop, and {}:",
+            geometry::conserved(relation.measure)
+        ));
+        self.page.equation(&format!("{}.{}", self.index + 1, number + 1), relation.to_string());
+        self.page.say("Multiplied out, by the unknowns of this joint:");
+        let text = self.sorted[number].equation(self.mechanism);
+        self.page.display(text);
+    }
+
+    /// Adds an equation with the step's next number, and gives the number.
+    fn equation(&mut self, formula: String) -> String {
+        self.numbers += 1;
+        let number = format!("{}.{}", self.index + 1, self.numbers);
+        self.page.equation(&number, formula);
+        number
+    }
+
+    /// The equation in the joint, and what its symbols stand for.
+    fn symbols(&mut self) {
+        let form = self.step.shape.form;
+        self.page.say(match form {
+            Form::Angle => "This is linear in the cosine and the sine of one angle:",
+            Form::Turn => "The two equations turn a vector that is known before to a place that is known after:",
+            Form::Pair => "These are two linear equations in the cosine and the sine of one angle:",
+            Form::Linear => "This is linear in the length:",
+            Form::Quadratic => "This is quadratic in the length:",
+            Form::Quartic | Form::Lengths => "This is one equation in the joint alone:",
+        });
+        let own = self.own_names();
+        let equations: Vec<String> = forms::equations(form).iter().map(|text| renamed(text, &own)).collect();
+        for equation in equations {
+            self.equation(equation);
+        }
+        let values = self.values();
+        if !values.is_empty() {
+            self.page.say("with");
+        }
+        values.into_iter().for_each(|value| self.page.display(value));
+    }
+
+    /// `A = ...`: the symbols of the form, with the true sine and length.
+    fn values(&self) -> Vec<String> {
+        let joint = self.step.joint;
+        let one = BigRational::one();
+        let (c, s) = ([Factor::Cosine(joint)], [Factor::Sine(joint)]);
+        let (d, dd) = ([Factor::Length(joint)], [Factor::LengthSquared(joint)]);
+        let half = BigRational::new(1.into(), 2.into());
+        let ratio = self.step.shape.ratio.as_ref().map_or_else(BigRational::one, BigRational::recip);
+        let over = self.over(1);
+        let take = |symbol: &str, equation: usize, own: &[Factor], factor: &BigRational, root: &str| {
+            scaled(symbol, &self.sorted[equation].coefficient(self.mechanism, own, factor), root)
+        };
+        match self.step.shape.form {
+            Form::Angle => {
+                vec![take("A", 0, &c, &one, ""), take("B", 0, &s, &one, &over), take("C", 0, &[], &one, "")]
+            }
+            Form::Turn => vec![
+                take("A", 0, &c, &one, ""),
+                take("B", 0, &s, &-&one, &over),
+                take("X", 0, &[], &-&one, ""),
+                take("Y", 1, &[], &-ratio, &over.replace('/', "*")),
+            ],
+            Form::Pair => vec![
+                take("A", 0, &c, &one, ""),
+                take("B", 0, &s, &one, &over),
+                take("E", 1, &c, &one, ""),
+                take("F", 1, &s, &one, &over),
+                take("X", 0, &[], &-&one, ""),
+                take("Y", 1, &[], &-&one, ""),
+            ],
+            Form::Linear => vec![take("A", 0, &d, &one, &over), take("B", 0, &[], &one, "")],
+            Form::Quadratic => vec![
+                take("A", 0, &dd, &self.joint().square.recip(), ""),
+                take("B", 0, &d, &half, &over),
+                take("C", 0, &[], &one, ""),
+            ],
+            Form::Quartic | Form::Lengths => Vec::new(),
+        }
+    }
+
+    /// `/sqrt(n)^power`; nothing where the axis has length one.
+    fn over(&self, power: usize) -> String {
+        if self.joint().square.is_one() {
+            String::new()
+        } else {
+            format!("/sqrt({})", self.joint().square).repeat(power)
+        }
+    }
+
+    /// The unknowns of a form by the names of this joint's.
+    fn own_names(&self) -> Vec<(String, String)> {
+        let symbol = &self.joint().symbol;
+        ["c", "s", "d", "w", "t"].iter().map(|name| ((*name).to_owned(), format!("{name}{symbol}"))).collect()
+    }
+
+    /// How other joints go, and what is left.
+    fn elimination(&mut self, elimination: &Elimination) {
+        let names = self.elimination_names(elimination);
+        let away = match &self.derived.method.plan.steps[self.index].way {
+            Way::Eliminated { away, .. } => geometry::numbers(away.iter().copied()),
+            _ => String::new(),
+        };
+        self.page.say(&format!(
+            "Still unknown in these equations is {away} as well; it is eliminated by a Groebner basis with its unknowns first or, where \
+             the equations turn a vector by it, by the sum of their squares. What is known is written as symbols:"
+        ));
+        let lines = elimination.symbols.iter().enumerate().map(|(number, place)| {
+            let (what, relation) = (product(self.mechanism, &place.factors), place.relation + 1);
+            let what = if what.is_empty() { "1" } else { &what };
+            Line::of(&format!("$S{number}$ is the coefficient of "))
+                .formula(what)
+                .and(&format!(" in ({}.{relation}) when it is sorted by the unknown joints.", self.index + 1))
+        });
+        let lines = lines.collect();
+        self.page.items(lines);
+        self.page.say("The generators, the circles behind the relations:");
+        let text = |f| renamed(&elimination.ring.format(f, Style::Decimal), &names);
+        for (number, f) in elimination.generators.iter().enumerate() {
+            self.page.display(format!("f{} = {} = 0", number + 1, text(f)));
+        }
+        self.page.say("The member of their ideal that holds this joint alone:");
+        let number = self.equation(format!("{} = 0", text(&elimination.member)));
+        self.page
+            .say("It is this combination of them, multiplied out exactly, so every solution of the loop fulfils it:");
+        let terms = elimination.cofactors.iter().enumerate().filter(|(_, f)| !f.is_zero());
+        let sum = signs(terms.map(|(number, f)| format!("{}*f{}", strata::factor(&text(f)), number + 1)));
+        match sum.len() {
+            0..=LONGEST => self.page.display(sum),
+            _ => self.page.say("The cofactors are long; they are in certificate.json."),
+        }
+        let form = self.step.shape.form;
+        let own = self.own_names();
+        self.page.say(&format!("Sorted by the unknowns of this joint, ({number}) is"));
+        for equation in forms::equations(form) {
+            self.equation(renamed(equation, &own));
+        }
+    }
+
+    fn elimination_names(&self, elimination: &Elimination) -> Vec<(String, String)> {
+        let away: &[usize] = match &self.derived.method.plan.steps[self.index].way {
+            Way::Eliminated { away, .. } => away,
+            _ => &[],
+        };
+        let unknowns = |joint: &usize| match self.mechanism.joints()[*joint].is_revolute() {
+            true => vec![Factor::Cosine(*joint), Factor::Sine(*joint)],
+            false => vec![Factor::Length(*joint)],
+        };
+        let factors = away.iter().chain([&self.step.joint]).flat_map(unknowns);
+        let names = elimination.ring.variables().iter().zip(factors);
+        names.map(|(old, factor)| (old.clone(), name(self.mechanism, factor))).collect()
+    }
+
+    /// The triangular form and its roots.
+    fn triangular(&mut self) -> Result<()> {
+        let (form, own) = (self.step.shape.form, self.own_names());
+        let stairs = forms::triangular(self.derived, form)?;
+        self.page.paragraph(
+            Line::of("The Groebner basis of the form ")
+                .name(form.name())
+                .and(", proved below for symbols that may be anything, is triangular: one unknown after the other."),
+        );
+        for stair in stairs {
+            self.equation(renamed(&stair, &own));
+        }
+        match self.told() {
+            Some(before) => self.page.say(&format!(
+                "Its roots, and what happens where two of them meet or symbols vanish, are those given in step {}.",
+                before + 1
+            )),
+            None => {
+                self.page.say(&renamed_prose(forms::roots(form), &own));
+                self.page.say(&format!("Singular: {}", renamed_prose(forms::singular(form), &own)));
+            }
+        }
+        Ok(())
+    }
+
+    /// The step before that has told all about this form.
+    fn told(&self) -> Option<usize> {
+        self.derived.method.steps[..self.index].iter().position(|step| step.shape.form == self.step.shape.form)
+    }
+
+    /// What it means in the mechanism that the joint's symbols vanish.
+    fn singular(&mut self) {
+        let form = self.step.shape.form;
+        if self.step.elimination.is_some() || !matches!(form, Form::Angle | Form::Turn) {
+            return;
+        }
+        let is_number = |value: &String| value[4..].parse().is_ok_and(|number: f64| number != 0.0);
+        match self.values().iter().take(2).find(|value| is_number(value)) {
+            Some(value) => {
+                let text = format!(
+                    "Here ${value}$ is a number, so this step is never singular for this reason: the joint is never free."
+                );
+                self.page.say(&text);
+            }
+            None => {
+                let meaning = geometry::degenerate(self.step.relations[0].measure);
+                self.page.say(&format!("In the mechanism $A = B = 0$ means that {meaning}."));
+            }
+        }
+    }
+}
+
+/// `A = text/sqrt(3)`.
+fn scaled(symbol: &str, text: &str, root: &str) -> String {
+    match root {
+        "" => format!("{symbol} = {text}"),
+        _ if text == "0" => format!("{symbol} = 0"),
+        _ => format!("{symbol} = ({text}){root}"),
+    }
+}
+
+/// Prose whose formulas, between dollars, have their names replaced.
+fn renamed_prose(prose: &str, names: &[(String, String)]) -> String {
+    let pieces = prose.split('$').enumerate();
+    let pieces = pieces.map(|(index, piece)| if index % 2 == 0 { piece.to_owned() } else { renamed(piece, names) });
+    pieces.collect::<Vec<_>>().join("$")
+}

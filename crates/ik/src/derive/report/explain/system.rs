@@ -1,0 +1,161 @@
+//! The report of equations that are solved together.
+
+use super::document::{Document, Line};
+use super::strata;
+use crate::Result;
+use crate::derive::equations::EquationsView;
+use crate::derive::equations::tree::{Node, Outcome, Solved};
+use crate::derive::{JointKindUnknown, ParameterSource, System};
+use crate::solver::Program;
+use groebot_algebra::number::{Ring, Style};
+use groebot_algebra::poly::Order;
+
+/// The report of `derivation`.
+///
+/// # Errors
+/// When a field cannot be built: never for a derivation that was made by this crate.
+pub fn document(derivation: EquationsView<'_>) -> Result<Document> {
+    let system = derivation.problem;
+    let mut page = Document::new(&format!("{}: its inverse kinematics, explained", system.name));
+    introduce(&mut page, system);
+    equations(&mut page, derivation)?;
+    for (index, (title, node)) in derivation.method.trees().into_iter().enumerate() {
+        tree(&mut page, derivation, (index, title), node)?;
+    }
+    branches(&mut page, derivation);
+    closing(&mut page);
+    Ok(page)
+}
+
+fn introduce(page: &mut Document, system: &System) {
+    for text in [&system.description, &system.source].into_iter().filter(|text| !text.is_empty()) {
+        page.paragraph(Line::plain(text));
+    }
+    let inputs: Vec<&str> = system.inputs.iter().map(|input| input.name.as_str()).collect();
+    page.paragraph(Line::of("Given is ").formula(&inputs.join(", ")).and(&format!(
+        ", lengths in {}. Wanted are all values of the joints that solve the equations below. They are solved together: a Groebner \
+         basis in a lexicographic order is triangular, one unknown after the other.",
+        system.length_unit.symbol()
+    )));
+}
+
+fn equations(page: &mut Document, derivation: EquationsView<'_>) -> Result<()> {
+    let system = derivation.problem;
+    page.section(Line::of("The equations"));
+    let mut items = Vec::new();
+    for parameter in &system.parameters {
+        let input = |index: usize| system.inputs[index].name.as_str();
+        let value = match parameter.source {
+            ParameterSource::Input(index) if input(index) == parameter.name => continue,
+            ParameterSource::Input(index) => format!("{} = {}", parameter.name, input(index)),
+            ParameterSource::Cosine(index) => format!("{} = cos({})", parameter.name, input(index)),
+            ParameterSource::Sine(index) => format!("{} = sin({})", parameter.name, input(index)),
+            ParameterSource::SquareRoot => format!("{} > 0", parameter.name),
+        };
+        let square = parameter.square.as_ref().map(|square| format!(", {}^2 = {square}", parameter.name));
+        items.push(Line::of("Known: ").formula(&(value + &square.unwrap_or_default())).and("."));
+    }
+    for joint in &system.joints {
+        let text = match &joint.kind {
+            JointKindUnknown::Angle { cosine, sine } => {
+                Line::of(&format!("the cosine ${cosine}$ and the sine ${sine}$ of an angle."))
+            }
+            JointKindUnknown::Value { unknown } => Line::of("the value ").formula(unknown).and("."),
+        };
+        let mut line = Line::of("Joint ").name(&joint.name).and(": ");
+        line.0.extend(text.0);
+        items.push(line);
+    }
+    page.items(items);
+    let setting = &derivation.method.requested.setting;
+    let ring = setting.ring(&system.order, Order::Lex)?;
+    for (index, (equation, f)) in system.equations.iter().zip(setting.generators(&ring)?).enumerate() {
+        let label = equation.label.trim_matches(['(', ')']);
+        let is_number = !label.is_empty() && label.chars().all(|c| c.is_ascii_digit() || c == '.');
+        let number = if is_number { label.to_owned() } else { format!("0.{}", index + 1) };
+        page.equation(&number, format!("f{} = {} = 0", index + 1, ring.format(&f, Style::Decimal)));
+    }
+    Ok(())
+}
+
+fn tree(page: &mut Document, derivation: EquationsView<'_>, (index, title): (usize, &str), node: &Node) -> Result<()> {
+    page.section(Line::of(if index == 0 { "The basis" } else { "The basis that the program uses" }));
+    if index > 0 {
+        page.say(
+            "Each order of the unknowns gives a basis of the same ideal, but they divide by different things. The program uses \
+             the order whose denominators vanish most rarely.",
+        );
+    }
+    if let Some(solved) = node.solved() {
+        basis(page, (index, title), solved);
+        strata::proof(page, &node.setting, &solved.certified)?;
+    }
+    let names = |node: &Node| match &node.outcome {
+        Outcome::SelfMotion(self_motion) => {
+            let names: Vec<&str> =
+                self_motion.free.iter().map(|&joint| derivation.problem.joints[joint].name.as_str()).collect();
+            format!("{} {}", names.join(", "), if names.len() == 1 { "is" } else { "are" })
+        }
+        _ => String::new(),
+    };
+    strata::degenerate(page, node, &names);
+    for node in node.walk().into_iter().skip(1) {
+        let Some(solved) = node.solved().filter(|solved| !solved.inherited) else { continue };
+        page.paragraph(Line::of("Where ").formula(&node.label).and(" the basis is"));
+        strata::stairs(solved).into_iter().for_each(|stair| page.display(stair));
+    }
+    Ok(())
+}
+
+fn basis(page: &mut Document, (index, title): (usize, &str), solved: &Solved) {
+    let order = solved.certified.order.join(" > ");
+    page.paragraph(
+        Line::of("In the lexicographic order ").formula(&order).and(&format!(" ({title}), denominators cleared:")),
+    );
+    for (number, stair) in strata::stairs(solved).into_iter().enumerate() {
+        page.equation(&format!("{}.{}", index + 1, number + 1), stair);
+    }
+    let degrees = solved.triangular.stairs.iter().zip(solved.triangular.degrees());
+    let ways = degrees.map(|(stair, degree)| {
+        let unknown = &solved.triangular.ring.variables()[stair.unknown];
+        let count = if degree == 1 {
+            "one value, for its polynomial is linear".to_owned()
+        } else {
+            format!("up to {degree} real values, the roots of a polynomial of degree {degree}")
+        };
+        Line::default().formula(unknown).and(": ").and(&count).and(".")
+    });
+    page.items(ways.collect());
+}
+
+fn branches(page: &mut Document, derivation: EquationsView<'_>) {
+    page.section(Line::of("Which branch is which"));
+    page.say(
+        "A polynomial with several roots makes several branches: an answer's branch number counts the roots in ascending order, \
+         smallest unknown first, and those of a stratum go on where the stratum before ends.",
+    );
+    let mut rows = vec![["branches", "stratum"].map(Line::of).to_vec()];
+    for case in derivation.program.cases().filter(|case| !case.open) {
+        let end = case.first_branch + Program::branches(case);
+        let stratum =
+            if case.label.contains('=') { Line::default().formula(&case.label) } else { Line::of(&case.label) };
+        rows.push(vec![Line::of(&format!("{} to {}", case.first_branch, end.saturating_sub(1))), stratum]);
+    }
+    page.table(rows);
+}
+
+fn closing(page: &mut Document) {
+    page.section(Line::of("At singularities"));
+    page.say(
+        "The program never asks whether a rounded number is zero. It runs every stratum that may apply, near a boundary both \
+         sides of it; each candidate is polished on the equations by Newton's method, measured in them, and merged with equal \
+         ones. Where a joint is free the answer says so, and has it at zero.",
+    );
+    page.paragraph(
+        Line::of("All bases are proved; ")
+            .name("groebot check")
+            .and(" proves them again from ")
+            .name("certificate.json")
+            .and(" without the engine."),
+    );
+}

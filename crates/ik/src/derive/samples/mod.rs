@@ -1,0 +1,6 @@
+//! Random targets modulo primes: their solutions, and the relations that hold between few joints at each of them.
+
+pub(super) mod echelon;
+pub(super) mod evidence;
+pub(super) mod sights;
+pub(super) mod specimen;

@@ -1,0 +1,33 @@
+//! Reading of robots from files of any format: [`Robot::read`].
+
+use std::path::Path;
+
+use super::Robot;
+use super::urdf::URDF_LIMIT;
+use crate::Result;
+use crate::document::{TEXT_LIMIT, decode_xml, explained, is_xml, read_bytes, refuse_binary, text_of};
+
+impl Robot {
+    /// The robot that the file at `path` describes: a URDF where the file's name ends in `.urdf` or `.xml`, or where its text starts with `<`; otherwise TOML.
+    ///
+    /// # Errors
+    /// As [`read_bytes`], with a limit of four megabytes for a name that ends in `.urdf` or `.xml` and of one megabyte for others; as [`decode_xml`] and
+    /// [`Robot::from_urdf`], or [`Robot::from_toml`]; [`crate::ErrorKind::Unsupported`] for archives, JSON, YAML and tables. All have the file.
+    pub fn read(path: impl AsRef<Path>) -> Result<Robot> {
+        let path = path.as_ref();
+        let named = path.extension().is_some_and(|end| ["urdf", "xml"].iter().any(|xml| end.eq_ignore_ascii_case(xml)));
+        let bytes = read_bytes(path, if named { URDF_LIMIT } else { TEXT_LIMIT })?;
+        Robot::from_bytes(bytes, named).map_err(|error| error.in_file(path))
+    }
+
+    fn from_bytes(bytes: Vec<u8>, named: bool) -> Result<Robot> {
+        refuse_binary(&bytes)?;
+        if named || is_xml(&bytes) {
+            let xml = decode_xml(&bytes)?;
+            let robot = Robot::from_urdf(&xml.text).map_err(|error| explained(error, &xml.text))?;
+            return Ok(robot.with_notes(xml.notes));
+        }
+        let text = text_of(bytes)?;
+        Robot::from_toml(&text).map_err(|error| explained(error, &text))
+    }
+}
