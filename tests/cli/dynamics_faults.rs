@@ -109,7 +109,7 @@ fn bodies_without_mass_have_all_but_accelerations() {
     near(&row, &[("M0_0", 0.35), ("M1_0", 0.0), ("M1_1", 0.0), ("tau0", -4.905), ("tau1", 0.0), ("g0", -4.905)]);
     let empty = |name: &str| row.iter().any(|(other, cell)| other == name && cell.is_empty());
     assert!(empty("qdd0") && empty("qdd1"), "{row:?}");
-    assert!(told.contains("qdd is empty in 1 of 1 rows") && told.contains("link `b` behind joint `j2`"), "{told}");
+    assert!(told.contains("qdd is empty in 1 of 1 rows") && told.contains("link `b` of joint `j2`"), "{told}");
     let (_folder, states) = written("s.csv", "q0,q1\n0,0\n");
     let json = succeed(&["dynamics", text(&robot), "--states", text(&states), "--json"]);
     let report: serde_json::Value = serde_json::from_str(&json).unwrap();

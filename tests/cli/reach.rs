@@ -59,7 +59,7 @@ fn bad_questions_are_refused() {
     let other = folder.path().join("puma.json");
     succeed(&["reach", "derivations/puma", "--x", "0.3", "--y", "0.1", "--z", "0.2", "-o", text(&other), "--quiet"]);
     let told = refused(&["view", "derivations/ur5", "--reach", text(&other), "-o", text(&out)]);
-    assert!(told.contains("this is a map of puma"), "{told}");
+    assert!(told.contains("this is the map of puma"), "{told}");
     // Slides have limits: what they travel is within the grid.
     assert!(succeed(&["reach", "derivations/gantry", "--orientations", "4"]).contains("9261 places"));
     let broken = folder.path().join("broken.json");

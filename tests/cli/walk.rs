@@ -92,7 +92,7 @@ fn rh0_walks_in_words_and_in_the_thesis_columns() {
     assert_eq!(table.lines().count(), 1 + 1 + 6 * 81);
     assert!(table.lines().nth(3).unwrap().starts_with("0.072,"));
     assert_eq!(Trajectory::read_csv(&csv).unwrap().times.len(), table.lines().count() - 1);
-    assert!(fs::read_to_string(&svg).unwrap().contains("ankles aslant"));
+    assert!(fs::read_to_string(&svg).unwrap().contains("ankles, oblique view"));
     let told = succeed(&["walk", "rh0", "--plan", "turn left 90"]);
     assert!(
         told.contains("12 steps") && told.contains("34.99 s of them stepping") && told.contains("turn 90.0 deg"),

@@ -10,18 +10,17 @@
 //! * [`folder`] lists and checks the files of a derivation.
 //!
 //! ```
-//! use groebot_ik::derive::Proved;
-//! use groebot_ik::{Watch, codegen};
+//! use groebot_ik::{codegen, derive};
 //! use groebot_robot::kinematics::Target;
 //! use groebot_robot::robots;
 //!
 //! // The order of the joints, a Groebner basis for each step with its proof, and a program.
 //! let chain = robots::ur5();
-//! let derived = Proved::of_chain(&chain, &Watch::none())?;
+//! let derivation = derive(&chain)?;
 //!
 //! // All solutions of a pose; forward kinematics confirms each.
 //! let target = Target::Pose(chain.forward(&[0.1, -1.2, 1.4, -0.3, 0.8, 0.5])?);
-//! let solutions = derived.program().solver().solve(&target, &[])?;
+//! let solutions = derivation.solver().solve(&target)?;
 //! assert_eq!(solutions.len(), 8);
 //! for solution in &solutions {
 //!     let [distance, angle] = target.missed(&chain, &solution.q);
@@ -29,7 +28,7 @@
 //! }
 //!
 //! // The same solver as source code.
-//! assert!(codegen::rust::emit(derived.program()).contains("pub fn"));
+//! assert!(codegen::rust::emit(derivation.program()).contains("pub fn"));
 //! # Ok::<(), groebot_ik::Error>(())
 //! ```
 

@@ -57,7 +57,7 @@ fn figures_that_mean_nothing_are_refused() {
         assert!(reason(|request| request.durations.rest = bad).contains("rest"));
         assert!(reason(|request| request.margin = bad).contains("margin"));
     }
-    assert!(reason(|request| request.style.ahead = f64::NAN).contains("lead"));
+    assert!(reason(|request| request.style.ahead = f64::NAN).contains("forward distance"));
     for long in [1e7, f64::MAX] {
         assert!(reason(|request| request.durations.rest = long).contains("would last"));
     }

@@ -41,5 +41,6 @@ fn a_chain_that_nothing_solves_is_still_refused() {
     parts.joints.pop();
     parts.task = groebot_robot::kinematics::Task::Position;
     source.chain = Some(groebot_robot::kinematics::Chain::new(parts).unwrap());
+    source.ideal = None;
     assert!(Derivation::of(&source, &Watch::none()).is_err());
 }

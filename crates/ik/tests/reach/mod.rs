@@ -14,7 +14,7 @@ use groebot_robot::kinematics::Chain;
 
 /// The chain and the program of a committed derivation.
 fn derivation(name: &str) -> (Chain, Program) {
-    let folder = PathBuf::from("derivations").join(name);
+    let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations")).join(name);
     let chain = InputFile::read(&folder).unwrap().chain(&Ends::default()).unwrap().unwrap();
     let program = Program::from_json(&std::fs::read_to_string(folder.join("5_program.json")).unwrap()).unwrap();
     (chain, program)

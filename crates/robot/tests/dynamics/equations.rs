@@ -392,5 +392,5 @@ fn what_no_body_has_is_refused_by_its_link() {
     let still = [0.0; 6];
     let state = State::new(&still, &still);
     let error = massless.forward(&mut massless.workspace(), state, &still).unwrap_err().to_string();
-    assert!(error.contains("link `wrist_3_link` behind joint `wrist_3`") && error.contains("no mass"), "{error}");
+    assert!(error.contains("link `wrist_3_link` of joint `wrist_3`") && error.contains("no mass"), "{error}");
 }

@@ -48,8 +48,8 @@ fn what_is_beyond_bounds_is_found() {
 fn tracks_that_do_not_fit_are_refused() {
     type Change = fn(&mut Trajectory);
     let changes: [(&str, Change); 8] = [
-        ("time is not behind", |path| path.times[1] = 0.3),
-        ("time is not behind", |path| path.times[1] = f64::NAN),
+        ("its time is not at least 1e-8 s after the previous one", |path| path.times[1] = 0.3),
+        ("its time is not at least 1e-8 s after the previous one", |path| path.times[1] = f64::NAN),
         ("`joint values` has 2 values for 3 samples", |path| path.q.truncate(2)),
         ("1 values for 2 joints", |path| path.q[1].truncate(1)),
         ("`left` has 2 values", |path| path.contacts[0].stands.truncate(2)),
