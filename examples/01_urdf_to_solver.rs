@@ -12,7 +12,7 @@ fn main() -> Result<()> {
 
     let solver = derivation.solver();
     let pose = chain.forward(&[0.1, -1.2, 1.4, -0.3, 0.8, 0.5])?;
-    for solution in solver.solve(&pose)? {
+    for solution in solver.solve(pose)? {
         let [distance, angle] = Target::Pose(pose).missed(&chain, &solution.q);
         println!("q = {:.6?} rad, off by {distance:.1e} m, {angle:.1e} rad", solution.q);
     }

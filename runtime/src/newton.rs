@@ -364,43 +364,19 @@ impl<M: Mechanism> Triangle<M> {
 
     /// The solution of the triangular system; none for a zero or non-finite pivot.
     pub fn substituted(&self) -> Option<Joints<M>> {
-        self.substituted_from(Array::by(self.joints, |row| self.entry(self.joints, row)))
-    }
-
-    /// The same with another right side.
-    fn substituted_from(&self, mut solution: Joints<M>) -> Option<Joints<M>> {
+        let mut solution: Joints<M> = Array::by(self.joints, |_| 0.0);
         for row in (0..self.joints).rev() {
             let pivot = self.entry(row, row);
             if pivot == 0.0 || !pivot.is_finite() {
                 return None;
             }
-            let mut sum = solution.as_ref()[row];
+            let mut sum = self.entry(self.joints, row);
             for k in row + 1..self.joints {
                 sum -= self.entry(k, row) * solution.as_ref()[k];
             }
             solution.as_mut()[row] = sum / pivot;
         }
         Some(solution)
-    }
-
-    /// The solution for other values of the equations, by the triangle `R` of their derivatives `J` alone: `R^T R x = J^T f`; none for a zero or non-finite pivot.
-    pub fn substituted_again(
-        &self,
-        derivatives: &Equations<M, Joints<M>>,
-        values: &Equations<M>,
-        held: u32,
-    ) -> Option<Joints<M>> {
-        let mut solution: Joints<M> = Array::by(self.joints, |_| 0.0);
-        for row in 0..self.joints {
-            let along = |sum, (slopes, value): (&Joints<M>, &f64)| sum + slopes.as_ref()[row] * value;
-            let rows = derivatives.as_ref().iter().zip(values.as_ref());
-            let mut sum = if is_in(held, row) { 0.0 } else { rows.fold(0.0, along) };
-            for k in 0..row {
-                sum -= self.entry(row, k) * solution.as_ref()[k];
-            }
-            solution.as_mut()[row] = sum / self.entry(row, row);
-        }
-        self.substituted_from(solution)
     }
 }
 

@@ -265,31 +265,17 @@ impl<M: Mechanism> Problem<'_, M> {
         (self.facts().farthest(end.0.as_ref(), ahead.as_ref()) <= LEAPT).then_some(end)
     }
 
-    /// The same wherever that is. Each Newton step is followed by another one with the derivatives of the first.
-    fn corrected(&mut self, mut q: Joints<M>, free: u32) -> Option<End<M>> {
-        let mut at = self.place(&q);
-        let mut fit = self.measure_at(&at, &q);
+    /// The same wherever that is.
+    fn corrected(&mut self, ahead: Joints<M>, free: u32) -> Option<End<M>> {
+        let mut end = self.measured(ahead);
         for _ in 0..RETURNS {
-            if fit.relative <= ASTRAY || self.steps.are_spent() {
+            if end.1.relative <= ASTRAY || self.steps.are_spent() {
                 break;
             }
-            let (derivatives, mut values) = (self.derivatives(&at), self.mechanism.values(self.parameters, &at));
-            let triangle = self.triangle_of(&derivatives, &values, DAMPINGS[1], free);
-            let mut step = triangle.substituted()?;
-            for second in 0..2 {
-                if second > 0 {
-                    values = self.mechanism.values(self.parameters, &at);
-                    step = triangle.substituted_again(&derivatives, &values, free)?;
-                }
-                q = stepped::<M>(&self.facts(), &q, &step);
-                at = self.place(&q);
-                fit = self.measure_at(&at, &q);
-                if fit.relative <= ASTRAY {
-                    break;
-                }
-            }
+            let step = self.newton_step(&end.0, DAMPINGS[1], free)?;
+            end = self.measured(stepped::<M>(&self.facts(), &end.0, &step));
         }
-        (fit.relative <= ASTRAY).then_some((q, fit))
+        (end.1.relative <= ASTRAY).then_some(end)
     }
 
     /// Whether joints that have come next to a member of a self-motion are on that one: half-way the equations hold too.

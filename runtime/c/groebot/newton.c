@@ -135,45 +135,22 @@ static void gb_make_shares(const gb_problem *problem, const gb_real *q, gb_real 
     gb_fill_triangle(problem, rows, damping, held, triangle);
 }
 
-/* Solves the triangular system for the right side in `solution`; false for a zero or non-finite pivot. */
-static bool gb_substitute_from(gb_triangle *triangle, gb_real *solution)
+/* Solves the triangular system; false for a zero or non-finite pivot. */
+static bool gb_substitute(gb_triangle *triangle, gb_real *solution)
 {
+    const gb_real *right = gb_column(triangle, triangle->joints);
     for (size_t row = triangle->joints; row-- > 0;) {
         const gb_real pivot = gb_column(triangle, row)[row];
         if (pivot == R(0.0) || !gb_is_finite(pivot)) {
             return false;
         }
-        gb_real sum = solution[row];
+        gb_real sum = right[row];
         for (size_t k = row + 1; k < triangle->joints; k++) {
             sum -= gb_column(triangle, k)[row] * solution[k];
         }
         solution[row] = sum / pivot;
     }
     return true;
-}
-
-/* The same for the right side in the last column. */
-static bool gb_substitute(gb_triangle *triangle, gb_real *solution)
-{
-    gb_copy(solution, gb_column(triangle, triangle->joints), triangle->joints);
-    return gb_substitute_from(triangle, solution);
-}
-
-/* The solution for other values of the equations, by the triangle R of their derivatives J alone: R^T R x = J^T f; false for a zero or non-finite pivot. */
-static bool gb_substitute_again(gb_triangle *triangle, const gb_slopes *slopes, uint32_t held, gb_real *solution)
-{
-    const size_t joints = triangle->joints, equations = triangle->rows - joints;
-    for (size_t row = 0; row < joints; row++) {
-        gb_real sum = R(0.0);
-        for (size_t k = 0; !gb_is_in(held, row) && k < equations; k++) {
-            sum = sum + slopes->rows[k * joints + row] * slopes->values[k];
-        }
-        for (size_t k = 0; k < row; k++) {
-            sum -= gb_column(triangle, row)[k] * solution[k];
-        }
-        solution[row] = sum / gb_column(triangle, row)[row];
-    }
-    return gb_substitute_from(triangle, solution);
 }
 
 /* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular, or no steps are left. */

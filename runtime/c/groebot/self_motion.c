@@ -239,30 +239,19 @@ static gb_real gb_length_of(const gb_mechanism *m, const gb_real *way, uint32_t 
     return gb_longest(m, freed);
 }
 
-/* Whether the others follow, from end->q, where the free joints have been moved: by a few Newton steps, each followed by another one with the derivatives of
- * the first. */
+/* Whether the others follow, from end->q, where the free joints have been moved: by a few steps. */
 static bool gb_correct(const gb_problem *problem, gb_end *end, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;
-    gb_triangle triangle;
-    gb_slopes slopes;
-    gb_real at[GB_MAX_PLACES], step[GB_MAX_JOINTS];
-    gb_place(problem, end->q, at);
-    end->fit = gb_measure_at(problem, at, end->q);
+    end->fit = gb_measure(problem, end->q);
     for (int k = 0; k < GB_RETURNS && !(end->fit.relative <= GB_ASTRAY || gb_are_spent(problem)); k++) {
-        m->jacobian(problem->p, at, slopes.rows);
-        for (int second = 0; second < 2 && !(second > 0 && end->fit.relative <= GB_ASTRAY); second++) {
-            m->values(problem->p, at, slopes.values);
-            if (second == 0) {
-                gb_triangle_of(problem, &slopes, gb_dampings[1], free, &triangle);
-            }
-            if (!(second > 0 ? gb_substitute_again(&triangle, &slopes, free, step) : gb_substitute(&triangle, step))) {
-                return false;
-            }
-            gb_stepped(m, end->q, step, end->q);
-            gb_place(problem, end->q, at);
-            end->fit = gb_measure_at(problem, at, end->q);
+        gb_real step[GB_MAX_JOINTS], next[GB_MAX_JOINTS];
+        if (!gb_newton_step(problem, end->q, gb_dampings[1], free, step)) {
+            return false;
         }
+        gb_stepped(m, end->q, step, next);
+        gb_copy(end->q, next, m->joints);
+        end->fit = gb_measure(problem, end->q);
     }
     return end->fit.relative <= GB_ASTRAY;
 }

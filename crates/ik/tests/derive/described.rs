@@ -182,11 +182,11 @@ fn compare(described: &Chain, exact: &Chain, count: usize) -> Seen {
     let mut seen = Seen::default();
     for q in joints(exact, count) {
         let target = Target::reached(exact, &q).unwrap();
-        let wanted = reference.solve(&target).unwrap();
+        let wanted = reference.solve(target).unwrap();
         let is_ordinary =
             |answer: &Solution| answer.free.is_empty() && sigma(exact.task_jacobian(&answer.q, &[])) > 2e-2;
         for target in [target, Target::reached(described, &q).unwrap()] {
-            let answers = solver.solve(&target).unwrap();
+            let answers = solver.solve(target).unwrap();
             for answer in &answers {
                 let [position, rotation] = target.missed(described, &answer.q);
                 let off = (position / described.reach()).max(rotation);
@@ -251,7 +251,7 @@ fn poses_beside_the_robot_are_out_of_reach() {
     for (share, count) in [(0.5, 2), (20.0, 0), (1e4, 0)] {
         let tilt = nalgebra::UnitQuaternion::from_euler_angles(share * bound, 0.0, 0.0);
         let target = Target::Pose(groebot_robot::spatial::Pose::from_parts(pose.translation, tilt * pose.rotation));
-        assert_eq!(solver.solve(&target).unwrap().len(), count, "{share}");
+        assert_eq!(solver.solve(target).unwrap().len(), count, "{share}");
         assert_eq!(screws.solve(&target).unwrap().len(), count, "{share}");
     }
 }

@@ -71,9 +71,9 @@ fn compare(links: &[Link], rounding: [&str; 2], singular: &[f64]) -> usize {
     let mut seen = 0;
     for q in round_joints(&exact, 16).into_iter().chain([singular.to_vec()]) {
         let target = Target::reached(&exact, &q).unwrap();
-        let wanted = reference.solve(&target).unwrap();
+        let wanted = reference.solve(target).unwrap();
         for target in [target, Target::reached(&described, &q).unwrap()] {
-            let answers = solver.solve(&target).unwrap();
+            let answers = solver.solve(target).unwrap();
             assert!(answers.len() >= wanted.len(), "{q:?}: {wanted:?} {answers:?}");
             for answer in &answers {
                 let [position, rotation] = target.missed(&described, &answer.q);
@@ -115,7 +115,7 @@ fn a_pose_within_the_tolerance_of_a_self_motion_has_it() {
     for (share, count, free) in [(0.0, 1, vec![0]), (0.5, 1, vec![0]), (100.0, 2, vec![])] {
         let aside = Translation3::new(0.0, share * bound * described.reach(), 0.0);
         let target = Target::Pose(Pose::from_parts(aside * pose.translation, pose.rotation));
-        let answers = solver.solve(&target).unwrap();
+        let answers = solver.solve(target).unwrap();
         assert_eq!(answers.len(), count, "{share}: {answers:?}");
         assert!(answers.iter().all(|answer| answer.free == free), "{share}: {answers:?}");
     }
@@ -134,7 +134,7 @@ fn poses_just_out_of_reach_have_the_answer_at_the_edge() {
             Translation3::new(out * 0.3_f64.cos(), out * 0.3_f64.sin(), 0.0) * pose.translation,
             pose.rotation,
         ));
-        let answers = solver.solve(&target).unwrap();
+        let answers = solver.solve(target).unwrap();
         assert_eq!(answers.len(), count, "{share}: {answers:?}");
         assert!(answers.iter().all(|answer| distance(&described, &answer.q, &q) <= 4.0 * bound.sqrt()), "{answers:?}");
     }

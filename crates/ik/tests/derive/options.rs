@@ -29,7 +29,7 @@ fn the_default_solver_finds_the_joints_that_made_a_pose() {
     let derivation = groebot_ik::derive(&chain).unwrap();
     assert!(is_polished(&derivation));
     let pose = chain.forward(&Q).unwrap();
-    let answers = derivation.solver().solve(&pose).unwrap();
+    let answers = derivation.solver().solve(pose).unwrap();
     let near = |q: &[f64]| q.iter().zip(Q).all(|(a, b)| (a - b).abs() < 1e-9);
     assert_eq!(answers.iter().filter(|answer| near(&answer.q)).count(), 1);
     assert_eq!(derivation.solver().solve(Target::Pose(pose)).unwrap(), answers);
@@ -56,9 +56,9 @@ fn given_joints_are_requested_with_each_target() {
     assert_eq!(derivation.program().inputs.last().unwrap().name, third);
     let q = [0.31, -0.42, 0.53, 0.64, 0.75, -0.86, 0.47];
     let pose = arm.forward(&q).unwrap();
-    let answers = derivation.solver().solve_given(&pose, &[q[2]]).unwrap();
+    let answers = derivation.solver().solve_given(pose, &[q[2]]).unwrap();
     assert!(answers.iter().any(|answer| answer.q.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-9)));
-    assert_eq!(derivation.solver().solve(&pose).unwrap_err().kind(), ErrorKind::BadValue);
+    assert_eq!(derivation.solver().solve(pose).unwrap_err().kind(), ErrorKind::BadValue);
     assert_eq!(Options::new().given(["elbow"]).derive(&arm).unwrap_err().kind(), ErrorKind::UnknownName);
 }
 

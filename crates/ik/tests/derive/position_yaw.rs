@@ -78,7 +78,7 @@ fn every_axis_counts_from_the_next_one() {
                 let k = axis.coordinate();
                 let yaw = points[(k + 2) % 3].atan2(points[(k + 1) % 3]);
                 let target = Target::PositionYaw { point: pose.translation.vector.into(), yaw };
-                let answers = solver.solve(&target).unwrap();
+                let answers = solver.solve(target).unwrap();
                 assert_eq!(answers.len(), 2, "{axis:?} {direction:?} {q:?}");
                 assert!(
                     answers.iter().any(|answer| answer

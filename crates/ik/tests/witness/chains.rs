@@ -45,7 +45,7 @@ fn a_report_has_all_kinds_of_rows_and_the_same_bytes_every_time() {
 #[test]
 fn equal_lengths_pass_with_the_self_motion_at_the_base() {
     let source = from_text(&two_link_text("100", "200"));
-    let report = assert_passes(&source, &derive(&source).program(), 150);
+    let report = assert_passes(&source, derive(&source).program(), 150);
     let at_base = report.rows.iter().filter(|row| row.target == [0.0, 0.0]);
     assert!(at_base.clone().count() > 0, "no row is the base");
     assert!(at_base.clone().all(|row| row.solutions == 1 && row.screw == Some(1)));
@@ -81,7 +81,7 @@ equation = "L2*(c3*c4 - s3*s4) + L1*c3 - pz = 0"
 #[test]
 fn symbolic_lengths_pass() {
     let source = from_text(SYMBOLIC);
-    assert_passes(&source, &derive(&source).program(), 150);
+    assert_passes(&source, derive(&source).program(), 150);
 }
 
 const THREE: &str = r#"
@@ -142,7 +142,7 @@ fn a_planar_pose_of_three_joints_passes() {
 #[test]
 fn a_prismatic_chain_passes() {
     let source = from_text(SLIDING);
-    let report = assert_passes(&source, &derive(&source).program(), 100);
+    let report = assert_passes(&source, derive(&source).program(), 100);
     println!("{}", report.summary());
     assert_eq!(report.summary().exact, 40);
 }
@@ -151,7 +151,7 @@ fn a_prismatic_chain_passes() {
 fn a_wrong_length_is_found() {
     let source = read("nao_leg_sagittal");
     let other = from_text(&two_link_text("100", "203"));
-    let report = check(&source, &derive(&other).program(), 20);
+    let report = check(&source, derive(&other).program(), 20);
     let faults = faults(&report.rows[0].verdict);
     assert!([Fault::Residual, Fault::Missing, Fault::Screw, Fault::Oracle].iter().all(|f| faults.contains(f)));
     assert!(report.failures().count() >= 15);

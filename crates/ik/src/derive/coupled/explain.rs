@@ -61,9 +61,9 @@ impl CoupledView<'_> {
     /// The first chain that does not reach its part of `target` together with those before it; none when there is a solution.
     ///
     /// # Errors
-    /// As [`crate::solver::Program::solve`]; what `watch` stops with.
+    /// As [`crate::solver::Program::solve_numbers`]; what `watch` stops with.
     pub fn explain(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
-        if !answers_of(&self.program, target)?.is_empty() {
+        if !answers_of(self.program, target)?.is_empty() {
             return Ok(None);
         }
         match &self.method.simultaneous {

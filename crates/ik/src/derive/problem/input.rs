@@ -196,7 +196,7 @@ impl Source {
     /// one, the chain from its root to its only leaf.
     ///
     /// # Errors
-    /// As [`InputFile::read`], [`InputFile::chain`] and [`mod@formulate`], with file and line.
+    /// As [`InputFile::read`], [`InputFile::chain`] and [`formulate`](crate::derive::formulate()), with file and line.
     pub fn read(path: &Path) -> Result<Source> {
         Source::read_between(path, &Ends::default())
     }
@@ -204,7 +204,7 @@ impl Source {
     /// The same, for what `ends` asks.
     ///
     /// # Errors
-    /// As [`InputFile::read`], [`InputFile::chain`], [`Ends::ideal`] and [`mod@formulate`], with file and line.
+    /// As [`InputFile::read`], [`InputFile::chain`], [`Ends::ideal`] and [`formulate`](crate::derive::formulate()), with file and line.
     pub fn read_between(path: &Path, ends: &Ends) -> Result<Source> {
         Source::of(InputFile::read(path)?, ends)
     }
@@ -212,7 +212,7 @@ impl Source {
     /// The source that an input is for what `ends` asks. A tip that was chosen by its name among several is asked for from then on.
     ///
     /// # Errors
-    /// As [`InputFile::chain`], [`Ends::ideal`] and [`mod@formulate`], with file and line.
+    /// As [`InputFile::chain`], [`Ends::ideal`] and [`formulate`](crate::derive::formulate()), with file and line.
     pub fn of(input: InputFile, ends: &Ends) -> Result<Source> {
         let (chain, way, notes) = (input.chain(ends)?, input.path(ends)?, input.ignored(ends)?);
         let mut ends = ends.or(&input.ends);
@@ -238,7 +238,7 @@ impl Source {
     /// A chain without a file, for what was asked of it.
     ///
     /// # Errors
-    /// As [`Ends::ideal`] and [`mod@formulate`].
+    /// As [`Ends::ideal`] and [`formulate`](crate::derive::formulate()).
     pub fn of_chain(chain: Chain, ends: &Ends) -> Result<Source> {
         let mut source = Source {
             path: PathBuf::new(),

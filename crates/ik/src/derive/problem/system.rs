@@ -26,7 +26,7 @@ impl System {
     /// [`DuplicateName`](crate::ErrorKind::DuplicateName), [`UnknownName`](crate::ErrorKind::UnknownName),
     /// [`MissingKey`](crate::ErrorKind::MissingKey), [`BadValue`](crate::ErrorKind::BadValue),
     /// [`Overflow`](crate::ErrorKind::Overflow) for an equation whose expansion is hopeless, or
-    /// [`Unsupported`](crate::ErrorKind::Unsupported) for more than [`MAX_UNKNOWNS`](super::MAX_UNKNOWNS) unknowns.
+    /// [`Unsupported`](crate::ErrorKind::Unsupported) for more than [`MAX_UNKNOWNS`](crate::derive::MAX_UNKNOWNS) unknowns.
     pub fn new(parts: SystemParts) -> Result<Self> {
         System::build(parts).map_err(|mistake| mistake.error)
     }
