@@ -61,7 +61,7 @@ fn bad_questions_are_refused() {
     let told = refused(&["view", "derivations/ur5", "--reach", text(&other), "-o", text(&out)]);
     assert!(told.contains("this is the map of puma"), "{told}");
     // Slides have limits: what they travel is within the grid.
-    assert!(succeed(&["reach", "derivations/gantry", "--orientations", "4"]).contains("9261 positions"));
+    assert!(succeed(&["reach", "derivations/gantry", "--orientations", "4"]).contains("9261 points"));
     let broken = folder.path().join("broken.json");
     fs::write(&broken, "{}").unwrap();
     let page = folder.path().join("page.html");
