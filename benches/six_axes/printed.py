@@ -10,7 +10,6 @@ but by its use of the caches; the percentiles are wall time.
 """
 
 import argparse
-import json
 import pathlib
 import re
 import subprocess
@@ -22,20 +21,21 @@ FOLDERS = "general_6r general_5r1p general_4r2p crx_like xarm6_like jaco_like bo
 HERE = pathlib.Path(__file__).resolve().parent
 
 
-def sliding(folder):
-    """The indices of the joints that slide."""
-    joints = json.loads((folder / "5_program.json").read_text())["joints"]
-    return [index for index, joint in enumerate(joints) if joint["unit"] != "radian"]
+def sliding(printed):
+    """The indices of the joints that slide, of a solver in C."""
+    joints = re.findall(r"GB_(ANGLE|LENGTH)\(", re.search(r"#define GB_JOINT_LIST (.*)", printed)[1])
+    return [index for index, kind in enumerate(joints) if kind == "LENGTH"]
 
 
 def build(name, work, groebot):
     """The two programs that measure a folder's solver: language, bytes of the solver, path."""
     folder = ROOT / "derivations" / name
-    name = re.search(r"GB_DECLARE\((\w+),", (folder / "5_solver.h").read_text())[1]
-    slides = sum(1 << joint for joint in sliding(folder))
-    rust, c = work / f"{name}_solver.rs", work / f"{name}_solver.c"
+    rust, c = work / f"{folder.name}_solver.rs", work / f"{folder.name}_solver.c"
     for language, file in (("rust", rust), ("c", c)):
         subprocess.run([groebot, "codegen", folder, "--lang", language, "--single-file", "-o", file], check=True, capture_output=True)
+    printed = c.read_text()
+    name = re.search(r"#define GB_ROBOT (\w+)", printed)[1]
+    slides = sum(1 << joint for joint in sliding(printed))
     main = (HERE / "printed.rs").read_text().replace("SOLVER", str(rust)).replace("SLIDES", str(slides))
     (work / f"{name}.rs").write_text(main)
     subprocess.run(["rustc", "--edition", "2024", "-O", "-A", "warnings", f"{name}.rs", "-o", f"{name}_rust"], cwd=work, check=True)

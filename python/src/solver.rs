@@ -39,7 +39,7 @@ impl Solver {
         known::ALL.iter().map(|known| known.name).collect()
     }
 
-    /// Reads a solver: the folder of a derivation, the `5_program.json` in it, or a file with what `to_json` gives.
+    /// Reads a solver: the folder of a derivation, the `5_program.json` in it, or a file with what `to_json` gives. A thin folder's certificate is proved again.
     #[staticmethod]
     fn load(path: PathBuf) -> PyResult<Self> {
         Stored::load(&path).map(Solver::of).map_err(|error| raised(&error))

@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use groebot::derive::{Derivation, Source};
 use groebot::document::read_text;
+use groebot::folder::{self, PROGRAM};
 use groebot::kinematics::Chain;
 use groebot::solver::{Condition, Program};
 use groebot::{Error, ErrorKind, Result, Watch};
@@ -17,8 +18,6 @@ use crate::origin::{CERTIFICATE, Origin};
 
 /// The longest stored solver and the longest stored proof that are read \[bytes\].
 const LIMIT: u64 = 256_000_000;
-/// The name of a program in a derivation's folder.
-const PROGRAM: &str = "5_program.json";
 /// The number of the format of a stored solver.
 const FORMAT: u32 = 1;
 
@@ -73,16 +72,19 @@ impl Stored {
         Ok(stored)
     }
 
-    /// That of a derivation's folder, of the program in it, or of a file that [`Stored::to_json`] wrote.
+    /// That of a derivation's folder, of the program in it, or of a file that [`Stored::to_json`] wrote. The program of a thin folder is the one that its
+    /// certificate proves.
     ///
     /// # Errors
-    /// As [`read_text`] and [`Program::from_json`], with the file; [`ErrorKind::Unsupported`] for another version's.
+    /// As [`folder::program`], [`read_text`] and [`Program::from_json`], with the file; [`ErrorKind::Unsupported`] for another version's.
     pub fn load(path: &Path) -> Result<Self> {
         let is_folder = path.is_dir();
         let file = if is_folder { path.join(PROGRAM) } else { path.to_owned() };
         if is_folder && !file.exists() {
-            let text = format!("this folder has no `{PROGRAM}`; `groebot derive` writes it");
-            return Err(Error::new(ErrorKind::Io, text).in_file(path));
+            let program = folder::program(path)?;
+            let source = Source::read(path)?;
+            let certificate = read_text(&path.join(CERTIFICATE), LIMIT).ok();
+            return Ok(Stored::new(program, source.chain.clone(), Origin::of_source(&source).ok(), certificate));
         }
         let stored = Stored::from_json(&read_text(&file, LIMIT)?).map_err(|error| error.in_file(&file))?;
         let folder = file.parent().filter(|_| file.file_name().is_some_and(|name| name == PROGRAM));

@@ -1,24 +1,22 @@
 //! `groebot check`: proves the derivation again from the stored certificate, and compares every file of the folder.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::console::{self, Paint};
 use super::derive::refuse_failures;
 use super::ends::EndArguments;
 use super::{Halt, Outcome, json};
-use crate::{Result, Watch};
-use groebot_ik::derive::{Derivation, Source};
-use groebot_ik::folder::{self, CERTIFICATE, CHECKS, Checked, Finding, Stored, Verdict};
-use groebot_robot::document::{read_text, shown};
-
-/// The greatest length of a certificate in bytes.
-const LIMIT: u64 = groebot_algebra::limits::STAGE_BYTES;
+use crate::Watch;
+use groebot_ik::derive::Source;
+use groebot_ik::folder::{self, CHECKS, Checked, Finding, Stored, Verdict};
+use groebot_robot::document::shown;
 
 /// Proves a stored derivation again, without the Groebner engine, and compares every file of its folder with the proved
 /// result
 ///
 /// Ends with status 1 and names the file when a proof is forged, damaged or weaker than that of `groebot derive`, or
-/// when a file differs from the proved result. Files that groebot did not write are listed as not checked.
+/// when a file differs from the proved result. Files that groebot did not write are listed as not checked. In a thin
+/// folder (`derive --thin`) each output is generated again and compared by its hash.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  groebot check derivations/nao_leg_sagittal")]
 pub struct Arguments {
@@ -53,17 +51,6 @@ pub fn run(arguments: &Arguments) -> Outcome {
         None => Ok(()),
         Some(first) => Err(Halt::Error(first.clone())),
     }
-}
-
-/// The derivation that the stored certificate proves.
-///
-/// # Errors
-/// As [`Derivation::again`], and when the certificate cannot be read.
-pub fn reprove(folder: &Path, source: &Source) -> Result<Derivation> {
-    let path = folder.join(CERTIFICATE);
-    let text = read_text(&path, LIMIT)?;
-    let proved = Derivation::again(source, &text).map_err(|error| error.in_file(&path))?;
-    Ok(proved.about(source))
 }
 
 /// All findings as JSON; files that groebot did not write have `null` for the result.

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 
 use super::output::{Force, Kind, Output};
-use super::solve::{PROGRAM_NAME, read_program};
+use super::solve::read_program;
 use super::{Outcome, console, explain};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_ik::codegen::c99::Pair;
 use groebot_ik::codegen::{ikfast, is_run_time, is_word, rust, single_file};
+use groebot_ik::folder::PROGRAM;
 use groebot_ik::solver::Program;
 use groebot_robot::document::shown;
 use groebot_robot::files::{MARK, write_folder_atomically};
@@ -158,7 +159,7 @@ impl Arguments {
                 ikfast::emit(&self.program()?, &options).map_err(|error| error.in_file(&self.derivation))
             }
             Language::Latex => {
-                let is_program = self.derivation.file_name().is_some_and(|name| name == PROGRAM_NAME);
+                let is_program = self.derivation.file_name().is_some_and(|name| name == PROGRAM);
                 let folder = self.derivation.parent().filter(|_| is_program);
                 let folder = folder.map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
                 let article = explain::document(folder.unwrap_or(&self.derivation))?.to_latex();

@@ -1,6 +1,6 @@
 //! `groebot derive`: derives a proved solver from a description and writes its files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::answers::exact;
@@ -17,6 +17,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_ik::derive::planner::{Choice, fitting_task};
 use groebot_ik::derive::problem::ends::solver_name;
 use groebot_ik::derive::{Derivation, Ends, Source};
+use groebot_ik::folder::is_thin;
 use groebot_ik::witness;
 use groebot_robot::document::shown;
 
@@ -26,7 +27,12 @@ const FAR: f64 = 5.0;
 const EXAMPLES: &str = "Examples:
   groebot derive derivations/nao_leg_sagittal          writes into that folder
   groebot derive arm.toml                              writes into the folder arm
-  groebot derive arm.toml --out /tmp/arm --time 60     writes into /tmp/arm; fails after 60 s";
+  groebot derive arm.toml --out /tmp/arm --time 60     writes into /tmp/arm; fails after 60 s
+  groebot derive derivations/ur5_calibrated --thin     writes the certificate, and hashes of the outputs
+
+A thin folder contains the input, README.md, certificate.json and outputs.sha256. solve, codegen, view, reach and
+explain check the certificate again and use the solver that it proves. A thin folder stays thin when it is derived
+again; --full writes all files.";
 
 /// Derives, proves and writes the closed-form inverse kinematics of a chain, of coupled chains or of a system of
 /// equations
@@ -62,8 +68,21 @@ pub struct Arguments {
     /// Refuse a solver with wrong or missing answers at any target of the numeric check, including singular ones
     #[arg(long)]
     strict: bool,
+    /// Write a thin folder: input, README.md, certificate.json, and in outputs.sha256 a hash of each other file
+    #[arg(long, conflicts_with = "full")]
+    thin: bool,
+    /// Write all files, also into a thin folder
+    #[arg(long)]
+    full: bool,
     #[command(flatten)]
     force: Force,
+}
+
+impl Arguments {
+    /// Whether the files in `folder` are those of a thin folder.
+    fn is_thin(&self, folder: &Path) -> bool {
+        self.thin || !self.full && is_thin(folder)
+    }
 }
 
 fn name(text: &str) -> std::result::Result<String, String> {
@@ -85,7 +104,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let checked = witness::check(&source, &derivation, &session.watch)?;
     refuse_failures(&source, &derivation, &checked, arguments.strict)?;
     clock.lap("check numerically");
-    let files = assemble_files(&source, &derivation, &checked, &folder)?;
+    let files = assemble_files(&source, &derivation, &checked, &folder, arguments.is_thin(&folder))?;
     clock.lap("print the stages");
     write_derivation(&source, &folder, &files, arguments.force, &session.watch)?;
     clock.lap("write");
@@ -93,7 +112,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.quiet {
         return weak(&checked);
     }
-    let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+    let names = files.names();
     if arguments.json {
         let (choice, laps) = (chosen.as_ref(), clock.laps.as_slice());
         let told = Derived {

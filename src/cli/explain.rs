@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use super::ends::{EndArguments, TipLink};
 use super::files::is_derived;
 use super::output::{Force, Kind};
-use super::{Outcome, check, console};
+use super::{Outcome, console};
 use crate::Watch;
 use groebot_ik::derive::report::explain::{Document, explain};
 use groebot_ik::derive::{Derivation, Ends, Source};
+use groebot_ik::folder;
 
 const EXAMPLES: &str = "Examples:
   groebot explain derivations/puma
@@ -55,7 +56,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// The report of the derivation in a folder or from a file.
 ///
 /// # Errors
-/// As [`Source::read`], [`check::reprove`] and [`explain`].
+/// As [`Source::read`], [`folder::reprove`] and [`explain`].
 pub(super) fn document(input: &Path) -> crate::Result<Document> {
     told(input, &Ends::default()).map(|(_, document)| document)
 }
@@ -70,7 +71,7 @@ fn told(input: &Path, ends: &Ends) -> crate::Result<(Source, Document)> {
 /// From the stored proof where there is one.
 fn prove(input: &Path, source: &Source) -> crate::Result<Derivation> {
     match is_derived(input) {
-        true => check::reprove(input, source),
+        true => folder::reprove(input, source),
         false => Derivation::of(source, &Watch::none()).map_err(|error| error.in_file(&source.path)),
     }
 }

@@ -1,5 +1,6 @@
 //! The files of a derivation and their folder.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -11,7 +12,7 @@ use groebot_ik::derive::problem::ends::TASK_NAME;
 use groebot_ik::derive::problem::input::INPUT_NAMES;
 use groebot_ik::derive::report::stages;
 use groebot_ik::derive::{Derivation, Ends, Source};
-use groebot_ik::folder::{CERTIFICATE, DYNAMICS, Written, derived};
+use groebot_ik::folder::{CERTIFICATE, CHECKS, DYNAMICS, OUTPUTS, Written, derived, thin};
 use groebot_ik::solver::Program;
 use groebot_ik::witness::Report;
 use groebot_robot::document::{TEXT_LIMIT, is_stdin, read_text};
@@ -37,13 +38,14 @@ pub fn is_derived(folder: &Path) -> bool {
 }
 
 /// Files that one derivation has, and another one in the same folder does not.
-const STALE: [&str; 5] = [TASK_NAME, "5_solver.c", "5_solver.h", "5_solver.rs", "5_ikfast.cpp"];
+const STALE: [&str; 6] = [TASK_NAME, OUTPUTS, "5_solver.c", "5_solver.h", "5_solver.rs", "5_ikfast.cpp"];
 
 /// Extensions of generated solvers. A user's own code may have such a name, also in a folder of a derivation.
 const CODE: [&str; 4] = ["c", "h", "rs", "cpp"];
 
 /// Checks that no file of `files` replaces one that groebot did not write. In a folder that groebot derived into, the
-/// files of a derivation are its own, but generated solvers only with their mark; elsewhere [`refuse_foreign`] decides.
+/// files of a derivation are its own, but generated solvers and hashes only with their mark; elsewhere
+/// [`refuse_foreign`] decides.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] with the folder and the file's name.
@@ -52,7 +54,7 @@ fn refuse_overwriting(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> 
     let is_code = |path: &Path| CODE.iter().any(|end| path.extension().is_some_and(|own| own == *end));
     let is_foreign = |(name, bytes): &&(String, Vec<u8>)| {
         let path = folder.join(name);
-        let is_own = is_derived && !is_code(&path) || refuse_unfinished(&path).is_err();
+        let is_own = is_derived && !is_code(&path) && name != OUTPUTS || refuse_unfinished(&path).is_err();
         !is_own && refuse_foreign(&path, bytes).is_err()
     };
     let Some((name, _)) = files.iter().find(is_foreign) else { return Ok(()) };
@@ -84,29 +86,42 @@ pub fn write_set<'n>(
     stale.into_iter().try_fold(staged, StagedFolder::without)?.commit()
 }
 
+/// The files of a derivation's folder.
+pub struct Files {
+    /// The files to write, by name.
+    pub written: Vec<(String, Vec<u8>)>,
+    /// The names of files that only a full folder contains; empty for a full folder.
+    pub left_out: Vec<String>,
+}
+
+impl Files {
+    /// The names of the files to write.
+    pub fn names(&self) -> Vec<&str> {
+        self.written.iter().map(|(name, _)| name.as_str()).collect()
+    }
+}
+
 /// Writes the files of a derivation of `source`, and removes those of an earlier derivation that are not in this one.
 ///
 /// # Errors
 /// As [`write_set`]; [`ErrorKind::BadValue`] where another process wrote an input of another kind meanwhile.
-pub fn write_derivation(
-    source: &Source,
-    folder: &Path,
-    files: &[(String, Vec<u8>)],
-    force: Force,
-    watch: &Watch,
-) -> Result<()> {
+pub fn write_derivation(source: &Source, folder: &Path, files: &Files, force: Force, watch: &Watch) -> Result<()> {
+    let Files { written: files, left_out } = files;
     let is_input = |name: &str| is_same_file(&source.path.with_file_name(name), &folder.join(name));
     let is_stale = |name: &&str| match *name {
         name if files.iter().any(|(new, _)| new == name) => false,
         TASK_NAME => !is_input(TASK_NAME) && !keeps_task(source, folder),
-        // Generated solvers, with their marks.
+        CHECKS => true,
+        name if stages::STAGES.contains(&name) => true,
+        // Generated solvers and hashes, with their marks.
         name => refuse_foreign(&folder.join(name), &[]).is_ok(),
     };
     let stale = || {
         refuse_input(source, folder, files)?;
         refuse_other_input(source, folder)?;
-        let known = if is_derived(folder) { &STALE[..] } else { &[] };
-        Ok(known.iter().copied().filter(is_stale).collect())
+        // A set, because a file can be removed only once.
+        let known: BTreeSet<&str> = STALE.into_iter().chain(left_out.iter().map(String::as_str)).collect();
+        Ok(known.into_iter().filter(|name| is_derived(folder) && is_stale(name)).collect())
     };
     write_set(folder, files, stale, force, watch)
 }
@@ -169,8 +184,8 @@ fn holds_another(folder: &Path, source: &Source) -> bool {
     own.exists() && !is_derived(folder) && !is_same_file(&source.path, &own) && !is_copy()
 }
 
-/// All files of a derivation with their names: those of [`derived`], and the input with the files that it refers to if
-/// `folder` does not contain them yet.
+/// All files of a derivation with their names: those of [`derived`] or of [`thin`], and the input with the files that
+/// it refers to if `folder` does not contain them yet.
 ///
 /// # Errors
 /// As [`derived`] and [`read_text`].
@@ -179,12 +194,17 @@ pub fn assemble_files(
     derivation: &Derivation,
     checked: &Report,
     folder: &Path,
-) -> Result<Vec<(String, Vec<u8>)>> {
-    let mut files = source_files(source, folder)?;
-    let written = derived(source, derivation, checked)?.into_iter().filter(|file| is_ours(folder, &file.name));
-    files.extend(written.map(|Written { name, bytes, .. }| (name, bytes)));
-    files.sort_by(|a, b| a.0.cmp(&b.0));
-    Ok(files)
+    as_thin: bool,
+) -> Result<Files> {
+    let all = derived(source, derivation, checked)?;
+    let mut left_out: Vec<String> = all.iter().map(|file| file.name.clone()).collect();
+    let kept = if as_thin { thin(all) } else { all };
+    left_out.retain(|name| kept.iter().all(|file| file.name != *name));
+    let mut written = source_files(source, folder)?;
+    let ours = kept.into_iter().filter(|file| is_ours(folder, &file.name));
+    written.extend(ours.map(|Written { name, bytes, .. }| (name, bytes)));
+    written.sort_by(|a, b| a.0.cmp(&b.0));
+    Ok(Files { written, left_out })
 }
 
 /// The input with the files that it refers to and its task, as far as `folder` does not contain them yet.

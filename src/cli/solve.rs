@@ -4,21 +4,17 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use super::answers::{Angles, Answer, csv_header, csv_rows, json, text, turned};
-use super::check::reprove;
 use super::files::is_derived;
 use super::forms::Forms;
 use super::targets::{self, Row};
 use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_algebra::limits;
+use groebot_algebra::limits::PROGRAM_BYTES;
 use groebot_ik::derive::Source;
 use groebot_ik::derive::problem::input::COUPLED_NAME;
+use groebot_ik::folder::{self, PROGRAM, is_thin};
 use groebot_ik::solver::{Program, Solver};
 use groebot_robot::document::read_text;
-
-/// The greatest length of a program in bytes.
-pub(super) const PROGRAM_LIMIT: u64 = limits::PROGRAM_BYTES;
-pub(super) const PROGRAM_NAME: &str = "5_program.json";
 
 const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal --target 60,150
@@ -78,22 +74,27 @@ impl Arguments {
     }
 }
 
-/// The program in a derivation's folder, or in a file.
+/// The program in a derivation's folder, or in a file. Of a thin folder it is the program that the certificate proves.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] without one; as [`Program::from_json`], with the file.
+/// As [`folder::program`], and as [`Program::from_json`] with the file.
 pub(super) fn read_program(path: &Path) -> Result<Program> {
-    let file = if path.is_dir() { path.join(PROGRAM_NAME) } else { path.to_owned() };
-    if path.is_dir() && !file.exists() {
-        let text = format!("this folder has no `{PROGRAM_NAME}`; `groebot derive` writes it");
-        return Err(Error::new(ErrorKind::Io, text).in_file(path));
+    if let Some(folder) = program_folder(path) {
+        return folder::program(folder);
     }
-    let text = read_text(&file, PROGRAM_LIMIT)?;
+    let file = path.to_owned();
+    let text = read_text(&file, PROGRAM_BYTES)?;
     if !text.trim_start().starts_with('{') {
         let text = "this is not a derived solver; `groebot derive FILE --out DIR` derives one from a description: give that folder";
         return Err(Error::new(ErrorKind::Syntax, text).in_file(&file));
     }
     Program::from_json(&text).map_err(|error| error.in_file(&file))
+}
+
+/// The folder whose program is meant: `path` itself, or the folder of a `5_program.json` that a thin folder does not have.
+fn program_folder(path: &Path) -> Option<&Path> {
+    let parent = || path.parent().filter(|folder| path.ends_with(PROGRAM) && !path.exists() && is_thin(folder));
+    if path.is_dir() { Some(path) } else { parent() }
 }
 
 fn answer<'a>(
@@ -110,12 +111,12 @@ fn answer<'a>(
 /// The reason why `target`, in radians, has no solution, for chains that share actuators.
 ///
 /// # Errors
-/// As [`Source::read`] and [`reprove`].
+/// As [`Source::read`] and [`folder::reprove`].
 fn reason(folder: &Path, target: &[f64]) -> Result<Option<String>> {
     if !folder.is_dir() || !is_derived(folder) || !folder.join(COUPLED_NAME).is_file() {
         return Ok(None);
     }
-    let derivation = reprove(folder, &Source::read(folder)?)?;
+    let derivation = folder::reprove(folder, &Source::read(folder)?)?;
     let explained = derivation.coupled().map(|coupled| coupled.explain(target, &Watch::none())).transpose()?;
     Ok(explained.flatten().map(|explanation| explanation.to_string()))
 }

@@ -6,9 +6,10 @@ use super::floor::{PlaceArguments, room_text};
 use super::moving::{self, Motion};
 use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
-use super::solve::{PROGRAM_LIMIT, PROGRAM_NAME, read_program};
+use super::solve::read_program;
 use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result};
+use groebot_algebra::limits::PROGRAM_BYTES;
 use groebot_humanoid::gait::{Footprint, Side};
 use groebot_humanoid::nav::Room;
 use groebot_humanoid::view::{Page, RunRequest, Sole};
@@ -177,10 +178,9 @@ fn derivation(folder: &Path) -> Result<Page> {
         Error::new(ErrorKind::Unsupported, text).in_file(folder)
     };
     let chain = chain.ok_or_else(no_chain)?;
-    read_program(folder)?;
-    let program = read_text(&folder.join(PROGRAM_NAME), PROGRAM_LIMIT)?;
+    let program = read_program(folder)?.to_json();
     let certificate = folder.join(CERTIFICATE);
-    let certificate = if certificate.is_file() { Some(read_text(&certificate, PROGRAM_LIMIT)?) } else { None };
+    let certificate = if certificate.is_file() { Some(read_text(&certificate, PROGRAM_BYTES)?) } else { None };
     Ok(Page::of_chain(&chain, program, certificate.as_deref()))
 }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 use tempfile::{TempDir, tempdir};
 
-use super::{Derived, content, leg, leg_copy, refused, root, run, succeed, text};
+use super::{Derived, content, fails_at, leg, leg_copy, refused, root, run, succeed, text};
 
 /// Replaces the first `from` behind `mark` in a file.
 fn edit(path: &Path, mark: &str, from: &str, to: &str) {
@@ -98,15 +98,6 @@ fn copy_of(derivation: &str) -> TempDir {
         fs::write(copy.path().join(name), bytes).unwrap();
     }
     copy
-}
-
-/// Checks a folder that must fail at these files, and at no others.
-fn fails_at(folder: &Path, names: &[&str]) {
-    let ran = run(&["check", text(folder)]);
-    let failed = ran.out.lines().filter_map(|line| line.strip_prefix("\u{2717} "));
-    let failed: Vec<&str> = failed.filter_map(|line| line.split_whitespace().next()).collect();
-    assert_eq!((ran.code, failed), (1, names.to_vec()), "{}", ran.out);
-    assert!(ran.err.contains(names[0]), "{}", ran.err);
 }
 
 /// Equations of motion are an addition to a certificate, and take its place for no file.

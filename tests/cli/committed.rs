@@ -1,5 +1,5 @@
-//! The folders of `derivations/`: each is what a derivation writes today, byte for byte, and passes `groebot check`.
-//! `UPDATE_GOLDEN=1` derives them again instead, and the diff is then to be read.
+//! The folders of `derivations/`: each is what a derivation writes today, byte for byte, and passes `groebot check`. Folders whose outputs nothing reads
+//! are thin: they have hashes of the outputs. `UPDATE_GOLDEN=1` derives all again instead, and the diff is then to be read.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,8 +8,43 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use groebot::Watch;
 use groebot::codegen::{c99::Pair, ikfast, rust};
 use groebot::derive::{Derivation, Source};
+use groebot::folder::{OUTPUTS, Outputs, PROGRAM, Written};
 
-use super::{run, text};
+use super::{root, run, text};
+
+/// The folders with all outputs, each with a file that reads one of them. All others are thin.
+const FULL: [(&str, &str); 25] = [
+    ("crx_like", "crates/ik/tests/eigenvalue/curve.rs"),
+    ("general_5r1p", "crates/ik/tests/codegen/six_axes.rs"),
+    ("general_6r", "viewer/wasm/compare.mjs"),
+    ("iiwa14", "python/src/known.rs"),
+    ("irb120", "python/src/known.rs"),
+    ("irb4600_rounded", "benches/singular/build.rs"),
+    ("jaco_like", "crates/ik/tests/codegen/six_axes.rs"),
+    ("nao_arm_planar", "crates/ik/tests/folder/records.rs"),
+    ("nao_head", "python/src/known.rs"),
+    ("nao_left_arm", "python/src/known.rs"),
+    ("nao_left_leg", "python/src/known.rs"),
+    ("nao_leg_sagittal", "README.md"),
+    ("nao_right_arm", "python/src/known.rs"),
+    ("nao_right_leg", "python/src/known.rs"),
+    ("planar_2r", "tests/cli/check.rs"),
+    ("polar", "tests/cli/check.rs"),
+    ("puma", "python/src/known.rs"),
+    ("puma560", "python/src/known.rs"),
+    ("rh0_left_leg", "python/src/known.rs"),
+    ("rh0_right_leg", "python/src/known.rs"),
+    ("scara", "python/src/known.rs"),
+    ("spherical_wrist", "benches/peers/src/by_print.rs"),
+    ("stanford", "python/src/known.rs"),
+    ("teo_leg", "python/src/known.rs"),
+    ("ur5", "python/src/known.rs"),
+];
+
+/// Whether a folder is to have all outputs.
+fn is_full(folder: &Path) -> bool {
+    FULL.iter().any(|(name, _)| folder.ends_with(name))
+}
 
 /// All folders, those that take longest first.
 fn folders() -> Vec<PathBuf> {
@@ -43,7 +78,16 @@ fn fault(folder: &Path) -> Option<String> {
     let plugin =
         ikfast::emit_beside(program, &ikfast::Options::default(), "5_solver").ok().map(|text| ("5_ikfast.cpp", text));
     files.extend(printed.into_iter().chain(plugin).map(|(name, text)| (name.to_owned(), text.into_bytes())));
+    let hashes = fs::read_to_string(folder.join(OUTPUTS)).ok().map(|text| Outputs::read(&text).unwrap());
+    let written = files.iter().cloned().map(|(name, bytes)| Written { name, proved: bytes.len(), bytes });
+    let proved_hashes = Outputs::of(&written.collect::<Vec<_>>());
     for (name, bytes) in &files {
+        if let (Some(hashes), Some(hash)) = (&hashes, proved_hashes.get(name)) {
+            if hashes.get(name) != Some(hash) {
+                return Some(format!("{OUTPUTS} has another hash of {name}"));
+            }
+            continue;
+        }
         let Ok(stored) = fs::read(folder.join(name)) else { return Some(format!("{name} is missing")) };
         // What is told of the numeric check comes last; `groebot check` repeats that.
         let own = if name == "README.md" { &stored[..bytes.len().min(stored.len())] } else { &stored };
@@ -77,7 +121,8 @@ fn every_folder_is_what_a_derivation_writes_and_passes_its_check() {
     assert!(folders.len() >= 44, "{}", folders.len());
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         for folder in &folders {
-            super::succeed(&["derive", text(folder), "--quiet"]);
+            let layout = if is_full(folder) { "--full" } else { "--thin" };
+            super::succeed(&["derive", text(folder), "--quiet", layout]);
             if let Some(gravity) = gravity_of(folder) {
                 super::succeed(&["dynamics", "--symbolic", text(folder), "-o", text(folder), "--gravity", &gravity]);
             }
@@ -95,4 +140,30 @@ fn every_folder_is_what_a_derivation_writes_and_passes_its_check() {
         threads.into_iter().flat_map(|thread| thread.join().unwrap()).collect()
     });
     assert!(faults.is_empty(), "UPDATE_GOLDEN=1 derives them again:\n{}", faults.join("\n"));
+}
+
+/// Outputs are committed where something reads them, and nowhere else.
+#[test]
+fn folders_have_outputs_where_something_reads_them() {
+    for (name, reader) in FULL {
+        let text = fs::read_to_string(root(reader)).unwrap();
+        assert!(text.contains(name), "{reader} does not read {name}");
+    }
+    for folder in folders() {
+        let has = [PROGRAM, OUTPUTS].map(|file| folder.join(file).exists());
+        let full = is_full(&folder);
+        assert_eq!(has, [full, !full], "{}: [{PROGRAM}, {OUTPUTS}]", folder.display());
+    }
+}
+
+/// What a reader of a change has to look through: outputs and certificates.
+#[test]
+fn outputs_and_certificates_have_fewer_than_60_000_lines() {
+    let is_counted =
+        |name: &str| name.starts_with(|first: char| ('1'..='9').contains(&first)) || name == "certificate.json";
+    let entries = folders().into_iter().flat_map(|folder| fs::read_dir(folder).unwrap());
+    let files = entries.map(|entry| entry.unwrap().path());
+    let counted = files.filter(|path| is_counted(path.file_name().unwrap().to_str().unwrap()));
+    let lines: usize = counted.map(|path| fs::read_to_string(path).unwrap().lines().count()).sum();
+    assert!(lines < 60_000, "{lines}");
 }

@@ -29,6 +29,7 @@ mod shown;
 mod simulate;
 mod solve;
 mod task;
+mod thin;
 mod track;
 mod view;
 mod walk;
@@ -169,6 +170,15 @@ fn leg_copy() -> TempDir {
         fs::write(copy.path().join(name), bytes).unwrap();
     }
     copy
+}
+
+/// Checks a folder that must fail at these files, and at no others.
+fn fails_at(folder: &Path, names: &[&str]) {
+    let ran = run(&["check", text(folder)]);
+    let failed = ran.out.lines().filter_map(|line| line.strip_prefix("\u{2717} "));
+    let failed: Vec<&str> = failed.filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!((ran.code, failed), (1, names.to_vec()), "{}", ran.out);
+    assert!(ran.err.contains(names[0]), "{}", ran.err);
 }
 
 #[test]

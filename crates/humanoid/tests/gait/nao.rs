@@ -1,7 +1,6 @@
 //! What a walk commands, seen by forward kinematics and by the derived solver of both legs at once.
 
 use groebot_humanoid::gait::{Gait, Regular, TICK, Walk};
-use groebot_ik::solver::Program;
 use groebot_robot::kinematics::Chain;
 use groebot_robot::motion::{Bounds, Trajectory, findings};
 use groebot_robot::robots;
@@ -39,8 +38,8 @@ fn forward_kinematics_puts_the_feet_on_their_prints() {
 /// The solver of both legs on one actuator, derived with the torso's heading as an unknown, has the walk's posture among its answers.
 #[test]
 fn turning_agrees_with_the_derived_solver_of_both_legs() {
-    let text = include_str!("../../../../derivations/nao_legs_yaw/5_program.json");
-    let program = Program::from_json(text).unwrap();
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations/nao_legs_yaw");
+    let program = groebot_ik::folder::program(folder.as_ref()).unwrap();
     let walk = walk(&request(&Regular { turn: 0.3, length: 0.02, ..regular() })).unwrap();
     let turned = |sample: &usize| leg(&walk, *sample, "L")[0].abs() > 0.02;
     let samples: Vec<usize> = (0..walk.references.len()).step_by(97).filter(turned).collect();

@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use super::finding::{Finding, Verdict};
 use super::measured::{page_differs, table_differs};
-use super::names::{CERTIFICATE, CHECKS, is_printed_solver};
+use super::names::{CERTIFICATE, CHECKS, OUTPUTS, is_printed_solver};
+use super::outputs::Hashes;
 use super::stored::{Stored, has_mark};
 use super::words::proof_words;
 use super::written::{Written, derived};
@@ -96,11 +97,32 @@ pub fn prove_text(source: &Source, certificate: &str, recount: &mut Recount) -> 
     Ok(proved.about(source))
 }
 
-/// Compares the files of a derivation with those that are stored; `proof` says what the certificate proves.
+/// Compares the files of a derivation with those that are stored, or in a thin folder with their hashes; `proof` says what the certificate proves.
 pub fn compare(stored: &Stored, written: &[Written], proof: &str, checked: &Report) -> Vec<Finding> {
     let first = written.iter().filter(|file| file.name == CERTIFICATE);
     let rest = written.iter().filter(|file| file.name != CERTIFICATE);
-    first.chain(rest).map(|file| compared(stored, file, proof, checked)).collect()
+    let files = first.chain(rest);
+    let Some(text) = stored.get(OUTPUTS) else {
+        return files.map(|file| compared(stored, file, proof, checked)).collect();
+    };
+    let hashes = Hashes::of(&String::from_utf8_lossy(text), written);
+    let mut findings: Vec<Finding> = files
+        .map(|file| match (hashes.refusal(&file.name), stored.get(&file.name)) {
+            (Some(refusal), _) => Finding::refused(&stored.folder, &file.name, refusal),
+            (None, None) if hashes.has(&file.name) => Finding::holds(&file.name, hashed_words(&file.name, checked)),
+            _ => compared(stored, file, proof, checked),
+        })
+        .collect();
+    findings.push(hashes.finding(stored));
+    findings
+}
+
+/// What holds of a file that was printed again and has the stored hash.
+fn hashed_words(name: &str, checked: &Report) -> String {
+    match name {
+        CHECKS => check_words(checked) + "; its words and counts have the stored hash",
+        _ => "printed again, and has the stored hash".to_owned(),
+    }
 }
 
 fn compared(stored: &Stored, file: &Written, proof: &str, checked: &Report) -> Finding {

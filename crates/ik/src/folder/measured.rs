@@ -44,6 +44,12 @@ fn same_cells(a: &[&str], b: &[&str], is_residual: impl Fn(usize) -> bool) -> bo
     a.len() == b.len() && a.iter().zip(b).enumerate().all(same)
 }
 
+/// A table of checks with `*` in place of each number that rounding decides: the kinds of targets, the counts and the verdicts.
+pub fn without_numbers(table: &str) -> String {
+    let cell = |cell: &str| if numbers(cell, cell).is_some() { "*".to_owned() } else { cell.to_owned() };
+    table.split('\n').map(|line| line.split(',').map(cell).collect::<Vec<_>>().join(",")).collect::<Vec<_>>().join("\n")
+}
+
 fn differs(stored: &str, measured: &str, same: impl Fn(&str, &str) -> bool) -> Option<usize> {
     let (stored, measured): (Vec<&str>, Vec<&str>) = (stored.split('\n').collect(), measured.split('\n').collect());
     let common = stored.iter().zip(&measured).take_while(|(a, b)| a == b || same(a, b)).count();

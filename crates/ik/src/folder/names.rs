@@ -10,6 +10,10 @@ pub const DYNAMICS_TEXT: &str = "7_dynamics.txt";
 pub const DYNAMICS: &str = "7_dynamics.json";
 /// All that tells of equations of motion.
 pub(super) const MOTION: [&str; 2] = [DYNAMICS_TEXT, DYNAMICS];
+/// The file of the solver.
+pub const PROGRAM: &str = "5_program.json";
+/// The file of a thin folder with the hash of each output that the folder does not have.
+pub const OUTPUTS: &str = "outputs.sha256";
 /// The file of the proof.
 pub const CERTIFICATE: &str = "certificate.json";
 
@@ -36,6 +40,7 @@ pub fn is_written_name(name: &str) -> bool {
     STAGES.contains(&name)
         || MOTION.contains(&name)
         || name == CHECKS
+        || name == OUTPUTS
         || solver(SOLVER, &CODE[..3])
         || solver(IKFAST, &CODE[3..])
 }

@@ -12,7 +12,7 @@ use super::instruction::{Instruction, Operand};
 use super::joint::{Joint, JointValue, Unit};
 use super::rule::ParameterRule;
 use crate::Result;
-use groebot_robot::document::JsonFormat;
+use groebot_robot::document::{JsonFormat, json_text};
 use groebot_robot::kinematics::Mimic;
 
 /// One number of the target, as the user gives it.
@@ -281,7 +281,7 @@ impl Program {
         Ok(program)
     }
 
-    /// The program as pretty JSON, ending in a line feed.
+    /// The program as JSON ([`json_text`]).
     pub fn to_json(&self) -> String {
         #[derive(Serialize)]
         struct Written<'a> {
@@ -289,8 +289,7 @@ impl Program {
             #[serde(flatten)]
             program: &'a Program,
         }
-        let written = Written { format: FORMAT.number, program: self };
-        serde_json::to_string_pretty(&written).expect("a program holds nothing that JSON cannot say") + "\n"
+        json_text(&Written { format: FORMAT.number, program: self })
     }
 
     /// The number of root choices of `case`: the product of its root degrees.

@@ -1,28 +1,36 @@
 //! The solvers of chains that share actuators: printed from their programs, compiled, and answering like them.
 
-use std::fs;
 use std::path::Path;
 
-use groebot_ik::solver::Program;
+use groebot_ik::folder;
+use groebot_robot::kinematics::Chain;
 
 use super::harness::compare;
+use super::random;
+use super::stored::reached;
 
-/// The targets of the ordinary rows of a folder's checks.
-fn targets(folder: &Path, program: &Program, most: usize) -> Vec<Vec<f64>> {
-    let rows = fs::read_to_string(folder.join("6_check.csv")).unwrap();
-    let ordinary = rows.lines().filter(|row| row.starts_with("random,") || row.starts_with("rational,"));
-    let numbers =
-        |row: &str| row.split(',').skip(1).take(program.inputs.len()).map(|cell| cell.parse().unwrap()).collect();
-    ordinary.take(most).map(numbers).collect()
+/// The joints of a leg that the other one does not share: the last ones of its chain.
+const OWN: usize = 5;
+
+/// The poses of both feet that joint values in (-1, 1) reach, by the chains' own forward kinematics; given joints are at zero.
+fn target(folder: &Path) -> Vec<f64> {
+    let [left, right] = ["left.toml", "right.toml"].map(|file| Chain::read(&folder.join(file)).unwrap());
+    let mut between = random();
+    let mut q: Vec<f64> = left.joints().iter().map(|_| between(-1.0, 1.0)).collect();
+    left.given().into_iter().for_each(|joint| q[joint] = 0.0);
+    let mut target = reached(&left, &q);
+    let own = q.len() - OWN;
+    q[own..].iter_mut().for_each(|value| *value = between(-1.0, 1.0));
+    target.extend(&reached(&right, &q)[..12]);
+    target
 }
 
 #[test]
 fn committed_solvers_of_coupled_chains_answer_like_their_programs() {
     for (name, least) in [("nao_legs_poses", 16), ("nao_legs_yaw", 16)] {
         let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("derivations").join(name);
-        let program = Program::from_json(&fs::read_to_string(folder.join("5_program.json")).unwrap()).unwrap();
-        let mut targets = targets(&folder, &program, 1);
-        targets.push(vec![9.0; program.inputs.len()]);
+        let program = folder::program(&folder).unwrap();
+        let targets = [target(&folder), vec![9.0; program.inputs.len()]];
         if let Some(report) = compare(&program, &targets) {
             assert!(report.answers >= least && report.refused == 1, "{name}: {report:?}");
         }

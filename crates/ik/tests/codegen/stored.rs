@@ -1,14 +1,15 @@
-//! The stored programs of `derivations/`, with the chains that they solve.
+//! The programs of `derivations/`, with the chains that they solve. Those of thin folders are proved again.
 
 use std::f64::consts::PI;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use groebot_ik::derive::InputFile;
+use groebot_ik::folder;
 use groebot_ik::solver::{JointValue, Program};
 use groebot_robot::kinematics::{Chain, Task};
 
-/// A stored program and its chain; none for a system of equations.
+/// A program and its chain; none for a system of equations.
 pub struct Stored {
     pub name: String,
     pub program: Program,
@@ -20,7 +21,7 @@ pub fn all() -> Vec<Stored> {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("derivations");
     let mut folders: Vec<PathBuf> = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()).collect();
     folders.sort();
-    folders.iter().filter_map(|folder| stored(folder)).collect()
+    folders.iter().map(|folder| stored(folder)).collect()
 }
 
 /// Some of them, in the order of their names.
@@ -28,13 +29,13 @@ pub fn named(names: &[&str]) -> Vec<Stored> {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("derivations");
     let mut names = names.to_vec();
     names.sort_unstable();
-    names.iter().map(|name| stored(&root.join(name)).unwrap_or_else(|| panic!("{name} has no program"))).collect()
+    names.iter().map(|name| stored(&root.join(name))).collect()
 }
 
-fn stored(folder: &Path) -> Option<Stored> {
-    let program = Program::from_json(&fs::read_to_string(folder.join("5_program.json")).ok()?).unwrap();
+fn stored(folder: &Path) -> Stored {
+    let program = folder::program(folder).unwrap();
     let chain = InputFile::read(folder).unwrap().chain(&Default::default()).unwrap();
-    Some(Stored { name: folder.file_name().unwrap().to_str().unwrap().to_owned(), program, chain })
+    Stored { name: folder.file_name().unwrap().to_str().unwrap().to_owned(), program, chain }
 }
 
 /// Joint values: anywhere, and, for every third, with some at places where configurations are singular.

@@ -3,4 +3,5 @@
 mod files;
 mod honest;
 mod motion;
+mod outputs;
 mod records;

@@ -2,8 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use groebot_ik::folder;
 use groebot_ik::reach::{Ask, Axis, Grid, Measure, Survey};
-use groebot_ik::solver::Program;
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::Chain;
 
@@ -42,7 +42,7 @@ fn questions_that_no_map_answers_are_refused() {
     for name in ["wrist_rotation", "nao_head"] {
         assert_eq!(refused(name, &here).kind(), ErrorKind::Unsupported, "{name}");
     }
-    let legs = Program::from_json(&std::fs::read_to_string("derivations/nao_legs/5_program.json").unwrap()).unwrap();
+    let legs = folder::program(concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations/nao_legs").as_ref()).unwrap();
     assert_eq!(Survey::new(&legs.solver(), &legs, None, &here).err().unwrap().kind(), ErrorKind::Unsupported);
     let line = Ask::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.0, 1.0, 5)]));
     assert!(refused("planar_2r", &line).message().contains("asks for no z"));
@@ -67,7 +67,8 @@ fn questions_that_no_map_answers_are_refused() {
 fn orientations_are_spread_evenly_over_all() {
     // An arm whose tip is where the three axes of its wrist meet. For each way of the arm, where rotations are spread evenly the sine of the wrist's pitch is, too, and one of two answers has the pitch between -90 and 90
     // degrees: up to an angle a it has the share (1 + sin a) / 2 of all.
-    let text = std::fs::read_to_string("derivations/puma/0_chain.toml").unwrap();
+    let text =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations/puma/0_chain.toml")).unwrap();
     let at_wrist = text.replace("[0, 1.524, 0.15]", "[0, 1.524, 0]");
     assert_ne!(at_wrist, text);
     let chain = Chain::from_toml(&at_wrist).unwrap();

@@ -7,6 +7,7 @@ mod stored;
 use std::path::PathBuf;
 
 use groebot_ik::derive::{Ends, InputFile};
+use groebot_ik::folder;
 use groebot_ik::reach::{Ask, Axis, Grid, ReachMap, Survey};
 use groebot_ik::solver::Program;
 use groebot_ik::{Result, Watch};
@@ -16,7 +17,7 @@ use groebot_robot::kinematics::Chain;
 fn derivation(name: &str) -> (Chain, Program) {
     let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations")).join(name);
     let chain = InputFile::read(&folder).unwrap().chain(&Ends::default()).unwrap().unwrap();
-    let program = Program::from_json(&std::fs::read_to_string(folder.join("5_program.json")).unwrap()).unwrap();
+    let program = folder::program(&folder).unwrap();
     (chain, program)
 }
 

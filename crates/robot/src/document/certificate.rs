@@ -5,7 +5,7 @@ use std::fmt;
 use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Serialize};
 
-use super::json::JsonFormat;
+use super::json::{JsonFormat, json_text};
 use super::shown;
 use crate::{Error, ErrorKind, Result};
 
@@ -78,7 +78,7 @@ impl<Claims> Certificate<Claims> {
 impl<Claims: Serialize> Certificate<Claims> {
     /// The text of the certificate. Equal claims give equal bytes.
     pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).expect("claims hold nothing that JSON cannot say") + "\n"
+        json_text(self)
     }
 }
 

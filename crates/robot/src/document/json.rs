@@ -1,9 +1,46 @@
 //! groebot's own JSON formats, which have an integer `format`.
 
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 use crate::{Error, ErrorKind, Result};
+
+/// The greatest length of a list or an object on one line, in bytes.
+const WIDTH: usize = 120;
+
+/// `value` as JSON that ends in a line feed, indented by two spaces. A list or an object of up to 120 bytes is on one line.
+///
+/// # Panics
+/// If JSON cannot represent the value, for example a map whose keys are not text.
+pub fn json_text(value: &impl Serialize) -> String {
+    let pretty = serde_json::to_string_pretty(value).expect("only types that JSON can represent are written");
+    let (mut lines, mut open): (Vec<String>, Vec<usize>) = (Vec::new(), Vec::new());
+    for line in pretty.lines() {
+        lines.push(line.to_owned());
+        if line.ends_with(['[', '{']) {
+            open.push(lines.len() - 1);
+        } else if line.trim_start().starts_with([']', '}'])
+            && let Some(joined) = open.pop().and_then(|start| joined(&lines[start..]).map(|line| (start, line)))
+        {
+            lines.truncate(joined.0);
+            lines.push(joined.1);
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+/// The lines of a list or an object joined to one line; `None` if that is longer than [`WIDTH`].
+fn joined(lines: &[String]) -> Option<String> {
+    let mut line = lines[0].clone();
+    for next in &lines[1..] {
+        line += if line.ends_with(',') { " " } else { "" };
+        line += next.trim_start();
+        if line.len() > WIDTH {
+            return None;
+        }
+    }
+    Some(line)
+}
 
 /// A JSON format with its version number.
 pub struct JsonFormat {

@@ -29,7 +29,7 @@ pub use certificate::{Certificate, Proves, head_of};
 pub use content::{explained, is_xml, refuse_binary};
 pub use encoding::{XmlText, as_utf8, decode_xml};
 pub use groebot_algebra::escape::shown;
-pub use json::JsonFormat;
+pub use json::{JsonFormat, json_text};
 pub use text::open;
 pub use text::{is_stdin, read_text, read_xml, unix_lines};
 pub use text::{read_bytes, text_of};

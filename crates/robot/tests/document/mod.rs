@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use groebot_algebra::number::parse_rational;
-use groebot_robot::document::{Document, Node, Table, read_text};
+use groebot_robot::document::{Document, Node, Table, json_text, read_text};
 use groebot_robot::{ErrorKind, Result};
 use proptest::prelude::*;
 
@@ -208,5 +208,23 @@ fn a_megabyte_of_noise_is_refused() {
     let noise = ["=", "[[", "a=[1,", "\"", "\0", "é\n", "[a]\n", "a.b=1\n", "'''"];
     for piece in noise {
         assert!(Document::parse(&piece.repeat(1_000_000 / piece.len())).is_err());
+    }
+}
+
+/// A list or an object of up to 120 bytes, indentation and key included, is on one line; longer ones are as serde_json indents them.
+#[test]
+fn short_lists_and_objects_of_json_are_on_one_line() {
+    let value = serde_json::json!({ "a": [1, 2, []], "b": { "c": "x, [", "d": {} }, "long": ["y".repeat(100), [3]], "z": [{ "k": "{" }] });
+    let long = "y".repeat(100);
+    let expected = format!(
+        "{{\n  \"a\": [1, 2, []],\n  \"b\": {{\"c\": \"x, [\", \"d\": {{}}}},\n  \"long\": [\"{long}\", [3]],\n  \"z\": [{{\"k\": \"{{\"}}]\n}}\n"
+    );
+    assert_eq!(json_text(&value), expected);
+    // The line of `long` has 119 bytes; two more do not fit.
+    let longer = "y".repeat(102);
+    let value = serde_json::json!({ "long": [longer, [3]] });
+    assert_eq!(json_text(&value), format!("{{\n  \"long\": [\n    \"{longer}\",\n    [3]\n  ]\n}}\n"));
+    for value in [serde_json::json!([]), serde_json::json!(3), serde_json::json!({ "a": [[[[1]], [2]]] })] {
+        assert_eq!(json_text(&value), value.to_string().replace(':', ": ").replace(',', ", ") + "\n");
     }
 }
