@@ -101,12 +101,12 @@ fn forged_files_of_a_chain_are_refused() {
 
 #[test]
 fn forged_files_of_an_eigenvalue_problem_are_refused() {
-    assert!(forge_files(&Honest::new("crx_like"), "xarm6_like") > 300);
+    assert!(forge_files(&Honest::new("crx_like"), "jaco_like") > 300);
 }
 
 #[test]
 fn forged_files_of_coupled_chains_are_refused() {
-    assert!(forge_files(&Honest::two_arms(), "nao_legs") > 300);
+    assert!(forge_files(&Honest::two_arms(), "nao_left_leg") > 300);
 }
 
 /// Cells that rounding does not explain.

@@ -182,5 +182,5 @@ fn the_certificate_proves_it_again_and_no_other() {
     };
     refused("\"member\": \"", "\"member\": \"x3 + ", "do not multiply out");
     refused("\"1/20\"", "\"1/10\"", "");
-    refused("\"joints\": [\n        0,\n        3", "\"joints\": [\n        3,\n        0", "");
+    refused("\"joints\": [0, 3]", "\"joints\": [3, 0]", "");
 }
