@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use groebot::derive::{Ends, Derivation, Source};
+use groebot::derive::{Derivation, Ends, Source};
 use groebot::{Error, Result, Watch};
 use pyo3::prelude::*;
 use pyo3::types::PyString;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use groebot::derive::{Ends, Derivation, Recount, Source};
+use groebot::derive::{Derivation, Ends, Recount, Source};
 use groebot::document::read_text;
 use groebot::folder::prove_text;
 use groebot::limits::DESCRIPTION_BYTES;

@@ -25,7 +25,7 @@ pub enum Outline {
     Published,
 }
 
-/// The walker of a humanoid of this crate; the names are those of [`robot`].
+/// The walker of a humanoid of this crate; the names are those of [`groebot_robot::robots::robot`].
 pub fn walker(name: &str, outline: Outline) -> Option<Result<Walker>> {
     match name {
         "nao" | "nao_v5" => Some(nao_walker(outline)),
