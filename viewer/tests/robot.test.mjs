@@ -71,7 +71,7 @@ test("meshes are shown when they are asked for, and told when they cannot be", a
   const [first, second] = [await open(browser, without), await open(browser, shown)];
   assert.match(await first.locator("#notes").innerText(), /1 note/);
   await first.locator("#notes summary").click();
-  assert.match(await first.locator("#notes").innerText(), /Meshes of 2 links are left out; --meshes shows them/);
+  assert.match(await first.locator("#notes").innerText(), /Meshes of 2 links are not included; --meshes includes them/);
   await second.locator("#notes summary").click();
   assert.match(await second.locator("#notes").innerText(), /`lost.stl` is not found/);
   assert.ok(!(await picture(first)).equals(await picture(second)));

@@ -69,7 +69,7 @@ test("what cannot be is refused with its reason, and all stays as it was", async
   await assert.rejects(opened.evaluate(() => groebot.set("Hcm", 0.9)), /out of reach/);
   await assert.rejects(opened.evaluate(() => groebot.set("Hq", 0.9)), /did you mean/);
   await assert.rejects(opened.evaluate(() => groebot.goal(3.6, 0.4)), /the nearest free place/);
-  await assert.rejects(opened.evaluate(() => groebot.furniture("box", [0.6, 1.2, 0])), /would stand on the robot/);
+  await assert.rejects(opened.evaluate(() => groebot.furniture("box", [0.6, 1.2, 0])), /would overlap the robot/);
   await assert.rejects(opened.evaluate(() => groebot.furniture("piano", null)), /no piece `piano`/);
   assert.deepEqual(await opened.evaluate(() => [groebot.parameters, groebot.way()]), before);
   const field = opened.getByLabel(/^Hcm/);
