@@ -4,7 +4,7 @@ use std::fs;
 
 use tempfile::tempdir;
 
-use super::{node_tests, refused, root, run, succeed, text};
+use super::{refused, root, run, succeed, text};
 
 #[test]
 fn a_robot_is_exported_and_walks_from_its_file() {
@@ -190,18 +190,6 @@ fn a_damaged_mesh_is_named() {
         says(&ran.err);
     }
     assert!(!fs::read_to_string(&out).unwrap().contains("part.stl"), "MuJoCo would refuse the whole model");
-}
-
-#[test]
-fn scenes_are_read_by_other_programs() {
-    let tools = [
-        ("/usr/bin/tovrmlx3d", "install Debian's view3dscene"),
-        ("node_modules/three", "run `npm ci` in viewer/"),
-        ("node_modules/gltf-validator", "run `npm ci` in viewer/"),
-        ("node_modules/@gltf-transform/core", "run `npm ci` in viewer/"),
-        ("node_modules/x_ite", "run `npm ci` in viewer/"),
-    ];
-    node_tests(&["export"], &tools);
 }
 
 /// 1e400 is a decimal number, and no double.

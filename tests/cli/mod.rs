@@ -2,6 +2,7 @@
 
 mod asked;
 mod basis;
+mod browser;
 mod budgets;
 mod check;
 mod codegen;
@@ -91,30 +92,6 @@ fn refused(arguments: &[&str]) -> String {
     ran.err
 }
 
-/// Runs tests of `viewer/tests` in Node and Chromium; a tool that is missing, of `tools` too, is told with its cure.
-fn node_tests(names: &[&str], tools: &[(&str, &str)]) {
-    let viewer = root("viewer");
-    let usual = [
-        ("/usr/bin/chromium", "install Debian's chromium"),
-        ("node_modules/playwright-core", "run `npm ci` in viewer/"),
-    ];
-    let missing = usual.iter().chain(tools).filter(|(file, _)| !viewer.join(file).exists());
-    let mut missing: Vec<String> = missing.map(|(file, cure)| format!("{file}: {cure}")).collect();
-    if Command::new("node").arg("--version").output().is_err() {
-        missing.push("node: install nodejs".to_owned());
-    }
-    if !missing.is_empty() {
-        let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
-        assert!(!required, "{}", missing.join("; "));
-        return println!("skipped, a tool is missing: {}", missing.join("; "));
-    }
-    let mut command = Command::new("node");
-    command.args(["--test", "--test-concurrency=1"]).current_dir(&viewer).env("GROEBOT", env!("CARGO_BIN_EXE_groebot"));
-    command.args(names.iter().map(|name| format!("tests/{name}.test.mjs")));
-    let output = command.output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
-}
-
 fn text(path: &Path) -> &str {
     path.to_str().unwrap()
 }
@@ -165,8 +142,13 @@ fn leg() -> &'static Derived {
 
 /// A copy of the derived leg that a test may damage.
 fn leg_copy() -> TempDir {
+    copy_of(leg().folder.path())
+}
+
+/// A copy of a folder's files.
+fn copy_of(folder: &Path) -> TempDir {
     let copy = tempdir().unwrap();
-    for (name, bytes) in content(leg().folder.path()) {
+    for (name, bytes) in content(folder) {
         fs::write(copy.path().join(name), bytes).unwrap();
     }
     copy

@@ -2,19 +2,23 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use tempfile::{TempDir, tempdir};
 
-use super::{content, fails_at, folder_with, leg, leg_copy, refused, run, succeed, text};
+use super::{content, copy_of, fails_at, folder_with, leg, leg_copy, refused, run, succeed, text};
 
 /// The files of a thin folder of a chain.
 const FILES: [&str; 4] = ["0_chain.toml", "README.md", "certificate.json", "outputs.sha256"];
 
-/// The leg, derived into a thin folder.
+/// The leg in a thin folder, derived once; a test may damage its copy.
 fn thin_leg() -> TempDir {
-    let folder = folder_with("nao_leg_sagittal", "0_chain.toml");
-    succeed(&["derive", text(folder.path()), "--thin", "--quiet"]);
-    folder
+    static THIN: LazyLock<TempDir> = LazyLock::new(|| {
+        let folder = folder_with("nao_leg_sagittal", "0_chain.toml");
+        succeed(&["derive", text(folder.path()), "--thin", "--quiet"]);
+        folder
+    });
+    copy_of(THIN.path())
 }
 
 fn names(folder: &Path) -> Vec<String> {

@@ -1,11 +1,11 @@
-//! `groebot view`; and its pages in Chromium, by the tests of `viewer/tests`.
+//! `groebot view`; its pages in Chromium are tested in `browser.rs`.
 
 use std::fs;
 use std::path::Path;
 
 use tempfile::tempdir;
 
-use super::{node_tests, refused, root, run, succeed, text};
+use super::{refused, root, run, succeed, text};
 
 const ARM: &str = "tests/corpus/urdf/ur5.urdf";
 
@@ -72,11 +72,6 @@ fn what_is_no_walk_and_no_robot_is_refused() {
     says(&[text(&root("derivations/puma/0_chain.toml"))], "this does not describe a robot with links");
     says(&["nao", "--robot", "teo"], "--robot names the walking robot, but this is not a walk");
     assert_eq!(run(&["view", "nao"]).code, 2);
-}
-
-#[test]
-fn pages_work_in_chromium() {
-    node_tests(&["walk", "robot", "trouble", "solutions", "reach", "run", "task"], &[]);
 }
 
 #[test]

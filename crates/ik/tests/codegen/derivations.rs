@@ -9,7 +9,7 @@ use groebot_ik::codegen;
 use groebot_ik::derive::{Derivation, Source};
 use groebot_ik::solver::Program;
 
-use super::harness::{compare, compile_c, rustc};
+use super::harness::{compare_hosted, compile_c, rustc};
 use super::random;
 use super::stored::{all, joint_values, named};
 
@@ -72,7 +72,7 @@ fn printed_solvers_answer_like_the_program() {
         let text = fs::read_to_string(folder(name).join("5_program.json")).unwrap();
         let program = Program::from_json(&text).unwrap();
         let targets = targets(reach);
-        if let Some(report) = compare(&program, &targets) {
+        if let Some(report) = compare_hosted(&program, &targets) {
             assert!(report.answers > 4000 && report.refused == 2, "{report:?}");
         }
     }
@@ -123,7 +123,7 @@ pub fn targets_of(program: &Program, count: usize) -> Vec<Vec<f64>> {
 #[test]
 fn printed_solvers_of_chains_answer_like_the_program() {
     for stored in named(&["puma", "nao_left_leg", "iiwa14", "rrp"]) {
-        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 200)) {
+        if let Some(report) = compare_hosted(&stored.program, &targets_of(&stored.program, 200)) {
             assert!(report.answers > 200 && report.refused >= 10, "{report:?}");
         }
     }
@@ -141,7 +141,7 @@ fn printed_solvers_answer_poses_that_are_singular_twice() {
         ur5.program.reached(&q).unwrap()
     };
     let targets: Vec<_> = (0..16).map(&mut joints).collect();
-    if let Some(report) = compare(&ur5.program, &targets) {
+    if let Some(report) = compare_hosted(&ur5.program, &targets) {
         assert!(report.answers >= 16, "{report:?}");
     }
 }
@@ -150,7 +150,7 @@ fn printed_solvers_answer_poses_that_are_singular_twice() {
 #[ignore = "minutes: every stored chain, ten thousand targets each"]
 fn every_printed_solver_answers_like_the_program() {
     for stored in all().iter().filter(|stored| stored.program.forward().is_some()) {
-        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 10_000)) {
+        if let Some(report) = compare_hosted(&stored.program, &targets_of(&stored.program, 10_000)) {
             assert!(report.answers >= 10_000 && report.refused > 100, "{report:?}");
         }
     }

@@ -34,8 +34,21 @@ pub struct Report {
 /// Compares the C99 file and both variants of the Rust file with the evaluator at every target. Panics where they differ;
 /// `None` when a compiler is missing (an error with `GROEBOT_REQUIRE_TOOLS=1`).
 pub fn compare(program: &Program, targets: &[Vec<f64>]) -> Option<Report> {
-    program.validate().unwrap();
     let folder = tempfile::tempdir().unwrap();
+    let mut executables = hosted(program, folder.path())?;
+    executables.push(without_std(program, folder.path())?);
+    answers_are_equal(program, targets, &executables)
+}
+
+/// As [`compare`], without the variant for targets that have no standard library.
+pub fn compare_hosted(program: &Program, targets: &[Vec<f64>]) -> Option<Report> {
+    let folder = tempfile::tempdir().unwrap();
+    let executables = hosted(program, folder.path())?;
+    answers_are_equal(program, targets, &executables)
+}
+
+fn answers_are_equal(program: &Program, targets: &[Vec<f64>], executables: &[Executable]) -> Option<Report> {
+    program.validate().unwrap();
     let solver = program.solver();
     let expected: Vec<_> = targets.iter().map(|target| solver.solve_numbers(target)).collect();
     let mut report = Report::default();
@@ -48,8 +61,8 @@ pub fn compare(program: &Program, targets: &[Vec<f64>]) -> Option<Report> {
             Err(_) => report.refused += 1,
         }
     }
-    for (language, executable) in executables(program, folder.path())? {
-        let output = run(&executable, targets);
+    for (language, executable) in executables {
+        let output = run(executable, targets);
         let mut numbers = output.split_whitespace().map(|word| word.parse::<f64>().unwrap());
         for (target, expected) in targets.iter().zip(&expected) {
             let place = format!("{} in {language} at {target:?}", program.name);
@@ -173,26 +186,48 @@ pub fn write_c(program: &Program, folder: &Path) {
     fs::write(folder.join("main.c"), c_driver(&program.name, has_extra)).unwrap();
 }
 
-/// The compiled solvers with their languages' names; `None` when a compiler is missing.
-pub fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str, PathBuf)>> {
-    let rust = codegen::rust::emit(program);
-    let has_extra = rust.contains("has_extras: true");
-    fs::write(folder.join("5_solver.rs"), rust).unwrap();
-    fs::write(folder.join("single.rs"), codegen::single_file::rust(program)).unwrap();
-    write_c(program, folder);
-    let again = if has_extra { "answer.residual" } else { "Solver.residual(&target, &answer.q)" };
-    let driver = RUST_DRIVER.replace("AGAIN", again);
+/// A compiled solver with its language's name.
+type Executable = (&'static str, PathBuf);
+
+/// What reads targets and prints the answers of a solver in Rust.
+fn rust_driver(program: &Program) -> String {
+    let has_extra = codegen::rust::emit(program).contains("has_extras: true");
+    RUST_DRIVER.replace("AGAIN", if has_extra { "answer.residual" } else { "Solver.residual(&target, &answer.q)" })
+}
+
+/// The solver in Rust as a module beside the run time, and in C; `None` when a compiler is missing.
+fn hosted(program: &Program, folder: &Path) -> Option<Vec<Executable>> {
+    fs::write(folder.join("5_solver.rs"), codegen::rust::emit(program)).unwrap();
+    let driver = rust_driver(program);
     fs::write(folder.join("module.rs"), format!("#[path = \"5_solver.rs\"]\nmod solver;\n{driver}")).unwrap();
-    fs::write(folder.join("crate.rs"), format!("use no_std_root::solver;\n{driver}")).unwrap();
-    fs::write(folder.join("root.rs"), "#![no_std]\n#[path = \"single.rs\"]\npub mod solver;\n").unwrap();
-    let library = ["--crate-type=lib", "--crate-name=no_std_root", "--cfg=feature=\"libm\"", "root.rs"];
-    rustc(folder, &["--crate-type=lib", "--crate-name=solver", "--emit=metadata", "5_solver.rs"])?;
+    write_c(program, folder);
     rustc(folder, &["module.rs"])?;
-    rustc(folder, &library)?;
-    rustc(folder, &["--extern=no_std_root=libno_std_root.rlib", "crate.rs"])?;
     compile_solver(program, folder, &["-DGB_MAX_PLACES=1000"], "c99")?;
-    let at = |name: &str| folder.join(name);
-    Some(vec![("Rust", at("module")), ("Rust without std", at("crate")), ("C99", at("c99"))])
+    Some(vec![("Rust", folder.join("module")), ("C99", folder.join("c99"))])
+}
+
+/// The solver in one file of Rust that has no standard library; `None` when the compiler is missing.
+fn without_std(program: &Program, folder: &Path) -> Option<Executable> {
+    fs::write(folder.join("single.rs"), codegen::single_file::rust(program)).unwrap();
+    fs::write(folder.join("root.rs"), "#![no_std]\n#[path = \"single.rs\"]\npub mod solver;\n").unwrap();
+    fs::write(folder.join("crate.rs"), format!("use no_std_root::solver;\n{}", rust_driver(program))).unwrap();
+    rustc(folder, &["--crate-type=lib", "--crate-name=no_std_root", "--cfg=feature=\"libm\"", "root.rs"])?;
+    rustc(folder, &["--extern=no_std_root=libno_std_root.rlib", "crate.rs"])?;
+    Some(("Rust without std", folder.join("crate")))
+}
+
+/// Compiles all files of a solver without warnings, and links none.
+pub fn compiles(program: &Program) {
+    program.validate().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    write_c(program, path);
+    fs::write(path.join("5_solver.rs"), codegen::rust::emit(program)).unwrap();
+    fs::write(path.join("single.rs"), codegen::single_file::rust(program)).unwrap();
+    let library = ["--crate-type=lib", "--emit=metadata"];
+    let _ = rustc(path, &[&library[..], &["5_solver.rs"]].concat())
+        .and_then(|()| rustc(path, &[&library[..], &["--cfg=feature=\"libm\"", "single.rs"]].concat()))
+        .and_then(|()| compile_c(path, &["-c", "5_solver.c"]));
 }
 
 /// The compiled crate `groebot-runtime`; `None` when the compiler is missing.
@@ -225,7 +260,7 @@ pub fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
 
 pub fn compile_c(folder: &Path, arguments: &[&str]) -> Option<()> {
     let mut command = Command::new("cc");
-    command.args("-std=c99 -O2 -Wall -Wextra -Werror -pedantic".split(' '));
+    command.args("-std=c99 -O1 -Wall -Wextra -Werror -pedantic".split(' '));
     command.arg("-I").arg(c_runtime());
     build(command.args(arguments).current_dir(folder))
 }

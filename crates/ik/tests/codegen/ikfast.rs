@@ -93,7 +93,7 @@ fn ask(executable: &Path, joints: usize, lines: &[[f64; 13]]) -> (i64, i64, Vec<
 fn compare(stored: &Stored, count: usize) -> Option<usize> {
     let (program, chain) = (&stored.program, stored.chain.as_ref().unwrap());
     let folder = folder(program, &Options::default());
-    let executable = plugin(folder.path(), &["-O1"])?;
+    let executable = plugin(folder.path(), &[])?;
     let joints = joint_values(program, count, random());
     let targets: Vec<Vec<f64>> = joints.iter().map(|q| reached(chain, q)).collect();
     let lines: Vec<[f64; 13]> = targets.iter().map(|target| line(stored, target)).collect();

@@ -1,7 +1,7 @@
 //! What a printed file says and leaves out.
 
 use super::builder::{one_block, roots};
-use super::harness::executables;
+use super::harness::compiles;
 use super::samples::{arm, leg, polar, quartic};
 use groebot_ik::codegen::c99::Pair;
 use groebot_ik::codegen::rust;
@@ -27,12 +27,6 @@ fn the_same_program_gives_the_same_bytes() {
         assert_eq!(rust::emit(&program), rust::emit(&program.clone()));
         assert_eq!(Pair::new(&program, "arm"), Pair::new(&program.clone(), "arm"));
     }
-}
-
-fn compiles(program: &Program) {
-    program.validate().unwrap();
-    let folder = tempfile::tempdir().unwrap();
-    executables(program, folder.path());
 }
 
 #[test]
