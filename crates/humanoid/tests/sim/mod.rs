@@ -1,10 +1,13 @@
 //! A run of the simulator: goal, furniture and figures change between two steps, and the next step obeys.
 
 mod answer;
+#[cfg(feature = "clearance")]
 mod clearance;
 mod export;
 mod faults;
+#[cfg(feature = "clearance")]
 mod full_task;
+#[cfg(feature = "clearance")]
 mod random_rooms;
 
 use std::f64::consts::TAU;
