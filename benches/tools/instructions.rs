@@ -1,7 +1,8 @@
 //! A coarse alarm for the hottest calls: how many instructions each takes, counted by valgrind, beside the committed counts of
-//! `benches/instructions.csv`. Counts hardly depend on the machine; times do.
+//! `benches/instructions.csv`. Counts hardly depend on the machine; times do. They depend on how the crates are split for the compiler: the counts are of
+//! crates in one unit, as `.ci/run` compiles them.
 //!
-//!     cargo run --profile test --example instructions [-- --update]
+//!     CARGO_INCREMENTAL=0 CARGO_PROFILE_TEST_CODEGEN_UNITS=1 cargo run --profile test --example instructions [-- --update]
 
 use std::error::Error;
 use std::fs;
