@@ -4,7 +4,7 @@ use std::process::Command;
 
 use super::root;
 
-/// Runs tests of `viewer/tests` in Node and Chromium; a tool that is missing, of `tools` too, is told with its cure.
+/// Runs tests of `viewer/tests` in Node and Chromium; a missing tool, of `tools` too, is reported with its remedy.
 fn node_tests(names: &[&str], tools: &[(&str, &str)]) {
     let viewer = root("viewer");
     let usual = [

@@ -1,5 +1,5 @@
-//! The folders of `derivations/`: each is what a derivation writes today, byte for byte, and passes `groebot check`. Folders whose outputs nothing reads
-//! are thin: they have hashes of the outputs. `UPDATE_GOLDEN=1` derives all again instead, and the diff is then to be read.
+//! The folders of `derivations/`: each is what a derivation writes today, byte for byte, and passes `groebot check` (`SLOW_CHECKS`: by `--ignored`). Folders whose
+//! outputs nothing reads are thin: they have hashes of the outputs. `UPDATE_GOLDEN=1` derives all again instead, and the diff is then to be read.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -72,7 +72,7 @@ fn gravity_of(folder: &Path) -> Option<String> {
     Some(entries.join(","))
 }
 
-/// What is wrong with a folder: a stage that a derivation writes otherwise, a file that none writes, and where that is asked a failing check.
+/// What is wrong with a folder: a stage that a derivation writes otherwise, a file that none writes, and where `is_checked` a failing check.
 fn fault(folder: &Path, is_checked: bool) -> Option<String> {
     let source = Source::read(folder).unwrap();
     let proved = match Derivation::of(&source, &Watch::none()) {

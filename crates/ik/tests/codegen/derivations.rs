@@ -9,7 +9,7 @@ use groebot_ik::codegen;
 use groebot_ik::derive::{Derivation, Source};
 use groebot_ik::solver::Program;
 
-use super::harness::{compare_hosted, compile_c, rustc};
+use super::harness::{compare, compare_hosted, compile_c, rustc};
 use super::random;
 use super::stored::{all, joint_values, named};
 
@@ -150,7 +150,7 @@ fn printed_solvers_answer_poses_that_are_singular_twice() {
 #[ignore = "minutes: every stored chain, ten thousand targets each"]
 fn every_printed_solver_answers_like_the_program() {
     for stored in all().iter().filter(|stored| stored.program.forward().is_some()) {
-        if let Some(report) = compare_hosted(&stored.program, &targets_of(&stored.program, 10_000)) {
+        if let Some(report) = compare(&stored.program, &targets_of(&stored.program, 10_000)) {
             assert!(report.answers >= 10_000 && report.refused > 100, "{report:?}");
         }
     }

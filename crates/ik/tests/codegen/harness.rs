@@ -189,7 +189,7 @@ pub fn write_c(program: &Program, folder: &Path) {
 /// A compiled solver with its language's name.
 type Executable = (&'static str, PathBuf);
 
-/// What reads targets and prints the answers of a solver in Rust.
+/// A program in Rust that reads targets and prints the answers of a solver.
 fn rust_driver(program: &Program) -> String {
     let has_extra = codegen::rust::emit(program).contains("has_extras: true");
     RUST_DRIVER.replace("AGAIN", if has_extra { "answer.residual" } else { "Solver.residual(&target, &answer.q)" })
