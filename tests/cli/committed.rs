@@ -1,5 +1,5 @@
-//! The folders of `derivations/`: each is what a derivation writes today, byte for byte, and passes `groebot check` (`SLOW_CHECKS`: by `--ignored`). Folders whose
-//! outputs nothing reads are thin: they have hashes of the outputs. `UPDATE_GOLDEN=1` derives all again instead, and the diff is then to be read.
+//! The folders of `derivations/`: each is what a derivation writes today, byte for byte, and passes `groebot check` (`SLOW_CHECKS`: if `--ignored`). Folders
+//! whose outputs nothing reads are thin: they have hashes of the outputs. `UPDATE_GOLDEN=1` derives all again instead, and the diff is then to be read.
 
 use std::fs;
 use std::path::{Path, PathBuf};
