@@ -48,6 +48,8 @@ typedef double gb_real;
 #define GB_NOT_UNIT (-4)
 /* The steps of the target were spent before an answer was found: there may be some. */
 #define GB_UNSETTLED (-5)
+/* The task is not the pose of one tip: base and tool cannot be taken off the target. */
+#define GB_NOT_POSE (-6)
 /* The most steps of polishing that a target may take, where it is not said otherwise (define it when you compile the robot's file and groebot.c). A step is a
  * linear system of Newton's method, or an evaluation of the equations at joint values. When they are spent, candidates are not polished any more, and answers
  * are not settled. */
@@ -75,13 +77,15 @@ typedef double gb_real;
  * NAME_solve_bounded: the same with so many steps at most; GB_UNSETTLED where no answer was found before they were spent.
  * NAME_solve_or_nearest: as NAME_solve; where there is none, nearest is what missed the equations by the least share, or its residual is infinite.
  * NAME_solve_pairs: the same by cosines and sines; at ordinary targets no arc tangent is taken.
+ * NAME_solve_placed: as NAME_solve, for a target whose first 12 numbers are world_from_tool, the pose of a tool in a world frame. base is world_from_base,
+ *     tool is tip_from_tool; NULL is the identity. GB_NOT_POSE where the task is not the pose of one tip.
  * NAME_solve_batch: many targets, several at once in the lanes of registers. The solutions of a target stand in out behind those of the one before,
  *     counts says how many they are or why there are none. How many targets were solved: all, unless out has no room for those of the next one.
  *     Each solution is that of NAME_solve to the last bit.
  * NAME_residual: the largest magnitude of an equation's value at joint values q; not a number for a target that NAME_solve refuses, and where
  *     equations read what follows from no joint.
  * NAME_forward: the target that joint values reach; false for equations that do not compare the tip with the target.
- * NAME_target_of: the target at which the tool is at a pose, with the base at another pose and the tool at its own pose seen from the tip.
+ * NAME_target_of: the target base_from_tip for a pose world_from_tool, with base world_from_base and tool tip_from_tool.
  * NAME_count_turns: limits are the least and the greatest value of each joint in turn. The number of joint values that differ from q by whole turns of
  *     angles and lie within limits, which hold within 1e-9; an angle that lacks a limit counts once.
  * NAME_turn: writes the one with this index to out. Turns of the last joint follow one another.
@@ -112,6 +116,7 @@ typedef double gb_real;
     GB_API int name##_solve_bounded(const gb_real *target, size_t most, name##_solution *out);                                     \
     GB_API int name##_solve_or_nearest(const gb_real *target, name##_solution *out, name##_solution *nearest);                     \
     GB_API int name##_solve_pairs(const gb_real *target, name##_pairs *out);                                                       \
+    GB_API int name##_solve_placed(const gb_real *base, const gb_real *tool, const gb_real *target, name##_solution *out);         \
     GB_API size_t name##_solve_batch(const gb_real *targets, size_t count, name##_solution *out, size_t room, int *counts);        \
     GB_API size_t name##_solve_pairs_batch(const gb_real *targets, size_t count, name##_pairs *out, size_t room, int *counts);     \
     GB_API gb_real name##_residual(const gb_real *target, const gb_real *q);                                                       \

@@ -140,6 +140,8 @@ pub enum Error {
     OpenStratum(usize),
     /// The [steps](crate::tolerances::MOST_STEPS) of the target were spent before an answer was found: there may be some.
     Unsettled,
+    /// The task is not the pose of one tip: base and tool cannot be taken off the target.
+    NotPose,
 }
 
 impl fmt::Display for Error {
@@ -154,6 +156,9 @@ impl fmt::Display for Error {
             }
             Error::Unsettled => {
                 f.write_str("the steps of the target were spent before an answer was found; allow more of them")
+            }
+            Error::NotPose => {
+                f.write_str("the task is not the pose of one tip; give the target in the frame of the base")
             }
             Error::OpenStratum(number) => write!(f, "the target lies on stratum {number}, which could not be derived"),
         }

@@ -6,7 +6,8 @@ use crate::conditions::conform;
 use crate::described::{reached, read_off, solve_described, within_limits};
 use crate::joints::place;
 use crate::limits::{self, strides_within, turned_within};
-use crate::mechanism::{Inputs, Joints, Mechanism};
+use crate::mechanism::{Condition, Inputs, Joints, Mechanism};
+use crate::placement::Placement;
 use crate::problem::Problem;
 use crate::singly::{pairs_of, solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
@@ -81,6 +82,25 @@ pub trait Solve: Mechanism {
     /// A solution by cosines and sines.
     fn pairs_of(&self, solution: &Solution<Self>) -> Pairs<Self> {
         pairs_of(self, solution)
+    }
+
+    /// As [`Solve::solve`], for a target whose first 12 numbers are world_from_tool, the pose of a tool in a world frame. The values of given joints follow them.
+    ///
+    /// # Errors
+    /// As [`Solve::solve`]; [`Error::NotPose`] where the task is not the pose of one tip.
+    fn solve_placed(
+        &self,
+        placement: &Placement,
+        target: &Inputs<Self>,
+        out: &mut [Solution<Self>],
+    ) -> Result<usize, Error> {
+        if !matches!(self.facts().conditions, [Condition::Rotation(3)]) {
+            return Err(Error::NotPose);
+        }
+        let (mut target, mut world_from_tool) = (target.clone(), [0.0; 12]);
+        world_from_tool.copy_from_slice(&target.as_ref()[..12]);
+        target.as_mut()[..12].copy_from_slice(&placement.target(&world_from_tool));
+        self.solve(&target, out)
     }
 
     /// As [`Solve::solve`], for many targets, of which the lanes of a vector register take several at once. The solutions of a target stand in `out`
@@ -196,22 +216,3 @@ pub trait Solve: Mechanism {
 }
 
 impl<M: Mechanism> Solve for M {}
-
-/// A pose is 12 numbers, as at the front of a target: a position, and a rotation by rows. The target, its first 12 numbers, with which the
-/// tool is at a pose where the base is at another pose and the tool is at its own pose seen from the tip: `base^-1 pose tool^-1`.
-pub fn target_of(base: &[f64; 12], tool: &[f64; 12], pose: &[f64; 12]) -> [f64; 12] {
-    let mut target = [0.0; 12];
-    for i in 0..3 {
-        for j in 0..3 {
-            for k in 0..9 {
-                target[3 + 3 * i + j] += base[3 + 3 * (k / 3) + i] * pose[3 + k] * tool[3 + 3 * j + k % 3];
-            }
-        }
-    }
-    for i in 0..3 {
-        for k in 0..3 {
-            target[i] += base[3 + 3 * k + i] * (pose[k] - base[k]) - target[3 + 3 * i + k] * tool[k];
-        }
-    }
-    target
-}

@@ -1,7 +1,7 @@
 //! The run time's own text, for whoever puts it and a robot's file together.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 36] = [
+pub const RUST: [(&str, &str); 37] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -23,6 +23,7 @@ pub const RUST: [(&str, &str); 36] = [
     ("members", include_str!("members.rs")),
     ("newton", include_str!("newton.rs")),
     ("number", include_str!("number.rs")),
+    ("placement", include_str!("placement.rs")),
     ("problem", include_str!("problem.rs")),
     ("quartic", include_str!("quartic.rs")),
     ("refine", include_str!("refine.rs")),

@@ -5,6 +5,7 @@ mod compose;
 mod damaged;
 mod derivatives;
 mod follow;
+mod placed;
 mod refused;
 mod task;
 
