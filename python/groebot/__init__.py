@@ -7,7 +7,7 @@ that of the tip in the frame of the chain's base.
 
 from ._batch import Batch, PaddedBatch, Status
 from ._errors import BadValueError, GroebotError, NoWayError
-from ._groebot import Robot, Solution, Solver, __version__, derive, navigate
+from ._groebot import PlacedSolver, Robot, Solution, Solver, __version__, derive, navigate
 from ._reach import ReachMap, reach_map
 from ._records import Check, Explanation, Jump, Path, Walk
 from ._view import View, view
@@ -22,6 +22,7 @@ __all__ = [
     "NoWayError",
     "PaddedBatch",
     "Path",
+    "PlacedSolver",
     "ReachMap",
     "Robot",
     "Solution",

@@ -13,6 +13,7 @@ mod many;
 mod navigate;
 mod origin;
 mod path;
+mod placed;
 mod reach;
 mod robot;
 mod sink;
@@ -29,6 +30,7 @@ fn _groebot(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<robot::Robot>()?;
     module.add_class::<solver::Solver>()?;
+    module.add_class::<placed::PlacedSolver>()?;
     module.add_class::<solution::Solution>()?;
     module.add_function(wrap_pyfunction!(derive::derive, module)?)?;
     module.add_function(wrap_pyfunction!(navigate::navigate, module)?)?;

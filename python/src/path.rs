@@ -72,6 +72,7 @@ fn poses(stored: &Stored, poses: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
     }
     let borrowed = numbers.array.try_readonly()?;
     let (targets, one) = stored.asked.targets(numbers.shape(), borrowed.as_slice()?, None, numbers.single)?;
+    let targets = targets.placed(stored.placement.as_ref());
     if one {
         return Err(bad_value("`poses` holds one pose; give it an axis more: poses[None]"));
     }

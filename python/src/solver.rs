@@ -14,6 +14,7 @@ use crate::choose::moved;
 use crate::errors::{bad_value, raised, unsupported};
 use crate::kernel::Answer;
 use crate::many::{self, Wanted};
+use crate::placed::PlacedSolver;
 use crate::solution::Solution;
 use crate::stored::Stored;
 use crate::{known, origin, path, work};
@@ -125,7 +126,7 @@ impl Solver {
     /// other tasks the numbers of `inputs`. `given` are the values of given joints. With `limits`, of shape (joints, 2) or `True` for the described ones, only
     /// the solutions that have a turn within.
     #[pyo3(signature = (target, *, given=None, limits=None))]
-    fn solve<'py>(
+    pub fn solve<'py>(
         &self,
         py: Python<'py>,
         target: &Bound<'py, PyAny>,
@@ -139,7 +140,7 @@ impl Solver {
     /// The solution of one target that can come nearest to the joint values `q0` by whole turns, within `limits` where given: `None` where there is none. Its
     /// angles are not wrapped.
     #[pyo3(signature = (target, q0, *, given=None, limits=None))]
-    fn nearest(
+    pub fn nearest(
         &self,
         target: &Bound<'_, PyAny>,
         q0: &Bound<'_, PyAny>,
@@ -175,7 +176,7 @@ impl Solver {
     /// takes the joint values. Rows that are no targets are told by `status`, or with `strict` by an exception. `threads` are all processors by default.
     #[pyo3(signature = (targets, *, given=None, layout="ragged", limits=None, near=None, out=None, dtype=None, threads=None, strict=false))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
-    fn solve_batch<'py>(
+    pub fn solve_batch<'py>(
         &self,
         py: Python<'py>,
         targets: &Bound<'py, PyAny>,
@@ -197,7 +198,7 @@ impl Solver {
 
     /// What joint values of shape (joints,) or (N, joints) reach: matrices (4, 4) or (N, 4, 4) for poses, else the numbers of `inputs` without those of given
     /// joints.
-    fn forward<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    pub fn forward<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         many::forward(py, &self.0, q)
     }
 
@@ -215,7 +216,7 @@ impl Solver {
     /// `q0` is where the arm stands before. `dt` \[s\] and `speeds` (joints,) \[rad/s, m/s\] say what is a jump; without them half a radian, or a tenth of the
     /// reach. Limits are those of the description.
     #[pyo3(signature = (poses, q0=None, *, dt=None, speeds=None))]
-    fn solve_path<'py>(
+    pub fn solve_path<'py>(
         &self,
         py: Python<'py>,
         poses: &Bound<'py, PyAny>,
@@ -224,6 +225,13 @@ impl Solver {
         speeds: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         path::solve_path(py, &self.0, poses, q0, dt, speeds)
+    }
+
+    /// The solver of targets of a tool in a world frame, world_from_tool: see `groebot.PlacedSolver`. `base` is world_from_base and `tool` is tip_from_tool, each a
+    /// matrix (4, 4); without one it is the identity. Tasks other than poses allow only what they determine.
+    #[pyo3(signature = (*, base=None, tool=None))]
+    fn placed(&self, base: Option<&Bound<'_, PyAny>>, tool: Option<&Bound<'_, PyAny>>) -> PyResult<PlacedSolver> {
+        PlacedSolver::new(&self.0, base, tool)
     }
 
     /// Proves the derivation again from its certificate, without the Groebner engine, and solves targets of all kinds against forward kinematics, exact
@@ -308,6 +316,7 @@ impl Solver {
         if !one {
             return Err(bad_value("`target` holds many targets; use solve_batch"));
         }
+        let targets = targets.placed(self.0.placement.as_ref());
         let mut out = vec![0.0; targets.inputs];
         match targets.row(0, &mut out) {
             crate::sink::Status::Solved => Ok(out),

@@ -7,7 +7,7 @@ use groebot::derive::{Derivation, Source};
 use groebot::document::read_text;
 use groebot::folder::{self, PROGRAM};
 use groebot::kinematics::Chain;
-use groebot::solver::{Condition, Program};
+use groebot::solver::{Condition, Placement, Program, TaskPlacement};
 use groebot::{Error, ErrorKind, Result, Watch};
 use serde_json::{Value, json};
 
@@ -34,6 +34,8 @@ pub struct Stored {
     certificate: Option<String>,
     proved: OnceLock<Arc<Derivation>>,
     pub asked: Asked,
+    /// Where base and tool are.
+    pub placement: Option<TaskPlacement>,
 }
 
 impl Stored {
@@ -46,7 +48,39 @@ impl Stored {
         };
         let asked = asked(&program);
         let is_printed = printed.is_some();
-        Stored { program, kernel, is_printed, chain, origin, certificate, proved: OnceLock::new(), asked }
+        Stored {
+            program,
+            kernel,
+            is_printed,
+            chain,
+            origin,
+            certificate,
+            proved: OnceLock::new(),
+            asked,
+            placement: None,
+        }
+    }
+
+    /// The same solver for targets of a tool in a world frame.
+    ///
+    /// # Errors
+    /// As [`TaskPlacement::new`].
+    pub fn placed(&self, placement: &Placement) -> Result<Self> {
+        let placement = Some(TaskPlacement::new(&self.program, placement)?);
+        let (program, kernel) = (self.program.clone(), Arc::clone(&self.kernel));
+        let (chain, origin) = (self.chain.clone(), self.origin.clone());
+        let (is_printed, asked) = (self.is_printed, self.asked);
+        Ok(Stored {
+            program,
+            kernel,
+            is_printed,
+            chain,
+            origin,
+            certificate: None,
+            proved: OnceLock::new(),
+            asked,
+            placement,
+        })
     }
 
     /// A solver of the wheel.
