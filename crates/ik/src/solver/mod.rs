@@ -3,6 +3,7 @@
 //! A program is plain data: it prints and serialises, and every language of [`crate::codegen`] is printed from it.
 
 mod about;
+mod closest;
 mod compose;
 mod condition;
 mod demand;
@@ -24,6 +25,7 @@ mod tolerant;
 mod validate;
 
 pub use about::About;
+pub use closest::{Closest, ClosestOptions};
 pub(crate) use demand::{Demand, ParameterDemand};
 pub(crate) use facts::Facts;
 pub use forward::{Forward, Reached};

@@ -215,6 +215,10 @@ impl<'a> PlacedSolver<'a> {
         &self.task.placement
     }
 
+    pub(super) fn task_placement(&self) -> &TaskPlacement {
+        &self.task
+    }
+
     /// The numbers of the target in the base frame, for the numbers of a target world_from_tool ([`TaskPlacement::to_base`]).
     pub fn base_from_tip(&self, world_from_tool: &[f64]) -> Vec<f64> {
         let mut target = world_from_tool.to_vec();

@@ -1,6 +1,7 @@
 //! What a program's blocks, pivots, samples and conditions mean, on programs whose answers are known by hand.
 
 mod batch;
+mod closest;
 mod compose;
 mod damaged;
 mod derivatives;

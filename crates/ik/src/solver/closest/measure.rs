@@ -110,7 +110,7 @@ impl<'a> Measure<'a> {
     fn moved(&self, sights: &[f64], moved: &[f64]) -> Vec<f64> {
         let mut features = self.linear(moved);
         if self.task == Task::PositionPitchRoll {
-            let [cp, sp, cr, sr] = [3, 4, 5, 6].map(|i| sights[i]);
+            let [cp, _, cr, sr] = [3, 4, 5, 6].map(|i| sights[i]);
             let [dcp, dsp, dcr, dsr] = [3, 4, 5, 6].map(|i| moved[i]);
             features.extend([-dsp, dcp * sr + cp * dsr, dcp * cr + cp * dcr].map(|part| self.weight * part));
         }
@@ -138,9 +138,8 @@ impl<'a> Measure<'a> {
     /// The distance from the target in the unit of the inputs, and the angle \[rad\].
     pub fn missed(&self, q: &[f64]) -> Option<[f64; 2]> {
         let features = self.features(&self.sights(q, false)?.values);
-        let norm = |part: &[f64], goal: &[f64]| {
-            part.iter().zip(goal).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-        };
+        let norm =
+            |part: &[f64], goal: &[f64]| part.iter().zip(goal).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
         let (lengths, chords) = features.split_at(self.lengths);
         let (at, along) = self.goal.split_at(self.lengths);
         let half = norm(chords, along) / self.weight / 2.0;

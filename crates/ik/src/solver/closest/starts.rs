@@ -45,7 +45,8 @@ fn starts(descent: &Descent<'_>) -> Vec<Vec<f64>> {
 fn sequence(ranges: &[[f64; 2]]) -> impl Iterator<Item = Vec<f64>> + '_ {
     let root = (0..64).fold(1.5_f64, |x, _| (1.0 + x).powf(1.0 / (ranges.len() as f64 + 1.0)));
     let share = move |point: usize, unknown: usize| (root.powi(-(unknown as i32 + 1)) * (point as f64 + 0.5)).fract();
-    let value = move |point: usize, (unknown, [low, high]): (usize, &[f64; 2])| low + (high - low) * share(point, unknown);
+    let value =
+        move |point: usize, (unknown, [low, high]): (usize, &[f64; 2])| low + (high - low) * share(point, unknown);
     (0..POINTS).map(move |point| ranges.iter().enumerate().map(|range| value(point, range)).collect())
 }
 

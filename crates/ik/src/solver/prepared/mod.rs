@@ -12,14 +12,16 @@ mod outline;
 mod parameters;
 mod run;
 mod shaped;
+mod sights;
 mod spare;
 mod storage;
 
 use serde::Serialize;
 
 pub use self::batch::{Batch, Solved};
-pub(super) use self::outline::Outline;
+pub(super) use self::outline::{JointOutline, Outline};
 use self::shaped::Shaped;
+pub(super) use self::sights::Sights;
 use self::storage::{Dynamic, SixJoints};
 use super::program::Program;
 use super::{Facts, Layout, Pairs};
@@ -159,6 +161,11 @@ impl Solver {
     /// expression of the joints, or for a wrong number of joint values.
     pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
         shaped!(self, shaped => shaped.reached(q))
+    }
+
+    /// The numbers of the target that joint values reach, with derivatives on request.
+    pub(super) fn sights(&self, q: &[f64], with_derivatives: bool) -> Option<Sights> {
+        shaped!(self, shaped => shaped.sights(q, with_derivatives))
     }
 
     /// The values of the program's parameters for a target, `p0` and so on in its code, and after them the magnitude,

@@ -1,9 +1,9 @@
-//! What a program says of its task. Main type: [`Outline`].
+//! What a program says of its task and its joints. Main type: [`Outline`].
 
-use crate::solver::Program;
+use crate::solver::{Joint, Program, Unit};
 use groebot_robot::kinematics::{BaseAxis, Plane, Task};
 
-/// The task of a program.
+/// The task and the joints of a program.
 #[derive(Clone, Debug)]
 pub(crate) struct Outline {
     /// The task; `None` for equations with other inputs, and for several tips.
@@ -14,13 +14,64 @@ pub(crate) struct Outline {
     pub inputs: usize,
     /// The typical length, in the unit of the inputs: the reach of a chain.
     pub scale: f64,
+    pub joints: Vec<JointOutline>,
+}
+
+/// A joint of a program.
+#[derive(Clone, Debug)]
+pub(crate) struct JointOutline {
+    pub is_angle: bool,
+    /// The least and the greatest value, infinite for none.
+    pub limits: [f64; 2],
+    /// The input that is its value.
+    pub given: Option<usize>,
+    /// The index of its leader, the multiplier and the offset.
+    pub follows: Option<(usize, [f64; 2])>,
 }
 
 impl Outline {
     pub fn new(program: &Program) -> Self {
-        let own = program.given().start;
+        let (given, limits, follows) = (program.given(), program.limits(), program.follows());
+        let own = given.start;
+        let index = |name: &str| program.joints.iter().position(|joint| joint.name == name);
+        let joint = |(place, joint): (usize, &Joint)| JointOutline {
+            is_angle: joint.unit == Unit::Radian,
+            limits: limits[place],
+            given: given.clone().find(|&input| program.inputs[input].name == joint.name),
+            follows: follows[place].and_then(|mimic| Some((index(&mimic.leader)?, mimic.law()))),
+        };
         let names: Vec<&str> = program.inputs[..own].iter().map(|input| input.name.as_str()).collect();
-        Outline { task: task_of(&names), own, inputs: program.inputs.len(), scale: program.scale }
+        let joints = program.joints.iter().enumerate().map(joint).collect();
+        Outline { task: task_of(&names), own, inputs: program.inputs.len(), scale: program.scale, joints }
+    }
+
+    /// The joints that are neither given nor follow others.
+    pub fn independent(&self) -> Vec<usize> {
+        let is_free = |joint: &usize| self.joints[*joint].given.is_none() && self.joints[*joint].follows.is_none();
+        (0..self.joints.len()).filter(is_free).collect()
+    }
+
+    /// Whether another joint follows this one.
+    pub fn leads(&self, joint: usize) -> bool {
+        self.joints.iter().any(|other| other.follows.is_some_and(|(leader, _)| leader == joint))
+    }
+
+    /// Sets the joints that follow others.
+    pub fn follow(&self, q: &mut [f64]) {
+        for (joint, outline) in self.joints.iter().enumerate() {
+            if let Some((leader, [factor, offset])) = outline.follows.filter(|_| outline.given.is_none()) {
+                q[joint] = factor * q[leader] + offset;
+            }
+        }
+    }
+
+    /// The sum of `rates` of the joints that follow `leader`, each times its multiplier.
+    pub fn followed(&self, leader: usize, rates: &[f64]) -> f64 {
+        let rate = |(joint, outline): (usize, &JointOutline)| match outline.follows {
+            Some((own, [factor, _])) if own == leader && outline.given.is_none() => factor * rates[joint],
+            _ => 0.0,
+        };
+        self.joints.iter().enumerate().map(rate).sum()
     }
 }
 
