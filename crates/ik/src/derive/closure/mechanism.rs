@@ -64,8 +64,8 @@ impl ScrewJoint {
 /// pose to the target (RH0 2-20).
 ///
 /// A ray does not specify the rotation of the tip about it. An arbitrary rotation makes the ray a pose. An additional joint after the last one,
-/// [`Mechanism::hidden`], rotates the tip about the ray, so that this angle is an unknown like the others. With several joint axes through a point, that point
-/// is at an intersection of a sphere and a circle.
+/// [`Mechanism::hidden`], rotates the tip about the ray, so that this angle is an unknown like the others. If it is
+/// the only unknown after a point of the chain, that point moves on a circle, and the joints before it constrain it to a sphere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mechanism {
     joints: Vec<ScrewJoint>,
