@@ -146,16 +146,18 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Error::NotFinite => f.write_str("a target number is infinite or NaN; all must be finite"),
-            Error::NotRotation => {
-                f.write_str("the rotation of the target is not orthogonal within 1e-9; give a right-handed rotation matrix")
-            }
+            Error::NotRotation => f.write_str(
+                "the rotation of the target is not orthogonal within 1e-9; give a right-handed rotation matrix",
+            ),
             Error::NotUnit => {
                 f.write_str("the direction of the target does not have length one within 1e-9; give a unit vector")
             }
             Error::Unsettled => {
                 f.write_str("the steps of the target were used up before a solution was found; allow more steps")
             }
-            Error::OpenStratum(number) => write!(f, "the target is on stratum {number}, for which no derivation exists"),
+            Error::OpenStratum(number) => {
+                write!(f, "the target is on stratum {number}, for which no derivation exists")
+            }
         }
     }
 }
