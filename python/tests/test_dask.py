@@ -1,4 +1,4 @@
-"""Two workers that are processes: killed, or the driver with them, and the same to the last byte."""
+"""Two worker processes. They or the driver are killed, and the files are bitwise identical."""
 
 import os
 import signal
@@ -49,7 +49,7 @@ def source(tmp_path_factory, ur5, q):
 
 @pytest.fixture(scope="module")
 def undisturbed(tmp_path_factory, ur5, source):
-    """What one process writes, without Dask."""
+    """The files of one process without Dask."""
     out = tmp_path_factory.mktemp("undisturbed")
     blocks.run(Solve.of(ur5, source), out, BLOCK)
     return contents(out)
@@ -117,7 +117,7 @@ def test_the_driver_is_killed_and_runs_again(tmp_path, source, undisturbed):
     assert driver.wait() == -signal.SIGKILL
     before = count(out)
     assert 4 <= before < BLOCKS
-    # Its workers may finish a block before they see that nobody waits for them.
+    # The workers may finish a block before they detect that the driver has ended.
     again = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True, timeout=600)
     written, found = map(int, again.stdout.split())
     assert found >= before and written + found == BLOCKS and written > 0

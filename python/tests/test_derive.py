@@ -1,4 +1,4 @@
-"""From a description to a solver: derived, interrupted, asked for other tasks."""
+"""From a description to a solver: derivation, interruption, other tasks."""
 
 import os
 import pickle
@@ -98,7 +98,7 @@ def test_a_budget_of_time():
 
 @pytest.fixture
 def heard():
-    """Interrupts are heard also where these tests run in the background of a script, whose shell has them ignored."""
+    """Enables interrupts. A script that runs these tests in the background has a shell that ignores them."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -110,7 +110,7 @@ def test_an_interrupt_from_the_keyboard(heard):
     with pytest.raises(KeyboardInterrupt):
         for _ in range(1000):
             groebot.derive(DERIVATIONS / "nao_legs_poses")
-    # A batch that runs alone sees it as well.
+    # A single batch also detects the interrupt.
     ur5 = Solver.named("ur5")
     targets = ur5.forward(np.random.default_rng(0).uniform(-3, 3, (1_000_000, 6)))
     timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))

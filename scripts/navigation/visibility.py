@@ -1,9 +1,10 @@
-"""Shortest ways of crates/humanoid/tests/nav/shortest_ways.csv, by a graph of all corners that see one another in shapely.
+"""Shortest paths of crates/humanoid/tests/nav/shortest_ways.csv, by a visibility graph of all corners in shapely.
 
     python3 -m venv /tmp/navigation && /tmp/navigation/bin/pip install -r scripts/navigation/requirements.txt
     /tmp/navigation/bin/python scripts/navigation/visibility.py
 
-A way is in the closure of the free cells and does not slip between two obstacles that meet at a corner. It fails where a length differs by more than 1e-7 cells.
+A path is in the closure of the free cells. It does not pass between two obstacles with a common corner. The script fails if a length differs by more than 1e-7
+cells.
 """
 
 import csv
@@ -14,7 +15,7 @@ import shapely
 from shapely import LineString, Point, box
 
 TABLE = Path(__file__).resolve().parents[2] / "crates/humanoid/tests/nav/shortest_ways.csv"
-# Obstacles are made smaller by this many cells, so that what touches them does not meet them.
+# Obstacles are shrunk by this number of cells, so that a path that touches them does not intersect them.
 LESS = 1e-9
 
 
@@ -43,7 +44,7 @@ class Floor:
             if line.distance(Point(pinch)) > 1e-7:
                 continue
             ends = [(a, b)] * (a == pinch) + [(b, a)] * (b == pinch)
-            # An end there belongs to the upper right cell.
+            # An end point there belongs to the upper right cell.
             if not ends or any(there[0] <= here[0] and there[1] <= here[1] for here, there in ends):
                 return True
         return False

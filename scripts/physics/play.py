@@ -1,11 +1,11 @@
-"""Plays a walk open loop on a rigid-body model of its robot in MuJoCo: one run of `groebot simulate`, which holds this script.
+"""Plays a walk in open loop on a rigid-body model of its robot in MuJoCo: one run of `groebot simulate`, which contains this script.
 
     python play.py robot.xml walk.csv answer.csv [--feet LEFT,RIGHT] [--servo STIFFNESS,DAMPING,ARMATURE] [--friction F] [--slope ROLL,PITCH]
                    [--mass FACTOR] [--gain FACTOR] [--latency SECONDS] [--frames FOLDER]
 
-robot.xml is what `groebot export ROBOT --format mjcf` writes, walk.csv a trajectory with a base and the contacts `left` and `right`. answer.csv is a
-trajectory, too, of the same times until the robot falls: joints, base, soles and whether they press on the floor, the zero moment point by the contact
-forces of the last 20 ms, torques. What the motors are and when the robot fell goes to standard output as JSON.
+robot.xml is the output of `groebot export ROBOT --to mjcf`. walk.csv is a trajectory with a base and the contacts `left` and `right`. answer.csv is a
+trajectory with the same times until the robot falls: joints, base, soles and their floor contact, the zero moment point from the contact forces of the last 20
+ms, torques. The motor parameters and the time of the fall are written to standard output as JSON.
 """
 
 import argparse
@@ -23,25 +23,26 @@ except ImportError as error:
 
 STEP = 0.002
 GRAVITY = 9.80665
-# Servos by the size of the robot, m its mass and l 0.63 of the height of its torso: kp in m g l, damping in m g^0.5 l^1.5, armature in m l^2.
-# Of NAO (m g l = 10.3 Nm) this makes 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
+# Servo parameters, scaled by the robot's size. m is its mass, and l is 0.63 of the height of its torso: kp in m g l, damping in m g^0.5 l^1.5, armature in m
+# l^2. For NAO (m g l = 10.3 Nm) they are 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
 SERVO = "30,1.5,0.21"
 LENGTH = 0.63
-# A body that is described as a point has moments of this share of its mass and l^2: those of TEO's trunk.
+# The moments of inertia of a body that is described as a point, as a fraction of its mass times l^2. The value is that
+# of TEO's trunk.
 POINT = 0.2
-# How long the robot must stand behind the last row.
+# Time for which the robot must stand after the last row [s].
 AFTER = 1.0
-# For how long contact forces are added up.
+# Time window of the contact forces [s].
 WINDOW = 0.02
 MOST_TILT = math.radians(45)
 LEAST_HEIGHT = 0.6
-# A foot presses with this share of the weight.
+# Fraction of the weight above which a foot is in contact.
 PRESSED = 0.01
 POSE = ("x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]")
 
 
 def load(path):
-    """The columns of a trajectory by their names: `q:KNEE [rad]` is `q:KNEE`, `base_x [m]` is `base_x`; and its remarks."""
+    """The columns of a trajectory by their names: `q:KNEE [rad]` is `q:KNEE`, `base_x [m]` is `base_x`. Also returns its remarks."""
     with open(path, newline="") as file:
         lines = list(file)
     remarks = [line for line in lines if line.startswith("#")]
@@ -57,21 +58,21 @@ class Robot:
         self.model, self.walk, self.latency = model, walk, given.latency
         self.torso, self.height = 1, walk["base_z"][0]
         roll, pitch = (math.radians(angle) for angle in given.slope)
-        # Turning gravity instead of the floor keeps the floor at z = 0.
+        # Rotation of gravity instead of the floor keeps the floor at z = 0.
         across, down = math.cos(pitch) * math.sin(roll), math.cos(pitch) * math.cos(roll)
         model.opt.gravity[:] = [GRAVITY * math.sin(pitch), -GRAVITY * across, -GRAVITY * down]
         model.geom_friction[:, 0] = given.friction
         self.mount(given.servo, given.gain)
         model.body_mass[:] *= given.mass
         model.body_inertia[:] *= given.mass
-        # What MuJoCo makes of masses and armatures for its contacts.
+        # Recomputes the constants of MuJoCo's contacts that depend on masses and armatures.
         mujoco.mj_setConst(model, mujoco.MjData(model))
         self.data = mujoco.MjData(model)
         self.names = [model.actuator(i).name for i in range(model.nu)]
         zeros = numpy.zeros(len(walk["time"]))
         self.angles = numpy.column_stack([walk.get(f"q:{name}", zeros) for name in self.names])
         rates = numpy.gradient(self.angles, walk["time"], axis=0)
-        # A servo damps what its joint turns faster than it should.
+        # A servo damps the excess of its joint's velocity.
         self.commands = self.angles + self.damping / self.stiffness * rates
         self.data.qpos[:7] = [walk[f"base_{key}"][0] for key in ("x", "y", "z", "qw", "qx", "qy", "qz")]
         for joint in range(1, model.njnt):
@@ -90,7 +91,7 @@ class Robot:
         self.weight = model.body_subtreemass[0] * GRAVITY
 
     def mount(self, servo, gain):
-        """Gives each joint its motor."""
+        """Adds the motor of each joint."""
         model = self.model
         mass, length = model.body_subtreemass[self.torso], LENGTH * self.height
         self.stiffness = servo[0] * mass * GRAVITY * length * gain
@@ -108,7 +109,7 @@ class Robot:
             model.dof_armature[dof] = max(model.dof_armature[dof], self.armature)
 
     def command(self, time):
-        """Servos go on a straight line from row to row."""
+        """Sets the commands of the servos by linear interpolation between rows."""
         times, time = self.walk["time"], time - self.latency
         row = min(max(int(numpy.searchsorted(times, time, "right")) - 1, 0), len(times) - 1)
         after = min(row + 1, len(times) - 1)
@@ -151,7 +152,7 @@ class Robot:
 
 
 class Table:
-    """What the robot did, a row a sample of the walk."""
+    """The motion of the robot, one row for each sample of the walk."""
 
     def __init__(self, robot):
         self.robot, self.rows = robot, []
@@ -193,7 +194,7 @@ def xyzw(quaternion):
 
 
 def play(robot, film=None):
-    """Plays the walk; the table, and when the robot fell."""
+    """Plays the walk. Returns the table, and the time of the fall."""
     table, times = Table(robot), robot.walk["time"]
     pressures = [robot.pressure()]
     table.add(times[0], pressures[0])

@@ -1,4 +1,4 @@
-//! The numbered files of a derivation, as text: one for each stage, and the certificate.
+//! The numbered text files of a derivation: one for each stage, and the certificate.
 
 use std::fmt::Write;
 
@@ -19,16 +19,16 @@ use groebot_robot::document::word;
 pub const STAGES: [&str; 6] =
     ["1_equations.txt", "2_plan.txt", "3_basis.txt", "4_triangular.txt", "5_program.json", "certificate.json"];
 
-/// The page about the mechanism, for people.
+/// The README of the mechanism's folder.
 pub const PAGE: &str = "README.md";
-/// What tells our page from one that a person wrote.
+/// The mark that distinguishes a generated README from a hand-written one.
 pub const MARK: &str = "Written by `groebot derive`";
 
 impl EquationsView<'_> {
-    /// The stage files with their names: the same bytes at every run.
+    /// The stage files with their names. Every run gives the same bytes.
     ///
     /// # Errors
-    /// When a setting's field cannot be built: never for a derivation that was made by this crate.
+    /// If a setting's field cannot be built. This does not occur for a derivation that this crate made.
     pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
         let texts = [
             self.problem.to_string(),

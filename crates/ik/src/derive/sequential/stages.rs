@@ -1,4 +1,4 @@
-//! The numbered files of a chain's derivation, as text, written for a student.
+//! The numbered text files of a chain's derivation, written for students.
 
 use std::fmt::Write;
 
@@ -17,14 +17,14 @@ use groebot_algebra::escape::markdown;
 use groebot_algebra::number::{Ring, Style};
 use groebot_robot::document::word;
 
-/// The most terms of an equation that are written out.
+/// The maximum number of printed terms of an equation.
 const MOST_TERMS: usize = 120;
 
 impl SequentialView<'_> {
-    /// The stage files with their names: the same bytes at every run.
+    /// The stage files with their names. Every run gives the same bytes.
     ///
     /// # Errors
-    /// When a field cannot be built: never for a derivation that was made by this crate.
+    /// If a field cannot be built. This does not occur for a derivation that this crate made.
     pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
         let mechanism = Mechanism::new(&self.problem.chain)?;
         let [equations, plan, basis, triangular] = self.stage_texts(&mechanism)?;
@@ -206,7 +206,7 @@ fn heading(index: usize, mechanism: &Mechanism, step: &ProvedStep) -> String {
     format!("step {}, joint {} `{}`", index + 1, step.joint + 1, mechanism.joints()[step.joint].name)
 }
 
-/// How a form determines its joint, and where its branches come from.
+/// Text on how a form determines its joint, and on the origin of its branches.
 fn why(form: Form) -> &'static str {
     match form {
         Form::Angle => "one linear equation in cosine and sine, a chord of the circle with two ends",
@@ -221,7 +221,7 @@ fn why(form: Form) -> &'static str {
     }
 }
 
-/// What happens where the generic formulas break down.
+/// Text on the behaviour where the generic formulas are singular.
 fn singular(form: Form) -> &'static str {
     match form {
         Form::Angle => {
@@ -249,7 +249,7 @@ fn polynomials(node: &Node) -> Vec<String> {
     stairs.map(|f| presented(&solved.triangular.ring, f)).collect()
 }
 
-/// What the unknowns and E, G are.
+/// Definitions of the unknowns and of E and G, as text.
 fn notation(mechanism: &Mechanism) -> String {
     let mut text = String::from(
         "Ei is the motion of joint i, G the motion of the tip from its place at zero to the target; E1 ... En = G.\n\
@@ -265,7 +265,7 @@ fn notation(mechanism: &Mechanism) -> String {
     text
 }
 
-/// `c1, s1`; `s1'` is the sine divided by the length of the axis vector where that is not one.
+/// The unknowns of a joint as text, such as `c1, s1`. `s1'` is the sine divided by the length of the axis vector, if that is not one.
 pub(in crate::derive) fn joint_unknowns(mechanism: &Mechanism, joint: usize) -> String {
     let factors: &[Factor] = if mechanism.joints()[joint].is_revolute() {
         &[Factor::Cosine(joint), Factor::Sine(joint)]
@@ -281,7 +281,7 @@ pub(in crate::derive) fn joint_unknowns(mechanism: &Mechanism, joint: usize) -> 
     text
 }
 
-/// The name of an unknown: `c1`, `s1'`, `d3'^2`.
+/// The name of an unknown, such as `c1`, `s1'` or `d3'^2`.
 pub(in crate::derive) fn name(mechanism: &Mechanism, factor: Factor) -> String {
     let joint = &mechanism.joints()[factor.joint()];
     let prime = if joint.square.is_one() { "" } else { "'" };
@@ -293,7 +293,7 @@ pub(in crate::derive) fn name(mechanism: &Mechanism, factor: Factor) -> String {
     }
 }
 
-/// `c1*(px - 1) + s1*py + 0.5 = 0`.
+/// An equation as text, such as `c1*(px - 1) + s1*py + 0.5 = 0`.
 fn written(mechanism: &Mechanism, symbolic: &Symbolic, polynomial: &Multilinear<TargetPoly>) -> String {
     let count: usize = polynomial.terms().map(|(_, value)| value.terms().len()).sum();
     if count > MOST_TERMS {
@@ -315,7 +315,7 @@ fn written(mechanism: &Mechanism, symbolic: &Symbolic, polynomial: &Multilinear<
     format!("{sum} = 0")
 }
 
-/// What the symbols of a step's form are.
+/// The definitions of the symbols of a step's form, as text.
 fn symbols(index: usize, mechanism: &Mechanism, step: &ProvedStep) -> Vec<String> {
     let screw = &mechanism.joints()[step.joint];
     let root = if screw.square.is_one() { String::new() } else { format!(" / sqrt({})", screw.square) };
@@ -356,7 +356,7 @@ fn symbols(index: usize, mechanism: &Mechanism, step: &ProvedStep) -> Vec<String
     }
 }
 
-/// What an elimination leaves, in its own names.
+/// The result of an elimination with its own names, as text.
 fn left(index: usize, mechanism: &Mechanism, step: &ProvedStep, elimination: &Elimination) -> Vec<String> {
     let product = |factors: &[Factor]| match factors {
         [] => "1".to_owned(),

@@ -1,4 +1,4 @@
-//! The report of chains that share actuators: how they are put together, then the report of each.
+//! The report of coupled chains: their composition, then the report of each chain.
 
 use super::chain;
 use super::document::{Document, Line};
@@ -32,7 +32,7 @@ pub fn document(derived: CoupledView<'_>) -> Result<Document> {
     Ok(page)
 }
 
-/// How shared joints are found from both chains at once.
+/// Adds how shared joints are found from both chains together.
 fn shared(page: &mut Document, derived: CoupledView<'_>) -> Result<()> {
     let Some(simultaneous) = &derived.method.simultaneous else { return Ok(()) };
     page.section(Line::default().name(&derived.simultaneous_names().join(", ")).and(": from both chains at once"));
@@ -55,7 +55,7 @@ fn shared(page: &mut Document, derived: CoupledView<'_>) -> Result<()> {
     Ok(())
 }
 
-/// Which actuator moves which joints.
+/// Adds a table of the actuators and the joints that each moves.
 fn actuators(page: &mut Document, derived: CoupledView<'_>) {
     page.section(Line::of("The chains and their actuators"));
     let mut rows = vec![["actuator", "chain", "joint"].map(Line::of).to_vec()];

@@ -1,10 +1,10 @@
-//! A [`Document`] as Markdown that is read as easily on a terminal: formulas are plain text.
+//! A [`Document`] as Markdown that is also readable in a terminal: formulas are plain text.
 
 use groebot_algebra::escape::markdown;
 
 use super::document::{Document, Line, Part, Span, broken};
 
-/// The longest line of a formula that stands alone, in characters.
+/// The maximum length of a line of a displayed formula, in characters.
 const WIDTH: usize = 100;
 
 impl Document {
@@ -29,7 +29,7 @@ fn part(part: &Part) -> String {
     }
 }
 
-/// Indented, the number before it.
+/// An indented formula after its number.
 fn equation(number: &str, formula: &str) -> String {
     let label = if number.is_empty() { String::new() } else { format!("({number})  ") };
     let lines = broken(formula, WIDTH, |text| text.chars().count());
@@ -60,7 +60,7 @@ fn code(text: &str) -> String {
     if text.contains('`') { format!("`` {text} ``") } else { format!("`{text}`") }
 }
 
-/// Spaces at the ends belong to the line.
+/// Escapes the text, but keeps spaces at both ends.
 fn escaped(text: &str) -> String {
     let trimmed = text.trim();
     text.replacen(trimmed, &markdown(trimmed), 1)

@@ -1,7 +1,7 @@
-//! The report that explains a derivation to a student: which equations determine which joints and what cancels in them, the
-//! polynomials, why each basis is right, where each branch comes from, and what happens at singularities.
+//! A report that explains a derivation to a student.
 //!
-//! [`explain`] makes a [`Document`], which is printed as Markdown or as LaTeX.
+//! It shows the equations that determine each joint, what cancels in them, the polynomials, why each basis is correct, the origin of each branch, and the
+//! behaviour at singularities. [`explain`] makes a [`Document`], which is printed as Markdown or LaTeX.
 
 mod algebra;
 mod chain;
@@ -23,7 +23,7 @@ use crate::derive::{AnyView, Derivation};
 /// The report of a derivation.
 ///
 /// # Errors
-/// When a field cannot be built: never for a derivation that was made by this crate.
+/// If a field cannot be built. This does not occur for a derivation that this crate made.
 pub fn explain(derivation: &Derivation) -> Result<Document> {
     match derivation.view() {
         AnyView::Equations(equations) => system::document(equations),

@@ -1,4 +1,4 @@
-//! The report of equations that are solved together.
+//! The report of equations that are solved as one system.
 
 use super::document::{Document, Line};
 use super::strata;
@@ -13,7 +13,7 @@ use groebot_algebra::poly::Order;
 /// The report of `derivation`.
 ///
 /// # Errors
-/// When a field cannot be built: never for a derivation that was made by this crate.
+/// If a field cannot be built. This does not occur for a derivation that this crate made.
 pub fn document(derivation: EquationsView<'_>) -> Result<Document> {
     let system = derivation.problem;
     let mut page = Document::new(&format!("{}: its inverse kinematics, explained", system.name));
