@@ -9,13 +9,14 @@ from ._batch import Batch, PaddedBatch, Status
 from ._errors import BadValueError, GroebotError, NoWayError
 from ._groebot import PlacedSolver, Robot, Solution, Solver, __version__, derive, navigate
 from ._reach import ReachMap, reach_map
-from ._records import Check, Explanation, Jump, Path, Walk
+from ._records import Check, Closest, Explanation, Jump, Path, Walk
 from ._view import View, view
 
 __all__ = [
     "BadValueError",
     "Batch",
     "Check",
+    "Closest",
     "Explanation",
     "GroebotError",
     "Jump",

@@ -6,10 +6,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ._batch import Batch, PaddedBatch
-from ._records import Check, Explanation, Path, Walk
+from ._records import Check, Closest, Explanation, Path, Walk
 from ._view import View
 
-__all__ = ["Robot", "Solution", "Solver", "__version__", "_reach", "_reach_as", "_run", "derive", "navigate"]
+__all__ = ["PlacedSolver", "Robot", "Solution", "Solver", "__version__", "_reach", "_reach_as", "_run", "derive", "navigate"]
 __version__: str
 
 class _Matrix(Protocol):
@@ -112,6 +112,14 @@ class Solver:
         threads: int | None = None,
         strict: bool = False,
     ) -> PaddedBatch: ...
+    def closest(
+        self,
+        target: _Target,
+        *,
+        length: float | None = None,
+        given: npt.ArrayLike | None = None,
+        limits: _Limits | None = None,
+    ) -> Closest: ...
     def forward(self, q: npt.ArrayLike) -> _Floats: ...
     def jacobian(self, q: npt.ArrayLike, frame: Literal["base", "tip", "spatial"] = "base") -> _Floats: ...
     def solve_path(
@@ -174,6 +182,14 @@ class PlacedSolver:
         threads: int | None = None,
         strict: bool = False,
     ) -> PaddedBatch: ...
+    def closest(
+        self,
+        target: _Target,
+        *,
+        length: float | None = None,
+        given: npt.ArrayLike | None = None,
+        limits: _Limits | None = None,
+    ) -> Closest: ...
     def forward(self, q: npt.ArrayLike) -> _Floats: ...
     def solve_path(
         self,

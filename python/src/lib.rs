@@ -3,6 +3,7 @@
 mod arrays;
 mod batch;
 mod choose;
+mod closest;
 mod command;
 mod derive;
 mod dynamics;

@@ -57,7 +57,7 @@ impl PlacedSolver {
         arrays::shaped(py, self.tool.to_vec(), &[4, 4])
     }
 
-    /// As `Solver.solve`.
+    /// Same as `Solver.solve`.
     #[pyo3(signature = (target, *, given=None, limits=None))]
     fn solve<'py>(
         &self,
@@ -69,7 +69,7 @@ impl PlacedSolver {
         self.inner.solve(py, target, given, limits)
     }
 
-    /// As `Solver.nearest`.
+    /// Same as `Solver.nearest`.
     #[pyo3(signature = (target, q0, *, given=None, limits=None))]
     fn nearest(
         &self,
@@ -81,7 +81,7 @@ impl PlacedSolver {
         self.inner.nearest(target, q0, given, limits)
     }
 
-    /// As `Solver.solve_batch`.
+    /// Same as `Solver.solve_batch`.
     #[pyo3(signature = (targets, *, given=None, layout="ragged", limits=None, near=None, out=None, dtype=None, threads=None, strict=false))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn solve_batch<'py>(
@@ -100,12 +100,25 @@ impl PlacedSolver {
         self.inner.solve_batch(py, targets, given, layout, limits, near, out, dtype, threads, strict)
     }
 
-    /// As `Solver.forward`: world_from_tool.
+    /// Same as `Solver.closest`; the error is that of the tool.
+    #[pyo3(signature = (target, *, length=None, given=None, limits=None))]
+    fn closest<'py>(
+        &self,
+        py: Python<'py>,
+        target: &Bound<'py, PyAny>,
+        length: Option<f64>,
+        given: Option<&Bound<'py, PyAny>>,
+        limits: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.inner.closest(py, target, length, given, limits)
+    }
+
+    /// Same as `Solver.forward`: world_from_tool.
     fn forward<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         self.inner.forward(py, q)
     }
 
-    /// As `Solver.solve_path`.
+    /// Same as `Solver.solve_path`.
     #[pyo3(signature = (poses, q0=None, *, dt=None, speeds=None))]
     fn solve_path<'py>(
         &self,

@@ -5,12 +5,14 @@ use std::sync::Arc;
 
 use groebot::codegen::{rust, single_file};
 use groebot::derive::report::explain::explain;
+use groebot::solver::TaskPlacement;
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
 use crate::arrays::{self, Numbers, joint_rows};
 use crate::choose::moved;
+use crate::closest;
 use crate::errors::{bad_value, raised, unsupported};
 use crate::kernel::Answer;
 use crate::many::{self, Wanted};
@@ -230,6 +232,22 @@ impl Solver {
         path::solve_path(py, &self.0, poses, q0, dt, speeds)
     }
 
+    /// Returns the joint values whose target has the least error: see `groebot.Closest`. They are a solution if the target is reachable.
+    ///
+    /// The error is distance^2 + (2 length sin(angle / 2))^2. `length` is by default the reach. With `limits`, of shape (joints, 2) or `True` for those of the
+    /// description, the joint values are within them; without, limits are not respected.
+    #[pyo3(signature = (target, *, length=None, given=None, limits=None))]
+    pub fn closest<'py>(
+        &self,
+        py: Python<'py>,
+        target: &Bound<'py, PyAny>,
+        length: Option<f64>,
+        given: Option<&Bound<'py, PyAny>>,
+        limits: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        closest::closest(py, self, target, length, given, limits)
+    }
+
     /// Returns the solver for targets of a tool in a world frame, world_from_tool: see `groebot.PlacedSolver`. `base` is world_from_base and `tool` is
     /// tip_from_tool, each a matrix (4, 4); the default is the identity. Other tasks than `pose` allow the placements that do not change their kind of target.
     #[pyo3(signature = (*, base=None, tool=None))]
@@ -299,7 +317,7 @@ impl Solver {
         given: Option<&Bound<'_, PyAny>>,
         limits: Option<&[[f64; 2]]>,
     ) -> PyResult<Vec<Solution>> {
-        let numbers = self.one_target(target, given)?;
+        let numbers = self.one_target(target, given, self.0.placement.as_ref())?;
         let (kernel, mut all) = (&self.0.kernel, Vec::with_capacity(8));
         let solved = match limits {
             None => kernel.solve(&numbers, &mut |answer| all.push(answer.into())),
@@ -310,8 +328,13 @@ impl Solver {
         solved.map(|()| all).map_err(|error| raised(&error))
     }
 
-    /// The numbers of one target.
-    fn one_target(&self, target: &Bound<'_, PyAny>, given: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
+    /// The numbers of one target, converted by a placement.
+    pub fn one_target(
+        &self,
+        target: &Bound<'_, PyAny>,
+        given: Option<&Bound<'_, PyAny>>,
+        placement: Option<&TaskPlacement>,
+    ) -> PyResult<Vec<f64>> {
         let numbers = Numbers::of(target)?;
         let values = given.map(|given| Numbers::of(given)?.to_vec()).transpose()?;
         let borrowed = numbers.array.try_readonly()?;
@@ -320,7 +343,7 @@ impl Solver {
         if !one {
             return Err(bad_value("`target` holds many targets; use solve_batch"));
         }
-        let targets = targets.placed(self.0.placement.as_ref());
+        let targets = targets.placed(placement);
         let mut out = vec![0.0; targets.inputs];
         match targets.row(0, &mut out) {
             crate::sink::Status::Solved => Ok(out),

@@ -7,7 +7,7 @@ use groebot::derive::{Derivation, Source};
 use groebot::document::read_text;
 use groebot::folder::{self, PROGRAM};
 use groebot::kinematics::Chain;
-use groebot::solver::{Condition, Placement, Program, TaskPlacement};
+use groebot::solver::{self, Condition, Placement, Program, TaskPlacement};
 use groebot::{Error, ErrorKind, Result, Watch};
 use serde_json::{Value, json};
 
@@ -36,6 +36,8 @@ pub struct Stored {
     pub asked: Asked,
     /// Where base and tool are.
     pub placement: Option<TaskPlacement>,
+    /// The solver of the library, prepared at its first use.
+    library: OnceLock<solver::Solver>,
 }
 
 impl Stored {
@@ -58,6 +60,7 @@ impl Stored {
             proved: OnceLock::new(),
             asked,
             placement: None,
+            library: OnceLock::new(),
         }
     }
 
@@ -80,7 +83,13 @@ impl Stored {
             proved: OnceLock::new(),
             asked,
             placement,
+            library: OnceLock::new(),
         })
+    }
+
+    /// The solver of the library for this program.
+    pub fn library(&self) -> &solver::Solver {
+        self.library.get_or_init(|| self.program.solver())
     }
 
     /// Returns a solver of the wheel.

@@ -121,6 +121,11 @@ impl TaskPlacement {
         Outline::new(program).placed(placement)
     }
 
+    /// The placement of base and tool.
+    pub fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
     /// Converts the numbers of a target world_from_tool to the base frame, base_from_tip. Numbers after them are unchanged, and so are too few numbers. For
     /// poses it is the conversion of the run times, equal to the last bit.
     pub fn to_base(&self, target: &mut [f64]) {
