@@ -6,7 +6,7 @@ use groebot::gait::Footprint;
 use groebot::model::Meshes;
 use groebot::nav::Room;
 use groebot::robots::{Outline, rh0, walker};
-use groebot::task::{Body, Floor, Goal, Method, Pilot, Plan};
+use groebot::task::{Body, Floor, Goal, Pilot, Plan};
 use groebot::{Result, Watch};
 use nalgebra::Point2;
 
@@ -33,7 +33,7 @@ fn main() -> Result<()> {
     let floor = Floor::new(&room.map()?, 0.02)?;
     let start = Footprint { x: 3.0, y: 3.0, yaw: 0.0 }.feet(pilot.half_width());
     let goal = Goal { place: Point2::new(7.0, 3.0), heading: Some(0.0) };
-    match Plan::find(&pilot, &floor, start, goal, Method::Exact, &watch)? {
+    match Plan::find(&pilot, &floor, start, goal, &watch)? {
         Ok(plan) => print!("{}", plan.to_svg(&pilot, &floor)),
         Err(blocked) => eprintln!("{blocked}"),
     }

@@ -9,6 +9,7 @@ mod links;
 mod phrases;
 mod scan;
 mod scanner;
+mod signatures;
 mod table;
 
 use std::collections::HashMap;

@@ -80,7 +80,7 @@ impl Start {
         watch: &Watch,
     ) -> Result<std::result::Result<Course, Blocked>> {
         let goal = self.goal.goal(&self.room, pilot, floor, &from.point(), watch)?;
-        Course::find(pilot, floor, from, goal, self.method, watch)
+        Course::find(pilot, floor, from, goal.by(self.method), watch)
     }
 }
 

@@ -49,6 +49,41 @@ pub struct Followed {
     pub jumps: Vec<Jump>,
 }
 
+/// Poses that an arm moves through.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct PathRequest<'a> {
+    /// The poses base_from_tip, in order.
+    pub poses: &'a [Pose],
+    /// The timing.
+    pub pace: &'a Pace,
+    /// By joint, its maximum velocity \[rad/s or the chain's unit per second\]; may be shorter than the list of joints.
+    pub speeds: &'a [Option<f64>],
+    /// The joint values before the first pose. The step from there to the first pose counts like any other, and may be a jump.
+    pub start: Option<&'a [f64]>,
+}
+
+impl<'a> PathRequest<'a> {
+    /// A path through poses, from any joint values.
+    pub fn new(poses: &'a [Pose], pace: &'a Pace) -> Self {
+        PathRequest { poses, pace, speeds: &[], start: None }
+    }
+
+    /// Sets the maximum velocities.
+    #[must_use]
+    pub fn speeds(mut self, speeds: &'a [Option<f64>]) -> Self {
+        self.speeds = speeds;
+        self
+    }
+
+    /// Sets the joint values before the first pose.
+    #[must_use]
+    pub fn start(mut self, q: &'a [f64]) -> Self {
+        self.start = Some(q);
+        self
+    }
+}
+
 /// A state of the arm at a pose, with the best path to it.
 struct State {
     q: Vec<f64>,
@@ -59,7 +94,7 @@ struct State {
     from: usize,
 }
 
-/// Computes joint values that move the tip of `chain` through `poses`, with `solver`. The path has the fewest jumps
+/// Computes joint values that move the tip of `chain` through the requested poses, with `solver`. The path has the fewest jumps
 /// between branches and, among those, the least sum of squared joint steps. Revolute joints are shifted by whole turns
 /// where their limits permit. A step is a jump if a joint moves further than its maximum velocity permits in the time.
 /// Without a maximum velocity the bound is half a radian or a tenth of the reach.
@@ -67,32 +102,15 @@ struct State {
 /// # Errors
 /// [`ErrorKind::BadValue`] for an empty list and for a wrong number of times; with the number of the pose, for one that
 /// is out of reach or whose solutions all exceed limits; [`ErrorKind::Unsupported`] for a task other than a pose, and
-/// for given joints; [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
+/// for given joints; [`ErrorKind::BadValue`] unless the start has one finite value per joint; [`ErrorKind::Cancelled`] and
+/// [`ErrorKind::Budget`].
 pub fn follow(
     chain: &Chain,
-    speeds: &[Option<f64>],
     solver: &dyn InverseKinematics,
-    poses: &[Pose],
-    pace: &Pace,
+    request: &PathRequest<'_>,
     watch: &Watch,
 ) -> Result<Followed> {
-    follow_from(chain, speeds, solver, None, poses, pace, watch)
-}
-
-/// Same as [`follow`], but the arm starts at the joint values `start`. The step from there to the first pose counts
-/// like any other, and may be a jump.
-///
-/// # Errors
-/// Those of [`follow`]; [`ErrorKind::BadValue`] unless there is one finite value per joint.
-pub fn follow_from(
-    chain: &Chain,
-    speeds: &[Option<f64>],
-    solver: &dyn InverseKinematics,
-    start: Option<&[f64]>,
-    poses: &[Pose],
-    pace: &Pace,
-    watch: &Watch,
-) -> Result<Followed> {
+    let PathRequest { poses, pace, speeds, start } = *request;
     start.map(|start| chain.forward(start)).transpose()?;
     if chain.task() != Task::Pose || !chain.given().is_empty() {
         let text =

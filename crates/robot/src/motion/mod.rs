@@ -13,6 +13,6 @@ mod trajectory;
 pub use table::pose_numbers;
 
 pub use check::{Bounds, Fault, Finding, beyond_limit, findings, too_fast};
-pub use follow::{Followed, Jump, Pace, follow, follow_from};
+pub use follow::{Followed, Jump, Pace, PathRequest, follow};
 pub use states::{StateRow, StateTable};
 pub use trajectory::{Contact, Figure, JointTrack, Track, Trajectory};
