@@ -161,7 +161,7 @@ int main(void)
 }
 "#;
 
-const RUST_DRIVER: &str = r#"
+const RUST_DRIVER: &str = r#"//! Prints the target of a placed tool, and its solutions.
 #[allow(dead_code, unused_imports)]
 #[path = "5_solver.rs"]
 mod solver;

@@ -182,7 +182,6 @@ fn other_tasks_have_closest_joints_too() {
         ("nao_left_arm", Target::Ray { point: Point3::new(1.0, 0.5, 0.2), direction: Vector3::new(0.6, 0.0, -0.8) }),
         ("polar", Target::Position(Point3::new(9.0, 1.0, 2.0))),
         ("prr", Target::PlanarPose([40.0, 60.0, 0.3])),
-        ("upright_arm", Target::PositionPitchRoll { point: Point3::new(5.0, 1.0, 2.0), pitch: 0.3, roll: 0.2 }),
         ("scara_yaw", Target::PositionYaw { point: Point3::new(5.0, 1.0, 0.2), yaw: 0.3 }),
     ] {
         let solver = program(name).solver();
@@ -255,6 +254,9 @@ fn wrong_options_and_other_programs_are_refused_by_kind() {
     assert_eq!(kind(&ClosestOptions::default().limits(&[[0.0, 1.0]])), ErrorKind::BadValue);
     assert_eq!(kind(&ClosestOptions::default().limits(&[[1.0, 0.0]; 6])), ErrorKind::BadValue);
     assert_eq!(kind(&ClosestOptions::default().given(&[1.0])), ErrorKind::BadValue);
+    let upright = Target::PositionPitchRoll { point: Point3::new(5.0, 1.0, 2.0), pitch: 0.3, roll: 0.2 };
+    let error = program("upright_arm").solver().closest(upright).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Unsupported);
     let legs = program("nao_legs").solver();
     let (numbers, q) = (program("nao_legs").inputs.len(), program("nao_legs").joints.len());
     let target = legs.reached(&vec![0.1; q]).unwrap_or_else(|| vec![0.1; numbers]);

@@ -9,8 +9,8 @@ use super::measure::Measure;
 const STEPS: usize = 80;
 /// The greatest damping, relative to the largest second derivative.
 const MOST_DAMPING: f64 = 1e8;
-/// The gradient of a minimum, relative to the scale: that of rounding of the error's derivatives.
-const FLAT: f64 = 1e-8;
+/// The decrease of a minimum's error that a step of Newton's method predicts, relative to the error: that of rounding of the gradient.
+const FLAT: f64 = 1e-9;
 /// A negative eigenvalue of the Hessian, relative to the largest, that differences of gradients may give to a flat direction.
 const CURVED: f64 = 1e-5;
 
@@ -80,8 +80,7 @@ impl<'a> Descent<'a> {
             }
         }
         let hessian = self.hessian(&point)?;
-        let most = hessian.diagonal().amax().max(FLAT);
-        let is_minimum = point.slope() <= FLAT && factored(&hessian, CURVED * most).is_some();
+        let is_minimum = is_flat(&point, &hessian);
         Some(End { q: self.measure.whole(point.values.as_slice()), error: point.error, is_minimum })
     }
 
@@ -154,6 +153,17 @@ impl<'a> Descent<'a> {
         }
         Some((&hessian + hessian.transpose()) * 0.5)
     }
+}
+
+/// Whether a point is a local minimum: the Hessian has no negative eigenvalue, and Newton's method predicts no decrease.
+fn is_flat(point: &Point, hessian: &DMatrix<f64>) -> bool {
+    if point.free.is_empty() {
+        return true;
+    }
+    let gradient = DVector::from_iterator(point.free.len(), point.free.iter().map(|&k| point.gradient[k]));
+    let most = hessian.diagonal().amax().max(f64::MIN_POSITIVE);
+    let Some(factor) = factored(hessian, CURVED * most) else { return false };
+    gradient.dot(&factor.solve(&gradient)) <= FLAT * point.error
 }
 
 /// The Cholesky factor of the matrix with `damping` added to its diagonal; `None` unless it is positive definite.

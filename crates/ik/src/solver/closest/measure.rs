@@ -83,7 +83,7 @@ impl<'a> Measure<'a> {
         let features = self.features(&sights.values);
         let residuals: Vec<f64> = features.iter().zip(&self.goal).map(|(a, b)| a - b).collect();
         let along = |joint: usize| -> f64 {
-            let moved = self.moved(&sights.values, &sights.by_joint[joint]);
+            let moved = self.features(&sights.by_joint[joint]);
             moved.iter().zip(&residuals).map(|(a, b)| a * b).sum()
         };
         let all: Vec<f64> = (0..q.len()).map(along).collect();
@@ -96,29 +96,8 @@ impl<'a> Measure<'a> {
         if self.outline().joints[joint].is_angle { 1.0 } else { self.outline().scale }
     }
 
-    /// The residuals' features of what joint values reach: lengths in units of the scale, then what has chords for differences, weighted.
+    /// The features of what joint values reach: lengths in units of the scale, then numbers whose differences are chords, weighted. They are linear.
     fn features(&self, sights: &[f64]) -> Vec<f64> {
-        let mut features = self.linear(sights);
-        if self.task == Task::PositionPitchRoll {
-            let [cp, sp, cr, sr] = [3, 4, 5, 6].map(|i| sights[i]);
-            features.extend([-sp, cp * sr, cp * cr].map(|part| self.weight * part));
-        }
-        features
-    }
-
-    /// The derivatives of the features along `moved`, those of the sights.
-    fn moved(&self, sights: &[f64], moved: &[f64]) -> Vec<f64> {
-        let mut features = self.linear(moved);
-        if self.task == Task::PositionPitchRoll {
-            let [cp, _, cr, sr] = [3, 4, 5, 6].map(|i| sights[i]);
-            let [dcp, dsp, dcr, dsr] = [3, 4, 5, 6].map(|i| moved[i]);
-            features.extend([-dsp, dcp * sr + cp * dsr, dcp * cr + cp * dcr].map(|part| self.weight * part));
-        }
-        features
-    }
-
-    /// The features that are linear in the sights.
-    fn linear(&self, sights: &[f64]) -> Vec<f64> {
         let (lengths, rest) = sights.split_at(self.lengths);
         let scale = self.outline().scale;
         let mut features: Vec<f64> = lengths.iter().map(|length| length / scale).collect();
@@ -129,7 +108,6 @@ impl<'a> Measure<'a> {
                 features.extend(rest.iter().map(|entry| FRAC_1_SQRT_2 * self.weight * entry));
             }
             Task::Rotation => features.extend(rest.iter().map(|entry| FRAC_1_SQRT_2 * self.weight * entry)),
-            Task::PositionPitchRoll => {}
             _ => features.extend(rest.iter().map(|entry| self.weight * entry)),
         }
         features
@@ -155,7 +133,7 @@ impl<'a> Measure<'a> {
 /// The sights of a target: an angle has two numbers.
 fn sights_of(task: Task, target: &[f64]) -> Sights {
     let values = match task {
-        Task::PlanarPose { .. } | Task::PositionYaw { .. } | Task::PositionPitchRoll => {
+        Task::PlanarPose { .. } | Task::PositionYaw { .. } => {
             let (lengths, angles) = target.split_at(task.lengths());
             lengths.iter().copied().chain(angles.iter().flat_map(|angle| [angle.cos(), angle.sin()])).collect()
         }

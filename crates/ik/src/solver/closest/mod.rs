@@ -28,8 +28,7 @@ pub struct Closest {
     pub reached: Target,
     /// The distance of `reached` from the target, in the unit of the inputs; zero for a task without a position.
     pub distance: f64,
-    /// The angle between `reached` and the target \[rad\]: of the rotation, of the direction, about the axis, or between the verticals of pitch and roll;
-    /// zero for a task without an orientation.
+    /// The angle between `reached` and the target \[rad\]: of the rotation, of the direction, or about the axis; zero for a task without an orientation.
     pub angle: f64,
     /// Whether the target is reachable, within the limits if these were given. `q` is then one of its solutions.
     pub reachable: bool,
@@ -107,7 +106,8 @@ impl Solver {
     ///
     /// # Errors
     /// As [`Solver::solve_given`]; [`ErrorKind::BadValue`] for a length that is not positive or limits that are not pairs of the joints;
-    /// [`ErrorKind::Unsupported`] for a program that is not of one tip, or whose equations do not compare each number of the target with the joints.
+    /// [`ErrorKind::Unsupported`] for a program that is not of one tip, or whose equations do not compare each number of the target with the joints,
+    /// as those of a position with pitch and roll.
     pub fn closest_by(&self, target: impl Into<Target>, options: &ClosestOptions) -> Result<Closest> {
         self.closest_numbers(&self.numbers_of(&target.into(), &options.given)?, options)
     }
