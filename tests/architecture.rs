@@ -11,6 +11,7 @@ mod scan;
 mod scanner;
 mod signatures;
 mod table;
+mod watches;
 
 use std::collections::HashMap;
 use std::fs;

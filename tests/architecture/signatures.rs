@@ -7,15 +7,17 @@ use super::{Source, runtime, sources};
 const MOST_ARGUMENTS: usize = 5;
 
 /// The signature of a function.
-struct Signature {
-    name: String,
-    line: usize,
+pub struct Signature {
+    pub name: String,
+    pub line: usize,
+    /// The index of its `fn` among the tokens.
+    pub at: usize,
     /// The tokens of each argument, without `self`.
-    arguments: Vec<Vec<String>>,
+    pub arguments: Vec<Vec<String>>,
 }
 
 /// The functions that are declared `pub`.
-fn public_functions(tokens: &[Token]) -> Vec<Signature> {
+pub fn public_functions(tokens: &[Token]) -> Vec<Signature> {
     let text = |at: usize| tokens.get(at).map_or("", |token| token.text.as_str());
     let starts = (0..tokens.len()).filter(|&at| text(at) == "pub").filter_map(|at| {
         let at = (at + 1..tokens.len()).find(|&next| !["const", "unsafe", "async", "extern"].contains(&text(next)))?;
@@ -46,7 +48,7 @@ fn signature(tokens: &[Token], start: usize) -> Option<Signature> {
         }
     }
     arguments.retain(|argument| !argument.is_empty() && argument.last().is_none_or(|last| last != "self"));
-    Some(Signature { name: name.text.clone(), line: name.line, arguments })
+    Some(Signature { name: name.text.clone(), line: name.line, at: start, arguments })
 }
 
 fn too_long(source: &Source) -> Vec<String> {
