@@ -36,8 +36,8 @@ const SEED: u64 = 5;
 
 /// The plan of `mechanism`: a step for each joint that is not given, with at most four solutions per step.
 ///
-/// The product of these numbers is the number of complex solutions at a generic reachable target. The product may be greater if the task asks for more than the
-/// joints can do, or if joints follow others. The remaining equations are then evaluated at run time.
+/// The product of these numbers is the number of complex solutions at a generic reachable target. The product may be greater if the task is overdetermined
+/// (more numbers than independent joints), or if joints follow others. The remaining equations are then evaluated at run time.
 ///
 /// # Errors
 /// [`ErrorKind::PositiveDimensional`] if joints are free, with those that may be given. [`ErrorKind::Unsupported`] if there is no such plan, with the number of

@@ -165,7 +165,8 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
     if steps.len() + plan.given.len() != count {
         return Err(refused("the plan does not find every joint".to_owned()));
     }
-    // The equations that the plan does not use leave fewer solutions, if the task asks for more than the joints can do or if joints follow others.
+    // The equations that the plan does not use leave fewer solutions, if the task is overdetermined (more numbers than independent joints) or if joints follow
+    // others.
     let exact = mechanism.counts_exactly();
     if !exact && most(plan) < plan.dimension || exact && plan.product() != plan.dimension {
         let text = format!("the steps give {} solutions, {} are claimed", plan.product(), plan.dimension);
@@ -174,7 +175,8 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
     Ok(steps)
 }
 
-/// The maximum number of solutions of all steps together, for tasks that ask for more than the joints can do. Two equations in one joint may be dependent then.
+/// The maximum number of solutions of all steps together, for overdetermined tasks (more numbers than independent joints). Two equations in one joint may be
+/// dependent then.
 fn most(plan: &Plan) -> usize {
     let most = |step: &PlanStep| if matches!(step.way, Way::Pair(_)) { 2 } else { step.degree };
     plan.steps.iter().map(most).product()

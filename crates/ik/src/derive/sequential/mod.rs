@@ -110,8 +110,8 @@ impl Sequential {
 
     /// Adds the program of `problem`, whose mechanism is `mechanism`.
     ///
-    /// Newton's method polishes every solution of the closed form on the described chain, and solutions are measured there. If the task asks for more than the
-    /// joints can do, the ideal chain decides which solutions exist.
+    /// Newton's method polishes every solution of the closed form on the described chain, and solutions are measured there. If the task is overdetermined (more
+    /// numbers than independent joints), the ideal chain decides which solutions exist.
     ///
     /// # Errors
     /// As [`Mechanism::new`]; [`crate::ErrorKind::Unsupported`] for a problem that a program cannot represent.

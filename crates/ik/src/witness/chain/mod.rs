@@ -69,7 +69,7 @@ pub struct Check<'a> {
     bound: Option<usize>,
     screws: Option<Box<dyn Solver + 'a>>,
     options: Options,
-    /// The maximum error of a solution, for tasks that ask for more than the joints can do: a fraction of the reach, and rad.
+    /// The maximum error of a solution, for overdetermined tasks (more numbers than independent joints): a fraction of the reach, and rad.
     tolerance: f64,
     watch: &'a Watch,
 }
@@ -300,8 +300,8 @@ impl<'a> Check<'a> {
     /// Whether the solutions agree with those of the screw solver.
     ///
     /// Each of its solutions must match one of ours, and each ordinary one of ours must match one of its. Solutions of targets that are only within a solver's
-    /// tolerance of the workspace may be missing on the other side. The screw solver loses solutions next to singular configurations and for tasks that ask for
-    /// more than the joints can do. There, forward kinematics alone checks ours.
+    /// tolerance of the workspace may be missing on the other side. The screw solver loses solutions next to singular configurations and for overdetermined
+    /// tasks (more numbers than independent joints). There, forward kinematics alone checks ours.
     fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
         let covers = |some: &[Solution], answer: &Solution| {
             let least = if self.model.sigma(&answer.q) > ORDINARY { EXACT } else { SHARP };
