@@ -43,8 +43,8 @@ pub(super) fn functions(scene: &Scene<'_>, dialect: &dyn Dialect) -> Vec<Functio
         walk.block(index, 0);
         let lines = walk.lines;
         let known = scene.layout.known_before(index);
-        let is_told = |unknown: &usize| known[*unknown] && reads(&lines, &scene.names.unknowns[*unknown]);
-        let known = (0..known.len()).filter(is_told).map(|unknown| scene.names.unknowns[unknown].clone()).collect();
+        let is_read = |unknown: &usize| known[*unknown] && reads(&lines, &scene.names.unknowns[*unknown]);
+        let known = (0..known.len()).filter(is_read).map(|unknown| scene.names.unknowns[unknown].clone()).collect();
         let before = index.checked_sub(1).map_or(&[][..], |before| &blocks[before].cases);
         let is_inlined = index == 0 || before.iter().filter(|case| !case.is_rare()).count() == 1;
         functions.push(Function {

@@ -197,7 +197,7 @@ impl<'a> Check<'a> {
                 let chain = self.source.chain.as_ref();
                 let missed = chain.map_or(0.0, |chain| screws::misplacement(chain, &answer.q, &target));
                 let is_too_free = !answer.free.is_empty() && self.model.sigma(&target, &answer.q) > SINGULAR;
-                Judged { told: misfit, is_missed: misfit.max(missed) > RESIDUAL, is_too_free }
+                Judged { residual: misfit, is_missed: misfit.max(missed) > RESIDUAL, is_too_free }
             })
         })
     }
@@ -303,7 +303,7 @@ fn equations(source: &Source) -> Result<&crate::derive::System> {
 /// The check of a single solution.
 struct Judged {
     /// The residual for the row.
-    told: f64,
+    residual: f64,
     /// Whether the solution misses its target.
     is_missed: bool,
     /// Whether it has free joints at a regular configuration.
@@ -323,7 +323,7 @@ fn faults_of_each(row: &mut Row, answers: &[Solution], judge: impl Fn(&Solution)
             add(true, Fault::Range);
             continue;
         };
-        row.worst_residual = Some(row.worst_residual.map_or(judged.told, |worst| worst.max(judged.told)));
+        row.worst_residual = Some(row.worst_residual.map_or(judged.residual, |worst| worst.max(judged.residual)));
         add(judged.is_missed, Fault::Residual);
         add(judged.is_too_free, Fault::Free);
     }

@@ -136,16 +136,17 @@ impl CoupledView<'_> {
     /// there are no solutions.
     fn disagreement(&self, stage: &ChainStage, before: &[Vec<f64>], answers: &[Solution]) -> Option<Disagreement> {
         let shared: Vec<usize> = stage.found().collect();
-        let one = |way: &Vec<f64>, answer: &Solution, actuator: usize| Disagreement {
+        let one = |earlier: &Vec<f64>, answer: &Solution, actuator: usize| Disagreement {
             actuator: self.program.joints[actuator].name.clone(),
             unit: self.program.joints[actuator].unit,
             needed: stage.joints.iter().position(|place| *place == actuator).map_or(f64::NAN, |joint| answer.q[joint]),
-            found: way[actuator],
+            found: earlier[actuator],
         };
         let larger = |a: &Disagreement, b: &Disagreement| a.off().abs().total_cmp(&b.off().abs());
-        let pairs = before.iter().flat_map(|way| answers.iter().map(move |answer| (way, answer)));
-        let worst =
-            pairs.filter_map(|(way, answer)| shared.iter().map(|&actuator| one(way, answer, actuator)).max_by(larger));
+        let pairs = before.iter().flat_map(|earlier| answers.iter().map(move |answer| (earlier, answer)));
+        let worst = pairs.filter_map(|(earlier, answer)| {
+            shared.iter().map(|&actuator| one(earlier, answer, actuator)).max_by(larger)
+        });
         worst.min_by(larger)
     }
 }

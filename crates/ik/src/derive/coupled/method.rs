@@ -242,11 +242,11 @@ impl ChainStage {
 
     /// The chain's own target in a target of the solver, without the joints that earlier chains find.
     pub fn own_target(&self, target: &[f64]) -> Vec<f64> {
-        let asked = |origin: &Origin| match *origin {
+        let own = |origin: &Origin| match *origin {
             Origin::Target(index) => Some(target[index]),
             Origin::Joint(_) => None,
         };
-        self.inputs.iter().filter_map(asked).collect()
+        self.inputs.iter().filter_map(own).collect()
     }
 
     /// The inputs of the chain's own solver, from a target of the solver and its joints.
@@ -308,12 +308,12 @@ impl Found<'_> {
         let freedoms = |member: usize| self.coupled.chains()[member].chain.task().freedoms();
         let remaining: Vec<usize> = (0..self.coupled.chains().len()).filter(left).collect();
         remaining.iter().copied().find(|&member| self.open(member) <= freedoms(member)).ok_or_else(|| {
-            let told = |&member: &usize| {
+            let description = |&member: &usize| {
                 let CoupledChain { name, chain, .. } = &self.coupled.chains()[member];
                 let (open, task) = (self.open(member), chain.task().name());
                 format!("`{name}` has {open} joints to find, its task `{task}` determines {}", freedoms(member))
             };
-            let list: Vec<String> = remaining.iter().map(told).collect();
+            let list: Vec<String> = remaining.iter().map(description).collect();
             let text = format!("no chain can be solved next: {}; ask more of one, or give a joint", list.join("; "));
             Error::new(ErrorKind::PositiveDimensional, text)
         })

@@ -23,8 +23,8 @@ pub use types::{Evidence, Plan, PlanStep, Way};
 
 use crate::derive::closure::{Mechanism, Relation, prove};
 use crate::derive::samples;
-use crate::derive::samples::sights::Sights;
-use crate::derive::samples::specimen::Random;
+use crate::derive::samples::random_sample::Random;
+use crate::derive::samples::sampled_relations::SampledRelations;
 use crate::{Error, ErrorKind, Result, Watch};
 use search::{Reach, Search};
 
@@ -68,11 +68,11 @@ pub(super) fn evidence(mechanism: &Mechanism, watch: &Watch) -> Result<Option<Ve
 }
 
 /// The relations at random targets modulo a prime.
-fn sights<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) -> Result<Sights<'a>> {
+fn sampled_relations<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) -> Result<SampledRelations<'a>> {
     let lucky = samples::evidence::lucky_primes(mechanism)?.into_iter().next();
     let (_, arithmetic) =
         lucky.ok_or_else(|| Error::new(ErrorKind::Unsupported, "no prime suits the chain's constants"))?;
-    Sights::new(mechanism, relations, arithmetic, &mut Random::new(SEED))
+    SampledRelations::new(mechanism, relations, arithmetic, &mut Random::new(SEED))
 }
 
 /// The steps of the best plan, if its number of solutions is acceptable.
@@ -83,11 +83,11 @@ fn search(
     dimension: usize,
     watch: &Watch,
 ) -> Result<Vec<PlanStep>> {
-    let mut sights = sights(mechanism, relations)?;
+    let mut sampled = sampled_relations(mechanism, relations)?;
     let may_be_more = !mechanism.counts_exactly();
     let mut best: Option<(usize, Vec<PlanStep>)> = None;
     for reach in REACHES {
-        let Some(steps) = Search::new(&mut sights, reach, watch).steps()? else { continue };
+        let Some(steps) = Search::new(&mut sampled, reach, watch).steps()? else { continue };
         let product = steps.iter().map(|step| step.degree).product();
         if product == dimension {
             return Ok(steps);

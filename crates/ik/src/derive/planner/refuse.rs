@@ -33,18 +33,18 @@ pub(super) fn driven(mechanism: &Mechanism) -> Vec<usize> {
 
 /// The error for a mechanism with one redundant joint if none can be given. It reports the result for each joint.
 pub fn none_to_give(mechanism: &Mechanism, refusals: &[(usize, Error)]) -> Error {
-    let told = |(joint, error): &(usize, Error)| {
+    let result = |(joint, error): &(usize, Error)| {
         let name = &mechanism.joints()[*joint].name;
         let end = error.message().find(" (values").or(error.message().find(':')).unwrap_or(error.message().len());
         format!("with `{name}` given, {}", &error.message()[..end])
     };
-    let told: Vec<String> = refusals.iter().map(told).collect();
+    let results: Vec<String> = refusals.iter().map(result).collect();
     let text = format!(
         "the `{}` task leaves one of the {} joints free, and no joint that is given leaves others that can be found one at a time with \
          at most 4 values each (an eigenvalue problem is for a pose): {}",
         mechanism.task().name(),
         refusals.len(),
-        told.join("; ")
+        results.join("; ")
     );
     Error::new(ErrorKind::Unsupported, text)
 }

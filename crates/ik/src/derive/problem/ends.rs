@@ -146,7 +146,7 @@ impl Ends {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a direction if the task orients none; as [`Chain::with_task`].
-    pub fn ask(&self, chain: Chain) -> Result<Chain> {
+    pub fn apply_to(&self, chain: Chain) -> Result<Chain> {
         let chain = match &self.name {
             Some(name) => Chain::new(ChainParts { name: name.clone(), ..chain.into() })?,
             None => chain,

@@ -87,13 +87,13 @@ impl Sequential {
         let mechanism = Mechanism::new(&problem.chain)?;
         let plan = planner::plan(&mechanism, watch)?;
         let evidence = plan.evidence[0].clone();
-        let told = |error: Error| match error.kind() {
+        let described = |error: Error| match error.kind() {
             ErrorKind::Unsupported => planner::not_derived(&mechanism, &evidence, &error),
             _ => error,
         };
         Sequential::of_plan(&mechanism, plan, watch)
             .and_then(|method| method.compiled(problem, &mechanism))
-            .map_err(told)
+            .map_err(described)
     }
 
     /// Derives and proves `plan`, a plan of `mechanism`.

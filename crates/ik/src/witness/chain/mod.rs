@@ -230,7 +230,7 @@ impl<'a> Check<'a> {
             self.model.is_well_formed(&answer.q).then(|| {
                 let residual = self.model.residual(&target, &answer.q);
                 let is_too_free = !answer.free.is_empty() && self.model.sigma(&answer.q) > SINGULAR;
-                Judged { told: residual, is_missed: residual > self.tolerance, is_too_free }
+                Judged { residual, is_missed: residual > self.tolerance, is_too_free }
             })
         })
     }
