@@ -138,15 +138,13 @@ fn compared(stored: &Stored, file: &Written, proof: &str, checked: &Report) -> F
     if name == PAGE && !has_mark(bytes) {
         return match is_by_hand(bytes, &file.bytes) {
             true => Finding::not_checked(name, "a page that groebot did not write"),
-            false => refused(&format!(
-                "the page lacks what follows from the proof, and `{MARK}`; `groebot derive` writes it"
-            )),
+            false => refused(&format!("the page has neither the proved text nor `{MARK}`; `groebot derive` writes it")),
         };
     }
     let equal = if bytes == file.bytes { "" } else { ", equal up to rounding" };
     match differing(bytes, file) {
         Some(line) => {
-            let text = "this line is not what the certificate proves; `groebot derive` writes the right one";
+            let text = "this line does not follow from the certificate; `groebot derive` writes the correct one";
             let error = Error::new(ErrorKind::Certificate, text).at_line(line);
             Finding::fails(&stored.folder, name, error)
         }

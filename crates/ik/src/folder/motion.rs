@@ -30,7 +30,7 @@ impl Moving {
     pub fn of(input: &InputFile, source: &Source) -> Result<Self> {
         let robot = if let Description::Robot(robot) = &input.description { Some(robot.clone()) } else { None };
         let ideal = source.ideal.as_ref().map(|(chain, _)| chain).or(source.chain.as_ref());
-        let text = "this describes no chain of joints; give a chain or a robot";
+        let text = "this file describes no chain of joints; give a chain or a robot";
         let chain = ideal.ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(&input.path))?;
         Ok(Moving { chain: chain.clone(), robot, ends: source.ends.clone() })
     }
@@ -109,7 +109,7 @@ fn read(source: &Source, json: &str) -> Result<(Certificate, Moving)> {
     let certificate = Certificate::from_json(json, moving.chain.name())?;
     let refused = |text: &str| Err(Error::new(ErrorKind::Certificate, text));
     if certificate.has_numbers() && !certificate.has(&moving.numbers()?) {
-        return refused("its numbers are not what the bodies of the description weigh");
+        return refused("its mass parameters differ from those of the description");
     }
     if certificate.to_json() != json {
         return refused("it is not written as `groebot dynamics --symbolic` writes it, which writes it anew");

@@ -50,7 +50,7 @@ impl Outputs {
             let wrong = |text: String| Error::new(ErrorKind::Syntax, text).at_line(number);
             let (hash, name) = entry(line).ok_or_else(|| {
                 wrong(format!(
-                    "`{}` is no hash of a file; give 64 digits 0-9, a-f, two spaces and the file's name",
+                    "`{}` is not a hash with a file name; give 64 digits 0-9, a-f, two spaces and the file's name",
                     shown(line)
                 ))
             })?;

@@ -30,7 +30,7 @@ impl Stored {
     /// [`ErrorKind::BadValue`] if the path is not a folder. [`ErrorKind::Io`] if a file cannot be read or is larger than 256 MB.
     pub fn read(folder: &Path) -> Result<Self> {
         if !folder.is_dir() {
-            let text = "this is no folder; give the folder that `groebot derive` wrote";
+            let text = "this is not a folder; give a folder that `groebot derive` wrote";
             return Err(Error::new(ErrorKind::BadValue, text).in_file(folder));
         }
         let io = |error: std::io::Error| Error::io(folder, &error);

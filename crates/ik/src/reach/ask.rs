@@ -73,7 +73,7 @@ impl Ask {
     pub fn described(program: &Program) -> Result<Vec<[f64; 2]>> {
         let limits = program.limits();
         if limits.iter().flatten().all(|limit| limit.is_infinite()) {
-            let text = format!("of {} no limits are described; give some", program.name);
+            let text = format!("{}: no limits are described; give limits", program.name);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         Ok(limits)

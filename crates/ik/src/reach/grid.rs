@@ -23,9 +23,13 @@ impl Axis {
     /// [`ErrorKind::BadValue`] for no places, for ends that are not finite or in the wrong order, and for one place with two different ends.
     pub fn new(from: f64, to: f64, count: usize) -> Result<Self> {
         let text = match count {
-            _ if !(from.is_finite() && to.is_finite()) => format!("from {from} to {to} is no axis; give finite ends"),
+            _ if !(from.is_finite() && to.is_finite()) => {
+                format!("an axis from {from} to {to} is invalid; give finite ends")
+            }
             0 => "an axis without places; give 1 or more".to_owned(),
-            1 if from != to => format!("one place cannot be at {from} and at {to}; give 2 or more, or one end"),
+            1 if from != to => {
+                format!("an axis with one place cannot extend from {from} to {to}; give 2 or more places, or one end")
+            }
             _ if from > to || (from == to && count > 1) => {
                 format!("{count} places from {from} to {to}: the first end is to be the lesser one")
             }

@@ -78,13 +78,15 @@ impl Poses {
         if others.len() != given.len() || !given.iter().all(|value| value.is_finite()) {
             let names: Vec<&str> = program.inputs[others.clone()].iter().map(|input| input.name.as_str()).collect();
             let asked = if names.is_empty() { "none are".to_owned() } else { names.join(", ") };
-            let text =
-                format!("{} finite values of given joints are needed ({asked}); {given:?} are told", others.len());
+            let text = format!(
+                "{} finite values of given joints are required ({asked}); {given:?} are specified",
+                others.len()
+            );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let idle = position.iter().zip(ask.grid.axes()).zip(["x", "y", "z"]);
         if let Some(((_, axis), name)) = idle.into_iter().find(|((input, axis), _)| input.is_none() && axis.count > 1) {
-            let text = format!("the task asks for no {name}; leave one of the {} places on that axis", axis.count);
+            let text = format!("the task has no {name}; use 1 place instead of {} on that axis", axis.count);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let given = others.zip(given.iter().copied()).collect();

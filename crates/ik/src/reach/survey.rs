@@ -97,7 +97,7 @@ impl<'a> Survey<'a> {
         };
         let chain = chain.filter(|_| ask.measure == Measure::Manipulability);
         if ask.measure == Measure::Manipulability && chain.is_none() {
-            let text = "a manipulability is that of a chain, and none is known here; give the folder of its derivation";
+            let text = "manipulability requires the chain of the solver; give the folder of its derivation";
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
         let limits = match (&ask.limits, ask.measure) {
