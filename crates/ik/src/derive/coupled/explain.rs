@@ -81,13 +81,13 @@ impl CoupledView<'_> {
                 let nearest = before.iter().map(|q| stage.solver.nearest(&stage.target(target, q)));
                 let nearest: Vec<Option<Nearest>> = nearest.collect::<Result<_>>()?;
                 let nearest = nearest.into_iter().flatten().min_by(|a, b| a.relative.total_cmp(&b.relative));
-                let ways = if stage == &self.method.stages[0] { 0 } else { before.len() };
+                let count = if stage == &self.method.stages[0] { 0 } else { before.len() };
                 let member = self.problem.chains()[stage.member].name.clone();
                 let disagreement = match self.alone(stage, watch)? {
                     Some(alone) => self.disagreement(stage, &before, &alone.solve_numbers(&stage.own_target(target))?),
                     None => None,
                 };
-                return Ok(Some(Explanation { member, before: ways, disagreement, nearest }));
+                return Ok(Some(Explanation { member, before: count, disagreement, nearest }));
             }
             before = answers.into_iter().map(|answer| answer.q).collect();
         }
@@ -167,7 +167,7 @@ impl fmt::Display for Explanation {
         write!(f, "the equations of chain `{}` fail", self.member)?;
         match self.before {
             0 => {}
-            ways => write!(f, " in each of the {ways} ways in which the chains before it reach their targets")?,
+            count => write!(f, " for each of the {count} solutions of the chains before it")?,
         }
         match &self.nearest {
             Some(nearest) => write!(f, "; the nearest joints found leave a residual of {:.1e}", nearest.residual),

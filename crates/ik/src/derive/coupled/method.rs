@@ -87,7 +87,7 @@ impl Coupled {
         }
         let stages = found.stages;
         let last = stages.last().map(|stage| stage.program.clone());
-        let mut program = last.ok_or_else(|| Error::new(ErrorKind::BadValue, "there is no chain"))?;
+        let mut program = last.ok_or_else(|| Error::new(ErrorKind::BadValue, "there are no chains"))?;
         let all = Coupled { simultaneous, stages };
         let most = 2 * all.dimension() + program.blocks.len();
         program.capacity = most.min(program.capacity);
@@ -186,8 +186,7 @@ impl ChainStage {
                 // The user gives one value for both chains.
                 (true, Some(_)) => {}
                 (true, None) => {
-                    let text =
-                        format!("`{}` is given, but a chain before it finds its actuator; leave it out", joint.name);
+                    let text = format!("`{}` is given, but an earlier chain finds its actuator; omit it", joint.name);
                     return Err(Error::new(ErrorKind::BadValue, text));
                 }
             }
@@ -314,7 +313,10 @@ impl Found<'_> {
                 format!("`{name}` has {open} joints to find, its task `{task}` determines {}", freedoms(member))
             };
             let list: Vec<String> = remaining.iter().map(description).collect();
-            let text = format!("no chain can be solved next: {}; ask more of one, or give a joint", list.join("; "));
+            let text = format!(
+                "no chain can be solved next: {}; choose a task that determines more joints, or give a joint",
+                list.join("; ")
+            );
             Error::new(ErrorKind::PositiveDimensional, text)
         })
     }

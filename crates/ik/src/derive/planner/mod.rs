@@ -70,8 +70,9 @@ pub(super) fn evidence(mechanism: &Mechanism, watch: &Watch) -> Result<Option<Ve
 /// The relations at random targets modulo a prime.
 fn sampled_relations<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) -> Result<SampledRelations<'a>> {
     let lucky = samples::evidence::lucky_primes(mechanism)?.into_iter().next();
-    let (_, arithmetic) =
-        lucky.ok_or_else(|| Error::new(ErrorKind::Unsupported, "no prime suits the chain's constants"))?;
+    let (_, arithmetic) = lucky.ok_or_else(|| {
+        Error::new(ErrorKind::Unsupported, "no tried prime is coprime to the denominators of the chain's constants")
+    })?;
     SampledRelations::new(mechanism, relations, arithmetic, &mut Random::new(SEED))
 }
 

@@ -15,8 +15,8 @@ pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
     let suits = if unknown.len() <= freedoms + 1 { suitable(mechanism, watch)? } else { Vec::new() };
     let advice = match suits.as_slice() {
         [] if unknown.len() > freedoms => format!("give the values of at least {}", unknown.len() - freedoms),
-        [] if unknown.len() > 1 => "more than one must be given, or another task asked".to_owned(),
-        [] => "ask for another task".to_owned(),
+        [] if unknown.len() > 1 => "give more than one joint, or choose another task".to_owned(),
+        [] => "choose another task".to_owned(),
         [one] => format!("give the value of the joint {one}"),
         list => format!("give the value of one of the joints {}", list.join(", ")),
     };
@@ -106,7 +106,9 @@ fn lacking(mechanism: &Mechanism) -> String {
             "three neighbouring axes would have to meet in one point or be parallel (joints {}); none do",
             list(bad)
         ),
-        (good, _) => format!("that joints {} meet in one point, are parallel or slide is not enough", list(good)),
+        (good, _) => {
+            format!("joints {} meet in one point, are parallel or are prismatic, which is not enough", list(good))
+        }
     }
 }
 

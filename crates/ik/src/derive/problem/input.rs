@@ -126,15 +126,15 @@ impl InputFile {
         let chain = match &self.description {
             Description::Robot(tree) => tree.chain(ends.base.as_deref(), ends.tip.as_deref()).map(Some),
             _ if ends.base.is_some() || ends.tip.is_some() => {
-                bad("base and tip are chosen, but only a URDF has links to choose from; leave them out")
+                bad("base and tip are chosen, but only a URDF has links to choose from; omit them")
             }
             Description::Chain(chain) => Ok(Some((**chain).clone())),
-            Description::System(_) if ends != Ends::default() => bad(
-                "a task is chosen, but a system of equations states its own; leave task, direction and given joints out",
-            ),
-            Description::Coupled(_) if ends != Ends::default() => bad(
-                "a task is chosen, but each chain states its own; leave task, direction, given joints and tolerance out",
-            ),
+            Description::System(_) if ends != Ends::default() => {
+                bad("a task is chosen, but a system of equations has its own; omit task, direction and given joints")
+            }
+            Description::Coupled(_) if ends != Ends::default() => {
+                bad("a task is chosen, but each chain has its own; omit task, direction, given joints and tolerance")
+            }
             Description::System(_) | Description::Coupled(_) => Ok(None),
         };
         let requested = chain.and_then(|chain| chain.map(|chain| ends.apply_to(chain)).transpose());
@@ -381,7 +381,7 @@ fn input_in(folder: &Path) -> Result<PathBuf> {
     match present.as_slice() {
         [file] => Ok(folder.join(file)),
         [] => {
-            let text = "this folder has no input; put a `0_chain.toml`, a `0_system.toml`, a `0_robot.urdf` or a `0_coupled.toml` in it";
+            let text = "this folder has no input; add a `0_chain.toml`, a `0_system.toml`, a `0_robot.urdf` or a `0_coupled.toml`";
             Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
         }
         [first, second, ..] => {

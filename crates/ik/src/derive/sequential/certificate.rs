@@ -95,7 +95,7 @@ pub(in crate::derive) fn prove_claims(problem: &ChainProblem, claims: Claims) ->
     };
     let steps = prove_plan(&mechanism, &claims.plan, &mut eliminate)?;
     if stored.next().is_some() {
-        return Err(refused("an elimination is left over".to_owned()));
+        return Err(refused("an elimination is superfluous".to_owned()));
     }
     let (form_bases, half_angles) = prove_forms(&steps, &claims.form_bases, claims.half_angles.as_deref())?;
     Sequential { plan: claims.plan, steps, form_bases, half_angles }.compiled(problem, &mechanism)
@@ -121,7 +121,7 @@ pub(super) fn prove_forms(
 ) -> Result<(Vec<FormBasis>, Option<HalfAngles>)> {
     let half_angles = half_angles.map(HalfAngles::again).transpose()?;
     if half_angles.is_some() != HalfAngles::are_needed(steps) {
-        return Err(refused("half angles are missing or left over".to_owned()));
+        return Err(refused("half angles are missing or superfluous".to_owned()));
     }
     let form_bases = form_bases.iter().map(prove_form).collect::<Result<Vec<_>>>()?;
     if form_bases.iter().map(|form_basis| form_basis.form).ne(FormBasis::needed(steps)) {
@@ -195,7 +195,7 @@ fn prove_step(
     for relation in step.way.relations() {
         let is_new = |joint: &usize| *joint != step.joint && !known.contains(joint) && !away.contains(joint);
         if let Some(other) = relation.joints().into_iter().find(is_new) {
-            return Err(refused(format!("`{relation}` holds joint {}, which is not known yet", other + 1)));
+            return Err(refused(format!("`{relation}` contains joint {}, which is not known yet", other + 1)));
         }
         closure::prove(mechanism, relation)?;
     }
