@@ -58,7 +58,8 @@ pub fn reach<'py>(
     }
     let request = Request { orientations, seed, given, measure, limits, ..Request::new(grid) };
     let solving = Solving(&*stored.kernel);
-    let survey = Survey::new(&solving, &stored.program, stored.chain.as_ref(), &request).map_err(|error| raised(&error))?;
+    let survey =
+        Survey::new(&solving, &stored.program, stored.chain.as_ref(), &request).map_err(|error| raised(&error))?;
     let entries = watched(py, progress, crate::work::threads(threads), |watch| survey.entries(start..stop, watch))?;
     let columns = PyDict::new(py);
     let wholes = |number: fn(&Entry) -> u32| PyArray1::from_iter(py, entries.iter().map(number));
