@@ -20,8 +20,9 @@ const MOST_UNKNOWNS: usize = groebot_algebra::limits::PROGRAM_UNKNOWNS;
 const MOST_BRANCHES: usize = usize::MAX >> usize::BITS.saturating_sub(53);
 
 impl Program {
-    /// Checks that every index is in range, registers are written once and before they are read, every unknown is set
-    /// once along every path through the blocks, and sizes agree: a valid program never panics.
+    /// Checks that a program is well formed; a valid program never panics.
+    ///
+    /// Every index is in range. Registers are written once, before they are read. Every unknown is set once along every path through the blocks. Sizes agree.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] with the wrong part.

@@ -240,7 +240,7 @@ fn exact_counts_are_those_of_screw_theory() {
     }
 }
 
-/// A base rotated by angles without rational sines, and a tool at such an angle, change neither the number of solutions nor the time of the count.
+/// A base rotated by angles without rational sines, and a tool at such an angle. Neither changes the number of solutions or the time of the count.
 #[test]
 fn a_turned_base_and_a_tool_leave_the_counts() {
     let count = |text: &str| {

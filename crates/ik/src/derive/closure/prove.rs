@@ -16,8 +16,8 @@ use super::relation::{Letter, Measure, Relation, Word};
 use super::vector;
 use crate::{Error, ErrorKind, Result};
 
-/// Proves over Q that `relation` is in the ideal of the loop, and that it uses only those parts of the target that the task specifies. So it holds wherever the
-/// joints reach the target.
+/// Proves over Q that `relation` is in the ideal of the loop. Also proves that it uses only those parts of the target that the task specifies. So it holds
+/// wherever the joints reach the target.
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] if the proof fails; as [`evaluate`] if it is not a relation of the mechanism.

@@ -75,9 +75,10 @@ impl CoupledChains {
     /// Checks `parts` and makes them coupled chains.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for no chain, an invalid name or prefix, different length units, joints of one chain with one actuator, joints of different
-    /// kinds with one actuator, or more than 16 actuators. [`ErrorKind::DuplicateName`] for chains or actuators with one name, and joints that are shared
-    /// twice. [`ErrorKind::UnknownName`] for shared joints that do not exist.
+    /// * [`ErrorKind::BadValue`] for no chain, an invalid name or prefix, or different length units.
+    /// * [`ErrorKind::BadValue`] for an actuator with joints of one chain or of different kinds, and for more than 16 actuators.
+    /// * [`ErrorKind::DuplicateName`] for chains or actuators with one name, and joints that are shared twice.
+    /// * [`ErrorKind::UnknownName`] for shared joints that do not exist.
     pub fn new(parts: CoupledParts) -> Result<Self> {
         CoupledChains::assemble(parts).map_err(|fault| fault.error)
     }

@@ -26,7 +26,7 @@ pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
 const CORRECTIONS: usize = 20;
 /// Singular values below this fraction of the largest one count as zero.
 const RANK: f64 = 1e-8;
-/// The maximum bend of a path between two joint vectors, as a fraction of its length, or of the square of its length if that is greater.
+/// The maximum bend of a path between two joint vectors: a fraction of its length, or of the square of its length if that is greater.
 const STRAIGHT: f64 = 1e-2;
 /// The longest and the shortest step along a curve, and the maximum number of steps.
 const LONGEST: f64 = 0.1;
@@ -179,7 +179,8 @@ pub(super) trait SelfMotions: Configuration {
             .is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
     }
 
-    /// The point of the curve next to `at` moved by `distance` along the unit vector `ahead`, and the curve's direction there. Its error is at most `tolerance`.
+    /// The point of the curve next to `at` moved by `distance` along the unit vector `ahead`, and the curve's direction there. Its error is at most
+    /// `tolerance`.
     fn stepped(
         &self,
         target: &[f64],
