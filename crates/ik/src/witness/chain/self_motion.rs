@@ -62,7 +62,7 @@ pub(super) trait SelfMotions: Configuration {
     }
 
     /// The member next to `q` moved by `distance` along the unit vector `ahead`, and no farther along it. Its error is at most `tolerance`.
-    fn beside(
+    fn moved_along(
         &self,
         target: &[f64],
         q: &[f64],
@@ -175,7 +175,8 @@ pub(super) trait SelfMotions: Configuration {
     fn passes(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, answer: &[f64]) -> bool {
         let apart = |&joint: &usize| self.difference(joint, answer[joint], at[joint]) / self.unit(joint);
         let distance = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
-        self.beside(target, at, ahead, distance, MEMBER).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
+        self.moved_along(target, at, ahead, distance, MEMBER)
+            .is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
     }
 
     /// The point of the curve next to `at` moved by `distance` along the unit vector `ahead`, and the curve's direction there. Its error is at most `tolerance`.
@@ -186,7 +187,7 @@ pub(super) trait SelfMotions: Configuration {
         ahead: &DVector<f64>,
         (distance, tolerance): (f64, f64),
     ) -> Option<(Vec<f64>, DVector<f64>)> {
-        let next = self.beside(target, at, ahead, distance, tolerance)?;
+        let next = self.moved_along(target, at, ahead, distance, tolerance)?;
         let tangent = null_vector(self.jacobian(&next))?;
         let side = tangent.dot(ahead).signum();
         Some((next, tangent * side))
