@@ -69,7 +69,13 @@ impl<'a> Samples<'a> {
 /// # Errors
 /// [`ErrorKind::BadValue`] with the time when a foot is out of reach; [`ErrorKind::Cancelled`] and
 /// [`ErrorKind::Budget`].
-pub fn realise(biped: &Biped, legs: &Legs, samples: &Samples<'_>, watch: &Watch) -> Result<Motion> {
+pub fn realise<'w>(
+    biped: &Biped,
+    legs: &Legs,
+    samples: &Samples<'_>,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Motion> {
+    let watch = Watch::or_none(watch);
     let Samples { references, tick, alike } = *samples;
     let known =
         |sample: usize| alike.map_or(Vector3::zeros(), |motion| motion.lead(sample, references[sample].heading));

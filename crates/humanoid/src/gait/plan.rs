@@ -55,7 +55,8 @@ impl Walk {
 /// [`ErrorKind::BadValue`] with the first time and the reason: a foot out of reach, a joint beyond its limits, feet
 /// that collide, a centre of mass too near to the border, a margin that no slower phase keeps, a parameter that is not
 /// finite or not positive. [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
-pub fn plan(biped: &Biped, legs: &Legs, request: &Request, watch: &Watch) -> Result<Walk> {
+pub fn plan<'w>(biped: &Biped, legs: &Legs, request: &Request, watch: impl Into<Option<&'w Watch>>) -> Result<Walk> {
+    let watch = Watch::or_none(watch);
     plan_actions(biped, legs, request, &request.gait.actions(request.route.steps.len()), watch)
 }
 
@@ -63,7 +64,14 @@ pub fn plan(biped: &Biped, legs: &Legs, request: &Request, watch: &Watch) -> Res
 ///
 /// # Errors
 /// As [`plan`].
-pub fn plan_actions(biped: &Biped, legs: &Legs, request: &Request, actions: &[Action], watch: &Watch) -> Result<Walk> {
+pub fn plan_actions<'w>(
+    biped: &Biped,
+    legs: &Legs,
+    request: &Request,
+    actions: &[Action],
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Walk> {
+    let watch = Watch::or_none(watch);
     refusal::check(request)?;
     let mut slowed = vec![1.0; actions.len()];
     loop {

@@ -99,13 +99,14 @@ impl Course {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a start or goal outside the map or too near to an obstacle, with the nearest
     /// feasible place; [`Watch::check`].
-    pub fn find(
+    pub fn find<'w>(
         pilot: &Pilot,
         floor: &Floor,
         start: &Footprint,
         search: impl Into<Search>,
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<std::result::Result<Self, Blocked>> {
+        let watch = Watch::or_none(watch);
         let Search { goal, method } = search.into();
         if goal.heading.is_some_and(|heading| !heading.is_finite()) {
             return Err(Error::new(ErrorKind::BadValue, "the heading at the goal is not finite; give a finite number"));

@@ -26,13 +26,14 @@ impl Plan {
     ///
     /// # Errors
     /// As [`Course::find`], [`Journey::new`] and [`Journey::step`].
-    pub fn find(
+    pub fn find<'w>(
         pilot: &Pilot,
         floor: &Floor,
         feet: [Footprint; 2],
         search: impl Into<Search>,
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<std::result::Result<Self, Blocked>> {
+        let watch = Watch::or_none(watch);
         let course = match Course::find(pilot, floor, &feet[0].middle(&feet[1]), search, watch)? {
             Ok(course) => course,
             Err(blocked) => return Ok(Err(blocked)),

@@ -95,7 +95,13 @@ impl<'a> Check<'a> {
     /// # Errors
     /// [`ErrorKind::BadValue`] for an invalid program, or one with other inputs or joints than the source. [`ErrorKind::Unsupported`] if no reachable target is
     /// found. The error of `watch` if it stops the check. Failed checks are in the report.
-    pub fn run(source: &Source, program: &Program, options: &Options, watch: &Watch) -> Result<Report> {
+    pub fn run<'w>(
+        source: &Source,
+        program: &Program,
+        options: &Options,
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Report> {
+        let watch = Watch::or_none(watch);
         program.validate()?;
         let system = equations(source)?;
         if program.inputs.len() != system.inputs.len() || program.joints.len() != system.joints.len() {

@@ -104,12 +104,13 @@ struct State {
 /// is out of reach or whose solutions all exceed limits; [`ErrorKind::Unsupported`] for a task other than a pose, and
 /// for given joints; [`ErrorKind::BadValue`] unless the start has one finite value per joint; [`ErrorKind::Cancelled`] and
 /// [`ErrorKind::Budget`].
-pub fn follow(
+pub fn follow<'w>(
     chain: &Chain,
     solver: &dyn InverseKinematics,
     request: &PathRequest<'_>,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Followed> {
+    let watch = Watch::or_none(watch);
     let PathRequest { poses, pace, speeds, start } = *request;
     start.map(|start| chain.forward(start)).transpose()?;
     if chain.task() != Task::Pose || !chain.given().is_empty() {

@@ -80,13 +80,14 @@ impl<'a> Check<'a> {
     ///
     /// # Errors
     /// Those of the solver, except for gaps. The error of `watch` if it stops the check. Failed checks are in the report.
-    pub fn run(
+    pub fn run<'w>(
         chain: &Chain,
         solver: &dyn Solver,
         bound: Option<usize>,
         options: &Options,
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<Report> {
+        let watch = Watch::or_none(watch);
         Check::run_within(chain, solver, bound, (options, RESIDUAL), watch)
     }
 
@@ -95,13 +96,14 @@ impl<'a> Check<'a> {
     ///
     /// # Errors
     /// As [`Check::run`].
-    pub fn run_within(
+    pub fn run_within<'w>(
         chain: &Chain,
         solver: &dyn Solver,
         bound: Option<usize>,
         (options, tolerance): (&Options, f64),
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<Report> {
+        let watch = Watch::or_none(watch);
         let model = Model::new(chain);
         let screws = ByScrews::new(chain).map(|screws| Box::new(screws) as Box<dyn Solver>);
         let mut rationals = Rationals::new(Counter::new(chain, &model.given), options.seed);
