@@ -3,9 +3,10 @@
 
 use std::cmp::Ordering;
 
+use super::path_request::{Pace, PathRequest};
 use super::{JointTrack, Trajectory};
 use crate::kinematics::{Chain, InverseKinematics, Joint, JointKind, Solution, Target, Task};
-use crate::spatial::{Pose, angle};
+use crate::spatial::angle;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// Maximum step of a joint from pose to pose without a jump \[rad\], if there are no times.
@@ -15,15 +16,6 @@ const ROUNDING: f64 = 1e-9;
 /// Maximum number of combinations of a solution's values that differ by whole turns. Those furthest from zero are
 /// omitted.
 const MOST_STATES: usize = groebot_algebra::limits::POSE_STATES;
-
-/// Timing of a path.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Pace {
-    /// One pose every this many seconds. Joints may use their maximum velocity.
-    Every(f64),
-    /// At these times \[s\], ascending.
-    At(Vec<f64>),
-}
 
 /// A jump from one branch to another, with the reason.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,41 +39,6 @@ pub struct Followed {
     pub trajectory: Trajectory,
     /// Its jumps, in order.
     pub jumps: Vec<Jump>,
-}
-
-/// Poses that an arm moves through.
-#[derive(Clone, Copy, Debug)]
-#[non_exhaustive]
-pub struct PathRequest<'a> {
-    /// The poses base_from_tip, in order.
-    pub poses: &'a [Pose],
-    /// The timing.
-    pub pace: &'a Pace,
-    /// By joint, its maximum velocity \[rad/s or the chain's unit per second\]; may be shorter than the list of joints.
-    pub speeds: &'a [Option<f64>],
-    /// The joint values before the first pose. The step from there to the first pose counts like any other, and may be a jump.
-    pub start: Option<&'a [f64]>,
-}
-
-impl<'a> PathRequest<'a> {
-    /// A path through poses, from any joint values.
-    pub fn new(poses: &'a [Pose], pace: &'a Pace) -> Self {
-        PathRequest { poses, pace, speeds: &[], start: None }
-    }
-
-    /// Sets the maximum velocities.
-    #[must_use]
-    pub fn speeds(mut self, speeds: &'a [Option<f64>]) -> Self {
-        self.speeds = speeds;
-        self
-    }
-
-    /// Sets the joint values before the first pose.
-    #[must_use]
-    pub fn start(mut self, q: &'a [f64]) -> Self {
-        self.start = Some(q);
-        self
-    }
 }
 
 /// A state of the arm at a pose, with the best path to it.

@@ -6,6 +6,7 @@
 mod check;
 mod follow;
 mod json;
+mod path_request;
 mod states;
 pub mod table;
 mod trajectory;
@@ -13,6 +14,7 @@ mod trajectory;
 pub use table::pose_numbers;
 
 pub use check::{Bounds, Fault, Finding, beyond_limit, findings, too_fast};
-pub use follow::{Followed, Jump, Pace, PathRequest, follow};
+pub use follow::{Followed, Jump, follow};
+pub use path_request::{Pace, PathRequest};
 pub use states::{StateRow, StateTable};
 pub use trajectory::{Contact, Figure, JointTrack, Track, Trajectory};
