@@ -18,7 +18,7 @@ pub fn describe_coupled(page: &mut Page, derived: CoupledView<'_>) {
     }
     for stage in &derived.method.stages {
         page.heading(&derived.title(stage));
-        page.line(&format!("task {}", stage.problem.chain.asked()));
+        page.line(&format!("task {}", stage.problem.chain.task_text()));
         describe(page, stage.view());
     }
 }

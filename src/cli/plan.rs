@@ -157,5 +157,5 @@ pub fn run(arguments: &Arguments) -> Outcome {
     console::tell(asked.notes());
     let about = chain.parts().description.as_deref().map(|text| format!("{text}\n")).unwrap_or_default();
     let told = TipLink::line(tip.as_ref()) + &asked.choice.as_ref().map(choice_text).unwrap_or_default();
-    console::print(&format!("{told}{}, task {}\n{about}\n{}\n", chain.name(), chain.asked(), solver.plan()))
+    console::print(&format!("{told}{}, task {}\n{about}\n{}\n", chain.name(), chain.task_text(), solver.plan()))
 }

@@ -299,9 +299,9 @@ fn about(source: &Source, program: &Program) -> About {
 /// The task of the tip, or the task of each chain's tip.
 fn task(source: &Source) -> String {
     match (&source.chain, &source.coupled) {
-        (Some(chain), _) => chain.asked(),
+        (Some(chain), _) => chain.task_text(),
         (None, Some(coupled)) => {
-            let asked = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.asked()));
+            let asked = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.task_text()));
             asked.collect::<Vec<_>>().join("; ")
         }
         (None, None) => "its equations".to_owned(),

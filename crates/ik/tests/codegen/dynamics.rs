@@ -122,7 +122,7 @@ fn compare_form(description: &str, base: Base, rate: f64, form: Form) {
 }
 
 fn compare_robot(robot: &Robot, base: Base, rate: f64, form: Form) {
-    let equations = Equations::as_told(robot, base).unwrap().without_friction();
+    let equations = Equations::as_given(robot, base).unwrap().without_friction();
     let functions = Function::ALL.to_vec();
     let printed = Printed { name: robot.name(), equations: &equations, remarks: Vec::new(), functions, form };
     let folder = tempfile::tempdir().unwrap();
@@ -231,7 +231,7 @@ fn what_cannot_be_printed_is_refused() {
     let mut parts =
         Robot::from_urdf(include_str!("../../../../tests/corpus/dynamics/ur5.urdf")).unwrap().parts().clone();
     parts.links.iter_mut().for_each(|link| link.mass = None);
-    let equations = Equations::as_told(&Robot::new(parts).unwrap(), Base::Fixed).unwrap();
+    let equations = Equations::as_given(&Robot::new(parts).unwrap(), Base::Fixed).unwrap();
     for function in Function::ALL {
         let functions = vec![function];
         let printed =

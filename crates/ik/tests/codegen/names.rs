@@ -135,7 +135,7 @@ fn a_robot_of_equations_of_motion_may_have_any_name() {
             .for_each(|(joint, own)| own.name = names[(place + joint) % names.len()].to_owned());
         parts.actuators.clear();
         let robot = Robot::new(parts).unwrap();
-        let equations = Equations::as_told(&robot, Base::Fixed).unwrap().without_friction();
+        let equations = Equations::as_given(&robot, Base::Fixed).unwrap().without_friction();
         let functions = vec![dynamics::Function::Inverse];
         let form = dynamics::Form::Straight;
         let printed =

@@ -104,12 +104,12 @@ impl WorkSpace {
         error.fixed_rows_mut::<3>(0).copy_from(&(pose.translation.vector - target.pose.translation.vector));
         error.fixed_rows_mut::<3>(3).copy_from(&(pose.rotation * target.pose.rotation.inverse()).scaled_axis());
         let moving = Vector6::from_column_slice(moving.as_slice());
-        let asked = target.acceleration
+        let desired_acceleration = target.acceleration
             - (moving - target.velocity) * self.derivative
             - error * self.proportional
             - Vector6::from_column_slice(drift.as_slice());
         let inverse = self.inverted(&jacobian)?;
-        let commanded = inverse * DVector::from_column_slice(asked.as_slice());
+        let commanded = inverse * DVector::from_column_slice(desired_acceleration.as_slice());
         self.commanded.copy_from_slice(commanded.as_slice());
         self.equations.inverse(&mut self.workspace, state, &self.commanded).map(|torques| torques.as_slice())
     }

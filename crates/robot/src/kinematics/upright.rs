@@ -102,7 +102,7 @@ impl Upright {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a target of another task.
-    pub fn asked(&self, target: &Target, given: &[f64]) -> Result<(Target, Vec<f64>)> {
+    pub fn loop_target(&self, target: &Target, given: &[f64]) -> Result<(Target, Vec<f64>)> {
         let Target::PositionPitchRoll { point, pitch, roll } = *target else {
             return Err(Error::new(
                 ErrorKind::BadValue,

@@ -96,7 +96,7 @@ pub fn follow_from(
     start.map(|start| chain.forward(start)).transpose()?;
     if chain.task() != Task::Pose || !chain.given().is_empty() {
         let text =
-            format!("the task is `{}`; a path of poses is followed by `pose` without given joints", chain.asked());
+            format!("the task is `{}`; a path of poses is followed by `pose` without given joints", chain.task_text());
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     let times = times(pace, poses.len())?;

@@ -133,7 +133,7 @@ impl CoupledView<'_> {
             for line in [&chain.parts().description, &chain.parts().source].into_iter().flatten() {
                 let _ = writeln!(text, "{}\n", markdown(line));
             }
-            let _ = writeln!(text, "Task: {}.\n", markdown(&chain.asked()));
+            let _ = writeln!(text, "Task: {}.\n", markdown(&chain.task_text()));
             let _ = writeln!(text, "{}", stage.view().steps_text(&Mechanism::new(chain)?));
         }
         text += MARK;

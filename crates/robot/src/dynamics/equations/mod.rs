@@ -130,7 +130,7 @@ impl Equations {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a number outside the range of doubles, [`ErrorKind::Unsupported`] as in
     /// [`Equations::new`].
-    pub fn as_told(robot: &Robot, base: Base) -> Result<Self> {
+    pub fn as_given(robot: &Robot, base: Base) -> Result<Self> {
         let robot = robot.with_constants_fixed()?;
         Equations::of(&robot, &Model::new(&robot)?, base)
     }
@@ -166,14 +166,15 @@ impl Equations {
             (joint, Frame::of(&body_from_link))
         };
         // Of the two links at a joint, the child belongs to the joint's body.
-        let behind = |(joint, place): (usize, usize)| {
+        let child_link = |(joint, place): (usize, usize)| {
             let (parent, child) = robot.ends(place);
             if model.link(child).0 == joint + 1 { child } else { parent }
         };
         let of_base = |link: &usize| model.link(*link) == (0, Pose::identity());
         let root = Some(robot.root_place()).filter(of_base).or_else(|| (0..robot.links().len()).find(of_base));
-        let behind = robot.moving().into_iter().enumerate().map(behind);
-        let parameter_links: Vec<usize> = std::iter::once(root.unwrap_or(robot.root_place())).chain(behind).collect();
+        let child_link = robot.moving().into_iter().enumerate().map(child_link);
+        let parameter_links: Vec<usize> =
+            std::iter::once(root.unwrap_or(robot.root_place())).chain(child_link).collect();
         let parameter_link_names: Vec<String> =
             parameter_links.iter().map(|link| robot.links()[*link].name.clone()).collect();
         let leads = |(joint, drive): &(usize, &Drive)| names[drive.freedom] == moving[*joint].name;

@@ -160,7 +160,7 @@ impl ScrewSolver {
         if let Some(parts) = &self.upright {
             let (upright, inner) = &**parts;
             target.check(&self.chain)?;
-            let (closed, values) = upright.asked(target, given)?;
+            let (closed, values) = upright.loop_target(target, given)?;
             let found = inner.solve_given(&closed, &values)?;
             return Ok(upright::on_chain(&self.chain, upright, target, found));
         }
@@ -377,7 +377,7 @@ fn unsolved(chain: &Chain) -> Error {
          place among them, and finds all answers; a search (`groebot ik --numeric`) may find some",
         chain.name(),
         chain.joints().len(),
-        chain.asked()
+        chain.task_text()
     );
     Error::new(ErrorKind::Unsupported, text)
 }
