@@ -214,10 +214,10 @@ fn what_the_robot_does_not_have_is_refused() {
     let cases = [
         (derive(&["--tip", "nose"]), &["`nose`"][..]),
         (derive(&["--base", "torso", "--tip", "torso"]), &["torso"]),
-        (derive(&[]), &["several ends", "choose a tip link"]),
+        (derive(&[]), &["several leaf links", "choose a tip link"]),
         (with(&["--free", "LElbow"]), &["`LElbow`", "`LElbowYaw`"]),
         (with(&["--free", "LElbowYaw", "--free", "LElbowYaw"]), &["`LElbowYaw`", "twice"]),
-        (with(&["--direction", "1,0,0"]), &["`pose`", "aims no direction"]),
+        (with(&["--direction", "1,0,0"]), &["`pose`", "has no direction"]),
         (with(&["--task", "ray", "--direction", "0,0,0"]), &["direction"]),
         (with(&["--task", "planar_pose"]), &["--plane xy, xz or yz"]),
         (with(&["--plane", "xy"]), &["--plane belongs to a planar task"]),

@@ -50,9 +50,9 @@ fn rotors_of_transmissions_count() {
     // A fault of a transmission is reported with its actuator, and does not affect chains.
     let right = fs::read_to_string(corpus("rotor.urdf")).unwrap();
     for (from, to, words) in [
-        ("value=\"50\"", "value=\"fifty\"", "`fifty` is no number"),
-        ("value=\"50\"", "value=\"1e200\"", "beyond doubles"),
-        ("<joint name=\"j\"/>", "<joint name=\"k\"/>", "is no joint of the robot"),
+        ("value=\"50\"", "value=\"fifty\"", "`fifty` is not a number"),
+        ("value=\"50\"", "value=\"1e200\"", "exceeds the range of doubles"),
+        ("<joint name=\"j\"/>", "<joint name=\"k\"/>", "is not a joint of the robot"),
     ] {
         let (_folder, robot) = written("r.urdf", &right.replacen(from, to, 1));
         let told = refuse(&robot, "q0\n0\n", &[]);
@@ -93,7 +93,10 @@ fn planar_and_floating_joints_are_told() {
         let (_folder, robot) =
             written("r.urdf", &at_root.replacen("<link name=\"w\"/>", &format!("<link name=\"w\"/>{above}"), 1));
         let told = refuse(&robot, "q0,q1\n0,0\n", &[]);
-        assert!(told.contains("joint `p`") && told.contains(kind) && told.contains("several freedoms"), "{told}");
+        assert!(
+            told.contains("joint `p`") && told.contains(kind) && told.contains("several degrees of freedom"),
+            "{told}"
+        );
         assert_eq!(run(&["dynamics", text(&robot), "--lang", "rust"]).code, 1);
         // Above the base the joint does not move.
         let (row, told) = first(&robot, "q0\n0\n", &["--base", "a"]);
@@ -226,10 +229,13 @@ fn dust_in_inertias_is_rounding() {
     let (_folder, dusty) = written("r.urdf", &robot("2.40741e-35"));
     let (row, told) = first(&dusty, "q0\n0\n", &[]);
     near(&row, &[("M0_0", 0.0133687)]);
-    assert!(told.contains("link `head`") && told.contains("taken for rounding"), "{told}");
+    assert!(told.contains("link `head`") && told.contains("treated as a rounding error"), "{told}");
     let (_folder, wrong) = written("r.urdf", &robot("2e-5"));
     let told = refuse(&wrong, "q0\n0\n", &[]);
-    assert!(told.contains("no body has it") && told.contains("`--as-given` takes the numbers unchanged"), "{told}");
+    assert!(
+        told.contains("physically impossible") && told.contains("`--as-given` takes the numbers unchanged"),
+        "{told}"
+    );
     near(&first(&wrong, "q0\n0\n", &["--as-given"]).0, &[("M0_0", 0.0133687)]);
 }
 

@@ -157,7 +157,7 @@ fn what_is_no_scene_is_refused() {
         "a.wrl: line 2: `Sphere` is not supported here",
     );
     let not = format!("{head}time [s],q:lift [m]\n0,0.1\n1,NaN\n");
-    says(&[&at("b.csv", &not), "--robot", telescope, "--to", "wrl"], "b.csv: line 5: `NaN` is no finite number");
+    says(&[&at("b.csv", &not), "--robot", telescope, "--to", "wrl"], "b.csv: line 5: `NaN` is not a finite number");
     let error = refused(&["export", &motion, "--robot", telescope, "--to", "glb"]);
     assert!(error.contains("give its file by -o"), "{error}");
     // Parts of meshes that are not read are reported, and the rest is written.

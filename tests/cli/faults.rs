@@ -16,7 +16,7 @@ const ROBOT: &str = "<robot name=\"arm\"><xacro:property name=\"width\" value=\"
     <joint name=\"pan\" type=\"revolute\"><parent link=\"base\"/><child link=\"cam\"/><axis xyz=\"0 0 1\"/><limit lower=\"2\" upper=\"-2\"/></joint>\n\
     </robot>\n";
 const FAULT: &str = "line 6: joint `pan`: the limits 2..-2 are inverted";
-const XACRO: &str = "line 1: definitions of xacro that nothing uses are ignored: `width`";
+const XACRO: &str = "line 1: unused definitions of xacro are ignored: `width`";
 
 fn robot() -> (TempDir, String) {
     robot_of(ROBOT)

@@ -120,7 +120,7 @@ fn mistakes_are_told_in_one_line() {
     for (arguments, words) in [
         (vec!["--q", "0"], "choose a tip link, such as `Head`"),
         (vec!["--q", "0", "--tip", "l_sol"], "did you mean `l_sole`?"),
-        (vec!["--q", "0", "--tip", "torso"], "nothing moves between `base_link` and `torso`"),
+        (vec!["--q", "0", "--tip", "torso"], "no joint moves between `base_link` and `torso`"),
     ] {
         let error = refused(&[&["fk", nao.as_str()], arguments.as_slice()].concat());
         assert!(error.contains(words) && error.contains("nao.urdf"), "{error}");

@@ -66,7 +66,7 @@ fn a_target_out_of_reach_is_told() {
 #[test]
 fn bad_targets_are_refused() {
     assert!(refused(&["ik", "puma"]).contains("no target"));
-    assert!(refused(&["ik", "puma", "--target", "1,2,3,1,0,0,0,1,0,0,0,-1"]).contains("no rotation matrix"));
+    assert!(refused(&["ik", "puma", "--target", "1,2,3,1,0,0,0,1,0,0,0,-1"]).contains("not a rotation matrix"));
     assert!(refused(&["ik", "puma", "--target", "1,2"]).contains("2 numbers are given; a pose has 6 numbers"));
     assert!(refused(&["ik", "puma", "--target", "1,2,x,0,0,0"]).contains("finite numbers separated by commas"));
     assert!(refused(&["ik", "puma", "--target", "1,2,nan,0,0,0"]).contains("finite numbers"));

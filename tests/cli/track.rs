@@ -27,7 +27,7 @@ fn an_arm_follows_and_what_it_does_is_written() {
     assert_eq!(table.lines().count(), 2002);
     let last: Vec<f64> = table.lines().last().unwrap().split(',').map(|word| word.parse().unwrap()).collect();
     (0..3).for_each(|joint| assert!((last[1 + joint] - last[10 + joint]).abs() < 1e-4, "{last:?}"));
-    assert!(fs::read_to_string(&plot).unwrap().contains("errors: what is less what should be"));
+    assert!(fs::read_to_string(&plot).unwrap().contains("errors: actual minus desired values"));
     let json: serde_json::Value = serde_json::from_str(&succeed(&[&law[..], &["--json"]].concat())).unwrap();
     assert_eq!(json["joints"][2]["name"], "slide");
     assert!((json["joints"][0]["greatest_error"].as_f64().unwrap() - 0.02).abs() < 1e-12);

@@ -67,7 +67,7 @@ fn what_is_no_walk_and_no_robot_is_refused() {
     says(&[&at("b.json", "{\"format\": 1, \"walk\": 3}")], "b.json: line 1: this is no trajectory in JSON");
     says(&[&at("c.json", "[]")], "c.json");
     says(&[&at("d.csv", "# groebot trajectory 1\n# robot: teo\ntime [s]\n")], "d.csv: the trajectory has no sample");
-    says(&[&at("e.urdf", "<robot name=\"dot\"><link name=\"a\"/></robot>")], "nothing to see");
+    says(&[&at("e.urdf", "<robot name=\"dot\"><link name=\"a\"/></robot>")], "nothing to draw");
     says(&[&at("f.toml", "unknowns = [\"x\"]\nequations = [\"x - 1\"]\n")], "f.toml");
     says(&[text(&root("derivations/puma/0_chain.toml"))], "this does not describe a robot with links");
     says(&["nao", "--robot", "teo"], "--robot names the walking robot, but this is not a walk");
@@ -96,7 +96,7 @@ fn derivations_and_rooms_become_pages() {
     let told = refused(&with(&page, &[text(&root(ARM)), "--tip", "tool9"]));
     assert!(told.contains("tool9"), "{told}");
     let told = refused(&with(&page, &["nao", "--tip", "l_sole", "--base", "l_sole"]));
-    assert!(told.contains("nothing moves between"), "{told}");
+    assert!(told.contains("no joint moves between"), "{told}");
     let room = root("examples/living_room.toml");
     let running = read(&["rh0", "--room", text(&room), "--start", "1,2.6,90", "--goal", "7.2,3.4"]);
     assert!(running.contains("\"run\":{\"robot\":\"rh0\"") && running.len() < 2_000_000);

@@ -237,7 +237,7 @@ fn is_false(value: &bool) -> bool {
 }
 
 const FORMAT: JsonFormat =
-    JsonFormat { what: "program", number: 2, renew: "`groebot derive` on its folder writes it anew" };
+    JsonFormat { what: "program", number: 2, renew: "`groebot derive` on its folder writes it again" };
 
 impl Program {
     /// By joint, the least and the greatest value in its source, in the joint's unit; infinite where it has none.

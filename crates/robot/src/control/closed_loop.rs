@@ -123,7 +123,7 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
             velocity[at] += step / 6.0 * (first[at] + 2.0 * second[at] + 2.0 * third[at] + fourth[at]);
         }
         let finite = q.iter().chain(&*velocity).all(|x| x.is_finite());
-        let text = "the motion grows beyond doubles: the law does not hold the robot";
+        let text = "the motion exceeds the range of doubles: the law does not stabilise the robot";
         if finite { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text)) }
     }
 }

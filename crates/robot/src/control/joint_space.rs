@@ -28,7 +28,7 @@ impl Gains {
     fn check(&self, count: usize) -> Result<()> {
         let lists = [&self.proportional, &self.derivative, &self.integral];
         let is_right = |list: &&Vec<f64>| list.len() == count && list.iter().all(|x| x.is_finite() && *x >= 0.0);
-        let text = || format!("give gains of {count} freedoms, each finite and not below zero");
+        let text = || format!("give gains for {count} degrees of freedom, each finite and nonnegative");
         if lists.iter().all(is_right) { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text())) }
     }
 

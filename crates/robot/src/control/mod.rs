@@ -88,6 +88,6 @@ impl<L: Law + ?Sized> Law for Box<L> {
 /// Number of degrees of freedom of a law's equations. Joint-space laws need a fixed base.
 fn fixed(equations: &Equations) -> Result<usize> {
     use crate::{Error, ErrorKind};
-    let text = "this law is for a robot whose base is fixed";
+    let text = "this law needs a robot with a fixed base";
     if equations.is_floating() { Err(Error::new(ErrorKind::Unsupported, text)) } else { Ok(equations.freedoms()) }
 }

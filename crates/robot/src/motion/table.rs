@@ -262,7 +262,7 @@ impl Header {
             let syntax = |text: String| Error::new(ErrorKind::Syntax, text);
             match cell.trim().parse::<f64>() {
                 Ok(value) if value.is_finite() => limits::number(cell).map_err(syntax),
-                _ => Err(syntax(format!("`{}` is no finite number", shown(cell)))),
+                _ => Err(syntax(format!("`{}` is not a finite number", shown(cell)))),
             }
         };
         let numbers = cells.iter().map(number).collect::<Result<Vec<f64>>>()?;

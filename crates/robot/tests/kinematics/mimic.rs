@@ -112,8 +112,8 @@ fn a_toml_chain_may_have_followers_too() {
     let again: Chain = serde_json::from_str(&serde_json::to_string(&chain).unwrap()).unwrap();
     assert_eq!(again, chain);
     for (mimic, kind, words) in [
-        ("{ joint = \"c\" }", ErrorKind::UnknownName, "mimics `c`, which is no joint"),
-        ("{ joint = \"b\" }", ErrorKind::BadValue, "follows another joint"),
+        ("{ joint = \"c\" }", ErrorKind::UnknownName, "mimics `c`, which is not a joint"),
+        ("{ joint = \"b\" }", ErrorKind::BadValue, "is a mimic joint"),
         ("{ joint = \"a\", multiplier = 0 }", ErrorKind::BadValue, "multiplier is zero"),
         ("{ joint = \"a\", factor = 2 }", ErrorKind::UnknownKey, "factor"),
         ("{ multiplier = 2 }", ErrorKind::MissingKey, "joint"),

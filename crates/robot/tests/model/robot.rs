@@ -125,7 +125,7 @@ fn what_is_no_tree_is_refused() {
     refused(&["a", "b", "c"], vec![joint("j", "a", "b"), joint("j", "b", "c")], DuplicateName, "joint `j`");
     refused(&["a", "b"], vec![joint("j", "a", "x")], UnknownName, "joint `j`: its child `x` is no link");
     refused(&["a", "base"], vec![joint("j", "bass", "a")], UnknownName, "did you mean `base`?");
-    refused(&["a", "b", "c"], vec![joint("j", "a", "b")], BadValue, "2 links hang on no joint: `a`, `c`");
+    refused(&["a", "b", "c"], vec![joint("j", "a", "b")], BadValue, "2 links have no parent joint: `a`, `c`");
     refused(&["a", "b"], vec![joint("j", "a", "b"), joint("k", "b", "a")], BadValue, "loop");
     refused(
         &["a", "b", "c"],
@@ -137,7 +137,7 @@ fn what_is_no_tree_is_refused() {
         &["a", "b"],
         vec![joint("j", "a", "b"), joint("k", "a", "b")],
         BadValue,
-        "joint `k`: its child `b` hangs on joint `j`",
+        "joint `k`: its child `b` is already the child of joint `j`",
     );
     refused(&["a"], vec![joint("j", "a", "a")], BadValue, "loop");
     refused(&[" "], vec![], BadValue, "visible characters");

@@ -79,10 +79,10 @@ fn mistakes_stand_at_their_line_and_say_what_is_allowed() {
         ("\"right_\"", "\"1\"", ErrorKind::BadValue, 9, "no digit first"),
         ("name = \"two\"", "name = \"t w o\"", ErrorKind::BadValue, 1, "`name` is no word"),
         ("prefix = \"right_\"\nchain = \"arm.toml\"", "chain = \"mm.toml\"", ErrorKind::BadValue, 9, "give one unit"),
-        ("\"arm.toml\"\ntask", "\"../arm.toml\"\ntask", ErrorKind::BadValue, 12, "no plain file name"),
+        ("\"arm.toml\"\ntask", "\"../arm.toml\"\ntask", ErrorKind::BadValue, 12, "not a plain file name"),
         ("\"arm.toml\"\ntask", "7\ntask", ErrorKind::BadValue, 12, "or a table"),
         ("[\"slide\"]", "[\"slid\"]", ErrorKind::UnknownName, 9, "chain `b`"),
-        ("\"direction\", direction", "\"pose\", direction", ErrorKind::BadValue, 13, "aims no direction"),
+        ("\"direction\", direction", "\"pose\", direction", ErrorKind::BadValue, 13, "has no direction"),
     ];
     for (from, to, kind, line, word) in cases {
         let text = TWO.replacen(from, to, 1);

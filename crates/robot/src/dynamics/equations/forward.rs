@@ -105,10 +105,10 @@ impl Equations {
     fn massless(&self, joint: Option<usize>) -> Error {
         let text = match joint {
             Some(joint) => format!(
-                "link `{}` of joint `{}` and the links that it carries have no mass that the joint moves, so the acceleration is infinite; give masses",
+                "joint `{1}` moves no mass: link `{0}` and the links that it carries have no inertia along the joint, so the acceleration is infinite; give masses",
                 self.links[joint], self.names[joint]
             ),
-            None => "the base and what it carries have no mass that torques move; give masses".to_owned(),
+            None => "the base and the links that it carries have no mass; give masses".to_owned(),
         };
         Error::new(ErrorKind::BadValue, text)
     }

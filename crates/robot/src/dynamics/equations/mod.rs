@@ -150,7 +150,7 @@ impl Equations {
         let drive = |(joint, law): (&&Joint, &crate::model::Mimic)| {
             let [factor, offset] = law.law();
             let unknown =
-                || joint.error(ErrorKind::BadValue, &format!("it follows `{}`, which does not move", law.leader));
+                || joint.error(ErrorKind::BadValue, &format!("it mimics `{}`, which does not move", law.leader));
             let freedom = names.iter().position(|name| *name == law.leader).ok_or_else(unknown)?;
             let Joint { armature, damping, friction, .. } = **joint;
             Ok(Drive { freedom, factor, offset, armature, damping, friction })

@@ -123,13 +123,13 @@ impl Symbolic {
             ));
         }
         lines.push(
-            "Of the body behind a joint $m$ is the mass, $mx$, $my$, $mz$ that times its centre, and $Ixx$ to $Izz$ the inertia tensor, all about the joint's point and along the \
+            "For the body that a joint moves, $m$ is the mass, $mx$, $my$, $mz$ are the mass times its centre, and $Ixx$ to $Izz$ the inertia tensor, about the joint's point and along the \
              axes of the base where all joints are at zero."
                 .to_owned(),
         );
         if let Some(base) = &self.base {
             lines.push(format!(
-                "$M$, $C$ and $N$ depend on {} base parameters alone, $B1$ and so on; no fewer would do.",
+                "$M$, $C$ and $N$ depend only on {} base parameters, $B1$ and so on; this is the minimal number.",
                 base.forms.len()
             ));
         }

@@ -372,9 +372,7 @@ fn unsolved(chain: &Chain) -> Error {
     let there =
         if there.is_empty() { "no neighbouring axes meet or are parallel".to_owned() } else { there.join(", ") };
     let text = format!(
-        "`{}`: no order of the known subproblems solves its {} joints for the task `{}`: {there}; six joints need three \
-         axes in a row that meet or are parallel, or three parallel pairs; `groebot derive` solves most other chains, six joints in any \
-         place among them, and finds all answers; a search (`groebot ik --numeric`) may find some",
+        "`{}`: no order of the known subproblems solves its {} joints for the task `{}`: {there}; six joints need three consecutive axes that meet or are parallel, or three parallel pairs; `groebot derive` solves most other chains, also six general joints, and finds all solutions; a numeric search (`groebot ik --numeric`) may find some",
         chain.name(),
         chain.joints().len(),
         chain.task_text()
