@@ -105,7 +105,7 @@ impl Equations {
     fn massless(&self, joint: Option<usize>) -> Error {
         let text = match joint {
             Some(joint) => format!(
-                "joint `{1}` moves no mass: link `{0}` and the links that it carries have no inertia along the joint, so the acceleration is infinite; give masses",
+                "link `{}` of joint `{}` and the links that it carries have no mass that the joint moves, so the acceleration is infinite; give masses",
                 self.links[joint], self.names[joint]
             ),
             None => "the base and the links that it carries have no mass; give masses".to_owned(),
