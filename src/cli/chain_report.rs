@@ -42,13 +42,13 @@ pub fn describe(page: &mut Page, derived: SequentialView<'_>) {
     for line in plan.to_string().lines().skip(1) {
         page.line(line);
     }
-    page.heading("What runs");
+    page.heading("Program");
     let blocks = derived.program.blocks.iter().map(|block| {
         let cases: Vec<&str> = block.cases.iter().map(|case| case.label.as_str()).collect();
         (block.label.clone(), cases.join("; "))
     });
     page.entries(&blocks.collect::<Vec<_>>());
-    page.heading("Proved, exactly and without trusting the engine");
+    page.heading("Proved exactly, independently of the Groebner engine");
     let relations: usize = derived.method.steps.iter().map(|step| step.relations.len()).sum();
     let proofs: usize = derived
         .method

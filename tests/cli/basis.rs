@@ -79,13 +79,13 @@ fn zero_and_unit_ideals() {
 }
 
 #[test]
-fn a_degree_beyond_counting_is_told_so() {
+fn a_degree_beyond_counting_is_reported() {
     let (_, summary) = basis("x^1000 - 1\ny^1000 - 1\nz^1000 - 1", &[]);
     assert!(summary.contains("dimension 0, degree over 1000000"), "{summary}");
 }
 
 #[test]
-fn every_format_says_the_same_and_is_read_again() {
+fn every_format_reports_the_same_and_is_read_again() {
     let folder = tempdir().unwrap();
     let file = folder.path().join("basis");
     let (plain, _) = basis(CYCLIC, &[]);

@@ -55,7 +55,7 @@ fn a_chain_shows_joints_limits_and_geometry() {
 }
 
 #[test]
-fn a_single_chain_needs_no_tip_and_rounded_angles_are_told() {
+fn a_single_chain_needs_no_tip_and_rounded_angles_are_reported() {
     let page = succeed(&["info", &file("ur5.urdf")]);
     has(
         &page,

@@ -20,8 +20,8 @@ fn an_arm_follows_and_what_it_does_is_written() {
     let robot = root("tests/corpus/dynamics/rrp.urdf");
     let [robot, trajectory, out_text, plot_text] = [text(&robot), text(&trajectory), text(&out), text(&plot)];
     let law = ["track", robot, "--law", "computed-torque", "--trajectory", trajectory, "--error", "0.02"];
-    let told = succeed(&[&law[..], &["-o", out_text, "--plot", plot_text]].concat());
-    assert!(told.starts_with("2000 steps") && told.contains("slide"), "{told}");
+    let reported = succeed(&[&law[..], &["-o", out_text, "--plot", plot_text]].concat());
+    assert!(reported.starts_with("2000 steps") && reported.contains("slide"), "{reported}");
     let table = fs::read_to_string(&out).unwrap();
     assert!(table.starts_with("t,q0,q1,q2,v0,v1,v2,tau0,tau1,tau2,d0,d1,d2\n"));
     assert_eq!(table.lines().count(), 2002);
@@ -46,12 +46,12 @@ fn an_arm_follows_and_what_it_does_is_written() {
     let whole: Vec<String> = log.lines().zip(answers.lines()).map(|(a, b)| format!("{a},{}", torques(b))).collect();
     let file = at("log.csv");
     fs::write(&file, whole.join("\n") + "\n").unwrap();
-    let told = succeed(&["identify", robot, text(&file)]);
+    let reported = succeed(&["identify", robot, text(&file)]);
     assert!(
-        told.contains("12 numbers")
-            && told.contains("1.800000e0  rod.m")
-            && told.contains("physically possible within the noise"),
-        "{told}"
+        reported.contains("12 numbers")
+            && reported.contains("1.800000e0  rod.m")
+            && reported.contains("physically possible within the noise"),
+        "{reported}"
     );
     assert!(refused(&["identify", robot, text(&states)]).contains("tau0.."));
 }
