@@ -19,8 +19,8 @@ fn a_table_is_read_back() {
     }
     assert_eq!((&read.robot, &read.times, &read.q), (&path.robot, &path.times, &path.q));
     assert_eq!(
-        (&read.figures, &read.points, &read.contacts[0].stands),
-        (&path.figures, &path.points, &path.contacts[0].stands)
+        (&read.figures, &read.points, &read.contacts[0].pose),
+        (&path.figures, &path.points, &path.contacts[0].pose)
     );
     for (a, b) in read.base.iter().zip(&path.base).chain(read.contacts[0].poses.iter().zip(&path.contacts[0].poses)) {
         assert!((a.to_homogeneous() - b.to_homogeneous()).amax() < 2e-9);
@@ -36,10 +36,10 @@ fn json_is_read_back() {
     assert_eq!(Trajectory::from_json(&value.to_string()).unwrap(), path);
     value["walk"] = 1.into();
     assert!(Trajectory::from_json(&value.to_string()).is_ok(), "what others add is ignored");
-    for (format, told) in [(2.into(), "has `format` 2"), (serde_json::Value::Null, "has no `format`")] {
+    for (format, reported) in [(2.into(), "has `format` 2"), (serde_json::Value::Null, "has no `format`")] {
         value["format"] = format;
         let error = Trajectory::from_json(&value.to_string()).unwrap_err();
-        assert!(error.kind() == ErrorKind::Unsupported && error.message().contains(told), "{error}");
+        assert!(error.kind() == ErrorKind::Unsupported && error.message().contains(reported), "{error}");
     }
     assert_eq!(Trajectory::from_json("{").unwrap_err().kind(), ErrorKind::Syntax);
 }
