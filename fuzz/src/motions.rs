@@ -89,7 +89,7 @@ fn task_json(bytes: &[u8]) {
 /// After each step both feet have a pose.
 fn footsteps(bytes: &[u8]) {
     if let Some(route) = read(Route::from_csv(&text(bytes), 0.05)) {
-        assert_eq!(route.pose().len(), route.steps.len() + 1);
+        assert_eq!(route.stands().len(), route.steps.len() + 1);
     }
 }
 

@@ -108,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let output = output.expects([arguments.out.as_ref()])?;
     let (robot, _) = described(&arguments.robot)?;
     let (robot, gravity) = arguments.part.of(&robot)?;
-    let equations = Equations::as_given(&robot, Base::Fixed)
+    let equations = Equations::unchecked(&robot, Base::Fixed)
         .map_err(|error| error.in_file(&arguments.robot))?
         .with_gravity(gravity);
     let log = read(arguments, &equations)?;

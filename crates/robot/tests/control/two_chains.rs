@@ -25,9 +25,8 @@ fn moving(equations: &Equations, link: usize, state: State<'_>, acceleration: &[
     let [jacobian, change] = equations.jacobian(&mut room, state, link).unwrap();
     let [rates, changes] = [state.velocity, acceleration].map(DVector::from_column_slice);
     let (twist, classical) = (jacobian * &rates, jacobian * changes + change * &rates);
-    let own = |six: &nalgebra::Vector6<f64>| {
-        [0, 3].map(|at| is_at.rotation.inverse() * six.fixed_rows::<3>(at).into_owned())
-    };
+    let own =
+        |six: &nalgebra::Vector6<f64>| [0, 3].map(|at| is_at.rotation.inverse() * six.fixed_rows::<3>(at).into_owned());
     let [v, w] = own(&twist);
     let [a, turning] = own(&classical);
     let place = is_at.translation.vector.iter().chain(is_at.rotation.coords.iter()).copied().collect();

@@ -28,7 +28,7 @@ pub fn sample() -> Trajectory {
         contacts: vec![Contact {
             name: "left".into(),
             poses: [0.5, 0.6, 0.7].map(pose).to_vec(),
-            is_at: vec![true, false, true],
+            stands: vec![true, false, true],
         }],
         points: vec![Track { name: "com".into(), at: points(0.5) }],
         figures: vec![Figure { name: "margin".into(), unit: "m".into(), values: vec![0.01, 0.02, -0.005] }],

@@ -19,8 +19,8 @@ fn a_table_is_read_back() {
     }
     assert_eq!((&read.robot, &read.times, &read.q), (&path.robot, &path.times, &path.q));
     assert_eq!(
-        (&read.figures, &read.points, &read.contacts[0].pose),
-        (&path.figures, &path.points, &path.contacts[0].pose)
+        (&read.figures, &read.points, &read.contacts[0].stands),
+        (&path.figures, &path.points, &path.contacts[0].stands)
     );
     for (a, b) in read.base.iter().zip(&path.base).chain(read.contacts[0].poses.iter().zip(&path.contacts[0].poses)) {
         assert!((a.to_homogeneous() - b.to_homogeneous()).amax() < 2e-9);

@@ -52,7 +52,7 @@ fn tracks_that_do_not_fit_are_refused() {
         ("its time is not at least 1e-8 s after the previous one", |path| path.times[1] = f64::NAN),
         ("`joint values` has 2 values for 3 samples", |path| path.q.truncate(2)),
         ("1 values for 2 joints", |path| path.q[1].truncate(1)),
-        ("`left` has 2 values", |path| path.contacts[0].pose.truncate(2)),
+        ("`left` has 2 values", |path| path.contacts[0].stands.truncate(2)),
         ("`margin` has 4 values", |path| path.figures[0].values.push(1.0)),
         ("sample 2: a value is not finite", |path| path.points[0].at[1].x = f64::INFINITY),
         ("`base` has 1 values", |path| path.base.truncate(1)),
