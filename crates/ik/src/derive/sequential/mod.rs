@@ -21,7 +21,6 @@ mod shape;
 mod simultaneous;
 mod slack;
 mod squares;
-mod stages;
 mod standing;
 mod symbolic;
 mod symbols;
@@ -35,7 +34,6 @@ pub(super) use program::checks_on;
 pub use shape::Shape;
 pub(super) use simultaneous::Stored as StoredSimultaneous;
 pub use simultaneous::{Side, Simultaneous};
-pub(super) use stages::{joint_unknowns, name};
 pub(super) use symbolic::{Symbolic, TargetPoly};
 
 use slack::Slack;

@@ -20,6 +20,21 @@ pub fn equations(form: Form) -> &'static [&'static str] {
     }
 }
 
+/// How a form determines its joint, and where its branches come from, in short.
+pub fn why(form: Form) -> &'static str {
+    match form {
+        Form::Angle => "one linear equation in cosine and sine, a chord of the circle with two ends",
+        Form::Turn => "two equations that turn a known vector to a known place, one angle",
+        Form::Pair => "two independent linear equations in cosine and sine, one angle",
+        Form::Quartic => {
+            "an equation of degree two in cosine and sine, by the tangent of half the angle up to four angles"
+        }
+        Form::Lengths => "an equation of degree four at most, up to four lengths",
+        Form::Linear => "a linear equation, one length",
+        Form::Quadratic => "a quadratic equation, two lengths",
+    }
+}
+
 /// The triangular form where no denominator vanishes, each polynomial as `f = 0`.
 ///
 /// # Errors
