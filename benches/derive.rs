@@ -1,5 +1,4 @@
-//! How long a mechanism takes from its equations, and a chain from its description, to a proved program, to its proof again, and
-//! to its answers.
+//! Times of a derivation from equations and from a chain's description, of a repeated proof, and of solving.
 
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
@@ -11,10 +10,10 @@ use groebot::kinematics::Chain;
 
 const MECHANISMS: [&str; 2] = ["nao_leg_sagittal", "nao_arm_planar"];
 
-/// Arms and legs of every kind that `derivations/` has.
+/// Arms and legs of every kind in `derivations/`.
 const CHAINS: [&str; 7] = ["puma", "stanford", "nao_left_leg", "rh0_right_leg", "nao_left_arm", "ur5", "iiwa14"];
 
-/// Joint values that no pose of a chain is singular at.
+/// Joint values at which no chain is singular.
 const ORDINARY: [f64; 7] = [0.31, -0.42, 0.53, 0.64, 0.75, -0.86, 0.47];
 
 fn folder(name: &str) -> PathBuf {

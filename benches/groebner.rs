@@ -1,4 +1,4 @@
-//! Groebner bases of known systems, the derivation's way to a parametric lexicographic basis, and kinematic blocks with parameters.
+//! Times of Groebner bases of known systems, of a parametric lexicographic basis as in a derivation, and of kinematic blocks with parameters.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use groebot::Watch;

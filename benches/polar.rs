@@ -1,4 +1,4 @@
-//! The polar robot by exponentials and by Denavit-Hartenberg, side by side: the table RH0 Fig. 2-8 with today's figures.
+//! The polar robot by exponentials and by Denavit-Hartenberg parameters: the table RH0 Fig. 2-8, measured again.
 
 use std::f64::consts::PI;
 use std::hint::black_box;
@@ -13,7 +13,7 @@ mod exponentials;
 
 use exponentials::Polar;
 
-/// One thousand joint vectors, as many as the thesis ran, by Halton's sequence: angles on the circle, lengths of 0.1 to 1 m.
+/// One thousand joint vectors, as many as in the thesis, by Halton's sequence: angles on the circle, lengths of 0.1 to 1 m.
 fn inputs() -> Vec<[f64; 3]> {
     (1..=1000)
         .map(|n| [halton(n, 2, -PI, PI), halton(n, 3, -PI, PI), halton(n, 5, 0.1, 1.0) - denavit_hartenberg::LENGTH])

@@ -1,4 +1,4 @@
-//! How long each subproblem takes, the screw solver for all answers to one pose of each known robot, and its plan.
+//! Times of the subproblems, of the screw solver for all solutions of one pose of each known robot, and of its plan.
 
 use std::f64::consts::PI;
 use std::hint::black_box;
@@ -17,7 +17,7 @@ use groebot::robots;
 use groebot::spatial::{Pose, Screw};
 use nalgebra::{Point3, Rotation3, Unit, Vector3};
 
-/// Poses that `chain` reaches, spread evenly over its joints (a Kronecker sequence).
+/// Poses that `chain` reaches, evenly spread over its joint space (a Kronecker sequence).
 fn targets(chain: &Chain, count: usize) -> Vec<Target> {
     let share = |seed: usize, joint: usize| {
         ((seed as f64 + 0.5) * 1.220_744_084_605_759_5_f64.powi(-(joint as i32) - 1)).fract()
@@ -52,7 +52,7 @@ fn plan(c: &mut Criterion) {
     group.finish();
 }
 
-/// An axis, a screw, a point or a number for each of the 256 instances, always the same.
+/// Pseudorandom axes, screws, points and numbers for the 256 instances, reproducible.
 struct Spread(f64);
 
 impl Spread {
@@ -73,7 +73,7 @@ impl Spread {
         Screw::revolute(w, self.point()).expect("a direction")
     }
 
-    /// A point, and where the screws take it.
+    /// A point, and its image under the screws.
     fn way(&mut self, screws: &[Screw]) -> (Point3<f64>, Point3<f64>) {
         let p = self.point();
         let k = screws.iter().rev().fold(p, |x, screw| screw.exp(3.0 * self.next()) * x);
@@ -81,7 +81,7 @@ impl Spread {
     }
 }
 
-/// Runs `call` over instances that `make` makes.
+/// Measures `call` over instances from `make`.
 fn each<T>(c: &mut Criterion, name: &str, make: impl Fn(&mut Spread) -> T, call: impl Fn(&T) -> usize) {
     let mut spread = Spread(0.371);
     let instances: Vec<T> = (0..256).map(|_| make(&mut spread)).collect();

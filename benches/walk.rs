@@ -1,4 +1,4 @@
-//! How long planning, inverse kinematics and checks of a walk of eight steps take at 100 samples a second, and all from a map to joint angles.
+//! Times of planning, inverse kinematics and checks of a walk of eight steps at 100 samples per second, and of everything from a map to joint angles.
 
 use std::hint::black_box;
 
@@ -31,7 +31,7 @@ fn walk(c: &mut Criterion) {
     group.finish();
 }
 
-/// RH0 through a room: the map with its clearances, the way, the steps, joint angles at 81 samples a step, and all checks.
+/// RH0 through a room: the map with its clearances, the path, the steps, joint angles at 81 samples per step, and all checks.
 fn navigate(c: &mut Criterion) {
     let mut group = c.benchmark_group("navigate");
     group.sample_size(20);

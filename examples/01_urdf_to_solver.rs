@@ -1,4 +1,4 @@
-//! From a URDF to a proved solver, all its answers, and its source code.
+//! From a URDF to a proved solver, all its solutions, and its source code.
 //!
 //!     cargo run --release --example 01_urdf_to_solver
 

@@ -1,4 +1,4 @@
-//! NAO's leg in the sagittal plane, the mechanism of its chapter, from its description to the polynomials and all solutions of a point.
+//! NAO's leg in the sagittal plane, the mechanism of its chapter: from its description to the polynomials and all solutions of a target.
 //!
 //!     cargo run --release --example 02_planar_leg
 

@@ -1,5 +1,5 @@
-//! One robot, two formulations: product of exponentials and Denavit-Hartenberg (RH0 2.7). Both give the same pose; the inverse
-//! by screws gives all four solutions, (2-66) one.
+//! One robot, two formulations: product of exponentials and Denavit-Hartenberg parameters (RH0 2.7). Both give the same pose. The inverse by screw theory has
+//! all four solutions; RH0 (2-66) has one.
 //!
 //!     cargo run --release --example 03_poe_and_dh
 

@@ -1,4 +1,5 @@
-//! All joint values of a UR5 for one pose, by an order of subproblems that is found from its geometry and told in words.
+//! All joint values of a UR5 for one pose, by an order of Paden-Kahan subproblems that is found from its geometry and
+//! described in text.
 //!
 //!     cargo run --release --example 04_screw_solver
 

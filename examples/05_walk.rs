@@ -1,4 +1,5 @@
-//! NAO walks eight steps: a request becomes joint angles whose zero moment point is proved to stay over the feet.
+//! NAO walks eight steps: a request is converted to joint angles, and the zero moment point is proved to stay inside
+//! the support polygon.
 //!
 //!     cargo run --release --example 05_walk
 
@@ -21,7 +22,7 @@ fn main() -> Result<()> {
     print!("{}", Summary::of(&robot, &walk));
     assert!(walk.balances.iter().all(|balance| balance.support.signed_distance(&balance.zmp) >= request.margin));
 
-    // Hips that are too high do not reach the floor: the walk is refused, with the time and the reason.
+    // At this hip height the legs do not reach the floor: the walk is refused, with the time and the reason.
     let stilted = Request { style: Style { torso_height: 0.35, ..request.style }, ..request };
     println!("refused: {}", plan(&robot, &legs, &stilted, &Watch::none()).unwrap_err());
     Ok(())

@@ -1,4 +1,4 @@
-//! RH0's laws as printed, (3-46) and (3-48), beside ours: the way of the centre of mass in a stride from above, and its height, as SVG.
+//! The RH0 laws as printed, (3-46) and (3-48), compared with ours: the path of the centre of mass in a stride from above, and its height, as SVG.
 //!
 //!     cargo run --release --example 06_rh0_laws > docs/rh0_laws.svg
 
@@ -8,13 +8,13 @@ use groebot::gait::{Action, Measures, Route, Walker, plan, words};
 use groebot::robots::{RH0_SIMULATION, rh0_walker};
 use groebot::{Result, Watch};
 
-/// The figures of RH0 5.3.1 \[m\].
+/// The numbers of RH0 5.3.1 \[m\].
 const LENGTH: f64 = 0.16;
 const HALF_WIDTH: f64 = 0.112;
 const RADIUS: f64 = 0.06;
 const HEIGHT: f64 = 0.58;
 const DIP: f64 = 0.004;
-/// The share of phases 1 and 2, and that of phase 5, in a step.
+/// The fraction of phases 1 and 2, and that of phase 5, in a step.
 const DOUBLE: f64 = 17.0 / 81.0;
 
 /// A curve in a frame: its points, and the ranges of both axes.
@@ -54,7 +54,7 @@ fn main() -> Result<()> {
     let request = RH0_SIMULATION.request(&robot, route, RH0_SIMULATION.hip_heights[0]);
     let walk = plan(&robot, &legs, &request, &Watch::none())?;
 
-    // The stride is the second step: the left foot swings, the right one stands at y = -0.112 m.
+    // The stride is the second step: the left foot swings, and the right foot is at y = -0.112 m.
     let of_stride = |action: Action| matches!(action, Action::Shift(1) | Action::Swing(1) | Action::Balance(1));
     let samples: Vec<usize> = (0..walk.references.len())
         .filter(|sample| of_stride(walk.schedule.phases[walk.references[*sample].phase].action))
@@ -66,7 +66,8 @@ fn main() -> Result<()> {
     let ours_height: Vec<_> =
         samples.iter().enumerate().map(|(place, s)| (share(place), walk.motion.centres[*s].z - ankle)).collect();
 
-    // As printed: aside is counted from the standing foot outwards; here it is from the middle.
+    // As printed: the lateral displacement is measured outwards from the supporting foot; here it is measured from the
+    // middle.
     let steps = (0..=200).map(|step| f64::from(step) / 200.0);
     let printed_from_above: Vec<_> = steps
         .clone()

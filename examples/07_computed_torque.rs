@@ -1,4 +1,5 @@
-//! A polar arm follows a wave under computed torque, though it weighs 5 % more than the law knows; and what it weighs is found from what it did.
+//! A polar arm follows a sine wave under computed torque, with 5 % more mass than in the law's model. Then its inertial parameters are identified from its
+//! motion.
 //!
 //!     cargo run --example 07_computed_torque
 

@@ -1,4 +1,5 @@
-//! Computed torque of a UR5 that is late, noisy, or heavier than known: a picture of the greatest error in time.
+//! Computed torque of a UR5 with delay, noise, or more mass than in the model: a picture of the largest error over
+//! time.
 //!
 //!     cargo run --release --example 08_disturbances > docs/disturbances.svg
 

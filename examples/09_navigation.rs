@@ -1,4 +1,4 @@
-//! From a room to the joint angles of RH0: the furniture nearly encloses it, RH0 Fig. 5-27, and it walks out and around.
+//! From a room to the joint angles of RH0: it is almost enclosed by furniture, RH0 Fig. 5-27, and walks around it.
 //!
 //!     cargo run --release --example 09_navigation > docs/navigation.svg
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the wheel and tries it as people would: installed by pip in empty environments, with the oldest numpy and the newest. It needs python3 with venv, and
-# nothing else beyond Rust. Where the profile is `release` (`python/ci.sh release`) the wheel is the one that is sent to people, and its size is looked at.
+# Builds the wheel and tests it as users install it: by pip in empty environments, with the oldest and the newest supported numpy. It needs python3 with venv
+# and Rust. With the profile `release` (`python/ci.sh release`), the wheel is the one that is published, and its size is checked.
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -15,7 +15,7 @@ environment() {
 
 environment build "maturin>=1.9,<2"
 cargo fmt --check
-# Clippy looks at the bindings while it compiles them: `cargo clippy` would read the library once more.
+# Runs clippy during the compilation of the bindings. A separate `cargo clippy` would check the library again.
 RUSTC_WORKSPACE_WRAPPER=clippy-driver "$work/build/bin/maturin" build \
     --locked --profile "$profile" --compression-level "$([ "$profile" = release ] && echo 9 || echo 1)" --out "$work/wheels" -- -D warnings
 wheel=$(echo "$work"/wheels/*.whl)
@@ -29,14 +29,14 @@ if [ "$profile" = release ]; then
     fi
 fi
 
-# Not from here, where the package lies without what is compiled.
+# The tests do not run in this folder, because its package has no compiled module.
 here=$PWD
 cd "$work"
-# The oldest numpy that there is for this Python.
+# The oldest supported numpy for this Python version.
 environment oldest "$wheel" "numpy==1.26.*; python_version < '3.13'" "numpy==2.1.*; python_version >= '3.13'"
 oldest/bin/python -c 'import groebot; ur5 = groebot.Solver.named("ur5"); assert len(ur5.solve(ur5.forward([0.1, -1.2, 1.4, -0.3, 0.8, 0.5]))) == 8'
 oldest/bin/groebot --version
-# What arrays are made of differs between versions of numpy; all else is tested with the newest.
+# Internals of arrays differ between versions of numpy. All other tests run with the newest version.
 oldest/bin/pip install --quiet --disable-pip-version-check --no-compile pytest hypothesis "scipy<1.15"
 oldest/bin/pytest --quiet -rs "$here"/tests/test_{batch,input}.py
 
@@ -46,7 +46,7 @@ newest/bin/mypy --config-file "$here/pyproject.toml" --package groebot
 newest/bin/mypy --config-file "$here/pyproject.toml" "$here/examples"
 newest/bin/python -m mypy.stubtest groebot._groebot
 newest/bin/python "$here/examples/first.py"
-# pyright looks at the python that is found first, and brings Node with it where there is none.
+# pyright inspects the first Python on the path. It installs Node if there is none.
 export PATH=$work/newest/bin:$PATH
 pyright --verifytypes groebot --ignoreexternal
 pyright "$here/examples/first.py"

@@ -1,4 +1,5 @@
-//! The house rules of the design, enforced: who may use whom, sizes, what must not be left in the code.
+//! The design rules as tests: dependencies between modules, sizes of files and functions, and code that must not
+//! remain.
 
 mod copies;
 mod cycles;
@@ -22,7 +23,7 @@ const GOOD_FILE_LINES: usize = 400;
 const MAX_FUNCTION_LINES: usize = 80;
 const GOOD_FUNCTION_LINES: usize = 35;
 
-/// One file of `src/` or `runtime/src/`, scanned.
+/// One source file of the library or the run time, scanned.
 #[derive(Clone)]
 struct Source {
     /// Relative to the root of the repository.
@@ -38,7 +39,7 @@ impl Source {
         Source { file: file.to_owned(), module: module_of(file), tokens: lexer::tokens(&text), text }
     }
 
-    /// Generated files say so in one of their first lines; the limits of size are not for them.
+    /// Whether the file is generated, as declared in one of its first lines. Size limits do not apply to it.
     fn is_generated(&self) -> bool {
         self.text.lines().take(5).any(|line| line.contains("@generated"))
     }
@@ -78,15 +79,15 @@ fn files_below(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-/// The crates that solvers do not need at run time, in the order of their dependencies; the facade last.
+/// The crates that solvers do not need at run time, in the order of their dependencies. The facade is last.
 const CRATES: [&str; 5] = ["crates/algebra/", "crates/robot/", "crates/ik/", "crates/humanoid/", ""];
 
-/// The library's: that of all its crates.
+/// The source files of all crates of the library.
 fn sources() -> Vec<Source> {
     CRATES.iter().flat_map(|folder| sources_below(&format!("{folder}src"))).collect()
 }
 
-/// The run time's.
+/// The source files of the run time.
 fn runtime() -> Vec<Source> {
     sources_below("runtime/src")
 }
@@ -95,7 +96,7 @@ fn sources_below(folder: &str) -> Vec<Source> {
     texts_below(folder, &["rs"]).into_iter().map(|(file, text)| Source::new(&file, text)).collect()
 }
 
-/// The files below a folder whose names end so, with their texts.
+/// The files below a folder whose names end with one of `ends`, with their texts.
 fn texts_below(folder: &str, ends: &[&str]) -> Vec<(String, String)> {
     let mut files: Vec<String> = files_below(Path::new(folder)).iter().map(|path| slashed(path)).collect();
     files.retain(|file| file.rsplit_once('.').is_some_and(|(_, end)| ends.contains(&end)));
@@ -103,7 +104,7 @@ fn texts_below(folder: &str, ends: &[&str]) -> Vec<(String, String)> {
     files.into_iter().map(|file| (file.clone(), fs::read_to_string(root().join(file)).unwrap())).collect()
 }
 
-/// What else becomes code: the run time in C, and what robots' files are printed from.
+/// Other code: the run time in C, and the templates of generated files.
 fn other_code() -> Vec<(String, String)> {
     [texts_below("runtime/c", &["c", "h"]), texts_below("crates/ik/src/codegen/skeleton", &["txt"])].concat()
 }
@@ -112,7 +113,7 @@ fn slashed(path: &Path) -> String {
     path.to_str().unwrap().replace('\\', "/")
 }
 
-/// The files that git tracks, or all files where there is no git.
+/// The files that git tracks, or all files if there is no git.
 fn tracked_files() -> Vec<PathBuf> {
     match Command::new("git").args(["ls-files", "-z"]).current_dir(root()).output() {
         Ok(output) if output.status.success() => {
@@ -122,7 +123,7 @@ fn tracked_files() -> Vec<PathBuf> {
     }
 }
 
-/// What breaks the table of dependencies in `sources`, one line for each place.
+/// The violations of the dependency table in `sources`, one line each.
 fn forbidden_uses(sources: &[Source]) -> Vec<String> {
     let exports: HashMap<String, Vec<String>> = (sources.iter().filter(|source| source.module.is_empty()))
         .flat_map(|source| scan::exports(&source.tokens))
@@ -145,7 +146,7 @@ fn forbidden_uses(sources: &[Source]) -> Vec<String> {
     found
 }
 
-/// Says what is wrong with the size of a file.
+/// Describes the violation of a size limit by a file.
 fn oversized_file(file: &str, text: &str) -> Option<String> {
     let lines = text.lines().count();
     if lines > GOOD_FILE_LINES && lines <= MAX_FILE_LINES {
@@ -181,7 +182,7 @@ fn leftovers(sources: &[Source]) -> Vec<String> {
     found
 }
 
-/// Files in which `needle` stands.
+/// The files that contain `needle`.
 fn mentions<'a>(files: &'a [(PathBuf, Vec<u8>)], needle: &str) -> Vec<&'a Path> {
     let has_it = |bytes: &[u8]| bytes.windows(needle.len()).any(|window| window == needle.as_bytes());
     files.iter().filter(|(_, bytes)| has_it(bytes)).map(|(path, _)| path.as_path()).collect()
@@ -237,7 +238,7 @@ fn nothing_points_outside_the_repository() {
     }
 }
 
-/// A commit with build output is too large to be sent, even if a later one removes it.
+/// A commit with build output exceeds the size limit of a push, even if a later commit removes it.
 #[test]
 fn no_build_output_is_tracked() {
     let files: Vec<String> = tracked_files().iter().map(|path| slashed(path)).collect();

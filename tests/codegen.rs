@@ -1,4 +1,4 @@
-//! A program written by hand that the tests of groebot-ik have too.
+//! A program in source form that the tests of groebot-ik also use.
 #![allow(dead_code)]
 
 #[path = "../crates/ik/tests/codegen/builder.rs"]

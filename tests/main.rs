@@ -11,7 +11,8 @@ mod polar;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 
-/// So many cases of a property; inputs that fail are kept in `tests/regressions/` and come first from then on.
+/// Settings for a property test with this number of cases. Failing inputs are stored in `tests/regressions/` and tested
+/// first in later runs.
 fn cases(count: u32) -> Config {
     let kept = FileFailurePersistence::SourceParallel("tests/regressions");
     Config { cases: count, failure_persistence: Some(Box::new(kept)), ..Config::default() }

@@ -1,4 +1,4 @@
-//! The polar robot of RH0 2.7: exponentials and Denavit-Hartenberg give the same robot, but (2-66) gives one solution of four.
+//! The polar robot of RH0 2.7: exponentials and Denavit-Hartenberg parameters give the same robot, but (2-66) gives one solution of four.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -15,7 +15,7 @@ mod exponentials;
 use denavit_hartenberg::LENGTH;
 use exponentials::Polar;
 
-/// Joint values of an arm whose length, at zero LENGTH, is `length`.
+/// Joint values of an arm of the length `length`, which is LENGTH when its prismatic joint is at zero.
 fn joints(length: std::ops::Range<f64>) -> impl Strategy<Value = [f64; 3]> {
     (-PI..PI, -PI..PI, length).prop_map(|(yaw, pitch, length)| [yaw, pitch, length - LENGTH])
 }
@@ -24,7 +24,7 @@ fn tool(q: &[f64; 3]) -> Vector3<f64> {
     robots::polar().forward(q).unwrap().translation.vector
 }
 
-/// The four ways to point the arm at the same place: over the top, and with the arm drawn through to the other side.
+/// The four solutions for one position: with the arm over the top, and with the arm drawn through to the other side.
 fn all_four([yaw, pitch, slide]: [f64; 3]) -> [[f64; 3]; 4] {
     let through = -slide - 2.0 * LENGTH;
     [[yaw, pitch, slide], [yaw + PI, PI - pitch, slide], [yaw + PI, -pitch, through], [yaw, pitch + PI, through]]
@@ -99,7 +99,8 @@ proptest! {
     }
 }
 
-/// In plain figures: 0.4 m ahead of the crossing of the axes and 0.3 m above it, the arm 0.5 m long.
+/// Numeric example: the tool is 0.4 m in front of the intersection of the axes and 0.3 m above it, and the arm is 0.5 m
+/// long.
 #[test]
 fn a_robot_that_looks_back_is_not_found() {
     let behind = [PI, PI - 0.6_f64.asin(), 0.3];

@@ -1,4 +1,5 @@
-//! groebot's contestant: the reduced basis of a file in msolve's format (see `program.rs`), and over Q the proof of it.
+//! groebot's program for the contest: computes the reduced basis of a file in msolve's format (see `program.rs`), and
+//! over Q its proof.
 
 mod program;
 
@@ -21,7 +22,7 @@ fn main() -> Result<()> {
     }
 }
 
-/// F4, and from there a change of order to lex.
+/// F4, then a change of order to lex (FGLM).
 fn modulo_prime(arguments: &Arguments, p: u64) -> Result<()> {
     let (ring, generators) = read(arguments, Zp::new(p)?)?;
     let found = arguments.measure(|| Ok(basis_modulo_prime(&ring, &generators, &Watch::none())?))?;
@@ -29,7 +30,7 @@ fn modulo_prime(arguments: &Arguments, p: u64) -> Result<()> {
     Ok(())
 }
 
-/// Many primes; the proof has a clock of its own.
+/// The basis by many primes. The proof has a separate time limit.
 fn over_rationals(arguments: &Arguments) -> Result<()> {
     let (ring, generators) = read(arguments, Rationals)?;
     let compute = || Ok(modular::basis(&ring, &generators, &Options::default(), &Watch::none())?);
@@ -58,7 +59,7 @@ fn prove(
     Ok(())
 }
 
-/// The method that the engine chooses, in the order itself.
+/// The method that the engine selects, in the requested order.
 fn with_parameters(arguments: &Arguments) -> Result<()> {
     let (ring, generators) = read(arguments, Fractions::new(Rationals, &arguments.input.parameters)?)?;
     let compute = || Ok(parametric::basis(&ring, &generators, &parametric::Options::default(), &Watch::none())?);

@@ -66,7 +66,7 @@ def general_3r_symbolic():
     return position([(0, a1, "1/2"), (d2, a2, "1/3"), (d3, a3, "0")], (0, 0, 0), ["a1", "a2", "a3", "d2", "d3"])
 
 
-# Each block in the orders and with the order of unknowns that suit Singular best (None: as above).
+# Each block in the orders and with the order of unknowns in which Singular is fastest (None: as above).
 BLOCKS = [
     (nao_leg, "lp", None),
     (nao_arm, "lp", None),

@@ -11,7 +11,7 @@ from problems import Problem
 
 WHEELS = "/opt/peers/lib/python3.11/site-packages/sage_wheels/bin"
 TRIVIAL = ["x-1", "y-1"]
-# How msolve's answer begins when there are infinitely many solutions and therefore no parametrisation.
+# The beginning of msolve's output when there are infinitely many solutions, and therefore no parametrisation.
 INFINITE = "[1,"
 
 

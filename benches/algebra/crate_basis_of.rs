@@ -1,4 +1,5 @@
-//! The contestant `groebner` 0.6 of crates.io: the reduced basis of a file in msolve's format (see `program.rs`).
+//! Program of `groebner` 0.6 (crates.io) for the contest: computes the reduced basis of a file in msolve's format (see
+//! `program.rs`).
 
 mod program;
 

@@ -1,4 +1,5 @@
-//! The families of polynomial systems as variables and texts, for benchmarks and tests: `#[path]` this file in.
+//! The families of polynomial systems as variables and texts, for benchmarks and tests, which include this file with
+//! `#[path]`.
 //!
 //! The definitions are those of `tests/corpus/groebner/families.py`, and the tests compare both.
 
@@ -58,7 +59,7 @@ pub fn eco(n: usize) -> Texts {
     (x, equations)
 }
 
-/// The same with u = 1/x(n).
+/// Same as [`eco`], but with u = 1/x(n).
 pub fn redeco(n: usize) -> Texts {
     let mut x = names('x', 1..n);
     let sums = (1..n).map(|k| format!("{} - {k}*u{n}", autocorrelation(&x, k)));

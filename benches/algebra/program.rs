@@ -1,15 +1,15 @@
-//! What the contestants written in Rust share: their arguments, their input, the clock and the report.
+//! Common code of the contest programs in Rust: arguments, input, clock and report.
 //!
-//! `PROGRAM FILE [--order grevlex|lex] [--seconds S] [--prove S] [--print]` reads a file in msolve's format, computes its basis again
-//! and again for `S` seconds (once at least) and prints the mean of the processor time (`seconds`), `memory_kb` (the peak), `proof` \[s\] or
-//! what it exceeds where there is one, and, if asked, the basis.
+//! `PROGRAM FILE [--order grevlex|lex] [--seconds S] [--prove S] [--print]` reads a file in msolve's format and computes its basis repeatedly for `S` seconds,
+//! at least once. It prints `seconds` (the mean processor time), `memory_kb` (the peak), `proof` \[s\] or the limit that the proof exceeds, and, with
+//! `--print`, the basis.
 
 use std::fmt::Display;
 use std::time::{Duration, Instant};
 
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
-/// One system: the first line of the file names the variables, the second one the characteristic and, behind a blank, parameters.
+/// A system: the first line of the file has the names of the variables. The second line has the characteristic and, after a blank, the parameters.
 #[derive(Debug)]
 pub struct Input {
     pub variables: Vec<String>,
@@ -22,14 +22,14 @@ pub struct Input {
 pub struct Arguments {
     pub input: Input,
     pub lex: bool,
-    /// The limit of time for a proof, if one is wanted.
+    /// The time limit for a proof, if one is requested.
     pub proof: Option<Duration>,
     budget: Duration,
     print: bool,
 }
 
 impl Arguments {
-    /// Reads the command line and the file that it names.
+    /// Reads the command line and the input file.
     pub fn read() -> Result<Self> {
         let mut words = std::env::args().skip(1);
         let file = words.next().ok_or("usage: FILE [--order grevlex|lex] [--seconds S] [--prove S] [--print]")?;
@@ -48,8 +48,7 @@ impl Arguments {
         Ok(found)
     }
 
-    /// Runs `compute` until the budget is spent; reports the mean of the processor times, and the peak of memory of the first run,
-    /// whose result it gives.
+    /// Runs `compute` until the time is used up. Reports the mean processor time, and the memory peak of the first run. Returns the result of the first run.
     pub fn measure<T>(&self, compute: impl Fn() -> Result<T>) -> Result<T> {
         let (start, before) = (Instant::now(), processor_time()?);
         let found = compute()?;
@@ -64,7 +63,7 @@ impl Arguments {
         Ok(found)
     }
 
-    /// Prints the basis, if asked, as the last of all.
+    /// Prints the basis at the end of the output, if requested.
     pub fn show<Lines: Iterator<Item = String>>(&self, lines: impl FnOnce() -> Lines) {
         if self.print {
             println!("basis");
@@ -73,7 +72,7 @@ impl Arguments {
     }
 }
 
-/// The processor time of this thread (Linux). The kernel brings it up to date some hundred times a second.
+/// The processor time of this thread (Linux). The kernel updates it some hundred times per second.
 pub fn processor_time() -> Result<Duration> {
     let fields = std::fs::read_to_string("/proc/thread-self/schedstat")?;
     let nanoseconds = fields.split(' ').next().ok_or("/proc/thread-self/schedstat is empty")?;
@@ -102,7 +101,7 @@ impl Input {
     }
 }
 
-/// The pieces between commas; none of an empty text.
+/// The parts of the text between commas; empty for an empty text.
 fn names(text: &str) -> Vec<String> {
     text.split(',').map(|piece| piece.trim().to_owned()).filter(|piece| !piece.is_empty()).collect()
 }

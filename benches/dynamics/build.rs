@@ -1,4 +1,5 @@
-//! Prints the equations of motion of robots as Rust and C, compiles the C, and Pinocchio's calls where `PINOCCHIO` names the folder of its pip package.
+//! Generates the equations of motion of robots as Rust and C and compiles the C code. If `PINOCCHIO` is the folder of its pip package, also compiles the calls
+//! of Pinocchio.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -7,7 +8,7 @@ use groebot::codegen::dynamics::{Form, Function, Printed};
 use groebot::dynamics::{Base, Equations};
 use groebot::model::{JointType, Robot};
 
-/// Robots, joints that are held at zero, and whether the root moves freely.
+/// Robots, joints that are held at zero, and whether the base is floating.
 const ROBOTS: [(&str, &[&str], Base); 3] = [
     ("ur5", &[], Base::Fixed),
     ("panda", &["panda_finger_joint1", "panda_finger_joint2"], Base::Fixed),

@@ -1,4 +1,4 @@
-//! Compiles the printed C of `derivations/` by each compiler that there is, run time and robot in one translation unit, and lists it for `by_c`.
+//! Compiles the generated C code of `derivations/` with each available compiler, with run time and robot in one translation unit, and lists it for `by_c`.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -53,7 +53,8 @@ fn main() {
     fs::write(Path::new(&out).join("printed_c.rs"), text).expect("a file of the build's own");
 }
 
-/// The object file of a robot's solver, of which all but our functions is local: each compiler's has the same names.
+/// The object file of a robot's solver. All symbols except our functions are local, because those of other compilers
+/// have the same names.
 fn object(root: &str, out: &str, compiler: &str, robot: &str) -> String {
     let (name, upper) = (format!("{compiler}_{robot}"), robot.to_uppercase());
     let text = format!(

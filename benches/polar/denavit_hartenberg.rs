@@ -1,12 +1,12 @@
-//! The polar robot by Denavit and Hartenberg, as RH0 2.7.2 writes it: joint axes along y, homogeneous matrices.
+//! The polar robot by Denavit-Hartenberg parameters, as in RH0 2.7.2: joint axes along y, homogeneous matrices.
 
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Matrix3, Matrix4, Matrix6x3, Vector3};
 
-/// k - S of RH0 Fig. 2-7: the height of the crossing of the first two axes \[m\].
+/// k - S of RH0 Fig. 2-7: the height of the intersection of the first two axes \[m\].
 pub const HEIGHT: f64 = 0.66;
-/// H - k of RH0 Fig. 2-7: the length of the arm at zero \[m\].
+/// H - k of RH0 Fig. 2-7: the length of the arm at the zero configuration \[m\].
 pub const LENGTH: f64 = 0.20;
 
 /// One row of the table: RH0 Fig. 2-7.
@@ -27,12 +27,12 @@ fn table(q: &[f64; 3]) -> [Row; 3] {
     ]
 }
 
-/// RH0 (2-63): a turn about y, a shift along y, a shift along x, a turn about x.
+/// RH0 (2-63): a rotation about y, a translation along y, a translation along x, a rotation about x.
 fn link(row: &Row) -> Matrix4<f64> {
     about_y(row.theta) * shift(0.0, row.d) * shift(row.a, 0.0) * about_x(row.alpha)
 }
 
-/// The derivative of [`link`] by theta, or by d where the joint slides.
+/// The derivative of [`link`] by theta, or by d for a prismatic joint.
 fn link_derivative(row: &Row, slides: bool) -> Matrix4<f64> {
     if slides {
         return about_y(row.theta) * along_y() * about_x(row.alpha);
@@ -46,7 +46,7 @@ pub fn forward(q: &[f64; 3]) -> Matrix4<f64> {
     link(&first) * link(&second) * link(&third) * tool()
 }
 
-/// [`forward`] with all products done by hand. The exponentials of RH0 (2-54) multiply out to the same entries.
+/// Same as [`forward`], but with all products expanded by hand. The exponentials of RH0 (2-54) give the same entries.
 pub fn forward_by_hand(q: &[f64; 3]) -> Matrix4<f64> {
     let ((s1, c1), (s2, c2), length) = (q[0].sin_cos(), q[1].sin_cos(), q[2] + LENGTH);
     let ahead = length * c2;
@@ -58,8 +58,8 @@ pub fn forward_by_hand(q: &[f64; 3]) -> Matrix4<f64> {
     ])
 }
 
-/// The joint values of RH0 (2-66) as printed, from the position of the tool. Its second value is counted from another zero than
-/// the table's: see [`inverse`]. One of up to four solutions.
+/// The joint values of RH0 (2-66) as printed, from the position of the tool: one of up to four solutions. Its second value has another zero than the table: see
+/// [`inverse`].
 pub fn inverse_as_printed(base_from_tool: &Matrix4<f64>) -> [f64; 3] {
     let position = base_from_tool.fixed_view::<3, 1>(0, 3);
     let (x, y, z) = (position[0], position[1], position[2]);
@@ -70,15 +70,14 @@ pub fn inverse_as_printed(base_from_tool: &Matrix4<f64>) -> [f64; 3] {
     [q1, q2, q3]
 }
 
-/// RH0 (2-66) with the second value counted as in the table: the printed one is a quarter turn too large.
+/// Same as RH0 (2-66), but with the second value as in the table: the printed one is a quarter turn too large.
 pub fn inverse(base_from_tool: &Matrix4<f64>) -> [f64; 3] {
     let [q1, q2, q3] = inverse_as_printed(base_from_tool);
     [q1, q2 - FRAC_PI_2, q3]
 }
 
-/// The Jacobian by derivatives, RH0 (2-68): rows are the velocity of the tool's origin and the angular velocity, both in the base
-/// frame, per unit of each joint's velocity. The thesis leaves open which angles its last three rows derive; the angular velocity
-/// is the choice that needs none.
+/// The Jacobian by derivatives, RH0 (2-68): rows are the velocity of the tool's origin and the angular velocity, both in the base frame, per unit of each
+/// joint's velocity. The thesis does not say to which angles its last three rows belong. The angular velocity needs no choice of angles.
 pub fn jacobian(q: &[f64; 3]) -> Matrix6x3<f64> {
     let rows = table(q);
     let links = [link(&rows[0]), link(&rows[1]), link(&rows[2])];
@@ -118,7 +117,7 @@ fn shift(along_x: f64, along_y: f64) -> Matrix4<f64> {
     Matrix4::new_translation(&Vector3::new(along_x, along_y, 0.0))
 }
 
-/// The derivative of a shift along y by its length.
+/// The derivative of a translation along y by its length.
 fn along_y() -> Matrix4<f64> {
     Matrix4::new(0., 0., 0., 0., 0., 0., 0., 1., 0., 0., 0., 0., 0., 0., 0., 0.)
 }

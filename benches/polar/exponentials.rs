@@ -1,4 +1,4 @@
-//! The polar robot by its product of exponentials, as RH0 2.7.1 writes it.
+//! The polar robot by its product of exponentials, as in RH0 2.7.1.
 
 use groebot::kinematics::Chain;
 use groebot::kinematics::screw::one_joint::translate_to_distance;
@@ -8,14 +8,14 @@ use groebot::robots;
 use groebot::spatial::{Pose, Screw};
 use nalgebra::{Matrix6x3, Point3, Unit, Vector3};
 
-/// The robot, and what its inverse reads from it.
+/// The robot, and the constants of its inverse.
 pub struct Polar {
     chain: Chain,
-    /// v3 of RH0 (2-51): where the arm slides at zero.
+    /// v3 of RH0 (2-51): the direction of the prismatic joint at the zero configuration.
     slide: Unit<Vector3<f64>>,
-    /// The crossing of the first two axes: k of RH0 Fig. 2-6.
+    /// The intersection of the first two axes: k of RH0 Fig. 2-6.
     crossing: Point3<f64>,
-    /// The tool's origin at zero: H of RH0 Fig. 2-6.
+    /// The tool's origin at the zero configuration: H of RH0 Fig. 2-6.
     tool: Point3<f64>,
 }
 
@@ -34,7 +34,7 @@ impl Polar {
         first.exp(q[0]) * second.exp(q[1]) * third.exp(q[2]) * self.chain.base_from_tip()
     }
 
-    /// All joint values that bring the tool to `target` \[m\]: RH0 (2-55)-(2-59). A joint that is free there stands at 0.
+    /// All joint values that move the tool to `target` \[m\]: RH0 (2-55)-(2-59). A free joint is zero.
     pub fn inverse(&self, target: &Point3<f64>) -> Vec<[f64; 3]> {
         let mut found = Vec::with_capacity(4);
         let distance = (target - self.crossing).norm();
@@ -49,7 +49,7 @@ impl Polar {
         found
     }
 
-    /// The spatial Jacobian, RH0 (2-61): each column is a joint's twist, carried along by the joints before it.
+    /// The spatial Jacobian, RH0 (2-61): each column is a joint's twist, moved by the joints before it.
     pub fn jacobian(&self, q: &[f64; 3]) -> Matrix6x3<f64> {
         let (mut moved, mut columns) = (Pose::identity(), Matrix6x3::zeros());
         for (j, screw) in self.chain.screws().iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Lists the printed solvers that are measured: some of `derivations/`, or those of the folders in the variable `FOLDERS`, full paths separated by colons.
+//! Lists the generated solvers that are measured: some of `derivations/`, or those of the folders in the variable `FOLDERS`, full paths separated by colons.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-// Measures one printed solver: see printed.py, which fills in its path and the joints that slide.
+// Measures one generated solver: see printed.py, which inserts its path and the prismatic joints.
 #[path = "SOLVER"]
 mod solver;
 

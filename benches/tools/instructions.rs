@@ -1,6 +1,5 @@
-//! A coarse alarm for the hottest calls: how many instructions each takes, counted by valgrind, beside the committed counts of
-//! `benches/instructions.csv`. Counts hardly depend on the machine; times do. They depend on how the crates are split for the compiler: the counts are of
-//! crates in one unit, as `.ci/run` compiles them.
+//! Instruction counts of the most frequent calls, by valgrind, compared with the committed counts of `benches/instructions.csv`. Counts are almost independent
+//! of the machine; times are not. They depend on the codegen units: the counts are for one unit per crate, as in `.ci/run`.
 //!
 //!     CARGO_INCREMENTAL=0 CARGO_PROFILE_TEST_CODEGEN_UNITS=1 cargo run --profile test --example instructions [-- --update]
 
@@ -24,13 +23,13 @@ use groebot::{Watch, codegen, dynamics};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// A count that is larger by more than this factor is an alarm; one that is as much smaller requires a new table.
+/// Factor of a count's increase that fails. An equally large decrease requires a new table.
 const SLACK: f64 = 1.25;
 
-/// A call, ready to be made.
+/// A call, with its inputs prepared.
 type Call = Box<dyn FnMut()>;
 
-/// A call's name, how often it is made so that starting up hardly counts, and what makes it ready.
+/// A call's name, its number of repetitions, which makes the start negligible, and the function that prepares it.
 type Counted = (&'static str, usize, fn() -> Result<Call>);
 
 const CALLS: [Counted; 10] = [
@@ -111,7 +110,7 @@ fn inertia() -> Result<Call> {
     Ok(Box::new(move || drop(black_box(model.inertia(black_box(&q))))))
 }
 
-/// Instructions of a run of this program that makes the call so often.
+/// Number of instructions of a run of this program with `times` repetitions of the call.
 fn counted(name: &str, times: usize) -> Result<f64> {
     let output = Command::new("valgrind")
         .args(["--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null"])
@@ -126,7 +125,7 @@ fn counted(name: &str, times: usize) -> Result<f64> {
     Ok(digits.parse()?)
 }
 
-/// Makes a call so often, as the run under valgrind does.
+/// Repeats a call `times` times, in the run under valgrind.
 fn make(name: &str, times: usize) -> Result<()> {
     let (.., ready) = CALLS.iter().find(|(known, ..)| *known == name).ok_or("no such call")?;
     let mut call = ready()?;

@@ -1,4 +1,4 @@
-//! Appends what `cargo bench` measured to `benches/record/YYYY-MM-DD.csv` (see `benches/README.md`).
+//! Appends the results of `cargo bench` to `benches/record/YYYY-MM-DD.csv` (see `benches/README.md`).
 //!
 //! `cargo run --example record_benches [-- --machine NAME]`
 
@@ -15,12 +15,12 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 const HEADER: &str = "date,machine,bench,median_ns,low_ns,high_ns,samples,commit";
 
-/// One benchmark as Criterion measured it; the times of one iteration, in nanoseconds.
+/// Criterion's result for one benchmark: times of one iteration in nanoseconds.
 #[derive(Debug, PartialEq)]
 struct Measurement {
     bench: String,
     median: f64,
-    /// The confidence interval of the median, at Criterion's level (95 % unless the bench says otherwise).
+    /// The confidence interval of the median, at Criterion's level (by default 95 %).
     low: f64,
     high: f64,
     samples: usize,
@@ -71,7 +71,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// The folders `new` below `folder`, in the order of their paths.
+/// The folders `new` below `folder`, sorted by path.
 fn measured(folder: &Path) -> Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}; run `cargo bench`", folder.display()))?;
     let mut paths = entries.map(|entry| entry.map(|entry| entry.path())).collect::<std::io::Result<Vec<_>>>()?;
@@ -88,7 +88,7 @@ fn measured(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Adds the rows that `file` does not have yet; returns how many.
+/// Adds the rows that `file` does not have yet. Returns their number.
 fn append(file: &Path, rows: &[String]) -> Result<usize> {
     let old = fs::read_to_string(file).unwrap_or_default();
     let new: Vec<&String> = rows.iter().filter(|row| !old.lines().any(|line| line == row.as_str())).collect();
@@ -104,7 +104,7 @@ fn append(file: &Path, rows: &[String]) -> Result<usize> {
     Ok(new.len())
 }
 
-/// The commit that is checked out, `-dirty` when files other than the records differ from it, and its time.
+/// The checked-out commit, with `-dirty` if files other than the records differ from it, and its time.
 fn commit(root: &Path) -> Result<(String, SystemTime)> {
     let git = |arguments: &[&str]| -> Result<String> {
         let output = Command::new("git").args(arguments).current_dir(root).output()?;
@@ -119,7 +119,7 @@ fn commit(root: &Path) -> Result<(String, SystemTime)> {
     Ok((name, UNIX_EPOCH + Duration::from_secs(seconds)))
 }
 
-/// The value of `--machine`, or the processor and the number of its threads that we may use.
+/// The value of `--machine`, or the processor and its number of available threads.
 fn machine() -> Result<String> {
     let mut arguments = std::env::args().skip(1);
     match arguments.next().as_deref() {

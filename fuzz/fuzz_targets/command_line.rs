@@ -1,4 +1,4 @@
-//! Arguments, one a line, `cli::readers::command_line`.
+//! Arguments, one per line, `cli::readers::command_line`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

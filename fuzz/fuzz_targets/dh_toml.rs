@@ -1,4 +1,4 @@
-//! Tables of Denavit and Hartenberg.
+//! Denavit-Hartenberg tables.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

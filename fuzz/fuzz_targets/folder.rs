@@ -1,4 +1,4 @@
-//! A folder with one file changed, `folder::check`; the first line is the file's name.
+//! A folder with one modified file, `folder::check`. The first line is the file's name.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

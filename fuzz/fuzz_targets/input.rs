@@ -1,4 +1,4 @@
-//! Any file that `derive` takes, `derive::Source`.
+//! Any input file of `derive`, `derive::Source`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

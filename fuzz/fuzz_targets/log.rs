@@ -1,4 +1,4 @@
-//! Logs of `identify`, and what is identified.
+//! Logs of `identify`, and the identified parameters.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

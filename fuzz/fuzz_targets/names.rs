@@ -1,4 +1,4 @@
-//! Names and escaping, in messages, Markdown and printed code.
+//! Names and their escaping, in messages, Markdown and generated code.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

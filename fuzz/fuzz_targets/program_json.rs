@@ -1,4 +1,4 @@
-//! Derived solvers, `solver::Program`, and code of them.
+//! Derived solvers, `solver::Program`, and their generated code.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,4 +1,4 @@
-//! Maps of what solvers reach, `reach::ReachMap`.
+//! Reach maps of solvers, `reach::ReachMap`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

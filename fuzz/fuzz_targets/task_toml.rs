@@ -1,4 +1,4 @@
-//! What is asked of a mechanism, `derive::Ends`.
+//! Tasks of a mechanism, `derive::Ends`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

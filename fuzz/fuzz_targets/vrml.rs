@@ -1,4 +1,4 @@
-//! VRML as RH0 Fig. 5-4 shows it, written in all formats.
+//! VRML in the form of RH0 Fig. 5-4, written in all formats.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

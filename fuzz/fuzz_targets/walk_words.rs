@@ -1,4 +1,4 @@
-//! Walks in words, `gait::words`.
+//! Text descriptions of walks, `gait::words`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

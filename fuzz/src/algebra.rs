@@ -17,15 +17,15 @@ pub(super) const TARGETS: [Target; 7] = [
     Target { name: "order", about: "`poly::system::parse_order`", run: order, damaged: 300 },
 ];
 
-/// Expansions of more terms are not waited for, unless they are so large that they have to be refused.
+/// Expansions with more terms are skipped, unless they are so large that they must be refused.
 const TERMS: f64 = 200.0;
-/// Nor are those of more bits in a coefficient.
+/// Expansions with more bits in a coefficient are also skipped.
 const BITS: f64 = 10_000.0;
 
-/// A number is written as one that is read as the same.
+/// The text of a number is read as the same number.
 fn number(bytes: &[u8]) {
     if let Some(number) = read(parse_rational(&text(bytes))) {
-        // Longer ones have no text that is read.
+        // Longer numbers have no readable text.
         let written = number.to_string();
         if written.len() <= DIGITS {
             assert_eq!(parse_rational(&written), Ok(number));
@@ -37,7 +37,7 @@ fn number(bytes: &[u8]) {
     }
 }
 
-/// An expression is written as one that is read as the same tree.
+/// The text of an expression is read as the same tree.
 fn expression(bytes: &[u8]) {
     let _ = read(parse_equation(&text(bytes)));
     if let Some(tree) = read(parse(&text(bytes))) {
@@ -61,14 +61,15 @@ fn msolve(bytes: &[u8]) {
     system(bytes, Format::Msolve);
 }
 
-/// An order is written as one that is read as the same.
+/// The text of an order is read as the same order.
 fn order(bytes: &[u8]) {
     if let Some(order) = read(parse_order(&text(bytes))) {
         assert_eq!(parse_order(&order.to_string()), Ok(order));
     }
 }
 
-/// A refused system says where; one that is read is written in each format as text that is written the same again.
+/// The error for a system has a line and a column. A system that is read is written in each format, and its text is
+/// read and written unchanged.
 fn system(bytes: &[u8], format: Format) {
     let system = match PolynomialSystem::read_bytes(bytes, Some(format)) {
         Ok(system) => system,
@@ -90,12 +91,12 @@ fn system(bytes: &[u8], format: Format) {
     }
 }
 
-/// The text of a system is refused only where it has longer powers, digits or texts than are read.
+/// The text of a system is refused only if it exceeds the limits of powers, digits or length.
 fn print(system: &PolynomialSystem, format: Format) {
     let Some(text) = read(system.print(format)) else { return };
     match PolynomialSystem::read(&text, Some(format)) {
         Ok(again) if again.heading == system.heading => assert_eq!(again.print(format).as_ref(), Ok(&text)),
-        // msolve's format has no place for the order: its own one is then written and read again.
+        // msolve's format has no order, so the default order is written and read.
         Ok(again) => {
             assert_eq!(format, Format::Msolve);
             print(&again, format);

@@ -32,7 +32,7 @@ pub(super) const TARGETS: [Target; 7] = [
     },
 ];
 
-/// Arguments are parsed and nothing is run; what is wrong is fit to be shown.
+/// Arguments are parsed, but no command runs. Errors are printable.
 fn command_line(bytes: &[u8]) {
     let text = text(bytes);
     let arguments = std::iter::once("groebot").chain(text.lines()).map(Into::into);
@@ -57,7 +57,7 @@ fn lists(bytes: &[u8]) {
     }
 }
 
-/// Each row has the inputs of the solver, and is answered or refused.
+/// Each row has the inputs of the solver, and is solved or refused.
 fn solver_targets(bytes: &[u8]) {
     let solver = SOLVER.solver();
     for degrees in [false, true] {
@@ -90,7 +90,7 @@ fn poses(bytes: &[u8]) {
     }
 }
 
-/// Whatever a text is, what is made of it to be shown or printed stays one piece: on one line, in its comment, without hidden characters.
+/// For any name, the shown or generated text stays intact: on one line, inside its comment, without hidden characters.
 fn names(bytes: &[u8]) {
     let text = text(bytes);
     check_shown(&escape::message(&text));
@@ -113,10 +113,10 @@ fn code(program: &Program) -> [String; 3] {
     [header, source, rust::emit(program)]
 }
 
-/// That of the honest one.
+/// Code of the program with ordinary names.
 static CODE: LazyLock<[String; 3]> = LazyLock::new(|| code(&SOLVER));
 
-/// Printed code has as many lines, comments and strings whatever a joint is called.
+/// Generated code has the same numbers of lines, comments and strings for any joint name.
 fn printed(name: &str) {
     let mut program = SOLVER.clone();
     program.joints[0].name = name.to_owned();
@@ -126,7 +126,7 @@ fn printed(name: &str) {
     }
 }
 
-/// How many lines, comments and strings code has.
+/// Numbers of lines, comments and strings of code.
 fn shape(code: &str) -> [usize; 3] {
     let (mut comments, mut strings, mut rest) = (0, 0, code);
     while let Some(letter) = rest.chars().next() {
@@ -150,7 +150,7 @@ fn shape(code: &str) -> [usize; 3] {
     [code.matches('\n').count(), comments, strings]
 }
 
-/// What follows the string with which code begins.
+/// The text after the string at the beginning of code.
 fn after_string(code: &str) -> &str {
     let mut letters = code[1..].chars();
     while let Some(letter) = letters.next() {

@@ -1,4 +1,4 @@
-//! What derivations write: programs, certificates, equations of motion, maps of a reach, and the check of a folder.
+//! Files of derivations: programs, certificates, equations of motion, reach maps, and the check of a folder.
 
 use std::path::PathBuf;
 use std::sync::LazyLock;
@@ -45,10 +45,11 @@ pub(super) const TARGETS: [Target; 6] = [
     },
 ];
 
-/// Maps of more places are read but not drawn.
+/// Maps with more points are read but not drawn.
 const PLACES: usize = 100_000;
 
-/// A program is written as text that reads the same; it is printed as code, reads a table of targets, and answers one.
+/// The text of a program is read as the same program. It is generated as code, reads a table of targets, and solves
+/// one.
 fn program_json(bytes: &[u8]) {
     let Some(program) = read(Program::from_json(&text(bytes))) else { return };
     assert_eq!(Program::from_json(&program.to_json()).map(|again| again.to_json()), Ok(program.to_json()));
@@ -59,7 +60,7 @@ fn program_json(bytes: &[u8]) {
     }
 }
 
-/// A certificate that proves a derivation is printed again as one that proves the same.
+/// A certificate that proves a derivation is written again as one with the same claims.
 fn certificate(bytes: &[u8]) {
     for source in &*SOURCES {
         let Some(proved) = read(Derivation::again(source, &text(bytes))) else { continue };
@@ -68,7 +69,7 @@ fn certificate(bytes: &[u8]) {
     }
 }
 
-/// A certificate is written as text that reads the same; it proves no other equations than the committed ones.
+/// The text of a certificate is read as the same one. It proves no equations other than the committed ones.
 fn dynamics_json(bytes: &[u8]) {
     let name = CHAIN.name();
     let Some(certificate) = read(Certificate::from_json(&text(bytes), name)) else { return };
@@ -78,7 +79,7 @@ fn dynamics_json(bytes: &[u8]) {
     }
 }
 
-/// Equations that are proved are the committed ones.
+/// Proved equations are equal to the committed ones.
 fn dynamics_text(bytes: &[u8]) {
     let certificate = Certificate::from_json(PLANAR_2R_DYNAMICS, CHAIN.name()).expect("is committed");
     if read(certificate.prove(&CHAIN, &text(bytes))).is_some() {
@@ -86,7 +87,7 @@ fn dynamics_text(bytes: &[u8]) {
     }
 }
 
-/// The derivation of a chain of two joints, its numeric checks, and the files of its folder.
+/// The derivation of a chain with two joints, its numeric checks, and the files of its folder.
 static HONEST: LazyLock<(Derivation, Report, Stored)> = LazyLock::new(|| {
     let source = &SOURCES[1];
     let proved = Derivation::again(source, PLANAR_2R_CERTIFICATE).expect("is committed").about(source);
@@ -98,7 +99,7 @@ static HONEST: LazyLock<(Derivation, Report, Stored)> = LazyLock::new(|| {
     (proved, checked, Stored { folder: PathBuf::from("planar_2r"), files, others: Default::default() })
 });
 
-/// What a check finds of a folder. The numeric checks of the honest derivation, which take long, are made once.
+/// The findings of a check of a folder. The slow numeric checks of the unmodified derivation run once.
 fn findings(stored: &Stored) -> Vec<Finding> {
     let (source, (honest, report, _)) = (&SOURCES[1], &*HONEST);
     let measure = |proved: &Derivation| {
@@ -108,7 +109,7 @@ fn findings(stored: &Stored) -> Vec<Finding> {
     checked.map(|checked| checked.findings).unwrap_or_default()
 }
 
-/// A file that is not what is written fails, is foreign, or is equal up to the rounding of what was measured.
+/// A modified file fails, is foreign, or is equal up to rounding of measured values.
 fn folder(bytes: &[u8]) {
     let end = bytes.iter().position(|byte| *byte == b'\n').unwrap_or(bytes.len());
     let (name, content) = (text(&bytes[..end]).into_owned(), bytes.get(end + 1..).unwrap_or_default());
@@ -126,7 +127,7 @@ fn folder(bytes: &[u8]) {
     }
 }
 
-/// A map is written as text that reads the same, and drawn.
+/// The text of a map is read as the same map, and drawn.
 fn reach_json(bytes: &[u8]) {
     let Some(map) = read(ReachMap::from_json(&text(bytes))) else { return };
     assert_eq!(ReachMap::from_json(&map.to_json()).map(|again| again.to_json()), Ok(map.to_json()));

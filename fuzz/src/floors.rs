@@ -1,4 +1,4 @@
-//! Maps of the floor and rooms.
+//! Floor maps and rooms.
 
 use groebot::Result;
 use groebot::nav::{Map, Meaning, Room};
@@ -18,14 +18,14 @@ pub(super) const TARGETS: [Target; 5] = [
     Target { name: "room_toml", about: "rooms with furniture, `nav::Room`", run: room_toml, damaged: 100 },
 ];
 
-/// Rooms of more cells are read but not drawn.
+/// Rooms with more cells are read but not drawn.
 const CELLS: f64 = 1e5;
 /// The side of a cell \[m\].
 const SIDE: f64 = 0.05;
-/// An image of all values of a byte.
+/// An image with all values of a byte.
 const IMAGE: &str = "P2 4 2 255 0 1 50 127 128 254 255 205";
 
-/// A map has as many cells as columns and rows say, each in its place.
+/// A map has the number of cells given by its columns and rows, each at its index.
 fn check(map: Result<Map>) {
     if let Some(map) = read(map) {
         assert_eq!(map.cells().len(), map.columns() * map.rows());
@@ -46,7 +46,7 @@ fn map_text(bytes: &[u8]) {
     check(Map::from_text(&text(bytes), SIDE));
 }
 
-/// What a YAML tells of an image can be done to one.
+/// The parameters of a YAML file can be applied to an image.
 fn map_yaml(bytes: &[u8]) {
     if let Some((_, meaning)) = read(Meaning::from_yaml(&text(bytes))) {
         check(Map::from_pgm(IMAGE.as_bytes(), &meaning));
@@ -56,7 +56,7 @@ fn map_yaml(bytes: &[u8]) {
 fn room_toml(bytes: &[u8]) {
     let Some(room) = read(Room::from_toml(&text(bytes))) else { return };
     let cells = room.size.iter().map(|size| (size / room.resolution).abs().max(1.0)).product::<f64>();
-    // What is no number of cells is refused, too.
+    // An invalid number of cells is also refused.
     if !(CELLS..=1e12).contains(&cells) {
         check(room.map());
     }

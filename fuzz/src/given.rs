@@ -1,4 +1,4 @@
-//! What targets need beside their bytes: committed descriptions and derivations, read once.
+//! Inputs of targets in addition to their bytes: committed descriptions and derivations, read once.
 
 use std::sync::LazyLock;
 
@@ -13,20 +13,20 @@ pub(super) const PLANAR_2R: &str = include_str!("../../derivations/planar_2r/0_c
 pub(super) const PLANAR_2R_CERTIFICATE: &str = include_str!("../../derivations/planar_2r/certificate.json");
 pub(super) const PLANAR_2R_DYNAMICS: &str = include_str!("../../derivations/planar_2r/7_dynamics.json");
 pub(super) const PLANAR_2R_EQUATIONS: &str = include_str!("../../derivations/planar_2r/7_dynamics.txt");
-/// Equations of a planar leg, six joints together, and two legs.
+/// The equations of a planar leg, a chain of six joints solved together, and two legs.
 const NAO_LEG: &str = include_str!("../../derivations/nao_arm_planar/0_system.toml");
 const CRX_LIKE: &str = include_str!("../../derivations/crx_like/0_chain.toml");
 
-/// That chain.
+/// The chain of the planar arm.
 pub(super) static CHAIN: LazyLock<Chain> = LazyLock::new(|| Chain::from_toml(PLANAR_2R).expect("is committed"));
 
-/// A chain whose target is a pose, with joints that turn and one that slides.
+/// A chain with a pose as target, with revolute joints and a prismatic one.
 pub(super) static ARM: LazyLock<Chain> = LazyLock::new(|| {
     let text = include_str!("../../derivations/stanford/0_chain.toml");
     Chain::from_toml(text).expect("is committed")
 });
 
-/// The solver of a pose, whose targets may be written by quaternions.
+/// The solver of a pose, whose targets may be given with quaternions.
 pub(super) static SOLVER: LazyLock<Program> = LazyLock::new(|| {
     let text = include_str!("../../derivations/stanford/5_program.json");
     Program::from_json(text).expect("is committed")
@@ -54,5 +54,5 @@ fn source(name: &'static str, text: &str, description: Description) -> Source {
     Source::of(input, &Ends::default()).expect("is committed")
 }
 
-/// The robot of walks.
+/// The robot of the walk targets.
 pub(super) static WALKER: LazyLock<Robot> = LazyLock::new(groebot::robots::nao_v5);

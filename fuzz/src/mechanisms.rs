@@ -1,4 +1,4 @@
-//! Descriptions of robots, chains and equations, what is asked of them, and meshes.
+//! Descriptions of robots, chains and equations, tasks, and meshes.
 
 use std::fs;
 use std::path::Path;
@@ -42,12 +42,12 @@ fn system_toml(bytes: &[u8]) {
     let _ = read(System::from_toml(&text(bytes)));
 }
 
-/// Chains in files of their own are looked for where there are none.
+/// Chains in separate files are searched where there are none.
 fn coupled_toml(bytes: &[u8]) {
     let _ = read(CoupledChains::from_toml(&text(bytes), Path::new("/nonexistent")));
 }
 
-/// What is asked is written as text that asks the same.
+/// The text of a task is read as the same task.
 fn task_toml(bytes: &[u8]) {
     if let Some(ends) = read(Ends::from_toml(&text(bytes))) {
         assert_eq!(Ends::from_toml(&ends.to_toml()), Ok(ends));
@@ -72,12 +72,12 @@ fn urdf(bytes: &[u8]) {
     write(&robot);
 }
 
-/// A robot without faults is written as a URDF that reads without faults and is written the same again, and as MJCF.
+/// A robot without faults is written as URDF and MJCF. The URDF is read without faults and written unchanged.
 fn write(robot: &Robot) {
     if read(robot.check()).is_none() {
         return;
     }
-    // The remark that names the source is not read.
+    // The remark with the source is not read.
     let text =
         |robot: &Robot| robot.to_urdf().lines().filter(|line| !line.starts_with("<!--")).collect::<Vec<_>>().join("\n");
     let written = text(robot);
@@ -87,7 +87,7 @@ fn write(robot: &Robot) {
     let _ = robot.to_mjcf(&Meshes::default(), &mut Vec::new());
 }
 
-/// A file of any kind, and the equations that it amounts to.
+/// A file of any kind, and its equations.
 fn input(bytes: &[u8]) {
     let folder = tempdir().expect("a folder for a file");
     let file = folder.path().join("input");
@@ -97,7 +97,7 @@ fn input(bytes: &[u8]) {
     }
 }
 
-/// Triangles have finite corners that are there.
+/// Triangles have finite vertices with valid indices.
 fn mesh(bytes: &[u8]) {
     let folder = tempdir().expect("a folder for a file");
     fs::write(folder.path().join("mesh.stl"), bytes).expect("a file to read");
@@ -108,7 +108,7 @@ fn mesh(bytes: &[u8]) {
     }
 }
 
-/// What is found is a file, and what is no STL is refused by its name.
+/// The result is a file. A name that is not an STL file is refused.
 fn mesh_path(bytes: &[u8]) {
     let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("robot.urdf");
     let (meshes, path) = (Meshes::beside(&beside), text(bytes).into_owned());

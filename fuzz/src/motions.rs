@@ -22,7 +22,7 @@ pub(super) const TARGETS: [Target; 9] = [
     Target { name: "vrml", about: "VRML as RH0 Fig. 5-4 shows it, written in all formats", run: vrml, damaged: 200 },
 ];
 
-/// Rows have as many numbers as the table says; what is refused says where.
+/// Rows have the number of columns of the table. Errors have a line.
 fn states(bytes: &[u8]) {
     match StateTable::from_csv(&text(bytes)) {
         Ok(table) => assert!(table.rows.iter().all(|row| row.q.len() == table.coordinates)),
@@ -33,7 +33,7 @@ fn states(bytes: &[u8]) {
     }
 }
 
-/// What is identified is finite.
+/// Identified parameters are finite.
 fn log(bytes: &[u8]) {
     let Some(log) = read(readers::log(&HINGE, &text(bytes))) else { return };
     for with_friction in [false, true] {
@@ -44,7 +44,7 @@ fn log(bytes: &[u8]) {
     }
 }
 
-/// Nine decimals are written: a quaternion may have another last one after it is made one of length one again.
+/// Nine decimals are written. Normalisation of a quaternion may change its last decimal.
 fn trajectory_csv(bytes: &[u8]) {
     let Some(trajectory) = read(Trajectory::from_csv(&text(bytes))) else { return };
     let again = Trajectory::from_csv(&trajectory.to_csv()).expect("what is written is read");
@@ -65,7 +65,7 @@ fn trajectory_json(bytes: &[u8]) {
     }
 }
 
-/// The page of a walk has no script of others in it.
+/// The page of a walk contains no foreign script.
 fn walk_json(bytes: &[u8]) {
     let text = text(bytes);
     let (trajectory, walk) = (read(Trajectory::from_json(&text)), read(WalkRecord::from_json(&text)));
@@ -78,7 +78,7 @@ fn walk_json(bytes: &[u8]) {
     }
 }
 
-/// A task is written as one that is read as the same.
+/// The text of a task is read as the same task.
 fn task_json(bytes: &[u8]) {
     if let Some(task) = read(TaskRecord::from_json(&text(bytes))).flatten() {
         let written = serde_json::json!({ "task": task }).to_string();
@@ -86,7 +86,7 @@ fn task_json(bytes: &[u8]) {
     }
 }
 
-/// After each step the feet stand somewhere.
+/// After each step both feet have a pose.
 fn footsteps(bytes: &[u8]) {
     if let Some(route) = read(Route::from_csv(&text(bytes), 0.05)) {
         assert_eq!(route.stands().len(), route.steps.len() + 1);
@@ -100,7 +100,7 @@ fn walk_words(bytes: &[u8]) {
     }
 }
 
-/// A scene is written in all formats; numbers may be too large for the singles of glTF.
+/// A scene is written in all formats. Numbers may exceed the single precision of glTF.
 fn vrml(bytes: &[u8]) {
     let Some(scene) = read(Scene::from_vrml(&text(bytes))) else { return };
     check_shown(&scene.to_x3d().expect("numbers and names"));

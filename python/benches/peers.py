@@ -53,7 +53,7 @@ def of_ssik(name, poses, q):
     import ssik
 
     arm = ssik.Manipulator.from_prebuilt(name)
-    # Its zero and its frames are its own: its poses are reached by the same joint values.
+    # The solver has its own zero and frames. Its poses are reached by the same joint values.
     few = [arm.fk(row) for row in q[:SOME]]
     solve = lambda pose: arm.solve(pose, respect_limits=False)
     yield f"ssik {version('ssik')}, solve", SOME, lambda: sum(len(solve(pose)) for pose in few)
@@ -63,7 +63,7 @@ def of_eaik(axes, offsets, solver, poses):
     from eaik.IK_HP import HPRobot
 
     robot = HPRobot(axes, offsets)
-    # The tip's own rotation at zero is not part of axes and offsets.
+    # Axes and offsets do not include the tip's rotation at zero.
     few = turned(solver, poses)[:SOME]
     rows = list(few)
     yield f"EAIK {version('EAIK')}, IK", SOME, lambda: sum(robot.IK(pose).num_solutions() for pose in rows)

@@ -21,7 +21,7 @@ def write(block: Block, work: Work) -> bool:
 
 
 def on_ray(work: Work, left: Sequence[Block]) -> Iterator[bool]:
-    # Ray calls a task again whose worker was killed. What it wrote is whole, or not there.
+    # Ray repeats a task whose worker was killed. Its file is complete, or does not exist.
     task = ray.remote(max_retries=3)(write)
     shared = ray.put(work)
     running = [task.remote(block, shared) for block in left]

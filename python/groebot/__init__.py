@@ -35,6 +35,6 @@ __all__ = [
     "reach_map",
 ]
 
-# All else of `Solver` is compiled.
+# The other methods of `Solver` are compiled.
 setattr(Solver, "view", view)
 del view

@@ -27,7 +27,7 @@ class View:
     """How high it is in a notebook [pixels]."""
 
     def _repr_html_(self) -> str:
-        # The page itself, not its address: a notebook of another machine reads it as well.
+        # The page itself, not its address: a notebook on another machine can also read it.
         page = html.escape(self.path.read_text(encoding="utf-8"))
         style = "width: 100%; border: none"
         return f'<iframe srcdoc="{page}" height="{self.height}" sandbox="allow-scripts allow-downloads" style="{style}"></iframe>'

@@ -99,7 +99,7 @@ class Block:
         tables = work.tables(self.start, self.stop)
         first = next(tables)
         schema = first.schema.with_metadata(self.marks(work))
-        # Snappy saves two bytes of five, and on a disk the time that it takes; dictionaries of joint values would grow as long as the columns.
+        # Snappy saves two bytes of five, and the time to write them to a disk. Dictionaries of joint values would be as long as the columns.
         with parquet.ParquetWriter(path, schema, compression="snappy", use_dictionary=False) as writer:
             for table in chain([first], tables):
                 writer.write_table(table.replace_schema_metadata(schema.metadata), row_group_size=max(len(table), 1))
@@ -129,7 +129,7 @@ def run(work: Work, out: str | os.PathLike[str], block: int = BLOCK, each: Each 
     blocks = planned(work, out, block)
     left = [one for one in blocks if not one.is_done(work)]
     written = sum(each(left) if each else (one.write(work) for one in left))
-    # Those who were killed have left what they wrote aside.
+    # Killed processes leave unfinished temporary files.
     for aside in Path(out).glob(f".block-*{_ASIDE}"):
         aside.unlink(missing_ok=True)
     return Done([one.path for one in blocks], written, len(blocks) - written)

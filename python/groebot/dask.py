@@ -61,7 +61,7 @@ def run(client: Client, work: blocks.Work, out: str | os.PathLike[str], block: i
     """Does all blocks of a work on the workers of `client`, as `groebot.blocks.run` does here."""
 
     def each(left: Sequence[blocks.Block]) -> Iterator[bool]:
-        # A task, not data that are scattered: Dask makes it again where a worker that held it is killed.
+        # A task, not scattered data: if the worker that holds it is killed, Dask computes it again.
         shared = client.submit(_same, work, key=f"groebot-work-{work.key}")
         keys = [f"groebot-block-{work.key}-{one.start}-{one.stop}" for one in left]
         futures = client.map(_write, left, work=shared, key=keys)

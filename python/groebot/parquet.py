@@ -152,7 +152,7 @@ class Solve(blocks.Work):
         names = [name for name in solver.inputs if name not in told] if columns is None else columns
         work = Solve(solver.to_json(), Targets.of(source, names), tuple(keep), plain, threads)
         if work.rows:
-            # Wrong shapes are told here, not by a machine far away.
+            # Wrong shapes are reported here, not by a remote worker.
             next(work.solved(0, 1))
         return work
 

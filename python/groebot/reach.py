@@ -47,7 +47,7 @@ class Reach(blocks.Work):
     ) -> Reach:
         """The work on a grid, looked at before any of it is sent away. Arguments as those of `groebot.reach_map`; `threads` are those of one block."""
         ask = asked(grid, orientations, measure, limits, given, seed)
-        # What is wrong is told here, not by a machine far away.
+        # Errors are reported here, not by a remote worker.
         ask.columns(solver, 0, 0, 1)
         return Reach(solver.to_json(), ask, threads)
 

@@ -1,4 +1,4 @@
-//! Arrays of numpy as targets, joint values and limits, and back.
+//! Conversion of numpy arrays to targets, joint values and limits, and back.
 
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -7,18 +7,18 @@ use crate::errors::bad_value;
 use crate::sink::Status;
 use crate::targets::{Form, Targets};
 
-/// Doubles in rows that follow one another.
+/// Doubles in contiguous rows.
 pub struct Numbers<'py> {
     pub array: Bound<'py, PyArrayDyn<f64>>,
-    /// Whether they come from single precision.
+    /// Whether they were converted from single precision.
     pub single: bool,
 }
 
 impl<'py> Numbers<'py> {
-    /// Those of an array, or of what `groebot._arrays` makes one.
+    /// Doubles of an array, or of an object that `groebot._arrays` converts.
     ///
     /// # Errors
-    /// `BadValueError` for what has no real numbers.
+    /// `BadValueError` for an object that is not an array of real numbers.
     pub fn of(object: &Bound<'py, PyAny>) -> PyResult<Self> {
         if let Ok(array) = object.cast::<PyArrayDyn<f64>>()
             && array.is_c_contiguous()
@@ -33,7 +33,7 @@ impl<'py> Numbers<'py> {
         self.array.shape()
     }
 
-    /// All of them.
+    /// All numbers.
     pub fn to_vec(&self) -> PyResult<Vec<f64>> {
         Ok(self.array.readonly().as_slice()?.to_vec())
     }
@@ -42,21 +42,21 @@ impl<'py> Numbers<'py> {
 /// The shape of a solver's targets.
 #[derive(Clone, Copy, Debug)]
 pub struct Asked {
-    /// Numbers of a target without those of given joints.
+    /// Numbers of a target, without the values of given joints.
     pub own: usize,
-    /// Given joints.
+    /// Number of given joints.
     pub given: usize,
-    /// The first number of the rotation.
+    /// Index of the first number of the rotation.
     pub rotation: Option<usize>,
-    /// Whether a target is a pose of one tip.
+    /// Whether a target is one pose of the tip.
     pub is_pose: bool,
 }
 
 impl Asked {
-    /// The targets that an array of this shape holds, and whether it is one.
+    /// The targets in an array of this shape, and whether it is a single target.
     ///
     /// # Errors
-    /// `BadValueError` with the shapes that are allowed.
+    /// `BadValueError` with the allowed shapes.
     pub fn targets<'a>(
         &self,
         shape: &[usize],
@@ -123,7 +123,7 @@ impl Asked {
     }
 }
 
-/// The rows of joint values of an array of shape (joints,) or (N, joints), and whether it is one row.
+/// The rows of an array of joint values with the shape (joints,) or (N, joints), and whether it is a single row.
 ///
 /// # Errors
 /// `BadValueError` for another shape.
@@ -137,10 +137,10 @@ pub fn joint_rows(numbers: &Numbers<'_>, joints: usize, name: &str) -> PyResult<
     }
 }
 
-/// Pairs of limits of an array of shape (joints, 2).
+/// The limits in an array of shape (joints, 2).
 ///
 /// # Errors
-/// `BadValueError` for another shape, NaN, and a least value above the greatest.
+/// `BadValueError` for another shape, NaN, and a lower limit above the upper one.
 pub fn limits(numbers: &Numbers<'_>, joints: usize) -> PyResult<Vec<[f64; 2]>> {
     if numbers.shape() != [joints, 2] {
         return Err(bad_value(format!("`limits` has the shape {:?}; give ({joints}, 2)", numbers.shape())));
@@ -154,7 +154,7 @@ pub fn limits(numbers: &Numbers<'_>, joints: usize) -> PyResult<Vec<[f64; 2]>> {
     }
 }
 
-/// Fails unless all numbers are finite.
+/// Checks that all numbers are finite.
 ///
 /// # Errors
 /// `BadValueError` with the row.
@@ -165,13 +165,13 @@ pub fn finite(data: &[f64], width: usize, name: &str) -> PyResult<()> {
     }
 }
 
-/// A list as an array of this shape.
+/// Converts a list to an array of this shape.
 pub fn shaped<'py, T: Element>(py: Python<'py>, list: Vec<T>, shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
     let flat = PyArray1::from_vec(py, list);
     if shape.len() == 1 { Ok(flat.into_any()) } else { Ok(flat.reshape(shape.to_vec())?.into_any()) }
 }
 
-/// The first rows whose status says that they are no targets: their numbers, and how many there are.
+/// The first rows whose status marks an invalid target: their indices, and the number of all such rows.
 pub fn no_targets(status: &[u8]) -> (Vec<usize>, usize) {
     let wrong = |status: &u8| {
         ![Status::Solved, Status::Unreachable, Status::BeyondLimits, Status::Unsettled]

@@ -1,7 +1,7 @@
-//! Many targets on several threads, into arrays in which the answers stand in the order of the targets. Main function: [`solve_all`].
+//! Solution of many targets on several threads, into arrays in the order of the targets. Main function: [`solve_all`].
 //!
-//! One thread writes where answers are to be. Of several each takes chunks of targets, solves them into rows of its own, and gets their place when it is the chunk's
-//! turn. No thread outlives the call, and no pool is asked: a process that was forked solves as well.
+//! One thread writes directly to the output. With several, each takes chunks of targets, solves them into its own rows, and copies them to the output in the
+//! order of the chunks. All threads end before the call returns. No thread pool is used, so a forked process can also solve.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -14,21 +14,21 @@ use crate::kernel::Kernel;
 use crate::sink::{Rows, Sink, Status};
 use crate::targets::Targets;
 
-/// How many targets are one piece of work.
+/// Number of targets in a chunk.
 const CHUNK: usize = 512;
-/// How long it takes until an interruption is seen.
+/// Interval between checks for an interruption.
 const PATIENCE: Duration = Duration::from_millis(50);
 
-/// Where the answers go.
+/// The output arrays.
 pub struct Room<'a> {
     pub rows: Rows<'a>,
-    /// By target, the number of its answers.
+    /// Number of solutions of each target.
     pub counts: &'a mut [i64],
-    /// By target, its [`Status`].
+    /// [`Status`] of each target.
     pub status: &'a mut [u8],
 }
 
-/// What is to be done.
+/// The work: solver, targets and options.
 #[derive(Clone, Copy)]
 pub struct Job<'a> {
     pub kernel: &'a dyn Kernel,
@@ -36,17 +36,18 @@ pub struct Job<'a> {
     pub choice: &'a Choice<'a>,
 }
 
-/// Solves all targets on so many threads: the number of answers, or `None` when there is too little room.
+/// Solves all targets on this number of threads. Returns the number of solutions, or `None` when the output has too few
+/// rows.
 ///
 /// # Errors
-/// What a signal raises, such as `KeyboardInterrupt`.
+/// The exception that a signal handler raises, such as `KeyboardInterrupt`.
 pub fn solve_all(job: Job<'_>, threads: usize, room: Room<'_>) -> PyResult<Option<usize>> {
     let helpers = threads.min(job.targets.len().div_ceil(CHUNK)).saturating_sub(1);
     if helpers == 0 { solve_here(job, room) } else { solve_together(job, helpers, room) }
 }
 
 impl Job<'_> {
-    /// Solves some targets.
+    /// Solves a range of targets.
     fn solve(&self, rows: std::ops::Range<usize>, sink: &mut Sink<'_>) {
         let wants_all = self.choice.limits.is_none() && self.choice.near.is_none();
         self.kernel.batch(self.targets, rows, sink, &mut |sink, target, begun, why| {
@@ -63,7 +64,7 @@ impl Job<'_> {
     }
 }
 
-/// Looks at signals now and then.
+/// Periodic check for signals.
 struct Lookout(Instant);
 
 impl Lookout {
@@ -76,7 +77,7 @@ impl Lookout {
     }
 }
 
-/// On the calling thread alone.
+/// Solves on the calling thread alone.
 fn solve_here(job: Job<'_>, room: Room<'_>) -> PyResult<Option<usize>> {
     let mut sink = Sink::new(job.joints(), room.rows, room.counts, room.status);
     let mut lookout = Lookout(Instant::now());
@@ -90,7 +91,7 @@ fn solve_here(job: Job<'_>, room: Room<'_>) -> PyResult<Option<usize>> {
     Ok(Some(sink.taken))
 }
 
-/// With helpers.
+/// Solves with additional threads.
 fn solve_together(job: Job<'_>, helpers: usize, room: Room<'_>) -> PyResult<Option<usize>> {
     let work = Work {
         job,
@@ -111,22 +112,22 @@ fn solve_together(job: Job<'_>, helpers: usize, room: Room<'_>) -> PyResult<Opti
     Ok((!work.is_full.into_inner()).then_some(rest.taken))
 }
 
-/// The rows that nobody has got yet.
+/// The rows that are not assigned yet.
 struct Rest<'a> {
-    /// The chunk whose turn it is.
+    /// The chunk that is copied next.
     turn: usize,
     taken: usize,
     rows: Option<Rows<'a>>,
 }
 
-/// The targets that nobody has taken yet: where their numbers go.
+/// The targets that no thread has taken yet: the output for their counts and status.
 struct Open<'a> {
     next: usize,
     counts: &'a mut [i64],
     status: &'a mut [u8],
 }
 
-/// What all threads share.
+/// The data that all threads share.
 struct Work<'a> {
     job: Job<'a>,
     open: Mutex<Open<'a>>,
@@ -137,11 +138,11 @@ struct Work<'a> {
 }
 
 impl<'a> Work<'a> {
-    /// Takes chunks until none is left.
+    /// Solves chunks until none is left.
     fn run(&self, mut look: impl FnMut() -> PyResult<()>) -> PyResult<()> {
         let _guard = Guard(self);
         let (shape, joints) = (self.job.kernel.shape(), self.job.joints());
-        // A chunk of singular targets needs more room than others.
+        // A chunk of singular targets needs more rows than others.
         let mut room = CHUNK * shape.usual + shape.capacity;
         let (mut q, mut residual) = (vec![0.0; room * joints], vec![0.0; room]);
         let (mut branch, mut free) = (vec![0; room], vec![0; room]);
@@ -171,7 +172,7 @@ impl<'a> Work<'a> {
         Ok(())
     }
 
-    /// Lets all threads stop.
+    /// Stops all threads.
     fn stop(&self, why: &AtomicBool) {
         why.store(true, Ordering::Relaxed);
         self.turned.notify_all();
@@ -181,7 +182,7 @@ impl<'a> Work<'a> {
         self.is_full.load(Ordering::Relaxed) || self.is_stopped.load(Ordering::Relaxed)
     }
 
-    /// The next chunk: its number, and where the numbers of its targets go.
+    /// Takes the next chunk: its number, and the output for its counts and status.
     fn take(&self) -> Option<(usize, &'a mut [i64], &'a mut [u8])> {
         let mut open = locked(&self.open);
         let size = open.counts.len().min(CHUNK);
@@ -195,7 +196,8 @@ impl<'a> Work<'a> {
         Some((number, counts, status))
     }
 
-    /// The place of a chunk with so many answers, when it is its turn; none where there is no room, or all stops.
+    /// The output rows for the solutions of a chunk, when the chunks before it have their rows. `None` when there are
+    /// too few rows, or the threads are stopped.
     fn place(&self, number: usize, answers: usize, joints: usize) -> Option<Rows<'a>> {
         let mut rest = locked(&self.rest);
         while rest.turn != number {
@@ -217,7 +219,7 @@ impl<'a> Work<'a> {
     }
 }
 
-/// Stops all threads where one of them panics, for its chunk's turn does not end.
+/// Stops all threads when one of them panics, because its chunk is never completed.
 struct Guard<'w, 'a>(&'w Work<'a>);
 
 impl Drop for Guard<'_, '_> {
@@ -228,12 +230,13 @@ impl Drop for Guard<'_, '_> {
     }
 }
 
-/// The content of a lock. Nothing is left half-done where a thread panicked: the panic goes on when all are joined.
+/// The content of a lock, also after a panic of another thread. The data are consistent, and the panic is propagated
+/// when all threads are joined.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The word for a status.
+/// The text for a status.
 pub fn reason(status: u8) -> &'static str {
     const WORDS: [(Status, &str); 7] = [
         (Status::Unreachable, "is out of reach"),

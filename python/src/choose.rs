@@ -1,4 +1,5 @@
-//! Which of a target's answers are wanted: those within limits, the one nearest to a reference. Main type: [`Choice`].
+//! Selection among the solutions of a target: those within limits, or the one nearest to a reference. Main type:
+//! [`Choice`].
 
 use std::f64::consts::TAU;
 
@@ -8,20 +9,20 @@ use crate::kernel::{Answer, Kernel};
 use crate::sink::{Sink, Status};
 use crate::targets::Targets;
 
-/// How far beyond a limit rounding may bring a joint that is at it.
+/// Tolerance of a limit for the rounding of a joint value.
 const SLACK: f64 = 1e-9;
 
-/// What is wanted of the answers.
+/// The selection.
 #[derive(Clone, Copy, Default)]
 pub struct Choice<'a> {
-    /// By joint, the least and the greatest value.
+    /// Lower and upper limit of each joint.
     pub limits: Option<&'a [[f64; 2]]>,
-    /// The joint values to be near to: of one row for all targets, or row by row.
+    /// Reference joint values: one row for all targets, or one row for each.
     pub near: Option<&'a [f64]>,
 }
 
 impl Choice<'_> {
-    /// Ends a target whose answers begin at `begun`, with those that are wanted.
+    /// Ends a target whose solutions begin at row `begun`, and keeps the selected ones.
     pub fn end(
         &self,
         kernel: &dyn Kernel,
@@ -43,8 +44,8 @@ impl Choice<'_> {
     }
 }
 
-/// Keeps the answers that have a turn within limits, moved there by as few turns of each angle as can be; members of self-motions are moved along them
-/// where that is needed.
+/// Keeps the solutions that are within limits after whole turns. Each angle is moved by as few turns as possible. Members of self-motions are moved along them
+/// where necessary.
 fn keep_within(
     kernel: &dyn Kernel,
     targets: &Targets<'_>,
@@ -82,7 +83,7 @@ fn keep_within(
     }
 }
 
-/// Keeps the answer that can come nearest to a reference by turns within limits, at its nearest turn; of equals the first.
+/// Keeps the solution that is nearest to a reference after whole turns within limits, with its nearest turns. Among equal ones it is the first.
 fn keep_nearest(turns: &[bool], sink: &mut Sink<'_>, begun: usize, reference: &[f64], limits: Option<&[[f64; 2]]>) {
     let (mut best, mut least) = ([0.0; MAX_JOINTS], f64::INFINITY);
     let (mut q, mut nearest) = ([0.0; MAX_JOINTS], None);
@@ -103,7 +104,7 @@ fn keep_nearest(turns: &[bool], sink: &mut Sink<'_>, begun: usize, reference: &[
     sink.taken = begun + usize::from(nearest.is_some());
 }
 
-/// Writes `q` with each angle moved by whole turns to within its limits and there as near to `reference` as can be; false when a joint cannot be within its limits.
+/// Writes `q` with each angle moved by whole turns into its limits, as near to `reference` as possible. Returns false when a joint cannot be within its limits.
 pub fn moved(turns: &[bool], q: &[f64], reference: &[f64], limits: Option<&[[f64; 2]]>, out: &mut [f64]) -> bool {
     out.iter_mut().enumerate().all(|(joint, out)| {
         let [low, high] = limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| limits[joint]);

@@ -5,13 +5,13 @@ use std::io::Write;
 
 use pyo3::prelude::*;
 
-/// Runs the command on these arguments, the first of which is its name: the exit status.
+/// Runs the command with these arguments. The first one is the program's name. Returns the exit status.
 #[pyfunction]
 #[pyo3(name = "_run")]
 pub fn run(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
     py.detach(|| {
         let status = groebot::cli::run_on(arguments);
-        // No main function of Rust ends here, which would do it; a reader that has gone away is no error.
+        // Rust's main function would flush here, but there is none. A closed reader is not an error.
         let _ = std::io::stdout().flush();
         status
     })

@@ -1,4 +1,4 @@
-//! From a description to a proved solver: `groebot.derive`.
+//! Derivation of a proved solver from a description: `groebot.derive`.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -18,13 +18,13 @@ use crate::work::{threads as threads_of, watched};
 /// The longest time budget \[s\].
 const MAX_SECONDS: f64 = 1e9;
 
-/// Derives the solver of a robot between its `base` and its `tip`, with a proof.
+/// Derives the solver of a robot between its links `base` and `tip`, with a proof.
 ///
 /// `robot` is a `Robot`, or the path of a description: URDF, chain, DH table, equations, or the folder of a mechanism. `task` is pose, position, ray,
-/// direction, rotation, position_pitch_roll, position_yaw, planar_position or planar_pose, the last two in the `plane` xy, xz or yz of the base; `axis` (x, y, z) is that of
-/// the base about which position_yaw asks for the angle; `direction` is what ray, direction and position_yaw aim, in the frame of the tip. `given` are names of joints whose values come with each target; where joints are too many the planner chooses.
-/// `snap` is the tolerance within which the ideal robot is meant (0: each digit counts). `time` \[s\] is a budget. `progress(stage, done, open)` is called now
-/// and then. An interrupt from the keyboard ends the work.
+/// direction, rotation, position_pitch_roll, position_yaw, planar_position or planar_pose. The last two need `plane`: xy, xz or yz of the base. `direction` is
+/// the direction in the tip frame for ray, direction and position_yaw. `axis` (x, y, z) is the base axis of the angle of position_yaw. `given` are the names of
+/// joints whose values are inputs of the solver. If the chain has too many joints and none is given, the planner chooses them. `snap` is the tolerance of the
+/// idealisation; 0 uses every digit. `time` \[s\] is a budget. `progress(stage, done, open)` is called periodically. A keyboard interrupt ends the work.
 #[pyfunction]
 #[pyo3(signature = (robot, task=None, given=None, *, plane=None, axis=None, direction=None, name=None, snap=None, time=None, progress=None, threads=None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -60,7 +60,7 @@ pub fn derive(
     Ok(Solver::of(stored))
 }
 
-/// What is derived.
+/// The description of the robot.
 enum Described {
     Text(Origin),
     Path(PathBuf),
@@ -80,7 +80,7 @@ impl Described {
     }
 }
 
-/// What is asked beyond the description.
+/// The requested task and options.
 struct Asked<'a> {
     task: Option<&'a str>,
     plane: Option<&'a str>,
@@ -92,7 +92,7 @@ struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    /// Adds it to the ends, by the format of a task file: the same words are allowed.
+    /// Adds the options to `ends` in the format of a task file, which has the same names.
     fn put(&self, ends: &mut Ends) -> Result<()> {
         let quoted = |text: &str| serde_json::Value::from(text).to_string();
         let mut text = String::new();
@@ -127,7 +127,7 @@ impl Asked<'_> {
     }
 }
 
-/// The names of given joints: one, or a list.
+/// The names of given joints: a name, or a list of names.
 fn names(given: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
     match given {
         None => Ok(Vec::new()),

@@ -1,4 +1,4 @@
-//! States of a robot in rows, and what is computed of each. Main type: [`Columns`].
+//! Computations for each of many states of a robot. Main type: [`Columns`].
 
 use groebot::Result;
 use groebot::dynamics::{Equations, State, Workspace};
@@ -9,7 +9,7 @@ use crate::arrays::Numbers;
 use crate::errors::{bad_value, raised};
 use crate::many::with_rows;
 
-/// What is asked of many states: a configuration, a velocity, and a third list, each of one row for all or of a row for each.
+/// Inputs of many states: a configuration, a velocity, and a third list. Each has one row for all states, or one row for each.
 pub struct Columns<'a> {
     equations: &'a Equations,
     lists: [Vec<f64>; 3],
@@ -46,7 +46,8 @@ impl<'a> Columns<'a> {
         Ok(columns)
     }
 
-    /// What is computed of each state, in an array of this shape with an axis for the rows, unless they are one.
+    /// Computes a result for each state. Returns an array of this shape, with an additional first axis for several
+    /// states.
     ///
     /// # Errors
     /// `BadValueError` with the row.
@@ -78,12 +79,12 @@ impl<'a> Columns<'a> {
     }
 }
 
-/// The numbers of a vector.
+/// The entries of a vector.
 pub fn vector(computed: Result<&DVector<f64>>) -> Result<Vec<f64>> {
     computed.map(|vector| vector.as_slice().to_vec())
 }
 
-/// The numbers of a matrix, by rows.
+/// The entries of a matrix, row by row.
 pub fn matrix(computed: Result<&DMatrix<f64>>) -> Result<Vec<f64>> {
     computed.map(|matrix| matrix.transpose().as_slice().to_vec())
 }

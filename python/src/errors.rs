@@ -1,21 +1,22 @@
-//! Errors of groebot as exceptions of Python: `groebot.GroebotError` and its heirs, each with the kind of the error.
+//! Conversion of groebot's errors to Python exceptions: `groebot.GroebotError` and its subclasses, each with the kind
+//! of the error.
 
 use groebot::{Error, ErrorKind};
 use pyo3::prelude::*;
 
-/// An error of groebot as the exception of its kind, which `groebot._errors` chooses.
+/// Converts an error to the exception of its kind. `groebot._errors` has the classes.
 pub fn raised(error: &Error) -> PyErr {
     let place = error.place();
     let file = place.file.as_ref().map(|file| file.display().to_string());
     exception(kind_name(error.kind()), error.message(), file, place.line)
 }
 
-/// A value that is wrong, in words.
+/// A `BadValueError` with this message.
 pub fn bad_value(text: impl Into<String>) -> PyErr {
     raised(&Error::new(ErrorKind::BadValue, text))
 }
 
-/// What this solver cannot do, in words.
+/// An error of the kind `unsupported` with this message.
 pub fn unsupported(text: impl Into<String>) -> PyErr {
     raised(&Error::new(ErrorKind::Unsupported, text))
 }
@@ -30,7 +31,7 @@ fn exception(kind: &str, message: &str, file: Option<String>, line: Option<usize
     })
 }
 
-/// The kind as `GroebotError.kind` tells it.
+/// The kind's name in `GroebotError.kind`.
 fn kind_name(kind: ErrorKind) -> &'static str {
     match kind {
         ErrorKind::Io => "io",

@@ -1,4 +1,5 @@
-//! What solves: a solver that was printed, or the program of one that was derived. Main trait: [`Kernel`].
+//! Kernels, which solve targets: a generated solver, or the interpreted program of a derived one. Main trait:
+//! [`Kernel`].
 
 use std::ops::Range;
 
@@ -13,44 +14,45 @@ use groebot_runtime::{Mechanism, Solve};
 use crate::sink::{Rows, Sink, Status};
 use crate::targets::Targets;
 
-/// How many targets a printed solver takes at once, and how many a program.
+/// Number of targets per call of a generated solver, and of a program.
 const PIECE: usize = 64;
 const MANY: usize = 256;
 
-/// What holds for all targets of a solver.
+/// Properties of all targets of a solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    /// How many numbers a target has.
+    /// Number of inputs of a target.
     pub inputs: usize,
-    /// By joint, whether it turns.
+    /// Whether each joint is revolute.
     pub turns: Vec<bool>,
-    /// How many answers an ordinary target has at most.
+    /// Maximum number of solutions of an ordinary target.
     pub usual: usize,
-    /// How many any target has at most.
+    /// Maximum number of solutions of any target.
     pub capacity: usize,
 }
 
-/// A solver of many targets. All answers are the same to the last bit, whatever solves.
+/// A solver of many targets. All implementations return bitwise identical solutions.
 pub trait Kernel: Send + Sync {
     fn shape(&self) -> &Shape;
 
-    /// Hands over all answers for one target.
+    /// Passes all solutions of one target to `take`.
     fn solve(&self, target: &[f64], take: &mut dyn FnMut(Answer<'_>)) -> Result<()>;
 
-    /// Those within limits, each moved by as few turns as can be.
+    /// The solutions within limits, each moved by as few whole turns as possible.
     fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>>;
 
-    /// What joint values reach, where the equations tell it.
+    /// Forward kinematics of joint values; `None` if the equations do not determine it.
     fn forward(&self, q: &[f64]) -> Option<Vec<f64>>;
 
-    /// Hands over the answers for targets one after the other, each target's followed by its end.
+    /// Passes the solutions of all targets to `take`, each target's followed by its end.
     fn each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()>;
 
-    /// Adds the answers for these targets. `ended` is told of each target: its number, and where its answers begin.
+    /// Adds the solutions of these targets. `ended` is called for each target with its number and the row of its first
+    /// solution.
     fn batch(&self, targets: &Targets<'_>, rows: Range<usize>, sink: &mut Sink<'_>, ended: Ended<'_>);
 }
 
-/// An answer, as it is handed over.
+/// A solution, as it is passed on.
 #[derive(Clone, Copy, Debug)]
 pub struct Answer<'a> {
     pub q: &'a [f64],
@@ -85,10 +87,10 @@ impl From<Answer<'_>> for Solution {
     }
 }
 
-/// Takes the end of a target: its number, where its answers begin, and why it has none if it has none.
+/// Callback for the end of a target: its number, the row of its first solution, and the reason if it has none.
 pub type Ended<'e> = &'e mut dyn FnMut(&mut Sink<'_>, usize, usize, Status);
 
-/// A printed solver.
+/// A generated solver.
 pub struct Printed<M> {
     mechanism: M,
     shape: Shape,
@@ -191,13 +193,13 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
     }
 }
 
-/// Writes the answers for a target.
+/// Writes the solutions of a target.
 #[inline]
 fn write<'m, M: Mechanism + 'm>(rows: Rows<'_>, answers: impl Iterator<Item = &'m runtime::Solution<M>>) {
     let Rows { mut q, residual, branch, free } = rows;
     let told = residual.iter_mut().zip(branch).zip(free);
     for (answer, ((residual, branch), free)) in answers.zip(told) {
-        // Its length is known when this is compiled.
+        // Its length is a constant at compile time.
         let own = answer.q.as_ref();
         let Some((row, rest)) = q.split_at_mut_checked(own.len()) else { return };
         row.copy_from_slice(own);
@@ -206,7 +208,7 @@ fn write<'m, M: Mechanism + 'm>(rows: Rows<'_>, answers: impl Iterator<Item = &'
     }
 }
 
-/// Why a target has no answers, or not all: what its form says, else what the solver does.
+/// The reason why a target has no solutions, or not all: the fault of its form, else the error of the solver.
 fn why(form: Status, solved: std::result::Result<(), runtime::Error>) -> Status {
     match (form, solved) {
         (Status::Solved, Ok(())) => Status::Unreachable,
@@ -228,7 +230,7 @@ fn refused(error: runtime::Error) -> Error {
     Error::new(kind, error.to_string())
 }
 
-/// The program of a derived solver.
+/// The interpreted program of a derived solver.
 pub struct Interpreted {
     solver: Solver,
     shape: Shape,
@@ -248,7 +250,7 @@ impl Interpreted {
         Interpreted { solver: program.solver(), shape, has_rotation }
     }
 
-    /// Why a target is refused.
+    /// The reason why a target is refused.
     fn why(&self, target: &[f64], error: &Error) -> Status {
         match error.kind() {
             ErrorKind::Unsupported => Status::Open,

@@ -1,12 +1,12 @@
-//! The printed solvers that are in the wheel, those of `derivations/`: bit for bit what their programs answer. Main type: [`Known`].
+//! The generated solvers in the wheel, those of `derivations/`. Their results are bitwise identical to those of the interpreted programs. Main type: [`Known`].
 
 use std::sync::Arc;
 
 use crate::kernel::{Kernel, Printed};
 
-/// A solver that comes with the wheel.
+/// A solver in the wheel.
 pub struct Known {
-    /// Its name: that of its folder in `derivations/`.
+    /// Its name, which is that of its folder in `derivations/`.
     pub name: &'static str,
     /// The chain, as `chain.toml`.
     pub chain: &'static str,
@@ -23,7 +23,7 @@ impl Known {
 
 macro_rules! known {
     ($($name:ident)+) => {
-        /// All of them.
+        /// All solvers of the wheel.
         pub const ALL: &[Known] = &[$(Known {
             name: stringify!($name),
             chain: include_str!(concat!("../../derivations/", stringify!($name), "/0_chain.toml")),
@@ -83,7 +83,7 @@ known! {
     ur5 puma puma560 irb120 stanford scara iiwa14 nao_left_leg nao_right_leg nao_left_arm nao_right_arm nao_head rh0_left_leg rh0_right_leg teo_leg
 }
 
-/// The one with this name.
+/// The solver with this name.
 pub fn by_name(name: &str) -> Option<&'static Known> {
     ALL.iter().find(|known| known.name == name)
 }

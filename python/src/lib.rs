@@ -1,4 +1,4 @@
-//! groebot as a module of Python: `groebot._groebot`, which the package `groebot` shows.
+//! The Python module `groebot._groebot`, which the package `groebot` exports.
 
 mod arrays;
 mod batch;

@@ -1,4 +1,4 @@
-//! Many targets and many joint values at once: what [`crate::solver::Solver`] offers by arrays.
+//! The array methods of [`crate::solver::Solver`]: many targets or joint values at once.
 
 use groebot::kinematics::Chain;
 use groebot::kinematics::jacobian::Jacobian;
@@ -15,7 +15,7 @@ use crate::sink::Rows;
 use crate::solver::chain;
 use crate::stored::Stored;
 
-/// How a batch is to be solved.
+/// Options of a batch.
 pub struct Wanted<'a, 'py> {
     pub given: Option<&'a Bound<'py, PyAny>>,
     pub limits: Option<&'a [[f64; 2]]>,
@@ -25,10 +25,10 @@ pub struct Wanted<'a, 'py> {
     pub strict: bool,
 }
 
-/// The arrays q, starts, residual, branch, free, status of all solutions.
+/// Computes the arrays q, starts, residual, branch, free, status of all solutions.
 ///
 /// # Errors
-/// `BadValueError` for wrong shapes, for `out` that has too few rows, and where it is strict for rows that are no targets.
+/// `BadValueError` for wrong shapes, for `out` with too few rows, and in strict mode for invalid targets.
 pub fn solve_batch<'py>(
     py: Python<'py>,
     stored: &Stored,
@@ -54,7 +54,7 @@ pub fn solve_batch<'py>(
     PyTuple::new(py, solved.arrays(py)?)
 }
 
-/// Arrays with all answers, and more room behind them.
+/// Arrays with all solutions, and unused rows after them.
 struct Solved<'py> {
     q: Bound<'py, PyArray2<f64>>,
     residual: Bound<'py, PyArray1<f64>>,
@@ -63,12 +63,12 @@ struct Solved<'py> {
     starts: Bound<'py, PyArray1<i64>>,
     status: Bound<'py, PyArray1<u8>>,
     answers: usize,
-    /// Whether `q` is the caller's.
+    /// Whether `q` is the caller's array.
     is_lent: bool,
 }
 
-/// Solves a job into new arrays, those of numpy, whose memory is used again from call to call; targets that have more answers than ordinary ones are rare, and only
-/// where there are many is there room for all that may be.
+/// Solves a job into new numpy arrays, whose memory is reused from call to call. Targets with more solutions than ordinary ones are rare. Only if there are
+/// many of them are arrays of the maximum size allocated.
 fn solved<'py>(py: Python<'py>, job: Job<'_>, wanted: &Wanted<'_, 'py>) -> PyResult<Solved<'py>> {
     let (shape, targets, joints) = (job.kernel.shape(), job.targets.len(), job.kernel.shape().turns.len());
     let lent = wanted.out.map(|out| room(out, joints)).transpose()?;
@@ -99,7 +99,7 @@ fn solved<'py>(py: Python<'py>, job: Job<'_>, wanted: &Wanted<'_, 'py>) -> PyRes
 }
 
 impl<'py> Solved<'py> {
-    /// The number of all answers; none when there is too little room.
+    /// Solves the job. Returns the number of solutions; `None` when there are too few rows.
     fn fill(&mut self, py: Python<'py>, job: Job<'_>, threads: usize) -> PyResult<Option<usize>> {
         let (mut q, mut residual) = (self.q.try_readwrite()?, self.residual.try_readwrite()?);
         let (mut branch, mut free) = (self.branch.try_readwrite()?, self.free.try_readwrite()?);
@@ -122,10 +122,10 @@ impl<'py> Solved<'py> {
         Ok(Some(answers))
     }
 
-    /// q, starts, residual, branch, free, status without the room behind them.
+    /// q, starts, residual, branch, free, status without the unused rows.
     fn arrays(self, py: Python<'py>) -> PyResult<[Bound<'py, PyAny>; 6]> {
         let front = PySlice::new(py, 0, self.answers as isize, 1);
-        // Of arrays that are far too large a copy is kept.
+        // Arrays that are much too large are copied.
         let is_large = !self.is_lent && self.q.shape()[0] > 2 * self.answers + 64;
         let cut = |array: Bound<'py, PyAny>| {
             let front = array.get_item(&front)?;
@@ -142,7 +142,7 @@ impl<'py> Solved<'py> {
     }
 }
 
-/// A new array of numpy, whose numbers mean nothing yet.
+/// A new, uninitialised numpy array.
 fn new<'py, A>(py: Python<'py>, shape: impl IntoPyObject<'py>, dtype: &str) -> PyResult<Bound<'py, A>>
 where
     A: pyo3::PyTypeCheck,
@@ -150,7 +150,7 @@ where
     Ok(py.import("numpy")?.getattr("empty")?.call1((shape, dtype))?.cast_into::<A>()?)
 }
 
-/// Fails where rows are no targets, with their numbers.
+/// Fails if rows are invalid targets, with their indices.
 fn refuse(status: &[u8]) -> PyResult<()> {
     let (rows, count) = no_targets(status);
     let Some(first) = rows.first() else { return Ok(()) };
@@ -159,7 +159,7 @@ fn refuse(status: &[u8]) -> PyResult<()> {
     Err(bad_value(format!("row {first} {}{others}{more}", reason(status[*first]))))
 }
 
-/// Joint values to be near to, of one row or of each.
+/// Reference joint values, one row for all targets or one for each.
 fn reference(near: &Bound<'_, PyAny>, joints: usize, targets: usize) -> PyResult<Vec<f64>> {
     let numbers = Numbers::of(near)?;
     let one = joint_rows(&numbers, joints, "near")?;
@@ -174,7 +174,7 @@ fn reference(near: &Bound<'_, PyAny>, joints: usize, targets: usize) -> PyResult
     Ok(list)
 }
 
-/// An array that takes joint values.
+/// The caller's array for joint values.
 fn room<'py>(out: &Bound<'py, PyAny>, joints: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let array = out.cast::<PyArray2<f64>>().ok().filter(|array| array.is_c_contiguous());
     let array = array.filter(|array| array.shape()[1] == joints);
@@ -183,7 +183,7 @@ fn room<'py>(out: &Bound<'py, PyAny>, joints: usize) -> PyResult<Bound<'py, PyAr
         .ok_or_else(|| bad_value(format!("`out` must be a contiguous float64 array of shape (rows, {joints})")))
 }
 
-/// Rows of joint values and whether they are one.
+/// Rows of joint values, and whether there is a single row.
 fn joint_values(stored: &Stored, q: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, bool)> {
     let (numbers, joints) = (Numbers::of(q)?, stored.program.joints.len());
     let one = joint_rows(&numbers, joints, "q")?;
@@ -192,10 +192,10 @@ fn joint_values(stored: &Stored, q: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, bo
     Ok((list, one))
 }
 
-/// What joint values reach.
+/// Forward kinematics of joint values.
 ///
 /// # Errors
-/// `BadValueError` for wrong shapes and values that are not finite; of the kind `unsupported` where the equations do not tell it.
+/// `BadValueError` for wrong shapes and values that are not finite; an error of the kind `unsupported` if the equations do not determine the result.
 pub fn forward<'py>(py: Python<'py>, stored: &Stored, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let (list, one) = joint_values(stored, q)?;
     let (joints, asked) = (stored.program.joints.len(), stored.asked);
@@ -224,7 +224,7 @@ pub fn forward<'py>(py: Python<'py>, stored: &Stored, q: &Bound<'py, PyAny>) -> 
 /// The Jacobian in a frame.
 ///
 /// # Errors
-/// As [`forward`]; `BadValueError` for another frame; of the kind `unsupported` for a solver without a chain.
+/// As [`forward`]; `BadValueError` for another frame; an error of the kind `unsupported` for a solver without a chain.
 pub fn jacobian<'py>(
     py: Python<'py>,
     stored: &Stored,
@@ -251,7 +251,7 @@ pub fn jacobian<'py>(
     with_rows(py, rows.concat(), rows.len(), &[6, joints], one)
 }
 
-/// Of the tip's origin, with the base's axes.
+/// The Jacobian of the tip's origin, along the base's axes.
 fn in_base(chain: &Chain, q: &[f64]) -> groebot::Result<Jacobian> {
     let Pose { rotation, .. } = chain.forward(q)?;
     let turn = rotation.to_rotation_matrix().into_inner();
@@ -265,7 +265,7 @@ fn in_base(chain: &Chain, q: &[f64]) -> groebot::Result<Jacobian> {
     Ok(jacobian)
 }
 
-/// Rows as an array with the axis of rows, unless they are one.
+/// Converts rows to an array with an additional first axis, unless there is a single row.
 pub fn with_rows<'py>(
     py: Python<'py>,
     list: Vec<f64>,

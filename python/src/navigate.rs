@@ -1,4 +1,4 @@
-//! A humanoid finds its way over a map: `groebot.navigate`.
+//! Navigation of a humanoid over a map: `groebot.navigate`.
 
 use std::path::PathBuf;
 
@@ -16,12 +16,12 @@ use crate::arrays::shaped;
 use crate::errors::{bad_value, raised};
 use crate::work::{threads, watched};
 
-/// Plans the walk of a humanoid over a map to a goal, every sample checked: see `groebot.Walk`.
+/// Plans the walk of a humanoid over a map to a goal and checks every sample: see `groebot.Walk`.
 ///
-/// `robot` is nao, rh0 or teo. `map` is a file (ROS' YAML, PGM, PNG, text, a room in TOML), the name of a room (living-room, encirclement), or an array of booleans
-/// (rows, columns), true where something stands, whose rows begin at y = 0; `resolution` is the side of its cells \[m\]. `start` and `goal` are (x, y) or (x, y, heading)
-/// \[m, rad\]; a room tells its start. `method` is exact, fmm, m3r or potential; `apart` how far the body keeps away from obstacles \[m\]. Where there is no way it raises
-/// `NoWayError`, which has the cells that enclose start or goal.
+/// `robot` is nao, rh0 or teo. `map` is a file (ROS YAML, PGM, PNG, text, a room in TOML), the name of a room (living-room, encirclement), or an array of
+/// booleans. The array has the shape (rows, columns), begins at y = 0 and is true where there is an obstacle; `resolution` is the size of its cells \[m\].
+/// `start` and `goal` are (x, y) or (x, y, heading) \[m, rad\]. A room has a default start. `method` is exact, fmm, m3r or potential. `apart` is the distance
+/// of the body from obstacles \[m\]. If there is no path, it raises `NoWayError`, which has the cells that enclose the start or the goal.
 #[pyfunction]
 #[pyo3(signature = (robot, map, goal, start=None, *, method="exact", resolution=0.05, apart=0.02, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -56,7 +56,7 @@ pub fn navigate<'py>(
     }
 }
 
-/// The humanoid of that name, as `groebot navigate` walks it.
+/// The humanoid of this name, with the settings of `groebot navigate`.
 fn pilot(name: &str, watch: &groebot::Watch) -> Result<Pilot> {
     let unknown =
         || Error::new(ErrorKind::UnknownName, format!("no walker is called `{name}`; there are nao, rh0 and teo"));
@@ -69,7 +69,7 @@ fn pilot(name: &str, watch: &groebot::Watch) -> Result<Pilot> {
     Pilot::new(walker, usual, body, true, watch)
 }
 
-/// A map, and the start that a room tells.
+/// A map, and the start that a room defines.
 fn map(map: &Bound<'_, PyAny>, resolution: f64) -> PyResult<(Map, Option<[f64; 3]>)> {
     if let Ok(cells) = map.cast::<PyArray2<bool>>() {
         let (rows, columns) = (cells.shape()[0], cells.shape()[1]);
@@ -106,7 +106,7 @@ fn method(name: &str) -> PyResult<Method> {
     }
 }
 
-/// A place, and perhaps a heading.
+/// A position with an optional heading.
 fn place(name: &str, numbers: &[f64]) -> PyResult<(Point2<f64>, Option<f64>)> {
     crate::arrays::finite(numbers, numbers.len(), name)?;
     match *numbers {

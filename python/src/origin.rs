@@ -1,4 +1,4 @@
-//! What a solver was derived from, as text that travels with it. Main type: [`Origin`].
+//! The input from which a solver was derived, as text that is stored with it. Main type: [`Origin`].
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,7 +12,7 @@ use groebot::{Error, ErrorKind, Result, Watch, witness};
 /// The name of the stored proof in a derivation's folder.
 pub const CERTIFICATE: &str = "certificate.json";
 
-/// The files of a mechanism's folder from which a solver is derived: the description, and what is asked of it.
+/// The files of a mechanism's folder from which a solver is derived: the description and the task.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Origin {
     /// Name and text.
@@ -20,15 +20,15 @@ pub struct Origin {
 }
 
 impl Origin {
-    /// One file alone.
+    /// An origin of one file.
     pub fn of(name: &str, text: &str) -> Self {
         Origin { files: BTreeMap::from([(name.to_owned(), text.to_owned())]) }
     }
 
-    /// That of a source that was read, for what is asked of it by now.
+    /// The origin of a source with its current task.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] for a file beside it that cannot be read any more.
+    /// [`ErrorKind::Io`] for a file of the folder that can no longer be read.
     pub fn of_source(source: &Source) -> Result<Self> {
         let mut origin = Origin::of(source.name, &source.text);
         if let Some((name, text)) = source.task_file() {
@@ -45,12 +45,12 @@ impl Origin {
     /// The source, read again.
     ///
     /// # Errors
-    /// As [`Source::read`], without the name of the passing folder in which it is read.
+    /// As [`Source::read`], without the name of the temporary folder from which it is read.
     pub fn source(&self) -> Result<Source> {
         self.source_between(&Ends::default())
     }
 
-    /// The same for what else is asked of it.
+    /// The source, read again with another task.
     ///
     /// # Errors
     /// As [`Source::read_between`].
@@ -67,26 +67,28 @@ impl Origin {
     }
 }
 
-/// The same error without its file, whose name means nothing to a caller.
+/// The error without its file, which is temporary and unknown to the caller.
 pub fn elsewhere(error: &Error) -> Error {
     let told = Error::new(error.kind(), error.message());
     error.place().line.map_or(told.clone(), |line| told.at_line(line))
 }
 
-/// What a check of a solver found.
+/// Result of the check of a solver.
 pub struct Checked {
-    /// Targets that were solved again.
+    /// Number of targets that were solved.
     pub targets: usize,
-    /// What is lost at singular targets.
+    /// Solutions that are lost at singular targets.
     pub weak_spots: Vec<String>,
-    /// One line a target.
+    /// One line for each target.
     pub table: String,
 }
 
-/// Proves a derivation again from its certificate as `groebot check` does, without the engine, and solves targets of all kinds against the witnesses.
+/// Proves a derivation again from its certificate, without the Groebner engine, as `groebot check` does. Then compares the solutions of all kinds of targets
+/// with those of independent solvers.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] for a proof that does not hold or claims less than the derivation of its input, and an answer that is wrong or missing at an ordinary target.
+/// [`ErrorKind::Certificate`] for a proof that fails, for a proof that claims less than the derivation of its input, and for a wrong or missing solution at an
+/// ordinary target.
 pub fn check(source: &Source, proved: &Derivation, watch: &Watch) -> Result<Checked> {
     let again = prove_text(source, &proved.certificate()?, &mut Recount::new(watch))?;
     if again.program() != proved.program() {

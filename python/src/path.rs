@@ -1,4 +1,4 @@
-//! An arm along poses: `Solver.solve_path`.
+//! Paths of an arm through poses: `Solver.solve_path`.
 
 use groebot::kinematics::{InverseKinematics, Solution, Target};
 use groebot::motion::{Pace, follow_from};
@@ -16,7 +16,7 @@ use crate::solver::chain;
 use crate::stored::Stored;
 use crate::work::{threads, watched};
 
-/// A kernel as any solver of inverse kinematics.
+/// A kernel as an [`InverseKinematics`] solver.
 struct ByKernel<'a>(&'a Stored);
 
 impl std::fmt::Debug for ByKernel<'_> {
@@ -32,10 +32,10 @@ impl InverseKinematics for ByKernel<'_> {
     }
 }
 
-/// The joint values along poses, and where they must jump, as `groebot.Path`.
+/// Computes the joint values along poses, and the jumps between branches, as `groebot.Path`.
 ///
 /// # Errors
-/// `BadValueError` for rows that are no poses, and for a pose out of reach or beyond limits, with its row.
+/// `BadValueError` for rows that are not poses, and for a pose out of reach or beyond limits, with its row.
 pub fn solve_path<'py>(
     py: Python<'py>,
     stored: &Stored,
@@ -48,7 +48,7 @@ pub fn solve_path<'py>(
     let poses = self::poses(stored, poses)?;
     let start = q0.map(|q0| row(q0, joints, "q0")).transpose()?;
     let speeds = speeds.map(|speeds| row(speeds, joints, "speeds")).transpose()?.unwrap_or_default();
-    // Without a time the speeds say nothing.
+    // Without times, maximum speeds have no effect.
     let speeds: Vec<Option<f64>> = speeds.into_iter().map(|speed| Some(speed).filter(|_| dt.is_some())).collect();
     let pace = Pace::Every(dt.unwrap_or(1.0));
     let solver = ByKernel(stored);
@@ -64,7 +64,7 @@ pub fn solve_path<'py>(
     made.getattr("Path")?.call1((q, jumps))
 }
 
-/// Poses of rows.
+/// Converts rows to poses.
 fn poses(stored: &Stored, poses: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
     let numbers = Numbers::of(poses)?;
     if !stored.asked.is_pose || stored.asked.given > 0 {
@@ -96,7 +96,7 @@ fn pose(numbers: &[f64], row: usize) -> PyResult<Pose> {
     Ok(Pose::from_parts(Translation3::new(numbers[0], numbers[1], numbers[2]), rotation))
 }
 
-/// One finite number for each joint.
+/// Checks that there is one finite number for each joint.
 fn row(list: &Bound<'_, PyAny>, joints: usize, name: &str) -> PyResult<Vec<f64>> {
     let numbers = Numbers::of(list)?;
     if !joint_rows(&numbers, joints, name)? {

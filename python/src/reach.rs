@@ -1,4 +1,4 @@
-//! What a solver reaches, place by place: `groebot.reach_map`.
+//! Reach maps of a solver over a grid: `groebot.reach_map`.
 
 use groebot::kinematics::Solution;
 use groebot::reach::{Ask, Axis, Entry, Grid, Measure, ReachMap, Solves, Survey};
@@ -24,7 +24,8 @@ impl Solves for Solving<'_> {
     }
 }
 
-/// The columns of a map at the places from `start` to before `stop`, all of them by default: see `groebot.reach_map`.
+/// Computes the columns of a map for the grid points from `start` to before `stop`, by default all: see
+/// `groebot.reach_map`.
 #[pyfunction]
 #[pyo3(name = "_reach", signature = (solver, axes, orientations, measure, limits, given, seed, start, stop, threads, progress))]
 #[expect(clippy::too_many_arguments, reason = "the package calls it with all of them")]
@@ -73,7 +74,7 @@ pub fn reach<'py>(
     Ok(columns)
 }
 
-/// A map's JSON as CSV, as a picture, or not at all: `format` is csv, svg or json. It is checked.
+/// Checks a map's JSON and converts it. `format` is csv, svg or json (unchanged).
 #[pyfunction]
 #[pyo3(name = "_reach_as", signature = (text, format, across=None))]
 pub fn reach_as(py: Python<'_>, text: &str, format: &str, across: Option<usize>) -> PyResult<String> {

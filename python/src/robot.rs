@@ -1,4 +1,4 @@
-//! A robot as its description tells it, as Python sees it. Main type: [`Robot`].
+//! The model of a robot as a Python class. Main type: [`Robot`].
 
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -17,11 +17,11 @@ use crate::dynamics::{self, Columns};
 use crate::errors::{bad_value, raised};
 use crate::origin::Origin;
 
-/// A tree of links and joints, with what they weigh.
+/// A robot: a tree of links and joints with inertial parameters.
 ///
-/// Metres, kilograms, seconds, radians. Methods take one state, such as q of shape (freedoms,), or many, (N, freedoms), and then return an axis more. On a
-/// `floating` base q begins with the root's position and quaternion x, y, z, w in the world, and velocities with the root's linear and angular velocity
-/// in its own frame.
+/// Metres, kilograms, seconds, radians. Methods take one state, such as q of shape (freedoms,), or many, (N, freedoms). For many states the result has an
+/// additional first axis. On a `floating` base q begins with the root's position and quaternion x, y, z, w in the world frame. Velocities then begin with the
+/// root's linear and angular velocity in its own frame.
 #[pyclass(frozen, module = "groebot", name = "Robot")]
 pub struct Robot {
     robot: model::Robot,
@@ -35,8 +35,10 @@ pub struct Robot {
 
 #[pymethods]
 impl Robot {
-    /// Reads a URDF: a path, or the text itself. `base` and `tip` are the links between which `derive` takes the chain, by default the root and the only leaf link,
-    /// else the only link named `tool0`, `flange`, `tcp` or `ee_link`, in that order. Faults of parts that this chain does not need are in `notes`; dynamics refuse them.
+    /// Reads a URDF: a path, or the text itself.
+    ///
+    /// `base` and `tip` are the end links of the chain that `derive` uses. By default they are the root and the only leaf link, else the only link named
+    /// `tool0`, `flange`, `tcp` or `ee_link`, in that order. Faults of parts outside this chain are in `notes`; dynamics refuse them.
     #[staticmethod]
     #[pyo3(signature = (path_or_text, base=None, tip=None, *, floating=false, gravity=None))]
     fn from_urdf(
@@ -59,7 +61,7 @@ impl Robot {
         Robot::of(robot, text, [base, tip], floating, gravity)
     }
 
-    /// A humanoid that comes with groebot: nao, rh0 or teo.
+    /// Returns a humanoid of groebot: nao, rh0 or teo.
     #[staticmethod]
     #[pyo3(signature = (name, base=None, tip=None, *, floating=false, gravity=None))]
     fn named(
@@ -78,7 +80,7 @@ impl Robot {
         Robot::of(robot, text, [base, tip], floating, gravity)
     }
 
-    /// The robot as URDF.
+    /// Converts the robot to URDF.
     fn to_urdf(&self) -> &str {
         &self.text
     }
@@ -103,36 +105,36 @@ impl Robot {
         Ok((again, state))
     }
 
-    /// Its name.
+    /// The robot's name.
     #[getter]
     fn name(&self) -> &str {
         self.robot.name()
     }
 
-    /// The names of its links, in the order of the description.
+    /// The names of the links, in the order of the description.
     #[getter]
     fn links(&self) -> Vec<&str> {
         self.robot.links().iter().map(|link| link.name.as_str()).collect()
     }
 
-    /// The names of the links that end limbs.
+    /// The names of the leaf links.
     #[getter]
     fn tips(&self) -> Vec<&str> {
         self.robot.tips()
     }
 
-    /// The names of the joints that move independently, in the order of a configuration.
+    /// The names of the independent joints, in the order of a configuration.
     #[getter]
     fn joints(&self) -> PyResult<Vec<String>> {
         Ok(self.equations()?.joints().to_vec())
     }
 
-    /// What of the description was ignored: faults of parts that the chain between `base` and `tip` does not need, and other remarks.
+    /// Parts of the description that were ignored, such as faults of parts outside the chain between `base` and `tip`, and other remarks.
     #[getter]
     fn notes(&self) -> Vec<String> {
         match self.robot.path(self.base.as_deref(), self.tip.as_deref()) {
             Ok(path) => self.robot.ignored(&path),
-            // There is no chain yet: all of them.
+            // There is no chain yet, so all of them are returned.
             Err(_) => {
                 let faults = self.robot.faults().iter().map(|fault| fault.error.to_string());
                 self.robot.parts().notes.iter().cloned().chain(faults).collect()
@@ -146,7 +148,7 @@ impl Robot {
         self.robot.mass()
     }
 
-    /// The torques \[N m, N\] that give the accelerations `a` in the state `q`, `v`: by Newton and Euler, friction and rotors included.
+    /// Inverse dynamics (RNEA): the torques \[N m, N\] for the accelerations `a` in the state `q`, `v`, with friction and rotors.
     fn inverse_dynamics<'py>(
         &self,
         q: &Bound<'py, PyAny>,
@@ -160,7 +162,7 @@ impl Robot {
         })
     }
 
-    /// The accelerations that the torques `tau` give in the state `q`, `v`.
+    /// Forward dynamics (ABA): the accelerations for the torques `tau` in the state `q`, `v`.
     fn forward_dynamics<'py>(
         &self,
         q: &Bound<'py, PyAny>,
@@ -174,21 +176,21 @@ impl Robot {
         })
     }
 
-    /// The mass matrix, (freedoms, freedoms).
+    /// The mass matrix (CRBA), (freedoms, freedoms).
     fn mass_matrix<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let (equations, n) = (self.equations()?, self.equations()?.freedoms());
         let columns = Columns::new(equations, q, &[])?;
         columns.rows(q.py(), &[n, n], |room, state, _| dynamics::matrix(equations.inertia(room, state.q)))
     }
 
-    /// The Coriolis matrix of Christoffel's symbols, (freedoms, freedoms).
+    /// The Coriolis matrix with Christoffel symbols, (freedoms, freedoms).
     fn coriolis_matrix<'py>(&self, q: &Bound<'py, PyAny>, v: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let (equations, n) = (self.equations()?, self.equations()?.freedoms());
         let columns = Columns::new(equations, q, &[("v", v)])?;
         columns.rows(q.py(), &[n, n], |room, state, _| dynamics::matrix(equations.coriolis(room, state)))
     }
 
-    /// The torques that hold the robot against gravity.
+    /// The gravity torques: those that hold the robot at rest.
     fn gravity_torques<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let equations = self.equations()?;
         let columns = Columns::new(equations, q, &[])?;
@@ -196,7 +198,7 @@ impl Robot {
             .rows(q.py(), &[equations.freedoms()], |room, state, _| dynamics::vector(equations.gravity(room, state.q)))
     }
 
-    /// The centre of mass in the world (of a fixed base: in its frame), (3,).
+    /// The centre of mass in the world frame; for a fixed base, in its frame, (3,).
     fn center_of_mass<'py>(&self, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let equations = self.equations()?;
         let columns = Columns::new(equations, q, &[])?;
@@ -214,7 +216,7 @@ impl Robot {
         })
     }
 
-    /// Where a link stands in the world (of a fixed base: in its frame), (4, 4).
+    /// The pose of a link in the world frame; for a fixed base, in its frame, (4, 4).
     fn link_pose<'py>(&self, q: &Bound<'py, PyAny>, link: &str) -> PyResult<Bound<'py, PyAny>> {
         let (equations, place) = (self.equations()?, self.link(link)?);
         let columns = Columns::new(equations, q, &[])?;
@@ -223,7 +225,8 @@ impl Robot {
         })
     }
 
-    /// The Jacobian of a link's origin and its turning, along the axes of the world, (6, freedoms): linear velocity in the first three rows.
+    /// The Jacobian of a link, (6, freedoms): the linear velocity of its origin in the first three rows, then its angular velocity, along the axes of the world
+    /// frame.
     fn link_jacobian<'py>(&self, q: &Bound<'py, PyAny>, link: &str) -> PyResult<Bound<'py, PyAny>> {
         let (equations, place) = (self.equations()?, self.link(link)?);
         let columns = Columns::new(equations, q, &[])?;
@@ -251,12 +254,12 @@ impl Robot {
         Ok(Robot { robot, text, base, tip, root, gravity, equations: OnceLock::new() })
     }
 
-    /// What it was read from.
+    /// The input from which it was read.
     pub fn origin(&self) -> Origin {
         Origin::of("0_robot.urdf", &self.text)
     }
 
-    /// The links between which its chain is.
+    /// The end links of its chain.
     pub fn ends(&self) -> Ends {
         Ends { base: self.base.clone(), tip: self.tip.clone(), ..Ends::default() }
     }

@@ -1,28 +1,28 @@
-//! Where the answers of targets go, in flat rows. Main type: [`Sink`].
+//! Output rows for the solutions of targets. Main type: [`Sink`].
 
-/// Why a target has no answers; the numbers are those of `groebot.Status`.
+/// Reason why a target has no solutions. The numbers are those of `groebot.Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Status {
-    /// It has some.
+    /// It has solutions.
     Solved = 0,
     /// It is out of reach.
     Unreachable = 1,
-    /// A number of it is infinite or none.
+    /// One of its numbers is infinite or NaN.
     NotFinite = 2,
-    /// Its rotation, its quaternion or the last row of its matrix is none.
+    /// Its rotation matrix, its quaternion or the last row of its matrix is invalid.
     NotRotation = 3,
-    /// Its direction is not of length one.
+    /// Its direction does not have length one.
     NotUnit = 4,
-    /// It lies on a stratum that could not be derived.
+    /// It is on a stratum that could not be derived.
     Open = 5,
     /// All its solutions are beyond the limits.
     BeyondLimits = 6,
-    /// The steps that it may take were spent before all work was done: it may have other answers than those that are there.
+    /// The maximum number of polishing steps was reached before all work was done: other solutions may be missing.
     Unsettled = 7,
 }
 
-/// Room for answers, one row an answer.
+/// Output for solutions, one row for each.
 pub struct Rows<'a> {
     /// Joint values, row by row.
     pub q: &'a mut [f64],
@@ -43,7 +43,7 @@ impl<'a> Rows<'a> {
         (Rows { q, residual, branch, free }, later)
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn len(&self) -> usize {
         self.residual.len()
     }
@@ -56,18 +56,18 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// The answers of some targets, in their order.
+/// Output for the solutions of targets, in their order.
 pub struct Sink<'a> {
     pub joints: usize,
     pub rows: Rows<'a>,
-    /// How many rows are taken.
+    /// Number of rows in use.
     pub taken: usize,
-    /// By target, the number of its answers.
+    /// Number of solutions of each target.
     pub counts: &'a mut [i64],
     pub status: &'a mut [u8],
-    /// How many targets are ended.
+    /// Number of targets that have ended.
     ended: usize,
-    /// Whether there was no room for an answer.
+    /// Whether a solution did not fit.
     pub is_full: bool,
 }
 
@@ -76,7 +76,7 @@ impl<'a> Sink<'a> {
         Sink { joints, rows, taken: 0, counts, status, ended: 0, is_full: false }
     }
 
-    /// Room for so many more answers; none where it is full.
+    /// Rows for `count` more solutions; `None` when there are not enough.
     #[inline]
     pub fn more(&mut self, count: usize) -> Option<Rows<'_>> {
         let (first, last) = (self.taken, self.taken + count);
@@ -93,7 +93,7 @@ impl<'a> Sink<'a> {
         })
     }
 
-    /// Ends a target whose answers begin at `first`; where it has none, or not all, `why`.
+    /// Ends a target whose solutions begin at row `first`. `why` is the reason if it has none, or not all.
     #[inline]
     pub fn end(&mut self, first: usize, why: Status) {
         let count = self.taken - first;
@@ -111,7 +111,7 @@ impl<'a> Sink<'a> {
         &mut self.rows.q[answer * self.joints..][..self.joints]
     }
 
-    /// Puts a later answer in the place of an earlier one.
+    /// Copies the solution of row `from` to row `to`.
     pub fn put(&mut self, from: usize, to: usize) {
         let Rows { q, residual, branch, free } = &mut self.rows;
         q.copy_within(from * self.joints..(from + 1) * self.joints, to * self.joints);

@@ -1,4 +1,4 @@
-//! One answer, as Python sees it. Main type: [`Solution`].
+//! A solution as a Python class. Main type: [`Solution`].
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -7,7 +7,7 @@ use smallvec::SmallVec;
 
 use crate::kernel::Answer;
 
-/// One answer: joint values that bring the tip to its target.
+/// One solution: joint values that move the tip to its target.
 #[pyclass(frozen, freelist = 64, module = "groebot", name = "Solution")]
 pub struct Solution {
     pub q: SmallVec<[f64; 7]>,
@@ -27,37 +27,38 @@ impl From<Answer<'_>> for Solution {
 
 #[pymethods]
 impl Solution {
-    /// The joint values, base to tip, in radians in (-pi, pi] or the solver's unit of length; shape (joints,). A new array at each call.
+    /// The joint values, base to tip, in radians in (-pi, pi] or the solver's unit of length; shape (joints,). Each call returns a new array.
     #[getter]
     fn q<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.q)
     }
 
-    /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
+    /// The largest residual of the equations at `q`, in their own unit.
     #[getter]
     fn residual(&self) -> f64 {
         self.residual
     }
 
-    /// Which roots of which equations it comes from: a branch keeps its number from target to target.
+    /// Branch number: which roots of which equations were used. A branch keeps its number from target to target.
     #[getter]
     fn branch(&self) -> usize {
         self.branch
     }
 
-    /// The joints, from 0, that may take any value at this singular target, the others changing along.
+    /// The free joints (indices from 0) of a singular target: each can have any value, with other values of the other
+    /// joints.
     #[getter]
     fn free<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.free_joints())
     }
 
-    /// Whether the source of the mechanism would choose this one.
+    /// Whether the source of the mechanism would select this solution.
     #[getter]
     fn chosen(&self) -> bool {
         self.chosen
     }
 
-    /// Whether all work on the target was done: else other solutions may be missing, and the residual tells how well this one holds.
+    /// Whether all polishing steps were completed. If false, other solutions may be missing, and `residual` shows the accuracy of this one.
     #[getter]
     fn settled(&self) -> bool {
         self.settled

@@ -1,4 +1,4 @@
-//! A derived solver, as Python sees it. Main type: [`Solver`].
+//! A derived solver as a Python class. Main type: [`Solver`].
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,40 +18,41 @@ use crate::solution::Solution;
 use crate::stored::Stored;
 use crate::{known, origin, path, work};
 
-/// All joint values that bring the tip of a chain to a target, in closed form.
+/// A closed-form inverse-kinematics solver: it returns all joint values that move the tip of a chain to a target.
 ///
-/// Angles are in radians, lengths in metres unless `length_unit` says otherwise; targets are in the frame of the chain's base. A solver never changes, and
-/// any number of threads may use it.
+/// Angles are in radians, lengths in metres unless `length_unit` is `mm`. Targets are in the frame of the chain's base. A solver is immutable and can be used
+/// by several threads.
 #[pyclass(frozen, module = "groebot", name = "Solver")]
 pub struct Solver(pub Arc<Stored>);
 
 #[pymethods]
 impl Solver {
-    /// A solver that comes with groebot, by its name (`Solver.names()`). It is compiled.
+    /// Returns the compiled solver with this name. `Solver.names()` lists them.
     #[staticmethod]
     fn named(name: &str) -> PyResult<Self> {
         Stored::named(name).map(Solver::of).map_err(|error| raised(&error))
     }
 
-    /// The names of the solvers that come with groebot.
+    /// The names of the solvers in the package.
     #[staticmethod]
     fn names() -> Vec<&'static str> {
         known::ALL.iter().map(|known| known.name).collect()
     }
 
-    /// Reads a solver: the folder of a derivation, the `5_program.json` in it, or a file with what `to_json` gives. A thin folder's certificate is proved again.
+    /// Reads a solver: the folder of a derivation, its `5_program.json`, or a file with the result of `to_json`. The certificate of a thin folder is proved
+    /// again.
     #[staticmethod]
     fn load(path: PathBuf) -> PyResult<Self> {
         Stored::load(&path).map(Solver::of).map_err(|error| raised(&error))
     }
 
-    /// Reads what `to_json` gives, or a program of `groebot derive`.
+    /// Reads the result of `to_json`, or a program of `groebot derive`.
     #[staticmethod]
     fn from_json(text: &str) -> PyResult<Self> {
         Stored::from_json(text).map(Solver::of).map_err(|error| raised(&error))
     }
 
-    /// The solver with its description, as JSON.
+    /// Converts the solver and its description to JSON.
     fn to_json(&self) -> String {
         self.0.to_json()
     }
@@ -70,13 +71,13 @@ impl Solver {
         &self.0.program.name
     }
 
-    /// What is asked of the tip: `pose`, `position`, `ray of [1, 0, 0]`, `pose, A3 given`, ...
+    /// The task of the tip: `pose`, `position`, `ray of [1, 0, 0]`, `pose, A3 given`, ...
     #[getter]
     fn task(&self) -> String {
         self.0.program.about.as_ref().map_or_else(|| "its equations".to_owned(), |about| about.task.clone())
     }
 
-    /// The names of the joints, base to tip: the order of joint values.
+    /// The names of the joints from base to tip: the order of joint values.
     #[getter]
     fn joints(&self) -> Vec<String> {
         self.0.program.joints.iter().map(|joint| joint.name.clone()).collect()
@@ -100,30 +101,30 @@ impl Solver {
         self.0.chain.as_ref().map_or("m", |chain| chain.length_unit().symbol())
     }
 
-    /// The least and the greatest value of each joint as described, infinite where there is none: shape (joints, 2).
+    /// The limits of each joint in the description, infinite where there are none: shape (joints, 2).
     #[getter]
     fn limits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let limits = self.0.program.limits();
         arrays::shaped(py, limits.concat(), &[limits.len(), 2])
     }
 
-    /// The number of complex solutions of a generic target, where it was counted.
+    /// The number of complex solutions of a generic target, if it was counted.
     #[getter]
     fn solutions(&self) -> Option<usize> {
         self.0.program.about.as_ref().and_then(|about| about.solutions)
     }
 
-    /// Whether it is compiled; a solver that was derived is interpreted, with the same answers to the last bit.
+    /// Whether the solver is compiled. A derived solver is interpreted and returns bitwise identical solutions.
     #[getter]
     fn compiled(&self) -> bool {
         self.0.is_printed
     }
 
-    /// All solutions of one target, by branch; an empty list where it is out of reach.
+    /// Returns all solutions of one target, sorted by branch; an empty list if the target is out of reach.
     ///
-    /// `target` is a matrix (4, 4), 12 numbers (position, rotation by rows), 7 numbers (position, quaternion x, y, z, w), what scipy and spatialmath hold, or for
-    /// other tasks the numbers of `inputs`. `given` are the values of given joints. With `limits`, of shape (joints, 2) or `True` for the described ones, only
-    /// the solutions that have a turn within.
+    /// `target` is a matrix (4, 4), 12 numbers (position, rotation by rows), 7 numbers (position, quaternion x, y, z, w), or a pose of scipy or spatialmath.
+    /// For other tasks it is the numbers of `inputs`. `given` are the values of the given joints. With `limits`, only solutions are returned that are within
+    /// them after whole turns. `limits` has the shape (joints, 2), or is `True` for those of the description.
     #[pyo3(signature = (target, *, given=None, limits=None))]
     fn solve<'py>(
         &self,
@@ -136,8 +137,8 @@ impl Solver {
         PyList::new(py, found.into_iter().map(|answer| Bound::new(py, answer)).collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// The solution of one target that can come nearest to the joint values `q0` by whole turns, within `limits` where given: `None` where there is none. Its
-    /// angles are not wrapped.
+    /// Returns the solution of one target that is nearest to the joint values `q0` after whole turns, within `limits` if these are given. `None` if there is
+    /// none. Its angles are not wrapped.
     #[pyo3(signature = (target, q0, *, given=None, limits=None))]
     fn nearest(
         &self,
@@ -168,11 +169,12 @@ impl Solver {
         Ok(best.map(|(_, answer)| answer))
     }
 
-    /// All solutions of many targets, as arrays: see `groebot.Batch`.
+    /// Returns all solutions of many targets, as arrays: see `groebot.Batch`.
     ///
-    /// `targets` has the shape (N, 4, 4), (N, 12), (N, 7), or (N, numbers of `inputs`). `given` has the shape (given joints,) or (N, given joints). Of each target `limits`
-    /// keep the solutions that have a turn within, and `near`, of shape (joints,) or (N, joints), the one that can come nearest. `out`, of shape (rows, joints),
-    /// takes the joint values. Rows that are no targets are told by `status`, or with `strict` by an exception. `threads` are all processors by default.
+    /// `targets` has the shape (N, 4, 4), (N, 12), (N, 7), or (N, numbers of `inputs`). `given` has the shape (given joints,) or (N, given joints). With
+    /// `limits`, only solutions are kept that are within them after whole turns. With `near`, of shape (joints,) or (N, joints), only the nearest solution of
+    /// each target is kept. `out`, of shape (rows, joints), receives the joint values. Invalid targets are reported in `status`; with `strict` they raise an
+    /// exception. `threads` is by default the number of processors.
     #[pyo3(signature = (targets, *, given=None, layout="ragged", limits=None, near=None, out=None, dtype=None, threads=None, strict=false))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn solve_batch<'py>(
@@ -195,25 +197,26 @@ impl Solver {
         make.call1((arrays, self.joints(), layout, dtype))
     }
 
-    /// What joint values of shape (joints,) or (N, joints) reach: matrices (4, 4) or (N, 4, 4) for poses, else the numbers of `inputs` without those of given
-    /// joints.
+    /// Forward kinematics of joint values of shape (joints,) or (N, joints). Returns matrices (4, 4) or (N, 4, 4) for poses, else the numbers of `inputs`
+    /// without those of given joints.
     fn forward<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         many::forward(py, &self.0, q)
     }
 
-    /// The Jacobian of the tip at joint values of shape (joints,) or (N, joints): (6, joints) or (N, 6, joints), linear velocity in the first three rows.
+    /// Returns the Jacobian of the tip at joint values of shape (joints,) or (N, joints): (6, joints) or (N, 6, joints). The linear velocity is in the first
+    /// three rows.
     ///
-    /// `frame="base"`: of the tip's origin, with the base's axes; `"tip"`: of the tip's origin, with the tip's axes; `"spatial"`: of the point of the tip that is
-    /// at the base's origin.
+    /// `frame="base"` is the Jacobian of the tip's origin, along the base's axes. `"tip"` is that of the tip's origin, along the tip's axes. `"spatial"` is
+    /// that of the point of the tip at the base's origin.
     #[pyo3(signature = (q, frame="base"))]
     fn jacobian<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>, frame: &str) -> PyResult<Bound<'py, PyAny>> {
         many::jacobian(py, &self.0, q, frame)
     }
 
-    /// The joint values along poses (N, 4, 4), with the fewest jumps between branches and of these the shortest way: see `groebot.Path`.
+    /// Returns the joint values along poses (N, 4, 4) with the fewest jumps between branches, and among these the shortest motion: see `groebot.Path`.
     ///
-    /// `q0` is where the arm stands before. `dt` \[s\] and `speeds` (joints,) \[rad/s, m/s\] say what is a jump; without them half a radian, or a tenth of the
-    /// reach. Limits are those of the description.
+    /// `q0` are the joint values before the first pose. A step is a jump if it exceeds `speeds` (joints,) \[rad/s, m/s\] times `dt` \[s\]. Without these, a
+    /// jump is a step above half a radian or a tenth of the reach. Limits are those of the description.
     #[pyo3(signature = (poses, q0=None, *, dt=None, speeds=None))]
     fn solve_path<'py>(
         &self,
@@ -226,8 +229,8 @@ impl Solver {
         path::solve_path(py, &self.0, poses, q0, dt, speeds)
     }
 
-    /// Proves the derivation again from its certificate, without the Groebner engine, and solves targets of all kinds against forward kinematics, exact
-    /// counts, the screw solver and a numeric oracle: see `groebot.Check`. Raises where something is wrong.
+    /// Proves the derivation again from its certificate, without the Groebner engine. Then checks the solutions of all kinds of targets against forward
+    /// kinematics, exact counts, the screw solver and a numeric search: see `groebot.Check`. Raises an exception if a check fails.
     #[pyo3(signature = (*, progress=None, threads=None))]
     fn check<'py>(
         &self,
@@ -246,7 +249,7 @@ impl Solver {
         made.call1((checked.targets, PyTuple::new(py, checked.weak_spots)?, checked.table))
     }
 
-    /// The derivation, told to a student: see `groebot.Explanation`, which notebooks show.
+    /// Explains the derivation step by step: see `groebot.Explanation`, which notebooks display.
     #[pyo3(signature = (*, progress=None, threads=None))]
     fn explain<'py>(
         &self,
@@ -262,13 +265,14 @@ impl Solver {
         py.import("groebot._records")?.getattr("Explanation")?.call1((markdown, latex))
     }
 
-    /// The solver as one file of C99 that needs no other, to be linked with `-lm`; `single` makes every number a float.
+    /// Generates the solver as one self-contained C99 file, to be linked with `-lm`. With `single`, all numbers are
+    /// floats.
     #[pyo3(signature = (*, single=false))]
     fn c_source(&self, single: bool) -> String {
         single_file::c(&self.0.program, &format!("{}.c", self.0.program.name), single)
     }
 
-    /// The solver as a file of Rust: alone, or on the crate `groebot-runtime`.
+    /// Generates the solver as a Rust file: self-contained, or using the crate `groebot-runtime`.
     #[pyo3(signature = (*, alone=true))]
     fn rust_source(&self, alone: bool) -> String {
         if alone { single_file::rust(&self.0.program) } else { rust::emit(&self.0.program) }
@@ -280,7 +284,7 @@ impl Solver {
         Solver(Arc::new(stored))
     }
 
-    /// The answers for one target.
+    /// The solutions of one target.
     fn found(
         &self,
         target: &Bound<'_, PyAny>,
@@ -315,7 +319,7 @@ impl Solver {
         }
     }
 
-    /// The limits that are asked for: those of an array, or with `True` those of the description.
+    /// The requested limits: those of an array, or with `True` those of the description.
     pub fn bounds(&self, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<[f64; 2]>>> {
         let Some(limits) = limits else { return Ok(None) };
         match limits.extract::<bool>() {

@@ -1,4 +1,4 @@
-//! A solver with all that it knows of itself, and how it is stored. Main type: [`Stored`].
+//! A solver with its description, and its file format. Main type: [`Stored`].
 
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -16,18 +16,18 @@ use crate::kernel::{Interpreted, Kernel};
 use crate::known;
 use crate::origin::{CERTIFICATE, Origin};
 
-/// The longest stored solver and the longest stored proof that are read \[bytes\].
+/// Maximum length of a stored solver and of a stored proof \[bytes\].
 const LIMIT: u64 = 256_000_000;
-/// The number of the format of a stored solver.
+/// The version number of the format of a stored solver.
 const FORMAT: u32 = 1;
 
 /// A derived solver.
 pub struct Stored {
     pub program: Program,
     pub kernel: Arc<dyn Kernel>,
-    /// Whether it was printed and compiled.
+    /// Whether it is generated code that was compiled.
     pub is_printed: bool,
-    /// The chain as described, where it is derived from one.
+    /// The chain of the description, if it is derived from one.
     pub chain: Option<Chain>,
     pub origin: Option<Origin>,
     /// The text of the stored proof.
@@ -49,10 +49,10 @@ impl Stored {
         Stored { program, kernel, is_printed, chain, origin, certificate, proved: OnceLock::new(), asked }
     }
 
-    /// A solver of the wheel.
+    /// Returns a solver of the wheel.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] with the names that there are.
+    /// [`ErrorKind::UnknownName`] with the available names.
     pub fn named(name: &str) -> Result<Self> {
         let unknown = || {
             let names = known::ALL.iter().map(|known| known.name).collect::<Vec<_>>().join(", ");
@@ -64,7 +64,7 @@ impl Stored {
         Ok(Stored::new(Program::from_json(known.program)?, Some(chain), Some(origin), None))
     }
 
-    /// What was derived.
+    /// Builds the solver of a derivation.
     pub fn derived(source: &Source, proved: Derivation) -> Result<Self> {
         let origin = Origin::of_source(source)?;
         let stored = Stored::new(proved.program().clone(), source.chain.clone(), Some(origin), None);
@@ -72,11 +72,11 @@ impl Stored {
         Ok(stored)
     }
 
-    /// That of a derivation's folder, of the program in it, or of a file that [`Stored::to_json`] wrote. The program of a thin folder is the one that its
-    /// certificate proves.
+    /// Reads the folder of a derivation, its program, or a file that [`Stored::to_json`] wrote. The program of a thin folder is the one that its certificate
+    /// proves.
     ///
     /// # Errors
-    /// As [`folder::program`], [`read_text`] and [`Program::from_json`], with the file; [`ErrorKind::Unsupported`] for another version's.
+    /// As [`folder::program`], [`read_text`] and [`Program::from_json`], with the file; [`ErrorKind::Unsupported`] for another version.
     pub fn load(path: &Path) -> Result<Self> {
         let is_folder = path.is_dir();
         let file = if is_folder { path.join(PROGRAM) } else { path.to_owned() };
@@ -89,14 +89,14 @@ impl Stored {
         let stored = Stored::from_json(&read_text(&file, LIMIT)?).map_err(|error| error.in_file(&file))?;
         let folder = file.parent().filter(|_| file.file_name().is_some_and(|name| name == PROGRAM));
         let Some(folder) = folder else { return Ok(stored) };
-        // A program without its description solves as well.
+        // A program without its description can also be solved.
         let Ok(source) = Source::read(folder) else { return Ok(stored) };
         let certificate = read_text(&folder.join(CERTIFICATE), LIMIT).ok();
         let origin = Origin::of_source(&source).ok();
         Ok(Stored::new(stored.program, source.chain, origin, certificate))
     }
 
-    /// A program's JSON, or that of [`Stored::to_json`].
+    /// Reads a program's JSON, or that of [`Stored::to_json`].
     ///
     /// # Errors
     /// As [`Stored::load`].
@@ -119,17 +119,17 @@ impl Stored {
         Ok(Stored::new(program, chain, origin, None))
     }
 
-    /// The solver and what it was derived from, as JSON.
+    /// Converts the solver and its origin to JSON.
     pub fn to_json(&self) -> String {
         let program: Value = serde_json::from_str(&self.program.to_json()).unwrap_or(Value::Null);
         json!({ "groebot": FORMAT, "program": program, "files": self.origin.as_ref().map(|origin| &origin.files) })
             .to_string()
     }
 
-    /// What it was derived from.
+    /// The input from which it was derived.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a program that was read alone.
+    /// [`ErrorKind::Unsupported`] for a program without its description.
     pub fn source(&self) -> Result<Source> {
         let none = || {
             let text = "this solver was read without its description; load the whole folder of its derivation";
@@ -138,10 +138,10 @@ impl Stored {
         self.origin.as_ref().ok_or_else(none)?.source()
     }
 
-    /// The derivation with its proof: kept, proved again from the stored certificate, or derived again.
+    /// The derivation with its proof. It is cached, else proved again from the stored certificate, else derived again.
     ///
     /// # Errors
-    /// As [`Stored::source`] and [`Derivation::of`]; [`ErrorKind::Certificate`] where the derivation gives another solver.
+    /// As [`Stored::source`] and [`Derivation::of`]; [`ErrorKind::Certificate`] if the derivation returns another solver.
     pub fn proved(&self, watch: &Watch) -> Result<Arc<Derivation>> {
         if let Some(proved) = self.proved.get() {
             return Ok(Arc::clone(proved));

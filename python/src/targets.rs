@@ -1,22 +1,22 @@
-//! Targets in the forms in which numpy holds them. Main type: [`Targets`].
+//! Targets in the numpy forms that are accepted. Main type: [`Targets`].
 
 use groebot::spatial::rotation::rows_of_quaternion;
 
 use crate::sink::Status;
 
-/// How far from its place the last row of a matrix may be.
+/// Tolerance of the last row of a matrix.
 const LAST_ROW: f64 = 1e-9;
-/// How far a rotation of single precision may be off.
+/// Tolerance of a rotation in single precision.
 const SINGLE: f64 = 1e-5;
 
-/// How a target is written.
+/// Form of a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// A matrix of four rows.
+    /// A matrix with four rows.
     Matrix,
     /// The solver's own numbers: a position, a rotation by rows, ...
     Numbers,
-    /// The same with a quaternion x, y, z, w for the rotation.
+    /// Same as `Numbers`, but with a quaternion x, y, z, w for the rotation.
     Quaternion,
 }
 
@@ -25,14 +25,14 @@ pub enum Form {
 pub struct Targets<'a> {
     pub data: &'a [f64],
     pub form: Form,
-    /// How many numbers of a target a row holds, and how many a target has.
+    /// Numbers of a target in one row of the array, and numbers of a target.
     pub width: usize,
     pub inputs: usize,
-    /// The first number of the rotation, where the target has one.
+    /// Index of the first number of the rotation, if the target has one.
     pub rotation: Option<usize>,
-    /// The values of given joints, behind the numbers of a row: those of one row for all, or row by row.
+    /// The values of given joints, appended to the numbers of a target: one row for all, or one row for each.
     pub given: &'a [f64],
-    /// Whether rotations come from single precision, and are made exact.
+    /// Whether rotations are in single precision. They are then made orthogonal.
     pub single: bool,
 }
 
@@ -41,7 +41,7 @@ impl Targets<'_> {
         self.data.len() / self.width
     }
 
-    /// Writes the numbers of a target, and tells what is wrong with its form. Of one that is wrong the first number is none, so that no solver solves it.
+    /// Writes the numbers of a target, and returns the fault of its form. The first number of an invalid target is NaN, so that no solver solves it.
     pub fn row(&self, index: usize, out: &mut [f64]) -> Status {
         let row = &self.data[index * self.width..][..self.width];
         let status = match self.form {
@@ -65,7 +65,7 @@ impl Targets<'_> {
         status
     }
 
-    /// How many numbers of a target follow from a row.
+    /// Number of a target's inputs that a row determines.
     fn numbers(&self) -> usize {
         match self.form {
             Form::Matrix => 12,
@@ -103,8 +103,8 @@ fn by_matrix(row: &[f64], out: &mut [f64]) -> Status {
     }
 }
 
-/// The rotation that nine numbers of single precision are, by Newton's steps R (3 - R^T R) / 2 to the orthogonal matrix that is nearest (N. J. Higham,
-/// SIAM Journal on Scientific and Statistical Computing 7, 1986).
+/// Makes a rotation in single precision orthogonal: Newton's steps R (3 - R^T R) / 2 converge to the nearest orthogonal matrix (N. J. Higham, SIAM Journal on
+/// Scientific and Statistical Computing 7, 1986).
 fn rounded(entries: &mut [f64]) -> Status {
     if entries.iter().any(|entry| !entry.is_finite()) {
         return Status::NotFinite;

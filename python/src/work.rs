@@ -1,4 +1,4 @@
-//! Long work on a thread of its own, while Python is told of its progress and can interrupt it. Main function: [`watched`].
+//! Long computations on a separate thread, with progress reports to Python and interruption by it. Main function: [`watched`].
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
@@ -9,22 +9,22 @@ use pyo3::prelude::*;
 
 use crate::errors::raised;
 
-/// How often progress is told and signals are looked at.
+/// Period of progress reports and signal checks.
 const PERIOD: Duration = Duration::from_millis(50);
-/// Room for deep recursions \[bytes\].
+/// Stack size for deep recursions \[bytes\].
 const STACK: usize = 64 << 20;
 
-/// The most threads of a call.
+/// Maximum number of threads of a call.
 const MOST_THREADS: usize = 256;
 
-/// A stage, what is done of it, and what is known to be left.
+/// A stage, the number of completed parts, and the number of known open parts.
 type Step = (String, usize, usize);
 
-/// Does `work` on so many threads, none of which outlives it, without holding Python's lock. `progress(stage, done, open)` is called now and then; what it raises,
-/// and what signals raise, ends the work.
+/// Runs `work` on this number of threads, without holding Python's lock. All threads end before it returns. `progress(stage, done, open)` is called
+/// periodically. An exception of `progress` or of a signal handler ends the work.
 ///
 /// # Errors
-/// Those of the work, of `progress`, and of signals.
+/// Those of the work, of `progress`, and of signal handlers.
 pub fn watched<T: Send>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
@@ -68,7 +68,7 @@ pub fn watched<T: Send>(
     }
 }
 
-/// Whether the work has ended, after a period at most.
+/// Waits for the end of the work for one period. Returns whether it has ended.
 fn wait(finished: &Mutex<bool>, done: &Condvar) -> bool {
     let ended = finished.lock().unwrap_or_else(PoisonError::into_inner);
     if *ended { true } else { *done.wait_timeout(ended, PERIOD).unwrap_or_else(PoisonError::into_inner).0 }
@@ -82,14 +82,14 @@ fn look(py: Python<'_>, progress: Option<&Bound<'_, PyAny>>, step: Option<Step>)
     }
 }
 
-/// Work that asks rayon, in a pool of its own.
+/// Runs work that uses rayon in a separate pool.
 fn pooled<T: Send>(threads: usize, work: impl FnOnce() -> Result<T> + Send) -> Result<T> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(STACK).build();
     let failed = |error| Error::new(ErrorKind::Io, format!("no threads could be started: {error}"));
     pool.map_err(failed)?.install(work)
 }
 
-/// The number of threads that is asked for, as far as it makes sense; by default that of processors.
+/// The requested number of threads, limited to a useful range; by default the number of processors.
 pub fn threads(asked: Option<usize>) -> usize {
     let usual = || std::thread::available_parallelism().map_or(1, usize::from);
     asked.filter(|asked| *asked > 0).map_or_else(usual, |asked| asked.min(MOST_THREADS))

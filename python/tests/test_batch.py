@@ -125,7 +125,7 @@ def test_members_that_are_moved_within_limits_along_self_motions_stay_free(name,
     kept = printed.solve(target, limits=limits)
     moved = [solution for solution in kept if solution.branch == member.branch]
     assert [solution.free for solution in moved] == [(free,)]
-    # The definition: there is a motion of this joint that leaves the tip where it is.
+    # Definition of a free joint: it can move while the tip is at rest.
     *_, still = np.linalg.svd(printed.jacobian(moved[0].q))[2]
     assert abs(still[free]) > 0.1 and np.abs(printed.jacobian(moved[0].q) @ still).max() < 1e-9
     assert np.abs(printed.forward(moved[0].q) - target).max() < 1e-9

@@ -117,7 +117,7 @@ def test_the_driver_is_killed_and_runs_again(tmp_path, source, undisturbed):
     assert driver.wait() == -signal.SIGKILL
     before = count(out)
     assert 4 <= before < BLOCKS
-    # Its workers may finish a block before they see that nobody waits for them.
+    # The workers may finish a block before they detect that the driver has ended.
     again = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True, timeout=600)
     written, found = map(int, again.stdout.split())
     assert found >= before and written + found == BLOCKS and written > 0

@@ -110,7 +110,7 @@ def test_an_interrupt_from_the_keyboard(heard):
     with pytest.raises(KeyboardInterrupt):
         for _ in range(1000):
             groebot.derive(DERIVATIONS / "nao_legs_poses")
-    # A batch that runs alone sees it as well.
+    # A single batch also detects the interrupt.
     ur5 = Solver.named("ur5")
     targets = ur5.forward(np.random.default_rng(0).uniform(-3, 3, (1_000_000, 6)))
     timer = threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT))

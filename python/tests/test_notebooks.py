@@ -15,7 +15,7 @@ import nbformat
 
 RELEASE = os.environ.get("GROEBOT_RELEASE") == "1"
 SECONDS = 60 if RELEASE else 600
-# Code that was not optimised solves fewer poses.
+# Code without optimisation solves fewer poses.
 MANY, SOME = "POSES = 1_000_000", "POSES = 20_000"
 NOTEBOOKS = sorted(Path(__file__).parents[1].joinpath("notebooks").glob("*.ipynb"))
 

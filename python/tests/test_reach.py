@@ -183,7 +183,7 @@ def test_blocks_are_the_map(tmp_path, ur5):
     again = read(tmp_path / "out", work)
     for name in ("reached", "answers", "open", "best", "mean"):
         np.testing.assert_array_equal(getattr(again, name), getattr(made, name))
-    # Each block alone is the same, in another folder and in another order.
+    # Each block alone has the same content, in another folder and in another order.
     for block in reversed(blocks.planned(work, tmp_path / "other", 7)):
         assert block.write(work)
     for path in done.files:

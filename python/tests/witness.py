@@ -12,7 +12,7 @@ DERIVATIONS = REPOSITORY / "derivations"
 UR5_URDF = REPOSITORY / "tests/corpus/urdf/ur5.urdf"
 KUKA_URDF = REPOSITORY / "tests/corpus/urdf/kr6_r900.urdf"
 
-# Universal Robots' own table: a, alpha, d of each joint.
+# Universal Robots' DH table: a, alpha, d of each joint.
 UR5_DH = [
     (0.0, np.pi / 2, 0.089159),
     (-0.425, 0.0, 0.0),

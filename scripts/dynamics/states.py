@@ -16,7 +16,7 @@ import numpy as np
 
 CORPUS = Path(__file__).resolve().parents[2] / "tests/corpus/dynamics"
 STATES = 1000
-# Name of the table, description, whether the root moves freely.
+# Name of the table, description, whether the base is floating.
 TABLES = [
     ("ur5", "ur5", False),
     ("panda", "panda", False),
@@ -25,7 +25,7 @@ TABLES = [
     ("humanoid", "humanoid", False),
     ("humanoid_floating", "humanoid", True),
 ]
-# What is stripped: name, file in example-robot-data.
+# Stripped descriptions: name, file in example-robot-data.
 SOURCES = [
     ("ur5", "ur_description/urdf/ur5_robot.urdf"),
     ("panda", "panda_description/urdf/panda.urdf"),
@@ -62,7 +62,7 @@ def strip():
                 link = tree.SubElement(kept, "link", name=child.get("name"))
                 link.extend(child.findall("inertial"))
             elif child.tag == "joint":
-                # Pinocchio leaves out friction, and takes each joint to be on its own.
+                # Pinocchio ignores friction, and its joints are independent.
                 for part in [part for tag in ("dynamics", "safety_controller", "mimic") for part in child.findall(tag)]:
                     child.remove(part)
                 kept.append(child)
@@ -82,7 +82,7 @@ def witness():
         names = [joint.get("name") for joint in joints if joint.get("type") in ("revolute", "continuous", "prismatic")]
         ids = [model.getJointId(joint) for joint in names]
         first = 6 if floats else 0
-        # Where Pinocchio has what stands here in the order of the file.
+        # The indices in Pinocchio of the joints in the order of the file.
         places = list(range(first)) + [model.joints[i].idx_v for i in ids]
         random = Random(number)
         rows = []

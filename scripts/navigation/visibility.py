@@ -14,7 +14,7 @@ import shapely
 from shapely import LineString, Point, box
 
 TABLE = Path(__file__).resolve().parents[2] / "crates/humanoid/tests/nav/shortest_ways.csv"
-# Obstacles are made smaller by this many cells, so that what touches them does not meet them.
+# Obstacles are shrunk by this number of cells, so that a path that touches them does not intersect them.
 LESS = 1e-9
 
 
@@ -43,7 +43,7 @@ class Floor:
             if line.distance(Point(pinch)) > 1e-7:
                 continue
             ends = [(a, b)] * (a == pinch) + [(b, a)] * (b == pinch)
-            # An end there belongs to the upper right cell.
+            # An end point there belongs to the upper right cell.
             if not ends or any(there[0] <= here[0] and there[1] <= here[1] for here, there in ends):
                 return True
         return False

@@ -23,19 +23,20 @@ except ImportError as error:
 
 STEP = 0.002
 GRAVITY = 9.80665
-# Servos by the size of the robot, m its mass and l 0.63 of the height of its torso: kp in m g l, damping in m g^0.5 l^1.5, armature in m l^2.
-# Of NAO (m g l = 10.3 Nm) this makes 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
+# Servo parameters, scaled by the robot's size. m is its mass, and l is 0.63 of the height of its torso: kp in m g l, damping in m g^0.5 l^1.5, armature in m
+# l^2. For NAO (m g l = 10.3 Nm) they are 308 Nm/rad, 2.2 Nms/rad and 0.043 kg m^2.
 SERVO = "30,1.5,0.21"
 LENGTH = 0.63
-# A body that is described as a point has moments of this share of its mass and l^2: those of TEO's trunk.
+# The moments of inertia of a body that is described as a point, as a fraction of its mass times l^2. The value is that
+# of TEO's trunk.
 POINT = 0.2
-# How long the robot must stand behind the last row.
+# Time for which the robot must stand after the last row [s].
 AFTER = 1.0
-# For how long contact forces are added up.
+# Time window of the contact forces [s].
 WINDOW = 0.02
 MOST_TILT = math.radians(45)
 LEAST_HEIGHT = 0.6
-# A foot presses with this share of the weight.
+# Fraction of the weight above which a foot is in contact.
 PRESSED = 0.01
 POSE = ("x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]")
 
@@ -57,21 +58,21 @@ class Robot:
         self.model, self.walk, self.latency = model, walk, given.latency
         self.torso, self.height = 1, walk["base_z"][0]
         roll, pitch = (math.radians(angle) for angle in given.slope)
-        # Turning gravity instead of the floor keeps the floor at z = 0.
+        # Rotation of gravity instead of the floor keeps the floor at z = 0.
         across, down = math.cos(pitch) * math.sin(roll), math.cos(pitch) * math.cos(roll)
         model.opt.gravity[:] = [GRAVITY * math.sin(pitch), -GRAVITY * across, -GRAVITY * down]
         model.geom_friction[:, 0] = given.friction
         self.mount(given.servo, given.gain)
         model.body_mass[:] *= given.mass
         model.body_inertia[:] *= given.mass
-        # What MuJoCo makes of masses and armatures for its contacts.
+        # Recomputes the constants of MuJoCo's contacts that depend on masses and armatures.
         mujoco.mj_setConst(model, mujoco.MjData(model))
         self.data = mujoco.MjData(model)
         self.names = [model.actuator(i).name for i in range(model.nu)]
         zeros = numpy.zeros(len(walk["time"]))
         self.angles = numpy.column_stack([walk.get(f"q:{name}", zeros) for name in self.names])
         rates = numpy.gradient(self.angles, walk["time"], axis=0)
-        # A servo damps what its joint turns faster than it should.
+        # A servo damps the excess of its joint's velocity.
         self.commands = self.angles + self.damping / self.stiffness * rates
         self.data.qpos[:7] = [walk[f"base_{key}"][0] for key in ("x", "y", "z", "qw", "qx", "qy", "qz")]
         for joint in range(1, model.njnt):

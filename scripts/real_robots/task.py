@@ -40,7 +40,7 @@ class Task:
         twists = self.witness.jacobian(values)
         moves, turns = twists[:3] / length, twists[3:]
         aims = numpy.cross(turns, self.aim, axis=0)
-        # A yaw is a turn about the base's z.
+        # A yaw is a rotation about the base's z axis.
         tilts = (self.witness.forward(values).rotation @ turns)[:2]
         rows = {"position_pitch_roll": [moves, tilts]}
         rows |= {"pose": [moves, turns], "position": [moves], "rotation": [turns], "ray": [moves, aims], "direction": [aims]}

@@ -94,7 +94,7 @@ class Witness:
         """The twist (v, w) of the tip against the base, in the tip's frame, by the rates of `joints`: 6 rows."""
         q = self._configuration(values)
         tip_from_base = self.forward(values).inverse()
-        # Of a model with one joint Pinocchio gives a vector.
+        # For a model with one joint, Pinocchio returns a vector.
         of_tip, of_base = (
             pinocchio.computeFrameJacobian(self.model, self.data, q, frame, pinocchio.LOCAL).reshape(6, -1)
             for frame in (self.tip, self.base)

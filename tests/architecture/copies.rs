@@ -1,4 +1,4 @@
-//! Files that a crate includes are inside its package: they are byte for byte the files of the repository.
+//! Files that a crate includes are inside its package: they are identical copies of the repository's files.
 
 use std::fs;
 
@@ -26,7 +26,7 @@ fn copies() -> Vec<(String, String)> {
         .collect()
 }
 
-/// With `UPDATE_GOLDEN=1` the copies are made again.
+/// With `UPDATE_GOLDEN=1` the copies are written again.
 #[test]
 fn included_files_are_copies_of_the_repository() {
     for (copy, original) in copies() {

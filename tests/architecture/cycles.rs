@@ -1,4 +1,4 @@
-//! Files that import each other in a ring. A folder's `mod.rs` and the files below it may name each other.
+//! Import cycles between files. A folder's `mod.rs` and the files below it may import each other.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -7,7 +7,7 @@ use super::scan;
 
 type Module = Vec<String>;
 
-/// The imports of `sources` that lie on rings or lead from one to another, one line for each pair of files.
+/// The imports of `sources` that are on cycles or lead from one cycle to another, one line for each pair of files.
 pub fn on_rings(sources: &[Source]) -> Vec<String> {
     let house = House::new(sources);
     let mut edges: BTreeMap<&Module, BTreeSet<&Module>> = BTreeMap::new();
@@ -16,7 +16,7 @@ pub fn on_rings(sources: &[Source]) -> Vec<String> {
         let beside = targets.filter(|target| !is_above(target, &source.module) && !is_above(&source.module, target));
         edges.entry(&source.module).or_default().extend(beside);
     }
-    // Whoever imports nothing that is left, or is imported by nobody that is left, is on no ring.
+    // A file that imports no remaining file, or is imported by none, is on no cycle.
     loop {
         let imported: BTreeSet<&Module> = edges.values().flatten().copied().collect();
         let before = edges.len();
@@ -36,7 +36,7 @@ fn is_above(module: &[String], other: &[String]) -> bool {
     other.starts_with(module)
 }
 
-/// The files' modules and the names that they lend to what others hold.
+/// The modules of the files, and the names that they re-export.
 struct House<'a> {
     modules: BTreeSet<&'a Module>,
     lent: HashMap<(&'a Module, String), Module>,
@@ -54,7 +54,7 @@ impl<'a> House<'a> {
         }
     }
 
-    /// The file that holds what `path` names, behind all names that are lent; none outside the crate's files.
+    /// The file that defines what `path` names, after all re-exports are resolved; `None` outside the crate's files.
     fn module_of(&self, mut path: Module) -> Option<&'a Module> {
         for _ in 0..8 {
             let depth = (0..=path.len()).rev().find(|&depth| self.modules.contains(&path[..depth].to_vec()))?;

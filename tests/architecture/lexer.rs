@@ -1,4 +1,4 @@
-//! Rust source as words and punctuation: comments, strings and character literals are gone.
+//! Rust source as words and punctuation, without comments, strings and character literals.
 
 /// A word (identifier, keyword, number), `::`, or one punctuation character.
 #[derive(Clone, Debug, PartialEq)]
@@ -97,7 +97,7 @@ impl Lexer {
         }
     }
 
-    /// A character literal goes as a whole; of a lifetime only the quote.
+    /// Skips a whole character literal, or only the quote of a lifetime.
     fn skip_quote(&mut self) {
         if self.peek(1) == '\\' {
             self.advance(3);
@@ -117,7 +117,7 @@ impl Lexer {
             self.advance(length);
             self.skip_raw_string(hashes);
         } else if is_prefix && hashes == 1 && is_word(self.peek(length + 1)) {
-            self.advance(length + 1); // a raw identifier: its word comes next
+            self.advance(length + 1); // a raw identifier: its word is the next token
         } else if ["b", "c"].contains(&text.as_str()) && matches!(self.peek(length), '"' | '\'') {
             self.advance(length);
         } else {

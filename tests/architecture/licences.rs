@@ -55,7 +55,7 @@ fn allowed_licences() -> HashSet<String> {
     names.iter().map(|name| name.get_ref().as_str().unwrap().to_owned()).collect()
 }
 
-/// What is wrong with `package`, an entry of `cargo metadata`.
+/// The violation by `package`, an entry of `cargo metadata`.
 fn objection(package: &Value, allowed: &HashSet<String>) -> Option<String> {
     let name = format!("{} {}", package["name"], package["version"]);
     let licence = package["license"].as_str().unwrap_or("no licence");
@@ -66,7 +66,7 @@ fn objection(package: &Value, allowed: &HashSet<String>) -> Option<String> {
     (!is_allowed(licence, allowed)).then(|| format!("{name}: `{licence}` is not allowed by deny.toml"))
 }
 
-/// The packages of all features on all platforms; `None` when some were never downloaded here.
+/// The packages of all features on all platforms; `None` if some were never downloaded to this machine.
 fn packages() -> Option<Vec<Value>> {
     let arguments = ["metadata", "--format-version=1", "--all-features", "--locked", "--offline"];
     let output = Command::new(env!("CARGO")).args(arguments).current_dir(super::root()).output().unwrap();

@@ -1,4 +1,4 @@
-//! Links and paths of the documentation lead to files and headings of the repository.
+//! Links and paths in the documentation must refer to existing files and headings of the repository.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use super::{assert_none, root, tracked_files};
 const FOLDERS: [&str; 10] =
     ["benches/", "crates/", "docs/", "examples/", "fuzz/", "python/", "runtime/", "scripts/", "src/", "tests/"];
 
-/// The pages that are read: Markdown of people; derivations, records of changes and corpora have others.
+/// The Markdown pages that are checked. Derivations, records of changes and corpora are excluded.
 fn pages() -> Vec<(String, String)> {
     let is_page = |file: &String| {
         file.ends_with(".md")
@@ -53,7 +53,7 @@ fn shortened(path: &str) -> String {
     parts.join("/")
 }
 
-/// What is wrong with a link of a page.
+/// Describes the error in a link of a page.
 fn broken_link(file: &str, link: &str) -> Option<String> {
     if link.contains("://") || link.contains(char::is_whitespace) {
         return None;
@@ -67,7 +67,7 @@ fn broken_link(file: &str, link: &str) -> Option<String> {
     (!headings.iter().any(|heading| heading == anchor)).then(|| format!("{file}: no heading #{anchor} in {target}"))
 }
 
-/// What is wrong with a word in backquotes, if it is a path. Names in capitals stand for others.
+/// Describes the error in a word in backquotes, if it is a path. Names in capitals are placeholders.
 fn broken_path(file: &str, word: &str) -> Option<String> {
     let is_path = FOLDERS.iter().any(|folder| word.starts_with(folder))
         && word.chars().all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || "/_.-".contains(letter));
@@ -81,7 +81,7 @@ fn links_and_paths_lead_somewhere() {
     let mut found = Vec::new();
     for (file, text) in &pages {
         found.extend(between(text, "](", ')').into_iter().filter_map(|link| broken_link(file, link)));
-        // The commit of these files is named beside them.
+        // The commit of these files is named next to them.
         if file != "benches/six_axes/formulations.md" {
             found.extend(text.split('`').skip(1).step_by(2).filter_map(|word| broken_path(file, word)));
         }

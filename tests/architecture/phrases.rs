@@ -1,4 +1,4 @@
-//! Documentation is written in plain technical English: no phrase of `phrases.toml` is in it.
+//! Documentation is in plain technical English: it contains no phrase of `phrases.toml`.
 
 use std::fs;
 use std::path::Path;
@@ -18,11 +18,11 @@ struct Rules {
 struct Phrase {
     /// Words in lower case with one space between them; `<number>` is any number.
     not: String,
-    /// What to write.
+    /// The replacement.
     but: String,
 }
 
-/// A place where a phrase is correct.
+/// A place where a phrase is permitted.
 struct Exception {
     file: String,
     /// Words of the file, among them the phrase.
@@ -51,7 +51,7 @@ impl Rules {
     }
 }
 
-/// The words of a text with the numbers of their lines, in lower case. Signs are words of their own, so that no phrase goes across a full stop.
+/// The words of a text with their line numbers, in lower case. Each sign is a separate word, so that no phrase extends across a full stop.
 fn words(text: &str) -> Vec<(usize, String)> {
     let mut found: Vec<(usize, String)> = Vec::new();
     for (line, text) in (1..).zip(text.lines()) {
@@ -79,7 +79,7 @@ fn prose(file: &str, text: &str) -> String {
     text.lines().map(comment).collect::<Vec<_>>().join("\n")
 }
 
-/// Where the words of a phrase begin among `text`.
+/// The indices in `text` at which a phrase begins.
 fn places(phrase: &str, text: &[(usize, String)]) -> Vec<usize> {
     let wanted: Vec<String> = phrase
         .split("<number>")
@@ -139,7 +139,8 @@ fn documentation_is_plain_technical_english() {
     assert_none(&texts.iter().flat_map(|(file, text)| found_in(file, text, &rules)).collect::<Vec<_>>());
 }
 
-/// A single common word is correct somewhere; an exception that covers no phrase is forgotten.
+/// Phrases have two words or more, because a single common word is correct in some place. Each exception covers a
+/// phrase.
 #[test]
 fn the_list_of_phrases_is_in_order() {
     let rules = rules();

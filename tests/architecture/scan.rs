@@ -1,4 +1,4 @@
-//! What a source file refers to and how long its functions are, read off its tokens.
+//! The references of a source file and the lengths of its functions, from its tokens.
 
 use super::lexer::Token;
 
@@ -14,12 +14,12 @@ pub struct Reference {
 pub struct Function {
     pub name: String,
     pub line: usize,
-    /// From the line of `fn` to that of the closing brace, both counted.
+    /// Number of lines, from that of `fn` to that of the closing brace.
     pub lines: usize,
 }
 
-/// Every path of `tokens` that leads into the crates of this repository: from `use` items and inline, through `crate`, a crate's name, `self`
-/// and `super`. `module` is the path of the file's module.
+/// All paths in `tokens` that refer to the crates of this repository: in `use` items and inline, with `crate`, a crate's name, `self` and `super`. `module` is
+/// the path of the file's module.
 pub fn references(tokens: &[Token], module: &[String]) -> Vec<Reference> {
     let mut scan = Scan { tokens, module, inner: Vec::new(), found: Vec::new() };
     let mut at = 0;
@@ -42,7 +42,7 @@ impl Scan<'_> {
         text(self.tokens, at)
     }
 
-    /// Handles the token at `at`; returns where the next one to handle stands.
+    /// Handles the token at `at`. Returns the index of the next one.
     fn step(&mut self, at: usize) -> usize {
         match self.text(at) {
             "{" => {
@@ -88,15 +88,15 @@ impl Scan<'_> {
     }
 }
 
-/// One leaf of a `use` item, as it is written.
+/// One leaf of a `use` item, as written.
 struct Import {
     path: Vec<String>,
-    /// The name that stands for it from here on.
+    /// The local name of the import.
     name: String,
     line: usize,
 }
 
-/// The leaves of the `use` tree that starts at `start` below the path `prefix`, and where the tree ends.
+/// The leaves of the `use` tree that starts at `start` below the path `prefix`, and the index after the tree.
 fn imports(tokens: &[Token], start: usize, prefix: &[String]) -> (Vec<Import>, usize) {
     let (mut at, mut path, mut name) = (start, prefix.to_vec(), None);
     while at < tokens.len() {
@@ -128,12 +128,12 @@ fn import_group(tokens: &[Token], start: usize, prefix: &[String]) -> (Vec<Impor
     (all, at + 1)
 }
 
-/// What the crate root lends a second name, as (name, path from the root): `pub use error::Error`.
+/// The re-exports of the crate root, as (name, path from the root): `pub use error::Error`.
 pub fn exports(root: &[Token]) -> Vec<(String, Vec<String>)> {
     lent(root, &[])
 }
 
-/// What the module with these tokens lends a second name, as (name, path from the root).
+/// The re-exports of the module with these tokens, as (name, path from the root).
 pub fn lent(tokens: &[Token], module: &[String]) -> Vec<(String, Vec<String>)> {
     let starts = (0..tokens.len()).filter(|&i| text(tokens, i) == "use" && text(tokens, i + 1) != "<");
     let leaves = starts.flat_map(|start| imports(tokens, start + 1, &[]).0).filter(|leaf| leaf.path.len() > 1);
@@ -141,12 +141,12 @@ pub fn lent(tokens: &[Token], module: &[String]) -> Vec<(String, Vec<String>)> {
     leaves.map(|leaf| (leaf.name, resolve(&leaf.path, module.to_vec()).unwrap_or_else(|| local(&leaf.path)))).collect()
 }
 
-/// Whether a path that starts with `name` starts at the root of a crate of this repository. No two of them have a module of the same name.
+/// Whether `name` at the start of a path is a crate of this repository. No two crates have a module with the same name.
 fn is_crate(name: &str) -> bool {
     matches!(name, "crate" | "groebot" | "groebot_algebra" | "groebot_robot" | "groebot_ik" | "groebot_humanoid")
 }
 
-/// `path` from the crate root, seen from the module `here`; `None` for what another crate or a local name starts.
+/// `path` from the crate root, resolved in the module `here`; `None` if it starts with another crate or a local name.
 fn resolve(path: &[String], here: Vec<String>) -> Option<Vec<String>> {
     let mut base = match path.first()?.as_str() {
         name if is_crate(name) => Vec::new(),
@@ -164,7 +164,7 @@ fn resolve(path: &[String], here: Vec<String>) -> Option<Vec<String>> {
     Some(base)
 }
 
-/// Every function of `tokens` that has a body; an inner function counts for itself and for the outer one.
+/// All functions of `tokens` with a body. An inner function counts for itself and for the outer one.
 pub fn functions(tokens: &[Token]) -> Vec<Function> {
     let starts = (0..tokens.len()).filter(|&i| text(tokens, i) == "fn" && is_name(text(tokens, i + 1)));
     starts.filter_map(|start| function(tokens, start)).collect()
@@ -199,7 +199,7 @@ pub fn macro_calls(tokens: &[Token], names: &[&str]) -> Vec<(String, usize)> {
     (0..tokens.len()).filter(is_call).map(|i| (tokens[i].text.clone(), tokens[i].line)).collect()
 }
 
-/// The modules that `tokens` declare to live in files of their own: `mod name;`.
+/// The modules that `tokens` declare in separate files: `mod name;`.
 pub fn file_modules(tokens: &[Token]) -> Vec<String> {
     let is_declared = |i: &usize| text(tokens, *i) == "mod" && text(tokens, i + 2) == ";";
     (0..tokens.len()).filter(is_declared).map(|i| text(tokens, i + 1).to_owned()).collect()

@@ -1,10 +1,10 @@
-//! The rules can go red: each is tried on a small source that breaks it and on one that does not.
+//! Tests of the rules: each is applied to a small source that violates it and to one that does not.
 
 use std::path::{Path, PathBuf};
 
 use super::{Source, forbidden_uses, leftovers, lexer, mentions, oversized, scan, table};
 
-/// The objections to `text` as the content of `file`, in a crate whose root is `lib.rs` below.
+/// The violations by `text` as the content of `file`, in a crate whose root is `lib.rs` below.
 fn uses(file: &str, text: &str) -> Vec<String> {
     let root = Source::new("src/lib.rs", "pub use error::{Error, Result};\npub use solver::Program;".to_owned());
     forbidden_uses(&[root, Source::new(file, text.to_owned())])

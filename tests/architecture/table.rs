@@ -1,12 +1,12 @@
-//! Who may use whom.
+//! The permitted dependencies between modules.
 
-/// Modules at the root of a crate that every module may use. They use only one another.
+/// Modules at the root of a crate that every module may use. They use only each other.
 const ROOT: [&str; 5] = ["error", "escape", "limits", "watch", "files"];
 
 /// The reader of input files: every module below it may use it.
 const DOCUMENT: &str = "document";
 
-/// Every other module with the modules that it may use, each of which stands above it.
+/// Each other module with the modules that it may use, which are above it in the table.
 const TABLE: [(&str, Uses); 28] = [
     ("drawing", Uses::Only(&[])),
     ("number", Uses::Only(&[])),
@@ -60,7 +60,8 @@ const TABLE: [(&str, Uses); 28] = [
     ("cli", Uses::AllAbove),
 ];
 
-/// Pairs that hold whatever the table says: the screw solver and the derived solver are two witnesses.
+/// Pairs that are forbidden regardless of the table, for example because the screw solver and the derived solver verify
+/// each other.
 const NEVER: [(&str, &str); 9] = [
     ("kinematics::screw", "poly"),
     ("kinematics::screw", "groebner"),
@@ -78,13 +79,13 @@ enum Uses {
     AllAbove,
 }
 
-/// Whether `name` is a module of the crate root that this page knows.
+/// Whether `name` is a module of the crate root in this table.
 pub fn knows(name: &str) -> bool {
     ROOT.contains(&name) || row(name).is_some()
 }
 
-/// Why code in the module `from` may not use `to`, both as paths from the crate root; `None` when it may.
-/// An empty `from` is the crate root itself (`lib.rs`), which may name every module; `main` is `main.rs`.
+/// The reason why code in the module `from` may not use `to`, both as paths from the crate root; `None` if it may. An
+/// empty `from` is `lib.rs`, which may use every module. `main` is `main.rs`.
 pub fn objection(from: &[String], to: &[String]) -> Option<String> {
     let (Some(source), Some(target)) = (from.first(), to.first()) else {
         return to.is_empty().then(|| "names the whole crate; name a module of it".to_owned());

@@ -1,5 +1,5 @@
-//! What is asked of a URDF on the command line, `--base`, `--tip`, `--task`, `--direction`, `--free` and `--snap`: derived, kept in the
-//! folder, and solved as the screw solver of `groebot ik` solves it.
+//! The options for a URDF: `--base`, `--tip`, `--task`, `--direction`, `--free` and `--snap`. They are derived and stored in the folder, and the solutions
+//! equal those of the screw solver in `groebot ik`.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -14,7 +14,7 @@ fn urdf(name: &str) -> String {
     text(&root("tests/corpus/urdf").join(name)).to_owned()
 }
 
-/// A seven-joint arm like KUKA's LBR iiwa 14 (R820) whose three axes meet in the shoulder, in the elbow and in the wrist.
+/// A seven-joint arm like KUKA's LBR iiwa 14 (R820). Three axes intersect in the shoulder, in the elbow and in the wrist.
 const SEVEN: &str = r#"<robot name="seven"><link name="base"/>
 <link name="l1"/><joint name="A1" type="continuous"><parent link="base"/><child link="l1"/><origin xyz="0 0 0.36"/><axis xyz="0 0 1"/></joint>
 <link name="l2"/><joint name="A2" type="continuous"><parent link="l1"/><child link="l2"/><axis xyz="0 1 0"/></joint>
@@ -25,14 +25,14 @@ const SEVEN: &str = r#"<robot name="seven"><link name="base"/>
 <link name="l7"/><joint name="A7" type="continuous"><parent link="l6"/><child link="l7"/><axis xyz="0 0 1"/></joint>
 <link name="tool"/><joint name="flange" type="fixed"><parent link="l7"/><child link="tool"/><origin xyz="0 0 0.126"/></joint></robot>"#;
 
-/// What is asked, as both commands take it.
+/// The options, as both commands accept them.
 struct Asked<'a> {
     robot: &'a str,
     ends: &'a [&'a str],
 }
 
 impl Asked<'_> {
-    /// Derives into a fresh folder, which `check` must pass.
+    /// Derives into a new folder, and checks it with `groebot check`.
     fn derive(&self) -> TempDir {
         let folder = tempdir().unwrap();
         let out = ["--quiet", "--out", text(folder.path())];
@@ -41,7 +41,7 @@ impl Asked<'_> {
         folder
     }
 
-    /// The answers of the derived program to `target` are those of the screw solver, `count` of them.
+    /// Checks that the derived program and the screw solver have the same solutions for `target`, `count` of them.
     fn assert_solves(&self, folder: &Path, target: &str, count: usize) {
         let derived = solutions(&succeed(&["solve", text(folder), "--json", "--target", target]));
         let screw = solutions(&succeed(&[&["ik", self.robot, "--json", "--target", target], self.ends].concat()));
@@ -52,14 +52,14 @@ impl Asked<'_> {
     }
 }
 
-/// The joint vectors of an answer in JSON \[rad\].
+/// The joint vectors in JSON output \[rad\].
 fn solutions(page: &str) -> Vec<Vec<f64>> {
     let answer: Value = serde_json::from_str(page).unwrap();
     let joints = |solution: &Value| solution["q"].as_array().unwrap().iter().map(|q| q.as_f64().unwrap()).collect();
     answer["solutions"].as_array().unwrap().iter().map(joints).collect()
 }
 
-/// The greatest difference of two joint vectors, whole turns apart.
+/// The largest difference between two joint vectors, modulo whole turns.
 fn distance(a: &[f64], b: &[f64]) -> f64 {
     let difference = |(a, b): (&f64, &f64)| (a - b - TAU * ((a - b) / TAU).round()).abs();
     a.iter().zip(b).map(difference).fold(0.0, f64::max)
@@ -88,7 +88,7 @@ fn a_robot_of_one_chain_needs_no_task_file() {
     arm.assert_solves(folder.path(), "0.3,0.2,0.4,0,0.6,0,0.8", 8);
 }
 
-/// The robot that [`SEVEN`] describes, in a folder of its own.
+/// The robot of [`SEVEN`], in a new folder.
 fn seven() -> (TempDir, String) {
     let folder = tempdir().unwrap();
     let file = folder.path().join("seven.urdf");
@@ -138,7 +138,7 @@ fn the_planner_chooses_the_joint_that_is_given() {
     assert!(told.starts_with("Given with each target: the value of `A7`. The planner chose"), "{told}");
 }
 
-/// Names of URDFs may have any characters; the functions of printed solvers may not.
+/// Names in URDFs may have any characters. Function names in generated solvers may not.
 #[test]
 fn a_robot_of_any_name_is_derived() {
     let folder = tempdir().unwrap();
@@ -151,20 +151,21 @@ fn a_robot_of_any_name_is_derived() {
     assert!(printed.contains("GB_DECLARE(x6_axis_n_o_2_link_4, "), "{printed}");
 }
 
-/// The first five joints of a KUKA KR 6 are to reach a pose, which has six freedoms: only consistent targets are solved, and special ones
-/// may have more solutions than generic ones.
+/// The first five joints of a KUKA KR 6 with the task `pose`, which has six degrees of freedom. Only consistent targets are solved, and special targets may
+/// have more solutions than generic ones.
 #[test]
 fn five_joints_for_a_pose_are_solved_where_it_is_consistent() {
     let arm = Asked { robot: &urdf("kr6_r900.urdf"), ends: &["--tip", "link_5"] };
     let folder = arm.derive();
-    // Where forward kinematics brings the tip at 0.3, -0.5, 0.7, 0.4, 0.6 rad.
+    // The pose of the tip at 0.3, -0.5, 0.7, 0.4, 0.6 rad, by forward kinematics.
     let reached = "0.8052354099031206,-0.24908850175229894,0.5689998313554302,\
                    -0.13548885178968467,0.4064672926279581,-0.17392426904970276,0.8866664872994451";
     arm.assert_solves(folder.path(), reached, 1);
     arm.assert_solves(folder.path(), "0.5,0.1,0.7,0,0,0,1", 0);
 }
 
-/// The elbow of a UR5 turned by 1e-5 rad has nothing in common with its neighbours; the ideal robot is the UR5 itself.
+/// A UR5 whose elbow axis is rotated by 1e-5 rad has no exact relation to its neighbours. The ideal robot is the UR5
+/// itself.
 #[test]
 fn axes_that_almost_meet_do_so_within_the_tolerance() {
     let folder = tempdir().unwrap();
@@ -172,7 +173,7 @@ fn axes_that_almost_meet_do_so_within_the_tolerance() {
     let (head, elbow) = exact.split_at(exact.find("name=\"elbow\"").unwrap());
     let file = folder.path().join("rounded.urdf");
     fs::write(&file, head.to_owned() + &elbow.replacen("xyz=\"0 0 1\"", "xyz=\"0 0.00001 1\"", 1)).unwrap();
-    // Without a tolerance, or with one that is too small, the robot is solved as it is described: six axes in any place.
+    // Without a tolerance, or with one that is too small, the robot is solved as described: six general axes.
     let out = tempdir().unwrap();
     let ran = run(&["derive", text(&file), "--quiet", "--out", text(out.path())]);
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
@@ -193,7 +194,7 @@ fn axes_that_almost_meet_do_so_within_the_tolerance() {
     assert_eq!(solved.len(), 8);
 }
 
-/// A folder keeps what was asked: deriving it again asks the same, and writes the same bytes.
+/// A folder stores its options. Deriving it again uses the same options, and writes the same bytes.
 #[test]
 fn the_folder_is_derived_again_as_it_was_asked() {
     let robot = urdf("nao.urdf");

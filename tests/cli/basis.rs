@@ -1,4 +1,4 @@
-//! `groebot basis`: the answers are Singular's, every format says the same, and a run that is stopped writes nothing.
+//! `groebot basis`: the results equal Singular's in all formats, and an interrupted run writes nothing.
 
 use std::fs;
 
@@ -13,7 +13,7 @@ use tempfile::tempdir;
 
 use super::{content, refused, run, run_on, text};
 
-/// The basis of `system`, one polynomial a line, and the summary.
+/// The basis of `system`, one polynomial per line, and the summary.
 fn basis(system: &str, arguments: &[&str]) -> (Vec<String>, String) {
     let ran = run_on(&[&["basis", "-"], arguments].concat(), system.as_bytes());
     assert_eq!(ran.code, 0, "{}", ran.err);
@@ -24,8 +24,8 @@ fn basis(system: &str, arguments: &[&str]) -> (Vec<String>, String) {
 const CYCLIC: &str = "order: lex\nx + y + z = 0\nx*y + y*z + z*x\nx*y*z = 1\n";
 const CIRCLE: &str = "ring r = (0,a,b),(x,y),lp; ideal i = x2 + y2 - a, xy - b;";
 
-// Singular 4.3.1 on all of them, as in
-// `ring r = 0,(x,y,z),lp; short = 0; option(redSB); ideal i = ...; ideal s = simplify(std(i),1); s; dim(s); vdim(s);`
+// Results of Singular 4.3.1 for all of them, as in `ring r = 0,(x,y,z),lp; short = 0; option(redSB); ideal i = ...;
+// ideal s = simplify(std(i),1); s; dim(s); vdim(s);`
 #[test]
 fn the_answers_are_those_of_singular() {
     let (list, summary) = basis(CYCLIC, &[]);
@@ -62,7 +62,7 @@ fn variables_are_eliminated() {
     let (list, summary) = basis(cubic, &["--eliminate", "t"]);
     assert_eq!(list, ["y^2 - x*z", "x*y - z", "x^2 - y"]);
     assert!(summary.contains("3 elements over Q, grevlex; dimension 1"), "{summary}");
-    // Of y = t^2 and z = t^3 alone nothing but the cusp is left.
+    // Of y = t^2 and z = t^3 only the cusp remains.
     assert_eq!(basis(cubic, &["--eliminate", "t,x"]).0, ["y^3 - z^2"]);
     let cubic = format!("order: block:1,3\n{cubic}");
     assert_eq!(basis(&cubic, &["--eliminate", "t,x", "--order", "lex"]).0, ["y^3 - z^2"]);
@@ -103,7 +103,7 @@ fn every_format_says_the_same_and_is_read_again() {
     }
 }
 
-/// Checks the certificate `json` over `field` by its own words.
+/// Checks the claims of the certificate `json` over `field`.
 fn check_certificate<F: Field>(json: &Value, field: F) -> groebot::Result<()> {
     let list = |value: &Value| -> Vec<String> {
         value.as_array().unwrap().iter().map(|text| text.as_str().unwrap().to_owned()).collect()
@@ -203,7 +203,7 @@ fn wishes_that_do_not_fit_are_refused() {
     }
 }
 
-/// Cyclic 9 over Q in the lexicographic order: hours of work.
+/// Cyclic 9 over Q in the lexicographic order, which takes hours.
 fn endless() -> String {
     let names: Vec<String> = (0..9).map(|k| format!("x{k}")).collect();
     let mut system = "order: lex\n".to_owned();

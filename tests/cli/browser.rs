@@ -1,10 +1,10 @@
-//! Pages and scenes in Chromium, by the tests of `viewer/tests`. They wait more than they compute.
+//! Tests of pages and scenes in Chromium, in `viewer/tests`. They spend most of their time waiting.
 
 use std::process::Command;
 
 use super::root;
 
-/// Runs tests of `viewer/tests` in Node and Chromium; a missing tool, of `tools` too, is reported with its remedy.
+/// Runs tests of `viewer/tests` in Node and Chromium. A missing tool, also one of `tools`, is reported with a remedy.
 fn node_tests(names: &[&str], tools: &[(&str, &str)]) {
     let viewer = root("viewer");
     let usual = [

@@ -1,4 +1,5 @@
-//! Time, memory and Ctrl-C hold also in steps that never ask for them; what multiplies work is bounded.
+//! Time and memory budgets and Ctrl-C work also in steps that do not check them. Options that multiply the work are
+//! bounded.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -27,7 +28,7 @@ fn an_expansion_keeps_the_budgets() {
     }
 }
 
-/// Ends when it is interrupted: in a step that does not ask, and while it waits for standard input.
+/// Every command ends when it is interrupted: in a step without checks, and while it reads standard input.
 #[test]
 #[cfg(target_os = "linux")]
 fn control_c_ends_every_command() {

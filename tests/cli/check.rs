@@ -1,4 +1,4 @@
-//! `groebot check`: what was derived passes, what was tampered with does not.
+//! `groebot check` accepts derived folders and refuses modified ones.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use tempfile::{TempDir, tempdir};
 
 use super::{Derived, content, fails_at, leg, leg_copy, refused, root, run, succeed, text};
 
-/// Replaces the first `from` behind `mark` in a file.
+/// Replaces the first `from` after `mark` in a file.
 fn edit(path: &Path, mark: &str, from: &str, to: &str) {
     let before = fs::read_to_string(path).unwrap();
     let start = before.find(mark).expect("the mark is there");
@@ -100,7 +100,7 @@ fn copy_of(derivation: &str) -> TempDir {
     copy
 }
 
-/// Equations of motion are an addition to a certificate, and take its place for no file.
+/// Equations of motion are an addition to a certificate and replace no file.
 #[test]
 fn equations_of_motion_prove_no_solver() {
     let folder = copy_of("planar_2r");
@@ -120,7 +120,7 @@ fn equations_of_motion_prove_no_solver() {
         assert!(ran.out.contains(&format!("\u{2717} {name} ")), "{name}: {}", ran.out);
     }
     assert!(ran.out.contains("\u{2713} 7_dynamics.json"), "{}", ran.out);
-    // Without anything of a derivation they stand alone.
+    // Without the files of a derivation, the remaining files are independent.
     for name in content(folder.path()).into_keys().filter(|name| !name.starts_with(['0', '7'])) {
         fs::remove_file(folder.path().join(name)).unwrap();
     }
@@ -143,7 +143,8 @@ fn forged_equations_of_motion_and_an_empty_page_are_named() {
     fails_at(folder.path(), &["7_dynamics.txt"]);
 }
 
-/// Files that a derivation of another kind writes are nobody's here; what is not groebot's is named.
+/// Files that another kind of derivation writes belong to none in this folder. Files that groebot did not write are
+/// named.
 #[test]
 fn every_file_of_a_folder_is_accounted_for() {
     let folder = leg_copy();
@@ -172,7 +173,7 @@ fn every_file_of_a_folder_is_accounted_for() {
     fails_at(folder.path(), &["7_dynamics.txt", "5_ikfast.cpp", "arm.c"]);
 }
 
-/// Less is claimed than there is: the proof holds, the number of solutions that was counted does not.
+/// A certificate that claims less: the proof holds, but the number of solutions differs.
 #[test]
 fn a_lower_number_of_solutions_is_refused() {
     let folder = copy_of("planar_2r");

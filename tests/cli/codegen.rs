@@ -1,4 +1,4 @@
-//! `groebot codegen`: solvers as source code, and which files it leaves alone.
+//! `groebot codegen`: solvers as source code, and the files that it does not replace.
 
 use std::fs;
 

@@ -1,5 +1,6 @@
-//! The folders of `derivations/`: each is what a derivation writes today, byte for byte, and passes `groebot check` (`SLOW_CHECKS`: if `--ignored`). Folders
-//! whose outputs nothing reads are thin: they have hashes of the outputs. `UPDATE_GOLDEN=1` derives all again instead, and the diff is then to be read.
+//! The folders of `derivations/`: each is equal to the output of `groebot derive`, byte for byte, and passes `groebot check` (those of `SLOW_CHECKS` with
+//! `--ignored`). A folder whose outputs no other file reads is thin: it has hashes of the outputs. `UPDATE_GOLDEN=1` derives all folders again. Review the diff
+//! afterwards.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ use groebot::folder::{OUTPUTS, Outputs, PROGRAM, Written};
 
 use super::{root, run, text};
 
-/// The folders with all outputs, each with a file that reads one of them. All others are thin.
+/// The folders with all outputs, each with a file that reads one of them. All other folders are thin.
 const FULL: [(&str, &str); 25] = [
     ("crx_like", "crates/ik/tests/eigenvalue/curve.rs"),
     ("general_5r1p", "crates/ik/tests/codegen/six_axes.rs"),
@@ -41,7 +42,7 @@ const FULL: [(&str, &str); 25] = [
     ("ur5", "python/src/known.rs"),
 ];
 
-/// Folders whose check takes long, each with a folder of its kind that is checked instead of it. The `--ignored` test checks them too.
+/// Folders whose check takes long, each with a folder of its kind that is checked instead. The `--ignored` test also checks these.
 const SLOW_CHECKS: [(&str, &str); 4] = [
     ("general_6r", "gen3_like"),
     ("jaco_like", "crx_like"),
@@ -49,12 +50,12 @@ const SLOW_CHECKS: [(&str, &str); 4] = [
     ("ur5_calibrated", "irb4600_rounded"),
 ];
 
-/// Whether a folder is to have all outputs.
+/// Whether a folder must have all outputs.
 fn is_full(folder: &Path) -> bool {
     FULL.iter().any(|(name, _)| folder.ends_with(name))
 }
 
-/// All folders, those that take longest first.
+/// All folders, slowest first.
 fn folders() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("derivations");
     let mut folders: Vec<PathBuf> = fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -64,7 +65,7 @@ fn folders() -> Vec<PathBuf> {
     folders
 }
 
-/// The direction of gravity of the equations of motion in a folder that has such.
+/// The direction of gravity in a folder with equations of motion.
 fn gravity_of(folder: &Path) -> Option<String> {
     let certificate = fs::read_to_string(folder.join("7_dynamics.json")).ok()?;
     let certificate: serde_json::Value = serde_json::from_str(&certificate).unwrap();
@@ -72,7 +73,7 @@ fn gravity_of(folder: &Path) -> Option<String> {
     Some(entries.join(","))
 }
 
-/// What is wrong with a folder: a stage that a derivation writes otherwise, a file that none writes, and where `is_checked` a failing check.
+/// The fault of a folder: a stage that differs from the derivation's output, a file that no derivation writes, or, if `is_checked`, a failed check.
 fn fault(folder: &Path, is_checked: bool) -> Option<String> {
     let source = Source::read(folder).unwrap();
     let proved = match Derivation::of(&source, &Watch::none()) {
@@ -97,7 +98,7 @@ fn fault(folder: &Path, is_checked: bool) -> Option<String> {
             continue;
         }
         let Ok(stored) = fs::read(folder.join(name)) else { return Some(format!("{name} is missing")) };
-        // What is told of the numeric check comes last; `groebot check` repeats that.
+        // The results of the numeric check are last; `groebot check` tests them.
         let own = if name == "README.md" { &stored[..bytes.len().min(stored.len())] } else { &stored };
         if own != bytes {
             return Some(format!("{name} is out of date"));
@@ -168,7 +169,7 @@ fn every_folder_is_what_a_derivation_writes_and_passes_its_check() {
     assert!(faults.is_empty(), "UPDATE_GOLDEN=1 derives them again:\n{}", faults.join("\n"));
 }
 
-/// Outputs are committed where something reads them, and nowhere else.
+/// Outputs are committed if some file reads them, and not otherwise.
 #[test]
 fn folders_have_outputs_where_something_reads_them() {
     for (name, reader) in FULL {
@@ -182,7 +183,7 @@ fn folders_have_outputs_where_something_reads_them() {
     }
 }
 
-/// What a reader of a change has to look through: outputs and certificates.
+/// The lines that a reviewer of a change reads: outputs and certificates.
 #[test]
 fn outputs_and_certificates_have_fewer_than_60_000_lines() {
     let is_counted =

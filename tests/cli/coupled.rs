@@ -1,5 +1,5 @@
-//! Chains that share actuators on the command line: two planar arms on one shoulder, derived, checked, solved and explained; NAO's legs as
-//! they are committed.
+//! Chains that share actuators on the command line: two planar arms with a common shoulder are derived, checked, solved and explained. NAO's legs are tested as
+//! committed.
 
 use std::fs;
 use std::sync::OnceLock;
@@ -10,7 +10,7 @@ use tempfile::{TempDir, tempdir};
 
 use super::{content, refused, root, succeed, text};
 
-/// An arm in the plane, of links of length one but the last, which has 1.25.
+/// A planar arm with links of length one, except the last one of 1.25.
 fn arm(name: &str, joints: usize) -> String {
     let joint =
         |k: usize| format!("[[joint]]\nname = \"j{k}\"\ntype = \"revolute\"\naxis = [0, 0, 1]\npoint = [{k}, 0, 0]\n");
@@ -40,7 +40,7 @@ fn folder() -> TempDir {
     folder
 }
 
-/// The arms, derived once, and what `derive` said.
+/// The arms, derived once, and the output of `derive`.
 fn arms() -> &'static (TempDir, String) {
     static DERIVED: OnceLock<(TempDir, String)> = OnceLock::new();
     DERIVED.get_or_init(|| {
@@ -121,8 +121,8 @@ fn check_proves_it_again_and_finds_what_was_changed() {
     has(&refused(&["check", text(copy.path())]), &["certificate"]);
 }
 
-/// The first arm's tip is at (1, 1.25): its elbow at (1, 0), or mirrored at the line to the tip. From both the second one, of links of
-/// 1 and 1.25, reaches (1, 1.2) in two ways.
+/// The tip of the first arm is at (1, 1.25). Its elbow is at (1, 0), or mirrored at the line to the tip. From both, the second arm, with links of 1 and 1.25,
+/// reaches (1, 1.2) with two solutions.
 #[test]
 fn solve_finds_all_ways_and_says_which_chain_fails() {
     let (folder, _) = arms();
@@ -185,7 +185,7 @@ fn mistakes_name_file_and_line_and_write_nothing() {
     has(&refused(&["info", text(folder.path()), "--tip", "x"]), &["only a URDF has links"]);
 }
 
-/// NAO's two feet 0.01 rad off one hip: both can be reached, not together.
+/// Targets of NAO's feet whose hip angles differ by 0.01 rad: each foot can be reached, but not both together.
 #[test]
 fn poses_that_disagree_on_the_hip_are_refused_by_name() {
     let folder = root("derivations/nao_legs_poses");

@@ -1,4 +1,4 @@
-//! `groebot derive`: the report against the NAO document, and where files go.
+//! `groebot derive`: the report equals the NAO document, and files are written to the expected folders.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use tempfile::tempdir;
 
 use super::{Derived, content, folder_with, leg, refused, root, run, succeed, text};
 
-/// The lines of a report under the heading that starts with `title`, wrapped ones joined, each without its name.
+/// The lines of a report under the heading that starts with `title`, without their names. Wrapped lines are joined.
 fn section(report: &str, title: &str) -> Vec<String> {
     let mut entries: Vec<String> = Vec::new();
     let lines = report.lines().skip_while(|line| !line.starts_with(title)).skip(1);
@@ -24,7 +24,7 @@ fn section(report: &str, title: &str) -> Vec<String> {
     entries
 }
 
-/// Whether both lists hold the same polynomials, in any order and up to sign.
+/// Checks that both lists have the same polynomials, in any order and up to sign.
 fn assert_same_polynomials(names: &[&str], printed: &[String], expected: &[&str]) {
     let ring = PolynomialRing::new(Rationals, names, Order::Lex).unwrap();
     let read = |text: &str| parse_equation(text).unwrap().evaluate(&ring).unwrap();
@@ -41,7 +41,7 @@ fn assert_same_polynomials(names: &[&str], printed: &[String], expected: &[&str]
 fn the_report_prints_the_documents_own_polynomials_of_the_leg() {
     let printed = section(&leg().report, "Groebner basis");
     let expected = [
-        // NAO (6.7.16) by its a, b and c; 346226.3281 is printed as 346226.3.
+        // NAO (6.7.16) with its a, b and c; 346226.3281 is printed as 346226.3.
         "40000*(px^2 + pz^2)*s3^2 + (-400*(px^3 + px*pz^2) + 235364*px)*s3 \
          + 346226.3281 - 1176.82*px^2 - 41176.82*pz^2 + px^4 + 2*px^2*pz^2 + pz^4 = 0",
         // NAO (6.7.17), (6.7.18), (6.7.19)
@@ -133,7 +133,7 @@ fn a_folder_of_another_mechanism_is_left_alone() {
     assert!(ran.err.contains("0_chain.toml") && ran.err.contains("--out"), "{}", ran.err);
 }
 
-/// Somebody's own description, from which nothing has been derived, is not replaced by another robot's.
+/// A user's description, from which nothing has been derived, is not replaced by that of another robot.
 #[test]
 fn a_description_that_somebody_wrote_stays() {
     let folder = folder_with("polar", "0_chain.toml");
@@ -142,7 +142,7 @@ fn a_description_that_somebody_wrote_stays() {
     let error = refused(&["derive", text(&input), "--quiet", "--out", text(folder.path())]);
     assert!(error.contains("this folder has another `0_chain.toml`, which nothing has been derived from"), "{error}");
     assert_eq!(content(folder.path()), before);
-    // The same description is not another one, and one that was derived from may be replaced.
+    // An equal description is accepted, and one from which a solver was derived may be replaced.
     let same = root("derivations/polar/0_chain.toml");
     succeed(&["derive", text(&same), "--quiet", "--out", text(folder.path())]);
     succeed(&["derive", text(&input), "--quiet", "--out", text(folder.path())]);

@@ -1,4 +1,4 @@
-//! `groebot dynamics` on arms of rods whose equations of motion stand in textbooks.
+//! `groebot dynamics` on arms of rods whose equations of motion are in textbooks.
 
 use std::fs;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use tempfile::{TempDir, tempdir};
 
 use super::{refused, run, succeed, text};
 
-/// Two rods of 2 kg and 1 m that turn about y in a row, their inertia about their centres 0.2 kg m^2. The elbow has friction.
+/// Two rods in series, of 2 kg and 1 m, that rotate about y. Their inertia about their centres is 0.2 kg m^2. The elbow has friction.
 const ARM: &str = r#"<robot name="arm">
   <link name="world"><inertial><mass value="4"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
   <link name="upper"><inertial><origin xyz="0.5 0 0"/><mass value="2"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.2" iyz="0" izz="0.2"/></inertial></link>
@@ -57,7 +57,7 @@ fn two_rods_move_as_the_textbook_says() {
     let (c, s) = (0.7_f64.cos(), 0.7_f64.sin());
     let corner = 2.0 * 0.25 + 0.2;
     let inertia = [corner + corner + 2.0 * (1.0 + c), corner + c, corner];
-    // Gravity pulls along -z; a turn about y by q takes x to -z: the height of a point at x is -x sin q.
+    // Gravity is along -z. A rotation about y by q maps x towards -z: the height of a point at x is -x sin q.
     let pull = 2.0 * 9.81;
     let gravity = [-pull * (1.5 * 0.3_f64.cos() + 0.5 * 1.0_f64.cos()), -pull * 0.5 * 1.0_f64.cos()];
     let coriolis = [[-s * -0.4, -s * (0.5 - 0.4)], [s * 0.5, 0.0]];
@@ -76,7 +76,7 @@ fn two_rods_move_as_the_textbook_says() {
     ["tau0", "tau1"].iter().zip([torque(0), torque(1)]).for_each(|(name, expected)| near(name, expected));
     ["qdd0", "qdd1"].iter().zip([1.5, 2.5]).for_each(|(name, expected)| near(name, expected));
 
-    // Friction acts against the elbow's motion; torques that are given are what moves.
+    // Friction opposes the elbow's motion. The given torques cause the motion.
     let row = &table(&succeed(&["dynamics", robot, "--states", states]))[0];
     assert!((at(row, "tau1") - (torque(1) - 3.0 * 0.4 - 0.5)).abs() < 1e-12);
     assert!((at(row, "qdd1") - 2.5).abs() < 1e-12);
@@ -84,7 +84,7 @@ fn two_rods_move_as_the_textbook_says() {
 
 #[test]
 fn given_torques_a_free_root_and_a_part_of_the_robot() {
-    // At rest, without gravity, a force of 8 N along x moves the 8 kg of a straight arm and its root so.
+    // At rest, without gravity, a force of 8 N along x accelerates the 8 kg of a straight arm and its root.
     let free =
         "q0,q1,q2,q3,q4,q5,q6,q7,q8,tau0,tau1,tau2,tau3,tau4,tau5,tau6,tau7\n1,2,3,0,0,0,1,0,0,8,0,0,0,0,0,0,0\n";
     let files_free = files(ARM, free);
@@ -95,7 +95,7 @@ fn given_torques_a_free_root_and_a_part_of_the_robot() {
     assert_eq!(report["joints"], serde_json::json!(["shoulder", "elbow"]));
     assert!((report["states"][0]["qdd"][0].as_f64().unwrap() - 1.0).abs() < 1e-12);
 
-    // The elbow alone, seen from the upper rod: a rod about its end.
+    // The elbow alone, relative to the upper rod: a rod about its end.
     let part = files(ARM, "q0\n0\n");
     let [robot, states] = [text(&part.robot), text(&part.states)];
     let rows = table(&succeed(&["dynamics", robot, "--base", "upper", "--tip", "tool", "--states", states]));
@@ -125,7 +125,7 @@ fn what_is_no_table_of_states_is_refused() {
     assert!(usage.code == 2 && usage.err.contains("three finite numbers"), "{}", usage.err);
 }
 
-/// The planar arm of every textbook, and its files.
+/// The planar two-link arm of textbooks, and its files.
 #[test]
 fn polynomials_are_printed_written_and_proved_again() {
     let folder = tempdir().unwrap();
@@ -133,7 +133,8 @@ fn polynomials_are_printed_written_and_proved_again() {
     fs::write(&arm, ARM).unwrap();
     let [arm, out_text] = [text(&arm), text(&out)];
     let told = succeed(&["dynamics", "--symbolic", arm, "--numbers"]);
-    // Both rods have 0.7 kg m^2 about their joints, and 2 kg a metre away: Spong, Hutchinson and Vidyasagar as above.
+    // Both rods have 0.7 kg m^2 about their joints, and 2 kg at a distance of one metre: Spong, Hutchinson and
+    // Vidyasagar as above.
     assert!(told.contains("\nM11 = 2*c2 + 17/5\n") && told.contains("\nM21 = c2 + 7/10\n"), "{told}");
     assert!(told.contains("\nC21 = v1*s2\n"), "{told}");
     let latex = succeed(&["dynamics", "--symbolic", arm, "--latex"]);
@@ -141,7 +142,7 @@ fn polynomials_are_printed_written_and_proved_again() {
     let said = succeed(&["dynamics", "--symbolic", arm, "--numbers", "-o", out_text]);
     assert!(said.contains("2 joints") && said.contains("proved"), "{said}");
     assert!(succeed(&["check", out_text]).contains("M' - 2 C is skew"));
-    // What bodies weigh is the description's.
+    // The inertial parameters are those of the description.
     let robot = out.join("0_robot.urdf");
     fs::write(&robot, ARM.replacen("mass value=\"2\"", "mass value=\"3\"", 1)).unwrap();
     assert!(run(&["check", out_text]).err.contains("weigh"));

@@ -1,5 +1,5 @@
-//! Robots and tables that `groebot dynamics` once answered wrongly without a word. Right values are those of Pinocchio 4.1.0, joints that follow others gathered to their leader's, unless
-//! another reason is given.
+//! Robots and tables for which `groebot dynamics` once returned wrong results without an error. Expected values are those of Pinocchio 4.1.0, with mimic joints
+//! added to their leaders, unless another source is given.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -19,7 +19,7 @@ fn written(name: &str, content: &str) -> (TempDir, PathBuf) {
     (folder, file)
 }
 
-/// The first row of the table that is printed, by name, and what is noted.
+/// The first row of the printed table, by name, and the notes.
 fn first(robot: &Path, states: &str, more: &[&str]) -> (Vec<(String, String)>, String) {
     let (_folder, states) = written("states.csv", states);
     let ran = run(&[&["dynamics", text(robot), "--states", text(&states)], more].concat());
@@ -47,7 +47,7 @@ fn near(row: &[(String, String)], expected: &[(&str, f64)]) {
 fn rotors_of_transmissions_count() {
     let (row, _) = first(&corpus("rotor.urdf"), "q0\n0\n", &[]);
     near(&row, &[("M0_0", 0.85), ("g0", -9.81)]);
-    // What is wrong with one is told by its actuator, and harms no chain.
+    // A fault of a transmission is reported with its actuator, and does not affect chains.
     let right = fs::read_to_string(corpus("rotor.urdf")).unwrap();
     for (from, to, words) in [
         ("value=\"50\"", "value=\"fifty\"", "`fifty` is no number"),
@@ -79,7 +79,7 @@ fn followers_with_multiplier_zero_are_constant() {
     assert!((found - expected[0].1).abs() < 1e-12, "{inertia}");
 }
 
-/// At the root they are held with a note, elsewhere refused: their freedoms would be missing.
+/// Joints at the root are held with a note. Others are refused, because their degrees of freedom would be missing.
 #[test]
 fn planar_and_floating_joints_are_told() {
     let planar = fs::read_to_string(corpus("planar.urdf")).unwrap();
@@ -95,7 +95,7 @@ fn planar_and_floating_joints_are_told() {
         let told = refuse(&robot, "q0,q1\n0,0\n", &[]);
         assert!(told.contains("joint `p`") && told.contains(kind) && told.contains("several freedoms"), "{told}");
         assert_eq!(run(&["dynamics", text(&robot), "--lang", "rust"]).code, 1);
-        // Above the base it does not move.
+        // Above the base the joint does not move.
         let (row, told) = first(&robot, "q0\n0\n", &["--base", "a"]);
         assert_eq!(told, "");
         near(&row, &[("M0_0", 1.25)]);
@@ -115,7 +115,7 @@ fn bodies_without_mass_have_all_but_accelerations() {
     let report: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(report["states"][0]["qdd"], serde_json::json!([]));
     assert!(report["notes"][0].as_str().unwrap().contains("qdd is empty"));
-    // A point mass on the axis of its joint has no inertia about it but what rounding leaves.
+    // A point mass on the axis of its joint has no inertia about it, except for rounding errors.
     let heavy = "<link name=\"b\"><inertial><origin xyz=\"0 0.3 0\"/><mass value=\"0.7\"/></inertial></link>";
     let slanted = fs::read_to_string(&robot).unwrap().replacen("<link name=\"b\"/>", heavy, 1).replacen(
         "<origin xyz=\"1 0 0\"/>",
@@ -123,10 +123,10 @@ fn bodies_without_mass_have_all_but_accelerations() {
         1,
     );
     let (_folder, robot) = written("r.urdf", &slanted);
-    // The spelling of earlier versions.
+    // The option name of earlier versions.
     let (row, _) = first(&robot, "q0,q1\n0.4,0.9\n", &["--as-told"]);
     assert!(row.iter().all(|(name, cell)| !name.starts_with("qdd") || cell.is_empty()), "{row:?}");
-    // The other functions are printed, and the file says what is not.
+    // The other functions are printed, and the file names the missing ones.
     let tip = corpus("massless_tip.urdf");
     let ran = run(&["dynamics", text(&tip), "--lang", "rust"]);
     assert!(ran.code == 0 && ran.err.contains("forward dynamics is omitted"), "{}", ran.err);
@@ -142,7 +142,7 @@ fn unit_axes_on_mounts_with_two_angles_have_polynomials() {
     let said = succeed(&["dynamics", "--symbolic", text(&robot), "--tip", "l2", "--numbers", "-o", text(&out)]);
     assert!(said.contains("proved"), "{said}");
     assert_eq!(run(&["check", text(&out)]).code, 0);
-    // Both axes are parallel: the second link's inertia about its own, 0.03 + 0.1^2, does not change.
+    // Both axes are parallel: the second link's inertia about its own axis, 0.03 + 0.1^2, is constant.
     let told = fs::read_to_string(out.join("7_dynamics.txt")).unwrap();
     let entry = told.lines().find_map(|line| line.strip_prefix("M22 = ")).unwrap();
     assert_eq!(entry, "1/25", "{entry}");
@@ -175,18 +175,18 @@ fn a_free_root_is_asked_for_or_follows_from_the_columns() {
         &row,
         &[("M0_0", 12.0), ("M6_6", 102.86834919573565), ("g6", -193.80935836732078), ("g8", -53.58990127150631)],
     );
-    // Nine rates beside ten numbers: the root is free.
+    // Nine velocities for ten coordinates: the root is free.
     let names = ["tau0", "tau1", "tau2", "tau3", "tau4", "tau5", "tau6", "tau7", "tau8"];
     let expected: Vec<(&str, f64)> = names.into_iter().zip(NINE).collect();
     let rates = ["0.1"; 9].join(",");
     let moving = format!("{},{}\n{place},{rates}\n", list("q", 10), list("v", 9));
     near(&first(&robot, &moving, &[]).0, &expected);
-    // Joints by name, in another order than the description's.
+    // Columns by joint name, in another order than that of the description.
     let rates_of = "v:j1,v:j2,v:j0";
     let named =
         format!("q:j2,q:j1,q:j0,{},{},{rates_of}\n0.1,0.1,0.1,0,0,0,0,0,0,1,{rates}\n", list("q", 7), list("v", 6));
     near(&first(&robot, &named, &[]).0, &expected);
-    // Each joint on its own is told.
+    // Each joint is reported separately.
     let all: Vec<String> = (0..10).map(|joint| format!("q:j{joint}")).collect();
     let (row, told) = first(&robot, &format!("{}\n{}\n", all.join(","), ["0.1"; 10].join(",")), &[]);
     assert!(
@@ -213,7 +213,7 @@ fn negative_damping_and_empty_tables_are_refused() {
     assert!(refuse(&corpus("hinge.urdf"), "q0\n", &[]).contains("no row of numbers"));
 }
 
-/// 2.4e-35 kg m^2 beside 1.3 kg, as an iCub's head has it, is what a program made of zero.
+/// 2.4e-35 kg m^2 for 1.3 kg, as in an iCub's head, is a zero with rounding errors of an exporter.
 #[test]
 fn dust_in_inertias_is_rounding() {
     let robot = |entry: &str| {
@@ -233,7 +233,8 @@ fn dust_in_inertias_is_rounding() {
     near(&first(&wrong, "q0\n0\n", &["--as-given"]).0, &[("M0_0", 0.0133687)]);
 }
 
-/// A seven-joint arm with the numbers of its description has entries of over 400,000 characters, which are read again.
+/// The entries of a seven-joint arm with the numbers of its description have over 400,000 characters. They are read
+/// again.
 #[test]
 fn long_polynomials_are_read_back() {
     let sum = |terms: usize| (0..terms).map(|at| format!("{at}*c1")).collect::<Vec<_>>().join(" + ");
@@ -242,7 +243,7 @@ fn long_polynomials_are_read_back() {
     assert_eq!(run(&["dynamics", "--symbolic", text(&arm), "--tip", "l1", "--numbers", "-o", text(&out)]).code, 0);
     let file = out.join("7_dynamics.txt");
     let told = fs::read_to_string(&file).unwrap();
-    // The same polynomial, written at length: what is added is taken away again.
+    // The same polynomial as a long sum: an added term is subtracted again.
     let long = sum(40_000);
     assert!(long.len() > 400_000);
     let entry = told.lines().find(|line| line.starts_with("N1 = ")).unwrap();

@@ -1,4 +1,4 @@
-//! `groebot explain`: a stored derivation is proved again and told, as Markdown or as LaTeX.
+//! `groebot explain`: a stored derivation is proved again and explained, as Markdown or as LaTeX.
 
 use std::fs;
 

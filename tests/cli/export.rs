@@ -1,4 +1,4 @@
-//! `groebot export`, and walking with a robot that is described in a file.
+//! `groebot export`, and walking with a robot from a file.
 
 use std::fs;
 
@@ -15,7 +15,7 @@ fn a_robot_is_exported_and_walks_from_its_file() {
     assert!(fs::read_to_string(&mjcf).unwrap().contains("<freejoint name=\"root\"/>"));
     assert!(succeed(&["export", "nao_v5", "--format", "mjcf"]).starts_with("<mujoco model=\"nao_v5\">"));
 
-    // The legs are derived on the spot; the soles are boxes.
+    // The legs are derived by the command; the soles are boxes.
     let soles = ["--left", "l_sole", "--right", "r_sole"];
     let walk =
         |extra: &[&str]| succeed(&[&["walk", text(&urdf)][..], &soles, &["--goal", "0.2,0.05,20"], extra].concat());
@@ -26,7 +26,7 @@ fn a_robot_is_exported_and_walks_from_its_file() {
     assert!(walk(&["--gait", "preview"]).contains("by preview control"));
     assert!(walk(&["--outline", "-0.1,0.12,-0.05,0.06"]).contains("one step goal"));
 
-    // The same soles in a file of triangles.
+    // The same soles as triangles of an STL file.
     let box_of = "<box size=\"0.24 0.14 0.01\"/>";
     let described = fs::read_to_string(&urdf).unwrap();
     assert_eq!(described.matches(box_of).count(), 2);
@@ -48,7 +48,7 @@ fn a_robot_is_exported_and_walks_from_its_file() {
     fs::write(&urdf, described.replace(box_of, "<mesh filename=\"sole.stl\"/>")).unwrap();
     assert_eq!(walk(&[]), told);
 
-    // A folder holds the description as `0_robot.urdf`, its meshes beside it.
+    // A folder with the description as `0_robot.urdf` and its meshes.
     let inside = folder.path().join("described");
     fs::create_dir(&inside).unwrap();
     fs::copy(&urdf, inside.join("0_robot.urdf")).unwrap();
@@ -76,7 +76,7 @@ fn what_cannot_be_walked_or_exported_is_refused() {
         ["walk", text(&urdf), "--left", "l_sole", "--right", "r_sole", "--steps", "2", "--outline", numbers]
             .map(str::to_owned)
     };
-    // The sole's plane at its link, and 2 cm above it: the robot then stands 2 cm lower.
+    // The sole's plane is at its link, and 2 cm above it: the robot's base is then 2 cm lower.
     let height = |numbers: &str| {
         let told = succeed(&outline(numbers).each_ref().map(String::as_str));
         let at = told.split("torso ").nth(1).unwrap().split(' ').next().unwrap();
@@ -160,7 +160,7 @@ fn what_is_no_scene_is_refused() {
     says(&[&at("b.csv", &not), "--robot", telescope, "--to", "wrl"], "b.csv: line 5: `NaN` is no finite number");
     let error = refused(&["export", &motion, "--robot", telescope, "--to", "glb"]);
     assert!(error.contains("give its file by -o"), "{error}");
-    // What is not read of meshes is told, and the rest is written.
+    // Parts of meshes that are not read are reported, and the rest is written.
     let meshed = fs::read_to_string(telescope).unwrap();
     let gone = "<link name=\"mast\"><visual><geometry><mesh filename=\"gone.stl\"/></geometry></visual></link>";
     let meshed = at("meshed.urdf", &meshed.replace("<link name=\"mast\"/>", gone));
@@ -169,7 +169,7 @@ fn what_is_no_scene_is_refused() {
     assert!(out.exists());
 }
 
-/// A damaged mesh is named with its fault wherever it is left out, also where nothing else is to be seen.
+/// A damaged mesh is reported with its fault whenever it is omitted, also if nothing else is drawn.
 #[test]
 fn a_damaged_mesh_is_named() {
     let folder = tempdir().unwrap();
@@ -192,7 +192,7 @@ fn a_damaged_mesh_is_named() {
     assert!(!fs::read_to_string(&out).unwrap().contains("part.stl"), "MuJoCo would refuse the whole model");
 }
 
-/// 1e400 is a decimal number, and no double.
+/// 1e400 is a decimal number, but not a double.
 #[test]
 fn numbers_beyond_doubles_are_not_exported() {
     let folder = tempdir().unwrap();
@@ -210,7 +210,7 @@ fn numbers_beyond_doubles_are_not_exported() {
         succeed(&["export", text(&file), "--to", format, "-o", text(&out), "--force"]);
     }
     fs::remove_file(&out).unwrap();
-    // A shape is left out, with a note.
+    // A shape is omitted, with a note.
     fs::write(&file, robot("1", "1e400", "1", "1")).unwrap();
     let ran = run(&["export", text(&file), "--to", "mjcf"]);
     assert!(ran.code == 0 && !ran.out.contains("inf") && ran.err.contains("no double holds"), "{}", ran.err);

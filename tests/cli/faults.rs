@@ -1,4 +1,4 @@
-//! Faults beside a chain: each command that uses the chain tells them, each that uses the whole robot refuses them.
+//! Faults outside a chain: commands that use the chain report them, and commands that use the whole robot refuse them.
 
 use std::fs;
 
@@ -45,7 +45,7 @@ fn derive_tells_them_in_its_report_and_in_json() {
     assert!(ran.code == 0 && words.contains(FAULT) && words.contains(XACRO), "{}{}", ran.out, ran.err);
     let told = notes(&run(&[&asked[..], &["--json"]].concat()).out);
     assert!(told.len() == 2 && told[0] == XACRO && told[1].contains(FAULT), "{told:?}");
-    // The folder is a derivation like any other; 0.3 m in each link reach (0.3, 0.3) with the elbow at a right angle.
+    // The folder is an ordinary derivation. Links of 0.3 m reach (0.3, 0.3) with a right angle at the elbow.
     let solved = run(&["solve", text(&out), "--target", "0.3,0.3", "--json"]);
     let solved: Value = serde_json::from_str(&solved.out).unwrap();
     let mut elbows: Vec<f64> =
@@ -83,7 +83,7 @@ fn commands_on_a_chain_tell_them() {
         assert_eq!(ran.code, 0, "{arguments:?}: {}", ran.err);
         assert!(ran.err.contains(&format!("note: {XACRO}\n")) && ran.err.contains(FAULT), "{}", ran.err);
     }
-    // The answers themselves are on standard output alone.
+    // Standard output has the results only.
     let table = run_on(&["fk", &file, "--tip", "tip"], b"0,0\n");
     assert!(table.out.starts_with("j1,j2,x_m") && table.out.lines().count() == 2, "{}", table.out);
 }
@@ -109,7 +109,7 @@ fn a_chain_through_them_and_the_whole_robot_are_refused() {
     }
 }
 
-/// The same robot without a fault, each link a rod of 1 kg.
+/// The same robot without a fault, with rods of 1 kg as links.
 fn sound() -> String {
     let mass = "<inertial><mass value=\"1\"/><inertia ixx=\"0.1\" iyy=\"0.1\" izz=\"0.1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>";
     let heavy = |text: String, name: &str| {
@@ -136,7 +136,7 @@ fn commands_on_the_whole_robot_tell_what_was_ignored() {
     };
     let log = (0..60).map(row).collect::<Vec<_>>().join("\n");
     let log = table("log.csv", &format!("q0,q1,q2,v0,v1,v2,a0,a1,a2,tau0,tau1,tau2\n{log}\n"));
-    // Torques that no bodies explain end the identification with status 3.
+    // Torques that no physically consistent bodies explain end the identification with status 3.
     for (code, arguments) in [
         (0, &["dynamics", &file, "--states", &states][..]),
         (0, &["track", &file, "--law", "computed-torque", "--trajectory", &trajectory]),

@@ -1,4 +1,4 @@
-//! `groebot fk`: text, JSON and CSV tell the same pose, and it is the pose.
+//! `groebot fk`: text, JSON and CSV contain the same, correct pose.
 
 use std::f64::consts::PI;
 use std::fs;
@@ -28,7 +28,7 @@ fn near(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12)
 }
 
-/// NAO's leg from its drawing: thigh 100 mm, tibia 102.9 mm, both pitching about y.
+/// NAO's leg from its drawing: thigh 100 mm, tibia 102.9 mm, both with pitch joints about y.
 #[test]
 fn the_pose_of_a_leg() {
     let (hip, knee) = (0.3f64, 0.6f64);
@@ -47,10 +47,10 @@ fn the_pose_of_a_leg() {
     assert_eq!(degrees["unit"]["rpy"], "deg");
 }
 
-/// The UR5 stretched out and upright, from the sums of the maker's lengths.
+/// The UR5 stretched out and upright, from the sums of the manufacturer's lengths.
 #[test]
 fn the_same_robot_from_four_files() {
-    // The URDF says 1.5708 for a quarter turn, and that is what its poses are of.
+    // The URDF has 1.5708 for a quarter turn, and the poses are those for this value.
     for (name, off) in
         [("ur5.urdf", 1e-5), ("ur5_standard.toml", 0.0), ("ur5_modified.toml", 0.0), ("ur5_axes.toml", 0.0)]
     {
@@ -135,7 +135,7 @@ fn mistakes_are_told_in_one_line() {
     );
 }
 
-/// A planar arm as a DH table: derived, proved, solved; forward kinematics of the answers is the target.
+/// A planar arm as a DH table: derived, proved, solved. Forward kinematics of the solutions is the target.
 #[test]
 fn a_dh_table_is_derived_like_a_chain() {
     let folder = tempdir().unwrap();

@@ -8,7 +8,7 @@ use tempfile::tempdir;
 
 use super::{refused, succeed, text};
 
-/// Poses of UR5's tip on a quarter of a circle of its base.
+/// Poses of UR5's tip on a quarter circle about its base.
 fn poses(with_time: bool) -> String {
     let chain = robots::ur5();
     let mut table = if with_time { "time,x,y,z,qx,qy,qz,qw\n" } else { "x,y,z,qx,qy,qz,qw\n" }.to_owned();

@@ -1,4 +1,4 @@
-//! `groebot identify`: what it reports of good and bad logs, and its exit status.
+//! `groebot identify`: its reports on good and bad logs, and its exit status.
 
 use std::fs;
 
@@ -21,7 +21,7 @@ fn a_heavy_hinge_is_a_body() {
     assert!(told.starts_with("name,value,confidence_95,described,of_bodies\n\"l1.mx\",0.25,"), "{told}");
 }
 
-/// Three torques for three numbers: nothing judges the noise.
+/// Three torques for three parameters: the noise cannot be estimated.
 #[test]
 fn without_a_degree_of_freedom_there_is_no_interval() {
     let files = [corpus("hinge.urdf"), corpus("hinge_three_rows.csv")];
@@ -42,12 +42,12 @@ fn a_cell_out_of_range_is_refused_with_its_line_and_column() {
     assert!(told.contains("line 5: column `v0`: `1e160` is too large"), "{told}");
 }
 
-/// A hinge whose torques are swung the other way, and one whose are in mN m; columns by joint name.
+/// A hinge with torques of the opposite sign, and one with torques in mN m; columns by joint name.
 #[test]
 fn bad_data_has_the_exit_status_three() {
     let folder = tempdir().unwrap();
     let log = folder.path().join("log.csv");
-    // By hand: tau = I a - m c g cos q, with I = 0.0825 and m c = 0.25; a turn about y takes x down.
+    // By hand: tau = I a - m c g cos q, with I = 0.0825 and m c = 0.25. A rotation about y maps x downwards.
     let row = |number: usize, factor: f64| {
         let (q, a) = (0.37 * number as f64, f64::from((number * 7 % 11) as u8) - 5.0);
         let torque = factor * (0.0825 * a - 0.25 * 9.81 * q.cos());

@@ -1,4 +1,4 @@
-//! `groebot ik`: all joint values for a target, each of which `groebot fk` takes back to it.
+//! `groebot ik`: all joint values for a target. `groebot fk` maps each of them to the target.
 
 use serde_json::Value;
 
@@ -29,7 +29,7 @@ fn fk_takes_every_answer_back_to_the_target() {
         let page = succeed(&["fk", text(&robot), "--json", "--degrees", "--q", &q]);
         let reached: Value = serde_json::from_str(&page).unwrap();
         let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9);
-        // At a pitch of 120 degrees the other triple stands for the same rotation.
+        // At a pitch of 120 degrees the other triple describes the same rotation.
         let other = [rpy[0] - 180.0, 180.0 - rpy[1], rpy[2] + 180.0];
         assert!(near(&numbers(&reached["position"]), &position), "{reached}");
         assert!(near(&numbers(&reached["rpy"]), &rpy) || near(&numbers(&reached["rpy"]), &other), "{reached}");
@@ -75,7 +75,7 @@ fn bad_targets_are_refused() {
     assert!(refused(&["ik", "polar", "--target", "1,2,3,4"]).contains("a position has 3 numbers"));
 }
 
-/// A Stanford arm whose slide stands behind the first wrist axis: no way of ours solves it in closed form.
+/// A Stanford arm whose prismatic joint is after the first wrist axis: no method of groebot solves it in closed form.
 const SLIDE_IN_THE_WRIST: &str = r#"
 name = "arm"
 source = "made for this test"
@@ -96,12 +96,12 @@ fn a_chain_without_closed_form_is_searched() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("arm.toml");
     std::fs::write(&file, SLIDE_IN_THE_WRIST).unwrap();
-    // All joints together have as many solutions as the search finds below; one target of the check next to a singular pose is a weak spot.
+    // The derivation with all joints has as many solutions as the search below finds. One target of its check next to a singular pose is a weak spot.
     let derived = run(&["derive", text(&file)]);
     assert!([0, 3].contains(&derived.code), "{}", derived.err);
     assert!(derived.out.contains("8 solutions at most, all joints together"), "{}", derived.out);
     assert!(refused(&["ik", text(&file), "--q", "0,0,0,0,0,0"]).contains("ik --numeric"));
-    // Turning about the axis of the slide and sliding may change places: what the screw solver finds is the same but for the order.
+    // A rotation about the axis of a prismatic joint and its translation commute: the screw solver finds the same solutions in another order.
     let other = folder.path().join("other.toml");
     let swapped =
         SLIDE_IN_THE_WRIST.replace("name = \"j3\", type = \"revolute\"", "name = \"j4\", type = \"prismatic\"");
@@ -130,8 +130,8 @@ fn urdf(name: &str) -> String {
     text(&root("tests/corpus/urdf").join(name)).to_owned()
 }
 
-/// ABB's painting robot: two axes 5 turn against each other, and the axes of the wrist do not meet in one point. That there are eight answers, these joint values
-/// among them, is also what Newton's method in numpy finds from 1,500 random starts.
+/// ABB's painting robot: two axes 5 have opposite directions, and the axes of the wrist do not intersect in one point. It has eight solutions, including these
+/// joint values. Newton's method in numpy from 1,500 random starts confirms this.
 #[test]
 fn a_hollow_wrist_whose_axes_do_not_meet_is_searched() {
     let robot = urdf("irb5400.urdf");
@@ -145,7 +145,8 @@ fn a_hollow_wrist_whose_axes_do_not_meet_is_searched() {
     assert!(answers.iter().any(|q| q.iter().zip(made).all(|(a, b)| (a - b).abs() < 1e-9)), "{answers:?}");
 }
 
-/// The joint values in degrees of the first joint, turned into limits of 22.5 to 360 degrees: -73.52 is 286.48.
+/// Joint values in degrees, with the first joint moved by whole turns into limits of 22.5 to 360 degrees: -73.52
+/// becomes 286.48.
 #[test]
 fn answers_are_turned_into_limits() {
     let robot = urdf("limits_of_a_turn.urdf");
@@ -161,7 +162,7 @@ fn answers_are_turned_into_limits() {
         let outside = &reached(&q)["outside_limits"];
         assert_eq!(&answer["outside_limits"], outside, "no turn helps the joints that are outside");
     }
-    // More than a turn may be asked for.
+    // Values of more than one turn are permitted.
     let turned = solutions(&[&robot, "--q", &format!("{},0.3,0.4,4.0,0.7,-5.0", 5.0 + 4.0 * std::f64::consts::PI)]);
     for (one, other) in found.iter().zip(&turned) {
         assert!(numbers(&one["q"]).iter().zip(numbers(&other["q"])).all(|(a, b)| (a - b).abs() < 1e-9));
@@ -171,7 +172,8 @@ fn answers_are_turned_into_limits() {
     assert!(page.starts_with("tip link `l6`: the only leaf link"), "{page}");
 }
 
-/// A slide and a six-joint arm: the planner gives the joint that `derive` gives, and the answers reach the target.
+/// A prismatic joint and a six-joint arm: the planner gives the same joint as `derive`, and the solutions reach the
+/// target.
 #[test]
 fn a_joint_too_many_is_given_as_the_planner_chooses() {
     let robot = urdf("arm_on_a_rail.urdf");
@@ -216,7 +218,7 @@ fn a_base_at_survey_distance_is_named() {
     assert_eq!(solutions(&[&robot, "--base", "b", "--q", "0.1,0.2,0.3,0.4,0.5,0.6"]).len(), 8);
 }
 
-/// The last row of a standard table has neither a nor alpha: read as modified, its last two axes are one line.
+/// In the last row of a standard table a and alpha are zero. Read as a modified table, its last two axes are coaxial.
 #[test]
 fn a_table_of_the_other_convention_is_suspected() {
     for (own, other) in [("standard", "modified"), ("modified", "standard")] {

@@ -1,4 +1,4 @@
-//! `groebot info`: robots, chains and what is to be known about them.
+//! `groebot info`: robots, chains and their properties.
 
 use std::fs;
 

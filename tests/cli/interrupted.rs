@@ -1,4 +1,4 @@
-//! A derivation that is stopped leaves the folder as it was.
+//! An interrupted derivation leaves the folder unchanged.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use tempfile::tempdir;
 
 use super::{content, folder_with, leg_copy, refused, text};
 
-/// Cyclic 6 with two of its constants as targets: hours of work.
+/// Cyclic 6 with two of its constants as targets, which takes hours.
 #[cfg(target_os = "linux")]
 fn endless() -> String {
     let mut system = "name = \"endless\"\n".to_owned();
@@ -44,7 +44,7 @@ fn a_budget_ends_it() {
     assert!(!folder.path().join("new").exists());
 }
 
-/// Whether the process catches SIGINT by now.
+/// Whether the process already handles SIGINT.
 #[cfg(target_os = "linux")]
 pub fn catches_interrupts(process: u32) -> bool {
     let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap();

@@ -1,4 +1,4 @@
-//! The program itself, as a person or a script runs it.
+//! Tests of the program `groebot`, run as by a user or a script.
 
 mod asked;
 mod basis;
@@ -44,7 +44,7 @@ use std::sync::OnceLock;
 
 use tempfile::{TempDir, tempdir};
 
-/// How a run ended.
+/// Result of a run.
 struct Ran {
     code: i32,
     out: String,
@@ -61,11 +61,11 @@ fn run(arguments: &[&str]) -> Ran {
     run_on(arguments, b"")
 }
 
-/// Runs with `input` on standard input; whatever happens, it must not panic.
+/// Runs with `input` on standard input. A panic fails the test.
 fn run_on(arguments: &[&str], input: &[u8]) -> Ran {
     let mut child = groebot(arguments).spawn().unwrap();
     let (mut stdin, input) = (child.stdin.take().unwrap(), input.to_vec());
-    // The program may end before it has read everything: a broken pipe here is no failure.
+    // The program may end before it has read all input, so a broken pipe is not a failure here.
     let feeder = std::thread::spawn(move || stdin.write_all(&input));
     let output = child.wait_with_output().unwrap();
     let _ = feeder.join().unwrap();
@@ -84,7 +84,7 @@ fn succeed(arguments: &[&str]) -> String {
     ran.out
 }
 
-/// Runs what must be refused with status 1 and one line of error, which is returned.
+/// Runs a command that must be refused with status 1 and one error line, which is returned.
 fn refused(arguments: &[&str]) -> String {
     let ran = run(arguments);
     assert_eq!(ran.code, 1, "{arguments:?}: {}{}", ran.out, ran.err);
@@ -100,7 +100,7 @@ fn root(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
-/// Every entry of `folder`, hidden ones too, with its content.
+/// All entries of `folder`, including hidden ones, with their content.
 fn content(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entry = |entry: std::io::Result<fs::DirEntry>| {
         let entry = entry.unwrap();
@@ -116,7 +116,7 @@ fn folder_with(derivation: &str, name: &str) -> TempDir {
     folder
 }
 
-/// A derived mechanism and what `derive` said.
+/// A derived mechanism and the output of `derive`.
 struct Derived {
     folder: TempDir,
     report: String,
@@ -140,7 +140,7 @@ fn leg() -> &'static Derived {
     LEG.get_or_init(|| Derived::new("nao_leg_sagittal", "0_chain.toml"))
 }
 
-/// A copy of the derived leg that a test may damage.
+/// A copy of the derived leg that a test may modify.
 fn leg_copy() -> TempDir {
     copy_of(leg().folder.path())
 }
@@ -154,7 +154,7 @@ fn copy_of(folder: &Path) -> TempDir {
     copy
 }
 
-/// Checks a folder that must fail at these files, and at no others.
+/// Checks a folder whose check must fail for these files only.
 fn fails_at(folder: &Path, names: &[&str]) {
     let ran = run(&["check", text(folder)]);
     let failed = ran.out.lines().filter_map(|line| line.strip_prefix("\u{2717} "));

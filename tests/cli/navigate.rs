@@ -19,7 +19,7 @@ fn ways_are_told_as_text_json_and_csv() {
     let asked = ["path", text(&room), "--start", "0.5,0.5", "--goal", "2.5,0.5"];
     let with = |more: &[&'static str]| [&asked[..], more].concat();
     let told = succeed(&[&asked[..], &["-o", text(&out)]].concat());
-    // Over both upper corners of the wall, at (1.45, 1.2) and (1.55, 1.2).
+    // The path over both upper corners of the wall, at (1.45, 1.2) and (1.55, 1.2).
     let length = 2.0 * 0.95f64.hypot(0.7) + 0.1;
     assert!(told.contains(&format!("path of {length:.4} m, proved to be the shortest, 4 points")), "{told}");
     assert_eq!(fs::read_to_string(&out).unwrap().lines().count(), 5);
@@ -39,7 +39,7 @@ fn ways_are_told_as_text_json_and_csv() {
     assert!(grown["length"].as_f64().unwrap() > length + 0.1);
     let smooth = json(&["--json", "--radius", "0.2", "--smooth", "0.1"]);
     assert!(smooth["points"].as_array().unwrap().len() > 20);
-    // The wall is moved away.
+    // The wall is removed.
     assert!(succeed(&with(&["--furniture", "wall=none"])).contains("path of 2.0000 m"));
     assert!(succeed(&with(&["--furniture", "wall=1.5,1.4"])).contains("path of 2.0000 m"));
 }
@@ -51,7 +51,7 @@ fn the_quickest_way_is_told_where_speeds_differ() {
     fs::write(&room, "size = [2, 2]\n[[slow]]\nname = \"mud\"\nbox = [2, 1]\nat = [1, 0.5]\nspeed = 0.5\n").unwrap();
     let told = succeed(&["path", text(&room), "--start", "0.5,0.2", "--goal", "1.5,1.8", "--json"]);
     let told: Value = serde_json::from_str(&told).unwrap();
-    // Snell: the least of both pieces' times over where the border is crossed.
+    // Snell's law: the minimum over the crossing point of the times of both segments.
     let time = |x: f64| 2.0 * (x - 0.5).hypot(0.8) + (1.5 - x).hypot(0.8);
     let least = (0..=100_000).map(|x| time(0.5 + 1e-5 * f64::from(x))).fold(f64::INFINITY, f64::min);
     assert!((told["seconds"].as_f64().unwrap() / least - 1.0).abs() < 1e-4, "{told} {least}");
@@ -75,7 +75,7 @@ fn where_there_is_no_way_the_exit_status_is_four() {
     let output = run(&[&asked[..], &["--json", "--plot", text(&plot)]].concat());
     assert_eq!(output.code, 4, "{}", output.err);
     assert!(output.err.contains("there is no path: "), "{}", output.err);
-    // The two cells of that side with room for a body, or one of them and what of them is nearer to the walls.
+    // The two cells on that side with space for a body, or one of them and its part that is nearer to the walls.
     let told: Value = serde_json::from_str(&output.out).unwrap();
     let cells = told["enclosure"].as_array().unwrap();
     assert!(told["points"].is_null() && !cells.is_empty() && cells.len() <= 4, "{told}");
@@ -114,7 +114,8 @@ fn a_humanoid_walks_over_a_map() {
     assert!((told["seconds"].as_f64().unwrap() - seconds).abs() < 0.05, "{} {seconds}", told["seconds"]);
 }
 
-/// Any description with two legs: they are derived on the spot, and its body's size is that of its shapes or given.
+/// Any description with two legs: they are derived by the command. The size of its body is that of its shapes, or
+/// given.
 #[test]
 fn a_robot_from_a_file_walks_over_a_map() {
     let folder = tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! What commands write, and what they never replace.
+//! Outputs of commands, and files that they never replace.
 
 use std::fs;
 use std::path::Path;
@@ -42,7 +42,7 @@ fn no_command_replaces_an_input() {
     fs::hard_link(&file, &other).unwrap();
     for arguments in ONTO_INPUT {
         for force in [&[][..], &["--force"]] {
-            // The last one is a name of the same file.
+            // The last one is another name of the same file.
             let mut whole: Vec<String> =
                 arguments.iter().map(|word| word.replace("=a", &format!("={}", text(&file)))).collect();
             whole.iter_mut().filter(|word| *word == "a").for_each(|word| *word = text(&file).to_owned());
@@ -70,7 +70,7 @@ fn the_files_of_a_derivation_are_inputs() {
     assert_eq!(content(folder.path()), before);
 }
 
-/// What writes quickly, and the options by which it writes something else.
+/// Commands that write quickly, and the options with which they write something else.
 fn writers() -> Vec<(Vec<String>, Vec<String>, &'static str)> {
     let words = |text: &str| text.split(' ').map(str::to_owned).collect::<Vec<_>>();
     let leg = text(&root("derivations/nao_leg_sagittal")).to_owned();
@@ -161,14 +161,14 @@ fn standard_output_and_its_faults() {
     for arguments in [&["--help"][..], &["--version"], &["walk", "--help"], &["export", "nao_v5", "--to", "urdf"]] {
         let output = groebot(arguments).stdout(full()).stderr(Stdio::piped()).output().unwrap();
         assert_eq!(output.status.code(), Some(1), "{arguments:?}");
-        // Nothing is said twice, and a full standard error changes no status.
+        // No message is repeated, and a full standard error does not change the status.
         assert_eq!(groebot(arguments).stderr(full()).output().unwrap().status.code(), Some(0), "{arguments:?}");
     }
     assert_eq!(groebot(&["walk", "--nonsense"]).stderr(full()).output().unwrap().status.code(), Some(2));
     let whole = succeed(&["export", "nao_v5", "--to", "urdf", "-o", "/dev/stdout"]);
     assert!(whole.starts_with("<?xml") && whole.ends_with("</robot>\n"));
     refused(&["export", "nao_v5", "--to", "urdf", "-o", "/dev/full"]);
-    // Nobody reads: both ways it ends quietly.
+    // The reader has closed: both runs end without a message.
     for out in [&[][..], &["-o", "/dev/stdout"]] {
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
@@ -177,7 +177,7 @@ fn standard_output_and_its_faults() {
     }
 }
 
-/// Two robots into one new folder at the same time: whichever comes last, the folder is one derivation.
+/// Two derivations write to one new folder at the same time. Afterwards the folder has the files of one of them.
 #[test]
 fn two_derivations_into_one_folder_do_not_mix() {
     let folder = tempdir().unwrap();
@@ -214,7 +214,7 @@ fn an_interrupted_folder_is_refused_until_it_is_derived_again() {
     assert!(!folder.path().join(".groebot-unfinished").exists());
 }
 
-/// Every reader looks, whatever it reads.
+/// All readers check this, for all kinds of files.
 #[test]
 fn files_of_an_interrupted_set_are_refused_by_every_reader() {
     let folder = tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Commands in pipes: what `fk`, `ik` and `solve` write they read from one another, and descriptions come from standard input.
+//! Commands in pipes: `fk`, `ik` and `solve` read each other's output, and descriptions are read from standard input.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -16,14 +16,14 @@ fn urdf(name: &str) -> String {
     text(&root("tests/corpus/urdf").join(name)).to_owned()
 }
 
-/// What a command makes of `input`.
+/// The output of a command for `input`.
 fn pipe(arguments: &[&str], input: &str) -> String {
     let ran = run_on(arguments, input.as_bytes());
     assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{arguments:?}: {input}");
     ran.out
 }
 
-/// The rows of a table by the names of its columns, without the columns that hold no numbers.
+/// The rows of a table by column name, without columns that are not numeric.
 fn table(text: &str) -> Vec<BTreeMap<String, f64>> {
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -34,8 +34,7 @@ fn table(text: &str) -> Vec<BTreeMap<String, f64>> {
     lines.map(row).collect()
 }
 
-/// Joint values through `fk`, then `solve` or `ik`, then `fk`: each answer is where the joint values were. `solve` and `ik` read what they
-/// write, too.
+/// Joint values through `fk`, then `solve` or `ik`, then `fk`: each solution has the pose of the joint values. `solve` and `ik` also read their own output.
 fn assert_comes_back(name: &str, q: &str, solutions: usize) {
     let folder = derivation(name);
     for units in [&[][..], &["--degrees"]] {
@@ -44,7 +43,7 @@ fn assert_comes_back(name: &str, q: &str, solutions: usize) {
         for command in ["solve", "ik"] {
             let answers = pipe(&with(command), &poses);
             assert_eq!(answers.lines().count(), 1 + solutions, "{name} {command}: {answers}");
-            // The header tells the units: the last command may be run without --degrees.
+            // The header has the units, so the last command works without --degrees.
             let back = table(&pipe(&["fk", &folder], &answers));
             let begun = &table(&poses)[0];
             let places = begun.iter().filter(|(column, _)| ["x_", "y_", "z_"].contains(&&column[..2]));
@@ -93,7 +92,7 @@ fn units_of_columns_are_converted() {
     let radians = table(&pipe(&["fk", &leg], "HipPitch_deg,KneePitch_rad\n90,0\n"));
     assert!((radians[0]["HipPitch"] - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{radians:?}");
     assert!((radians[0]["x_mm"] - 202.9).abs() < 1e-12, "thigh and tibia ahead: {radians:?}");
-    // A name with a unit that its number cannot have is no unit.
+    // A column name with a unit that does not fit is not accepted.
     assert!(run_on(&["solve", &leg], b"x_deg,z_mm\n60,150\n").err.contains("`px` is missing"));
 }
 
@@ -111,7 +110,7 @@ fn unknown_columns_are_refused_by_name() {
     }
 }
 
-/// A target out of reach has no joint values: `fk` has no pose for it, and the others still come back.
+/// A target out of reach has no joint values: `fk` prints no pose for it, and the others are processed.
 #[test]
 fn a_target_without_a_solution_is_passed_over() {
     let leg = derivation("nao_leg_sagittal");
@@ -158,7 +157,7 @@ fn standard_input_is_read_once() {
     assert!(told.contains("<stdin>: line 3: link `a`: its name is taken"), "{told}");
 }
 
-/// The tip that is taken by default is told in words and in JSON, and kept where the robot has other ends.
+/// The default tip is reported in text and in JSON, and stored if the robot has other leaf links.
 #[test]
 fn the_default_tip_is_told() {
     let folder = tempdir().unwrap();
@@ -183,7 +182,7 @@ fn the_default_tip_is_told() {
     for command in [[&["explain", arm, "--latex"], &task[..]].concat(), latex.to_vec()] {
         assert!(succeed(&command).contains(" chooses another.\n"), "{command:?}");
     }
-    // A derivation is of the tip link that it was made for.
+    // A derivation belongs to the tip link for which it was made.
     for command in [&["explain", text(&out)][..], &["explain", arm, "--tip", "robot_tool0", "--task", "position"]] {
         assert!(!succeed(command).contains("chooses another"), "{command:?}");
     }

@@ -1,4 +1,4 @@
-//! `groebot plan`: the steps in words, for robots by name and for files.
+//! `groebot plan`: the steps as text, for robots by name and for files.
 
 use std::fs;
 

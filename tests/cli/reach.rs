@@ -1,4 +1,4 @@
-//! `groebot reach`, and the page of a map.
+//! `groebot reach`, and the HTML page of a map.
 
 use std::fs;
 
@@ -60,7 +60,7 @@ fn bad_questions_are_refused() {
     succeed(&["reach", "derivations/puma", "--x", "0.3", "--y", "0.1", "--z", "0.2", "-o", text(&other), "--quiet"]);
     let told = refused(&["view", "derivations/ur5", "--reach", text(&other), "-o", text(&out)]);
     assert!(told.contains("this is the map of puma"), "{told}");
-    // Slides have limits: what they travel is within the grid.
+    // Prismatic joints have limits, and their range is within the grid.
     assert!(succeed(&["reach", "derivations/gantry", "--orientations", "4"]).contains("9261 points"));
     let broken = folder.path().join("broken.json");
     fs::write(&broken, "{}").unwrap();

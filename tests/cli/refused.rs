@@ -1,4 +1,4 @@
-//! Bad input: each is refused with one clear line, and nothing is written.
+//! Invalid input: each is refused with one clear line, and nothing is written.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use tempfile::tempdir;
 
 use super::{content, folder_with, leg, refused, root, text};
 
-/// Derives `bytes` as the file `name` of a folder; the error must say all of `words`, and nothing may be written.
+/// Derives `bytes` as the file `name` of a folder. The error must contain all of `words`, and nothing may be written.
 fn refuse_file(name: &str, bytes: &[u8], words: &[&str]) -> String {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join(name), bytes).unwrap();
@@ -25,7 +25,7 @@ fn chain(from: &str, to: &str) -> Vec<u8> {
     leg.replacen(from, to, 1).into_bytes()
 }
 
-/// A system of angles with the unknowns c, s and k, t, targets p and r, and these equations.
+/// A system of angles with the unknowns c, s and k, t, the targets p and r, and these equations.
 fn system(equations: &[&str]) -> Vec<u8> {
     let mut text = "name = \"bad\"\n[[parameter]]\nname = \"p\"\n[[parameter]]\nname = \"r\"\n\
                     [[joint]]\nname = \"Elbow\"\ncosine = \"c\"\nsine = \"s\"\n\
@@ -37,7 +37,7 @@ fn system(equations: &[&str]) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Bytes without meaning, always the same.
+/// Pseudorandom bytes with a fixed seed.
 fn noise(count: usize) -> Vec<u8> {
     let mut state = 1u64;
     let mut byte = || {

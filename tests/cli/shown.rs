@@ -1,4 +1,4 @@
-//! Names and texts of others, shown on a terminal, in messages and on pages.
+//! Untrusted names and texts on a terminal, in messages and on pages.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use tempfile::tempdir;
 
 use super::{refused, root, run, succeed, text};
 
-/// What acts on a terminal, as itself.
+/// Terminal control characters, unescaped.
 const ACTS: [char; 4] = ['\u{1b}', '\u{7}', '\u{202e}', '\u{9b}'];
 
 fn is_quiet(text: &str) -> bool {
@@ -82,7 +82,7 @@ fn options_and_files_are_shown_without_acting_and_shortened() {
     }
 }
 
-/// A robot's name with HTML, a link and a command of a shell.
+/// A robot's name with HTML, a link and a shell command.
 #[test]
 fn a_page_has_no_html_no_link_and_no_command() {
     let folder = tempdir().unwrap();
@@ -94,7 +94,7 @@ fn a_page_has_no_html_no_link_and_no_command() {
     fs::write(&file, format!("{}{named}{}", &arm[..start], &arm[end..])).unwrap();
     succeed(&["derive", text(&file), "--tip", "foot", "--task", "position", "--quiet", "--out", text(&out)]);
     let page = fs::read_to_string(out.join("README.md")).unwrap();
-    // What an escape stands before is a letter.
+    // The character before an escape is a letter.
     let bare =
         |text: &str| ["\\<", "\\$", "\\]", "\\&"].iter().fold(text.to_owned(), |text, escape| text.replace(escape, ""));
     for word in ["<img", "$(", "](j", "&lt"] {

@@ -1,4 +1,4 @@
-//! `groebot simulate`, as a user would; what needs MuJoCo takes it from `GROEBOT_PYTHON` or python3.
+//! `groebot simulate`, run as by a user. MuJoCo is imported by `GROEBOT_PYTHON` or python3.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use tempfile::{TempDir, tempdir};
 
 use super::{Ran, groebot, refused, root, succeed, text};
 
-/// Walks in a folder, and the file.
+/// A folder with walks, and the path of the file.
 fn walked(arguments: &[&str]) -> (TempDir, String) {
     let folder = tempdir().unwrap();
     let file = text(&folder.path().join("walk.csv")).to_owned();
@@ -27,7 +27,7 @@ fn simulated(arguments: &[&str], python: Option<&Path>) -> Ran {
     Ran { code: output.status.code().unwrap(), out, err }
 }
 
-/// What a run tells as JSON; `None`, aloud, without MuJoCo (an error with `GROEBOT_REQUIRE_TOOLS=1`).
+/// The JSON output of a run. Without MuJoCo it is `None`, with a message, or an error with `GROEBOT_REQUIRE_TOOLS=1`.
 fn told(arguments: &[&str], code: i32) -> Option<Value> {
     let ran = simulated(&[arguments, &["--json"]].concat(), None);
     if ran.code == 1 && ran.err.contains("cannot run MuJoCo") {
@@ -101,8 +101,8 @@ fn nao_stands() {
     assert!(number(&compared["tilt"]) < 3f64.to_radians());
 }
 
-/// RH0 6.2 with two steps. The ZMP by contact forces is within 8 mm rms of the plan (of 30 mm that RA_AS leaves); a hip's roll is off by what
-/// stiffness and the plan's torque foretell within a tenth.
+/// RH0 6.2 with two steps. The ZMP from contact forces is within 8 mm rms of the plan (of 30 mm that RA_AS permits). The roll error of a hip equals the planned
+/// torque divided by the stiffness within 10 %.
 #[test]
 fn rh0_stands_and_sags_as_its_motors_foretell() {
     let (folder, walk) = walked(&["rh0", "--gait", "rh0-real", "--crouched", "--plan", "out right, in left"]);
@@ -122,12 +122,12 @@ fn rh0_stands_and_sags_as_its_motors_foretell() {
     assert_eq!(answer.lines().count(), 3 + 1 + 2 * 323, "as many samples as the walk");
     let picture = fs::read_to_string(&plot).unwrap();
     assert_eq!(picture.matches("class=\"title\"").count(), 12);
-    // The circle of 30 mm at 0.67 m holds no more than 3.4 degrees.
+    // The circle of 30 mm at a height of 0.67 m permits at most 3.4 degrees.
     let Some(fallen) = self::told(&[&walk, "--slope", "5,0"], 5) else { return };
     assert!(number(&fallen["run"]["fell"]) < 46.0);
 }
 
-/// RH0 Fig. 6-5: the rates of the descent that takes 271 intervals, from the 268th on, within 0.001 rpm.
+/// RH0 Fig. 6-5: the speeds of the descent of 271 intervals, from the 268th on, within 0.001 rpm.
 #[test]
 fn the_rates_of_figure_6_5_come_out() {
     let folder = tempdir().unwrap();
@@ -142,7 +142,7 @@ fn the_rates_of_figure_6_5_come_out() {
         for (name, rate) in printed[0].iter().zip(rates) {
             let column = ours[0].iter().position(|own| own == name).unwrap();
             let angle = |sample: usize| ours[1 + sample][column].parse::<f64>().unwrap();
-            // Degrees in 0.072 s as turns in a minute.
+            // Converts degrees in 0.072 s to turns per minute.
             let rpm = (angle(269 + row) - angle(268 + row)) / 0.072 / 6.0;
             assert!((rpm - rate.parse::<f64>().unwrap()).abs() < 1e-3, "row {row}, {name}: {rpm} for {rate}");
         }

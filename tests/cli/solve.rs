@@ -1,4 +1,4 @@
-//! `groebot solve`: text, JSON and CSV tell the same solutions, and these are solutions.
+//! `groebot solve`: text, JSON and CSV contain the same solutions, and these are correct.
 
 use std::f64::consts::PI;
 use std::io::{BufRead, BufReader, Write};
@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::{Ran, groebot, leg, root, run_on, succeed, text};
 use crate::codegen::wrist;
 
-/// Forward kinematics of the NAO leg, written down here from its drawing: thigh 100 mm, tibia 102.9 mm.
+/// Forward kinematics of the NAO leg, from its drawing: thigh 100 mm, tibia 102.9 mm.
 fn ankle(q: &[f64]) -> [f64; 2] {
     let (hip, both) = (q[0], q[0] + q[1]);
     [100.0 * hip.sin() + 102.9 * both.sin(), 100.0 * hip.cos() + 102.9 * both.cos()]
@@ -23,7 +23,7 @@ fn json(target: &str, more: &[&str]) -> Value {
     serde_json::from_str(&text).unwrap()
 }
 
-/// Standard input through `solve`.
+/// Runs `solve` on standard input.
 fn stream(input: &str, more: &[&str]) -> Ran {
     run_on(&[&["solve", leg().path()], more].concat(), input.as_bytes())
 }
@@ -75,7 +75,7 @@ fn text_shows_joints_units_and_the_choice() {
     }
 }
 
-/// NAO's arm bends its elbow from -88.5 to -2 degrees: answers with another angle are marked, in every form.
+/// NAO's elbow has limits of -88.5 and -2 degrees. Solutions with another angle are marked in every format.
 #[test]
 fn joints_outside_their_limits_are_named() {
     let folder = root("derivations/nao_left_arm");
@@ -99,8 +99,8 @@ fn joints_outside_their_limits_are_named() {
     }
 }
 
-/// The shoulder of the PUMA 560 turns from -45 to 225 degrees: answers in words, JSON and CSV are turned there. The joint values 200, -100, 30
-/// degrees of shoulder, elbow and waist are within limits.
+/// The shoulder of the PUMA 560 has limits of -45 and 225 degrees. Solutions in text, JSON and CSV are moved there by whole turns. The joint values 200, -100,
+/// 30 degrees of shoulder, elbow and waist are within limits.
 #[test]
 fn angles_are_turned_into_their_limits() {
     let folder = root("derivations/puma560");
@@ -233,14 +233,14 @@ fn a_reader_that_goes_away_is_no_error() {
     assert_eq!((output.status.code(), String::from_utf8(output.stderr).unwrap()), (Some(0), String::new()));
 }
 
-/// A gantry with a wrist, written by hand; its folder.
+/// The folder of a gantry with a wrist, whose chain is in this file.
 fn gantry() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("5_program.json"), wrist::carried().to_json()).unwrap();
     folder
 }
 
-/// A quarter turn about z carries x to y: q1 + q3 is a quarter turn, the sliding joints are the position.
+/// A quarter turn about z maps x to y: q1 + q3 is a quarter turn, and the prismatic joints are the position.
 #[test]
 fn a_pose_is_twelve_numbers_or_seven() {
     let folder = gantry();
@@ -282,7 +282,7 @@ fn quaternions_in_csv_and_what_is_none() {
     }
 }
 
-/// A planar arm of 0.3 m and 0.25 m whose hand, 0.1 m, is turned back by a parallelogram: `hand` is 0.1 rad less `elbow`.
+/// A planar arm of 0.3 m and 0.25 m with a hand of 0.1 m that a parallelogram rotates back: `hand` is 0.1 rad minus `elbow`.
 const PALLETIZER: &str = r#"<robot name="pal"><link name="base"/><link name="upper"/><link name="fore"/><link name="hand"/><link name="tool0"/>
 <joint name="shoulder" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/></joint>
 <joint name="elbow" type="continuous"><parent link="upper"/><child link="fore"/><origin xyz="0.3 0 0"/><axis xyz="0 0 1"/></joint>
@@ -316,7 +316,7 @@ fn joints_that_follow_others_are_marked() {
         let page = succeed(arguments);
         assert!(page.contains("\n  back follows -1 * elbow + 0.1\n"), "{page}");
     }
-    // Without such joints nothing is said of them.
+    // Without such joints there is no line about them.
     let page = succeed(&["solve", leg().path(), "--target", "60,150"]);
     assert!(!page.contains("follows") && json("60,150", &[]).get("follows").is_none(), "{page}");
 }

@@ -34,14 +34,14 @@ fn a_task_is_done_checked_and_shown() {
     assert!(checks["hold"] == true && checks["findings"] == 0 && checks["fastest"]["rpm"].as_f64().unwrap() < 25.0);
     let nearest = &checks["clearances"][0];
     assert!(nearest["distance"].as_f64().unwrap() > 0.02 && checks["soles_off"].as_f64().unwrap() < 1e-12, "{checks}");
-    // It stands before the chair, whose near side is at 2.2.
+    // The robot stands in front of the chair, whose near side is at 2.2.
     let last = |name: &str| {
         let contact = walk.contacts.iter().find(|contact| contact.name == name).unwrap();
         contact.poses[contact.poses.len() - 1].translation.vector
     };
     let middle = (last("left") + last("right")) / 2.0;
     assert!(middle.x < 2.2 && middle.x > 1.4 && (middle.y - 1.2).abs() < 0.2, "{middle}");
-    // The page of the file is that of --view, but for its title.
+    // The page of the file equals that of --view, except for its title.
     let again = folder.path().join("again.html");
     succeed(&["view", text(&json), "-o", text(&again)]);
     let data = |file| {
@@ -91,7 +91,7 @@ fn bad_input_of_tasks_is_refused() {
     }
     let told = refused(&["task", "rh0", "--room", "livingroom", "--goal", "sofa"]);
     assert!(told.contains("livingroom"), "{told}");
-    // A record that is cut.
+    // A truncated record.
     fs::write(&room, ROOM).unwrap();
     succeed(&["task", "rh0", "--room", text(&room), "--goal", "0.8,1.2", "-o", text(&walk), "--quiet"]);
     let whole: Value = serde_json::from_str(&fs::read_to_string(&walk).unwrap()).unwrap();

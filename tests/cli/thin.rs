@@ -1,4 +1,4 @@
-//! Thin folders: `derive --thin`, and the commands that read such a folder.
+//! Thin folders: `derive --thin`, and the commands that read them.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use super::{content, copy_of, fails_at, folder_with, leg, leg_copy, refused, run
 /// The files of a thin folder of a chain.
 const FILES: [&str; 4] = ["0_chain.toml", "README.md", "certificate.json", "outputs.sha256"];
 
-/// The leg in a thin folder, derived once; a test may damage its copy.
+/// The leg in a thin folder, derived once. Each test may modify its copy.
 fn thin_leg() -> TempDir {
     static THIN: LazyLock<TempDir> = LazyLock::new(|| {
         let folder = folder_with("nao_leg_sagittal", "0_chain.toml");
@@ -51,7 +51,7 @@ fn a_thin_folder_passes_its_check_and_stays_thin() {
     assert!(page.contains("500 targets solved again and right; its words and counts have the stored hash"), "{page}");
     succeed(&["derive", text(folder.path()), "--quiet"]);
     assert_eq!(content(folder.path()), written);
-    // All files of the full folder, and back.
+    // Writes all files of the full folder, and removes them again.
     succeed(&["derive", text(folder.path()), "--quiet", "--full"]);
     assert_eq!(content(folder.path()), content(leg().folder.path()));
     fs::write(folder.path().join("notes.txt"), "mine").unwrap();
@@ -79,7 +79,7 @@ fn a_wrong_or_missing_hash_names_its_file() {
     assert!(ran.err.contains("`5_solver.py`"), "{}", ran.err);
 }
 
-/// A file that a thin folder has all the same must be right, too.
+/// An output that is in a thin folder is checked.
 #[test]
 fn an_output_in_a_thin_folder_is_compared() {
     let folder = thin_leg();
@@ -111,7 +111,7 @@ fn commands_use_the_solver_that_the_certificate_proves() {
         };
         assert_eq!(of(thin), of(full), "{arguments:?}");
     }
-    // The path of the file that a thin folder does not have stands for its program.
+    // The path of the program selects a thin folder's program, although the file is absent.
     let program = format!("{thin}/5_program.json");
     assert_eq!(succeed(&["solve", &program, "--target", "60,150"]), succeed(&["solve", full, "--target", "60,150"]));
     let pages = [thin, full].map(|folder| {
@@ -135,7 +135,7 @@ fn a_folder_with_neither_program_nor_certificate_is_refused() {
     assert!(refused(&["solve", text(thin.path()), "--target", "60,150"]).contains("certificate.json"));
 }
 
-/// A file of the user's that happens to have the name of the hashes.
+/// A user's file with the name of the file of hashes.
 #[test]
 fn hashes_that_groebot_did_not_write_are_left_alone() {
     let folder = leg_copy();

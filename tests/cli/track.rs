@@ -1,4 +1,4 @@
-//! `groebot track` and `groebot identify`, as a user would.
+//! `groebot track` and `groebot identify`, run as by a user.
 
 use std::fs;
 
@@ -32,7 +32,7 @@ fn an_arm_follows_and_what_it_does_is_written() {
     assert_eq!(json["joints"][2]["name"], "slide");
     assert!((json["joints"][0]["greatest_error"].as_f64().unwrap() - 0.02).abs() < 1e-12);
 
-    // A log of what it did tells what its bodies weigh.
+    // A log of its motion determines its inertial parameters.
     let states = at("states.csv");
     let mut log = "q0,q1,q2,v0,v1,v2,a0,a1,a2\n".to_owned();
     for k in 1..60 {

@@ -1,4 +1,4 @@
-//! `groebot view`; its pages in Chromium are tested in `browser.rs`.
+//! `groebot view`. `browser.rs` tests its pages in Chromium.
 
 use std::fs;
 use std::path::Path;
@@ -102,7 +102,7 @@ fn derivations_and_rooms_become_pages() {
     assert!(running.contains("\"run\":{\"robot\":\"rh0\"") && running.len() < 2_000_000);
     let told = refused(&with(&page, &[text(&root(ARM)), "--room", text(&room), "--goal", "1,1"]));
     assert!(told.contains("no walking robot"), "{told}");
-    // The room's own start; one in the wall is refused here, not in the page.
+    // The default start of the room. A start in the wall is refused by the command, not in the page.
     assert!(read(&["rh0", "--room", "living-room", "--goal", "7.2,3.4"]).contains("\"start\":[1.0,2.6,0.0]"));
     let told = refused(&with(&page, &["rh0", "--room", "living-room", "--start", "0.05,0.05", "--goal", "7.2,3.4"]));
     assert!(told.contains("nearest free place"), "{told}");

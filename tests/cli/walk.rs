@@ -134,7 +134,7 @@ fn three_robots_walk_by_one_step_goal() {
     }
 }
 
-/// Where the soles are at the end of a walk, left and right: x, y and heading.
+/// The poses of the soles at the end of a walk, left and right: x, y and heading.
 fn last_soles(file: &std::path::Path) -> [[f64; 3]; 2] {
     let walk = Trajectory::read_csv(file).unwrap();
     [0, 1].map(|side| {
@@ -155,7 +155,7 @@ fn nao_walks_to_a_goal_without_further_options() {
     for (value, wanted) in feet.iter().zip([2.0, 0.05, 0.0, 2.0, -0.05, 0.0]) {
         assert!((value - wanted).abs() < 1e-9, "{feet:?}");
     }
-    // The picture, the summary and the table tell the same least margin.
+    // The picture, the summary and the table have the same smallest margin.
     let walk = Trajectory::read_csv(&csv).unwrap();
     let margin = walk.figures.iter().find(|figure| figure.name == "margin").unwrap();
     let least = format!("{:.1} mm at", 1e3 * margin.values.iter().copied().fold(f64::INFINITY, f64::min));
@@ -194,11 +194,11 @@ fn a_goal_that_is_refused_names_the_option_that_helps() {
         let told = refused(&all);
         assert!(told.starts_with(cause) && told.contains(option), "{arguments:?}: {told}");
     }
-    // A turn at which the feet meet is narrowed.
+    // A rotation in which the feet would touch is reduced.
     assert!(succeed(&["walk", "nao", "--goal", "0,1", "--max-turn", "15"]).contains("1.000 m, turn 97.7 deg"));
 }
 
-/// Torques stand in both tables, and the greatest ones beside the efforts.
+/// Torques are in both tables, and the largest ones are next to the effort limits.
 #[test]
 fn a_walk_tells_what_motors_and_floor_give() {
     let folder = tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Damaged inputs, always the same ones. Main type: [`Damage`].
+//! Pseudorandomly damaged inputs, reproducible. Main type: [`Damage`].
 
 /// A linear congruential generator (Knuth's MMIX constants).
 struct Chance(u64);
@@ -10,7 +10,7 @@ impl Chance {
     }
 }
 
-/// What is put into inputs: numbers beyond limits, hidden and special characters, brackets.
+/// Pieces that are inserted into inputs: numbers beyond limits, hidden and special characters, brackets.
 const PIECES: [&str; 24] = [
     "1e160",
     "1e400",
@@ -37,10 +37,11 @@ const PIECES: [&str; 24] = [
     "\u{feff}",
     "$(x)",
 ];
-/// Signs that a number or a name is cut at.
+/// Characters that end a number or a name.
 const SIGNS: [u8; 12] = *b" \t\n,;=<>\"'[]";
 
-/// Endless damaged inputs: each seed is cut off, loses, repeats or exchanges bytes and lines, or gets another number, sign or piece of another seed.
+/// An infinite sequence of damaged inputs. A seed is cut off, or loses, repeats or exchanges bytes and lines, or gets another number, character or piece of
+/// another seed.
 pub struct Damage<'a> {
     seeds: &'a [Vec<u8>],
     chance: Chance,
@@ -48,7 +49,7 @@ pub struct Damage<'a> {
 }
 
 impl<'a> Damage<'a> {
-    /// Of at least one seed.
+    /// Builds the sequence from at least one seed.
     pub fn of(seeds: &'a [Vec<u8>]) -> Self {
         assert!(!seeds.is_empty());
         Damage { seeds, chance: Chance(2026), next: 0 }
@@ -75,14 +76,14 @@ impl<'a> Damage<'a> {
         }
     }
 
-    /// Another digit in place of the first one after a place.
+    /// Changes the first digit after a position.
     fn put_digit(&mut self, bytes: &mut [u8], at: usize) {
         if let Some(digit) = bytes[at..].iter_mut().find(|byte| byte.is_ascii_digit()) {
             *digit = b'0' + self.chance.below(10) as u8;
         }
     }
 
-    /// A piece in place of the word or number at a place.
+    /// Replaces the word or number at a position by a piece.
     fn put_word(&mut self, bytes: &mut Vec<u8>, at: usize) {
         let is_sign = |byte: &u8| SIGNS.contains(byte);
         let begin = bytes[..at].iter().rposition(is_sign).map_or(0, |place| place + 1);
@@ -97,7 +98,7 @@ impl Iterator for Damage<'_> {
     fn next(&mut self) -> Option<Vec<u8>> {
         let mut bytes = self.seeds[self.next % self.seeds.len()].clone();
         self.next += 1;
-        // One change leaves more of them readable.
+        // One change leaves more inputs readable than several.
         for _ in 0..=self.chance.below(6) / 4 {
             self.change(&mut bytes);
         }

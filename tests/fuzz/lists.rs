@@ -1,14 +1,14 @@
-//! The lists of targets agree: the library, `Cargo.toml`, `fuzz_targets/`, `seeds/` and the README.
+//! The lists of targets are equal: in the library, `Cargo.toml`, `fuzz_targets/`, `seeds/` and the README.
 
 use std::collections::BTreeSet;
 use std::fs;
 
 use super::{all, root, seeds};
 
-/// So much the seeds of all targets may weigh, in bytes.
+/// Maximum size of all seeds together \[bytes\].
 const SEEDS: usize = 300_000;
 
-/// The names of the entries of a folder of `fuzz/`, without endings.
+/// The names of the entries of a folder of `fuzz/`, without extensions.
 fn entries(folder: &str) -> BTreeSet<String> {
     let names = fs::read_dir(root().join("fuzz").join(folder)).unwrap().map(|entry| entry.unwrap().file_name());
     names.map(|name| name.into_string().unwrap().trim_end_matches(".rs").to_owned()).collect()
@@ -35,7 +35,7 @@ fn no_list_of_targets_forgets_one() {
     }
 }
 
-/// Each file is about its own target.
+/// Each file calls its own target.
 #[test]
 fn each_target_runs_itself() {
     for target in all() {
@@ -59,7 +59,7 @@ fn seeds_are_few_and_small() {
     assert!(total <= SEEDS, "the seeds take {total} bytes");
 }
 
-/// Inputs that once failed are those of a target.
+/// Inputs that failed in the past belong to a target.
 #[test]
 fn regressions_belong_to_targets() {
     let names: BTreeSet<&str> = all().map(|target| target.name).collect();

@@ -1,4 +1,5 @@
-//! The fuzz targets of `fuzz/` on stable: their lists agree, and seeds, inputs that once failed and damaged seeds are answered or refused.
+//! The fuzz targets of `fuzz/` with the stable compiler. Their lists are equal. Seeds, inputs that failed in the past and damaged seeds are accepted or refused
+//! without a fault.
 
 mod damage;
 mod lists;
@@ -13,7 +14,7 @@ use std::time::{Duration, Instant};
 use damage::Damage;
 use targets::Target;
 
-/// No input takes longer, in an unoptimised build on a very busy machine: what hangs does.
+/// Maximum duration for an input, in an unoptimised build on a very busy machine. An input that exceeds it is a hang.
 const SLOWEST: Duration = Duration::from_secs(300);
 
 fn root() -> &'static Path {
@@ -24,7 +25,7 @@ fn all() -> impl Iterator<Item = &'static Target> {
     targets::TARGETS.into_iter().flatten()
 }
 
-/// The files of a folder in the order of their names, with their bytes; none where there is no folder.
+/// The files of a folder sorted by name, with their bytes; empty if there is no folder.
 fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
@@ -36,12 +37,12 @@ fn seeds(target: &Target) -> Vec<(PathBuf, Vec<u8>)> {
     files(&root().join("fuzz/seeds").join(target.name))
 }
 
-/// Inputs on which the target once failed.
+/// Inputs for which the target failed in the past.
 fn regressions(target: &Target) -> Vec<(PathBuf, Vec<u8>)> {
     files(&root().join("tests/regressions/fuzz").join(target.name))
 }
 
-/// Gives `bytes` to a target; what it does wrong, if anything.
+/// Runs a target with `bytes`. Returns its fault, if there is one.
 fn fault(target: &Target, bytes: &[u8]) -> Option<String> {
     let begun = Instant::now();
     let outcome = catch_unwind(AssertUnwindSafe(|| targets::run(target.name, bytes)));
@@ -55,7 +56,7 @@ fn fault(target: &Target, bytes: &[u8]) -> Option<String> {
     }
 }
 
-/// What a target does wrong with these inputs.
+/// The faults of a target for these inputs.
 fn faults(target: &Target, inputs: impl Iterator<Item = Vec<u8>>) -> Vec<String> {
     let begun = Instant::now();
     let faults = inputs.filter_map(|bytes| fault(target, &bytes)).collect();
@@ -63,7 +64,7 @@ fn faults(target: &Target, inputs: impl Iterator<Item = Vec<u8>>) -> Vec<String>
     faults
 }
 
-/// Fails for faults, with all of them.
+/// Fails if there are faults, and prints all of them.
 fn refuse(faults: &[String]) {
     let (count, text) = (faults.len(), faults.join("\n"));
     assert!(faults.is_empty(), "{count} faults; keep each input in tests/regressions/fuzz:\n{text}");

@@ -78,7 +78,7 @@ export class Cloud {
   /** Draws a box at each place that is chosen, or where these are too many at some of them, evenly spread. */
   fill(): void {
     const { chosen, values, greatest } = this.map;
-    // Spread evenly they are a few more or less than asked for.
+    // Points are spread evenly, so their number differs slightly from the requested one.
     const part = chosen.length > this.most ? (0.99 * this.most) / chosen.length : 1;
     let box = 0;
     for (const place of chosen) {

@@ -361,7 +361,7 @@ function doubles(buffer: ArrayBuffer): Track {
   const count = planes.length / 8;
   const view = new DataView(new ArrayBuffer(planes.length));
   planes.forEach((byte, place) => view.setUint8(8 * (place % count) + Math.floor(place / count), byte));
-  // Read through a view: the order of bytes is the file's, not the machine's.
+  // The values are read through a view: the byte order is that of the file, not of the machine.
   return Float64Array.from({ length: count }, (_, sample) => view.getFloat64(8 * sample, true));
 }
 

@@ -137,7 +137,7 @@ export class Desk {
 
   private writeTitle(): void {
     const { title, robot, run } = this.app.data;
-    // What is walked in the page grows.
+    // A walk in the page becomes longer while it is simulated.
     const motion = run ? undefined : this.app.data.motion;
     const count = robot.joints.filter(moves).length;
     const facts = [`${count} ${count === 1 ? "joint" : "joints"}`];
@@ -249,7 +249,7 @@ export class Desk {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target as HTMLElement;
     const takes = (kinds: string) => target.matches(kinds);
-    // Who types means the field.
+    // Keys belong to the field in which the user types.
     if (takes("input:not([type=range]), select, textarea")) return;
     const { app } = this;
     const times = app.data.motion?.times;

@@ -165,7 +165,7 @@ export class Lanes {
     });
     const label = lane.canvas.parentElement!.firstElementChild!;
     if (ordered.length > MOST_TOLD) {
-      // Of many the greatest one is told.
+      // Of many values the largest one is shown.
       label.replaceChildren(item(`${ordered.length} in ${first.unit}`, false));
       lane.tell = (place) => {
         const size = (figure: Figure) => Math.abs(at(figure.values, place));

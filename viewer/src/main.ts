@@ -103,7 +103,7 @@ function begun(data: Data, engine: Engine | undefined): Run {
 }
 
 async function start(): Promise<Started> {
-  // The theme comes before the picture, which takes its colours.
+  // The theme is created before the picture, which uses its colours.
   const theme = new Theme();
   const data = await read(element("groebot-data").textContent ?? "");
   const engine = data.wasm ? await Engine.start(await inflated(data.wasm)).catch(() => undefined) : undefined;
@@ -128,7 +128,7 @@ let started: Started | undefined;
 const ready = start().then(
   (begun) => {
     started = begun;
-    // What the next frame draws is on the screen behind it.
+    // The timer runs after the next frame is on the screen.
     return new Promise<void>((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
   },
   (error: unknown) => {

@@ -102,7 +102,7 @@ export class Solutions {
       try {
         await navigator.clipboard.writeText(hash!);
       } catch {
-        // Where the browser lets no page copy, it stands selected for the hand.
+        // If the browser does not permit copying, the text is selected for manual copying.
         getSelection()?.selectAllChildren(told);
       }
     };

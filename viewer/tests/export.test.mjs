@@ -1,4 +1,4 @@
-// Exported motions in readers that are not ours: where these see the links, against forward kinematics of the URDF and the table's own feet.
+// Exported motions in third-party readers: their link poses are compared with forward kinematics of the URDF, and with the feet in the table.
 import assert from "node:assert/strict";
 import { readFileSync, statSync, writeFileSync } from "node:fs";
 import path from "node:path";
@@ -46,7 +46,7 @@ before(async () => {
     const values = (row) => Object.fromEntries(Object.entries(row).flatMap(([key, value]) => (key.startsWith("q:") ? [[key.slice(2), value]] : [])));
     own.expected = (row) => links(all, values(row), POSE.map((end) => row[`base_${end}`]));
     own.names = Object.keys(own.expected(own.table[0]));
-    // Each link with those above it, up to the root of the scene.
+    // Each link with its ancestors, up to the root of the scene.
     const parents = Object.fromEntries(all.map(({ child, parent }) => [child, parent]));
     own.chain = (link) => (link ? [link, ...own.chain(parents[link])] : name === "telescope" ? ["z_up", "far_base"] : ["z_up"]);
     own.files = Object.fromEntries(FORMATS.map((format) => {
@@ -72,7 +72,7 @@ async function furthest({ table, samples, expected, names }, places) {
       assert.ok(seen[name], `${name} is not there`);
       most = Math.max(most, distance(seen[name], up([3, 7, 11].map((place) => frames[name][place]))));
     }
-    // The table's own feet, as far as its nine decimals say them.
+    // The feet in the table, to its nine decimals.
     for (const side of ["left", "right"].filter((side) => `${side}_x` in row && `${side[0]}_sole` in frames)) {
       most = Math.max(most, distance(seen[`${side[0]}_sole`], up(["x", "y", "z"].map((end) => row[`${side}_${end}`]))));
     }

@@ -1,4 +1,4 @@
-// Pages that groebot writes, opened in Debian's Chromium with every request refused.
+// Pages of groebot, opened in Debian's Chromium with all network requests refused.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -41,7 +41,7 @@ export function changed(file, name, change) {
 export const browse = ({ webgl = true } = {}) =>
   chromium.launch({ executablePath: "/usr/bin/chromium", args: webgl ? ARGUMENTS : WITHOUT_WEBGL });
 
-// A page that stays open goes on playing, and takes the next test's time. What `before` opens is for all tests of a file.
+// An open page continues to play and slows down the next test. Pages opened by `before` are shared by all tests of a file.
 let contexts = [];
 beforeEach(() => void (contexts = []));
 afterEach(() => Promise.all(contexts.map((context) => context.close())));
@@ -59,7 +59,7 @@ export async function open(browser, file, options = {}) {
     return route.abort();
   });
   opened.on("console", (message) => {
-    // Chromium remarks on screenshots of a picture that it draws by software.
+    // Chromium prints a message for screenshots with software rendering.
     if (message.type() !== "log" && !message.text().includes("ReadPixels")) complaints.push(message.text());
   });
   opened.on("pageerror", (error) => complaints.push(error.message));

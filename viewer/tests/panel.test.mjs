@@ -1,4 +1,4 @@
-// The simulator's panel while somebody types, plays and films.
+// The simulator's panel while the user types, plays and records.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";

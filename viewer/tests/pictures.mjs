@@ -49,7 +49,7 @@ for (const [name, given, options, time] of PICTURES) {
 groebot("export", "walk.json", "--to", "x3d", "-o", inFolder("walk.x3d"));
 const player = await xite(browser);
 await (await shown(player, inFolder("walk.x3d"), {}))(430);
-// The name of the view goes away.
+// The name of the view disappears.
 await player.waitForTimeout(8000);
 await player.screenshot({ path: path.join(root, "docs/simulator_export.png") });
 await browser.close();

@@ -1,4 +1,4 @@
-// What an arm reaches, in its page.
+// The page of an arm's reach map.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import path from "node:path";
@@ -20,7 +20,7 @@ after(() => browser?.close());
 const QUANTITIES = {
   share: (place) => map.reached[place] / map.orientations,
   answers: (place) => map.answers[place] / map.orientations,
-  // Singles.
+  // Single precision.
   manipulability: (place) => Math.fround(map.mean[place]),
 };
 const axes = () => [map.x, map.y, map.z];
@@ -77,7 +77,8 @@ test("as many places are shown as the map says, of each quantity", async () => {
 
 test("places tell what the map says of them", async () => {
   const asked = Array.from({ length: 300 }, (_, turn) => (turn * 7919) % places());
-  // A third of a step beside a place it is the nearest one still; beyond the grid the place at its border is.
+  // A point a third of a step from a grid point still has that grid point as the nearest one. Beyond the grid it is the
+  // one at the border.
   const points = asked.map((place, turn) => at(place).map((value, axis) => value + ((turn + axis) % 2 ? 0.3 : -0.3) * ((axes()[axis].to - axes()[axis].from) / (axes()[axis].count - 1))));
   const found = await shown.evaluate((points) => points.map((point) => groebot.reach.at(...point)), points);
   asked.forEach((place, turn) => {
@@ -99,7 +100,7 @@ test("the page's own solver reaches what the map says", async () => {
     groebot.drag("ur5", target);
     return [told + groebot.reach.at(...target.slice(0, 3)).share, found + (groebot.solutions().length > 0 ? 1 : 0)];
   }, [0, 0]), targets);
-  // Six orientations of each place are a sample of all.
+  // Six orientations at each point are a sample of all orientations.
   assert.ok(found > 100 && Math.abs(found / told - 1) < 0.1, `${found} of ${targets.length} are reached, ${told} are told`);
 });
 

@@ -1,4 +1,4 @@
-// A robot without a walk: its joints are moved by hand.
+// A robot without a walk: the user moves its joints.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import path from "node:path";

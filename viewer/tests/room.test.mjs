@@ -1,4 +1,4 @@
-// What stands in the simulator's room: dragged, of odd names, walled in.
+// Furniture in the simulator's room: dragged, with unusual names, and enclosing the robot.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
@@ -76,7 +76,7 @@ test("a step does not take from the hand what is dragged; a drag that is cancell
     await opened.evaluate(() => document.getElementById("canvas").dispatchEvent(new PointerEvent("pointercancel", { pointerId: 1 })));
   });
   assert.deepEqual((await room(opened)).goal, goal);
-  // It stands there again, to be taken.
+  // It is there again and can be dragged.
   await drag(opened, [...goal, 0], [2.4, 1.4, 0]);
   const { goal: next } = await room(opened);
   assert.ok(Math.hypot(next[0] - 2.4, next[1] - 1.4) < 0.02, `the goal is at ${next}`);
@@ -108,7 +108,7 @@ test("closed cells are as large in a room that is turned", async () => {
   const [a, b] = [await red(straight), await red(other)];
   assert.ok(a > 5000 && Math.abs(b / a - 1) < 0.15, `${a} and ${b} pixels`);
   await other.evaluate(() => groebot.furniture("wall", null));
-  // What is left is an axis.
+  // Only an axis remains.
   assert.ok((await red(other)) < 100);
   assert.deepEqual([straight.complaints, other.complaints], [[], []]);
 });

@@ -1,4 +1,4 @@
-// A robot that walks through a room while its goal, the furniture and the figures of its gait change.
+// A robot that walks through a room while its goal, the furniture and the gait parameters change.
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
@@ -141,7 +141,7 @@ test("numbers and film are saved", async () => {
     for (let k = 0; k < 10; k++) await opened.evaluate((at) => groebot.seek(at), 3 + 0.2 * k).then(() => picture(opened));
     await press("Film");
   });
-  // EBML, of which WebM is made.
+  // EBML, the container format of WebM.
   assert.deepEqual([...film.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3]);
   assert.ok(film.length > 1000);
   assert.deepEqual(opened.complaints, []);

@@ -1,4 +1,4 @@
-// Where programs that are not ours see the links of an exported scene: each reader gives the positions of all nodes at a sample of the motion.
+// Link poses of an exported scene in third-party programs: each reader returns the positions of all nodes at a sample of the motion.
 import { execFileSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import path from "node:path";
@@ -25,7 +25,7 @@ export async function three(file) {
     mixer.setTime(times[sample]);
     scene.updateMatrixWorld(true);
     const places = {};
-    // A node comes before what stands in it for its triangles, and bears its name.
+    // A node is visited before its triangle nodes, which have its name.
     scene.traverse((node) => (places[node.name] ??= new Vector3().setFromMatrixPosition(node.matrixWorld).toArray()));
     return places;
   };
@@ -105,7 +105,7 @@ export function told(text) {
 export async function xite(browser) {
   const page = await browser.newPage({ viewport: { width: 900, height: 600 } });
   const complaints = [];
-  // Chromium remarks on pictures that it draws by software.
+  // Chromium prints a message for pictures with software rendering.
   page.on("console", (message) => message.text().includes("ReadPixels") || complaints.push(message.text()));
   page.on("pageerror", (error) => complaints.push(error.message));
   const html = `<!DOCTYPE html><meta charset="utf-8"><link rel="icon" href="data:,"><style>body { margin: 0 }</style>

@@ -128,7 +128,7 @@ test("a singular pose tells its self-motion, joints beyond limits their names", 
   const spread = await canvas();
   await row.blur();
   await shown.getByRole("heading", { name: "Solutions" }).hover();
-  // The robot itself takes that solution, which has no ghost of its own.
+  // The robot itself shows that solution, which has no ghost.
   assert.ok(!spread.equals(await canvas()), "ghosts stand along the self-motion");
   const leg = await open(browser, page("leg.html", path.join(root, "derivations/nao_left_leg")));
   const far = await leg.evaluate(() => groebot.solutions());

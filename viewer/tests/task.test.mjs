@@ -1,4 +1,4 @@
-// The page of a task that was done: furniture, goal and way are those of each time.
+// The page of a completed task: furniture, goal and path at each time.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";

@@ -1,4 +1,4 @@
-// Where something is missing the page says so, and is never blank.
+// If a part is missing, the page reports it and is never blank.
 import assert from "node:assert/strict";
 import { before, test } from "node:test";
 import { browse, changed, groebot, inFolder, open, page, rows } from "./page.mjs";

@@ -1,4 +1,4 @@
-// Forward kinematics of a URDF by other means than the page's: matrices of three columns, turned by quaternions.
+// Forward kinematics of a URDF by a method independent of the page: rotation matrices from quaternions.
 import { readFileSync } from "node:fs";
 
 const attribute = (text, name) => text?.match(new RegExp(`\\b${name}="([^"]*)"`))?.[1];
@@ -7,7 +7,7 @@ const numbers = (text, usual) => (text ?? usual).trim().split(/\s+/).map(Number)
 /** The joints of a URDF, as they stand in the file. */
 export function joints(file) {
   const found = readFileSync(file, "utf8").matchAll(/<joint\b([^>]*)>([\s\S]*?)<\/joint>/g);
-  // A transmission names joints too.
+  // A transmission also names joints.
   return [...found].filter(([, , body]) => body.includes("<child")).map(([, head, body]) => {
     const tag = (name) => body.match(new RegExp(`<${name}\\b[^>]*>`))?.[0];
     const mimic = tag("mimic");
@@ -48,7 +48,7 @@ export function links(all, values, [x, y, z, qx, qy, qz, qw]) {
   const poses = new Map([[base, { p: [x, y, z], q: [qw / length, qx / length, qy / length, qz / length] }]]);
   const value = ({ name, mimic }) =>
     values[name] ?? (mimic ? mimic.multiplier * value(all.find((other) => other.name === mimic.leader)) + mimic.offset : 0);
-  // In each round at least the joints below those of the round before.
+  // Each round adds at least the children of the joints of the round before.
   for (let round = 0; round < all.length; round++) {
     for (const joint of all) {
       const above = poses.get(joint.parent);

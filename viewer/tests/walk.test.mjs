@@ -1,4 +1,4 @@
-// A walk in the page: numbers against its CSV and the robot's URDF, and what a person does with it.
+// A walk in the page: its numbers are compared with the CSV and the robot's URDF, and user actions are tested.
 import assert from "node:assert/strict";
 import { statSync, writeFileSync } from "node:fs";
 import path from "node:path";
@@ -29,7 +29,7 @@ test("the page opens within three seconds, asks nobody, complains of nothing, an
     const starts = [];
     while (starts.length < 3 && !(starts.at(-1) <= 3000)) {
       const opened = await open(browser, file);
-      // From the start of loading to the first picture: other programs may hold one of the starts up.
+      // The time from the start of loading to the first picture. Other programs may delay single starts.
       starts.push(await opened.evaluate(() => performance.now()));
       assert.deepEqual([opened.failure, opened.requests, opened.complaints], [null, [], []]);
       await opened.context().close();
@@ -56,7 +56,7 @@ test("scrubbing brings the pose of the table's row", async () => {
     const expected = links(all, values, POSE.map((end) => row[`base_${end}`]));
     const off = apart(pose.links, expected);
     assert.ok(off < 1e-9, `sample ${sample}: links are ${off} off`);
-    // The table's own feet, as far as its nine decimals say them.
+    // The feet in the table, to its nine decimals.
     for (const side of ["left", "right"]) {
       ["x", "y", "z"].forEach((end, place) => close(pose.links[`${side[0]}_sole`][4 * place + 3], row[`${side}_${end}`], 2e-8));
     }
@@ -83,7 +83,7 @@ test("a base may be turned in any way", async () => {
   const lines = Array.from({ length: 7 }, (_, sample) => {
     const wave = (place) => Math.sin(1.3 * sample + 2.1 * place);
     const quaternion = [0, 1, 2, 3].map(wave);
-    // A quaternion and its negative are one rotation: every other one is told by the negative.
+    // A quaternion and its negative are the same rotation. Every second one is replaced by its negative.
     const length = Math.hypot(...quaternion);
     return [0.1 * sample, ...names.map((_, place) => 2 * wave(place + 5)), wave(11), wave(12), wave(13), ...quaternion.map((x) => (sample % 2 ? -x : x) / length)];
   });
@@ -95,7 +95,7 @@ test("a base may be turned in any way", async () => {
     const off = apart(pose.links, links(arm, Object.fromEntries(names.map((name) => [name, row[`q:${name}`]])), POSE.map((end) => row[`base_${end}`])));
     assert.ok(off < 1e-9, `links are ${off} off`);
   }
-  // Half way between two samples the quaternion is that of the middle of the arc: their sum, of length one, the second one turned to the first.
+  // At the midpoint of two samples the quaternion is their normalised sum, with equal signs.
   const [a, b] = lines.slice(2, 4).map((line) => line.slice(-4));
   const sign = a.reduce((sum, x, place) => sum + x * b[place], 0) < 0 ? -1 : 1;
   const sum = a.map((x, place) => x + sign * b[place]);
@@ -173,7 +173,7 @@ test("dark and light follow the system until they are switched", async () => {
   const [bright, dim] = [await ground(light), await ground(dark)];
   assert.notEqual(bright, dim);
   await light.emulateMedia({ colorScheme: "dark" });
-  // Pages hear of the system's change a little later.
+  // Pages receive the system's theme change with a delay.
   await light.waitForFunction((dim) => getComputedStyle(document.body).backgroundColor === dim, dim);
   await light.getByRole("button", { name: "Dark or light" }).click();
   assert.equal(await ground(light), bright);

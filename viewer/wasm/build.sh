@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes viewer/dist/groebot.wasm, or the file that is named. Its bytes depend on where the sources stand, its answers do not: compare.mjs.
+# Builds viewer/dist/groebot.wasm, or the given file. Its bytes depend on the path of the sources; its results do not: compare.mjs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 out=${1:-../dist/groebot.wasm}

@@ -1,5 +1,5 @@
-// Whether two builds of groebot.wasm answer alike, to the last letter: node compare.mjs ONE OTHER.
-// Bytes of two builds differ by where the sources stand; answers must not.
+// Checks that two builds of groebot.wasm return identical responses: node compare.mjs ONE OTHER. Bytes of two builds
+// differ with the path of the sources; responses must not.
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";

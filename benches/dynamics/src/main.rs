@@ -1,4 +1,4 @@
-//! Times equations of motion, printed and by the library, beside Pinocchio: one interleaved run, medians of processor time.
+//! Times of equations of motion, as generated code and by the library, compared with Pinocchio: one interleaved run, medians of processor time.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::ffi::{CString, c_char, c_double, c_int};
@@ -22,9 +22,9 @@ mod humanoid {
     include!(concat!(env!("OUT_DIR"), "/humanoid.rs"));
 }
 
-/// States that all contenders go through.
+/// Number of states that each contender computes.
 const STATES: usize = 256;
-/// Rounds of which the median counts.
+/// Number of rounds. The median is reported.
 const ROUNDS: usize = 61;
 const FUNCTIONS: [&str; 6] = ["inverse", "gravity", "inertia", "coriolis", "forward", "derivatives"];
 
@@ -61,12 +61,12 @@ fn now() -> f64 {
     time.seconds as f64 * 1e9 + time.nanoseconds as f64
 }
 
-/// Counts what is allocated: calls of the library must not.
+/// Counts allocations. Calls of the library must not allocate.
 struct Counting;
 
 static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
 
-// SAFETY: all is handed on to the system's allocator.
+// SAFETY: all calls are forwarded to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
@@ -81,7 +81,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// Who computes something: a call goes through all states.
+/// A contender: one call computes all states.
 struct Contender<'a> {
     who: &'static str,
     function: usize,
@@ -117,7 +117,7 @@ fn states(equations: &Equations, base: Base) -> States {
     States { q, v: list(), a: list() }
 }
 
-/// The library on the model as it is read.
+/// The library, applied to the description.
 fn library<'a>(equations: &'a Equations, states: &'a States) -> Vec<Contender<'a>> {
     let contender = |function: usize| {
         let mut room = equations.workspace();
@@ -171,7 +171,7 @@ macro_rules! printed {
                     let (q, v, a) = (black_box(&q[i]).as_ptr(), v[i].as_ptr(), a[i].as_ptr());
                     let [first, second] = &mut out;
                     let (first, second) = (first.as_mut_ptr(), second.as_mut_ptr());
-                    // SAFETY: the arrays are as long as the printed header says.
+                    // SAFETY: the arrays have the lengths in the generated header.
                     unsafe {
                         match function {
                             0 => $c::inverse(q, v, a, first),
@@ -254,7 +254,7 @@ mod pinocchio {
         assert_eq!(unsafe { pinocchio_freedoms(robot) } as usize, freedoms, "{}", case.name);
         let run = |which: c_int| Box::new(move || drop(black_box(unsafe { pinocchio_run(robot, which) })));
         let own = (0..6).map(|function| Contender { who: "Pinocchio", function, run: run(function as c_int) });
-        // Pinocchio has two ways each; the faster one counts.
+        // Pinocchio has two methods for each quantity. The faster one is reported.
         let others =
             [(2, 6), (4, 7)].map(|(function, which)| Contender { who: "Pinocchio", function, run: run(which) });
         own.chain(others).collect()

@@ -1,4 +1,4 @@
-//! Times fields beside scikit-fmm and scikit-image: one interleaved run, medians of processor time, and the most memory at a time.
+//! Times of distance fields compared with scikit-fmm and scikit-image: one interleaved run, medians of processor time, and the memory peak.
 
 mod maps;
 mod measure;
@@ -13,21 +13,21 @@ use nalgebra::{Point2, Vector2};
 use measure::{Peak, median, now};
 use peers::Peers;
 
-/// Calls of each of ours in a round.
+/// Number of calls of each groebot method in a round.
 const CALLS: usize = 3;
-/// Cells of a side, and rounds; the median of all calls counts.
+/// Cells of a side, and number of rounds. The median of all calls is reported.
 const SIDES: [(usize, usize); 3] = [(400, 7), (1000, 5), (2000, 3)];
 
-/// Who makes a field, and what it took: nanoseconds by round, bytes at most.
+/// A contender with its results: nanoseconds of each round, and the maximum number of bytes.
 struct Contender<'a> {
     who: &'static str,
-    /// What is measured, with what has to be there before.
+    /// The measured call. Its inputs are prepared before.
     run: Box<dyn Fn() -> (f64, usize) + 'a>,
     times: Vec<f64>,
     bytes: usize,
 }
 
-/// A floor with a goal, and the same with a chair.
+/// A floor with a goal, and the same floor with a chair.
 struct Case {
     map: Map,
     goal: Point2<f64>,
@@ -73,7 +73,7 @@ fn contender<'a>(who: &'static str, run: impl Fn() -> (f64, usize) + 'a) -> Cont
     Contender { who, run: Box::new(run), times: Vec::new(), bytes: 0 }
 }
 
-/// The time of a call and the most memory that it takes.
+/// The time of a call and its memory peak.
 fn measured<T>(run: impl FnOnce() -> T) -> (f64, usize) {
     let (peak, from) = (Peak::from_here(), now());
     let value = black_box(run());

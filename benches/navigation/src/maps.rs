@@ -1,4 +1,4 @@
-//! Floors from seeds.
+//! Pseudorandom floors.
 
 use groebot::nav::{Cell, Map, Shape};
 use nalgebra::Point2;
@@ -7,7 +7,7 @@ use nalgebra::Point2;
 pub struct Random(pub u64);
 
 impl Random {
-    /// Between nought and one.
+    /// A number between 0 and 1.
     pub fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -15,29 +15,29 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Below a count.
+    /// An integer below `count`.
     pub fn below(&mut self, count: usize) -> usize {
         (self.number() * count as f64) as usize
     }
 }
 
-/// What stands on a floor.
+/// Kinds of floors.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Floor {
     /// Eight by eight rooms with doors.
     Rooms,
     /// Discs that cover about a quarter.
     Obstacles,
-    /// One cell in five, each by itself.
+    /// One cell in five, at random.
     Cells,
-    /// Corridors of one cell between walls of one.
+    /// Corridors of one cell between walls of one cell.
     Maze,
 }
 
 pub const FLOORS: [(&str, Floor); 4] =
     [("rooms", Floor::Rooms), ("obstacles", Floor::Obstacles), ("cells", Floor::Cells), ("maze", Floor::Maze)];
 
-/// A square map of so many cells a side, 0.05 m each.
+/// A square map with `side` cells per side, 0.05 m each.
 pub fn map(floor: Floor, side: usize) -> Map {
     let mut random = Random(side as u64);
     let cells = match floor {
@@ -53,7 +53,7 @@ pub fn map(floor: Floor, side: usize) -> Map {
     if floor == Floor::Obstacles { map.with(&discs(side, 150, 0.025, &mut random)).unwrap() } else { map }
 }
 
-/// The same with forty discs of speeds between 0.3 and 3.
+/// Same map, but with forty discs with speeds between 0.3 and 3.
 pub fn with_speeds(map: Map) -> Map {
     let mut random = Random(7);
     let discs = discs(map.columns(), 40, 0.1, &mut random);
@@ -96,7 +96,7 @@ fn rooms(side: usize, random: &mut Random) -> Vec<Cell> {
     cells
 }
 
-/// A tree that grows from its last branch that can (depth first).
+/// A maze by depth-first search.
 fn maze(side: usize, random: &mut Random) -> Vec<Cell> {
     let mut cells = vec![Cell::Occupied; side * side];
     let nodes = side.div_ceil(2);

@@ -21,19 +21,19 @@ pub fn now() -> f64 {
     time.seconds as f64 * 1e9 + time.nanoseconds as f64
 }
 
-/// The middle one, of which there is one at least.
+/// The median of a nonempty list.
 pub fn median(times: &mut [f64]) -> f64 {
     times.sort_by(f64::total_cmp);
     times[times.len() / 2]
 }
 
-/// Counts bytes that are in use, and the most since a peak was begun.
+/// Counts the bytes in use, and their maximum since the beginning of a measurement.
 struct Counting;
 
 static IN_USE: AtomicUsize = AtomicUsize::new(0);
 static MOST: AtomicUsize = AtomicUsize::new(0);
 
-// SAFETY: all is handed on to the system's allocator.
+// SAFETY: all calls are forwarded to the system's allocator.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         taken(layout.size());
@@ -46,7 +46,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // Both may be there for a while.
+        // Both blocks may exist at the same time.
         taken(size);
         IN_USE.fetch_sub(layout.size(), Relaxed);
         unsafe { System.realloc(pointer, layout, size) }
@@ -66,7 +66,7 @@ fn taken(bytes: usize) {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// The most memory from here on.
+/// The memory peak from here on.
 pub struct Peak(usize);
 
 impl Peak {

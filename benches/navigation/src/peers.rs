@@ -1,4 +1,4 @@
-//! Other programs, in a child process of Python.
+//! Other programs, in a Python child process.
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ pub struct Peers {
 }
 
 impl Peers {
-    /// By the Python that `PYTHON` names.
+    /// Starts them with the Python of `PYTHON`.
     pub fn start() -> Self {
         let python = std::env::var("PYTHON").unwrap_or_else(|_| "python3".to_owned());
         let script = concat!(env!("CARGO_MANIFEST_DIR"), "/peers.py");
@@ -27,7 +27,7 @@ impl Peers {
         Peers { child, answers, file, question: String::new() }
     }
 
-    /// Gives them a map and a goal on it.
+    /// Sends them a map and a goal.
     pub fn give(&mut self, map: &Map, goal: usize) {
         let count = map.cells().len();
         let mut bytes: Vec<u8> = (0..count).map(|cell| u8::from(map.is_free(cell))).collect();

@@ -1,5 +1,5 @@
-//! One run that holds what matters of each solver beside its peers, as CSV on the standard output: times, the accuracy at the worst of many
-//! ordinary poses, poses lost and answers wrong there and where the robot is singular.
+//! Comparison of each solver with its peers in one run, as CSV on standard output: times, the worst accuracy over many ordinary poses, and lost poses and wrong
+//! solutions at ordinary and singular poses.
 //!
 //!     cd benches/peers && cargo bench --bench census > ../record/YYYY-MM-DD-peers.csv
 
@@ -20,7 +20,7 @@ use groebot_peers::inputs::{COUNT, many_poses, singular_poses};
 use groebot_peers::rounds::{Contender, medians};
 use groebot_peers::{Joints, Pairs};
 
-/// Ordinary poses, and singular ones.
+/// Number of ordinary poses, and of singular ones.
 const ORDINARY: usize = 100_000;
 const SINGULAR: usize = 10_000;
 const ROBOTS: [&str; 9] = [
@@ -35,13 +35,13 @@ const ROBOTS: [&str; 9] = [
     "spherical_wrist",
 ];
 
-/// All answers to a pose.
+/// Computes all solutions of a pose.
 type Solutions<'a> = dyn Fn(&Pose) -> Vec<Joints> + 'a;
 
-/// The same, to a printed solver's target.
+/// Same as `Solutions`, but for the target of a generated solver.
 type ByTarget<'a> = dyn Fn(&Target) -> Vec<Joints> + 'a;
 
-/// A solver: how it goes over all poses, over the first of them, and over joint vectors, and what it answers to one pose.
+/// A solver: functions that solve all poses, the first poses and joint vectors, and one that returns the solutions of a pose.
 struct Solver<'a> {
     name: &'static str,
     pass: Box<dyn Fn(usize) + 'a>,
@@ -53,7 +53,7 @@ fn main() {
     println!(
         "robot,solver,pose_ns,mean_ns,forward_ns,poses,lost,wrong,worst_position,worst_rotation,singular,singular_lost,singular_wrong,commit"
     );
-    // Batches are solved by one thread, this one, of which the time is taken.
+    // Batches are solved by this thread alone, whose time is measured.
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build_global();
     alone.expect("no other pool");
     let only: Vec<String> = std::env::args().skip(1).filter(|name| !name.starts_with('-')).collect();
@@ -116,7 +116,7 @@ fn pass_of<'a>(solver: &'a Solver<'_>) -> &'a dyn Fn(usize) {
     &solver.pass
 }
 
-/// One target at a time, and the same by cosines and sines.
+/// One target at a time, with angles and with cosines and sines.
 fn ours<'a>(name: &str, chain: &'a Chain, poses: &[Pose], q: &'a [Joints]) -> Vec<Solver<'a>> {
     let printed = by_print::solver(name).expect("a printed solver");
     let solver = |name, pass: fn(&[Target]) -> usize, solutions: Box<ByTarget<'a>>| {
@@ -128,7 +128,7 @@ fn ours<'a>(name: &str, chain: &'a Chain, poses: &[Pose], q: &'a [Joints]) -> Ve
     ]
 }
 
-/// All targets as one batch, and the same by cosines and sines.
+/// All targets as one batch, with angles and with cosines and sines.
 fn ours_by_batch<'a>(name: &str, chain: &'a Chain, poses: &[Pose], q: &'a [Joints]) -> Vec<Solver<'a>> {
     let printed = by_print::solver(name).expect("a printed solver");
     let Some(batches) = by_batch::solver(name) else { return Vec::new() };
@@ -145,7 +145,7 @@ fn ours_by_batch<'a>(name: &str, chain: &'a Chain, poses: &[Pose], q: &'a [Joint
     ]
 }
 
-/// In C by one compiler: one target at a time, and all as one batch.
+/// C code of one compiler: one target at a time, and all as one batch.
 fn ours_in_c<'a>(compiled: &'static Compiled, poses: &[Pose], q: &'a [Joints]) -> [Solver<'a>; 2] {
     let [one, many] = compiled.names();
     let forward = |all: &[Joints]| compiled.forward(all);
@@ -156,7 +156,7 @@ fn ours_in_c<'a>(compiled: &'static Compiled, poses: &[Pose], q: &'a [Joints]) -
     ]
 }
 
-/// By the library: one target at a time, and all as one batch.
+/// The library: one target at a time, and all as one batch.
 fn ours_as_read<'a>(read: &'a Read, poses: &[Pose], q: &'a [Joints]) -> [Solver<'a>; 2] {
     let forward = |all: &[Joints]| read.forward(all);
     let solutions = || Box::new(|target: &Target| read.solutions(target));

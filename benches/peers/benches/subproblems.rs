@@ -1,4 +1,5 @@
-//! Nanoseconds per subproblem on random reachable inputs: ours beside ik-geo's, whose axes pass through the origin.
+//! Nanoseconds per subproblem on random reachable inputs: groebot compared with ik-geo, whose axes pass through the
+//! origin.
 //!
 //!     cd benches/peers && cargo bench --bench subproblems
 

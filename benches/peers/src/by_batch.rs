@@ -1,29 +1,29 @@
-//! groebot's printed solvers, many targets at a time.
+//! groebot's generated solvers, many targets at a time.
 
 use groebot_runtime::Solve;
 
 use crate::by_print::{self as printed, Target};
 use crate::{Joints, Pairs};
 
-/// Targets that a pass solves together.
+/// Number of targets that one call solves.
 const TARGETS: usize = 256;
-/// Answers that there is room for, which is enough for eight of each target.
+/// Number of solutions that fit: eight for each target.
 const ANSWERS: usize = 8 * TARGETS;
 
-/// A printed solver of batches behind functions.
+/// A generated solver of batches as function pointers.
 #[derive(Clone, Copy)]
 pub struct Batches {
-    /// Solves all targets and returns the number of all answers.
+    /// Solves all targets and returns the number of all solutions.
     pub pass: fn(&[Target]) -> usize,
-    /// The same by cosines and sines, without angles.
+    /// Same as `pass`, but with cosines and sines instead of angles.
     pub pass_by_pairs: fn(&[Target]) -> usize,
-    /// All answers of one target.
+    /// Returns all solutions of one target.
     pub solutions: fn(&Target) -> Vec<Joints>,
-    /// As `solutions`, by cosines and sines.
+    /// Same as `solutions`, but with cosines and sines.
     pub pairs: fn(&Target) -> Vec<Pairs>,
 }
 
-/// Solves all targets by a function of a printed solver.
+/// Solves all targets with a function of a generated solver.
 macro_rules! pass {
     ($name:ident, $answer:ident, $solve:ident, $targets:ident) => {{
         let mut out = vec![printed::$name::$answer::empty(&printed::$name::Solver); ANSWERS];
@@ -39,7 +39,7 @@ macro_rules! pass {
     }};
 }
 
-/// Declares the choice among the printed solvers by name.
+/// Declares the selection of generated solvers by name.
 macro_rules! batches {
     ($($name:ident),* $(,)?) => {
         /// The solver of the robot with this name.

@@ -1,9 +1,9 @@
-//! groebot's printed solvers in C, the files `5_solver.c` of `derivations/` with the run time in one translation unit, as `build.rs` compiles them.
+//! groebot's generated C solvers: the files `5_solver.c` of `derivations/`, with the run time in one translation unit, compiled by `build.rs`.
 
 use crate::Joints;
 use crate::by_print::Target;
 
-/// A printed solver as a compiler has compiled it.
+/// A generated solver, compiled by one compiler.
 pub struct Compiled {
     robot: &'static str,
     compiler: &'static str,
@@ -15,16 +15,16 @@ pub struct Compiled {
 
 include!(concat!(env!("OUT_DIR"), "/printed_c.rs"));
 
-/// The most solutions of a target that [`Compiled::solutions`] has room for: more than the capacity of each printed solver.
+/// Maximum number of solutions in [`Compiled::solutions`], which is above the capacity of each generated solver.
 const ROOM: usize = 64;
 
-/// The solvers of the robot with this name, one a compiler.
+/// The solvers of the robot with this name, one for each compiler.
 pub fn solvers(robot: &str) -> impl Iterator<Item = &'static Compiled> {
     COMPILED.iter().filter(move |compiled| compiled.robot == robot)
 }
 
 impl Compiled {
-    /// What a record calls it: one target at a time, and many.
+    /// Its names in a record: one target at a time, and many.
     pub fn names(&self) -> [&'static str; 2] {
         if self.compiler == "gcc" {
             ["groebot-c-gcc", "groebot-c-gcc-batch"]
@@ -33,22 +33,22 @@ impl Compiled {
         }
     }
 
-    /// Solves all targets one by one and returns the number of all answers.
+    /// Solves all targets one by one and returns the number of all solutions.
     pub fn pass(&self, targets: &[Target]) -> usize {
-        // SAFETY: the function reads twelve numbers a target.
+        // SAFETY: the function reads twelve numbers for each target.
         unsafe { (self.pass)(targets.as_ptr().cast(), targets.len()) }
     }
 
-    /// Solves all targets as batches and returns the number of all answers.
+    /// Solves all targets as batches and returns the number of all solutions.
     pub fn batch(&self, targets: &[Target]) -> usize {
-        // SAFETY: the function reads twelve numbers a target.
+        // SAFETY: the function reads twelve numbers for each target.
         unsafe { (self.batch)(targets.as_ptr().cast(), targets.len()) }
     }
 
-    /// All answers of one target.
+    /// Returns all solutions of one target.
     pub fn solutions(&self, target: &Target) -> Vec<Joints> {
         let mut q = vec![[0.0; 6]; ROOM];
-        // SAFETY: the function reads twelve numbers, and writes six for each answer, of which there are fewer than `ROOM`.
+        // SAFETY: the function reads twelve numbers, and writes six for each solution. There are fewer than `ROOM` solutions.
         let count = unsafe { (self.solutions)(target.as_ptr(), q.as_mut_ptr().cast()) };
         q.truncate(count);
         q
@@ -56,7 +56,7 @@ impl Compiled {
 
     /// Forward kinematics of all joint vectors.
     pub fn forward(&self, all: &[Joints]) {
-        // SAFETY: the function reads six numbers a vector.
+        // SAFETY: the function reads six numbers for each vector.
         unsafe { (self.forward)(all.as_ptr().cast(), all.len()) }
     }
 }

@@ -1,4 +1,4 @@
-//! ik-geo: a robot is its axes and the shifts from axis to axis at zero; the caller names the family.
+//! ik-geo: a robot is given by its axes and by the offsets between them at zero. The caller selects the family.
 
 use groebot::kinematics::Chain;
 use groebot::spatial::{Axis, Pose, Screw};
@@ -10,18 +10,19 @@ use crate::Joints;
 /// One of ik-geo's families with a closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Family {
-    /// Axes 4, 5, 6 meet; 2 and 3 are parallel.
+    /// Axes 4, 5, 6 intersect; 2 and 3 are parallel.
     SphericalTwoParallel,
-    /// Axes 4, 5, 6 meet; so do 1 and 2.
+    /// Axes 4, 5, 6 intersect, and so do axes 1 and 2.
     SphericalTwoIntersecting,
-    /// Axes 4, 5, 6 meet.
+    /// Axes 4, 5, 6 intersect.
     Spherical,
-    /// Axes 2, 3, 4 are parallel; 5 and 6 meet.
+    /// Axes 2, 3, 4 are parallel; 5 and 6 intersect.
     ThreeParallelTwoIntersecting,
 }
 
 impl Family {
-    /// The family that solves the robot of this name; `true` when its chain has to be turned round: its first axes meet.
+    /// The family that solves the robot with this name; `true` if its chain must be reversed, because its first axes
+    /// intersect.
     pub fn of(name: &str) -> Option<(Family, bool)> {
         match name {
             "irb120" => Some((Family::SphericalTwoParallel, false)),
@@ -34,18 +35,18 @@ impl Family {
     }
 }
 
-/// A robot as ik-geo takes it.
+/// A robot in ik-geo's format.
 pub struct IkGeo {
     robot: Robot,
     base_from_tip: Pose,
     reversed: bool,
 }
 
-/// A pose as ik-geo takes it.
+/// A pose in ik-geo's format.
 pub type Target = (Matrix3<f64>, Vector3<f64>);
 
 impl IkGeo {
-    /// The robot of `chain`, if ik-geo has a closed form for it.
+    /// Converts `chain`, if ik-geo has a closed form for it.
     pub fn new(chain: &Chain) -> Option<Self> {
         let (family, reversed) = Family::of(chain.name())?;
         let mut axes = chain.screws().iter().map(axis_of).collect::<Option<Vec<Axis>>>()?;
@@ -58,33 +59,33 @@ impl IkGeo {
         Some(IkGeo { robot, base_from_tip, reversed })
     }
 
-    /// `pose` of the tip in the base frame, in ik-geo's terms.
+    /// Converts `pose`, that of the tip in the base frame, to ik-geo's format.
     pub fn target(&self, pose: &Pose) -> Target {
         let pose = if self.reversed { pose.inverse() } else { *pose };
         let rotation = (pose.rotation * self.base_from_tip.rotation.inverse()).to_rotation_matrix().into_inner();
         (Matrix3::from_fn(|i, j| rotation[(i, j)]), vector(&pose.translation.vector))
     }
 
-    /// ik-geo's own answers: joint values and whether they are only nearest.
+    /// ik-geo's solutions: joint values, and whether they are only a least-squares approximation.
     pub fn solve(&self, target: &Target) -> Vec<(ik_geo::nalgebra::Vector6<f64>, bool)> {
         self.robot.ik(target.0, target.1)
     }
 
-    /// Forward kinematics of all joint vectors of our chain.
+    /// Forward kinematics of all joint vectors with groebot's chain.
     pub fn forward(&self, all: &[Joints]) {
         for q in all {
             std::hint::black_box(self.robot.fk(std::hint::black_box(q)));
         }
     }
 
-    /// The answers that ik-geo calls exact, as joint values of our chain.
+    /// The solutions that ik-geo reports as exact, as joint values of groebot's chain.
     pub fn solutions(&self, target: &Target) -> Vec<Joints> {
         let exact = self.solve(target).into_iter().filter(|(_, is_nearest)| !is_nearest);
         exact.map(|(q, _)| std::array::from_fn(|i| if self.reversed { q[5 - i] } else { q[i] })).collect()
     }
 }
 
-/// `v` in ik-geo's own version of nalgebra.
+/// Converts `v` to the version of nalgebra that ik-geo uses.
 pub fn vector(v: &nalgebra::Vector3<f64>) -> Vector3<f64> {
     Vector3::new(v.x, v.y, v.z)
 }
@@ -96,7 +97,7 @@ fn axis_of(screw: &Screw) -> Option<Axis> {
     }
 }
 
-/// `axis` seen from the tip: turning the base about it is turning the tip the other way.
+/// `axis` in the tip frame of the reversed chain: a rotation of the base about it is the opposite rotation of the tip.
 fn turned_round(axis: &Axis, tip_from_base: &Pose) -> Axis {
     let direction = -(tip_from_base.rotation * axis.direction().into_inner());
     Axis::new(direction, tip_from_base * axis.point()).expect("a chain's axis")
@@ -114,7 +115,7 @@ fn robot_of(family: Family, axes: &[Axis], base_from_tip: &Pose) -> Robot {
     }
 }
 
-/// The base, a point of each axis, the tip. Axes that meet are given by the point where they do.
+/// The base, a point of each axis, the tip. Intersecting axes have their point of intersection.
 fn points_of(family: Family, axes: &[Axis], base_from_tip: &Pose) -> Vec<[f64; 3]> {
     let mut points: Vec<[f64; 3]> = axes.iter().map(|axis| axis.point().into()).collect();
     let meeting = |a: usize, b: usize| -> [f64; 3] {

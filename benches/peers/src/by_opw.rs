@@ -1,4 +1,4 @@
-//! rs-opw-kinematics: arms with a parallel base and a spherical wrist, by seven lengths. Its frame has z up.
+//! rs-opw-kinematics: arms with a parallel base and a spherical wrist, given by seven lengths. Its frame has z up.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,7 +12,7 @@ use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
 
 use crate::Joints;
 
-/// A robot as rs-opw-kinematics takes it.
+/// A robot in the format of rs-opw-kinematics.
 pub struct Opw {
     robot: OPWKinematics,
     opw_from_base: UnitQuaternion<f64>,
@@ -20,7 +20,7 @@ pub struct Opw {
 }
 
 impl Opw {
-    /// The robot of `chain`, if it is one of those below.
+    /// Converts `chain`, if it is one of those below.
     pub fn new(chain: &Chain) -> Option<Self> {
         let (parameters, opw_from_base) = parameters_of(chain.name())?;
         let robot = OPWKinematics::new(parameters);
@@ -30,7 +30,7 @@ impl Opw {
         Some(Opw { robot, opw_from_base, tip_from_flange })
     }
 
-    /// `pose` of the tip in the base frame, in the terms of rs-opw-kinematics.
+    /// Converts `pose`, that of the tip in the base frame, to the format of rs-opw-kinematics.
     pub fn target(&self, pose: &Pose) -> OpwPose {
         let position = self.opw_from_base * pose.translation.vector;
         let rotation = self.opw_from_base * pose.rotation * self.tip_from_flange;
@@ -38,14 +38,14 @@ impl Opw {
         OpwPose::from_parts(DVec3::new(position.x, position.y, position.z), DQuat::from_xyzw(x, y, z, w))
     }
 
-    /// Forward kinematics of all joint vectors of our chain.
+    /// Forward kinematics of all joint vectors with groebot's chain.
     pub fn forward(&self, all: &[Joints]) {
         for q in all {
             std::hint::black_box(self.robot.forward(std::hint::black_box(q)));
         }
     }
 
-    /// The answers of rs-opw-kinematics, which are joint values of our chain: its offsets are set so.
+    /// The solutions of rs-opw-kinematics. Its offsets are set so that they are joint values of groebot's chain.
     pub fn solutions(&self, target: &OpwPose) -> Vec<Joints> {
         self.robot.inverse(target)
     }
@@ -55,7 +55,7 @@ fn quaternion(q: &DQuat) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(nalgebra::Quaternion::new(q.w, q.x, q.y, q.z))
 }
 
-/// Lengths \[m\], the angles of its zero at ours, and how its frame stands to ours.
+/// Lengths \[m\], the angles of its zero configuration in our joint values, and the orientation of its frame in ours.
 fn parameters_of(name: &str) -> Option<(Parameters, UnitQuaternion<f64>)> {
     let lengths = Parameters {
         a1: 0.0,
@@ -71,13 +71,14 @@ fn parameters_of(name: &str) -> Option<(Parameters, UnitQuaternion<f64>)> {
     };
     let quarter = -FRAC_PI_2;
     match name {
-        // The forearm lies along x and the tool points down where its own zero has everything upright.
+        // At our zero configuration the forearm is along x and the tool points down. At its own zero configuration all
+        // links are upright.
         "irb120" => {
             let offsets = [0.0, 0.0, quarter, 0.0, quarter, 0.0];
             let parameters = Parameters { a2: -0.07, c1: 0.29, c2: 0.27, c3: 0.302, c4: 0.16, offsets, ..lengths };
             Some((parameters, UnitQuaternion::identity()))
         }
-        // y is up and z ahead; the tool points ahead.
+        // y is up and z is forward; the tool points forward.
         "puma" => {
             let offsets = [0.0, 0.0, 0.0, 0.0, quarter, 0.0];
             let parameters = Parameters { c1: 0.66, c2: 0.432, c3: 0.432, c4: 0.15, offsets, ..lengths };

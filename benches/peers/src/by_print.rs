@@ -1,4 +1,4 @@
-//! groebot's printed solvers, the files `5_solver.rs` of `derivations/`.
+//! groebot's generated solvers: the files `5_solver.rs` of `derivations/`.
 
 use groebot::spatial::Pose;
 use groebot_runtime::Solve;
@@ -8,22 +8,22 @@ use crate::{Joints, Pairs};
 /// The twelve numbers of a target: a position, and a rotation by rows.
 pub type Target = [f64; 12];
 
-/// A printed solver behind functions.
+/// A generated solver as function pointers.
 #[derive(Clone, Copy)]
 pub struct Printed {
-    /// Solves all targets and returns the number of all answers.
+    /// Solves all targets and returns the number of all solutions.
     pub pass: fn(&[Target]) -> usize,
-    /// All answers of one target.
+    /// Returns all solutions of one target.
     pub solutions: fn(&Target) -> Vec<Joints>,
-    /// As `pass`, by cosines and sines.
+    /// Same as `pass`, but with cosines and sines.
     pub pass_by_pairs: fn(&[Target]) -> usize,
-    /// As `solutions`, by cosines and sines.
+    /// Same as `solutions`, but with cosines and sines.
     pub pairs: fn(&Target) -> Vec<Pairs>,
     /// Forward kinematics of all joint vectors.
     pub forward: fn(&[Joints]),
 }
 
-/// Solves all targets by a function of a printed solver.
+/// Solves all targets with a function of a generated solver.
 macro_rules! pass {
     ($name:ident, $answer:ident, $solve:ident, $targets:ident) => {{
         let mut out = [$name::$answer::empty(&$name::Solver); $name::CAPACITY];
@@ -36,7 +36,7 @@ macro_rules! pass {
     }};
 }
 
-/// Declares the printed solvers and the choice among them by name.
+/// Declares the generated solvers and their selection by name.
 macro_rules! printed {
     ($($name:ident: $file:literal),* $(,)?) => {
         $(
@@ -45,7 +45,7 @@ macro_rules! printed {
             pub(crate) mod $name;
         )*
 
-        /// The printed solver of the robot with this name.
+        /// The generated solver of the robot with this name.
         pub fn solver(name: &str) -> Option<Printed> {
             match name {
                 $(
@@ -88,7 +88,7 @@ printed! {
     ur5: "../../../derivations/ur5/5_solver.rs",
 }
 
-/// `pose` as a printed solver takes it.
+/// Converts `pose` to the target of a generated solver.
 pub fn target(pose: &Pose) -> Target {
     let (position, rotation) = (pose.translation.vector, pose.rotation.to_rotation_matrix());
     std::array::from_fn(|i| if i < 3 { position[i] } else { rotation[((i - 3) / 3, i % 3)] })

@@ -1,30 +1,30 @@
-//! What answers are worth on forward kinematics: [`Census`].
+//! Quality of solutions by forward kinematics: [`Census`].
 
 use groebot::kinematics::Chain;
 use groebot::spatial::Pose;
 
 use crate::Joints;
 
-/// An answer that misses its pose by more than this, as a share of the reach or in rad, is wrong.
+/// Residual of the pose above which a solution is wrong, as a fraction of the reach or in rad.
 pub const WRONG: f64 = 1e-6;
 
-/// A solver's answers to many poses.
+/// Statistics of a solver's solutions for many poses.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Census {
     /// Poses.
     pub poses: usize,
-    /// Those without a right answer.
+    /// Poses without a correct solution.
     pub lost: usize,
-    /// Those with a wrong answer.
+    /// Poses with a wrong solution.
     pub wrong: usize,
-    /// The farthest that a right answer misses the position, as a share of the reach.
+    /// The largest position error of a correct solution, as a fraction of the reach.
     pub position: f64,
-    /// The farthest that a right answer misses the rotation \[rad\].
+    /// The largest rotation error of a correct solution \[rad\].
     pub rotation: f64,
 }
 
 impl Census {
-    /// Counts `solve`'s answers to `poses`, which `chain` reaches.
+    /// Counts the solutions that `solve` returns for `poses`, which `chain` reaches.
     pub fn of(chain: &Chain, poses: &[Pose], solve: impl Fn(&Pose) -> Vec<Joints>) -> Self {
         let mut census = Census { poses: poses.len(), ..Census::default() };
         for pose in poses {
@@ -41,8 +41,8 @@ impl Census {
     }
 }
 
-/// How far joint values miss a pose: the distance as a share of the reach, and the angle between the rotations, by the part of their
-/// quotient that is not symmetric.
+/// The error of joint values for a pose: the distance as a fraction of the reach, and the angle between the rotations, from the antisymmetric part of their
+/// quotient.
 fn miss(chain: &Chain, q: &Joints, pose: &Pose) -> [f64; 2] {
     let Ok(reached) = chain.forward(q) else { return [f64::INFINITY; 2] };
     let position = (reached.translation.vector - pose.translation.vector).norm() / chain.reach();

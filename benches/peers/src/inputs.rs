@@ -1,4 +1,4 @@
-//! Random inputs that are the same on every machine.
+//! Pseudorandom inputs that are equal on every machine.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use groebot::kinematics::Chain;
 use groebot::spatial::{Axis, Pose};
 use nalgebra::{Point3, Vector3};
 
-/// How many inputs a measurement goes over.
+/// Number of inputs of a measurement.
 pub const COUNT: usize = 256;
 
 /// SplitMix64 (Steele, Lea and Flood 2014).
@@ -21,17 +21,17 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Even in `low..high`.
+    /// A number, uniform in `low..high`.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// An angle, even on the circle \[rad\].
+    /// An angle, uniform on the circle \[rad\].
     pub fn angle(&mut self) -> f64 {
         self.between(-PI, PI)
     }
 
-    /// A vector in the cube from -1 to 1, not near its middle.
+    /// A vector in the cube from -1 to 1, not near its centre.
     pub fn vector(&mut self) -> Vector3<f64> {
         loop {
             let v = Vector3::from_fn(|_, _| self.between(-1.0, 1.0));
@@ -52,12 +52,12 @@ impl Random {
     }
 }
 
-/// `COUNT` joint vectors of `chain`, even on the circles, and the poses of its tip in its length unit.
+/// `COUNT` joint vectors of `chain`, uniform on the circles, and the poses of its tip in its length unit.
 pub fn poses(chain: &Chain) -> Vec<(Vec<f64>, Pose)> {
     many_poses(chain, COUNT)
 }
 
-/// So many of them.
+/// Same as [`poses`], but with `count` poses.
 pub fn many_poses(chain: &Chain, count: usize) -> Vec<(Vec<f64>, Pose)> {
     let mut random = Random(7);
     let joints = chain.joints().len();
@@ -65,11 +65,11 @@ pub fn many_poses(chain: &Chain, count: usize) -> Vec<(Vec<f64>, Pose)> {
     q.map(|q| (q.clone(), chain.forward(&q).expect("finite values"))).collect()
 }
 
-/// Steps of the search for a sign change of the Jacobian's determinant along a turn of a joint.
+/// Number of steps of the search for a sign change of the Jacobian's determinant during one turn of a joint.
 const STEPS: usize = 64;
 
-/// Singular poses that `chain` reaches: from random joint values one joint is turned until the Jacobian's determinant changes its sign,
-/// and that place is halved down to rounding.
+/// Singular poses that `chain` reaches. From random joint values one joint is rotated until the Jacobian's determinant changes its sign. The zero is found by
+/// bisection to rounding.
 pub fn singular_poses(chain: &Chain, count: usize) -> Vec<Pose> {
     let mut random = Random(11);
     let joints = chain.joints().len();

@@ -1,8 +1,9 @@
-//! Peers of groebot behind one interface each, for measurements and for a test that their answers pass our forward kinematics.
+//! Peers of groebot with one interface each, for measurements and for a test of their solutions by groebot's forward kinematics.
 //!
-//! [`by_ik_geo`]: ik-geo (Elias and Wen 2022), closed forms only. [`by_opw`]: rs-opw-kinematics (Brandstoetter, Angerer and Hofbaur
-//! 2014). [`by_print`] and [`by_batch`]: our own, one target at a time and several at once; [`by_c`]: the same in C. [`by_library`]: our own without a compiler. [`inputs`]: the random inputs, always the same. [`rounds`]: the measurement,
-//! interleaved. [`census`]: how many poses are lost, how many answers are wrong, how exact the others are.
+//! [`by_ik_geo`]: ik-geo (Elias and Wen 2022), closed forms only. [`by_opw`]: rs-opw-kinematics (Brandstoetter, Angerer and Hofbaur 2014). [`by_print`] and
+//! [`by_batch`]: groebot, one target at a time and several at once; [`by_c`]: groebot in C. [`by_library`]: groebot without a compiler. [`inputs`]: the
+//! pseudorandom inputs. [`rounds`]: the interleaved measurement. [`census`]: the numbers of lost poses and wrong solutions, and the accuracy of the correct
+//! ones.
 
 pub mod by_batch;
 pub mod by_c;
@@ -14,8 +15,8 @@ pub mod census;
 pub mod inputs;
 pub mod rounds;
 
-/// Joint values in the order and with the signs of our chain \[rad\].
+/// Joint values in the order and with the signs of groebot's chain \[rad\].
 pub type Joints = [f64; 6];
 
-/// By joint: an angle's cosine and sine; a length and zero.
+/// For each joint: an angle's cosine and sine, or a length and zero.
 pub type Pairs = [[f64; 2]; 6];

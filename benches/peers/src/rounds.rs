@@ -1,6 +1,5 @@
-//! The measurement: contenders take turns, round by round, so that a change of the machine's speed meets all of them, and the time is that
-//! of the processor. The result
-//! is written as Criterion writes its own, for `record_benches` of the main package.
+//! The measurement. Contenders take turns, round by round, so that a change of the machine's speed affects all of them. The processor time is measured. The
+//! result is written in Criterion's format, for `record_benches` of the main package.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -8,19 +7,19 @@ use std::io::Result;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Rounds of one measurement.
+/// Number of rounds of a measurement.
 const ROUNDS: usize = 101;
-/// The least time that one contender is measured in one round.
+/// Minimum time of one contender in one round.
 const TURN: Duration = Duration::from_millis(4);
 
-/// One way to do the work: it goes over all inputs once.
+/// One method: a call processes all inputs once.
 pub struct Contender<'a> {
     name: &'a str,
     pass: Box<dyn FnMut() + 'a>,
 }
 
 impl<'a> Contender<'a> {
-    /// A contender that is called `name`; `pass` goes over all inputs once and hides its results from the optimiser.
+    /// Builds the contender `name`. `pass` processes all inputs once and hides its results from the optimiser.
     pub fn new(name: &'a str, pass: impl FnMut() + 'a) -> Self {
         Contender { name, pass: Box::new(pass) }
     }
@@ -33,7 +32,7 @@ impl<'a> Contender<'a> {
         processor_time() - start
     }
 
-    /// How many passes fill a turn.
+    /// Number of calls that fill a turn.
     fn passes(&mut self) -> u32 {
         let mut passes = 1;
         while self.time(passes) < TURN {
@@ -43,7 +42,7 @@ impl<'a> Contender<'a> {
     }
 }
 
-/// The processor time of this thread: what others do on the machine meanwhile does not count.
+/// The processor time of this thread, which does not include other processes.
 #[cfg(target_os = "linux")]
 fn processor_time() -> Duration {
     #[repr(C)]
@@ -84,7 +83,7 @@ impl Samples {
         [at(n / 2.0 - spread), at(n / 2.0), at(n / 2.0 + spread)]
     }
 
-    /// Writes the three files of Criterion that the record is made of.
+    /// Writes the three Criterion files from which the record is made.
     fn write(&self, target: &Path) -> Result<()> {
         let folder = target.join("criterion").join(&self.bench).join("new");
         fs::create_dir_all(&folder)?;
@@ -97,7 +96,7 @@ impl Samples {
     }
 }
 
-/// The median time per input \[ns\] of each contender over `inputs` inputs a pass, in so many rounds.
+/// The median time per input \[ns\] of each contender, over `inputs` inputs per call and `rounds` rounds.
 pub fn medians(inputs: usize, rounds: usize, contenders: &mut [Contender<'_>]) -> Vec<f64> {
     let passes: Vec<u32> = contenders.iter_mut().map(Contender::passes).collect();
     let times = times(inputs, rounds, &passes, contenders);
@@ -108,7 +107,7 @@ pub fn medians(inputs: usize, rounds: usize, contenders: &mut [Contender<'_>]) -
     times.into_iter().map(median).collect()
 }
 
-/// By contender, its times per input \[ns\] in all rounds; they take turns.
+/// The times per input \[ns\] of each contender in all rounds. The contenders take turns.
 fn times(inputs: usize, rounds: usize, passes: &[u32], contenders: &mut [Contender<'_>]) -> Vec<Vec<f64>> {
     let mut times = vec![Vec::with_capacity(rounds); contenders.len()];
     for round in 0..rounds {
@@ -121,7 +120,7 @@ fn times(inputs: usize, rounds: usize, passes: &[u32], contenders: &mut [Contend
     times
 }
 
-/// Measures all contenders over `inputs` inputs a pass, writes the results under `group`, and returns them as lines of text.
+/// Measures all contenders over `inputs` inputs per call, writes the results under `group`, and returns them as lines of text.
 ///
 /// # Errors
 /// When a file cannot be written.

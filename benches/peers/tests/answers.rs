@@ -1,4 +1,5 @@
-//! The peers' answers pass our forward kinematics, and ours their definitions: the conventions match.
+//! Tests of the conventions: solutions of the peers are checked by groebot's forward kinematics, and those of groebot
+//! by the peers' definitions.
 
 use groebot::kinematics::Chain;
 use groebot::kinematics::screw::one_joint::{rotate_to_distance, rotate_to_plane, rotate_to_point};
@@ -16,17 +17,17 @@ use groebot_peers::inputs::{COUNT, Random, poses};
 use ik_geo::subproblems::{subproblem1, subproblem2, subproblem3, subproblem4};
 use nalgebra::Unit;
 
-/// How far `q` is from `pose`: metres plus the distance of the rotation matrices.
+/// The difference of `q` from `pose`: metres plus the distance of the rotation matrices.
 fn error(chain: &Chain, q: &Joints, pose: &Pose) -> f64 {
     (chain.forward(q).unwrap().to_homogeneous() - pose.to_homogeneous()).norm()
 }
 
-/// Whether all angles agree on the circle, to 1e-6 rad.
+/// Whether all angles are equal modulo whole turns, to 1e-6 rad.
 fn same(q: &[f64], other: &Joints) -> bool {
     q.iter().zip(other).all(|(a, b)| angle::difference(*a, *b).abs() < 1e-6)
 }
 
-/// Every answer is right, and the joint values that made the pose are among them; returns the number of poses where they are not.
+/// Checks that every solution is correct. Returns the number of poses whose original joint values are not among the solutions.
 fn missed(chain: &Chain, solve: impl Fn(&Pose) -> Vec<Joints>) -> usize {
     let mut missed = 0;
     for (q, pose) in poses(chain) {
@@ -100,7 +101,7 @@ fn subproblems_of_two_axes_and_of_a_plane_mean_the_same() {
     }
 }
 
-/// C by each compiler, and the library, answer as the printed Rust does, to the last bit.
+/// C code of each compiler and the library return bitwise the same solutions as the generated Rust code.
 #[test]
 fn ours_are_the_same_however_compiled() {
     for robot in robots::ALL {

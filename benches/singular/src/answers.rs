@@ -1,4 +1,4 @@
-//! All answers, to compare two run times.
+//! All solutions, for a comparison of two run times.
 
 use groebot_runtime::{Solution, Solve};
 

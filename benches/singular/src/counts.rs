@@ -1,4 +1,4 @@
-//! Joint values that are lost: of each set how many are not among the answers to the pose that they reach.
+//! Lost joint values: for each set, the number of joint vectors that are not among the solutions of their pose.
 
 use groebot_runtime::mechanism::Inputs;
 use groebot_runtime::{Solution, Solve};
@@ -6,7 +6,7 @@ use groebot_runtime::{Solution, Solve};
 use crate::path::{Answer, Chain};
 use crate::poses::{Set, sets, stretched};
 
-/// A robot's sets.
+/// The sets of a robot.
 pub fn sets_of<M: Solve>(name: &str, mechanism: &M, joints: &[&str], poses: usize) -> Vec<Set> {
     let mut sets = sets(&Chain(mechanism), joints, poses);
     if name.starts_with("ur5") {
@@ -18,7 +18,7 @@ pub fn sets_of<M: Solve>(name: &str, mechanism: &M, joints: &[&str], poses: usiz
     sets
 }
 
-/// A target's answers.
+/// The solutions of a target.
 pub fn answers<M: Solve>(mechanism: &M, target: &Inputs<M>, out: &mut [Solution<M>]) -> Vec<Answer> {
     let count = mechanism.solve(target, out).expect("a pose is a target");
     let all = out[..count].iter();

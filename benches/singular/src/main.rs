@@ -1,4 +1,4 @@
-//! Time and answers next to singular poses: see benches/README.md.
+//! Times and solutions next to singular poses: see benches/README.md.
 
 mod answers;
 mod counts;

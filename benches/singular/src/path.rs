@@ -1,4 +1,4 @@
-//! Whether joint values are among a solver's answers, by forward kinematics alone: near one, or joined to one by a path that keeps the tip where it is.
+//! Test by forward kinematics whether joint values are among a solver's solutions: near one, or connected to one by a path on which the tip does not move.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,33 +7,33 @@ use groebot_runtime::mechanism::Joints;
 use groebot_runtime::storage::Array;
 use nalgebra::{DMatrix, DVector};
 
-/// An answer's joint values, and its free joints as a set.
+/// Joint values of a solution, and its free joints as a set.
 #[derive(Clone, Debug)]
 pub struct Answer {
     pub q: Vec<f64>,
     pub free: u32,
 }
 
-/// Joint values this near are one answer: a miss of 1e-14 moves the joints of a double root by its square root, of higher ones farther.
+/// Joint values nearer than this are one solution. A residual of 1e-14 moves the joints of a double root by its square root, and those of higher roots farther.
 const NEAR: f64 = 1e-5;
-/// Joint values this near may be one answer where all between them reach the target too.
+/// Joint values nearer than this may be one solution, if all values between them also reach the target.
 const BLUR: f64 = 5e-2;
-/// What a member of a self-motion misses the target by, after correction.
+/// Maximum residual of a member of a self-motion after correction.
 const MEMBER: f64 = 1e-11;
-/// Singular values below this share of the largest are taken as zero.
+/// Singular values below this fraction of the largest one are zero.
 const RANK: f64 = 1e-8;
-/// Corrections of one member at most.
+/// Maximum number of corrections of a member.
 const CORRECTIONS: usize = 12;
-/// Steps of a path \[rad\]: shorter ones where longer ones do not arrive.
+/// Steps of a path \[rad\]: the shorter one is used if the longer one fails.
 const STEPS: [f64; 2] = [0.1, 0.0125];
-/// How near a path must come to the answer.
+/// Distance from the solution at which a path has arrived.
 const ARRIVED: f64 = 1e-5;
-/// The longest and the shortest step along a curve \[rad\], and how many there are at most.
+/// The longest and the shortest step along a curve \[rad\], and the maximum number of steps.
 const LONGEST: f64 = 0.1;
 const SHORTEST: f64 = 1e-5;
 const PACES: usize = 1000;
 
-/// A robot whose joints all turn.
+/// A robot with revolute joints only.
 pub struct Chain<'a, M: Solve>(pub &'a M);
 
 impl<M: Solve> Chain<'_, M> {
@@ -45,7 +45,7 @@ impl<M: Solve> Chain<'_, M> {
         Array::by(q.len(), |i| q[i])
     }
 
-    /// Where the tip is: a position by the robot's size, and a rotation.
+    /// The pose of the tip: a position in units of the robot's size, and a rotation.
     fn tip(&self, q: &[f64]) -> DVector<f64> {
         let facts = self.0.facts();
         let tip = self.0.forward(&self.row(q)).expect("a chain has forward kinematics");
@@ -55,7 +55,7 @@ impl<M: Solve> Chain<'_, M> {
         )
     }
 
-    /// The derivatives of the tip by joints, by central differences.
+    /// The derivatives of the tip's pose by the joints, by central differences.
     fn slopes(&self, q: &[f64], moving: &[usize]) -> DMatrix<f64> {
         const WAY: f64 = 1e-5;
         let columns: Vec<DVector<f64>> = moving
@@ -72,7 +72,7 @@ impl<M: Solve> Chain<'_, M> {
         DMatrix::from_columns(&columns)
     }
 
-    /// The determinant of the Jacobian: the tip's motion and turn by each joint.
+    /// The determinant of the Jacobian of the tip's position and rotation.
     pub fn determinant(&self, q: &[f64]) -> f64 {
         let all: Vec<usize> = (0..self.joints()).collect();
         let (slopes, tip) = (self.slopes(q, &all), self.tip(q));
@@ -85,7 +85,7 @@ impl<M: Solve> Chain<'_, M> {
         DMatrix::from_fn(6, 6, rows).determinant()
     }
 
-    /// Whether joint values are in a list of answers.
+    /// Whether joint values are in a list of solutions.
     pub fn is_told(&self, q: &[f64], answers: &[Answer]) -> bool {
         let target = self.tip(q);
         answers.iter().any(|answer| distance(&answer.q, q) <= NEAR)
@@ -94,7 +94,7 @@ impl<M: Solve> Chain<'_, M> {
             || answers.iter().any(|answer| answer.free != 0 && self.runs_to(&target, q, &answer.q))
     }
 
-    /// Whether joint values next to the straight line between two places reach the target.
+    /// Whether joint values next to the straight line between two points reach the target.
     fn is_joined(&self, target: &DVector<f64>, a: &[f64], b: &[f64]) -> bool {
         let width = distance(a, b);
         let all: Vec<usize> = (0..self.joints()).collect();
@@ -105,7 +105,7 @@ impl<M: Solve> Chain<'_, M> {
         })
     }
 
-    /// Whether the free joints can be led from their values in `q` to those of an answer, either way round, while the others keep the tip.
+    /// Whether the free joints can be moved from their values in `q` to those of a solution, in either direction of rotation, while the others hold the tip.
     fn leads_to(&self, target: &DVector<f64>, q: &[f64], answer: &Answer) -> bool {
         let free: Vec<usize> = (0..self.joints()).filter(|joint| answer.free >> joint & 1 == 1).collect();
         let others: Vec<usize> = (0..self.joints()).filter(|joint| !free.contains(joint)).collect();
@@ -124,7 +124,7 @@ impl<M: Solve> Chain<'_, M> {
         STEPS.iter().any(|step| [&short, &long].iter().any(|way| arrives(way, *step)))
     }
 
-    /// Whether the curve of joint values with the same target through `q` runs through an answer.
+    /// Whether the curve through `q` of joint values with the same target passes through a solution.
     fn runs_to(&self, target: &DVector<f64>, q: &[f64], answer: &[f64]) -> bool {
         let Some(ahead) = self.tangent(q) else { return false };
         [1.0, -1.0].into_iter().any(|side| self.runs(target, q, &ahead * side, answer))
@@ -154,7 +154,7 @@ impl<M: Solve> Chain<'_, M> {
         false
     }
 
-    /// The direction in which singular joints can move; none where more than one is or none is.
+    /// The direction in which singular joints can move; `None` if there are several or none.
     fn tangent(&self, q: &[f64]) -> Option<DVector<f64>> {
         let all: Vec<usize> = (0..self.joints()).collect();
         let slopes = self.slopes(q, &all);
@@ -171,7 +171,7 @@ impl<M: Solve> Chain<'_, M> {
         self.corrected(target, moved, &all, Some(ahead))
     }
 
-    /// The member next to `q` by Gauss-Newton steps of the moving joints, none along `across`.
+    /// The member next to `q`, by Gauss-Newton steps of the moving joints without a component along `across`.
     fn corrected(
         &self,
         target: &DVector<f64>,
@@ -205,13 +205,13 @@ impl<M: Solve> Chain<'_, M> {
         ((self.tip(&q) - target).amax() <= MEMBER).then_some(q)
     }
 
-    /// By how much an answer misses the tip.
+    /// The residual of a solution.
     pub fn missed(&self, q: &[f64], answer: &Answer) -> f64 {
         (self.tip(&answer.q) - self.tip(q)).amax()
     }
 }
 
-/// A difference of angles by the shorter way round.
+/// The difference of two angles by the shorter rotation.
 fn difference(a: f64, b: f64) -> f64 {
     let way = a - b;
     way - TAU * ((way + PI) / TAU).floor()

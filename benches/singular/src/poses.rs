@@ -1,4 +1,4 @@
-//! Joint values at fixed seeds: random ones, ones next to singular ones, and ones at multiples of a right angle.
+//! Pseudorandom joint values: general ones, ones next to singular ones, and multiples of a right angle.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -49,7 +49,7 @@ impl Set {
     }
 }
 
-/// All sets of a robot of six angles: so many poses of each.
+/// All sets of a robot with six angles, with `count` poses each.
 pub fn sets<M: Solve>(chain: &Chain<'_, M>, names: &[&str], count: usize) -> Vec<Set> {
     let anywhere = |random: &mut Random| (0..chain.joints()).map(|_| random.angle()).collect::<Vec<f64>>();
     let mut sets = vec![Set::new("random".into(), count, anywhere)];
@@ -80,7 +80,8 @@ pub fn sets<M: Solve>(chain: &Chain<'_, M>, names: &[&str], count: usize) -> Vec
     sets
 }
 
-/// A UR5's arm with elbow and wrist straight, and the wrist's offset in line: singular in several ways at once.
+/// A UR5 arm with straight elbow and wrist and with the wrist's offset in line, which has several singularities at
+/// once.
 pub fn stretched(count: usize) -> Set {
     Set::new("stretched".into(), count, |random| {
         let [pan, lift, last] = [(); 3].map(|()| random.angle());
@@ -89,7 +90,7 @@ pub fn stretched(count: usize) -> Set {
     })
 }
 
-/// The joints that make a robot singular whatever the others are, each with its values.
+/// The joints that make a robot singular for all values of the others, each with its values.
 fn singular<M: Solve>(chain: &Chain<'_, M>) -> Vec<(usize, Vec<f64>)> {
     let mut random = Random::new();
     let bases: Vec<Vec<f64>> = (0..3).map(|_| (0..chain.joints()).map(|_| random.angle()).collect()).collect();
@@ -131,7 +132,7 @@ fn root<M: Solve>(chain: &Chain<'_, M>, q: &[f64], joint: usize, [mut low, mut h
     Some(0.5 * (low + high))
 }
 
-/// The root next to a joint's value, a multiple of half a right angle where it is one.
+/// The root next to a joint's value; a multiple of 45 degrees if it is one.
 fn exactly<M: Solve>(chain: &Chain<'_, M>, q: &[f64], joint: usize) -> f64 {
     let value = root(chain, q, joint, [q[joint] - 2e-3, q[joint] + 2e-3]).unwrap_or(q[joint]);
     let round = (value / FRAC_PI_4).round() * FRAC_PI_4;

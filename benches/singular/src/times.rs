@@ -1,4 +1,4 @@
-//! Time of a pose with all its answers, and with the feature `counters` what each phase takes of it.
+//! Time of a pose with all its solutions, and with the feature `counters` the time of each phase.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -9,7 +9,7 @@ use groebot_runtime::{Solution, Solve};
 use crate::counts::sets_of;
 use crate::path::Chain;
 
-/// How many of the slowest poses are timed again, and how often.
+/// Number of slowest poses that are measured again, and number of repetitions.
 const SLOWEST: usize = 5;
 const REPEATS: usize = 20;
 
@@ -32,7 +32,7 @@ pub fn print<M: Solve>(name: &str, mechanism: &M, joints: &[&str], poses: usize)
         phases::start();
         let mut times: Vec<(f64, usize)> = targets.iter().map(&mut time).zip(0..).collect();
         let taken = phases::taken(targets.len());
-        // Other programs make a pose slow once, hardly twice.
+        // Interference by other programs rarely affects a pose twice.
         for (first, index) in &mut times {
             *first = f64::min(*first, time(&targets[*index]));
         }
@@ -64,7 +64,7 @@ mod phases {
 
     use groebot_runtime::counters::{Event, Phase, take};
 
-    /// The most steps of a pose; by phase: calls, steps, short steps and evaluations a pose, and the share of the time in percent.
+    /// The maximum number of steps of a pose. For each phase: calls, steps, short steps and evaluations per pose, and the fraction of the time in percent.
     pub const HEAD: &str = ",most_steps,phases";
 
     type Counts = [[u64; Event::ALL.len()]; Phase::ALL.len()];
@@ -80,7 +80,7 @@ mod phases {
         MOST.set(0);
     }
 
-    /// Adds what a pose has taken.
+    /// Adds the counters of a pose.
     pub fn end_of_pose() {
         let (counts, mut all) = (take(), COUNTS.get());
         all.iter_mut().flatten().zip(counts.iter().flatten()).for_each(|(sum, count)| *sum += count);

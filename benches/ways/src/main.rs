@@ -1,9 +1,10 @@
-//! Shortest paths compared with published lengths, and how long they take.
+//! Shortest paths compared with published lengths, and their times.
 //!
 //!     cargo run --release > ../record/YYYY-MM-DD-navigation-ways.csv
 //!
-//! It fails where an octile length is not Moving AI's, an exact one is not Polyanya's, or is longer than the octile one. Their lengths have six digits; Polyanya's are f32. `difference` is the
-//! greatest one from those, `bound` the least proved one in parts of the way. Times hold all of a call, but no field.
+//! It fails if an octile length differs from Moving AI's, or an exact length from Polyanya's, or if an exact length exceeds the octile one. The published
+//! lengths have six digits; Polyanya's are f32. `difference` is the largest difference from them. `bound` is the worst proved bound as a fraction of the
+//! length. Times are those of whole calls without a distance field.
 
 mod maps;
 mod packages;
@@ -18,9 +19,9 @@ use nalgebra::Point2;
 use maps::Numbers;
 use problems::Problem;
 
-/// Problems of each map of ours.
+/// Number of problems of each generated map.
 const COUNT: usize = 40;
-/// The steps that a bounded proof may take.
+/// Maximum number of steps of a bounded proof.
 const EFFORT: usize = 8000;
 
 fn main() {
@@ -51,7 +52,7 @@ fn main() {
     }
 }
 
-/// Octile ways beside published ones, and exact ones that are not longer.
+/// Octile paths compared with published ones, and exact paths that must not be longer.
 fn octile(name: &str, map: &Map, problems: &[Problem]) {
     let [mut octile, mut exact] = [(); 2].map(|()| Results::default());
     for problem in problems {
@@ -65,7 +66,7 @@ fn octile(name: &str, map: &Map, problems: &[Problem]) {
     exact.print(name, "exact");
 }
 
-/// A map of ours, without a field and with one.
+/// A generated map, without and with a distance field.
 fn own(name: &str, map: &Map) {
     let free: Vec<usize> = (0..map.cells().len()).filter(|cell| map.is_free(*cell)).collect();
     let mut numbers = Numbers(5);
@@ -93,7 +94,7 @@ fn own(name: &str, map: &Map) {
     octile.print(name, "octile");
 }
 
-/// What the problems of a map came to.
+/// Results of the problems of a map.
 #[derive(Default)]
 struct Results {
     times: Vec<f64>,

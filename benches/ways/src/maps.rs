@@ -1,10 +1,10 @@
-//! Maps of 1000 x 1000 cells: rooms with doors, and cells that are occupied at random.
+//! Maps of 1000 x 1000 cells: rooms with doors, and random occupied cells.
 
 use groebot::nav::{Cell, Map};
 
 const SIDE: usize = 1000;
 
-/// Numbers from nought to below one, by SplitMix64 (Steele, Lea and Flood 2014).
+/// Numbers in \[0, 1), by SplitMix64 (Steele, Lea and Flood 2014).
 pub struct Numbers(pub u64);
 
 impl Numbers {
@@ -20,13 +20,13 @@ impl Numbers {
     }
 }
 
-/// Each cell is occupied with this likelihood.
+/// Each cell is occupied with the probability `share`.
 pub fn random(share: f64) -> Map {
     let mut numbers = Numbers(3);
     of(|_, _| numbers.next() < share)
 }
 
-/// Square rooms, between which four walls of five have a door of three cells.
+/// Square rooms. Four of five walls between them have a door of three cells.
 pub fn rooms(side: usize) -> Map {
     let mut numbers = Numbers(1);
     let mut doors = || (numbers.next() < 0.8).then(|| 1 + numbers.below(side - 4));

@@ -1,9 +1,9 @@
-//! Where cargo has put a package that this one names.
+//! Folders of the packages in cargo's registry.
 
 use std::path::PathBuf;
 use std::process::Command;
 
-/// The folder of a package; cargo fetches what is not there yet.
+/// The folder of a package. Cargo fetches a missing one.
 pub fn folder(name: &str) -> PathBuf {
     let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));

@@ -1,18 +1,18 @@
-//! Problems with lengths that their makers have published.
+//! Problems with published path lengths.
 
 use std::path::Path;
 
 use groebot::nav::{Cell, Map};
 use nalgebra::Point2;
 
-/// From where to where, and how far that is in cells.
+/// Start, goal and length in cells.
 pub struct Problem {
     pub start: Point2<f64>,
     pub goal: Point2<f64>,
     pub length: f64,
 }
 
-/// A scenario of Moving AI on a map whose uppermost row is nought, or whose lowest one is: from and to the middles of cells, over eight neighbours.
+/// A scenario of Moving AI: from and to cell centres, with eight neighbours. Row 0 of the map is the uppermost or the lowest one.
 pub fn scenario(text: &str, rows: Option<usize>) -> Vec<Problem> {
     let problem = |line: &str| {
         let numbers: Vec<f64> = line.split('\t').skip(4).map(|word| word.trim().parse().expect("a number")).collect();
@@ -23,7 +23,7 @@ pub fn scenario(text: &str, rows: Option<usize>) -> Vec<Problem> {
     text.lines().skip(1).filter(|line| !line.is_empty()).map(problem).collect()
 }
 
-/// Polyanya's tests: `path(Vec2::new(x, y), Vec2::new(x, y))`, and the length behind it.
+/// Polyanya's tests: `path(Vec2::new(x, y), Vec2::new(x, y))`, followed by the length.
 pub fn tests(text: &str) -> Vec<Problem> {
     let number = |text: &str| text.trim().parse::<f64>().expect("a number");
     let pair = |text: &str| {
@@ -41,7 +41,7 @@ pub fn tests(text: &str) -> Vec<Problem> {
     text.split(".path(").skip(1).filter_map(problem).collect()
 }
 
-/// The cells whose middles are in a polygon of a mesh, in Polyanya's format, version 2.
+/// The cells whose centres are in a polygon of a mesh, in Polyanya's format, version 2.
 pub fn mesh(path: &Path, columns: usize, rows: usize) -> Map {
     let text = std::fs::read_to_string(path).expect("a mesh");
     let mut lines = text.lines().skip(2).filter(|line| !line.is_empty()).map(numbers);

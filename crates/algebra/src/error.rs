@@ -19,7 +19,7 @@ pub enum ErrorKind {
     MissingKey,
     /// A value outside the allowed range (a zero axis, NaN, inverted limits ...).
     BadValue,
-    /// A name that is declared twice or means two things.
+    /// A name that is declared twice or has two meanings.
     DuplicateName,
     /// A name that nothing declares.
     UnknownName,
@@ -61,7 +61,7 @@ pub struct Error {
 pub type Result<T> = std::result::Result<T, Error>;
 
 impl Error {
-    /// Builds an error of `kind`. The message says what is wrong and what is allowed.
+    /// Builds an error of `kind`. The message describes the error and the allowed values.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
         Error { kind, place: Place::default(), message: message.into() }
     }

@@ -1,4 +1,4 @@
-//! Requests and their answers. Main type: [`Desk`].
+//! Requests and responses. Main type: [`Desk`].
 
 use groebot::gait::{Footprint, Side, Walk};
 use groebot::kinematics::Solution;
@@ -11,44 +11,45 @@ use nalgebra::Point2;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-/// What a page asks for. Metres, radians; figures in their own units.
+/// Requests of a page. Metres, radians; parameters in their own units.
 #[derive(Deserialize)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 enum Request {
-    /// Take a derived solver, the text of its `5_program.json`: `{"solver": 0, "joints": ["hip", ..], "inputs": ["p.x", ..]}`.
+    /// Load a derived solver, the text of its `5_program.json`: `{"solver": 0, "joints": ["hip", ..], "inputs": ["p.x", ..]}`.
     Open(String),
     /// Solve for a target: `{"solutions": [{"q", "residual", "branch", "free", "chosen"}, ..]}`.
     Solve {
-        /// The number that [`Request::Open`] gave it.
+        /// The index that [`Request::Open`] returned.
         solver: usize,
-        /// One number an input.
+        /// One number for each input.
         target: Vec<f64>,
     },
-    /// Let a robot of groebot stand ready in a room: what [`Desk::told`] tells, with the samples of its lowering.
+    /// Place a robot of groebot in a room. The response is that of [`Desk::told`], with the samples in which the robot
+    /// lowers its body.
     Run {
         /// `nao`, `rh0` or `teo`.
         robot: String,
-        /// The room, TOML.
+        /// The room, as TOML.
         room: String,
-        /// Where the middle of the feet is, and where it looks.
+        /// The midpoint of the feet, and the heading.
         start: [f64; 3],
-        /// Where it is to get, and where it is to look if that is asked for.
+        /// The goal position, with an optional heading.
         goal: Vec<f64>,
-        /// How far the body keeps away from obstacles.
+        /// Distance of the body from obstacles.
         apart: f64,
     },
-    /// Take the next step: its samples, none where it has arrived.
+    /// Compute the next step. The response has its samples; none when the robot has arrived.
     Step,
-    /// Another goal.
+    /// Change the goal.
     Goal(Vec<f64>),
-    /// A piece of furniture elsewhere: x, y, yaw; or without it.
+    /// Move a piece of furniture to x, y, yaw, or remove it.
     Furniture {
         /// Its name.
         name: String,
-        /// Where; nowhere takes it away.
+        /// Its new pose; `None` removes it.
         at: Option<[f64; 3]>,
     },
-    /// Another value of a figure of the gait.
+    /// Change a parameter of the gait.
     Set {
         /// Its name.
         name: String,
@@ -57,17 +58,17 @@ enum Request {
     },
 }
 
-/// What was taken, and the run.
+/// The loaded solvers, and the run.
 #[derive(Default)]
 pub struct Desk {
     solvers: Vec<Solver>,
     run: Option<Run>,
-    /// The furniture of the room at first: what was taken away may come back.
+    /// The initial furniture of the room. Removed pieces can be restored.
     furniture: Vec<Piece>,
 }
 
 impl Desk {
-    /// The answer to a request; `{"error": TEXT}` where it cannot be answered.
+    /// Returns the response to a request; `{"error": TEXT}` if it fails.
     pub fn answer(&mut self, request: &[u8]) -> String {
         let request = serde_json::from_slice(request).map_err(|error| Error::new(ErrorKind::Syntax, error.to_string()));
         let answer = request.and_then(|request| self.take(request));
@@ -140,7 +141,7 @@ impl Desk {
     }
 }
 
-/// Joints and soles, figures with their presets, way, furniture, and samples.
+/// Joints and soles, parameters with their presets, path, furniture, and samples.
 fn told(run: &Run, samples: std::ops::Range<usize>) -> Value {
     let mut told = samples_of(run, samples);
     let biped = &run.pilot().walker().biped;
@@ -173,7 +174,8 @@ fn told(run: &Run, samples: std::ops::Range<usize>) -> Value {
     told
 }
 
-/// All footsteps, and samples of the walk: times, joints, torso and soles (position and quaternion xyzw), which soles stand, centre of mass, zero moment point, margin, support polygon.
+/// All footsteps, and samples of the walk: times, joints, torso and soles (position and quaternion xyzw), soles in contact, centre of mass, zero moment point,
+/// margin, support polygon.
 fn samples_of(run: &Run, samples: std::ops::Range<usize>) -> Value {
     let walk: &Walk = run.walk();
     let sample = |sample: usize| {

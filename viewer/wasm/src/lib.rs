@@ -1,7 +1,7 @@
-//! What a page of groebot computes: one call that takes a request and gives its answer, both as JSON.
+//! Computations for a page of groebot: one call with a request and a response, both as JSON.
 //!
-//! The page allocates room for a request by [`allocate`], writes it there, and calls [`call`]; the answer's place is what that returns, its length is
-//! told by [`length`]. Both stay valid until the next call.
+//! The page allocates memory for a request by [`allocate`], writes it there, and calls [`call`], which returns the address of the response. [`length`] returns
+//! its length. Both are valid until the next call.
 
 mod desk;
 
@@ -15,7 +15,7 @@ thread_local! {
     static ANSWER: RefCell<String> = RefCell::default();
 }
 
-/// Room for a request of so many bytes.
+/// Allocates memory for a request of this number of bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn allocate(bytes: usize) -> *mut u8 {
     REQUEST.with_borrow_mut(|request| {
@@ -25,7 +25,7 @@ pub extern "C" fn allocate(bytes: usize) -> *mut u8 {
     })
 }
 
-/// Answers the request that was written; where the answer is.
+/// Processes the written request. Returns the address of the response.
 #[unsafe(no_mangle)]
 pub extern "C" fn call() -> *const u8 {
     let answer = REQUEST.with_borrow(|request| DESK.with_borrow_mut(|desk| desk.answer(request)));
@@ -35,7 +35,7 @@ pub extern "C" fn call() -> *const u8 {
     })
 }
 
-/// How many bytes the last answer has.
+/// Length of the last response in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn length() -> usize {
     ANSWER.with_borrow(String::len)

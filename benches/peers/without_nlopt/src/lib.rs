@@ -1,18 +1,18 @@
-//! Stands for the crate `nlopt` in this package, so that neither a C++ compiler nor the LGPL comes with it. It has the names that
-//! ik-geo calls, and every optimisation fails: the families of robots that ik-geo solves by search have no answers here.
+//! Replacement of the crate `nlopt` in this package, which avoids a C++ compiler and the LGPL. It has the names that ik-geo calls, and every optimisation
+//! fails. So the families that ik-geo solves by search have no solutions here.
 
 /// The failure of every optimisation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WithoutNlopt;
 
-/// The algorithms that are requested.
+/// The requested algorithms.
 #[derive(Clone, Copy, Debug)]
 pub enum Algorithm {
     GnMlslLds,
     Neldermead,
 }
 
-/// The direction that is requested.
+/// The requested direction.
 #[derive(Clone, Copy, Debug)]
 pub enum Target {
     Minimize,

@@ -68,9 +68,9 @@ impl Pairs {
         Some(self.open.swap_remove(index))
     }
 
-    /// Adds the element with index `heads.len()`: removes old pairs by the chain criterion, keeps the new ones that no
-    /// other new pair covers and whose heads are not coprime, and marks redundant elements. A constant removes all
-    /// pairs.
+    /// Adds the element with index `heads.len()`: removes old pairs by the chain criterion and marks redundant
+    /// elements. Of the new pairs, it keeps those that no other new pair covers and whose heads are not coprime. A
+    /// constant removes all pairs.
     ///
     /// One of several new pairs with the same least common multiple is kept, a coprime one if there is any. A coprime
     /// pair represents the others and is then removed.

@@ -101,7 +101,7 @@ impl Layout {
         1 << self.lanes_per_word_log2()
     }
 
-    /// In graded reverse orders the last variable comes first, so that words compare as numbers.
+    /// In graded reverse orders the lanes of the variables are reversed, so that words compare as numbers.
     fn lane(&self, variable: usize) -> usize {
         match self.order {
             Order::GrevLex => self.variables - variable,

@@ -113,7 +113,7 @@ impl RealSolution {
         sign_at_root(f, &self.root, &polynomial.coefficients, watch)
     }
 
-    /// The coordinates as doubles, each the nearest one. A number half-way between two doubles gives one of them.
+    /// The coordinates as doubles, each the nearest one. A number at equal distance from two doubles gives one of them.
     pub fn approximate(&self) -> Vec<f64> {
         let mut solution = self.clone();
         let rounded = |solution: &RealSolution, v: usize| solution.rounded(v);

@@ -19,7 +19,7 @@ pub struct Mechanism {
     pub solutions: usize,
 }
 
-/// Pairs (cosine, sine), one graded block for each pair. The angle that is solved first comes last.
+/// Pairs (cosine, sine), one graded block for each pair. The angle that is solved first is last.
 fn pairs(count: usize) -> Order {
     Order::Block(vec![Block { size: 2, graded: true }; count])
 }

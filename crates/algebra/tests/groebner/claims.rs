@@ -143,7 +143,7 @@ fn every_forgery_is_refused_over_every_field() {
     every_forgery_is_refused(groebot_algebra::poly::Fractions::new(Rationals, &["p"]).unwrap());
 }
 
-/// Generators that are monic and reduced but not a basis: only the S-pair shows it.
+/// Generators that are monic and reduced but not a basis. Only the S-pair detects it.
 #[test]
 fn generators_that_are_no_basis_fail_at_their_pair() {
     let ring = PolynomialRing::new(Rationals, &["x", "y"], Order::Lex).unwrap();

@@ -165,7 +165,7 @@ fn expand(joints: u32, values: impl Fn(&[[BigRational; 2]]) -> Vec<BigRational>)
     (0..table[0].len()).map(|row| table.iter().map(|values| values[row].clone()).collect()).collect()
 }
 
-/// Gauss-Jordan elimination on the first `columns` columns. Returns the number of pivots, whose rows come first.
+/// Gauss-Jordan elimination on the first `columns` columns. Returns the number of pivots. Their rows are first.
 fn reduce(rows: &mut [Vec<BigRational>], columns: usize) -> usize {
     let mut rank = 0;
     for column in 0..columns {
@@ -252,7 +252,7 @@ fn float(number: &BigRational) -> f64 {
     number.to_f64().expect("a finite number")
 }
 
-/// The same links in doubles.
+/// Same links in doubles.
 fn rounded() -> [Link<f64>; 6] {
     links().map(|row| Link {
         length: float(&row.length),

@@ -56,7 +56,7 @@ fn assert_found(p: &[BigRational], expected: &[f64], scale: f64) {
     assert_eq!(roots.as_slice().len(), expected.len(), "{coefficients:?}: {roots:?}, not {expected:?}");
     for (root, exact) in roots.as_slice().iter().zip(expected) {
         let (_, slope, size) = evaluate(&coefficients, *exact);
-        // A zero root has no size of its own: a root that is negligible relative to the unknown's typical size is zero.
+        // A zero root has no magnitude: a root that is negligible relative to the unknown's typical size is zero.
         let nothing = f64::EPSILON * f64::EPSILON * scale;
         let bound = 1e-14 * size / slope.abs() + 4.0 * f64::EPSILON * exact.abs() + nothing;
         assert!((root - exact).abs() <= bound, "{root} is not {exact} within {bound}");

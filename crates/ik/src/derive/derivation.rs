@@ -12,7 +12,7 @@ use crate::solver::{About, Program, Solver};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
 
-/// The derivation of a solver, proved.
+/// A proved derivation of a solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Derivation {
     problem: Problem,
@@ -20,29 +20,29 @@ pub struct Derivation {
     program: Program,
 }
 
-/// How a problem is solved.
+/// The method that solves a problem.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Method {
-    /// Equations as one block.
+    /// Equations solved as one block.
     Equations(Box<Equations>),
-    /// A chain, one joint at a time.
+    /// A chain solved one joint at a time.
     Sequential(Box<Sequential>),
-    /// A chain, six joints together.
+    /// A chain whose six joints are solved together.
     Eigenvalue(Box<Eigenvalue>),
-    /// Chains that share actuators, one chain after the other.
+    /// Coupled chains (they share actuators), solved one chain after the other.
     Coupled(Box<Coupled>),
 }
 
-/// A derivation with the types of its problem and its method known.
+/// A derivation with typed problem and method.
 #[derive(Clone, Copy, Debug)]
 pub enum AnyView<'a> {
-    /// Equations as one block.
+    /// Equations solved as one block.
     Equations(EquationsView<'a>),
-    /// A chain, one joint at a time.
+    /// A chain solved one joint at a time.
     Sequential(SequentialView<'a>),
-    /// A chain, six joints together.
+    /// A chain whose six joints are solved together.
     Eigenvalue(EigenvalueView<'a>),
-    /// Chains that share actuators, one chain after the other.
+    /// Coupled chains, solved one chain after the other.
     Coupled(CoupledView<'a>),
 }
 
@@ -59,12 +59,11 @@ impl Derivation {
         })
     }
 
-    /// Derives and proves the solver of `problem`. A chain is solved one joint at a time, or where that is impossible by one eigenvalue problem of six
-    /// joints.
+    /// Derives and proves the solver of `problem`. A chain is solved one joint at a time if possible, otherwise by one eigenvalue problem of six joints.
     ///
     /// # Errors
-    /// As [`Chain::check_base`] and [`Chain::check_task`]; [`ErrorKind::Inconsistent`] for equations without a solution, [`ErrorKind::PositiveDimensional`],
-    /// naming the joints, where some are free, [`ErrorKind::Unsupported`] for what no method is for; what `watch` stops with.
+    /// As [`Chain::check_base`] and [`Chain::check_task`]. [`ErrorKind::Inconsistent`] for equations without a solution. [`ErrorKind::PositiveDimensional`]
+    /// with the names of the free joints. [`ErrorKind::Unsupported`] for a problem that no method solves. The error of `watch` if it stops the derivation.
     pub fn of_problem(problem: impl Into<Problem>, watch: &Watch) -> Result<Self> {
         match problem.into() {
             Problem::System(system) => {
@@ -79,7 +78,7 @@ impl Derivation {
         }
     }
 
-    /// One joint at a time, or where that is impossible all six joints together.
+    /// Solves one joint at a time if possible, otherwise all six joints together.
     fn of_either(problem: ChainProblem, watch: &Watch) -> Result<Self> {
         let chain = problem.measured();
         chain.check_base(None)?;
@@ -94,29 +93,29 @@ impl Derivation {
         }
     }
 
-    /// Derives and proves the solver of a chain that finds one joint at a time.
+    /// Derives and proves a solver that finds one joint at a time.
     ///
     /// # Errors
-    /// [`ErrorKind::PositiveDimensional`] where joints are free; [`ErrorKind::Unsupported`] for a chain without such an order of joints; what `watch`
-    /// stops with.
+    /// [`ErrorKind::PositiveDimensional`] if joints are free; [`ErrorKind::Unsupported`] for a chain without such an order of joints. The error of `watch` if
+    /// it stops the derivation.
     pub fn sequentially(problem: impl Into<ChainProblem>, watch: &Watch) -> Result<Self> {
         let problem = problem.into();
         let solved = Sequential::derive(&problem, watch)?;
         Ok(Derivation::assemble(problem.into(), solved, Method::Sequential))
     }
 
-    /// Derives and proves the solver of a chain that finds six joints together.
+    /// Derives and proves a solver that finds six joints together.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`]), with infinitely many solutions, or without a
-    /// formulation that is regular and accurate; what `watch` stops with.
+    /// [`ErrorKind::Unsupported`] for a chain that does not fit the eigenvalue problem ([`fits`]), that has infinitely many solutions, or that has no regular
+    /// and accurate formulation. The error of `watch` if it stops the derivation.
     pub fn by_eigenvalues(problem: impl Into<ChainProblem>, watch: &Watch) -> Result<Self> {
         let problem = problem.into();
         let solved = Eigenvalue::derive(&problem, watch)?;
         Ok(Derivation::assemble(problem.into(), solved, Method::Eigenvalue))
     }
 
-    /// Proves the derivation of `source` anew from the text of its certificate, without the Groebner engine.
+    /// Proves the derivation of `source` again from the text of its certificate, without the Groebner engine.
     ///
     /// # Errors
     /// As [`Problem::of`] and [`Derivation::prove`].
@@ -124,11 +123,11 @@ impl Derivation {
         Derivation::prove(Problem::of(source)?, text)
     }
 
-    /// Proves the derivation of `problem` anew from the text of its certificate, without searches and without the Groebner engine.
+    /// Proves the derivation of `problem` again from the text of its certificate, without searches and without the Groebner engine.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the stratum, step, form or chain for a claim
-    /// that does not hold, is missing or is left over.
+    /// [`ErrorKind::Syntax`] with the line for text that is not a certificate. [`ErrorKind::Certificate`] for a claim that is false, missing or superfluous; it
+    /// names the stratum, step, form or chain.
     pub fn prove(problem: impl Into<Problem>, text: &str) -> Result<Self> {
         let problem = problem.into();
         Ok(match &problem {
@@ -155,27 +154,27 @@ impl Derivation {
         Derivation { problem, method: of(Box::new(method)), program }
     }
 
-    /// What is solved.
+    /// The problem that is solved.
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
 
-    /// How it is solved.
+    /// The method that solves the problem.
     pub fn method(&self) -> &Method {
         &self.method
     }
 
-    /// The solver as data: what is stored and printed as source code.
+    /// The solver as data, which is stored and printed as source code.
     pub fn program(&self) -> &Program {
         &self.program
     }
 
-    /// The solver, ready to run: it is prepared once and solves any number of targets.
+    /// The solver, ready to run. It is prepared once and solves any number of targets.
     pub fn solver(&self) -> Solver {
         self.program.solver()
     }
 
-    /// Its problem and its method with their types known.
+    /// The problem and the method with their types.
     pub fn view(&self) -> AnyView<'_> {
         let program = &self.program;
         match (&self.problem, &self.method) {
@@ -193,27 +192,27 @@ impl Derivation {
         }
     }
 
-    /// Equations as one block; none for another method.
+    /// The view of equations solved as one block; `None` for another method.
     pub fn equations(&self) -> Option<EquationsView<'_>> {
         if let AnyView::Equations(view) = self.view() { Some(view) } else { None }
     }
 
-    /// A chain, one joint at a time; none for another method.
+    /// The view of a chain solved one joint at a time; `None` for another method.
     pub fn sequential(&self) -> Option<SequentialView<'_>> {
         if let AnyView::Sequential(view) = self.view() { Some(view) } else { None }
     }
 
-    /// A chain, six joints together; none for another method.
+    /// The view of a chain whose six joints are solved together; `None` for another method.
     pub fn eigenvalue(&self) -> Option<EigenvalueView<'_>> {
         if let AnyView::Eigenvalue(view) = self.view() { Some(view) } else { None }
     }
 
-    /// Chains that share actuators; none for another method.
+    /// The view of coupled chains; `None` for another method.
     pub fn coupled(&self) -> Option<CoupledView<'_>> {
         if let AnyView::Coupled(view) = self.view() { Some(view) } else { None }
     }
 
-    /// The target that the joint values `q` reach by the kinematics of the chains, in the order of the program's inputs.
+    /// The target that the joint values `q` reach by forward kinematics, in the order of the program's inputs.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for another number of joints; [`ErrorKind::Unsupported`] for equations, which have no forward kinematics.
@@ -228,7 +227,7 @@ impl Derivation {
     /// The text of `certificate.json`.
     ///
     /// # Errors
-    /// When a field cannot be built: never for a derivation that was made by this crate.
+    /// If a field cannot be built. This does not occur for a derivation that this crate made.
     pub fn certificate(&self) -> Result<String> {
         match self.view() {
             AnyView::Equations(view) => certificate::write(view),
@@ -238,7 +237,7 @@ impl Derivation {
         }
     }
 
-    /// The number of complex solutions of a generic reachable target, where it was counted.
+    /// The number of complex solutions of a generic reachable target, if it was counted.
     pub fn dimension(&self) -> Option<usize> {
         match &self.method {
             Method::Equations(method) => method.dimension(),
@@ -248,7 +247,7 @@ impl Derivation {
         }
     }
 
-    /// Same derivation, with the task, the links, a hash, the limits and the followers of `source` in its program.
+    /// Same derivation, with metadata of `source` in its program: task, links, hash, limits and followers.
     #[must_use]
     pub fn about(mut self, source: &Source) -> Self {
         let solutions = self.dimension();
@@ -257,7 +256,7 @@ impl Derivation {
     }
 }
 
-/// What `source` says of itself, with limits and leaders of the program's joints.
+/// Metadata of `source`, with limits and leaders of the program's joints.
 fn about(source: &Source, program: &Program) -> About {
     let actuators = match (&source.chain, &source.coupled) {
         (Some(chain), _) => chain.joints().iter().map(|joint| (joint.name.as_str(), joint.limits)).collect(),
@@ -284,7 +283,7 @@ fn about(source: &Source, program: &Program) -> About {
     }
 }
 
-/// What is asked of the tip, or of each chain's.
+/// The task of the tip, or the task of each chain's tip.
 fn task(source: &Source) -> String {
     match (&source.chain, &source.coupled) {
         (Some(chain), _) => chain.asked(),
@@ -296,7 +295,7 @@ fn task(source: &Source) -> String {
     }
 }
 
-/// The hash of Fowler, Noll and Vo, FNV-1a, of 64 bits (draft-eastlake-fnv).
+/// The 64-bit FNV-1a hash of Fowler, Noll and Vo (draft-eastlake-fnv).
 fn hash(bytes: impl Iterator<Item = u8>) -> u64 {
     bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

@@ -1,4 +1,4 @@
-//! From a description to a proved solver: the stages between kinematics and the solver.
+//! The stages between kinematics and the solver: from a description to a proved solver.
 
 pub mod closure;
 pub mod coupled;

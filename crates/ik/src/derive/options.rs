@@ -43,7 +43,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// The defaults: no budget, the given joints that the chain states, the ideal chain within 1e-6.
+    /// The defaults: no budget, the given joints of the chain, the ideal chain within 1e-6.
     pub fn new() -> Self {
         Options::default()
     }
@@ -55,21 +55,21 @@ impl Options {
         self
     }
 
-    /// The joints whose values are given with each target, by name, in place of those that the chain states.
+    /// Sets the joints whose values are given with each target, by name. They replace those of the chain.
     #[must_use]
     pub fn given<Name: Into<String>>(mut self, joints: impl IntoIterator<Item = Name>) -> Self {
         self.given = Some(joints.into_iter().map(Into::into).collect());
         self
     }
 
-    /// The tolerance within which the nearest ideal chain is searched, in radians and shares of the reach; by default 1e-6.
+    /// Sets the tolerance of the search for the nearest ideal chain: in radians, and as a fraction of the reach. The default is 1e-6.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = Some(tolerance);
         self
     }
 
-    /// Derives the solver of the chain exactly as described: every digit counts.
+    /// Derives the solver of the chain exactly as described, with every digit.
     #[must_use]
     pub fn exact(self) -> Self {
         self.tolerance(0.0)

@@ -1,4 +1,4 @@
-//! What a certificate must claim at least, from the input alone. Main type: [`Recount`].
+//! The minimum that a certificate must claim, computed from the input alone. Main type: [`Recount`].
 
 use crate::derive::closure::Mechanism;
 use crate::derive::coupled::CoupledView;
@@ -10,11 +10,10 @@ use crate::derive::{AnyView, Derivation};
 use crate::{Result, Watch};
 use groebot_robot::kinematics::Chain;
 
-/// Counts the solutions of mechanisms again, at the same targets modulo the same primes as their derivations, and looks for what was left out. It
-/// remembers what it has counted.
+/// Counts the solutions of mechanisms again and compares the counts with certificates.
 ///
-/// The strata of equations need no count: those that are required follow from the proof itself, and [`Derivation::prove`] asks the engine about those
-/// that are claimed to be open.
+/// It uses the same targets modulo the same primes as the derivations, and it caches its counts. The strata of equations need no count: the proof itself
+/// requires them. For strata that are claimed to be open, [`Derivation::prove`] runs the Groebner engine.
 pub struct Recount {
     watch: Watch,
     evidence: Vec<(Chain, Option<Vec<Evidence>>)>,
@@ -22,15 +21,15 @@ pub struct Recount {
 }
 
 impl Recount {
-    /// One that has counted nothing yet; `watch` stops it.
+    /// Creates a recount with an empty cache; `watch` may stop it.
     pub fn new(watch: &Watch) -> Self {
         Recount { watch: watch.clone(), evidence: Vec::new(), formulations: Vec::new() }
     }
 
-    /// Fails where a proof, though it holds, claims less than the derivation of its input does.
+    /// Returns an error if a valid proof claims less than the derivation of its input does.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Certificate`] with what is claimed and what there is; what the watch stops with.
+    /// [`crate::ErrorKind::Certificate`] with the claimed and the actual values. The error of the watch if it stops the count.
     pub fn check(&mut self, derivation: &Derivation) -> Result<()> {
         match derivation.view() {
             AnyView::Equations(_) => Ok(()),
@@ -71,7 +70,7 @@ impl Recount {
         Ok(())
     }
 
-    /// What random targets of `chain` show; none where they have infinitely many solutions.
+    /// The evidence of random targets of `chain`; `None` if they have infinitely many solutions.
     fn evidence(&mut self, chain: &Chain, mechanism: &Mechanism) -> Result<Option<&[Evidence]>> {
         let place = match self.evidence.iter().position(|(counted, _)| counted == chain) {
             Some(place) => place,
@@ -83,7 +82,7 @@ impl Recount {
         Ok(self.evidence[place].1.as_deref())
     }
 
-    /// The formulations of the eigenvalue problem of six joints that a derivation takes.
+    /// The formulations of the eigenvalue problem that a derivation of these six joints uses.
     fn formulations(&mut self, six: &Chain) -> Result<&Vec<Regular>> {
         let place = match self.formulations.iter().position(|(known, _)| known == six) {
             Some(place) => place,

@@ -1,13 +1,13 @@
-//! A derivation as its reports and checks read it: [`View`].
+//! A typed view of a derivation, for reports and checks: [`View`].
 
 use crate::solver::Program;
 
-/// A problem, the method that solves it, and the solver: what a [`Derivation`](super::Derivation) stores, with its types known.
+/// The problem, the method and the solver of a [`Derivation`](super::Derivation), with their types.
 #[derive(Debug)]
 pub struct View<'a, P, M> {
-    /// What is solved.
+    /// The problem that is solved.
     pub problem: &'a P,
-    /// How it is solved, proved.
+    /// The method that solves it, proved.
     pub method: &'a M,
     /// The solver.
     pub program: &'a Program,

@@ -10,7 +10,7 @@ use super::mirror;
 use super::program::{Block, Case, Condition, Described, Program, Step, square};
 use super::rule::Rule;
 
-/// The greatest number of candidates that wait to be measured together.
+/// The maximum number of candidates that are buffered and measured together.
 const MOST: usize = 16;
 
 /// Properties that hold for all targets.
@@ -36,7 +36,7 @@ pub(crate) struct Facts {
     pub turned: Vec<usize>,
     pub candidates: usize,
     pub twins: usize,
-    /// By joint; empty if several targets are not solved at once.
+    /// By joint, the result of `run`; empty if several targets are not solved at once.
     pub runs: Vec<usize>,
     pub scale: f64,
     pub capacity: usize,
@@ -156,7 +156,7 @@ fn condition(condition: &Condition) -> (&'static str, usize) {
 }
 
 fn reached(program: &Program, forward: &Forward) -> Vec<(&'static str, Vec<usize>)> {
-    // Two equations may have the same value; as described they have two.
+    // Two equations of the ideal mechanism may have the same value, but different values as described.
     let is_own =
         |parameter: usize, rule: Rule| program.described.is_none() || program.parameters[parameter].rule == rule;
     let at = |value: Operand, rule: &dyn Fn() -> Rule| {
@@ -175,7 +175,7 @@ fn reached(program: &Program, forward: &Forward) -> Vec<(&'static str, Vec<usize
     forward.inputs.iter().enumerate().map(input).collect()
 }
 
-/// The number of candidates that wait to be measured together: the number at ordinary targets, made even.
+/// The number of candidates that are buffered and measured together: the number at ordinary targets, rounded up to an even number.
 pub(crate) fn room(program: &Program) -> usize {
     let often = |block: &Block| block.cases.iter().filter(|case| !Case::is_rare(case)).map(Program::branches).max();
     let candidates = program.blocks.iter().filter_map(often).fold(1_usize, usize::saturating_mul);
@@ -211,7 +211,7 @@ fn usual(block: &Block) -> Option<&Case> {
     (!samples).then_some(first)
 }
 
-/// The number of candidates that the blocks from this one on make of each earlier one.
+/// The number of candidates that the blocks from this one on make from each earlier candidate.
 pub(crate) fn candidates(program: &Program, block: usize) -> usize {
     program.blocks[block..].iter().filter_map(usual).map(Program::branches).fold(1, usize::saturating_mul)
 }

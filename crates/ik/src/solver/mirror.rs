@@ -1,7 +1,8 @@
-//! Candidates in pairs. After a root step `x^2 + constant` there must be no other branch, and all values that depend on
-//! the root must keep or change their sign with it. Then the second root's candidate is the first one's with some signs
-//! changed, to the last bit, because negation is exact. (Only the sign of a zero may differ, which neither the
-//! equations nor angles depend on.)
+//! Candidates in pairs.
+//!
+//! After a root step `x^2 + constant` there must be no other branch. All values that depend on the root must keep or change their sign with it. Then the second
+//! root's candidate differs from the first one's only in signs, to the last bit, because negation is exact. (The sign of a zero may also differ; neither the
+//! equations nor angles depend on it.)
 
 use std::collections::HashMap;
 
@@ -12,11 +13,11 @@ use super::program::{Block, Case, Program, Step, square};
 /// The parity of a value when the root changes its sign.
 #[derive(Clone, Copy, PartialEq)]
 enum Parity {
-    /// It stays.
+    /// The value does not change.
     Even,
-    /// It changes its sign too.
+    /// The value changes its sign.
     Odd,
-    /// Neither of these.
+    /// Neither even nor odd.
     Mixed,
 }
 
@@ -69,7 +70,7 @@ impl Mirror {
     }
 }
 
-/// Whether the only root step of a case keeps the magnitudes of these unknowns, which the case finds.
+/// Whether the only root step of a case keeps the magnitudes of the unknowns `found`, which the case finds.
 pub(crate) fn turns(program: &Program, case: &Case, found: &[usize]) -> bool {
     let mut unknowns = vec![Parity::Even; program.unknowns.len()];
     behind_root(case, &mut unknowns) && found.iter().all(|&unknown| unknowns[unknown] != Parity::Mixed)

@@ -41,5 +41,5 @@ pub use groebot_runtime::tolerances::{
     NARROWS, NEAR, OVERSHOT, PACES, PATIENCE, PIVOT, PLAIN, POLISH_STEPS, POLISHED, REGULAR, RETURNS, ROUNDING, SHORT,
     SINGULAR, STEEP, STIFF, TINY, TURN, TWIN, TWIN_AT, TWIN_WITHIN,
 };
-/// The greatest number of joints of a program.
+/// The maximum number of joints of a program.
 pub const MAX_JOINTS: usize = groebot_algebra::limits::SOLVER_JOINTS;

@@ -1,4 +1,4 @@
-//! Solutions by cosines and sines, without an arc tangent: [`Program::solve_pairs`].
+//! Solutions as cosines and sines, without an arc tangent: [`Program::solve_pairs`].
 
 use serde::Serialize;
 
@@ -8,7 +8,7 @@ use super::program::{Program, Step};
 #[cfg(doc)]
 use groebot_robot::kinematics::Solution;
 
-/// A solution of a program, by cosines and sines.
+/// A solution of a program, as cosines and sines.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pairs {
     /// By joint, the cosine and the sine of an angle; for a length its value, in the program's unit, and zero.

@@ -220,7 +220,7 @@ pub struct Program {
     pub described: Option<Described>,
 }
 
-/// A mechanism as described, in addition to the ideal one that decides which solutions a target has.
+/// The equations of the mechanism as described. The ideal mechanism decides which solutions a target has.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Described {

@@ -3,9 +3,10 @@
 use super::program::{Checks, Described, Program};
 
 impl Program {
-    /// The program for targets whose numbers are rounded by up to `within`, relative to the size of each equation. If
-    /// the task has more numbers than the joints can reach, a rounded target has no exact solution. The solutions are
-    /// then those of the nearest target that the mechanism reaches. `None` if the equations do not permit that.
+    /// The program for targets whose numbers are rounded by up to `within`, relative to the size of each equation.
+    ///
+    /// If the task has more numbers than the joints can reach, a rounded target has no exact solution. The solutions are then those of the nearest target that
+    /// the mechanism reaches. `None` if the equations do not permit that.
     pub(crate) fn tolerant(&self, within: f64) -> Option<Program> {
         if self.isolated.is_some() || self.nearby {
             return Some(self.clone());

@@ -10,11 +10,11 @@ use groebot_algebra::limits::{check_name, is_name};
 use groebot_algebra::roots;
 use groebot_robot::kinematics::Mimic;
 
-/// The greatest number of solutions of a program.
+/// The maximum number of solutions of a program.
 pub(super) const MOST_ANSWERS: usize = groebot_algebra::limits::PROGRAM_ANSWERS;
-/// The greatest number of blocks.
+/// The maximum number of blocks.
 const MOST_BLOCKS: usize = groebot_algebra::limits::PROGRAM_BLOCKS;
-/// The greatest number of unknowns.
+/// The maximum number of unknowns.
 const MOST_UNKNOWNS: usize = groebot_algebra::limits::PROGRAM_UNKNOWNS;
 /// Branch numbers stay below this, 2^53 - 1, so that a double represents all of them.
 const MOST_BRANCHES: usize = usize::MAX >> usize::BITS.saturating_sub(53);

@@ -28,8 +28,8 @@ pub struct TwoChains {
 
 impl TwoChains {
     /// Builds the law of a robot with a left and a right foot. `standing` is the index of the supporting foot, 0 or 1.
-    /// The feet are links whose frames have z up when the robot stands level. The trunk is the robot's root. With
-    /// `is_coupled`, the halves exchange a wrench through the trunk; without it, each is a robot of its own.
+    /// The feet are links whose frames have z up when the robot is upright on level ground. The trunk is the robot's
+    /// root. With `is_coupled`, the halves exchange a wrench through the trunk; without it, each is a robot of its own.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] for unknown links, [`ErrorKind::BadValue`] for feet with common joints; those of

@@ -48,8 +48,8 @@ impl<'t> Document<'t> {
     /// Parses TOML 1.x text.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] with its line, also for keys that are given twice and for nesting deeper than 80
-    /// (with 80 dots in each key, the deepest document still needs less than 2 MB of stack).
+    /// [`ErrorKind::Syntax`] with its line. Keys given twice and nesting deeper than 80 are also refused. With 80 dots
+    /// in each key, the deepest document needs less than 2 MB of stack.
     pub fn parse(text: &'t str) -> Result<Self> {
         let lines: Vec<usize> = text.match_indices('\n').map(|(at, _)| at).collect();
         match DeTable::parse(text) {

@@ -86,7 +86,7 @@ impl Model {
         let (target, base_from_link) = self.link(link);
         let link_from_base = base_from_link.inverse();
         let path = self.path(target);
-        // For each body of this model, its index in the new one. After a joint of the path comes the body that was
+        // For each body of this model, its index in the new one. The body after a joint of the path is the one that was
         // before it.
         let mut named: Vec<usize> = (0..self.bodies.len()).collect();
         for &joint in &path {

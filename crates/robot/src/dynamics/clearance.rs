@@ -104,7 +104,7 @@ fn are_neighbours(model: &Model, is_shaped: &[bool], a: usize, b: usize) -> bool
     };
     let (one, other) = (bodies(a), bodies(b));
     let shared = one.iter().zip(&other).take_while(|(a, b)| a == b).count();
-    // The last body that both paths share belongs to the path too.
+    // The last body that both paths share also belongs to the path.
     let path = one[shared..].iter().chain(&other[shared..]).chain(&one[shared - 1..shared]);
     path.filter(|body| **body != a && **body != b).all(|body| !is_shaped[*body])
 }

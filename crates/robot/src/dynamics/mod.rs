@@ -1,8 +1,8 @@
 //! Rigid-body dynamics: inertia matrix (CRBA), inverse dynamics (RNEA), forward dynamics (ABA), Coriolis matrix,
 //! regressor, identification.
 //!
-//! [`Equations`] has all of these for a robot with a fixed or a floating base. [`Model`] is a robot in doubles: a base
-//! and a body behind each joint, with the matrices of `M q'' + C q' + N = torques` by Lie groups, RH0 2.4, (2-41).
+//! [`Equations`] has all of these for a robot with a fixed or a floating base. [`Model`] is a robot in doubles: a base,
+//! and a body moved by each joint, with the matrices of `M q'' + C q' + N = torques` by Lie groups, RH0 2.4, (2-41).
 //! [`Placed`] is a model in a configuration: its poses, its centre of mass and its [`Momentum`]. [`Clearance`] finds
 //! links that touch one another.
 

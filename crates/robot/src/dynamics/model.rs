@@ -27,7 +27,7 @@ pub struct ModelJoint {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub(super) joints: Vec<ModelJoint>,
-    /// The joints, sorted so that parents come first.
+    /// The joints, sorted topologically: each joint is after its parent.
     pub(super) order: Vec<usize>,
     /// The inertia of each body, in the base frame at the zero configuration.
     pub(super) bodies: Vec<Inertia>,

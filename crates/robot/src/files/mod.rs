@@ -19,8 +19,8 @@ pub use self::own::{MARK, Target, is_marked, refuse_foreign, write_into};
 pub use self::staged::StagedFolder;
 use crate::{Error, Result, Watch};
 
-/// Each writer holds this for reading from its first temporary file to its last step, so that the end of the process
-/// can wait for it.
+/// Lock of the process' writers. Each writer holds it for reading from its first temporary file to its last step. The
+/// end of the process waits for it.
 static WRITERS: RwLock<()> = RwLock::new(());
 
 /// The guard of a writer.

@@ -26,8 +26,8 @@ impl Chain {
     /// Validates `parts` and builds the chain.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::BadValue`] for no or more than 12 joints, an axis of zero, inverted or infinite limits, a
-    /// coordinate above 10^12, a tip matrix that is not a rotation, a joint that leaves the plane of a planar task by
+    /// [`crate::ErrorKind::BadValue`] for no joints, more than 12 joints, an axis of zero, inverted or infinite limits,
+    /// a coordinate above 10^12, a tip matrix that is not a rotation, a joint that leaves the plane of a planar task by
     /// more than 0.1 rad, a direction of zero, all joints given, an incomplete order, an empty name, or a symbol that
     /// is not 1 to 16 ASCII letters and digits; [`crate::ErrorKind::DuplicateName`] for joint names, symbols, given
     /// joints or unknowns of `order` named twice; [`crate::ErrorKind::UnknownName`] for an unknown or a given joint

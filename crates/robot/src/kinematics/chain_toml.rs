@@ -56,7 +56,7 @@ impl Chain {
     }
 }
 
-/// How a file specifies its joints.
+/// Form in which a file specifies its joints.
 #[derive(Clone, Copy, PartialEq)]
 enum Form {
     /// Form A: points in the base frame.

@@ -32,7 +32,7 @@ pub struct Frame {
 pub enum Reading {
     /// Every digit is exact.
     AsDescribed,
-    /// Rounded multiples of 45 and 30 degrees, and rounded unit vectors, stand for the exact values.
+    /// Rounded multiples of 45 and 30 degrees, and rounded unit vectors, mean the exact values.
     AsMeant,
 }
 
@@ -95,7 +95,7 @@ impl Frame {
 
     /// The direction `axis` of this frame in the base frame. It has coprime integers if it is rational and they are
     /// short, else its own entries. Irrational entries are within 2^-80 of the greatest one. In a unit vector, 0.866025
-    /// [stands for](Reading::AsMeant) sqrt 3 / 2.
+    /// [means](Reading::AsMeant) sqrt 3 / 2.
     pub fn direction(&self, axis: &ExactVector) -> ExactVector {
         let meant = (self.reading == Reading::AsMeant).then(|| recognised(axis)).flatten();
         let axis = meant.unwrap_or_else(|| surds(axis));

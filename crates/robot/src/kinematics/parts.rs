@@ -66,7 +66,7 @@ pub struct Tip {
     pub rotation: ExactMatrix,
 }
 
-/// The exact axes and tip that the rounded numbers of a description stand for, where these differ: 1.5708 stands for a
+/// The exact axes and tip that the rounded numbers of a description approximate, where these differ: 1.5708 means a
 /// quarter turn.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Meant {

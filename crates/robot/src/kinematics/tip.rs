@@ -14,7 +14,7 @@ const SIDES: [&str; 4] = ["left", "right", "l", "r"];
 /// Characters between the words of a name.
 const SEPARATORS: [char; 5] = ['_', '-', '.', '/', ':'];
 
-/// How the tip link of a chain was chosen.
+/// The rule by which the tip link of a chain was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TipChoice {
@@ -22,7 +22,7 @@ pub enum TipChoice {
     Given,
     /// It is the only leaf link.
     OnlyLeaf,
-    /// It is the only link with this name of a tip frame, apart from a prefix: `tool0`, `robot_tool0`.
+    /// It is the only link with this name of a tip frame, except for a prefix: `tool0`, `robot_tool0`.
     OnlyFrame(&'static str),
 }
 

@@ -19,7 +19,7 @@ pub struct Robot {
     /// The parent and child link of each joint.
     ends: Vec<(usize, usize)>,
     root: usize,
-    /// The joints, sorted so that parents come first.
+    /// The joints, sorted topologically: each joint is after its parent.
     order: Vec<usize>,
 }
 
@@ -59,7 +59,7 @@ impl Robot {
         }
     }
 
-    /// Replaces rounded rotations by the exact ones that they stand for: quarter turns for 1.5708.
+    /// Replaces rounded rotations by the exact ones that they approximate: quarter turns for 1.5708.
     ///
     /// # Errors
     /// Those of [`Robot::with_faults`].
@@ -188,7 +188,8 @@ impl Robot {
         children
     }
 
-    /// The joints below the root, sorted so that parents come first, otherwise in the order of the file.
+    /// The joints below the root, sorted topologically: each joint is after its parent. Otherwise they are in the order
+    /// of the file.
     fn descent(&self) -> Vec<usize> {
         let children = self.children();
         let (mut order, mut open) = (Vec::new(), vec![self.root]);
@@ -210,12 +211,13 @@ impl Robot {
         (0..self.joints().len()).filter(|joint| self.joints()[*joint].kind.is_single()).collect()
     }
 
-    /// The indices of all joints, sorted so that parents come first.
+    /// The indices of all joints, sorted topologically: each joint is after its parent.
     pub fn order(&self) -> &[usize] {
         &self.order
     }
 
-    /// The indices of all joints, sorted so that parents come first and a limb's joints are together.
+    /// The indices of all joints, sorted topologically: each joint is after its parent, and a limb's joints are
+    /// together.
     pub fn limb_by_limb(&self) -> Vec<usize> {
         let children = self.children();
         let below = |link: usize| children[link].iter().rev();

@@ -18,7 +18,7 @@ pub struct Stratum<F: Field> {
     pub basis: Vec<Element<F>>,
     /// The solutions of the equations: none, finitely many, or a family.
     pub kind: Kind,
-    /// What is known about its real points.
+    /// Facts about its real points.
     pub real: RealPoints,
 }
 
@@ -44,7 +44,7 @@ pub enum Kind {
     Family(usize),
 }
 
-/// What is known about the real points of a stratum.
+/// Facts about the real points of a stratum.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RealPoints {
     /// There are none, for this reason.

@@ -18,7 +18,7 @@ const NOWHERE: [u32; LANES] = [u32::MAX; LANES];
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Elimination {
     /// Whether to reduce random combinations, as many as the rank, so that rows that become zero cost little. Otherwise
-    /// each row is reduced by itself, which shows the rows that are independent of those before them.
+    /// rows are reduced one by one, which shows the rows that are independent of those before them.
     pub combinations: bool,
     pub instructions: Instructions,
 }

@@ -37,8 +37,7 @@ pub const MODULUS_LIMIT: u64 = 1 << 31;
 /// Computes the reduced Groebner basis of the ideal of `generators` modulo a prime below 2^31, in the order of `ring`.
 ///
 /// Random combinations of rows are reduced. The basis is incomplete with a probability below 2^-50 for each block of
-/// rows. Every polynomial of it certainly belongs to the ideal. Modulo primes below 2^13, each row is reduced by
-/// itself.
+/// rows. Every polynomial of it certainly belongs to the ideal. Modulo primes below 2^13, rows are reduced one by one.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for a larger modulus; [`ErrorKind::Overflow`] when a degree overflows 15 bits or the
@@ -50,7 +49,7 @@ pub fn f4(ring: &PolynomialRing<Zp>, generators: &[Polynomial<u64>], watch: &Wat
 /// Settings of [`f4_with`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// Whether to reduce random combinations of rows, as many as the rank. Otherwise each row is reduced by itself, and
+    /// Whether to reduce random combinations of rows, as many as the rank. Otherwise rows are reduced one by one, and
     /// the result is certain.
     pub combinations: bool,
     /// Whether to use the processor's vector instructions. The results are equal.

@@ -44,7 +44,7 @@ pub(super) fn overflow() -> Error {
 }
 
 impl<const W: usize> Running<W> {
-    /// An empty running basis. `by_degree` says whether the order compares degrees first.
+    /// An empty running basis. `by_degree` is true if the order compares degrees first.
     pub fn new(packing: Packing<W>, by_degree: bool) -> Self {
         let all = (!by_degree).then(Vec::new);
         Running { packing, elements: Vec::new(), leads: Vec::new(), all, pairs: Vec::new() }
@@ -126,7 +126,8 @@ impl<const W: usize> Running<W> {
             let pair = Pair { lcm, left: old.element, right: element, sugar: degree + excess.max(old.excess) };
             candidates.push((degree, pair, coprime));
         }
-        // Among equal least common multiples a coprime pair comes first: it removes the others and is then removed.
+        // Among pairs with equal least common multiples, a coprime pair is first. It removes the others and is then
+        // removed.
         candidates.sort_by(|(d, a, x), (e, b, y)| {
             d.cmp(e).then(a.lcm.cmp(&b.lcm)).then(y.cmp(x)).then(a.sugar.cmp(&b.sugar)).then(a.left.cmp(&b.left))
         });

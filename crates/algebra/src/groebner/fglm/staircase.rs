@@ -153,7 +153,7 @@ fn product_of<F: Field>(ring: &PolynomialRing<F>, a: &Monomial, b: &Monomial) ->
     })
 }
 
-/// How many variables divide `monomial`.
+/// Number of variables that divide `monomial`.
 fn support_size<F: Field>(ring: &PolynomialRing<F>, monomial: &Monomial) -> usize {
     (0..ring.variables().len()).filter(|&v| ring.layout().exponent(monomial, v) > 0).count()
 }

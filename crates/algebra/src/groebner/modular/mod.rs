@@ -3,7 +3,8 @@
 //! The computation is learned modulo one prime and replayed modulo others (Traverso 1988); the coefficients are
 //! reconstructed by Chinese remaindering and rational reconstruction. A separate computation modulo one more prime
 //! confirms them (Arnold, "Modular algorithms for computing Groebner bases", J. Symbolic Computation 35 (2003)).
-//! [`basis`] returns a [`Modular`] whose [`Status`] says whether the result is only probable. [`prove`] proves it.
+//! [`basis`] returns a [`Modular`] whose [`Status`] shows whether the result is proved or only probable. [`prove`]
+//! proves it.
 
 mod arnold;
 mod by_degree;

@@ -1,4 +1,4 @@
-//! The system with the parameters as variables of the lowest block. The unknowns come first, in their own order.
+//! The system with the parameters as variables of the lowest block. The unknowns are first, in their own order.
 
 use super::lift::image;
 use super::prime::Prime;

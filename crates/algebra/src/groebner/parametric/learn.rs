@@ -1,7 +1,7 @@
 //! Sparse interpolation of rational functions modulo one prime: computation of the supports.
 //!
 //! On lines `p[j] = v[j] t^w[j]` a function is a quotient in `t`. Its coefficients, divided by one that is a single
-//! monomial in `v`, are sums of monomials of `v`; Along a geometric sequence of `v` they are sums of powers (Ben-Or and
+//! monomial in `v`, are sums of monomials of `v`. Along a geometric sequence of `v` they are sums of powers (Ben-Or and
 //! Tiwari). Logarithms of the bases of these powers give the exponents. The prime is chosen so that logarithms are
 //! cheap, and the exponents are the digits of one number.
 
@@ -115,7 +115,7 @@ impl<'a, S: Functions> Search<'a, S> {
         Ok(self.is_done())
     }
 
-    /// The next weights that are promising on a few lines.
+    /// The next weights that are promising on several lines.
     fn next_promising(&mut self, waiting: &mut impl Iterator<Item = Vec<u32>>, watch: &Watch) -> Result<Option<Lines>> {
         for weights in waiting {
             let mut lines = self.lines(weights);

@@ -180,8 +180,8 @@ impl Residues {
         connection
     }
 
-    /// The monic characteristic polynomial of a square matrix, given by its columns, by reduction to Hessenberg form
-    /// (Cohen, A Course in Computational Algebraic Number Theory, algorithm 2.2.9).
+    /// The monic characteristic polynomial of a square matrix, given by its columns. Method: reduction to Hessenberg
+    /// form (Cohen, A Course in Computational Algebraic Number Theory, algorithm 2.2.9).
     ///
     /// # Errors
     /// The error with which `watch` stops the work.

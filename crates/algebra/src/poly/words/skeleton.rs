@@ -166,7 +166,7 @@ pub struct Nodes {
 }
 
 impl Nodes {
-    /// Chooses `count` distinct random points; `None` when the field has too few.
+    /// Chooses `count` distinct random points; `None` when the field has fewer points.
     pub fn new<K: WordField>(field: &K, random: &mut Random, count: usize) -> Option<Self> {
         if field.size() / 2 <= count as u64 {
             return None;

@@ -21,7 +21,7 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
     let frame = frame_of(chain, &mechanism);
     let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
     let Layout { lines, slides, length } = layout(&six.chain);
-    // The parameters of a given joint are what its block sets its unknowns to.
+    // The operands of a given joint are those that its block assigns to its unknowns.
     let value = |joint: usize| set_to(&frame, &chain.joints()[joint].name);
     let mut assembler = Assembler::default();
     let target = six.target(chain, std::array::from_fn(Operand::Parameter), value, &mut assembler)?;
@@ -52,7 +52,7 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
     Ok(program)
 }
 
-/// The same for a robot on which answers are polished, and which is so far from this one (shares of the reach, and rad).
+/// Sets the distance from this robot to the one on which solutions are polished: in rad, and as a fraction of the reach.
 ///
 /// # Errors
 /// As [`SixAxes::new`].
@@ -65,7 +65,7 @@ pub(super) fn within(program: &mut Program, within: f64) -> Result<()> {
     Ok(())
 }
 
-/// What the block `label` of a program sets unknowns to.
+/// The operands that the block `label` of a program assigns to unknowns.
 fn set_to(program: &Program, label: &str) -> Vec<Operand> {
     let block = program.blocks.iter().find(|block| block.label == label);
     let steps = block.into_iter().flat_map(|block| &block.cases).flat_map(|case| &case.steps);
@@ -73,7 +73,7 @@ fn set_to(program: &Program, label: &str) -> Vec<Operand> {
     steps.filter_map(value).collect()
 }
 
-/// The tip in the base frame at zero.
+/// The tip in the base frame in the zero configuration.
 pub(super) fn tip(chain: &Chain) -> Rigid {
     let pose = chain.base_from_tip();
     let rotation = pose.rotation.to_rotation_matrix();

@@ -1,4 +1,4 @@
-//! From polynomials and expressions to straight-line code: Horner form, constants folded, common subexpressions shared.
+//! Straight-line code from polynomials and expressions: Horner form, folded constants, shared common subexpressions.
 
 use std::collections::HashMap;
 
@@ -12,7 +12,7 @@ use groebot_algebra::poly::{Expression, Polynomial, PolynomialRing, Term};
 #[derive(Clone, Debug)]
 pub(in crate::derive) struct FlatTerm {
     pub coefficient: BigRational,
-    /// `(symbol, exponent)`, symbols being indices into the caller's table of operands; exponents positive.
+    /// `(symbol, exponent)`: symbols are indices into the caller's table of operands; exponents are positive.
     pub powers: Vec<(usize, u32)>,
 }
 
@@ -30,18 +30,18 @@ impl FlatTerm {
     }
 }
 
-/// Collects instructions; asking twice for the same operation gives the same register, and minus signs move out of products into sums.
+/// Collects instructions. Equal operations share one register, and minus signs move out of products into sums.
 #[derive(Clone, Debug)]
 pub(in crate::derive) struct Assembler {
     code: Vec<Instruction>,
-    /// The most terms of a sum that is not computed before it is read.
+    /// The maximum number of terms of a sum that is not computed before it is read.
     longest: usize,
-    /// What each register holds.
+    /// The operation of each register.
     operations: Vec<Operation>,
     known: HashMap<String, Operand>,
 }
 
-/// The most terms that [`Assembler`] lets sums have by itself.
+/// The default of [`Assembler::longest`].
 const LONGEST: usize = 12;
 
 impl Default for Assembler {
@@ -51,23 +51,23 @@ impl Default for Assembler {
 }
 
 impl Assembler {
-    /// One that computes sums of more terms than these before they are read. Long sums may cancel, and leave no code then; of short ones
-    /// each is computed once however often it is read.
+    /// An assembler that computes sums of more than `longest` terms at once. Terms of long uncomputed sums may cancel and then need no code. A short computed
+    /// sum is computed only once, no matter how often it is read.
     fn with_sums_of(longest: usize) -> Self {
         Assembler { code: Vec::new(), longest, operations: Vec::new(), known: HashMap::new() }
     }
 
-    /// Collectors by every length of sums that is tried, the usual one first.
+    /// Assemblers for every length of sums that is tried, the default first.
     pub fn ways() -> [Assembler; 5] {
         [LONGEST, 6, 3, 2, 1].map(Assembler::with_sums_of)
     }
 
-    /// The most terms of a sum that is not computed before it is read.
+    /// The maximum number of terms of a sum that is not computed before it is read.
     pub fn longest(&self) -> usize {
         self.longest
     }
 
-    /// How many instructions there are, before and since the last [`Assembler::take`].
+    /// The number of instructions, including those before the last [`Assembler::take`].
     pub fn count(&self) -> usize {
         self.operations.len()
     }
@@ -77,7 +77,7 @@ impl Assembler {
         std::mem::take(&mut self.code)
     }
 
-    /// Another collector that knows the same registers and goes on behind them.
+    /// Another assembler that knows the same registers and continues after them.
     pub fn branch(&self) -> Assembler {
         Assembler { code: Vec::new(), ..self.clone() }
     }
@@ -172,7 +172,7 @@ impl Assembler {
         }
     }
 
-    /// Whether `a` is written so that it cannot be negative: a sum of squares, say.
+    /// Whether the form of `a` shows that it is not negative, such as a sum of squares.
     pub fn is_non_negative(&self, a: Operand) -> bool {
         match a {
             Operand::Constant(x) => x > 0.0,
@@ -187,14 +187,14 @@ impl Assembler {
         }
     }
 
-    /// A product or quotient, of operands without their minus signs.
+    /// A product or quotient of operands without their minus signs.
     fn signed(&mut self, factors: [Operand; 2], emit: impl Fn(&mut Self, [Operand; 2]) -> Operand) -> Operand {
         let opposites = factors.map(|factor| self.opposite(factor));
         let value = emit(self, [0, 1].map(|index| opposites[index].unwrap_or(factors[index])));
         if opposites[0].is_some() == opposites[1].is_some() { value } else { self.negative(value) }
     }
 
-    /// What `a` is the negative of, where it is written as one.
+    /// The operand whose negative is `a`, if `a` is a negation.
     fn opposite(&self, a: Operand) -> Option<Operand> {
         match a {
             Operand::Register(index) => match self.operations[index] {
@@ -205,7 +205,7 @@ impl Assembler {
         }
     }
 
-    /// `-a`: a difference is turned round.
+    /// `-a`. The operands of a difference are exchanged.
     fn negative(&mut self, a: Operand) -> Operand {
         match a {
             Operand::Constant(x) => Operand::Constant(-x),
@@ -230,7 +230,7 @@ impl Assembler {
         }
     }
 
-    /// The value of a sum of terms, in a greedy multivariate Horner form: the symbol of most terms is taken out first.
+    /// The value of a sum of terms, in a greedy multivariate Horner form: the most frequent symbol is factored out first.
     pub fn horner(&mut self, terms: &[FlatTerm], symbols: &[Operand]) -> Operand {
         match terms {
             [] => Operand::Constant(0.0),
@@ -353,14 +353,14 @@ impl Assembler {
     }
 }
 
-/// What is written in the usual way, or in one of other ways that saves an eighth of its work or more.
+/// The usual result, or another one that needs at most seven eighths of its work.
 pub(in crate::derive) fn of_least_work<T>(usual: T, others: impl IntoIterator<Item = T>, work: fn(&T) -> usize) -> T {
     let allowed = work(&usual) - work(&usual) / 8;
     let best = others.into_iter().filter(|other| work(other) < allowed).min_by_key(work);
     best.unwrap_or(usual)
 }
 
-/// A sum or product of two, always in one order.
+/// A sum or product of two operands in a canonical order.
 fn commuting(a: Operand, b: Operand, operation: fn(Operand, Operand) -> Operation) -> Operation {
     let rank = |operand: Operand| match operand {
         Operand::Constant(_) => (0, 0),

@@ -1,8 +1,8 @@
 //! The stored proof of a derivation: `certificate.json`.
 //!
-//! It lists, stratum by stratum in the order in which the tree grows, the basis and the cofactors. Reading it grows the tree anew from
-//! the equations: every claim is checked by [`groebot_algebra::groebner::verify`], every denominator is split and branched on again, and the
-//! Groebner engine is left out, but for a stratum that is claimed to be open: the engine must leave it open, too. What comes back are [`Equations`] that are proved, or an error that says where the proof fails.
+//! It lists the basis and the cofactors of each stratum, in the order in which the tree grows. A reader builds the tree again from the equations:
+//! [`groebot_algebra::groebner::verify`] checks every claim, and every denominator is factored and branched on again. The Groebner engine is used only for a
+//! stratum that is claimed to be open: the engine must also leave it open. The result is proved [`Equations`], or an error that names the failed part.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +22,7 @@ use groebot_algebra::number::{Ring, Style};
 use groebot_algebra::poly::{Order, parse};
 use groebot_robot::document::{Certificate, Proves};
 
-/// What is claimed about equations.
+/// The claims about equations.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Claims {
@@ -42,11 +42,11 @@ pub(in crate::derive) struct Entry {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Kind {
-    /// Finitely many solutions; a lexicographic basis.
+    /// Finitely many solutions, with a lexicographic basis.
     Solved,
-    /// The unit ideal.
+    /// No solution: the unit ideal.
     Inconsistent,
-    /// Free joints; a graded basis. The next entry is the member with these joints at zero.
+    /// Free joints, with a graded basis. The next entry is the member with these joints at zero.
     SelfMotion,
     /// Not derived.
     Open,
@@ -67,7 +67,7 @@ struct Claim {
 /// The text of `certificate.json`.
 ///
 /// # Errors
-/// When a setting's field cannot be built: never for a derivation that was made by this crate.
+/// If a setting's field cannot be built. This does not occur for a derivation that this crate made.
 pub(in crate::derive) fn write(derivation: EquationsView<'_>) -> Result<String> {
     let claims = Claims {
         requested: entries(&derivation.method.requested)?,
@@ -76,11 +76,11 @@ pub(in crate::derive) fn write(derivation: EquationsView<'_>) -> Result<String> 
     Ok(Certificate::new(Proves::Equations, &derivation.problem.name, claims).to_json())
 }
 
-/// Proves the solution of `system` anew from the text of its certificate, without the Groebner engine, and compiles its solver.
+/// Proves the solution of `system` again from the text of its certificate, without the Groebner engine, and compiles its solver.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] with the stratum for a claim that does
-/// not hold, is missing or is left over.
+/// [`ErrorKind::Syntax`] with the line for text that is not a certificate. [`ErrorKind::Certificate`] with the stratum for a claim that is false, missing or
+/// superfluous.
 pub(in crate::derive) fn prove(system: &System, text: &str) -> Result<(Equations, Program)> {
     let claims: Claims = Certificate::read(text, Proves::Equations, &system.name)?;
     let requested = replay(system, Orders::Requested, &claims.requested);
@@ -94,15 +94,15 @@ pub(in crate::derive) fn prove(system: &System, text: &str) -> Result<(Equations
     Equations { requested, searched }.compiled(system)
 }
 
-/// A claim that does not hold.
+/// The error of a false claim.
 pub(in crate::derive) fn refused(text: String) -> Error {
     Error::new(ErrorKind::Certificate, text)
 }
 
-/// The tree of strata of `system` in these orders from what is claimed about it, proved.
+/// The proved tree of strata of `system` in these orders, from its claims.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] with the stratum for a claim that does not hold, is missing, is left over, or says less than can be derived.
+/// [`ErrorKind::Certificate`] with the stratum for a claim that is false, missing or superfluous, or that is weaker than the derivation's.
 pub(in crate::derive) fn replay(system: &System, orders: Orders, entries: &[Entry]) -> Result<Node> {
     let mut replay = Replay { system, orders, entries: entries.iter() };
     let node = grow(system, &mut replay)?;
@@ -145,7 +145,7 @@ fn push_entry(node: &Node, list: &mut Vec<Entry>) -> Result<()> {
     Ok(())
 }
 
-/// Proves by checking stored claims, in order.
+/// A prover that checks stored claims, in order.
 struct Replay<'a> {
     system: &'a System,
     orders: Orders,
@@ -198,7 +198,7 @@ impl Replay<'_> {
 }
 
 impl Replay<'_> {
-    /// A stratum may be left open only where the derivation itself leaves it open, for the same reason: the engine is asked again.
+    /// Accepts an open stratum only if the derivation also leaves it open, for the same reason. The engine runs again.
     fn open(&self, claim: &Claim, label: &str, setting: &Setting, parent: Option<&Solved>) -> Result<Outcome> {
         let mut engine = Engine { system: self.system, orders: self.orders, watch: &Watch::none() };
         match engine.prove(label, setting, parent)? {

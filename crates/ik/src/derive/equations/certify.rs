@@ -1,4 +1,4 @@
-//! Proofs of bases: cofactors found by the engine, checked by [`groebot_algebra::groebner::verify`] before anything uses them.
+//! Proofs of bases. The engine finds cofactors, and [`groebot_algebra::groebner::verify`] checks them before use.
 
 use crate::derive::equations::setting::{Coefficients, Poly, Setting, Unknowns};
 use crate::{Result, Watch};
@@ -7,19 +7,19 @@ use groebot_algebra::groebner::{Basis, divide};
 use groebot_algebra::number::Ring;
 use groebot_algebra::poly::Order;
 
-/// A reduced Groebner basis of a setting's equations with the cofactors that prove it, already verified.
+/// A reduced Groebner basis of a setting's equations, with verified cofactors as proof.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Certified {
     /// The unknowns, greatest first.
     pub order: Vec<String>,
-    /// Graded reverse lexicographic, else lexicographic.
+    /// Whether the order is graded reverse lexicographic, otherwise lexicographic.
     pub graded: bool,
     /// The basis, monic, smallest leading monomial first.
     pub basis: Vec<Poly>,
     /// `basis[i] = sum over j of cofactors[i][j] * equation j`.
     pub cofactors: Vec<Vec<Poly>>,
-    /// What was proved.
+    /// The proved statement.
     pub proof: Proof,
 }
 
@@ -27,7 +27,7 @@ impl Certified {
     /// The ring of the basis in `setting`.
     ///
     /// # Errors
-    /// When the setting's field cannot be built.
+    /// If the setting's field cannot be built.
     pub fn ring(&self, setting: &Setting) -> Result<Unknowns> {
         setting.ring(&self.order, if self.graded { Order::GrevLex } else { Order::Lex })
     }
@@ -35,7 +35,7 @@ impl Certified {
     /// Verifies the claim that this is the basis of `setting`'s equations.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Certificate`] with the first part that does not hold.
+    /// [`crate::ErrorKind::Certificate`] with the first false part.
     pub fn verify(&self, setting: &Setting) -> Result<Proof> {
         let ring = self.ring(setting)?;
         let generators = setting.generators(&ring)?;
@@ -47,7 +47,7 @@ impl Certified {
     }
 }
 
-/// The proved form of `target`, a basis of the same ideal as `graded`, whose cofactors by `generators` are known.
+/// The basis `target` with proof. It is a basis of the same ideal as `graded`, whose cofactors by `generators` are known.
 pub(in crate::derive) fn certified(
     graded: &Basis<Coefficients>,
     target: &Basis<Coefficients>,

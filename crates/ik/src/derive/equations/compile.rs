@@ -1,4 +1,4 @@
-//! From the tree of strata to a [`Program`]: one case for each stratum that has formulas of its own.
+//! The [`Program`] of a tree of strata: one case for each stratum with its own formulas.
 
 use num_traits::{Signed, ToPrimitive, Zero};
 
@@ -15,20 +15,20 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Ring, Style};
 use groebot_algebra::poly::{Expression, Order};
 
-/// The scale of a program whose equations hold no numbers: its parameters alone set the scale then.
+/// The scale of a program whose equations contain no constants. Its parameters alone then determine the scale.
 const SMALLEST_SCALE: f64 = 1e-12;
 
 /// Compiles the solver of `system` from its proved tree.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] when the system has more joints or higher degrees than a program may have.
+/// [`ErrorKind::Unsupported`] if the system has more joints or higher degrees than a program may have.
 pub fn compile(system: &System, tree: &Node) -> Result<Program> {
     let compiler = Compiler { system };
     let mut cases = Vec::new();
     compiler.cases(tree, &mut Vec::new(), &mut cases)?;
     let block = Block::numbered(&system.name, Vec::new(), cases);
     let capacity = block.cases.iter().map(Program::branches).sum();
-    // The case of a stratum gives all solutions there, and a target lies on one.
+    // The case of a stratum gives all solutions there, and a target is on only one stratum.
     let most = block.cases.iter().map(Program::branches).max().filter(|most| *most > 0);
     let isolated = most.filter(|_| !block.cases.iter().any(|case| case.open));
     let (checks, scale) = compiler.checks()?;
@@ -63,7 +63,7 @@ fn unit(system: &System, quantity: Quantity) -> Unit {
     }
 }
 
-/// A factor of a stratum and the setting that it is a polynomial of.
+/// A factor of a stratum, and the setting whose parameters it contains.
 type Condition<'a> = (&'a Setting, &'a Expression);
 
 struct Compiler<'a> {
@@ -180,8 +180,7 @@ impl<'a> Compiler<'a> {
         path.iter().map(guard).collect()
     }
 
-    /// A guard on a polynomial of the parameters: its value against the sum of its coefficients' magnitudes times powers of the
-    /// length scale.
+    /// A guard on a polynomial of the parameters. Its size is the sum of its coefficients' magnitudes times powers of the length scale.
     fn guard(&self, setting: &Setting, factor: &ParameterPoly, near: bool, assembler: &mut Assembler) -> Result<Guard> {
         let field = setting.field()?;
         let ground = field.ring();
@@ -196,8 +195,7 @@ impl<'a> Compiler<'a> {
         Ok(Guard { text: ground.format(factor, Style::Text), value, scale, near })
     }
 
-    /// The operands of a setting's parameters. A parameter that a stratum introduced is the difference between the one that it
-    /// replaces and the rest of that one's new value.
+    /// The operands of a setting's parameters. A parameter that a stratum introduced is computed from the parameter that it replaces.
     fn symbols(&self, setting: &Setting, assembler: &mut Assembler) -> Result<Vec<Operand>> {
         let direct = |name: &str| self.system.parameters.iter().position(|p| p.name == name).map(Operand::Parameter);
         let mut symbols = Vec::new();
@@ -218,7 +216,7 @@ impl<'a> Compiler<'a> {
         Ok(symbols)
     }
 
-    /// One unknown: a value when its polynomial is linear with a coefficient free of unknowns, else roots.
+    /// Solves one unknown: as a value if its polynomial is linear with a leading coefficient free of unknowns, otherwise as roots.
     fn stair(
         &self,
         setting: &Setting,
@@ -259,7 +257,7 @@ impl<'a> Compiler<'a> {
         Ok(symbols)
     }
 
-    /// The equations but for the circle relations, and the program's own length scale.
+    /// The equations without the circle relations, and the program's own length scale.
     fn checks(&self) -> Result<(Checks, f64)> {
         let setting = Setting::new(self.system);
         let ring = setting.ring(&self.system.order, Order::Lex)?;
@@ -314,7 +312,7 @@ impl<'a> Compiler<'a> {
         self.system.joints.iter().map(derivative).collect()
     }
 
-    /// The sum of the magnitudes of all terms, cosines and sines taken as one.
+    /// The sum of the magnitudes of all terms, with cosines and sines counted as one.
     fn size(&self, ring: &Unknowns, f: &Poly, symbols: &[Operand], assembler: &mut Assembler) -> Operand {
         let parameters = ring.field().ring().variables().len();
         let plain = |symbol: usize| {
@@ -347,7 +345,7 @@ pub(in crate::derive) fn push_code(steps: &mut Vec<Step>, assembler: &mut Assemb
     }
 }
 
-/// The terms of `f`, whose denominators are one, over parameters and then unknowns.
+/// The terms of `f` over parameters, then unknowns. The denominators of `f` must be one.
 pub(in crate::derive) fn flatten(ring: &Unknowns, f: &Poly) -> Vec<FlatTerm> {
     let ground = ring.field().ring();
     let mut terms = Vec::new();
@@ -374,7 +372,7 @@ fn merge_like(terms: Vec<FlatTerm>) -> Vec<FlatTerm> {
     merged
 }
 
-/// The sum of the magnitudes of the numbers that stand alone or before unknowns only.
+/// The sum of the magnitudes of the constants in `f`: separate terms, or coefficients of unknowns only.
 fn numbers(ring: &Unknowns, f: &Poly) -> BigRational {
     let field = ring.field();
     let own = f.terms().iter().filter_map(|term| field.as_constant(&term.coefficient));

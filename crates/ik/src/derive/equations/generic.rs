@@ -1,8 +1,8 @@
 //! A basis over the rational functions of the parameters, computed with the parameters as variables.
 //!
-//! In an order that compares unknowns first, a Groebner basis over Q is also one over the rational functions of the parameters. No
-//! coefficient is ever divided, so that no gcd is needed on the way and the cofactors have no denominators of their own: the
-//! leading coefficients that are left are all that may vanish (Kapur, Sun and Wang, ISSAC 2010, build their covers on this).
+//! In an order that compares unknowns first, a Groebner basis over Q is also one over the rational functions of the parameters. The computation divides no
+//! coefficient, so it needs no gcd, and the cofactors have no denominators of their own. Only the final leading coefficients may vanish (Kapur, Sun and Wang,
+//! ISSAC 2010, base their covers on this).
 
 use crate::Result;
 use crate::Watch;
@@ -19,7 +19,7 @@ type FlatPoly = Polynomial<BigRational>;
 /// The reduced basis of `generators` in `ring`, with cofactors.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Overflow`]; what `watch` stops with.
+/// [`crate::ErrorKind::Overflow`]; the error of `watch` if it stops the computation.
 pub(in crate::derive) fn generic_basis(
     setting: &Setting,
     ring: &Unknowns,

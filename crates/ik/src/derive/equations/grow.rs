@@ -1,4 +1,4 @@
-//! Growing the tree of strata: a proof, its denominators, and a branch wherever one of them may vanish.
+//! Construction of the tree of strata: a proof, its denominators, and a branch for each denominator that may vanish.
 
 use crate::derive::System;
 use crate::derive::equations::prover::{Engine, GENERIC, Orders, Prover, is_final};
@@ -8,14 +8,14 @@ use crate::derive::equations::tree::{Excluded, Node, Outcome, Solved};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::poly::Expression;
 
-/// The deepest nesting of strata.
+/// The maximum depth of nested strata.
 const MAX_DEPTH: usize = 8;
 
 /// Derives and proves the equations of `system` on every stratum of its parameters.
 ///
 /// # Errors
-/// [`ErrorKind::Inconsistent`] and [`ErrorKind::PositiveDimensional`] (naming the free unknowns) when that is so for generic
-/// parameters; what `watch` stops with.
+/// For generic parameters: [`ErrorKind::Inconsistent`], and [`ErrorKind::PositiveDimensional`] with the free unknowns. The error of `watch` if it stops the
+/// derivation.
 pub fn derive_tree(system: &System, orders: Orders, watch: &Watch) -> Result<Node> {
     let node = grow(system, &mut Engine { system, orders, watch })?;
     match &node.outcome {
@@ -51,7 +51,7 @@ struct Place {
 
 struct Builder<'a> {
     prover: &'a mut dyn Prover,
-    /// Settings that have been derived, with their labels.
+    /// The settings that have been derived, with their labels.
     seen: Vec<(Setting, String)>,
 }
 
@@ -72,7 +72,7 @@ impl Builder<'_> {
         Ok(node)
     }
 
-    /// Derives the stratum where `factor` vanishes, or says why there is none.
+    /// Derives the stratum where `factor` vanishes, or records why the stratum is empty.
     fn branch(&mut self, node: &mut Node, factor: &ParameterPoly, depth: usize) -> Result<()> {
         let ground = node.setting.field()?.ring().clone();
         let expression = expression_of(&ground, factor);
@@ -120,7 +120,7 @@ impl Builder<'_> {
     }
 }
 
-/// All substitutions of a zero set, one after the other.
+/// Applies all substitutions of a zero set, one after the other.
 pub(in crate::derive) fn apply(setting: &Setting, substitutions: &[Substitution]) -> Result<Setting> {
     substitutions.iter().try_fold(setting.clone(), |setting, substitution| setting.substitute(substitution))
 }
@@ -142,7 +142,7 @@ fn open_node(node: &Node, factor: Expression, reason: String) -> Node {
     Node { factors, derivable: false, ..Node::leaf(&label, node.setting.clone(), Outcome::Open(reason)) }
 }
 
-/// One line on what the equations of a stratum amount to.
+/// One line that summarises the solution of a stratum.
 pub fn describe(node: &Node) -> String {
     match &node.outcome {
         Outcome::Solved(solved) if solved.inherited => "the formulas of the stratum around it hold here too".to_owned(),

@@ -1,4 +1,4 @@
-//! The solution of equations as one block, proved: [`Equations`].
+//! The proved solution of equations as one block: [`Equations`].
 
 pub(super) mod assemble;
 pub(super) mod certificate;
@@ -21,25 +21,25 @@ use crate::solver::Program;
 use crate::{Result, Watch};
 use groebot_algebra::groebner::Basis;
 
-/// The solution of equations as one block, proved.
+/// The proved solution of equations as one block.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Equations {
-    /// The strata in the order that the system asks for: its first basis is what the source prints.
+    /// The strata in the order that the system requests. Its first basis is the one that the source prints.
     pub requested: Node,
-    /// The strata in the orders whose formulas break down least, when they differ: what the program is made of.
+    /// The strata in the orders with the fewest singularities, if they differ. The program is compiled from these.
     pub searched: Option<Node>,
 }
 
-/// Equations that are solved as one block.
+/// The view of equations that are solved as one block.
 pub type EquationsView<'a> = View<'a, System, Equations>;
 
 impl Equations {
     /// Derives and proves the solution of `system`, and compiles its solver.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Inconsistent`], [`crate::ErrorKind::PositiveDimensional`] (naming the free joints),
-    /// [`crate::ErrorKind::Unsupported`] for what a program cannot hold, and what `watch` stops with.
+    /// [`crate::ErrorKind::Inconsistent`]; [`crate::ErrorKind::PositiveDimensional`] with the free joints; [`crate::ErrorKind::Unsupported`] for a solution
+    /// that a program cannot represent. The error of `watch` if it stops the derivation.
     pub(super) fn derive(system: &System, watch: &Watch) -> Result<(Self, Program)> {
         let requested = derive_tree(system, Orders::Requested, watch)?;
         let searched = derive_tree(system, Orders::Searched, watch)?;
@@ -47,10 +47,10 @@ impl Equations {
         Equations { requested, searched }.compiled(system)
     }
 
-    /// With the solver of `system`.
+    /// Adds the compiled solver of `system`.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Unsupported`] for what a program cannot hold.
+    /// [`crate::ErrorKind::Unsupported`] for a solution that a program cannot represent.
     pub(super) fn compiled(self, system: &System) -> Result<(Self, Program)> {
         let program = compile(system, self.solving())?;
         Ok((self, program))
@@ -63,12 +63,12 @@ impl Equations {
         Basis { ring, polynomials, cofactors: Vec::new() }.quotient_dimension()
     }
 
-    /// The tree that the program is made of.
+    /// The tree from which the program is compiled.
     pub fn solving(&self) -> &Node {
         self.searched.as_ref().unwrap_or(&self.requested)
     }
 
-    /// The trees with a title each: the requested order, then the solver's own when it differs.
+    /// The trees with their titles: the requested order, then the solver's own order if it differs.
     pub fn trees(&self) -> Vec<(&'static str, &Node)> {
         let mut trees = vec![("requested order", &self.requested)];
         trees.extend(self.searched.iter().map(|node| ("order of the solver", node)));

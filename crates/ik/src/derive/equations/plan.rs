@@ -1,4 +1,4 @@
-//! Which order of the unknowns to solve in: the one whose formulas break down on the fewest, smallest strata.
+//! Selection of the order of the unknowns: its formulas are singular on the fewest and smallest strata.
 
 use crate::derive::equations::setting::{Coefficients, Setting};
 use crate::derive::equations::strata::{self, ZeroSet};
@@ -8,10 +8,10 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::groebner::{Basis, Quotient};
 use groebot_algebra::poly::Order;
 
-/// Up to this many unknowns, all orders are tried.
+/// The maximum number of unknowns for which all orders are tried.
 const ALL_ORDERS: usize = 5;
 
-/// How badly the formulas of an order break down; smaller is better, compared field by field.
+/// The singularities of an order's formulas. Smaller is better, compared field by field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub struct Score {
@@ -21,16 +21,16 @@ pub struct Score {
     pub surfaces: usize,
     /// Denominators that vanish on smaller sets only.
     pub thin: usize,
-    /// The product of the stairs' degrees: candidates that are tried.
+    /// The product of the degrees: the number of candidates of the triangular form.
     pub candidates: usize,
-    /// Terms of all formulas.
+    /// The number of terms of all formulas.
     pub terms: usize,
 }
 
-/// The lexicographic basis with the best score; the setting's own order wins ties.
+/// The lexicographic basis with the best score. The setting's own order wins ties.
 ///
 /// # Errors
-/// What `watch` stops with; [`ErrorKind::Overflow`].
+/// The error of `watch` if it stops the search; [`ErrorKind::Overflow`].
 pub(in crate::derive) fn best_order(
     setting: &Setting,
     quotient: &Quotient<Coefficients>,
@@ -53,7 +53,7 @@ pub(in crate::derive) fn best_order(
 /// The score of a basis' formulas in `setting`.
 ///
 /// # Errors
-/// When the setting's field cannot be built or the basis is not zero-dimensional.
+/// If the setting's field cannot be built or the basis is not zero-dimensional.
 pub fn score(setting: &Setting, basis: &Basis<Coefficients>) -> Result<Score> {
     let ground = basis.ring.field().ring();
     let mut denominators = Vec::new();
@@ -72,7 +72,7 @@ pub fn score(setting: &Setting, basis: &Basis<Coefficients>) -> Result<Score> {
     Ok(score)
 }
 
-/// The orders that are tried, the given one first: all of them for few unknowns, else each unknown once in the smallest place.
+/// The orders that are tried, the given one first. For few unknowns these are all orders, otherwise each unknown is once the smallest.
 fn orders(unknowns: &[String]) -> Vec<Vec<String>> {
     if unknowns.len() <= ALL_ORDERS {
         let mut orders = Vec::new();

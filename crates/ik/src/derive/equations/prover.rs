@@ -1,4 +1,4 @@
-//! Where outcomes come from when the tree grows: from the engine here, from a stored certificate in [`crate::derive::equations::certificate`].
+//! Provers, which give the outcomes of a growing tree: the engine here, a stored certificate in [`crate::derive::equations::certificate`].
 
 use crate::derive::equations::certify;
 use crate::derive::equations::generic::generic_basis;
@@ -10,22 +10,22 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::groebner::{Basis, Quotient};
 use groebot_algebra::poly::{Expression, Order};
 
-/// Gives the proved outcome of a setting's equations.
+/// A prover of the outcome of a setting's equations.
 pub(in crate::derive) trait Prover {
-    /// The outcome at the stratum called `label`; `parent` is the solved form around it.
+    /// The outcome at the stratum called `label`. `parent` is the solved form of the surrounding stratum.
     fn prove(&mut self, label: &str, setting: &Setting, parent: Option<&Solved>) -> Result<Outcome>;
 }
 
-/// How a tree is built.
+/// The choice of the order at each stratum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orders {
     /// The system's own order at every stratum.
     Requested,
-    /// At every stratum the order whose formulas break down least.
+    /// At every stratum, the order with the fewest singularities.
     Searched,
 }
 
-/// Proves by computing Groebner bases.
+/// A prover that computes Groebner bases.
 pub(in crate::derive) struct Engine<'a> {
     pub system: &'a System,
     pub orders: Orders,
@@ -36,7 +36,7 @@ impl Prover for Engine<'_> {
     fn prove(&mut self, label: &str, setting: &Setting, parent: Option<&Solved>) -> Result<Outcome> {
         self.watch.check()?;
         match self.outcome(setting, parent) {
-            // Inside a derivation a stratum that cannot be derived stays open, and is recorded as such.
+            // A stratum that cannot be derived remains open and is recorded; the derivation continues.
             Err(error) if label != GENERIC && !is_final(&error) => Ok(Outcome::Open(error.message().to_owned())),
             outcome => outcome,
         }
@@ -44,7 +44,7 @@ impl Prover for Engine<'_> {
 }
 
 impl Engine<'_> {
-    /// The basis of one setting, in the order asked for.
+    /// The outcome of one setting, in the requested or the best order.
     fn outcome(&self, setting: &Setting, parent: Option<&Solved>) -> Result<Outcome> {
         let ring = setting.ring(&setting.unknowns, Order::GrevLex)?;
         let generators = match setting.generators(&ring) {
@@ -87,7 +87,7 @@ impl Engine<'_> {
         Ok(Outcome::Solved(Box::new(Solved { certified, triangular, inherited })))
     }
 
-    /// Frees the joints of the independent unknowns and solves the member that has them at zero.
+    /// Chooses the joints of the independent unknowns as free joints, and solves the member that has them at zero.
     fn self_motion(
         &self,
         setting: &Setting,
@@ -104,7 +104,7 @@ impl Engine<'_> {
     }
 }
 
-/// Whether the parent's basis, with this setting's new substitutions put in, is `lex`: its formulas hold on.
+/// Whether `lex` is the parent's basis with this setting's new substitutions applied. The parent's formulas then hold here too.
 pub(in crate::derive) fn specialises(parent: &Solved, setting: &Setting, lex: &Basis<Coefficients>) -> Result<bool> {
     let source = &parent.triangular.ring;
     if parent.certified.basis.len() != lex.polynomials.len() {
@@ -126,7 +126,7 @@ pub(in crate::derive) fn specialises(parent: &Solved, setting: &Setting, lex: &B
     Ok(true)
 }
 
-/// Errors that end the whole derivation; others leave one stratum open.
+/// Whether an error ends the whole derivation. Other errors leave one stratum open.
 pub(in crate::derive) fn is_final(error: &Error) -> bool {
     matches!(error.kind(), ErrorKind::Cancelled | ErrorKind::Budget | ErrorKind::Certificate)
 }
@@ -149,7 +149,7 @@ pub(in crate::derive) fn joints_of(
     (0..system.joints.len()).filter(|&joint| is_free(&system.joints[joint])).collect()
 }
 
-/// The setting with equations that put `joints` at zero.
+/// The setting with additional equations that fix `joints` at zero.
 pub(in crate::derive) fn member_setting(system: &System, setting: &Setting, joints: &[usize]) -> Setting {
     let mut member = setting.clone();
     for &joint in joints {

@@ -1,4 +1,4 @@
-//! [`Setting`]: the equations of a system where some parameters have been replaced, and their ring.
+//! [`Setting`]: the equations of a system after replacement of some parameters, and their ring.
 
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Rationals, Ring, Style};
@@ -15,41 +15,41 @@ pub type ParameterPoly = Polynomial<BigRational>;
 /// The ring of the unknowns over [`Coefficients`].
 pub type Unknowns = PolynomialRing<Coefficients>;
 
-/// A parameter that is left.
+/// A remaining parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Symbol {
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// Its square, when it is algebraic over the parameters before it.
+    /// The square, if the parameter is algebraic over the parameters before it.
     pub square: Option<Expression>,
     /// Whether it is assumed greater than zero.
     pub positive: bool,
 }
 
-/// `name` is replaced by `value`, an expression in parameters that are left.
+/// The replacement of `name` by `value`, an expression in remaining parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Substitution {
     /// The parameter that is replaced.
     pub name: String,
-    /// What it is replaced by.
+    /// The new value.
     pub value: Expression,
 }
 
 /// The equations at one stratum of the parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
-    /// The parameters that are left, in an order in which squares mention earlier ones only.
+    /// The remaining parameters. Squares mention only earlier ones.
     pub symbols: Vec<Symbol>,
     /// All unknowns, greatest first.
     pub unknowns: Vec<String>,
-    /// What is zero.
+    /// The expressions that are zero.
     pub equations: Vec<Expression>,
-    /// What has been replaced so far, in order.
+    /// The substitutions so far, in order.
     pub substitutions: Vec<Substitution>,
 }
 
 impl Setting {
-    /// The setting of `system` itself: nothing replaced.
+    /// The setting of `system` itself, without substitutions.
     pub fn new(system: &System) -> Self {
         let positive = |parameter: &crate::derive::Parameter| match parameter.source {
             crate::derive::ParameterSource::Input(index) => system.inputs[index].positive,
@@ -69,10 +69,10 @@ impl Setting {
         }
     }
 
-    /// The field of rational functions of the parameters that are left.
+    /// The field of rational functions of the remaining parameters.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when a relation is malformed.
+    /// [`ErrorKind::BadValue`] if a relation is malformed.
     pub fn field(&self) -> Result<Coefficients> {
         let names: Vec<&str> = self.symbols.iter().map(|symbol| symbol.name.as_str()).collect();
         let mut field = Fractions::new(Rationals, &names)?;
@@ -85,7 +85,7 @@ impl Setting {
         Ok(field)
     }
 
-    /// The ring of the unknowns in `order`, variables greatest first as `names`.
+    /// The ring of the unknowns in `order`, with variables `names`, greatest first.
     ///
     /// # Errors
     /// As [`Setting::field`].
@@ -96,15 +96,15 @@ impl Setting {
     /// The equations as polynomials of `ring`.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when an equation divides by what is zero in this setting.
+    /// [`ErrorKind::BadValue`] if an equation divides by an expression that is zero in this setting.
     pub fn generators(&self, ring: &Unknowns) -> Result<Vec<Poly>> {
         self.equations.iter().map(|equation| equation.evaluate(ring)).collect()
     }
 
-    /// The same equations with a parameter replaced. A parameter whose square becomes zero becomes zero itself.
+    /// The setting after replacement of a parameter. A parameter whose square becomes zero becomes zero too.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] when there is no such parameter.
+    /// [`ErrorKind::UnknownName`] if there is no such parameter.
     pub fn substitute(&self, substitution: &Substitution) -> Result<Setting> {
         let Some(index) = self.symbols.iter().position(|symbol| symbol.name == substitution.name) else {
             let text = format!("no parameter `{}` is left to be replaced", substitution.name);
@@ -126,8 +126,7 @@ impl Setting {
         }
     }
 
-    /// The same equations once for each sign of a root whose square has become a square of the parameters: the relation
-    /// would not be prime any more.
+    /// The settings for both signs of each root whose square has become a square of the parameters. Otherwise the relation of the root would not be prime.
     ///
     /// # Errors
     /// As [`Setting::field`].
@@ -145,7 +144,7 @@ impl Setting {
         Ok(vec![self.clone()])
     }
 
-    /// An expression of the parameters before symbol `index` whose square is `square`: a polynomial, or one times an earlier root.
+    /// An expression in the parameters before symbol `index` whose square is `square`: a polynomial, or a polynomial times an earlier root.
     fn root_among_earlier(&self, index: usize, square: &Expression) -> Result<Option<Expression>> {
         let field = Setting { symbols: self.symbols[..index].to_vec(), ..self.clone() }.field()?;
         let ring = field.ring();
@@ -184,12 +183,12 @@ impl Setting {
         Ok(None)
     }
 
-    /// Whether the same parameters are left and the same equations hold, however they were come by.
+    /// Whether both settings have equal parameters and equations. Their substitutions may differ.
     pub fn same_equations(&self, other: &Setting) -> bool {
         self.symbols == other.symbols && self.unknowns == other.unknowns && self.equations == other.equations
     }
 
-    /// Adds an algebraic parameter behind the others.
+    /// Adds an algebraic parameter after the others.
     #[must_use]
     pub fn with_symbol(&self, symbol: Symbol) -> Setting {
         let mut setting = self.clone();

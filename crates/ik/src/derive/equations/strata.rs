@@ -1,4 +1,4 @@
-//! Where a generic result may fail: the real zero sets of its denominators, as substitutions of parameters.
+//! The strata where a generic result may fail: the real zero sets of its denominators, as substitutions of parameters.
 
 use std::collections::BTreeSet;
 
@@ -8,21 +8,21 @@ use groebot_algebra::groebner::cover::forced_zeros;
 use groebot_algebra::number::{BigInt, Rationals, Ring, Style};
 use groebot_algebra::poly::{Expression, PolynomialRing, factor};
 
-/// What the zero set of a factor is, over the reals and under the assumptions.
+/// The zero set of a factor over the reals, under the assumptions on the parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ZeroSet {
-    /// It is empty, for this reason.
+    /// The empty set, with the reason.
     Empty(String),
-    /// It is where all these substitutions hold together.
+    /// The set where all these substitutions hold together.
     Graph(Vec<Substitution>),
-    /// It is where `name` takes the value, an expression that mentions a new parameter whose square is given.
+    /// The set where `name` takes the value, an expression with a new parameter whose square is given.
     Root {
         /// The substitution.
         substitution: Substitution,
         /// The new parameter.
         symbol: Symbol,
     },
-    /// This version has no description of it.
+    /// A set without a known description, with the reason.
     Open(String),
 }
 
@@ -48,7 +48,7 @@ pub fn factors(ring: &Ground, polynomials: &[ParameterPoly]) -> Result<Vec<Param
 /// Describes the real zeros of `factor` in `setting`.
 ///
 /// # Errors
-/// When the setting's field cannot be built.
+/// If the setting's field cannot be built.
 pub fn zero_set(setting: &Setting, factor: &ParameterPoly) -> Result<ZeroSet> {
     let ring = setting.field()?.ring().clone();
     if let Some(definite) = definite(setting, &ring, factor) {
@@ -80,7 +80,7 @@ pub fn zero_set(setting: &Setting, factor: &ParameterPoly) -> Result<ZeroSet> {
     })
 }
 
-/// `v = -b/2a + w` with `w^2 = (b^2 - 4ac)/4a^2`.
+/// The zero set of a quadratic: `v = -b/2a + w` with `w^2 = (b^2 - 4ac)/4a^2`.
 fn root_of(setting: &Setting, ring: &Ground, factor: &ParameterPoly, v: usize) -> ZeroSet {
     let parts = ring.coefficients_in(factor, v);
     let (c, b, a) = (&parts[0], &parts[1], &parts[2]);
@@ -113,7 +113,7 @@ fn never_zero(setting: &Setting, ring: &Ground, f: &ParameterPoly) -> bool {
     matches!(definite(setting, ring, f), Some(ZeroSet::Empty(_)))
 }
 
-/// A factor that is seen to keep its sign vanishes only where each of what it is a sum of does.
+/// The zero set of a sum of terms of one sign, such as squares: all its terms must vanish.
 fn definite(setting: &Setting, ring: &Ground, f: &ParameterPoly) -> Option<ZeroSet> {
     let positive: Vec<bool> = setting.symbols.iter().map(|symbol| symbol.positive).collect();
     let Some(zeros) = forced_zeros(ring, f, &positive) else { return linear_power(setting, ring, f) };
@@ -128,7 +128,7 @@ fn definite(setting: &Setting, ring: &Ground, f: &ParameterPoly) -> Option<ZeroS
     zeros.iter().all(is_zero_there).then(|| ZeroSet::Graph(vanishing.iter().map(substitution).collect()))
 }
 
-/// A single variable.
+/// The zero set of a power of a single variable.
 fn linear_power(setting: &Setting, ring: &Ground, f: &ParameterPoly) -> Option<ZeroSet> {
     let [term] = f.terms() else { return None };
     let (v, _) = ring.layout().pure_power(&term.monomial)?;

@@ -7,22 +7,22 @@ use crate::derive::equations::triangular::Triangular;
 use groebot_algebra::number::{Rationals, Ring};
 use groebot_algebra::poly::{Expression, PolynomialRing};
 
-/// One stratum of the parameters with what was derived and proved there.
+/// One stratum of the parameters, with its derived and proved outcome.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
-    /// `generic`, or the conditions of the stratum: `pz = 0`.
+    /// `generic`, or the conditions of the stratum, such as `pz = 0`.
     pub label: String,
     /// The factors that vanish here, one for each step from the root, as expressions of the root's parameters.
     pub factors: Vec<Expression>,
-    /// The equations here.
+    /// The equations on this stratum.
     pub setting: Setting,
-    /// What they amount to.
+    /// The outcome of the equations.
     pub outcome: Outcome,
-    /// Strata inside this one where the proof does not reach.
+    /// Strata inside this one where the proof does not hold.
     pub children: Vec<Node>,
     /// Factors of denominators that are never zero, with the reason.
     pub excluded: Vec<Excluded>,
-    /// Whether the stratum has a description as substitutions, so that a prover was asked about it.
+    /// Whether the stratum has a description as substitutions, so that a prover was applied to it.
     pub derivable: bool,
 }
 
@@ -36,18 +36,18 @@ pub struct Excluded {
     pub reason: String,
 }
 
-/// What the equations of a stratum amount to.
+/// The outcome of the equations of a stratum.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// Finitely many solutions.
     Solved(Box<Solved>),
     /// No solution: the unit ideal, with the proof.
     Inconsistent(Box<Certified>),
-    /// Infinitely many: some joints are free.
+    /// Infinitely many solutions: some joints are free.
     SelfMotion(Box<SelfMotion>),
-    /// The same equations as at the stratum with this label, derived there.
+    /// Equations that were already derived at the stratum with this label.
     Seen(String),
-    /// Not derived, for this reason.
+    /// Not derived, with the reason.
     Open(String),
 }
 
@@ -59,18 +59,18 @@ pub struct Solved {
     pub certified: Certified,
     /// The triangular form.
     pub triangular: Triangular,
-    /// The parent's formulas hold here unchanged: the basis is the parent's, specialised.
+    /// Whether the parent's formulas hold here too: the basis is the parent's, specialised.
     pub inherited: bool,
 }
 
 /// A stratum with free joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SelfMotion {
-    /// The joints (indices) that were chosen to be the free ones.
+    /// The joints (indices) that were chosen as free.
     pub free: Vec<usize>,
-    /// Basis and proof of the equations themselves, in graded order: what was proved positive-dimensional.
+    /// Basis and proof of the equations themselves, in graded order. They prove that the solutions have positive dimension.
     pub certified: Certified,
-    /// The member with each free joint at zero, solved; its setting has the equations that put the joints there.
+    /// The member with each free joint at zero, solved. Its setting has the equations that fix these joints.
     pub member: Box<Node>,
 }
 
@@ -103,10 +103,10 @@ impl Node {
         }
     }
 
-    /// Every denominator that the proofs divide by, distinct, as polynomials of the parameters.
+    /// Every denominator of the proofs, once each, as polynomials of the parameters.
     ///
     /// # Errors
-    /// When the setting's field cannot be built.
+    /// If the setting's field cannot be built.
     pub fn denominators(&self) -> Result<Vec<ParameterPoly>> {
         let mut found = Vec::new();
         for (setting, certified) in self.proofs() {
@@ -134,7 +134,7 @@ impl Node {
     }
 }
 
-/// Adds to `found` the denominators other than one that are not there yet.
+/// Adds to `found` the denominators that it does not contain yet, except one.
 pub(in crate::derive) fn collect_denominators<'a>(
     ground: &PolynomialRing<Rationals>,
     polynomials: impl Iterator<Item = &'a Poly>,

@@ -1,8 +1,8 @@
-//! From a lexicographic basis to one unknown at a time.
+//! A lexicographic basis as a triangular form that gives one unknown at a time.
 //!
-//! The polynomials of a zero-dimensional lexicographic basis are grouped by their greatest unknown. By the theorem of Gianni and
-//! Kalkbrener (EUROCAL 1987), the first polynomial of a group whose leading coefficient does not vanish at a solution of the
-//! smaller unknowns has exactly the continuations of that solution as its roots: no candidate is lost, none is spurious.
+//! The polynomials of a zero-dimensional lexicographic basis are grouped by their greatest unknown. The theorem of Gianni and Kalkbrener (EUROCAL 1987) applies
+//! to each solution of the smaller unknowns. The first polynomial of a group whose leading coefficient does not vanish there has exactly the continuations of
+//! that solution as its roots. So no candidate is lost, and none is spurious.
 
 use std::fmt;
 
@@ -13,13 +13,13 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigInt, BigRational, Field, Ring, Style};
 use groebot_algebra::poly::{Fraction, Polynomial, gcd};
 
-/// How one unknown follows from the smaller ones.
+/// The polynomials that determine one unknown from the smaller ones.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Stair {
     /// Index of the unknown in the ring.
     pub unknown: usize,
-    /// The polynomials whose greatest unknown it is, smallest leading monomial first; denominators cleared, primitive.
+    /// The polynomials whose greatest unknown it is, smallest leading monomial first. They are primitive, without denominators.
     pub polynomials: Vec<Poly>,
 }
 
@@ -29,14 +29,14 @@ pub struct Stair {
 pub struct Triangular {
     /// The ring, its variables greatest first, lexicographic.
     pub ring: Unknowns,
-    /// One stair an unknown, the smallest unknown first.
+    /// One stair per unknown, the smallest unknown first.
     pub stairs: Vec<Stair>,
 }
 
 /// Groups a reduced zero-dimensional lexicographic basis by unknowns.
 ///
 /// # Errors
-/// [`ErrorKind::PositiveDimensional`] when some unknown has no polynomial.
+/// [`ErrorKind::PositiveDimensional`] if some unknown has no polynomial.
 pub fn triangularise(ring: &Unknowns, basis: &[Poly]) -> Result<Triangular> {
     let count = ring.variables().len();
     let mut groups: Vec<Vec<Poly>> = vec![Vec::new(); count];
@@ -68,7 +68,7 @@ impl Triangular {
         self.stairs.iter().map(|stair| degree(stair).unwrap_or(0)).collect()
     }
 
-    /// The most solutions that the stairs can give.
+    /// The maximum number of solutions of the triangular form.
     pub fn bound(&self) -> usize {
         self.degrees().iter().map(|&degree| degree as usize).product()
     }
@@ -93,8 +93,8 @@ impl fmt::Display for Triangular {
     }
 }
 
-/// `f` times the least polynomial of the parameters that clears its denominators, divided by what all coefficients share: integer
-/// coefficients without common factor, the leading one positive.
+/// A multiple of `f` with integer coefficients without common factor, and a positive leading one. All common factors of the coefficients are removed, also
+/// polynomials of the parameters.
 pub fn cleared(ring: &Unknowns, f: &Poly) -> Poly {
     let field = ring.field();
     let ground = field.ring();
@@ -121,8 +121,8 @@ pub fn clear_denominators(ring: &Unknowns, f: &Poly) -> (Poly, ParameterPoly) {
     (ring.scale(f, &field.embed(&common)), common)
 }
 
-/// A cleared polynomial as the sources print them: divided by the largest power of ten that leaves no coefficient below one, with
-/// decimals: `20580*c4 - px^2 - pz^2 + 20588.41`.
+/// A cleared polynomial in the notation of the sources: `20580*c4 - px^2 - pz^2 + 20588.41`. It is divided by the largest power of ten that leaves no
+/// coefficient below one.
 pub fn presented(ring: &Unknowns, f: &Poly) -> String {
     let numbers = f.terms().iter().flat_map(|term| term.coefficient.numerator().terms());
     let least = numbers.map(|term| term.coefficient.abs()).min().unwrap_or_else(BigRational::one);
@@ -136,7 +136,7 @@ pub fn presented(ring: &Unknowns, f: &Poly) -> String {
     ring.format(&ring.scale(f, &factor), Style::Decimal)
 }
 
-/// With integer coefficients without common factor, and a positive leading number.
+/// A multiple with integer coefficients without common factor, and a positive leading constant.
 fn oriented(ring: &Unknowns, f: &Poly) -> Poly {
     let numbers = number_content(f.terms().iter().map(|term| term.coefficient.numerator()));
     let lead = f.leading().and_then(|term| term.coefficient.numerator().leading());
@@ -148,7 +148,7 @@ fn oriented(ring: &Unknowns, f: &Poly) -> Poly {
     ring.scale(f, &factor(ring.field()))
 }
 
-/// The positive rational number that divides all coefficients into integers without common factor; one for no polynomial.
+/// The positive rational number whose division gives integer coefficients without common factor; one for no polynomial.
 fn number_content<'a>(polynomials: impl Iterator<Item = &'a ParameterPoly>) -> BigRational {
     let (mut top, mut bottom) = (BigInt::from(0), BigInt::from(1));
     for term in polynomials.flat_map(Polynomial::terms) {

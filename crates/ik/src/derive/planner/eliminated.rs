@@ -1,4 +1,4 @@
-//! Steps that find one joint after others are eliminated from as many relations as unknown joints.
+//! Steps that eliminate other joints: as many relations as unknown joints determine one joint.
 
 use std::rc::Rc;
 
@@ -14,26 +14,26 @@ use groebot_algebra::groebner::{basis_modulo_prime, normal_form};
 use groebot_algebra::number::Ring;
 use groebot_algebra::poly::Polynomial;
 
-/// The greatest degree that a step may have.
+/// The maximum degree of a step.
 const GREATEST: usize = 4;
-/// So many independent relations are combined.
+/// The maximum number of independent relations that are combined.
 const CANDIDATES: usize = 4;
-/// So many relations are looked at for independent ones.
+/// The maximum number of relations that are tested for independence.
 const LOOKED_AT: usize = 24;
 
-/// The effort of a joint that no sum of squares eliminates.
+/// The effort of eliminating a joint that no sum of squares eliminates.
 const HARD: usize = 15;
-/// The effort of linear relations among coefficients.
+/// The effort of using linear relations among coefficients.
 const LINEAR: usize = 20;
 
-/// A relation, by its place, with what it looks like.
+/// The index of a relation, and its coefficients at the sampled targets.
 type Seen = (usize, Rc<Sight>);
 
-/// The steps to one of the joints of the set `joints`, given those of `known`, that have at most [`GREATEST`] solutions: for each
-/// joint the one of lowest degree and least effort.
+/// The steps to each joint of the set `joints` when those of `known` are known, with at most [`GREATEST`] solutions. There is at most one step per joint: that
+/// of lowest degree, then of least effort.
 ///
 /// # Errors
-/// As [`Sights::of`]; what `watch` stops with.
+/// As [`Sights::of`]. The error of `watch` if it stops the search.
 pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Watch) -> Result<Vec<Candidate>> {
     let places = members(joints);
     let followers = followers(sights.mechanism, joints);
@@ -67,11 +67,12 @@ pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Wa
     Ok(best.into_iter().flatten().collect())
 }
 
-/// The number of values of a step's joint when others are eliminated, counted again; zero when there are none or infinitely many, or when
-/// the step has relations that no planner looks at.
+/// Counts the values of a step's joint again, after elimination of the other joints.
+///
+/// The count is zero if there are no values or infinitely many, or if the planner does not use one of the step's relations.
 ///
 /// # Errors
-/// As [`Sights::of`]; what `watch` stops with.
+/// As [`Sights::of`]. The error of `watch` if it stops the count.
 pub fn count(sights: &mut Sights<'_>, step: &PlanStep, watch: &Watch) -> Result<usize> {
     let Way::Eliminated { relations, away } = &step.way else { return Ok(step.degree) };
     let places = members(set(away) | 1 << step.joint);
@@ -85,7 +86,7 @@ pub fn count(sights: &mut Sights<'_>, step: &PlanStep, watch: &Watch) -> Result<
     Ok(places.iter().zip(degrees).find(|(place, _)| **place == step.joint).map_or(0, |(_, degree)| degree))
 }
 
-/// The joints of a set that follow others of it: their laws determine them.
+/// The joints of a set that follow other joints of the set. Their laws determine them.
 pub fn followers(mechanism: &Mechanism, joints: u32) -> u32 {
     let is_in = |joint: usize| joints >> joint & 1 == 1;
     let led =
@@ -93,7 +94,7 @@ pub fn followers(mechanism: &Mechanism, joints: u32) -> u32 {
     led.fold(0, |set, (follower, _)| set | 1 << follower)
 }
 
-/// Whether every joint of the set occurs, itself or in the law of one that does.
+/// Whether every joint of the set occurs in the relations, or is the leader of a joint that occurs.
 fn covers(mechanism: &Mechanism, some: &[Seen], joints: u32) -> bool {
     let factors = some.iter().flat_map(|(_, sight)| sight.iter().flat_map(|(product, _)| product.list()));
     let occur = factors.fold(0, |set, factor| set | 1 << factor.joint());
@@ -101,9 +102,10 @@ fn covers(mechanism: &Mechanism, some: &[Seen], joints: u32) -> bool {
     leaders.fold(occur, |set, (_, coupling)| set | 1 << coupling.leader) & joints == joints
 }
 
-/// Whether the relations are combinations, with numbers, of coordinates of one vector that `joint` turns: the sum of their squares
-/// then is free of the joint, which eliminates it (Pieper 1968). That is so when the rows (A, B) of A c + B s' stay among themselves
-/// under a quarter turn, (A, B) -> (B, -n A), at all targets alike.
+/// Whether the relations are constant combinations of coordinates of one vector that `joint` rotates.
+///
+/// The sum of the squares of such relations is independent of the joint, which eliminates it (Pieper 1968). Each relation has a row (A, B) from A c + B s'. The
+/// condition holds if the map (A, B) -> (B, -n A), a rotation by 90 degrees, keeps the span of the rows at all targets.
 fn turns_as_one(sights: &Sights<'_>, some: &[Seen], joint: usize) -> bool {
     let (field, n) = (sights.field(), sights.squares[joint]);
     let mut rows = Echelon::new(field);
@@ -129,7 +131,7 @@ fn turns_as_one(sights: &Sights<'_>, some: &[Seen], joint: usize) -> bool {
     turned.into_iter().all(|turn| !rows.insert(turn))
 }
 
-/// What joints that follow others make of relations.
+/// The laws of joints that follow others, as an ideal for substitution into relations.
 struct Laws {
     space: Space,
     ideal: Vec<Polynomial<u64>>,
@@ -143,14 +145,14 @@ impl Laws {
         Ok(Laws { space, ideal })
     }
 
-    /// The degree of a relation with the laws in it.
+    /// The degree of a relation after substitution of the laws.
     fn degree(&self, sight: &Sight) -> Result<u32> {
         let polynomial = self.space.polynomial(sight.iter().map(|(product, sample)| (product, sample[0])))?;
         Ok(self.space.ring.degree(&normal_form(&self.space.ring, &polynomial, &self.ideal)?))
     }
 }
 
-/// The first linearly independent relations in which only joints of the set are unknown; where joints follow others, of the least degree.
+/// The first linearly independent relations whose unknown joints are all in the set. If joints follow others, relations of least degree come first.
 fn independent(sights: &mut Sights<'_>, joints: u32, known: u32, laws: Option<&Laws>) -> Result<Vec<Seen>> {
     let of_loop = |index: &usize| sights.relations[*index].followed().is_none();
     let mut within: Vec<usize> =
@@ -179,19 +181,20 @@ fn independent(sights: &mut Sights<'_>, joints: u32, known: u32, laws: Option<&L
     Ok(found)
 }
 
-/// The subsets that are not empty.
+/// The non-empty subsets of a set.
 fn subsets(joints: u32) -> impl Iterator<Item = u32> {
     (1..=joints).filter(move |subset| subset & !joints == 0)
 }
 
-/// All ways to choose `size` of `count` things, the first ones first.
+/// All subsets of `size` of `count` indices. Those with low indices come first.
 fn combinations(count: usize, size: usize) -> Vec<Vec<usize>> {
     (0_u32..1 << count).filter(|set| set.count_ones() as usize == size).map(members).collect()
 }
 
-/// The numbers of values of the joints when all coefficients that are no numbers are free, as they are for the basis with symbols;
-/// proportional ones stay so; and the number of these symbols. Where that leaves more values than a step may have, other linear
-/// relations of the coefficients are kept too, which counts as [`LINEAR`] symbols more.
+/// The numbers of values of the joints when non-constant coefficients are free symbols, as in the symbolic basis, and the number of symbols.
+///
+/// Proportional coefficients remain proportional. If this gives too many values for a step, the other linear relations of the coefficients are kept too. These
+/// count as [`LINEAR`] additional symbols.
 fn freed_degrees(
     sights: &mut Sights<'_>,
     some: &[Seen],
@@ -203,7 +206,7 @@ fn freed_degrees(
     for (_, sight) in some {
         actual.push(space.polynomial(sight.iter().map(|(product, sample)| (product, sample[0])))?);
     }
-    // Freed coefficients may have finitely many solutions where the actual ones have not, but no fewer.
+    // Free coefficients may give finitely many solutions where the actual coefficients do not, but never fewer solutions.
     if !degrees(sights, actual, &space, places, watch)?.iter().any(is_allowed) {
         return Ok((vec![0; places.len()], 0));
     }
@@ -222,12 +225,12 @@ fn freed_degrees(
     Ok((degrees(sights, mixtures, &space, places, watch)?, symbols + LINEAR))
 }
 
-/// Whether a step may have so many solutions.
+/// Whether a step may have this number of solutions.
 fn is_allowed(degree: &usize) -> bool {
     (1..=GREATEST).contains(degree)
 }
 
-/// The numbers of values of the joints; zero when there are none or infinitely many.
+/// The number of values of each joint; zero if there are no solutions or infinitely many.
 fn degrees(
     sights: &Sights<'_>,
     polynomials: Vec<Polynomial<u64>>,
@@ -245,7 +248,7 @@ fn degrees(
     }
 }
 
-/// The relations with random numbers for symbols, and how many these are.
+/// The relations with random numbers in place of symbols, and the number of symbols.
 fn freed(
     sights: &Sights<'_>,
     some: &[Seen],

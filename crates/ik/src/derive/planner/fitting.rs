@@ -1,4 +1,4 @@
-//! The task that fits a chain with fewer joints than its task asks numbers for: [`fitting_task`].
+//! A task that suits a chain with fewer joints than its task determines: [`fitting_task`].
 
 use num_traits::{One, Zero};
 
@@ -8,9 +8,10 @@ use crate::derive::closure::Mechanism;
 use groebot_algebra::number::BigRational;
 use groebot_robot::kinematics::{BaseAxis, Chain, ExactVector, Plane, Task};
 
-/// The options of `groebot derive` for a task that the joints of `chain` can do anywhere in their workspace, one joint at a time: as many numbers
-/// as there are joints whose values are not given and that follow no other, or one less. None for a chain whose task asks for no more than the joints can do, and where
-/// no such task is found.
+/// The options of `groebot derive` for a task that the joints of `chain` can fulfil everywhere in their workspace, one joint at a time.
+///
+/// The task has as many freedoms as the chain has independent joints without given values, or one less. `None` if the chain has enough joints for its own task,
+/// or if no such task is found.
 pub fn fitting_task(chain: &Chain) -> Option<String> {
     let free = chain.independent().len();
     if free >= chain.task().freedoms() {
@@ -20,7 +21,7 @@ pub fn fitting_task(chain: &Chain) -> Option<String> {
     candidates(free).into_iter().find(fits).map(|(task, direction)| words(task, &direction))
 }
 
-/// Tasks of that many numbers, or one less, the first the most useful.
+/// The tasks with `free` freedoms, or one less, the most useful first.
 fn candidates(free: usize) -> Vec<(Task, ExactVector)> {
     let aimed = |task: Task| [2, 0, 1].map(|axis| (task, along(axis)));
     let planes = [Plane::Xz, Plane::Xy, Plane::Yz];
@@ -44,7 +45,7 @@ fn candidates(free: usize) -> Vec<(Task, ExactVector)> {
     }
 }
 
-/// Whether the joints are found one at a time for the task, one of them given where there is one too many.
+/// Whether the joints are found one at a time for the task. If the chain has one joint more than the task determines, one joint is given.
 fn is_solved(chain: &Chain, task: Task, direction: &ExactVector) -> bool {
     let ask = |given: Vec<String>| chain.with_task(task, direction.clone(), given);
     let Ok(asked) = ask(chain.parts().given.clone()) else { return false };

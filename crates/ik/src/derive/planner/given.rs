@@ -1,4 +1,5 @@
-//! Which joints' values are to be given when a task leaves some too many: [`joints_to_give`]. Main types: [`Choice`], [`Candidate`].
+//! Selection of the joints whose values are given, for chains with more joints than their task determines: [`joints_to_give`]. Main types: [`Choice`],
+//! [`Candidate`].
 
 use std::cmp::Reverse;
 use std::fmt;
@@ -11,37 +12,38 @@ use crate::derive::eigenvalue::fits;
 use crate::{ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
 
-/// A joint is as good to give as the best one when its share is this part of the best one's at least.
+/// The fraction of the best share from which a joint counts as equally good to give.
 const AS_GOOD: f64 = 0.8;
 
-/// The joints whose values are given, and why.
+/// The joints whose values are given, and the alternatives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// Their names, from the base; those that were given before too.
+    /// The names of all given joints, from the base, including those that were given before.
     pub given: Vec<String>,
-    /// All that the last one was chosen from, from the base.
+    /// All candidates for the last given joint, from the base.
     pub candidates: Vec<Candidate>,
 }
 
-/// A joint that might be given.
+/// A joint that may be given.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Candidate {
-    /// Its name.
+    /// The name of the joint.
     pub joint: String,
-    /// The share of its range, and of reachable poses, that has solutions: counted by screw theory, or else [`Chain::shares`].
+    /// The fraction of its range, over reachable poses, that has solutions: counted by screw theory if possible, else [`Chain::shares`].
     pub share: f64,
-    /// The greatest degree of a step, and the number of solutions, where the other joints are found one at a time.
+    /// The greatest degree of a step, and the number of solutions, if the other joints are found one at a time.
     pub plan: Option<[usize; 2]>,
 }
 
-/// The joints of `chain` to give so that its task determines the others. Of one too many: of those whose range has solutions for the greatest
-/// share of values, the one with which the others are found by polynomials of the least degree, then with the fewest solutions, the last of
-/// equals; where the others have no order whichever is given, the last, if the other six are found together. Of more, all but one are chosen by
-/// their shares alone, the first from the base of those that are as good as the best. `None` for a chain without a joint too many.
+/// Selects the joints of `chain` to give, so that its task determines the others. `None` for a chain without redundant joints.
+///
+/// The last joint must have solutions for nearly the greatest share of its range. Of such joints it is the one with the simplest plan for the others: least
+/// polynomial degree, then fewest solutions, then last in the chain. If no joint gives such a plan, the last joint is given if the other six can be solved
+/// together. Joints before the last are chosen by their shares alone: the first from the base whose share is nearly the greatest.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] when there is no such joint, with the number of solutions for each; what `watch` stops with.
+/// [`ErrorKind::Unsupported`] if there is no such joint, with the number of solutions for each. The error of `watch` if it stops the search.
 pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
     let leads = |joint: &&usize| chain.leader(**joint).is_none();
     let names =
@@ -68,19 +70,19 @@ pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
     Ok(Some(Choice { given: names(&given), candidates }))
 }
 
-/// The joint that the one at `place` follows.
+/// The leader of the joint at `place`, if that joint follows another one.
 fn led_by(chain: &Chain, place: usize) -> Option<usize> {
     chain.leader(place).map(|(leader, _)| leader)
 }
 
-/// The first joint whose share is as good as the greatest.
+/// The first joint whose share is nearly the greatest ([`AS_GOOD`]).
 fn of_greatest_share(shares: &[f64], given: &[usize]) -> usize {
     let best = shares.iter().copied().fold(0.0, f64::max);
     let free = || (0..shares.len()).filter(|joint| !given.contains(joint));
     free().find(|&joint| shares[joint] >= AS_GOOD * best).or_else(|| free().next()).unwrap_or(0)
 }
 
-/// The last joint to give behind those of `given`, and all candidates.
+/// The last joint to give in addition to those of `given`, and all candidates.
 fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize, Vec<Candidate>)> {
     let mechanism = Mechanism::new(chain)?.with_given(given)?;
     let (places, mut shares) = (driven(&mechanism), chain.shares(given));
@@ -111,7 +113,8 @@ fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize,
     }
 }
 
-/// So many joints at the ends of the chain, beside those that are given, which leave six that are found together: as many as possible at its end.
+/// Selects `count` joints at the ends of the chain, in addition to those of `given`, such that the other six can be solved together. It takes as many as
+/// possible at the tip end.
 fn ends_to_give(chain: &Chain, given: &[usize], count: usize) -> Option<Vec<usize>> {
     let leading: Vec<usize> = chain.independent().into_iter().filter(|joint| !given.contains(joint)).collect();
     (0..=count).find_map(|front| {
@@ -122,7 +125,7 @@ fn ends_to_give(chain: &Chain, given: &[usize], count: usize) -> Option<Vec<usiz
     })
 }
 
-/// Whether the joints that are not given, nor follow those that are, are six that are found together.
+/// Whether the other joints are six that can be solved together. Others are joints that are not given and follow no given joint.
 fn leaves_six(chain: &Chain, given: &[usize]) -> bool {
     let leads = |joint: &&usize| chain.leader(**joint).is_none();
     let given = given.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
@@ -130,7 +133,7 @@ fn leaves_six(chain: &Chain, given: &[usize]) -> bool {
     asked.is_ok_and(|chain| fits(&chain).is_ok())
 }
 
-/// The joint that leaves six which are found together: the last one, or the first, or the one that it follows.
+/// The joint that leaves six joints which can be solved together: the last, else the first. A follower is replaced by its leader.
 fn together(chain: &Chain, given: &[usize]) -> Option<usize> {
     let fits_with = |place: &usize| leaves_six(chain, &given.iter().copied().chain([*place]).collect::<Vec<_>>());
     let ends = [chain.joints().len() - 1, 0].map(|place| led_by(chain, place).unwrap_or(place));
@@ -145,7 +148,7 @@ fn hardest(plan: &Plan) -> usize {
     plan.steps.iter().map(|step| step.degree).max().unwrap_or(0)
 }
 
-/// `shoulder: 62 % of its range, 8 solutions`.
+/// Text such as `shoulder: solutions on 62 % of its range, up to 8 of them`.
 impl fmt::Display for Candidate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: solutions on {:.0} % of its range", self.joint, 100.0 * self.share)?;

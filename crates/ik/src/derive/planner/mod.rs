@@ -1,10 +1,10 @@
-//! In which order the joints of a chain are found, one at a time, and from which relations: [`plan`] makes a [`Plan`].
+//! The planner: the order in which the joints of a chain are found one at a time, and the relations for it. [`plan`] makes a [`Plan`].
 //!
-//! At random reachable targets modulo primes, linear algebra shows which relations determine a joint when some others are known, and a
-//! Groebner basis of all equations how many solutions there are: the plan must give as many. Its relations are proved over Q.
+//! It samples random reachable targets modulo primes. Linear algebra shows which relations determine a joint when some others are known. A Groebner basis of
+//! all equations counts the solutions, and the plan must have the same number. Its relations are proved over Q.
 //!
-//! D. L. Pieper, *The kinematics of manipulators under computer control* (1968), for steps by quartics; D. Manocha and J. F. Canny,
-//! "Efficient inverse kinematics for general 6R manipulators", IEEE Trans. Robotics and Automation 10 (1994), for what has no plan.
+//! D. L. Pieper, *The kinematics of manipulators under computer control* (1968), for steps by quartics. D. Manocha and J. F. Canny, "Efficient inverse
+//! kinematics for general 6R manipulators", IEEE Trans. Robotics and Automation 10 (1994), for chains without a plan.
 
 mod eliminated;
 mod fitting;
@@ -28,19 +28,20 @@ use crate::derive::samples::specimen::Random;
 use crate::{Error, ErrorKind, Result, Watch};
 use search::{Reach, Search};
 
-/// Where joints are eliminated: the first that leads to the right number of solutions is taken.
+/// The extents of elimination, in the order in which they are tried. The first that gives the right number of solutions is used.
 const REACHES: [Reach; 4] = [Reach::OneJoint, Reach::WhereStuck(2), Reach::Everywhere(2), Reach::WhereStuck(3)];
 
-/// What the targets of the search are drawn with.
+/// The random seed of the targets in the search.
 const SEED: u64 = 5;
 
-/// The plan of `mechanism`: each joint that is not given is found by a step of at most four solutions, and the product of these
-/// numbers is the number of complex solutions at a generic reachable target. Where the task asks more than the joints can do, or joints follow others, the
-/// product may be greater: the equations that are left over are measured at run time.
+/// The plan of `mechanism`: a step for each joint that is not given, with at most four solutions per step.
+///
+/// The product of these numbers is the number of complex solutions at a generic reachable target. The product may be greater if the task asks for more than the
+/// joints can do, or if joints follow others. The remaining equations are then evaluated at run time.
 ///
 /// # Errors
-/// [`ErrorKind::PositiveDimensional`] when joints are free, with those that may be given; [`ErrorKind::Unsupported`] when there is no
-/// such plan, with the number of solutions, the degrees of the joints and what the geometry lacks; what `watch` stops with.
+/// [`ErrorKind::PositiveDimensional`] if joints are free, with those that may be given. [`ErrorKind::Unsupported`] if there is no such plan, with the number of
+/// solutions, the degrees of the joints and the missing geometric properties. The error of `watch` if it stops the search.
 pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
     if mechanism.independent() > mechanism.seen().freedoms() {
         return Err(refuse::free(mechanism, watch)?);
@@ -58,15 +59,15 @@ pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
     Ok(Plan { given: mechanism.given().to_vec(), dimension, evidence, steps })
 }
 
-/// What random reachable targets modulo three primes show; `None` when they have infinitely many solutions.
+/// The evidence of random reachable targets modulo three primes; `None` if they have infinitely many solutions.
 ///
 /// # Errors
-/// What `watch` stops with.
+/// The error of `watch` if it stops the count.
 pub(super) fn evidence(mechanism: &Mechanism, watch: &Watch) -> Result<Option<Vec<Evidence>>> {
     samples::evidence::gather(mechanism, &mechanism.relations(), watch)
 }
 
-/// What the relations look like at random targets modulo a prime.
+/// The relations at random targets modulo a prime.
 fn sights<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) -> Result<Sights<'a>> {
     let lucky = samples::evidence::lucky_primes(mechanism)?.into_iter().next();
     let (_, arithmetic) =
@@ -74,7 +75,7 @@ fn sights<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) -> Result<Sig
     Sights::new(mechanism, relations, arithmetic, &mut Random::new(SEED))
 }
 
-/// The steps of the best plan, if it is good enough.
+/// The steps of the best plan, if its number of solutions is acceptable.
 fn search(
     mechanism: &Mechanism,
     relations: &[Relation],

@@ -1,4 +1,4 @@
-//! Steps that find one joint when all others of their relations are known.
+//! Steps that find one joint from relations whose other joints are all known.
 
 use super::types::{PlanStep, Way};
 use crate::Result;
@@ -7,7 +7,7 @@ use crate::derive::samples::echelon::Echelon;
 use crate::derive::samples::sights::{SPECIMENS, Sample, Sights, coefficient, is_number, is_sound};
 use groebot_algebra::number::Ring;
 
-/// So many relations of each form are looked at: they come with the shortest first.
+/// The maximum number of relations of each form that are examined, the shortest first.
 const CANDIDATES: usize = 16;
 
 /// A linear equation A c + B s' + C = 0 of one revolute joint.
@@ -19,10 +19,10 @@ struct Linear {
     constant: Sample,
 }
 
-/// A step with its effort: how much can go wrong with it numerically, and how long it is.
+/// A step and its effort. The effort grows with the numerical risks of the step and with its length.
 pub type Candidate = (PlanStep, usize);
 
-/// The best step to `joint` alone, given those of the set `known`: one solution where there is one, else two.
+/// The best step to `joint` alone when those of the set `known` are known. A step with one solution is preferred to one with two.
 ///
 /// # Errors
 /// As [`Sights::of`].
@@ -42,7 +42,7 @@ pub fn best_step(sights: &mut Sights<'_>, joint: usize, known: u32) -> Result<Op
     }))
 }
 
-/// A prismatic joint: an equation of degree one in d', a number before it if possible; else one of degree two.
+/// The step for a prismatic joint: an equation of degree one in d', otherwise of degree two. A constant leading coefficient is preferred.
 fn slide(sights: &mut Sights<'_>, joint: usize, known: u32) -> Result<Option<Candidate>> {
     let mut best: Option<(usize, bool, usize)> = None;
     for index in candidates(sights, joint, known) {
@@ -61,7 +61,8 @@ fn slide(sights: &mut Sights<'_>, joint: usize, known: u32) -> Result<Option<Can
     }))
 }
 
-/// The relations in which only `joint` is unknown: some in which it stands alone on a side, some in which it acts last, some others.
+/// Relations in which only `joint` is unknown. First those with the joint alone on one side, then those in which it acts last, then others. At most
+/// [`CANDIDATES`] of each form.
 fn candidates(sights: &Sights<'_>, joint: usize, known: u32) -> Vec<usize> {
     let form = |relation: &Relation| match relation.left.0.as_slice() {
         [Letter::Joint(only)] if *only == joint => 0,
@@ -101,7 +102,7 @@ impl Linear {
         is_number(&self.cosine) && is_number(&self.sine)
     }
 
-    /// The effort of solving it alone. A c + B s' = 0 needs no root; with numbers A and B it never says nothing.
+    /// The effort of solving this equation alone. A c + B s' = 0 needs no square root. If A and B are constants, the equation is never singular.
     fn effort(&self) -> usize {
         match (self.constant == [0; SPECIMENS], self.has_numbers()) {
             (true, _) => 1,
@@ -111,8 +112,7 @@ impl Linear {
     }
 }
 
-/// The best two independent equations, with their effort: the two rows of one rotation before others, numbers before functions;
-/// then the plainer.
+/// The best two independent equations, with their effort. The two rows of one rotation are preferred, then constant coefficients, then simple relations.
 fn best_pair(sights: &Sights<'_>, joint: usize, equations: &[Linear]) -> Option<(usize, [usize; 2])> {
     let mut best: Option<(usize, usize, [usize; 2])> = None;
     for (at, first) in equations.iter().enumerate() {
@@ -138,7 +138,7 @@ fn best_pair(sights: &Sights<'_>, joint: usize, equations: &[Linear]) -> Option<
     best.map(|(effort, _, pair)| (effort, pair))
 }
 
-/// How much there is to read in a relation: angles and coordinates first, moments last.
+/// The complexity of a relation for readers: 0 for angles and coordinates, up to 3 for moments.
 fn intricacy(relation: &Relation) -> usize {
     match (relation.measure, &relation.moved) {
         (Measure::Moment, _) => 3,
@@ -156,7 +156,7 @@ fn determinant(sights: &Sights<'_>, first: &Linear, second: &Linear) -> Sample {
     })
 }
 
-/// Whether the coefficients are (A, -n B) and k (B, A) with a number k: the determinant then is k (A^2 + n B^2).
+/// Whether the coefficients are (A, -n B) and k (B, A) with a constant k. The determinant then is k (A^2 + n B^2).
 fn is_rotation(sights: &Sights<'_>, joint: usize, first: &Linear, second: &Linear) -> bool {
     let (field, n) = (sights.field(), sights.squares[joint]);
     let turned: Sample = std::array::from_fn(|k| field.neg(&field.mul(&n, &second.cosine[k])));
@@ -171,8 +171,8 @@ fn is_rotation(sights: &Sights<'_>, joint: usize, first: &Linear, second: &Linea
     ratios.windows(2).all(|pair| pair[0] == pair[1])
 }
 
-/// Whether the rows (A, B) are combinations, with numbers, of the two rows of one rotation: a quarter turn, (A, B) -> (B, -n A), then
-/// keeps them among themselves.
+/// Whether the rows (A, B) are constant combinations of the two rows of one rotation. The map (A, B) -> (B, -n A), a rotation by 90 degrees, then keeps their
+/// span.
 fn mixes_rotation(sights: &Sights<'_>, joint: usize, first: &Linear, second: &Linear) -> bool {
     let (field, n) = (sights.field(), sights.squares[joint]);
     let row = |a: Sample, b: Sample| a.into_iter().chain(b).enumerate();

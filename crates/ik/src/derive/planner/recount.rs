@@ -1,14 +1,14 @@
-//! The numbers of solutions that a plan claims, beside those that are counted again.
+//! Comparison of a plan's claims with new counts.
 
 use super::types::{Evidence, Plan, Way};
 use super::{eliminated, sights};
 use crate::derive::closure::Mechanism;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// Whether the values of joints that `plan` finds by eliminating others are as many as it claims.
+/// Checks that each step of `plan` that eliminates other joints has as many values as claimed.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] with the joint where they are not; what `watch` stops with.
+/// [`ErrorKind::Certificate`] with the joint if a number differs. The error of `watch` if it stops the count.
 pub fn same_degrees(mechanism: &Mechanism, plan: &Plan, watch: &Watch) -> Result<()> {
     let mut eliminations = plan.steps.iter().filter(|step| matches!(step.way, Way::Eliminated { .. })).peekable();
     if eliminations.peek().is_none() {
@@ -26,11 +26,10 @@ pub fn same_degrees(mechanism: &Mechanism, plan: &Plan, watch: &Watch) -> Result
     Ok(())
 }
 
-/// Whether the evidence that is claimed, and the number of solutions, are what was counted at the same targets; none was counted where solutions
-/// are infinitely many.
+/// Checks that the claimed evidence and number of solutions are equal to those counted at the same targets. `counted` is `None` for infinitely many solutions.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] with both numbers where they are not.
+/// [`ErrorKind::Certificate`] with both numbers if they differ.
 pub fn same_evidence(counted: Option<&[Evidence]>, claimed: &[Evidence], dimension: usize) -> Result<()> {
     let counted = counted.ok_or_else(|| refused("there are infinitely many solutions".to_owned()))?;
     let least = counted.iter().map(|evidence| evidence.dimension).min().unwrap_or(0);

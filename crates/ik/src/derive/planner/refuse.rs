@@ -1,4 +1,4 @@
-//! Why a chain has no plan, in words: what is free, or what the geometry lacks.
+//! Error messages for chains without a plan: which joints are free, or which geometric properties are missing.
 
 use super::types::Evidence;
 use crate::derive::closure::Mechanism;
@@ -6,10 +6,10 @@ use crate::derive::samples::evidence::is_finite;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::ExactVector;
 
-/// The error of a mechanism with infinitely many solutions: it names the joints of which one may be given.
+/// The error for a mechanism with infinitely many solutions. It names the joints of which one may be given.
 ///
 /// # Errors
-/// What `watch` stops with.
+/// The error of `watch` if it stops the search.
 pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
     let (unknown, freedoms) = (driven(mechanism), mechanism.task().freedoms());
     let suits = if unknown.len() <= freedoms + 1 { suitable(mechanism, watch)? } else { Vec::new() };
@@ -25,13 +25,13 @@ pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
     Ok(Error::new(ErrorKind::PositiveDimensional, format!("{many}: {advice}")))
 }
 
-/// The places of the chain's own joints that are not given and follow no other.
+/// The indices of the chain's own joints that are not given and follow no other.
 pub(super) fn driven(mechanism: &Mechanism) -> Vec<usize> {
     let leads = |joint: &usize| mechanism.hidden() != Some(*joint) && mechanism.joints()[*joint].coupling.is_none();
     mechanism.unknown().into_iter().filter(leads).collect()
 }
 
-/// The error of a mechanism with one joint too many of which none can be given: what each leads to.
+/// The error for a mechanism with one redundant joint if none can be given. It reports the result for each joint.
 pub fn none_to_give(mechanism: &Mechanism, refusals: &[(usize, Error)]) -> Error {
     let told = |(joint, error): &(usize, Error)| {
         let name = &mechanism.joints()[*joint].name;
@@ -64,7 +64,7 @@ fn suitable(mechanism: &Mechanism, watch: &Watch) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// The error of a mechanism whose joints are not found one at a time with at most four solutions each.
+/// The error for a mechanism whose joints cannot be found one at a time with at most four solutions each.
 pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize>) -> Error {
     let found = match product {
         None => "no order of the joints determines one at a time with at most 4 values each".to_owned(),
@@ -73,12 +73,12 @@ pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize
     solved_by_none(mechanism, evidence, &found)
 }
 
-/// The error of a mechanism whose plan ends with `error` when its equations are derived.
+/// The error for a mechanism whose plan fails with `error` when its equations are derived.
 pub fn not_derived(mechanism: &Mechanism, evidence: &Evidence, error: &Error) -> Error {
     solved_by_none(mechanism, evidence, error.message())
 }
 
-/// The error of a mechanism without a solver because of what was `found`: how many solutions it has, and what its geometry lacks.
+/// The error for a mechanism without a solver because of `found`. It gives the number of solutions and the missing geometric properties.
 fn solved_by_none(mechanism: &Mechanism, evidence: &Evidence, found: &str) -> Error {
     let degree = |&joint: &usize| format!("`{}` {}", mechanism.joints()[joint].name, evidence.degrees[joint]);
     let degrees: Vec<String> = driven(mechanism).iter().map(degree).collect();
@@ -93,7 +93,7 @@ fn solved_by_none(mechanism: &Mechanism, evidence: &Evidence, found: &str) -> Er
     Error::new(ErrorKind::Unsupported, text)
 }
 
-/// Which neighbouring axes meet or are parallel, and which would have to.
+/// Text that lists neighbouring axes that meet or are parallel, and those that would have to.
 fn lacking(mechanism: &Mechanism) -> String {
     let count = mechanism.driven().len();
     let triples: Vec<usize> = (0..count.saturating_sub(2)).collect();
@@ -110,7 +110,7 @@ fn lacking(mechanism: &Mechanism) -> String {
     }
 }
 
-/// Whether three neighbouring joints have parallel axes, axes through one point, or slide.
+/// Whether three neighbouring joints have parallel axes or axes through one point, or are prismatic.
 fn is_special(mechanism: &Mechanism, first: usize) -> bool {
     let joints = &mechanism.joints()[first..first + 3];
     let along = |a: &ExactVector, b: &ExactVector| (0..3).all(|k| &a[k] * &b[(k + 1) % 3] == &a[(k + 1) % 3] * &b[k]);

@@ -1,7 +1,7 @@
 //! The search for the order of the joints: dynamic programming over sets of known joints.
 //!
-//! Which equations determine a joint depends on which joints are known, not on their values; so the best way on from each set is
-//! found once, at random targets modulo a prime, where zero is zero.
+//! The set of known joints decides which equations determine another joint; the values of the known joints do not matter. So the best path from each set is
+//! computed once, at random targets modulo a prime, where zero tests are exact.
 
 use std::collections::HashMap;
 
@@ -11,32 +11,32 @@ use super::types::PlanStep;
 use crate::derive::samples::sights::{Sights, members, set};
 use crate::{Result, Watch};
 
-/// Where the search may eliminate joints.
+/// The sets of joints from which the search may eliminate joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
-    /// Nowhere.
+    /// No elimination.
     OneJoint,
-    /// So many unknown joints together, where no joint is found alone.
+    /// Sets of at most this many unknown joints, if no joint is found alone.
     WhereStuck(usize),
-    /// So many unknown joints together, everywhere.
+    /// Sets of at most this many unknown joints, at every point of the search.
     Everywhere(usize),
 }
 
-/// First the number of solutions that the steps give together, then their effort.
+/// The cost of a path: first the product of the solutions of its steps, then the sum of their efforts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Cost {
     solutions: usize,
     effort: usize,
 }
 
-/// The way on from a set of known joints; no step at the end.
+/// The best path from a set of known joints: its cost and its first step. There is no step at the end.
 #[derive(Clone, Debug)]
 struct Onward {
     cost: Cost,
     step: Option<PlanStep>,
 }
 
-/// The search.
+/// The state of the search.
 pub struct Search<'a, 'b> {
     sights: &'a mut Sights<'b>,
     reach: Reach,
@@ -51,10 +51,10 @@ impl<'a, 'b> Search<'a, 'b> {
         Search { sights, reach, watch, all, ways: HashMap::new() }
     }
 
-    /// The steps with the fewest solutions together; `None` when there is no way to the end.
+    /// The steps of the path with the fewest solutions; `None` if no path finds all joints.
     ///
     /// # Errors
-    /// What the watch stops with.
+    /// The error of the watch if it stops the search.
     pub fn steps(mut self) -> Result<Option<Vec<PlanStep>>> {
         let mut known = set(self.sights.mechanism.given());
         if self.explore(known)?.is_none() {
@@ -91,7 +91,7 @@ impl<'a, 'b> Search<'a, 'b> {
         Ok(cost)
     }
 
-    /// The steps to try. A step with one solution is taken at once: to know more never hurts.
+    /// The steps to try. A step with one solution is taken at once, because more known joints never make the remaining search worse.
     fn candidates(&mut self, known: u32) -> Result<Vec<Candidate>> {
         let mut alone = Vec::new();
         for joint in members(self.all & !known) {
@@ -114,7 +114,7 @@ impl<'a, 'b> Search<'a, 'b> {
         Ok(alone)
     }
 
-    /// Whether so many joints are found together: two or more, of which at most `size` follow none of the others.
+    /// Whether these joints may be found together: two or more, of which at most `size` follow none of the others.
     fn is_together(&self, joints: u32, size: usize) -> bool {
         let count = joints.count_ones() as usize;
         let led = followers(self.sights.mechanism, joints).count_ones() as usize;

@@ -1,4 +1,4 @@
-//! What the planner returns: [`Plan`].
+//! The planner's result: [`Plan`].
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::derive::closure::Relation;
 
-/// How a step finds its joint.
+/// The relations by which a step finds its joint.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[expect(clippy::large_enum_variant, reason = "a plan has a handful of them")]
@@ -15,17 +15,17 @@ pub enum Way {
     Single(Relation),
     /// Two relations that are linear and independent in c and s' of the joint: one solution.
     Pair([Relation; 2]),
-    /// Relations from which the joints `away` are eliminated; what is left determines the joint.
+    /// Relations from which the joints `away` are eliminated. The result determines the joint.
     Eliminated {
-        /// As many as unknown joints.
+        /// As many relations as unknown joints.
         relations: Vec<Relation>,
-        /// The places of the joints that are eliminated.
+        /// The indices of the eliminated joints.
         away: Vec<usize>,
     },
 }
 
 impl Way {
-    /// Its relations.
+    /// All relations of the step.
     pub fn relations(&self) -> &[Relation] {
         match self {
             Way::Single(relation) => std::slice::from_ref(relation),
@@ -35,29 +35,28 @@ impl Way {
     }
 }
 
-/// One joint determined, given those of the steps before.
+/// A step that determines one joint, given those of earlier steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlanStep {
-    /// The place of the joint.
+    /// The index of the joint.
     pub joint: usize,
-    /// How it is found.
+    /// The relations that determine it.
     pub way: Way,
-    /// The number of solutions, given the joints before.
+    /// The number of solutions, given the earlier joints.
     pub degree: usize,
 }
 
-/// What a random reachable pose modulo a prime showed.
+/// The counted solutions of a random reachable pose modulo a prime.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Evidence {
     /// The prime.
     pub prime: u32,
-    /// What the pose was drawn with.
+    /// The random seed of the pose.
     pub seed: u64,
     /// The number of complex solutions, with multiplicity: the dimension of the quotient by all equations.
     pub dimension: usize,
-    /// For each joint the degree of the minimal polynomial of a random linear form of its unknowns: the number of its values. A
-    /// given joint has 1.
+    /// The number of values of each joint: the degree of the minimal polynomial of a random linear form of its unknowns. A given joint has 1.
     pub degrees: Vec<usize>,
 }
 
@@ -72,17 +71,19 @@ impl fmt::Display for Evidence {
     }
 }
 
-/// The order in which the joints are found, one at a time. Every relation is in the ideal of the loop, so no solution is lost; the
-/// product of the degrees is the number of complex solutions, so none is added.
+/// The order in which the joints are found, one at a time.
+///
+/// Every relation is in the ideal of the loop, so no solution is lost. The product of the degrees is the number of complex solutions, so there are no
+/// additional ones.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
-    /// The places of the joints that the user gives.
+    /// The indices of the joints that the user gives.
     pub given: Vec<usize>,
     /// The number of complex solutions at a generic reachable target.
     pub dimension: usize,
-    /// What three random targets showed.
+    /// The evidence of three random targets.
     pub evidence: Vec<Evidence>,
-    /// One for each joint that is not given.
+    /// The steps, one for each joint that is not given.
     pub steps: Vec<PlanStep>,
 }
 
@@ -93,7 +94,7 @@ impl Plan {
     }
 }
 
-/// One paragraph a step; joints are counted from 1.
+/// One paragraph per step. Joints are counted from 1.
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", plural(self.dimension, "solution"))?;
@@ -115,12 +116,12 @@ impl fmt::Display for Plan {
     }
 }
 
-/// `1 solution`, `2 solutions`.
+/// A count with its noun as text, such as `1 solution` or `2 solutions`.
 fn plural(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-/// `joint 3`, `joints 1, 2`: counted from 1.
+/// Joints counted from 1 as text, such as `joint 3` or `joints 1, 2`.
 pub fn joints(places: &[usize]) -> String {
     let list: Vec<String> = places.iter().map(|place| (place + 1).to_string()).collect();
     format!("joint{} {}", if places.len() == 1 { "" } else { "s" }, list.join(", "))

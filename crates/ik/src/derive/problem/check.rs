@@ -1,4 +1,4 @@
-//! What holds of every system: each mistake with the part that it stands in.
+//! Checks that every system must pass. Each mistake names the part of the description that contains it.
 
 use std::collections::{HashMap, HashSet};
 
@@ -11,7 +11,7 @@ use crate::{Error, ErrorKind};
 use groebot_algebra::limits::is_name;
 use groebot_algebra::poly::{Expression, is_identifier};
 
-/// The part of a description that a mistake stands in; an index counts that kind of part from 0.
+/// The part of a description that contains a mistake. An index counts the parts of that kind from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(in crate::derive) enum Part {
     Name,
@@ -24,7 +24,7 @@ pub(in crate::derive) enum Part {
     Choice,
 }
 
-/// A mistake and where it stands.
+/// A mistake and the part that contains it.
 pub(in crate::derive) struct Mistake {
     pub(in crate::derive) part: Part,
     pub(in crate::derive) error: Error,
@@ -36,7 +36,7 @@ fn mistake(part: Part, kind: ErrorKind, message: impl Into<String>) -> Mistake {
     Mistake { part, error: Error::new(kind, message) }
 }
 
-/// Finds the first mistake of `parts`.
+/// Returns the first mistake of `parts` as an error.
 pub(in crate::derive) fn check(parts: &SystemParts) -> Checked {
     let mut names = Names::default();
     check_length(parts)?;
@@ -63,7 +63,7 @@ pub(in crate::derive) fn check(parts: &SystemParts) -> Checked {
     check_choice(parts, &unknowns)
 }
 
-/// What each name means so far.
+/// The meaning of each name that is declared so far.
 #[derive(Default)]
 struct Names<'a> {
     meanings: HashMap<&'a str, &'static str>,

@@ -1,4 +1,4 @@
-//! The `[constants]` of a system: exact values put in place of their names, and square roots that stay names.
+//! The `[constants]` of a system. Exact values replace their names; irrational square roots remain names.
 
 use std::collections::HashMap;
 
@@ -10,12 +10,12 @@ use groebot_algebra::number::{BigRational, Rationals};
 use groebot_algebra::poly::{Expression, is_identifier, parse, rational_root};
 use groebot_robot::document::Node;
 
-/// The most bits that a rational constant may take.
+/// The maximum number of bits of a rational constant.
 const MAX_BITS: f64 = groebot_algebra::limits::CONSTANT_BITS as f64;
-/// The most parts that a constant with square roots may have, and an equation after its constants are put in.
+/// The maximum number of parts: of a constant with square roots, and of an equation after its constants are replaced.
 const MAX_PARTS: (usize, usize) = (groebot_algebra::limits::CONSTANT_PARTS, groebot_algebra::limits::EQUATION_PARTS);
 
-/// What the constants that are read so far stand for.
+/// The constants that are read so far, with their values.
 #[derive(Default)]
 pub(in crate::derive) struct Constants {
     values: HashMap<String, Expression>,
@@ -46,7 +46,7 @@ impl Constants {
         Ok(())
     }
 
-    /// The positive root of `square`: a number when it is rational, else a parameter of its own.
+    /// The positive root of `square`: a number if the root is rational, otherwise a new parameter.
     fn root(&mut self, node: &Node<'_>, square: Expression) -> Result<Expression> {
         if let Expression::Number(q) = &square
             && let Some(root) = rational_root(q).filter(Signed::is_positive)
@@ -73,7 +73,7 @@ impl Constants {
         rational(&value).map(Expression::Number).map_err(|error| node.place(error))
     }
 
-    /// `expression` with its constants put in, as the tree that its text reads back as.
+    /// `expression` with its constants replaced by their values, as the tree that the parser builds from its text.
     pub(in crate::derive) fn apply(&self, expression: Expression) -> Result<Expression> {
         if !expression.names().into_iter().any(|name| self.has(name)) {
             return Ok(expression);

@@ -1,6 +1,6 @@
-//! What is asked of a mechanism beyond its description: the links of a robot, a task, joints with given values. Main type: [`Ends`].
+//! The request for a solver beyond the description: the links of a robot, a task, joints with given values. Main type: [`Ends`].
 //!
-//! In a mechanism's folder the file [`TASK_NAME`] keeps it:
+//! In a mechanism's folder, the file [`TASK_NAME`] stores the request:
 //!
 //! ```toml
 //! base = "torso"
@@ -12,8 +12,8 @@
 //! direction = [1, 0, 0]
 //! ```
 //!
-//! Every key is optional; `task` and `given` are as in [`chain.toml`](mod@groebot_robot::kinematics::chain_toml). `snap = 1e-5` asks for the
-//! ideal robot within that tolerance instead of the usual one, `snap = 0` for each digit at its word: [`Chain::ideal_within`].
+//! Every key is optional. `task` and `given` are as in [`chain.toml`](mod@groebot_robot::kinematics::chain_toml). `snap = 1e-5` sets the tolerance of the
+//! search for the ideal robot. `snap = 0` uses every digit. See [`Chain::ideal_within`].
 
 use std::path::Path;
 
@@ -27,27 +27,27 @@ use groebot_robot::kinematics::chain_toml::{read_given, read_task};
 use groebot_robot::kinematics::ideal::{Report, TOLERANCE};
 use groebot_robot::kinematics::{Chain, ChainParts, ExactVector, Plane, Task};
 
-/// The name of the file in a mechanism's folder that says what is asked of the input beside it.
+/// The name of the file in a mechanism's folder with the request for its input.
 pub const TASK_NAME: &str = "0_task.toml";
 
-/// Between which links of a robot a chain is wanted, and for which task.
+/// The request for a chain: its end links, its task and options.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Ends {
-    /// Where it starts; by default the root.
+    /// The link where the chain starts; by default the root.
     pub base: Option<String>,
-    /// Where it ends; by default the only leaf.
+    /// The link where the chain ends; by default the only leaf.
     pub tip: Option<String>,
-    /// What is asked of the tip; by default what the description says.
+    /// The task of the tip; by default the task of the description.
     pub task: Option<Task>,
-    /// The direction in the tip frame that the task aims; by default what the description says, else z.
+    /// The direction in the tip frame that the task orients; by default that of the description, else z.
     pub direction: Option<ExactVector>,
-    /// The joints whose values the user gives; when empty, those that the description names.
+    /// The joints whose values the user gives. If empty, those that the description names.
     pub given: Vec<String>,
-    /// Whether the planner chooses the joints to give, however many: [`Ends::AUTO`].
+    /// Whether the planner chooses any number of joints to give: [`Ends::AUTO`].
     pub chooses: bool,
-    /// The name of the solver, and of its files; by default that of the description, and the files are numbered stages.
+    /// The name of the solver and of its files. By default the name of the description, and the files are numbered stages.
     pub name: Option<String>,
-    /// The tolerance, in radians and shares of the reach, within which the ideal robot is meant; by default [`TOLERANCE`].
+    /// The tolerance for the ideal robot: in radians, and as a fraction of the reach. By default [`TOLERANCE`].
     pub snap: Option<BigRational>,
 }
 
@@ -55,7 +55,7 @@ impl Ends {
     /// The name that requests the planner's choice instead of a given joint.
     pub const AUTO: &'static str = "auto";
 
-    /// What the file at `path` asks.
+    /// Reads the request from the file at `path`.
     ///
     /// # Errors
     /// As [`read_text`] and [`Ends::from_toml`], with the file.
@@ -63,11 +63,10 @@ impl Ends {
         Ends::from_toml(&read_text(path, TEXT_LIMIT)?).map_err(|error| error.in_file(path))
     }
 
-    /// What `text` asks.
+    /// Reads the request from `text`.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`]; [`ErrorKind::BadValue`] for a wrong type or
-    /// value. All have a line.
+    /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`]; [`ErrorKind::BadValue`] for a wrong type or value. All have a line.
     pub fn from_toml(text: &str) -> Result<Ends> {
         let document = Document::parse(text)?;
         let root = document.root();
@@ -87,7 +86,7 @@ impl Ends {
         Ok(ends)
     }
 
-    /// The text of which [`Ends::from_toml`] reads the same.
+    /// The request as TOML. [`Ends::from_toml`] reads the same request from it.
     pub fn to_toml(&self) -> String {
         let quoted = |text: &str| serde_json::Value::from(text).to_string();
         let mut page = String::new();
@@ -112,7 +111,7 @@ impl Ends {
         page
     }
 
-    /// What this asks, and for the rest what `other` asks. A direction belongs to its task.
+    /// This request, completed by `other`. A direction of `other` is used only with a task that orients a direction.
     #[must_use]
     pub fn or(&self, other: &Ends) -> Ends {
         let first = |mine: &Option<String>, yours: &Option<String>| mine.clone().or_else(|| yours.clone());
@@ -130,12 +129,12 @@ impl Ends {
         }
     }
 
-    /// The tolerance within which the ideal robot is meant.
+    /// The tolerance for the ideal robot: in radians, and as a fraction of the reach.
     pub fn tolerance(&self) -> f64 {
         self.snap.as_ref().map_or(TOLERANCE, |snap| snap.to_f64().unwrap_or(f64::NAN))
     }
 
-    /// The ideal robot of `chain`, and what was taken for what.
+    /// The ideal robot of `chain`, and a report of the idealised values.
     ///
     /// # Errors
     /// As [`Chain::ideal_within`].
@@ -143,10 +142,10 @@ impl Ends {
         chain.ideal_within(self.tolerance())
     }
 
-    /// `chain` for the task that is asked.
+    /// `chain` with the name, the task, the direction and the given joints of this request.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a direction of a task that aims none; as [`Chain::with_task`].
+    /// [`ErrorKind::BadValue`] for a direction if the task orients none; as [`Chain::with_task`].
     pub fn ask(&self, chain: Chain) -> Result<Chain> {
         let chain = match &self.name {
             Some(name) => Chain::new(ChainParts { name: name.clone(), ..chain.into() })?,
@@ -171,10 +170,10 @@ impl Ends {
     }
 }
 
-/// The name of a solver and its files.
+/// Checks the name of a solver and of its files.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] as [`check_name`], and for a name of the run time.
+/// As [`check_name`]; [`ErrorKind::BadValue`] for the name of a file of the run time.
 pub fn solver_name(name: &str) -> Result<String> {
     check_name("solver", name)?;
     if RUN_TIME_FILES.iter().any(|own| word(name).eq_ignore_ascii_case(own)) {

@@ -1,7 +1,7 @@
-//! From a chain to its equations: forward kinematics in exact polynomials of the joints' cosines, sines and lengths.
+//! The equations of a chain: forward kinematics as exact polynomials in the joints' cosines, sines and lengths.
 //!
-//! The tip is carried through the product of exponentials `e^(S1 q1) ... e^(Sn qn)` (RH0 2-20) by Rodrigues' formula, and each
-//! coordinate that the task asks for gives one equation, tip - target = 0.
+//! The product of exponentials `e^(S1 q1) ... e^(Sn qn)` (RH0 2-20) transforms the tip, by Rodrigues' formula. Each coordinate of the task gives one equation,
+//! tip - target = 0.
 
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
@@ -18,13 +18,14 @@ use groebot_robot::kinematics::{Chain, ExactVector, Joint, JointKind, Plane, Tas
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The equations of `chain` for its task. Inputs are `px`, `py`, `pz` (those that the task has), then `phi` for a planar pose:
-/// the angle, about the plane's normal, by which the tip frame has turned since the zero configuration.
+/// The equations of `chain` for its task.
+///
+/// The inputs are those of `px`, `py`, `pz` that the task has, then `phi` for a planar pose. `phi` is the rotation angle of the tip frame about the plane's
+/// normal, from the zero configuration.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for the pose task, whose nine related orientation parameters need the planner of blocks, and for joints that
-/// follow others;
-/// [`ErrorKind::DuplicateName`] when a joint's symbol collides with a parameter.
+/// [`ErrorKind::Unsupported`] for the pose task: its nine orientation parameters are related and need the planner of blocks. [`ErrorKind::Unsupported`] also
+/// for given joints and for joints that follow others (mimic). [`ErrorKind::DuplicateName`] when a joint's symbol collides with a parameter.
 pub fn formulate(chain: &Chain) -> Result<System> {
     let task = chain.task();
     if task.plane().is_none() && task != Task::Position {
@@ -103,7 +104,7 @@ fn add_input(parts: &mut SystemParts, name: &str, quantity: Quantity, parameters
     parts.parameters.extend(parameters.iter().map(parameter));
 }
 
-/// The in-plane axes `(a, b)` for which a turn about the plane's normal takes `a` towards `b`.
+/// The in-plane axes `(a, b)` such that a rotation about the plane's normal takes `a` towards `b`.
 fn oriented_axes(plane: Plane) -> (usize, usize) {
     let normal = plane.normal();
     ((normal + 1) % 3, (normal + 2) % 3)
@@ -113,7 +114,7 @@ fn unit(axis: usize) -> ExactVector {
     std::array::from_fn(|k| if k == axis { BigRational::one() } else { BigRational::zero() })
 }
 
-/// A square root of an integer that an axis' length needs.
+/// A square root of an integer, in the length of an axis.
 #[derive(Clone, Debug, PartialEq)]
 struct Root {
     radicand: BigInt,
@@ -130,7 +131,7 @@ impl Root {
     }
 }
 
-/// The ring in which forward kinematics is computed.
+/// The polynomial ring of the forward kinematics.
 struct Model {
     ring: Unknowns,
     roots: Vec<Root>,
@@ -166,7 +167,7 @@ impl Model {
         self.ring.index_of(&name).map(|index| self.ring.variable(index)).ok_or_else(missing)
     }
 
-    /// The unit vector of an axis: `u / |u|`, with `1 / |u|` as a rational or a rational times a square root.
+    /// The unit vector `u / |u|` of an axis. `1 / |u|` is a rational, or a rational times a square root.
     fn direction(&self, axis: &ExactVector) -> [Poly; 3] {
         let square = square_length(axis);
         let scale = match axis_root(axis) {
@@ -182,7 +183,7 @@ impl Model {
         axis.each_ref().map(|entry| self.ring.mul(&self.number(entry), &scale))
     }
 
-    /// `vector` in the base frame after all joints have moved: a point, else a free vector.
+    /// `vector` in the base frame after all joints have moved: a point if `is_point`, otherwise a free vector.
     fn carry(&self, chain: &Chain, vector: ExactVector, is_point: bool) -> Result<[Poly; 3]> {
         let start = vector.each_ref().map(|entry| self.number(entry));
         chain.joints().iter().rev().try_fold(start, |vector, joint| match joint.kind {
@@ -196,7 +197,7 @@ impl Model {
         })
     }
 
-    /// Rodrigues: `x + s (w x x) + (1 - c) (w x (w x x))`, about a point of the axis when `vector` is a point.
+    /// Rodrigues' rotation formula, `x + s (w x x) + (1 - c) (w x (w x x))`. A point is rotated about a point of the axis.
     fn rotate(&self, joint: &Joint, vector: &[Poly; 3], is_point: bool) -> Result<[Poly; 3]> {
         let ring = &self.ring;
         let (cosine, sine) = (self.variable('c', joint)?, self.variable('s', joint)?);
@@ -242,7 +243,7 @@ fn square_length(axis: &ExactVector) -> BigRational {
     axis.iter().map(|entry| entry * entry).sum()
 }
 
-/// The square root that normalising an axis needs: of the square-free part of `n` when `|u|^2` is `n` times a square.
+/// The square root in the length of an axis: that of the square-free part of `n` when `|u|^2` is `n` times a square.
 fn axis_root(axis: &ExactVector) -> Option<Root> {
     let square = square_length(axis);
     let product = square.numer() * square.denom();
@@ -250,7 +251,7 @@ fn axis_root(axis: &ExactVector) -> Option<Root> {
     (!radicand.is_one()).then_some(Root { radicand })
 }
 
-/// `n` without the squares of small primes: equal axes, and axes of equal shape, share one root.
+/// `n` without the squares of small factors. Axes of equal direction or shape then share one root.
 fn square_free_part(mut n: BigInt) -> BigInt {
     if n.sqrt().pow(2) == n {
         return BigInt::one();

@@ -1,4 +1,4 @@
-//! Reading what a derivation starts from: a chain, coupled chains, a robot or a system of equations, from a file or a mechanism's folder.
+//! Reader of a derivation's input, from a file or a mechanism's folder: a chain, coupled chains, a robot or a system of equations.
 
 use std::path::{Path, PathBuf};
 
@@ -16,47 +16,52 @@ use groebot_robot::kinematics::{Chain, DhTable, LinkPath, TipChoice};
 use groebot_robot::model::Robot;
 use groebot_robot::model::urdf::URDF_LIMIT;
 
-/// The names that an input may have in a mechanism's folder: a chain (also as a DH table), a system, a robot, chains that share actuators.
+/// The allowed names of the input in a mechanism's folder: a chain (or a DH table), a system, a URDF robot, coupled chains, a TOML robot.
 pub const INPUT_NAMES: [&str; 5] = ["0_chain.toml", "0_system.toml", "0_robot.urdf", COUPLED_NAME, "0_robot.toml"];
 /// The name of the description of chains that share actuators, in a mechanism's folder.
 pub const COUPLED_NAME: &str = "0_coupled.toml";
 
-/// What a file describes.
+/// The content of an input file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Description {
     /// One chain: `chain.toml` or a DH table.
     Chain(Box<Chain>),
     /// Equations.
     System(System),
-    /// A robot with any number of chains: URDF, or TOML.
+    /// A robot with any number of chains: URDF or TOML.
     Robot(Robot),
     /// Chains that share actuators.
     Coupled(Box<CoupledChains>),
 }
 
-/// A file as it was read.
+/// An input file and its content.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputFile {
-    /// Where it was read from.
+    /// The path of the file.
     pub path: PathBuf,
     /// The file's name in a mechanism's folder: one of [`INPUT_NAMES`].
     pub name: &'static str,
     /// Its text.
     pub text: String,
-    /// What it describes.
+    /// The description in the file.
     pub description: Description,
-    /// What the folder's [`TASK_NAME`] says; nothing without one.
+    /// The request in the folder's [`TASK_NAME`]; the default without such a file.
     pub ends: Ends,
 }
 
 impl InputFile {
-    /// Reads a mechanism's folder, an input file or, as `-`, standard input; in a folder with its [`TASK_NAME`]. What standard input refers to, meshes
-    /// and the files of coupled chains, is looked for from the current folder. A file `.urdf` or `.xml`, or one that starts with `<`, is a robot, and so is one with
-    /// a `[[link]]`; one with `[[chain]]` holds coupled chains, one with a `[dh]` a DH table, one with a `[tip]` or `[task]` a chain, any other a system.
+    /// Reads a mechanism's folder, an input file or, as `-`, standard input. In a folder, it also reads [`TASK_NAME`].
+    ///
+    /// Meshes and files of coupled chains that standard input names are searched from the current folder. The content decides the type:
+    /// * a robot: a file `.urdf` or `.xml`, text that starts with `<`, or TOML with a `[[link]]`;
+    /// * coupled chains: TOML with a `[[chain]]`;
+    /// * a DH table: TOML with a `[dh]`;
+    /// * a chain: TOML with a `[tip]` or `[task]`;
+    /// * a system: other TOML.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] for what cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input; [`ErrorKind::Unsupported`] for archives,
-    /// JSON, YAML, tables and other files that are no description; as [`decode_xml`], [`Robot::from_urdf`], [`CoupledChains::from_toml`],
+    /// [`ErrorKind::Io`] for a file that cannot be read; [`ErrorKind::BadValue`] for a folder without exactly one input. [`ErrorKind::Unsupported`] for
+    /// archives, JSON, YAML, tables and other files that are not descriptions. As [`decode_xml`], [`Robot::from_urdf`], [`CoupledChains::from_toml`],
     /// [`Chain::from_dh_toml`], [`Chain::from_toml`] and [`System::from_toml`], with file and line.
     pub fn read(path: &Path) -> Result<InputFile> {
         let file = if path.is_dir() { input_in(path)? } else { path.to_owned() };
@@ -85,7 +90,7 @@ impl InputFile {
         Ok(InputFile { path: file, name, text, description, ends })
     }
 
-    /// The path between the links of a robot that `ends` asks for, and for the rest the folder's task file; none for other descriptions.
+    /// The path between the links of a robot for `ends`, completed by the folder's task file. `None` for other descriptions.
     ///
     /// # Errors
     /// As [`Robot::path`], with the file.
@@ -95,7 +100,7 @@ impl InputFile {
         robot.path(ends.base.as_deref(), ends.tip.as_deref()).map(Some).map_err(|error| error.in_file(&self.path))
     }
 
-    /// What of a robot is [ignored](Robot::ignored), for its chain between `ends`; nothing of other inputs.
+    /// The parts of a robot that are [ignored](Robot::ignored) for its chain between `ends`. Empty for other inputs.
     ///
     /// # Errors
     /// As [`InputFile::path`].
@@ -104,18 +109,17 @@ impl InputFile {
         Ok(self.path(ends)?.map(|path| robot.ignored(&path)).unwrap_or_default())
     }
 
-    /// The link on a path that carries its first joint that moves.
+    /// The link on a path that carries the first joint that moves.
     pub fn carrier(&self, path: Option<&LinkPath>) -> Option<String> {
         let Description::Robot(robot) = &self.description else { return None };
         path.map(|path| robot.carrier(path).to_owned())
     }
 
-    /// The chain of this input for what `ends` asks, and for the rest the folder's task file; none when it is a system,
-    /// or coupled chains.
+    /// The chain of this input for `ends`, completed by the folder's task file. `None` for a system and for coupled chains.
     ///
     /// # Errors
-    /// As [`Robot::chain`] and [`Chain::with_task`]; [`ErrorKind::BadValue`] for ends of an input that has no links, and for a task
-    /// of a system or of coupled chains. All name the file.
+    /// As [`Robot::chain`] and [`Chain::with_task`]. [`ErrorKind::BadValue`] for end links of an input without links, and for a task of a system or of coupled
+    /// chains. All name the file.
     pub fn chain(&self, ends: &Ends) -> Result<Option<Chain>> {
         let ends = ends.or(&self.ends);
         let bad = |text| Err(Error::new(ErrorKind::BadValue, text));
@@ -138,14 +142,14 @@ impl InputFile {
     }
 }
 
-/// What the task file beside `file` asks, when `file` is the input of a mechanism's folder.
+/// Reads the task file next to `file`, when `file` is the input of a mechanism's folder.
 fn read_ends(file: &Path) -> Result<Ends> {
     let is_named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
     let beside = file.with_file_name(TASK_NAME);
     if is_named && beside.is_file() { Ends::read(&beside) } else { Ok(Ends::default()) }
 }
 
-/// What the text of `file` describes.
+/// Reads the description in the text of `file`.
 fn from_toml(text: &str, file: &Path) -> Result<Description> {
     let has = {
         let document = Document::parse(text)?;
@@ -162,38 +166,38 @@ fn from_toml(text: &str, file: &Path) -> Result<Description> {
     }
 }
 
-/// An input as it was read, and the equations that it amounts to.
+/// An input and its equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
-    /// Where it was read from.
+    /// The path of the input file.
     pub path: PathBuf,
     /// The file's name in a mechanism's folder: one of [`INPUT_NAMES`].
     pub name: &'static str,
     /// Its text.
     pub text: String,
-    /// The chain, when it describes one, as described.
+    /// The chain as described, when the input describes one.
     pub chain: Option<Chain>,
-    /// The ideal chain that it means, and what was taken for what.
+    /// The ideal chain, and a report of the idealised values.
     pub ideal: Option<(Chain, Report)>,
-    /// The equations; none for coupled chains, and for a chain whose task is only solved joint by joint.
+    /// The equations. `None` for coupled chains, and for a chain whose task is only solved joint by joint.
     pub system: Option<System>,
-    /// The chains, when it describes chains that share actuators.
+    /// The chains, when the input describes chains that share actuators.
     pub coupled: Option<CoupledChains>,
-    /// What was asked of it, when not all by default.
+    /// The request for the solver; may be the default.
     pub ends: Ends,
     /// The links where the chain starts and ends, when the source names them.
     pub links: Option<[String; 2]>,
-    /// What of the source was ignored.
+    /// Notes on the parts of the source that were ignored.
     pub notes: Vec<String>,
-    /// How the link where the chain ends was chosen, when the source has links.
+    /// The rule that chose the link where the chain ends, when the source has links.
     pub choice: Option<TipChoice>,
     /// The link that carries the first joint that moves, when the source has links.
     pub carrier: Option<String>,
 }
 
 impl Source {
-    /// Reads a mechanism's folder or an input file, as [`InputFile::read`] does, for what its task file asks; of a robot without
-    /// one, the chain from its root to its only leaf.
+    /// Reads a mechanism's folder or an input file, as [`InputFile::read`] does, with the request of its task file. A robot without a task file gives the chain
+    /// from its root to its only leaf.
     ///
     /// # Errors
     /// As [`InputFile::read`], [`InputFile::chain`] and [`formulate`](crate::derive::formulate()), with file and line.
@@ -201,7 +205,7 @@ impl Source {
         Source::read_between(path, &Ends::default())
     }
 
-    /// The same, for what `ends` asks.
+    /// Same as [`Source::read`], but for the request `ends`, completed by the task file.
     ///
     /// # Errors
     /// As [`InputFile::read`], [`InputFile::chain`], [`Ends::ideal`] and [`formulate`](crate::derive::formulate()), with file and line.
@@ -209,7 +213,7 @@ impl Source {
         Source::of(InputFile::read(path)?, ends)
     }
 
-    /// The source that an input is for what `ends` asks. A tip that was chosen by its name among several is asked for from then on.
+    /// The source of an input for the request `ends`. If the tip was chosen among several links by its name, the request then names it.
     ///
     /// # Errors
     /// As [`InputFile::chain`], [`Ends::ideal`] and [`formulate`](crate::derive::formulate()), with file and line.
@@ -235,7 +239,7 @@ impl Source {
         Ok(source)
     }
 
-    /// A chain without a file, for what was asked of it.
+    /// The source of a chain without a file, for the request `ends`.
     ///
     /// # Errors
     /// As [`Ends::ideal`] and [`formulate`](crate::derive::formulate()).
@@ -258,16 +262,16 @@ impl Source {
         Ok(source)
     }
 
-    /// Fails where the chain is too far from its base frame to be solved.
+    /// Returns an error if the chain is too far from its base frame to be solved.
     ///
     /// # Errors
-    /// As [`Chain::check_base`], with the link that is near, and the file.
+    /// As [`Chain::check_base`], with the nearest link and the file.
     pub fn check_base(&self) -> Result<()> {
         let checked = self.chain.as_ref().map_or(Ok(()), |chain| chain.check_base(self.carrier.as_deref()));
         checked.map_err(|error| error.in_file(&self.path))
     }
 
-    /// `error`, after a remark that the table of this source may be of the other convention, where neighbouring axes say so.
+    /// `error`, with a warning in front if this source's DH table may use the other convention. Neighbouring axes give the evidence.
     #[must_use]
     pub fn advised(&self, error: Error) -> Error {
         match DhTable::doubt_of(&self.text) {
@@ -276,12 +280,13 @@ impl Source {
         }
     }
 
-    /// Gives the values of joints with each target where the task leaves some too many: those that the planner chooses, which this returns with
-    /// what else there was. More than one are chosen only where that is asked for: [`Ends::AUTO`].
+    /// Gives joint values with each target if the chain has more joints than its task determines. The planner chooses these joints.
+    ///
+    /// Returns the choice with its alternatives. More than one joint is chosen only with [`Ends::AUTO`].
     ///
     /// # Errors
-    /// As [`Source::check_base`], [`joints_to_give`] and [`Ends::ideal`]; [`ErrorKind::PositiveDimensional`] with a proposal for more than one joint too many. With the
-    /// file.
+    /// As [`Source::check_base`], [`joints_to_give`] and [`Ends::ideal`]. [`ErrorKind::PositiveDimensional`] with a proposal, if more than one joint must be
+    /// given. All name the file.
     pub fn choose_given(&mut self, watch: &Watch) -> Result<Option<Choice>> {
         self.check_base()?;
         self.give(watch).map_err(|error| self.advised(error).in_file(&self.path))
@@ -300,8 +305,8 @@ impl Source {
         Ok(Some(choice))
     }
 
-    /// Where the task leaves so many joints free, gives the values of those that others of the chain follow by a law of which no closed form is
-    /// derived: one value then moves them all.
+    /// Gives the values of the leaders: joints that others follow by a law without a derived closed form. One value then moves all its followers. Does nothing
+    /// if the task does not leave that many joints free.
     fn give_leaders(&mut self) -> Result<Option<Choice>> {
         let Some(chain) = self.chain_by_steps() else { return Ok(None) };
         let leaders = chain.open_leaders();
@@ -315,7 +320,7 @@ impl Source {
         Ok(Some(Choice { given, candidates: Vec::new() }))
     }
 
-    /// `chain` is what is described: with its ideal robot and, where its task has any that are solved together, its equations.
+    /// Stores `chain`, its ideal robot and, if its task can be solved as one system, its equations.
     fn take(&mut self, chain: Chain) -> Result<()> {
         let (ideal, report) = self.ends.ideal(&chain)?;
         self.system = formulated(if report.is_same() { &ideal } else { &chain })?;
@@ -323,24 +328,23 @@ impl Source {
         Ok(())
     }
 
-    /// The names of the files beside the input that it refers to: those of coupled chains.
+    /// The names of the files that the input refers to: those of coupled chains.
     pub fn beside(&self) -> impl Iterator<Item = &str> {
         self.coupled.iter().flat_map(CoupledChains::chains).filter_map(|member| member.file.as_deref())
     }
 
-    /// The file that keeps in a derivation's folder what was asked of the input: its name, [`TASK_NAME`], and its text.
+    /// The file of a derivation's folder that stores the request: its name, [`TASK_NAME`], and its text.
     pub fn task_file(&self) -> Option<(String, Vec<u8>)> {
         (self.ends != Ends::default()).then(|| (TASK_NAME.to_owned(), self.ends.to_toml().into_bytes()))
     }
 
-    /// The chain, when it is to be solved joint by joint: it asks for no order of unknowns and no choice of root, which belong to
-    /// equations that are solved together.
+    /// The chain, if it is solved joint by joint. A chain with an order of unknowns or a choice of root is solved as one system instead.
     pub fn chain_by_steps(&self) -> Option<&Chain> {
         self.chain.as_ref().filter(|chain| chain.order().is_none() && chain.choice().is_none())
     }
 }
 
-/// The error of a chain with several joints too many: which of them may be given.
+/// The error for a chain with several redundant joints. It names the joints that may be given.
 fn proposed(chain: &Chain, choice: &Choice) -> Error {
     let last = choice.candidates.iter().find(|candidate| choice.given.contains(&candidate.joint));
     let share = last.map(|last| format!(", with solutions on {:.0} % of the last one's range", 100.0 * last.share));
@@ -358,20 +362,20 @@ fn proposed(chain: &Chain, choice: &Choice) -> Error {
     Error::new(ErrorKind::PositiveDimensional, text)
 }
 
-/// The equations of `chain`, where its task has any that are solved together.
+/// The equations of `chain`, if its task can be solved as one system.
 fn formulated(chain: &Chain) -> Result<Option<System>> {
     let by_steps = chain.order().is_none() && chain.choice().is_none();
     let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
     match formulate(chain) {
         Ok(system) => Ok(Some(system)),
         Err(error) if error.kind() == ErrorKind::Unsupported && (by_steps || !follows) => Ok(None),
-        // A chain that is solved joint by joint needs no names that equations can have.
+        // Equations need valid names; a chain that is solved joint by joint does not.
         Err(_) if by_steps => Ok(None),
         Err(error) => Err(error),
     }
 }
 
-/// The one input of a folder.
+/// The only input of a folder.
 fn input_in(folder: &Path) -> Result<PathBuf> {
     let present: Vec<&str> = INPUT_NAMES.into_iter().filter(|name| folder.join(name).is_file()).collect();
     match present.as_slice() {

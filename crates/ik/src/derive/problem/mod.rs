@@ -1,4 +1,4 @@
-//! What a derivation solves: [`Problem`].
+//! The problem that a derivation solves: [`Problem`].
 
 mod check;
 mod constants;
@@ -17,10 +17,10 @@ use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Chain;
 use groebot_robot::kinematics::ideal::Report;
 
-/// What a derivation solves.
+/// The problem that a derivation solves.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Problem {
-    /// Equations that are solved as one block: a system's own, or those of a chain that requests an order or a root.
+    /// Equations that are solved as one block: those of a system, or of a chain that requests an order or a root.
     System(Box<System>),
     /// A chain.
     Chain(Box<ChainProblem>),
@@ -28,18 +28,18 @@ pub enum Problem {
     Coupled(Box<CoupledChains>),
 }
 
-/// A chain to solve, and the chain on which the answers are measured.
+/// A chain to solve, and the described chain on which answers are measured.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ChainProblem {
     /// The chain that is solved.
     pub chain: Chain,
-    /// The described chain, on which answers are polished and measured, where `chain` is its ideal; and how they differ.
+    /// The described chain and its difference from `chain`, if `chain` is its ideal. Answers are polished and measured on the described chain.
     pub truth: Option<(Chain, Report)>,
 }
 
 impl ChainProblem {
-    /// The ideal chain of `truth`; the [`Report`] of [`Chain::ideal`] says how they differ.
+    /// The problem of the ideal chain of `truth`. The [`Report`] of [`Chain::ideal`] lists their differences.
     pub fn ideal((chain, report): (Chain, Report), truth: &Chain) -> Self {
         let truth = (!report.is_same()).then(|| (truth.clone(), report));
         ChainProblem { chain, truth }
@@ -52,10 +52,10 @@ impl ChainProblem {
 }
 
 impl Problem {
-    /// What `source` describes.
+    /// The problem that `source` describes.
     ///
     /// # Errors
-    /// As [`Ends::ideal`](super::Ends::ideal); [`ErrorKind::BadValue`] for a source without equations, chain and coupled chains.
+    /// As [`Ends::ideal`](super::Ends::ideal); [`ErrorKind::BadValue`] for a source without equations, chain or coupled chains.
     pub fn of(source: &Source) -> Result<Self> {
         if let Some(chain) = source.chain_by_steps() {
             let ideal = source.ideal.clone().map_or_else(|| source.ends.ideal(chain), Ok)?;
@@ -72,7 +72,7 @@ impl Problem {
     }
 }
 
-/// A chain that is solved exactly as described.
+/// A chain that is solved exactly as described, without an ideal.
 impl From<&Chain> for ChainProblem {
     fn from(chain: &Chain) -> Self {
         ChainProblem { chain: chain.clone(), truth: None }

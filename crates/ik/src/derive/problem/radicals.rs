@@ -1,4 +1,4 @@
-//! Square roots of constants: each must be real and positive, and none may follow from the others.
+//! Square roots of constants. Each must be real and positive, and independent of the others.
 
 use num_rational::BigRational;
 use num_traits::{One, Signed};
@@ -8,16 +8,16 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::Rationals;
 use groebot_algebra::poly::{Expression, rational_root};
 
-/// The most square roots of rational numbers in one system.
+/// The maximum number of square roots of rational numbers in one system.
 pub(in crate::derive) const MAX_ROOTS: usize = groebot_algebra::limits::SYSTEM_ROOTS;
 
-/// The longest square of a root, numerator and denominator together.
+/// The maximum bits of a root's square, numerator and denominator together.
 const MAX_BITS: u64 = groebot_algebra::limits::CONSTANT_BITS;
 
-/// Checks the last of `parameters` against those before it.
+/// Checks the last of `parameters` against the earlier ones.
 ///
-/// Square roots of rationals generate a field of degree 2^k exactly when no product of some of the squares is a square.
-/// Roots of expressions in other roots are checked for their sign only.
+/// Square roots of k rationals generate a field of degree 2^k exactly when no product of some of the squares is a square. Roots of expressions in other roots
+/// are only checked for their sign.
 pub(in crate::derive) fn check_root(parameters: &[Parameter]) -> Result<()> {
     let Some((last, earlier)) = parameters.split_last() else { return Ok(()) };
     let Some(square) = constant_square(last) else { return Ok(()) };
@@ -27,7 +27,7 @@ pub(in crate::derive) fn check_root(parameters: &[Parameter]) -> Result<()> {
     }
 }
 
-/// The square of a root, if that is what `parameter` is.
+/// The square of `parameter`, if it is a square root.
 fn constant_square(parameter: &Parameter) -> Option<&Expression> {
     parameter.square.as_ref().filter(|_| parameter.source == ParameterSource::SquareRoot)
 }
@@ -46,7 +46,7 @@ fn check_sign(parameter: &Parameter, square: &Option<f64>) -> Result<()> {
     }
 }
 
-/// The value of `expression` in roots that are constant; nothing when it depends on an input.
+/// The value of `expression`, whose roots must be constant. `None` if it depends on an input.
 fn value_of(expression: &Expression, roots: &[Parameter]) -> Option<f64> {
     let value = |name: &str| {
         let i = roots.iter().position(|root| root.name == name)?;

@@ -1,4 +1,4 @@
-//! [`System`]: polynomial equations with named unknowns and parameters, checked, which every later stage reads.
+//! [`System`]: checked polynomial equations with named unknowns and parameters, the input of all later stages.
 
 use std::ops::Deref;
 
@@ -8,11 +8,15 @@ use crate::Result;
 use crate::derive::problem::check::{Mistake, check};
 use crate::derive::problem::system_parts::SystemParts;
 
-/// A checked system: read its [`SystemParts`] through it; it does not change.
+/// A checked, immutable system. It dereferences to its [`SystemParts`].
 ///
-/// It holds that: names are identifiers and mean one thing; every name in an equation is an unknown or a parameter;
-/// a parameter's square mentions earlier parameters only; no equation divides by an unknown; `order` is a permutation
-/// of the unknowns; the circle relation of every angle is given once, at the end of the equations.
+/// Its invariants:
+/// * Each name is an identifier with one meaning.
+/// * Every name in an equation is an unknown or a parameter.
+/// * A parameter's square mentions only earlier parameters.
+/// * No equation divides by an unknown.
+/// * `order` is a permutation of the unknowns.
+/// * The circle relation of every angle occurs once, at the end of the equations.
 ///
 /// Its `Display` is the stage file `1_equations.txt`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -20,18 +24,17 @@ use crate::derive::problem::system_parts::SystemParts;
 pub struct System(SystemParts);
 
 impl System {
-    /// Checks `parts`, adds the circle relations that they lack, and relates cosines and sines of input angles.
+    /// Checks `parts`, adds the circle relations that are missing, and relates cosines and sines of input angles.
     ///
     /// # Errors
-    /// [`DuplicateName`](crate::ErrorKind::DuplicateName), [`UnknownName`](crate::ErrorKind::UnknownName),
-    /// [`MissingKey`](crate::ErrorKind::MissingKey), [`BadValue`](crate::ErrorKind::BadValue),
-    /// [`Overflow`](crate::ErrorKind::Overflow) for an equation whose expansion is hopeless, or
+    /// [`DuplicateName`](crate::ErrorKind::DuplicateName), [`UnknownName`](crate::ErrorKind::UnknownName), [`MissingKey`](crate::ErrorKind::MissingKey),
+    /// [`BadValue`](crate::ErrorKind::BadValue). [`Overflow`](crate::ErrorKind::Overflow) for an equation whose expansion exceeds the limits.
     /// [`Unsupported`](crate::ErrorKind::Unsupported) for more than [`MAX_UNKNOWNS`](crate::derive::MAX_UNKNOWNS) unknowns.
     pub fn new(parts: SystemParts) -> Result<Self> {
         System::build(parts).map_err(|mistake| mistake.error)
     }
 
-    /// As [`System::new`], but a mistake says in which part it stands.
+    /// Same as [`System::new`], but the error names the part that contains the mistake.
     pub(in crate::derive) fn build(mut parts: SystemParts) -> std::result::Result<Self, Mistake> {
         parts.complete_squares();
         check(&parts)?;
@@ -39,7 +42,7 @@ impl System {
         Ok(System(parts))
     }
 
-    /// The parts, to make another system of.
+    /// The parts, for building another system.
     pub fn into_parts(self) -> SystemParts {
         self.0
     }

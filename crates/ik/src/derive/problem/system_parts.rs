@@ -1,22 +1,22 @@
-//! What a system of equations is made of ([`SystemParts`]): plain data, with the limits of what is taken on.
+//! The parts of a system of equations ([`SystemParts`]): plain data, and its limits.
 
 use serde::{Deserialize, Serialize};
 
 use groebot_algebra::poly::Expression;
 use groebot_robot::kinematics::{Choice, LengthUnit};
 
-/// The most unknowns that a system may have.
+/// The maximum number of unknowns of a system.
 pub const MAX_UNKNOWNS: usize = 16;
-/// The most inputs, and the most parameters, that a system may have.
+/// The maximum number of inputs, and of parameters, of a system.
 pub const MAX_PARAMETERS: usize = 64;
-/// The most terms that the expansion of an equation or a square may take, by [`Expression::expansion_bound`].
+/// The maximum number of terms in the expansion of an equation or a square, by [`Expression::expansion_bound`].
 pub const MAX_TERMS: f64 = 1e5;
-/// The highest total degree that an equation or a square may have.
+/// The maximum total degree of an equation or a square.
 pub const MAX_DEGREE: u64 = 1000;
-/// The most bits that a coefficient of such an expansion may take.
+/// The maximum number of bits of a coefficient in such an expansion.
 pub const MAX_BITS: f64 = 2e5;
 
-/// What an input measures.
+/// The quantity that an input measures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Quantity {
@@ -34,13 +34,13 @@ pub enum Quantity {
 pub struct Input {
     /// The name, unique among inputs.
     pub name: String,
-    /// What it measures.
+    /// The quantity that it measures.
     pub quantity: Quantity,
     /// Whether the solver may assume that it is greater than zero.
     pub positive: bool,
 }
 
-/// Where a parameter's value comes from.
+/// The source of a parameter's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ParameterSource {
@@ -54,30 +54,30 @@ pub enum ParameterSource {
     SquareRoot,
 }
 
-/// A name that the equations mention and whose value is known when they are solved.
+/// A name in the equations whose value is known when they are solved.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Parameter {
     /// The name, as used in the equations.
     pub name: String,
-    /// Where its value comes from.
+    /// The source of its value.
     pub source: ParameterSource,
-    /// When the parameter is related to earlier ones: its square, as an expression in them.
+    /// The square as an expression in earlier parameters, if the parameter is related to them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub square: Option<Expression>,
 }
 
-/// How unknowns make the value of a joint.
+/// The relation between a joint's value and its unknowns.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum JointKindUnknown {
-    /// An angle by two unknowns, related by cosine^2 + sine^2 = 1.
+    /// An angle with two unknowns, related by cosine^2 + sine^2 = 1.
     Angle {
         /// The unknown that is the cosine of the joint's angle.
         cosine: String,
         /// The unknown that is the sine of the joint's angle.
         sine: String,
     },
-    /// A length or a plain number by one unknown.
+    /// A length or a plain number with one unknown.
     Value {
         /// The unknown that is the joint's value.
         unknown: String,
@@ -108,11 +108,11 @@ pub struct JointUnknown {
 pub struct Equation {
     /// The source's name for it, such as `(6.7.1)`; may be empty.
     pub label: String,
-    /// What is zero.
+    /// The expression that is zero.
     pub expression: Expression,
 }
 
-/// What a [`System`](super::System) is made of, not yet checked.
+/// The parts of a [`System`](super::System), not yet checked.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SystemParts {
     /// An identifier for files and generated code.
@@ -123,11 +123,11 @@ pub struct SystemParts {
     pub source: String,
     /// The unit of all lengths.
     pub length_unit: LengthUnit,
-    /// What a user gives as the target, in this order.
+    /// The values that a user gives as the target, in this order.
     pub inputs: Vec<Input>,
-    /// What the equations mention beside the unknowns.
+    /// The names in the equations other than the unknowns.
     pub parameters: Vec<Parameter>,
-    /// How the unknowns make joint values.
+    /// The joints and their unknowns.
     pub joints: Vec<JointUnknown>,
     /// All unknowns, greatest first, for the lexicographic order.
     pub order: Vec<String>,
@@ -138,7 +138,7 @@ pub struct SystemParts {
 }
 
 impl SystemParts {
-    /// The order when none is asked for: the cosines, then the sines, then plain unknowns, each in the order of joints.
+    /// The order used when none is requested: the cosines, then the sines, then plain unknowns, each in the order of joints.
     pub fn default_order(&self) -> Vec<String> {
         let (mut cosines, mut sines, mut values) = (Vec::new(), Vec::new(), Vec::new());
         for joint in &self.joints {
@@ -153,7 +153,7 @@ impl SystemParts {
         [cosines, sines, values].concat()
     }
 
-    /// Puts `c^2 + s^2 - 1` of every angle at the end of the equations, once each, under its own label if it has one.
+    /// Moves `c^2 + s^2 - 1` of every angle to the end of the equations, once each. An existing label is kept.
     pub(in crate::derive) fn complete_circles(&mut self) {
         for joint in &self.joints {
             let JointKindUnknown::Angle { cosine, sine } = &joint.kind else { continue };
@@ -181,7 +181,7 @@ impl SystemParts {
     }
 }
 
-/// Whether one is the cosine and the other the sine of one angle.
+/// Whether `a` and `b` are the cosine and the sine of one angle, in any order.
 pub(in crate::derive) fn are_partners(a: ParameterSource, b: ParameterSource) -> bool {
     use ParameterSource::{Cosine, Sine};
     matches!((a, b), (Cosine(i), Sine(j)) | (Sine(i), Cosine(j)) if i == j)

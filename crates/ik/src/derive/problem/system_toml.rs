@@ -1,4 +1,4 @@
-//! Reader of `system.toml`: polynomial equations as a person writes them.
+//! Reader of `system.toml`: polynomial equations in a hand-written form.
 //!
 //! ```
 //! let arm = groebot_ik::derive::System::from_toml(r#"
@@ -48,12 +48,12 @@
 //! ```
 //!
 //! * Expressions follow [`groebot_algebra::poly::parse`]; an equation is `a = b`, or `a` for `a = 0`.
-//! * The circle relation of every angle is added when it is not among the equations.
+//! * The circle relation of every angle is added when the equations do not contain it.
 //! * The default order is that of [`SystemParts::default_order`].
 //! * A constant is a number, an expression in constants above it, or `{ square = "1/2" }`: the positive square root of
-//!   such an expression. An irrational root stays a name in the equations, a [`Parameter`] with its square.
+//! such an expression. An irrational root remains a name in the equations: a [`Parameter`] with its square.
 //! * A parameter with `quantity = "angle"` needs `cosine = "cphi"` and `sine = "sphi"`, the names that the equations use.
-//!   They enter as two parameters, related by `sphi^2 = 1 - cphi^2`.
+//! They enter as two parameters, related by `sphi^2 = 1 - cphi^2`.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -87,9 +87,8 @@ impl System {
     /// Reads the text of a `system.toml`.
     ///
     /// # Errors
-    /// Each with its line: those of [`Document::parse`] and [`System::new`], [`ErrorKind::UnknownKey`],
-    /// [`ErrorKind::MissingKey`], [`ErrorKind::BadValue`] for a value of the wrong type, and [`ErrorKind::Syntax`] for
-    /// an expression that cannot be read (with its column).
+    /// All have a line: those of [`Document::parse`] and [`System::new`], [`ErrorKind::UnknownKey`], [`ErrorKind::MissingKey`]. [`ErrorKind::BadValue`] for a
+    /// value of the wrong type. [`ErrorKind::Syntax`] with the column for an expression that cannot be parsed.
     pub fn from_toml(text: &str) -> Result<Self> {
         let document = Document::parse(text)?;
         let root = document.root();
@@ -106,7 +105,7 @@ impl System {
         System::build(reader.parts).map_err(|Mistake { part, error }| error.at_line(*lines.get(&part).unwrap_or(&1)))
     }
 
-    /// Reads the file `path`, a `system.toml` of at most a megabyte.
+    /// Reads the file `path`, a `system.toml` of at most one megabyte.
     ///
     /// # Errors
     /// As [`System::from_toml`] and [`read_text`], with the file's name.
@@ -115,7 +114,7 @@ impl System {
     }
 }
 
-/// The parts read so far, and the line of each.
+/// The parts that are read so far, and the line of each.
 #[derive(Default)]
 struct Reader {
     parts: SystemParts,
@@ -185,7 +184,7 @@ impl Reader {
         Ok(())
     }
 
-    /// The text of `node`, unless it names a constant.
+    /// The text of `node`, if it is not the name of a constant.
     fn new_name(&self, node: &Node<'_>) -> Result<String> {
         let name = node.text()?;
         if self.constants.has(name) {
@@ -261,7 +260,7 @@ impl Reader {
     }
 }
 
-/// The error of a joint whose keys give neither an angle nor a value.
+/// The error for a joint whose keys define neither an angle nor a value.
 fn unclear_joint(table: &Table<'_>, given: [Option<String>; 3]) -> Error {
     let excess = given[2].is_some();
     let kind = if excess { ErrorKind::BadValue } else { ErrorKind::MissingKey };

@@ -1,4 +1,4 @@
-//! What is written about a derivation: the numbered stage files and the page ([`stages`]), and the report for a student ([`explain`](mod@explain)).
+//! Texts about a derivation: the numbered stage files and the README ([`stages`]), and the report for students ([`explain`](mod@explain)).
 
 pub mod explain;
 pub mod stages;

@@ -1,4 +1,4 @@
-//! The numbered files of a derivation: one for each stage, the program and the certificate, and the page of its folder.
+//! The files of a derivation: a text for each stage, the program, the certificate, and the README of its folder.
 
 use super::explain::{Stage, document, page};
 use crate::Result;
@@ -8,13 +8,13 @@ use crate::derive::Derivation;
 pub const STAGES: [&str; 6] =
     ["1_equations.txt", "2_plan.txt", "3_basis.txt", "4_triangular.txt", "5_program.json", "certificate.json"];
 
-/// The page about the mechanism, for people.
+/// The README of the mechanism's folder.
 pub const PAGE: &str = "README.md";
-/// What tells our page from one that a person wrote.
+/// The mark that distinguishes a generated README from a hand-written one.
 pub const MARK: &str = "Written by `groebot derive`";
 
 impl Derivation {
-    /// The stage files with their names: the same bytes at every run.
+    /// The stage files with their names. Every run gives the same bytes.
     ///
     /// # Errors
     /// As [`Derivation::certificate`].

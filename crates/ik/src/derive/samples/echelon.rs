@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use groebot_algebra::number::{Ring, Zp};
 
-/// Independent rows with entries by key; the last key of each row is in no later one.
+/// Independent rows with entries by key. The last key of a row does not occur in later rows.
 #[derive(Clone, Debug)]
 pub struct Echelon<K> {
     field: Zp,
@@ -16,7 +16,7 @@ impl<K: Ord + Clone> Echelon<K> {
         Echelon { field, rows: Vec::new() }
     }
 
-    /// Adds `row` if it is independent of the rows before; says whether it is.
+    /// Adds `row` if it is independent of the earlier rows. Returns whether it is.
     pub fn insert(&mut self, row: impl IntoIterator<Item = (K, u64)>) -> bool {
         let mut row: BTreeMap<K, u64> = row.into_iter().filter(|(_, value)| *value != 0).collect();
         for own in &self.rows {
@@ -30,7 +30,7 @@ impl<K: Ord + Clone> Echelon<K> {
     }
 }
 
-/// Takes as much of `own` from `row` as cancels the last entry of `own`.
+/// Subtracts a multiple of `own` from `row`, such that the last entry of `own` cancels.
 fn cancel<K: Ord + Clone>(field: Zp, row: &mut BTreeMap<K, u64>, own: &BTreeMap<K, u64>) {
     let Some((lead, value)) = own.last_key_value() else { return };
     let factor = row.get(lead).and_then(|entry| field.checked_div(entry, value));

@@ -1,4 +1,4 @@
-//! How many complex solutions a random reachable target has, and how many values each joint: by a Groebner basis modulo a prime.
+//! The number of complex solutions of a random reachable target, and the number of values of each joint, by a Groebner basis modulo a prime.
 
 use super::sights::set;
 use super::specimen::{Random, Specimen, lucky_field};
@@ -9,13 +9,13 @@ use groebot_algebra::groebner::{Basis, WordQuotient, basis_modulo_prime};
 use groebot_algebra::number::{Ring, Zp, primes_below};
 use groebot_algebra::poly::{Order, Polynomial, PolynomialRing, Term};
 
-/// So many primes, each with a target of its own.
+/// The number of primes, each with a separate target.
 const PRIMES: usize = 3;
 
-/// The evidence of three primes; `None` when there are infinitely many solutions.
+/// The evidence for three primes; `None` if there are infinitely many solutions.
 ///
 /// # Errors
-/// What `watch` stops with.
+/// The error of `watch` if it stops the count.
 pub fn gather(mechanism: &Mechanism, relations: &[Relation], watch: &Watch) -> Result<Option<Vec<Evidence>>> {
     let mut found = Vec::new();
     for (p, mut arithmetic) in lucky_primes(mechanism)?.into_iter().take(PRIMES) {
@@ -29,7 +29,7 @@ pub fn gather(mechanism: &Mechanism, relations: &[Relation], watch: &Watch) -> R
     Ok(Some(found))
 }
 
-/// The first primes below 2^31 that suit the mechanism's constants.
+/// The first primes below 2^31 that divide no denominator of the mechanism's constants.
 pub fn lucky_primes(mechanism: &Mechanism) -> Result<Vec<(u64, Modular)>> {
     let mut lucky = Vec::new();
     for p in primes_below(1 << 31) {
@@ -41,7 +41,7 @@ pub fn lucky_primes(mechanism: &Mechanism) -> Result<Vec<(u64, Modular)>> {
     Ok(lucky)
 }
 
-/// The evidence of one random target; `None` when it has infinitely many solutions.
+/// The evidence of one random target; `None` if it has infinitely many solutions.
 fn examine(
     mechanism: &Mechanism,
     relations: &[Relation],
@@ -72,7 +72,7 @@ pub fn is_finite(mechanism: &Mechanism, relations: &[Relation], watch: &Watch) -
     Ok(basis.quotient_dimension().is_some())
 }
 
-/// The basis of all equations at a random reachable target.
+/// The Groebner basis of all equations at a random reachable target.
 fn basis(
     mechanism: &Mechanism,
     relations: &[Relation],
@@ -95,7 +95,7 @@ fn basis(
     basis_modulo_prime(&space.ring, &generators, watch)
 }
 
-/// Whether no side of the relation has more than half of the unknown joints (rounded up): small, and enough for all equations.
+/// Whether each side of the relation has at most half of the unknown joints (rounded up). Such relations are small, and they generate all equations.
 fn is_split(relation: &Relation, unknown: u32) -> bool {
     let most = (unknown.count_ones() as usize).div_ceil(2);
     [&relation.left, &relation.right].iter().all(|word| {
@@ -104,14 +104,14 @@ fn is_split(relation: &Relation, unknown: u32) -> bool {
     })
 }
 
-/// The polynomials in the unknowns of some joints modulo a prime.
+/// The polynomials in the unknowns of some joints, modulo a prime.
 pub struct Space {
     pub ring: PolynomialRing<Zp>,
     factors: Vec<Factor>,
 }
 
 impl Space {
-    /// The unknowns of `joints`, in this order.
+    /// The ring in the unknowns of `joints`, in this order.
     pub fn new(mechanism: &Mechanism, joints: &[usize], field: Zp) -> Result<Self> {
         let unknowns = |&joint: &usize| match mechanism.joints()[joint].is_revolute() {
             true => vec![Factor::Cosine(joint), Factor::Sine(joint)],
@@ -126,7 +126,7 @@ impl Space {
         self.factors.iter().position(|own| *own == factor)
     }
 
-    /// c^2 + n s'^2 - 1 for each revolute joint, where `squares` holds n of every joint of the chain.
+    /// The circle c^2 + n s'^2 - 1 of each revolute joint. `squares` contains n of every joint of the chain.
     pub fn circles(&self, squares: &[u64]) -> Result<Vec<Polynomial<u64>>> {
         let ring = &self.ring;
         let mut circles = Vec::new();
@@ -139,7 +139,7 @@ impl Space {
         Ok(circles)
     }
 
-    /// For each joint that follows another one of these: its unknowns less what the law gives for them.
+    /// The law of each joint that follows another one of these: its unknowns minus their values by the law.
     pub fn couplings(&self, mechanism: &Mechanism) -> Vec<Polynomial<u64>> {
         let mut arithmetic = Polynomials(&self.ring);
         let places = |joint: usize| (0..self.factors.len()).filter(move |&place| self.factors[place].joint() == joint);
@@ -155,7 +155,7 @@ impl Space {
         couplings
     }
 
-    /// The polynomial of products with their coefficients; factors of other joints must not occur.
+    /// The polynomial of products with their coefficients. Factors of other joints must not occur.
     pub fn polynomial<'a>(&self, value: impl Iterator<Item = (&'a Factors, u64)>) -> Result<Polynomial<u64>> {
         let mut terms = Vec::new();
         for (product, coefficient) in value {
@@ -172,7 +172,7 @@ impl Space {
         Ok(self.ring.collect(terms))
     }
 
-    /// For each joint the degree of the minimal polynomial of a random linear form of its unknowns.
+    /// The number of values of each joint: the degree of the minimal polynomial of a random linear form of its unknowns.
     pub fn degrees(
         &self,
         basis: &Basis<Zp>,

@@ -1,4 +1,4 @@
-//! Random targets modulo primes: their solutions, and the relations that hold between few joints at each of them.
+//! Random targets modulo primes: their solutions, and the relations between few joints that hold at each of them.
 
 pub(super) mod echelon;
 pub(super) mod evidence;

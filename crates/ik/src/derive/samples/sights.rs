@@ -1,4 +1,4 @@
-//! What relations look like at three random targets modulo one prime: which coefficients are numbers, which are proportional.
+//! Relations at three random targets modulo one prime. They show which coefficients are constant and which are proportional.
 
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
@@ -8,16 +8,16 @@ use crate::Result;
 use crate::derive::closure::{Arithmetic, Coupling, Factor, Factors, Mechanism, Modular, Multilinear, Relation};
 use groebot_algebra::number::{Ring, Zp};
 
-/// So many targets.
+/// The number of targets of a sample.
 pub const SPECIMENS: usize = 3;
 
-/// So many targets are mixed: one more than the symbols that a mixture leaves free.
+/// The number of targets in a mixture: one more than the maximum number of free symbols.
 const MIXED: usize = 12;
 
-/// A coefficient at all targets.
+/// The values of a coefficient at all targets.
 pub type Sample = [u64; SPECIMENS];
 
-/// A relation with some joints known: its coefficients by the products of the unknown ones, 1 first.
+/// A relation with some joints known: for each product of the unknown joints its coefficient, with product 1 first.
 pub type Sight = Vec<(Factors, Sample)>;
 
 /// The relations of a mechanism at random targets.
@@ -29,11 +29,11 @@ pub struct Sights<'a> {
     pub squares: Vec<u64>,
     arithmetic: Modular,
     specimens: Vec<Specimen>,
-    /// Random numbers with the sum 1, one for each specimen.
+    /// Random weights with the sum 1, one for each target.
     weights: Vec<u64>,
-    /// The joints of each relation.
+    /// The joints of each relation, as a set.
     joints: Vec<u32>,
-    /// The joints that must be known for each relation to be one of degree one: leaders that others follow by another law.
+    /// For each relation, the leader that must be known before its follower's relation is used, unless the law is linear. As a set.
     leaders: Vec<u32>,
     seen: HashMap<(usize, u32), Rc<Sight>>,
 }
@@ -62,18 +62,18 @@ impl<'a> Sights<'a> {
         self.arithmetic.field()
     }
 
-    /// The relations whose unknown joints are those of the set `joints`, when those of `known` are known.
+    /// The relations whose unknown joints are exactly the set `joints` when those of `known` are known.
     pub fn among(&self, joints: u32, known: u32) -> impl Iterator<Item = usize> + '_ {
         let is_linear = move |index: &usize| self.leaders[*index] & !known == 0;
         (0..self.relations.len()).filter(move |&index| self.joints[index] & !known == joints).filter(is_linear)
     }
 
-    /// The joints of the relation `index`.
+    /// The joints of the relation `index`, as a set.
     pub fn joints_of(&self, index: usize) -> u32 {
         self.joints[index]
     }
 
-    /// The relation `index` as a polynomial in the joints of the set `unknown`, all others at their values.
+    /// The relation `index` as a polynomial in the joints of the set `unknown`. The other joints have their sampled values.
     pub fn of(&mut self, index: usize, unknown: u32) -> Result<Rc<Sight>> {
         if let Some(sight) = self.seen.get(&(index, unknown)) {
             return Ok(Rc::clone(sight));
@@ -88,8 +88,8 @@ impl<'a> Sights<'a> {
         Ok(sight)
     }
 
-    /// The relation `index` with free coefficients that only keep their linear relations with rational numbers: the mean of the
-    /// relation at many targets, with random weights of which the sum is 1.
+    /// The relation `index` with random coefficients that keep only their linear relations over the rational numbers. It is the mean of the relation over many
+    /// targets, with random weights whose sum is 1.
     pub fn mixture(&mut self, index: usize, unknown: u32) -> Result<BTreeMap<Factors, u64>> {
         let (relation, field) = (&self.relations[index], self.field());
         let mut mixture: BTreeMap<Factors, u64> = BTreeMap::new();
@@ -103,7 +103,7 @@ impl<'a> Sights<'a> {
         Ok(mixture)
     }
 
-    /// `a / b` when it is the same number at all targets.
+    /// `a / b` if it is equal at all targets.
     pub fn ratio(&self, a: &Sample, b: &Sample) -> Option<u64> {
         let field = self.field();
         let ratio = field.checked_div(&a[0], &b[0])?;
@@ -111,19 +111,19 @@ impl<'a> Sights<'a> {
     }
 }
 
-/// The leader of a relation of a joint that follows it by a law that is not linear.
+/// The leader of a relation of a joint that follows it by a non-linear law, as a set; empty otherwise.
 fn nonlinear_leader(mechanism: &Mechanism, relation: &Relation) -> u32 {
     let Some([follower, leader, _]) = relation.followed() else { return 0 };
     let coupling = mechanism.joints()[follower].coupling.as_ref();
     if coupling.is_some_and(Coupling::is_linear) { 0 } else { 1 << leader }
 }
 
-/// The set of these joints.
+/// The set of these joints, as a bit mask.
 pub fn set(joints: &[usize]) -> u32 {
     joints.iter().fold(0, |set, joint| set | 1 << joint)
 }
 
-/// The places of the joints of a set, ascending.
+/// The joints of a set, ascending.
 pub fn members(set: u32) -> Vec<usize> {
     (0..u32::BITS as usize).filter(|joint| set >> joint & 1 == 1).collect()
 }
@@ -140,18 +140,18 @@ fn gather(values: &[Multilinear<u64>]) -> Sight {
     sight
 }
 
-/// The coefficient of a product.
+/// The coefficient of a product; zero if the product does not occur.
 pub fn coefficient(sight: &Sight, factors: &[Factor]) -> Sample {
     let found = sight.iter().find(|(product, _)| product.list() == factors);
     found.map_or([0; SPECIMENS], |(_, sample)| *sample)
 }
 
-/// Whether it is one number at all targets: a rational number of the mechanism.
+/// Whether the coefficient is equal at all targets: then it is a rational constant of the mechanism.
 pub fn is_number(sample: &Sample) -> bool {
     sample.iter().all(|value| *value == sample[0])
 }
 
-/// Whether it is zero at no target.
+/// Whether the coefficient is nonzero at all targets.
 pub fn is_sound(sample: &Sample) -> bool {
     !sample.contains(&0)
 }

@@ -1,4 +1,4 @@
-//! Random reachable targets modulo a prime: joints at rational points of their circles, the target by forward kinematics.
+//! Random reachable targets modulo a prime. The joints are at rational points of their circles; forward kinematics gives the target.
 
 use crate::derive::closure::{
     Arithmetic, Assignment, Coupling, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear, Object,
@@ -8,7 +8,7 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Field, Ring, Zp};
 use groebot_robot::kinematics::{ExactVector, Task};
 
-/// A sequence of random numbers: SplitMix64 (Steele, Lea, Flood 2014).
+/// A sequence of random numbers, by SplitMix64 (Steele, Lea, Flood 2014).
 #[derive(Clone, Debug)]
 pub struct Random(u64);
 
@@ -34,7 +34,7 @@ pub struct Specimen {
 }
 
 impl Specimen {
-    /// Random values of all joints, with their target.
+    /// Random values of all joints, and their target.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] for a denominator that the prime divides.
@@ -51,7 +51,7 @@ impl Specimen {
         Ok(Specimen { joints: assignment.joints, target })
     }
 
-    /// `relation` at this specimen, a polynomial in the joints of the set `unknown`.
+    /// `relation` at these joint values and this target, as a polynomial in the joints of the set `unknown`.
     ///
     /// # Errors
     /// As [`evaluate`].
@@ -104,7 +104,7 @@ fn followed(coupling: &Coupling, leader: &JointValue<u64>, arithmetic: &mut Modu
     }
 }
 
-/// The numbers of the target, in the order of [`Mechanism::parameters`], by forward kinematics.
+/// The numbers of the target by forward kinematics, in the order of [`Mechanism::parameters`].
 fn parameters(mechanism: &Mechanism, at: &Assignment<u64>, arithmetic: &mut Modular) -> Result<Vec<u64>> {
     let word = Word((0..mechanism.joints().len()).map(Letter::Joint).collect());
     let mut image = |object: Object| -> Result<[u64; 3]> {
@@ -139,10 +139,10 @@ fn parameters(mechanism: &Mechanism, at: &Assignment<u64>, arithmetic: &mut Modu
     })
 }
 
-/// A prime field in which no constant of the mechanism has a zero denominator, if `p` is such a prime.
+/// The prime field of `p` if no constant of the mechanism has a denominator that `p` divides, otherwise `None`.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when `p` is no prime.
+/// [`ErrorKind::BadValue`] if `p` is not prime.
 pub fn lucky_field(mechanism: &Mechanism, p: u64) -> Result<Option<Modular>> {
     let mut arithmetic = Modular::new(Zp::new(p)?);
     let mut constants: Vec<&BigRational> = mechanism.tip_point().iter().chain(mechanism.aim()).collect();

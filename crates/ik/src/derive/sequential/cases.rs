@@ -1,4 +1,4 @@
-//! From the strata of a [`FormBasis`] to the cases of a block: its symbols become operands, its unknowns those of the program.
+//! The cases of a block, from the strata of a [`FormBasis`]: symbols become operands, and the form's unknowns become those of the program.
 
 use num_traits::Signed;
 
@@ -17,20 +17,20 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{Rationals, Ring, Style};
 use groebot_algebra::poly::PolynomialRing;
 
-/// A case for a stratum runs where each factor's symbols are below this share of their sizes.
+/// The guard of a stratum's case: each factor's symbols are below this fraction of their sizes.
 const CLOSE: f64 = 1e-5;
-/// A case does not run where a denominator's symbols are below this share of their sizes: rounding has left nothing of them, and
-/// all values of the joint that they determine solve the equations equally well.
+/// A case does not run if a denominator's symbols are below this fraction of their sizes. Then only rounding errors remain of them, and every value of the
+/// joint that they determine solves the equations equally well.
 const LOST: f64 = 4e-15;
-/// The same for the leading coefficient of an angle's quartic, against the sum of all symbols' sizes: an elimination multiplies symbols,
-/// so that near a singular configuration little is left of it that is still right.
+/// Same as [`LOST`], but for the leading coefficient of an angle's quartic, relative to the sum of all symbols' sizes. It is smaller, because an elimination
+/// multiplies symbols: near a singular configuration the correct coefficient is very small.
 const FAINT: f64 = 1e-18;
 
-/// What a later block's roots are looked for by, where a joint before is free: so far out that each polynomial has at least one place
-/// where it comes nearest to zero. The joint's samples may all miss the part of the circle on which there are solutions.
+/// The factor on the typical size of later roots if an earlier joint is free. It is so large that each polynomial has at least one root: the point where it
+/// comes nearest to zero. Otherwise all samples of the joint may miss the part of the circle that has solutions.
 const OUT: f64 = 1e6;
 
-/// The value of a symbol and the sum of its terms' magnitudes.
+/// The value of a symbol and its size, the sum of its terms' magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sized {
     pub value: Operand,
@@ -43,9 +43,9 @@ impl Sized {
     }
 }
 
-/// Where a form is put to use.
+/// The joint of a program for which a form is used.
 pub(super) struct Place {
-    /// Index of the joint that is free where the form's is.
+    /// Index of the joint that is free where the form's joint is free.
     pub free: usize,
     /// The joint's unknowns.
     pub value: JointValue,
@@ -53,15 +53,15 @@ pub(super) struct Place {
     pub auxiliary: Option<usize>,
     /// The symbols, in the form's order.
     pub symbols: Vec<Sized>,
-    /// The values that a free joint is put at.
+    /// The sampled values of a free joint.
     pub samples: Vec<f64>,
-    /// How far the symbols may be off.
+    /// The error bound of the symbols.
     pub slack: Slack,
-    /// The unknowns that earlier blocks tell by whether their joint is free: one where it is not, else far more.
+    /// Unknowns that earlier blocks set: one if the joint of the block is not free, otherwise [`OUT`].
     pub spreads: Vec<usize>,
 }
 
-/// Tells later blocks by the unknown `spread` whether this one has left its joint free.
+/// Sets the unknown `spread` in each case, so that later blocks know whether this block left its joint free.
 pub(super) fn tell_spread(cases: &mut [Case], spread: usize) {
     for case in cases {
         let value = Operand::Constant(if case.free.is_empty() { 1.0 } else { OUT });
@@ -83,7 +83,7 @@ impl Place {
     }
 }
 
-/// The cases of `form_basis` at `place`, behind a block's code in `assembler`. All have `guards` before their own.
+/// The cases of `form_basis` at `place`, after the code of the block in `assembler`. All have `guards` before their own guards.
 pub(super) fn cases(
     form_basis: &FormBasis,
     place: &Place,
@@ -106,8 +106,8 @@ pub(super) fn cases(
     Ok(list)
 }
 
-/// The cases of an equation of degree two in cosine and sine: one a direction, of which the best conditioned runs, and one where the
-/// equation says nothing.
+/// The cases of an equation of degree two in cosine and sine. There is one case per direction, of which the best conditioned runs. One more case runs if all
+/// coefficients vanish.
 pub(super) fn quartic(half_angles: &HalfAngles, place: &Place, assembler: &Assembler) -> Result<Vec<Case>> {
     let mut list = Vec::new();
     for half in &half_angles.0 {
@@ -134,7 +134,7 @@ impl<'a> Builder<'a> {
         Builder { form, place, assembler: assembler.branch(), guards: guards.to_vec() }
     }
 
-    /// The case of a stratum with formulas of its own; none when its guards never hold.
+    /// The case of a stratum with its own formulas; `None` if its guards never hold.
     fn solved(mut self, form_basis: &FormBasis, node: &Node, solved: &Solved) -> Result<Option<Case>> {
         let field = node.setting.field()?;
         let ground = field.ring();
@@ -162,7 +162,7 @@ impl<'a> Builder<'a> {
         Ok(possible.then(|| self.free(&node.label)))
     }
 
-    /// The case that puts the joint everywhere.
+    /// The case that sets the joint to its sampled values.
     fn free(mut self, label: &str) -> Case {
         let guard_code = self.assembler.take();
         let (joint, values) = (self.place.value, self.place.samples.clone());
@@ -193,7 +193,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The case of one direction.
+    /// The case of one direction of the half angle.
     fn half(mut self, half: &HalfAngle) -> Result<Case> {
         let ring = &half.ring;
         let unknown = self.place.unknown("w")?;
@@ -219,7 +219,7 @@ impl<'a> Builder<'a> {
         Ok(case)
     }
 
-    /// The coefficients of `f` in unknown `v` of c, s, t, which holds no unknown but `v` and t.
+    /// The coefficients of `f` in unknown `v` of c, s, t. `f` contains no unknown other than `v` and t.
     fn coefficients(
         &mut self,
         ring: &PolynomialRing<Rationals>,
@@ -244,7 +244,7 @@ impl<'a> Builder<'a> {
         parts.iter().map(|part| self.assembler.horner(&FlatTerm::all(ring, part), &operands)).collect()
     }
 
-    /// The root of a linear polynomial.
+    /// The root of a linear polynomial, given by its two coefficients.
     fn root(&mut self, coefficients: &[Operand]) -> Result<Operand> {
         let [low, high] = coefficients else {
             return Err(Error::new(ErrorKind::Unsupported, "a stair of a half angle is not linear"));
@@ -264,7 +264,7 @@ impl<'a> Builder<'a> {
         Ok(possible)
     }
 
-    /// Adds a guard on a factor, unless numbers decide it now; false when it never holds.
+    /// Adds a guard on a factor, unless its value is a constant. Returns false if the guard never holds.
     fn guard(&mut self, ground: &PolynomialRing<Rationals>, factor: &ParameterPoly, near: bool) -> Result<bool> {
         let symbols = self.symbols(ground.variables())?;
         let (values, sizes): (Vec<Operand>, Vec<Operand>) = symbols.iter().map(|s| (s.value, s.size)).unzip();
@@ -294,7 +294,7 @@ impl<'a> Builder<'a> {
         names.iter().map(symbol).collect()
     }
 
-    /// One unknown: a step for the auxiliary one, a value to be put for the joint's own.
+    /// Solves one polynomial of the triangular form: as a root step, or as a quotient in `values` if it is linear.
     fn stair(
         &mut self,
         setting: &Setting,
@@ -329,7 +329,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// The size of the auxiliary unknown: `w` is the other leg of a right-angled triangle, or half the difference of two roots.
+    /// The typical size of the auxiliary unknown: `w` is one leg of a right-angled triangle, or half the difference of two roots.
     fn typical(&mut self) -> Result<Operand> {
         let squares: &[(usize, usize)] = match self.form {
             Form::Quadratic => &[(1, 1), (0, 2)],
@@ -344,14 +344,14 @@ impl<'a> Builder<'a> {
         Ok(self.assembler.sqrt(sum))
     }
 
-    /// An unknown's typical size where polynomials of this degree may miss the axis by more than rounding.
+    /// An unknown's typical size, enlarged for polynomials of this degree that may miss a double root by more than rounding.
     fn spread(&mut self, typical: Operand, degree: usize) -> Operand {
         let factors = self.place.spreads.iter().map(|&spread| Operand::Unknown(spread));
         let factors: Vec<Operand> = factors.chain([Operand::Constant(self.place.slack.typical(degree))]).collect();
         factors.into_iter().fold(typical, |size, factor| self.assembler.mul(factor, size))
     }
 
-    /// Puts the joint's values, a cosine and a sine on the circle.
+    /// Sets the joint's unknowns. A cosine and a sine are scaled to the unit circle.
     fn put(&mut self, values: &[(usize, Quotient)], steps: &mut Vec<Step>) -> Result<()> {
         let quotient = |unknown: usize| values.iter().find(|(u, _)| *u == unknown).map(|(_, value)| *value);
         let value = |unknown: usize| quotient(unknown).map(|quotient| quotient.value);

@@ -1,10 +1,12 @@
-//! The stored proof of a chain's solver: the plan with its relations as words, and the strata of each form with cofactors.
+//! The stored proof of a chain's solver: the plan with its relations, and the strata of each form with cofactors.
 //!
-//! Reading it proves everything anew but for the searches: every relation is reduced to its normal form modulo the loop
-//! ([`crate::derive::closure::prove`]), every step may use only what is known before it, its equations must have the form that the plan
-//! counts solutions by, and every form's bases are checked by [`groebot_algebra::groebner::verify`] on all strata. So no solution is lost, and
-//! the product of the degrees is the number of solutions that the plan claims. That number itself was counted modulo primes: the
-//! certificate records with which poses, and [`crate::derive::Recount`] counts again.
+//! A reader proves everything again, without the searches:
+//! * Every relation is reduced to its normal form modulo the loop ([`crate::derive::closure::prove`]).
+//! * Every step may use only what is known before it, and its equations must have the form that the plan's count of solutions assumes.
+//! * [`groebot_algebra::groebner::verify`] checks the bases of every form on all strata.
+//!
+//! So no solution is lost, and the product of the degrees is the number of solutions that the plan claims. That number was counted modulo primes. The
+//! certificate stores the poses of the count, and [`crate::derive::Recount`] repeats it.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,20 +24,20 @@ use crate::solver::Program;
 use crate::{Error, Result};
 use groebot_robot::document::{Certificate, Proves};
 
-/// What is claimed about a chain.
+/// The claims about a chain.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::derive) struct Claims {
     plan: Plan,
     form_bases: Vec<Proof>,
-    /// In the order of the steps that need one.
+    /// The eliminations, in the order of the steps that need one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     eliminations: Vec<eliminate::Stored>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     half_angles: Option<Vec<half_angle::Stored>>,
 }
 
-/// What is claimed about a form.
+/// The claims about a form.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Proof {
@@ -46,7 +48,7 @@ pub(super) struct Proof {
 /// The text of `certificate.json`.
 ///
 /// # Errors
-/// When a form's field cannot be built: never for a derivation that was made by this crate.
+/// If a form's field cannot be built. This does not occur for a derivation that this crate made.
 pub(in crate::derive) fn write(derived: SequentialView<'_>) -> Result<String> {
     Ok(certificate(derived)?.to_json())
 }
@@ -71,16 +73,16 @@ pub(in crate::derive) fn certificate(derived: SequentialView<'_>) -> Result<Cert
     Ok(Certificate::new(Proves::Chain, derived.problem.chain.name(), claims))
 }
 
-/// Proves the solution of `problem` anew from the text of its certificate, without search and without the Groebner engine, and compiles its solver.
+/// Proves the solution of `problem` again from the text of its certificate, and compiles its solver. It uses no search and no Groebner engine.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the step or the form
-/// for a claim that does not hold.
+/// [`crate::ErrorKind::Syntax`] with the line for text that is not a certificate. [`crate::ErrorKind::Certificate`] with the step or the form for a false
+/// claim.
 pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(Sequential, Program)> {
     prove_claims(problem, Certificate::read(text, Proves::Chain, problem.chain.name())?)
 }
 
-/// Proves the solution of `problem` anew from what is claimed about it.
+/// Proves the solution of `problem` again from its claims.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Certificate`] as [`prove`].
@@ -99,19 +101,19 @@ pub(in crate::derive) fn prove_claims(problem: &ChainProblem, claims: Claims) ->
     Sequential { plan: claims.plan, steps, form_bases, half_angles }.compiled(problem, &mechanism)
 }
 
-/// What is claimed about the bases of forms.
+/// The claims about the bases of forms.
 ///
 /// # Errors
-/// When a form's field cannot be built: never for a derivation that was made by this crate.
+/// If a form's field cannot be built. This does not occur for a derivation that this crate made.
 pub(super) fn form_proofs(form_bases: &[FormBasis]) -> Result<Vec<Proof>> {
     let proof = |form_basis: &FormBasis| Ok(Proof { form: form_basis.form, strata: entries(&form_basis.tree)? });
     form_bases.iter().map(proof).collect()
 }
 
-/// The forms that `steps` use, from what is stored of them, proved anew.
+/// The forms that `steps` use, proved again from their stored claims.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Certificate`] for a claim that does not hold, is missing or is left over.
+/// [`crate::ErrorKind::Certificate`] for a claim that is false, missing or superfluous.
 pub(super) fn prove_forms(
     steps: &[ProvedStep],
     form_bases: &[Proof],
@@ -135,10 +137,10 @@ fn prove_form(proof: &Proof) -> Result<FormBasis> {
     Ok(FormBasis { form: proof.form, system, tree })
 }
 
-/// Gives the proved elimination of joints from a step.
+/// A function that returns the proved elimination of joints from a step.
 type Eliminate<'a> = dyn FnMut(&PlanStep, &[usize]) -> Result<Elimination> + 'a;
 
-/// Every step of `plan`, proved; together they find each joint once, with as many solutions as the plan says.
+/// Proves every step of `plan`. Together the steps find each joint once, with as many solutions as the plan claims.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Certificate`] that names the step.
@@ -163,7 +165,7 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
     if steps.len() + plan.given.len() != count {
         return Err(refused("the plan does not find every joint".to_owned()));
     }
-    // Equations beyond those of the plan, where the task asks for more than the joints can do or joints follow others, leave fewer solutions.
+    // The equations that the plan does not use leave fewer solutions, if the task asks for more than the joints can do or if joints follow others.
     let exact = mechanism.counts_exactly();
     if !exact && most(plan) < plan.dimension || exact && plan.product() != plan.dimension {
         let text = format!("the steps give {} solutions, {} are claimed", plan.product(), plan.dimension);
@@ -172,8 +174,7 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
     Ok(steps)
 }
 
-/// The most solutions of the steps together, where the task asks for more than the joints can do: two equations in one joint may be
-/// dependent then.
+/// The maximum number of solutions of all steps together, for tasks that ask for more than the joints can do. Two equations in one joint may be dependent then.
 fn most(plan: &Plan) -> usize {
     let most = |step: &PlanStep| if matches!(step.way, Way::Pair(_)) { 2 } else { step.degree };
     plan.steps.iter().map(most).product()
@@ -201,7 +202,7 @@ fn prove_step(
         Some(elimination) => eliminated(mechanism, step, elimination)?,
         None => shape(mechanism, step)?,
     };
-    // What is left of an elimination may have a form of higher degree than it has solutions.
+    // The result of an elimination may have a form of higher degree than its number of solutions.
     let fits =
         if elimination.is_some() { step.degree <= shape.form.degree() } else { step.degree == shape.form.degree() };
     if !fits {

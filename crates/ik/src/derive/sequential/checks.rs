@@ -1,7 +1,7 @@
-//! The equations that measure and polish each answer: forward kinematics against the target, with derivatives by the joints.
+//! The equations that measure and polish each solution: forward kinematics minus the target, with derivatives by the joints.
 //!
-//! The frame of each joint is carried along the chain (RH0 2-20); column j of the Jacobian is the twist of joint j as the tip feels
-//! it (RH0 2-43): `z x (p - o)` and `z x R` of a revolute joint, `z` and 0 of a prismatic one.
+//! The frame of each joint is transformed along the chain (RH0 2-20). Column j of the Jacobian is the twist of joint j at the tip (RH0 2-43): `z x (p - o)` and
+//! `z x R` for a revolute joint, `z` and 0 for a prismatic one.
 
 use num_traits::{One, ToPrimitive};
 
@@ -15,14 +15,14 @@ use groebot_robot::kinematics::{BaseAxis, ExactVector, Plane, Task};
 
 type Vector = [Emitted; 3];
 
-/// The checks of a mechanism whose unknowns and parameters stand as `layout` says, by sums of the length that leaves the least code for what
-/// each candidate is measured by. `reach` is the size of its positions.
+/// The checks of a mechanism, with unknowns and parameters at the indices of `layout`. Of several lengths of sums, the one that gives the shortest code for
+/// measuring a candidate is used. `reach` is the size of the positions.
 pub(super) fn checks(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Checks {
     let short = Checks { short: Vec::new(), ..polishing(mechanism, layout, reach) };
     short.pruned()
 }
 
-/// The same with what the short way to a solution nearby takes.
+/// Same as [`checks`], but with the short equations for fast polishing.
 pub(super) fn polishing(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Checks {
     let mechanism = mechanism.plain();
     let [usual, others @ ..] = Assembler::ways().map(|assembler| written(mechanism, layout, reach, assembler));
@@ -38,16 +38,16 @@ fn written(mechanism: &Mechanism, layout: &Layout, reach: f64, mut assembler: As
     checks.pruned()
 }
 
-/// A frame on its way from base to tip.
+/// Forward kinematics from the base to a joint of the chain, as code.
 struct Forward<'a> {
     emitter: Emitter<'a>,
     layout: &'a Layout,
-    /// By columns.
+    /// The rotation, by columns.
     rotation: [Vector; 3],
     position: Vector,
-    /// The twist of each joint passed: its unit axis and, when it turns, a point of it.
+    /// The twist of each joint so far: its unit axis and, for a revolute joint, a point of it.
     twists: Vec<(Vector, Option<Vector>)>,
-    /// The sum of the magnitudes of all shifts.
+    /// The sum of the magnitudes of all prismatic displacements.
     shifts: Operand,
     checks: Checks,
 }
@@ -66,7 +66,7 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// Goes past a joint.
+    /// Adds a joint.
     fn pass(&mut self, index: usize, joint: &ScrewJoint) {
         let unit = 1.0 / joint.square.to_f64().unwrap_or(1.0).sqrt();
         let along = self.turned(&joint.axis);
@@ -89,7 +89,7 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// The rotation behind a joint: the columns of `R (c + s' [w] + (1 - c) w w^T / n)`.
+    /// The rotation after a joint: the columns of `R (c + s' [w] + (1 - c) w w^T / n)`.
     fn turn(&mut self, joint: &ScrewJoint, cosine: Operand, sine: Operand, unit: f64) -> [Vector; 3] {
         let cosine = Emitted::code(cosine);
         let sine = Emitted::code(sine).times(unit);
@@ -180,8 +180,8 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// The short way: the first `count` equations, then, unless these are all, the rotation from the target to the frame with these columns as a
-    /// vector, `1/2 sum t_k x r_k`, whose derivatives are the axes themselves.
+    /// Sets the short equations: the first `count` equations and, if there are more, the rotation vector from the target to the frame with these columns. That
+    /// vector is `1/2 sum t_k x r_k`, and its derivatives are the axes themselves.
     fn shortened(&mut self, count: usize, columns: &[Vector; 3]) {
         let checks = &self.checks;
         let rows = (0..count).map(|row| Short {
@@ -209,7 +209,7 @@ impl<'a> Forward<'a> {
         self.checks.short = short;
     }
 
-    /// `tip - p` in some coordinates, whose parameters stand from `first` on.
+    /// Adds `tip - p` in some coordinates. Their parameters start at index `first`.
     fn at(&mut self, tip: &Vector, coordinates: &[usize], first: usize, size: Operand) {
         let twists = self.twists.clone();
         let columns: Vec<Vector> = twists
@@ -228,7 +228,7 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// `R - T`, by rows, whose parameters stand from `first` on.
+    /// Adds `R - T`, by rows. The parameters start at index `first`.
     fn oriented(&mut self, columns: &[Vector; 3], first: usize) {
         for (index, column) in columns.iter().enumerate() {
             let rates = self.rates(column);
@@ -239,7 +239,7 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// The direction that the tip aims, as a unit vector, against the one asked for.
+    /// Adds the difference of the tip's direction, as a unit vector, and the target direction.
     fn aimed(&mut self, mechanism: &Mechanism, first: usize) {
         let aim = self.aim(mechanism);
         let rates = self.rates(&aim);
@@ -249,14 +249,14 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// The direction that the tip aims, as a unit vector.
+    /// The direction of the tip that the task orients, as a unit vector.
     fn aim(&mut self, mechanism: &Mechanism) -> Vector {
         let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
         let unit = 1.0 / square.to_f64().unwrap_or(1.0).sqrt();
         self.turned(mechanism.aim()).map(|entry| entry.times(unit))
     }
 
-    /// Where the direction that the tip aims points across an axis: the cosine and the sine of its angle.
+    /// Adds the cosine and the sine of the angle of the tip's direction about an axis.
     fn pointing(&mut self, mechanism: &Mechanism, axis: BaseAxis) {
         let aim = self.aim(mechanism);
         let rates = self.rates(&aim);
@@ -266,7 +266,7 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// The third row of the rotation against that of the pitch and the roll: -sin pitch, cos pitch sin roll, cos pitch cos roll.
+    /// Adds the third row of the rotation minus that of the target pitch and roll: -sin pitch, cos pitch sin roll, cos pitch cos roll.
     fn upright(&mut self, columns: &[Vector; 3]) {
         let Some([cr, sr, cp, sp]) = self.layout.told else { return };
         let code = |parameter: usize| Emitted::code(Operand::Parameter(parameter));
@@ -279,7 +279,7 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// The cosine and the sine of the turn about a plane's normal.
+    /// Adds the cosine and the sine of the rotation about a plane's normal.
     fn tilted(&mut self, columns: &[Vector; 3], plane: Plane) {
         let (a, b) = ((plane.normal() + 1) % 3, (plane.normal() + 2) % 3);
         let rates = self.rates(&columns[a]);
@@ -289,7 +289,7 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// How a direction changes with each joint.
+    /// The derivative of a direction by each joint.
     fn rates(&mut self, direction: &Vector) -> Vec<Vector> {
         let twists = self.twists.clone();
         let rate = |(axis, centre): &(Vector, Option<Vector>)| match centre {
@@ -299,7 +299,7 @@ impl<'a> Forward<'a> {
         twists.iter().map(rate).collect()
     }
 
-    /// A given joint is where it is told to be, and stays there.
+    /// Adds the equations that fix a given joint at its input value.
     fn given(&mut self, joint: usize) {
         let count = self.twists.len();
         let (zero, one) = (Operand::Constant(0.0), Operand::Constant(1.0));
@@ -326,7 +326,7 @@ impl<'a> Forward<'a> {
         }
     }
 
-    /// A joint is where the one that it follows brings it; angles turn a whole number of times as far.
+    /// Adds the equations of a joint that follows another one. The factor of an angle is an integer.
     fn follows(&mut self, joint: usize, leader: usize, factor: f64, offset: f64) {
         let count = self.twists.len();
         let row = |own: Operand, other: Operand| {

@@ -1,4 +1,4 @@
-//! Values of unknowns as quotients, and cosines and sines put on the circle: [`on_circle`], [`divided`].
+//! Values of unknowns as quotients, and cosines and sines scaled to the unit circle: [`on_circle`], [`divided`].
 
 use crate::derive::equations::assemble::Assembler;
 use crate::solver::Operand;
@@ -21,8 +21,7 @@ impl Quotient {
     }
 }
 
-/// A cosine and a sine divided by their length. Where they have one denominator they are not divided by it before: its sign counts
-/// alone.
+/// A cosine and a sine divided by their length. Values with a common denominator are not divided by it first: only its sign matters.
 pub(super) fn on_circle(values: [Quotient; 2], assembler: &mut Assembler) -> [Operand; 2] {
     let bottom = values[0].bottom;
     let sides = match values {
@@ -37,8 +36,8 @@ pub(super) fn on_circle(values: [Quotient; 2], assembler: &mut Assembler) -> [Op
     sides.map(|side| assembler.mul(side, unit))
 }
 
-/// A cosine and a sine of one denominator that are on the circle but for rounding: those of [`super::Form::Angle`] are, as
-/// `w^2 = A^2 + B^2 - C^2` is taken of the numbers that they are quotients of.
+/// A cosine and a sine with a common denominator that are on the circle except for rounding. This holds for [`super::Form::Angle`], because `w^2 = A^2 + B^2 -
+/// C^2` is computed from the numbers in the quotients.
 pub(super) fn divided(values: [Quotient; 2], assembler: &mut Assembler) -> [Operand; 2] {
     let unit = assembler.div(Operand::Constant(1.0), values[0].bottom);
     values.map(|value| assembler.mul(value.top, unit))

@@ -6,12 +6,12 @@ use num_traits::{One, Zero};
 
 use groebot_algebra::number::BigRational;
 
-/// The numbers with which `rows`, which are independent, add up to `target`.
+/// The coefficients of the linear combination of the independent `rows` that equals `target`.
 pub(super) fn combination<K: Ord + Clone>(
     target: &BTreeMap<K, BigRational>,
     rows: &[BTreeMap<K, BigRational>],
 ) -> Option<Vec<BigRational>> {
-    // Each row, with what it is made of, is reduced by those before; then the target is.
+    // Each row is reduced by the earlier rows, and its combination is recorded. Then the target is reduced.
     let unit =
         |index: usize| (0..rows.len()).map(|k| BigRational::from_integer(i32::from(k == index).into())).collect();
     let mut echelon: Vec<(K, BTreeMap<K, BigRational>, Vec<BigRational>)> = Vec::new();
@@ -38,7 +38,7 @@ pub(super) fn combination<K: Ord + Clone>(
     rest.is_empty().then(|| made.into_iter().map(|number| -number).collect())
 }
 
-/// `row - factor own`, zeros left out.
+/// `row - factor own`, without zeros.
 fn subtract<K: Ord + Clone>(row: &mut BTreeMap<K, BigRational>, own: &BTreeMap<K, BigRational>, factor: &BigRational) {
     for (key, value) in own {
         let entry = row.entry(key.clone()).or_insert_with(BigRational::zero);

@@ -1,13 +1,14 @@
-//! The elimination of an angle from two equations that are linear and homogeneous in its cosine and sine: their determinant.
+//! Elimination of an angle from two equations that are linear and homogeneous in its cosine and sine, by their determinant.
 
 use groebot_algebra::number::{BigRational, Rationals, Ring};
 use groebot_algebra::poly::{Polynomial, PolynomialRing};
 
 type Poly = Polynomial<BigRational>;
 
-/// From `f = X c + Y s` and `g = Z c + W s`, where c and s are the first two variables and `c^2 + n s^2 = 1` with `square` n: the
-/// determinant `D = X W - Y Z` and its cofactors for f, g and the circle, as
-/// `D = c (W f - Y g) + n s (X g - Z f) - D (c^2 + n s^2 - 1)`. None when the equations are not of that kind.
+/// The determinant `D = X W - Y Z` of `f = X c + Y s` and `g = Z c + W s`, and its cofactors for f, g and the circle.
+///
+/// c and s are the first two variables, with `c^2 + n s^2 = 1` and `square` n. The cofactors are those in `D = c (W f - Y g) + n s (X g - Z f) - D (c^2 + n s^2
+/// - 1)`. `None` if the equations do not have this form.
 pub(super) fn by_determinant(
     ring: &PolynomialRing<Rationals>,
     [f, g]: [&Poly; 2],

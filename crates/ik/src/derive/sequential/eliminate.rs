@@ -1,8 +1,8 @@
-//! Joints eliminated from a step's relations ([`Elimination`]): what is left is one polynomial in the step's own joint.
+//! Elimination of joints from a step's relations ([`Elimination`]). The result is one polynomial in the step's own joint.
 //!
-//! Coefficients that are no numbers become symbols, but for sums of multiples of symbols. These are the smallest variables of an
-//! elimination order, so that the Groebner basis over Q needs no division by them, and its element in the step's joint alone is a
-//! combination of the relations with polynomial cofactors, whatever the symbols are.
+//! Coefficients that are not constants become symbols, or sums of multiples of earlier symbols. The symbols are the smallest variables of an elimination order,
+//! so the Groebner basis over Q never divides by them. Its element in the step's joint alone is a combination of the relations with polynomial cofactors, for
+//! all values of the symbols.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -21,17 +21,17 @@ use groebot_algebra::groebner::{Options, Strategy, basis, divide};
 use groebot_algebra::number::{BigRational, Rationals, Ring, Style};
 use groebot_algebra::poly::{Block, Order, Polynomial, PolynomialRing, parse};
 
-/// The most terms of an elimination's basis.
+/// The maximum number of terms of an elimination's basis.
 const MOST_TERMS: usize = 20_000;
 
 type Poly = Polynomial<BigRational>;
-/// A coefficient: by the unknowns of known joints, polynomials in the target.
+/// A coefficient: polynomials in the target, by products of unknowns of known joints.
 type Coefficient = BTreeMap<Vec<Factor>, TargetPoly>;
 
-/// A product of unknowns with its coefficient, a sum of multiples of symbols, or of one.
+/// A product of unknowns with its coefficient: a sum of multiples of symbols and of one (`None`).
 type Entry = (Vec<Factor>, Vec<(BigRational, Option<usize>)>);
 
-/// Where a symbol's value stands: the coefficient of a product of unknowns in one of the relations.
+/// The definition of a symbol: the coefficient of a product of unknowns in one of the relations.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SymbolPlace {
@@ -41,16 +41,16 @@ pub struct SymbolPlace {
     pub factors: Vec<Factor>,
 }
 
-/// A polynomial in one joint's unknowns that follows from relations in several.
+/// A polynomial in one joint's unknowns that follows from relations in several joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elimination {
-    /// Q[unknowns of the joints that go, unknowns of the joint, symbols].
+    /// Q[unknowns of the eliminated joints, unknowns of the joint, symbols].
     pub ring: PolynomialRing<Rationals>,
-    /// The number of unknowns that go, and of the joint's own.
+    /// The number of eliminated unknowns, and of the joint's own.
     pub sizes: [usize; 2],
     /// The relations with symbols, then the laws of joints that follow others, then the circles.
     pub generators: Vec<Poly>,
-    /// Which of the generators are laws.
+    /// The range of the generators that are laws.
     pub laws: Range<usize>,
     /// The symbols.
     pub symbols: Vec<SymbolPlace>,
@@ -69,10 +69,10 @@ pub(super) struct Stored {
 }
 
 impl Elimination {
-    /// Eliminates `away` from the relations of `step`.
+    /// Eliminates the joints `away` from the relations of `step`.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] when nothing of use is left; what `watch` stops with.
+    /// [`ErrorKind::Unsupported`] if the result is not useful. The error of `watch` if it stops the computation.
     pub(super) fn derive(mechanism: &Mechanism, step: &PlanStep, away: &[usize], watch: &Watch) -> Result<Self> {
         let mut elimination = Setting::of_step(mechanism, step, away)?.finish()?;
         if let Some((member, cofactors)) = elimination.by_squares(mechanism, step, away) {
@@ -97,7 +97,7 @@ impl Elimination {
         elimination.proved()
     }
 
-    /// The sum of the squares of two relations that turn a vector by one joint, when no form's degree is too low for it.
+    /// The sum of the squares of two relations that rotate a vector by one joint, if some form has a high enough degree for it.
     fn by_squares(&self, mechanism: &Mechanism, step: &PlanStep, away: &[usize]) -> Option<(Poly, Vec<Poly>)> {
         let followers = mechanism.followers();
         let is_led = |joint: &usize| {
@@ -128,8 +128,8 @@ impl Elimination {
         (self.is_own(&member) && self.degree(&member) <= most).then_some((member, cofactors))
     }
 
-    /// A relation with the laws in it, each angle's cosine in the first power, and the cofactors of the laws and circles, by which it
-    /// differs from its generator. Where there is no law it is the generator itself.
+    /// A relation after substitution of the laws, reduced to the first power of each cosine, and the cofactors of the laws and circles. The cofactors give its
+    /// difference from its generator. Without a law it is the generator itself.
     fn by_laws(&self, relation: usize) -> Option<(Poly, Vec<Poly>)> {
         let f = &self.generators[relation];
         if self.laws.is_empty() {
@@ -139,7 +139,7 @@ impl Elimination {
         Some((division.remainder, division.quotients))
     }
 
-    /// The cofactors of a combination of relations from which multiples of laws and circles were taken.
+    /// The cofactors of a combination of relations from which multiples of laws and circles were subtracted.
     fn without_laws(&self, parts: [(&Poly, &Vec<Poly>); 2]) -> Vec<Poly> {
         let ring = &self.ring;
         let mut cofactors: Vec<Poly> = parts.iter().map(|(factor, _)| (*factor).clone()).collect();
@@ -152,26 +152,26 @@ impl Elimination {
         cofactors
     }
 
-    /// The remainder by the joint's own circle, the last generator: the square of the cosine goes.
+    /// The remainder of `f` by the joint's own circle, the last generator. It does not contain the square of the cosine.
     fn without_square(&self, f: &Poly, cofactor: &mut Poly) -> Option<Poly> {
         let division = divide(&self.ring, f, std::slice::from_ref(self.generators.last()?)).ok()?;
         *cofactor = self.ring.sub(cofactor, division.quotients.first()?);
         Some(division.remainder)
     }
 
-    /// Proves a stored elimination anew.
+    /// Proves a stored elimination again.
     ///
     /// # Errors
-    /// [`ErrorKind::Certificate`] when it does not hold.
+    /// [`ErrorKind::Certificate`] if it is false.
     pub(super) fn again(mechanism: &Mechanism, step: &PlanStep, away: &[usize], stored: &Stored) -> Result<Self> {
         Setting::of_step(mechanism, step, away)?.finish()?.replayed(stored)
     }
 
-    /// Eliminates the joint `away` from a relation of each of two mechanisms that share it and the joint `own` at the same places, with
-    /// axes of the same length, where both relations are linear and homogeneous in its cosine and sine.
+    /// Eliminates the joint `away` from one relation of each of two mechanisms. Both have the joints `away` and `own` at the same indices, with axes of the
+    /// same length. Both relations must be linear and homogeneous in the cosine and sine of `away`.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] when they are not, or nothing of use is left.
+    /// [`ErrorKind::Unsupported`] if they are not, or if the result is not useful.
     pub(super) fn of_two(sides: &[(&Mechanism, &Relation); 2], [away, own]: [usize; 2]) -> Result<Self> {
         let mut elimination = Setting::new(sides, vec![away, own])?.finish()?;
         let found = match elimination.generators.as_slice() {
@@ -186,10 +186,10 @@ impl Elimination {
         elimination.proved()
     }
 
-    /// Proves a stored elimination of [`Elimination::of_two`] anew.
+    /// Proves a stored elimination of [`Elimination::of_two`] again.
     ///
     /// # Errors
-    /// [`ErrorKind::Certificate`] when it does not hold.
+    /// [`ErrorKind::Certificate`] if it is false.
     pub(super) fn of_two_again(
         sides: &[(&Mechanism, &Relation); 2],
         [away, own]: [usize; 2],
@@ -198,7 +198,7 @@ impl Elimination {
         Setting::new(sides, vec![away, own])?.finish()?.replayed(stored)
     }
 
-    /// The elimination with the member and the cofactors that are stored, proved.
+    /// The elimination with the stored member and cofactors, proved.
     fn replayed(mut self, stored: &Stored) -> Result<Self> {
         let elimination = &mut self;
         let read = |text: &String| -> Result<Poly> { parse(text)?.evaluate(&elimination.ring) };
@@ -229,7 +229,7 @@ impl Elimination {
         Ok(self)
     }
 
-    /// Whether a polynomial holds unknowns of the step's joint and no other, the cosine in the first power, and is not its circle.
+    /// Whether a polynomial contains only unknowns of the step's joint, its cosine at most in the first power, and is not the joint's circle.
     fn is_own(&self, f: &Poly) -> bool {
         let [away, own] = self.sizes;
         let foreign = (0..away).any(|v| self.ring.degree_in(f, v) > 0);
@@ -246,7 +246,7 @@ impl Elimination {
         f.terms().iter().map(|term| degree(self.ring.layout().exponents(&term.monomial))).max().unwrap_or(0)
     }
 
-    /// The coefficients by the exponents of the joint's unknowns: terms with their exponents of the symbols.
+    /// The coefficients by the exponents of the joint's unknowns. Each is a list of terms with exponents of the symbols.
     pub(super) fn coefficients(&self) -> BTreeMap<Vec<u32>, Vec<(BigRational, Vec<u32>)>> {
         let [away, own] = self.sizes;
         let mut parts: BTreeMap<Vec<u32>, Vec<(BigRational, Vec<u32>)>> = BTreeMap::new();
@@ -259,18 +259,18 @@ impl Elimination {
     }
 }
 
-/// The equations of an elimination in the making.
+/// The equations of an elimination, under construction.
 struct Setting<'a> {
-    /// A mechanism that has the joints; where there are two, the first.
+    /// A mechanism with these joints; the first if there are two.
     mechanism: &'a Mechanism,
-    /// The joints that go, then the step's own.
+    /// The eliminated joints, then the step's own.
     joints: Vec<usize>,
-    /// By relation: the coefficients as a multiple of a symbol or a number.
+    /// By relation: its products of unknowns with their coefficients.
     relations: Vec<Vec<Entry>>,
     symbols: Vec<(SymbolPlace, Coefficient)>,
-    /// The first symbol of the mechanism at hand.
+    /// The index of the first symbol of the current mechanism.
     first: usize,
-    /// Joints that follow others of these.
+    /// Those of these joints that follow others of them.
     followers: Vec<(usize, &'a Coupling)>,
 }
 
@@ -282,12 +282,12 @@ impl<'a> Setting<'a> {
         let mut followers = mechanism.followers();
         followers.retain(|(follower, coupling)| is_in(*follower) && is_in(coupling.leader));
         let is_led = |joint: &&usize| followers.iter().any(|(follower, _)| follower == *joint);
-        // Those that follow go first, and by nothing but their laws.
+        // Followers are eliminated first, by their laws only.
         let (led, others): (Vec<usize>, Vec<usize>) = away.iter().partition(is_led);
         Ok(Setting { followers, ..Setting::new(&sides, [led, others, vec![step.joint]].concat())? })
     }
 
-    /// The equations of relations, each of its mechanism. A mechanism's coefficients are told apart from those of another.
+    /// The equations of relations, each with its mechanism. Coefficients of different mechanisms get different symbols.
     fn new(sides: &[(&'a Mechanism, &Relation)], joints: Vec<usize>) -> Result<Self> {
         let none = || Error::new(ErrorKind::Unsupported, "there is no relation to eliminate from");
         let mut mechanism = sides.first().ok_or_else(none)?.0;
@@ -313,7 +313,7 @@ impl<'a> Setting<'a> {
         Ok(setting)
     }
 
-    /// A coefficient by numbers and the symbols so far, or as a new symbol.
+    /// A coefficient in terms of constants and existing symbols if possible, otherwise as a new symbol.
     fn entry(&mut self, symbolic: &Symbolic, relation: usize, factors: Vec<Factor>, coefficient: Coefficient) -> Entry {
         let one = Coefficient::from([(Vec::new(), symbolic.ring.one())]);
         let basis = [&one].into_iter().chain(self.symbols[self.first..].iter().map(|(_, known)| known));
@@ -331,7 +331,7 @@ impl<'a> Setting<'a> {
         (factors, vec![(BigRational::one(), Some(self.symbols.len() - 1))])
     }
 
-    /// The ring and the generators; the member is still zero.
+    /// The ring and the generators. The member is still zero.
     fn finish(self) -> Result<Elimination> {
         let unknowns = |joint: &usize| match self.mechanism.joints()[*joint].is_revolute() {
             true => vec![Factor::Cosine(*joint), Factor::Sine(*joint)],

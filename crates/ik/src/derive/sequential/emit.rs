@@ -1,4 +1,4 @@
-//! Relations as code: [`Emitter`] computes values, [`Sizes`] the sums of their terms' magnitudes, in registers of a program.
+//! Relations as code of a program: [`Emitter`] computes values, and [`Sizes`] computes the sums of their terms' magnitudes.
 
 use num_traits::{One, Signed, Zero};
 
@@ -7,12 +7,11 @@ use crate::derive::equations::assemble::{Assembler, constant};
 use crate::solver::Operand;
 use groebot_algebra::number::BigRational;
 
-/// A number and multiples of results of code: sums are not computed before something else than a sum asks for them, so that what
-/// cancels leaves no code.
+/// A constant plus multiples of results of code. A sum is computed only when an operation other than a sum needs it, so terms that cancel need no code.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Emitted {
     number: BigRational,
-    /// No operand is a constant or is given twice, and no coefficient is zero.
+    /// Operands are distinct and not constants, and no coefficient is zero.
     terms: Vec<(Operand, BigRational)>,
 }
 
@@ -25,7 +24,7 @@ impl Emitted {
         Emitted::number(BigRational::from_integer(number.into()))
     }
 
-    /// The result of code, or a number.
+    /// The result of code, or a constant.
     pub fn code(operand: Operand) -> Self {
         match operand {
             Operand::Constant(number) => Emitted::number(exact(number)),
@@ -37,12 +36,12 @@ impl Emitted {
         self.terms.is_empty()
     }
 
-    /// This times a double.
+    /// This value times a double.
     pub fn times(&self, factor: f64) -> Self {
         self.scaled(&exact(factor))
     }
 
-    /// This times a number.
+    /// This value times an exact number.
     pub fn scaled(&self, factor: &BigRational) -> Self {
         if factor.is_zero() {
             return Emitted::integer(0);
@@ -51,7 +50,7 @@ impl Emitted {
         Emitted { number: &self.number * factor, terms: terms.collect() }
     }
 
-    /// This plus a multiple of another.
+    /// This value plus a multiple of another.
     fn plus(&self, other: &Emitted, factor: &BigRational) -> Self {
         let mut sum = self.clone();
         sum.number += &other.number * factor;
@@ -66,8 +65,8 @@ impl Emitted {
         sum
     }
 
-    /// A number `k` and a sum with `self = k sum`, so that multiples of one sum have one code: its coefficients are 1 and -1 where all
-    /// are of one magnitude, and the first is positive.
+    /// A number `k` such that `self = k sum` with a normalised sum, so that all multiples of one sum share its code. The first coefficient of the sum is
+    /// positive. All its coefficients are 1 or -1 if those of `self` have equal magnitudes.
     fn content(&self) -> BigRational {
         let Some((_, first)) = self.terms.first() else { return BigRational::one() };
         let numbers = self.terms.iter().map(|(_, coefficient)| coefficient);
@@ -75,7 +74,7 @@ impl Emitted {
         if equal { first.clone() } else { first.signum() }
     }
 
-    /// What instructions read, computed in `assembler`.
+    /// The operand with this value, computed in `assembler`.
     pub fn operand(&self, assembler: &mut Assembler) -> Operand {
         if self.is_number() {
             return constant(&self.number);
@@ -85,7 +84,7 @@ impl Emitted {
         assembler.mul(constant(&content), sum)
     }
 
-    /// The sum of the terms, of which the first is positive.
+    /// The sum of the terms; the first coefficient must be positive.
     fn sum(&self, assembler: &mut Assembler) -> Operand {
         let mut sum = Operand::Constant(0.0);
         for (operand, coefficient) in &self.terms {
@@ -101,16 +100,16 @@ fn exact(number: f64) -> BigRational {
     BigRational::from_float(number).expect("a constant of a program is finite")
 }
 
-/// Computes values: numbers and sums exactly, now; products in code.
+/// Arithmetic that emits code. Constants and sums are computed exactly at derivation time; products are emitted.
 pub(super) struct Emitter<'a>(pub &'a mut Assembler);
 
 impl Emitter<'_> {
-    /// What instructions read.
+    /// The operand with this value.
     pub fn operand(&mut self, value: &Emitted) -> Operand {
         value.operand(self.0)
     }
 
-    /// A sum, computed if it is long: it may be part of many others, in which little of it cancels.
+    /// The sum, emitted as code if it is long. It may be part of many other sums, in which little of it cancels.
     fn short(&mut self, sum: Emitted) -> Emitted {
         if sum.terms.len() > self.0.longest() { Emitted::code(sum.operand(self.0)) } else { sum }
     }
@@ -152,7 +151,7 @@ impl Arithmetic for Emitter<'_> {
     }
 }
 
-/// Computes what the values would be if nothing ever cancelled.
+/// Arithmetic with magnitudes, which never cancel: it computes the sizes of values.
 pub(super) struct Sizes<'a>(pub &'a mut Assembler);
 
 impl Arithmetic for Sizes<'_> {

@@ -1,8 +1,8 @@
-//! [`FormBasis`]: the equations of one joint with free symbols as coefficients, solved once for all by Groebner bases on all strata.
+//! [`FormBasis`]: the equations of one joint with free symbols as coefficients, solved once by Groebner bases on all strata.
 //!
-//! A step of a plan is one or two equations in one joint. Their coefficients are numbers that are known when the step runs, but
-//! nothing is assumed about them: they are free symbols of a [`System`], whose tree of strata says what holds for *all* their values.
-//! The symbols of a step get their values from the target and the joints before it.
+//! A step of a plan is one or two equations in one joint. Their coefficients are known numbers when the step runs, but the derivation assumes nothing about
+//! them. They are free symbols of a [`System`], whose tree of strata gives the solution for *all* their values. At run time the symbols get their values from
+//! the target and the earlier joints.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,16 +17,16 @@ use groebot_algebra::poly::parse;
 
 /// The equation of a [`Form::Quartic`].
 pub(super) const QUARTIC: &str = "A*c*s + B*s^2 + C*c + D*s + E";
-/// Its symbols.
+/// The symbols of [`QUARTIC`].
 pub(super) const QUARTIC_SYMBOLS: [&str; 5] = ["A", "B", "C", "D", "E"];
 
 /// The shape of a step's equations in its joint: `c` and `s` are the cosine and sine of an angle, `d` is a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Form {
-    /// `A c + B s + C = 0`. The auxiliary `w = A s - B c` has `w^2 = A^2 + B^2 - C^2`, so that nothing is divided by but `A^2 + B^2`.
+    /// `A c + B s + C = 0`. The auxiliary `w = A s - B c` has `w^2 = A^2 + B^2 - C^2`, so the only divisor is `A^2 + B^2`.
     Angle,
-    /// `A c - B s = X` and `B c + A s = Y`: a turn of `(A, B)` to `(X, Y)`.
+    /// `A c - B s = X` and `B c + A s = Y`: a rotation of `(A, B)` to `(X, Y)`.
     Turn,
     /// `A c + B s = X` and `E c + F s = Y`.
     Pair,
@@ -40,10 +40,10 @@ pub enum Form {
     Quadratic,
 }
 
-/// The words of a form.
+/// The names and equations of a form.
 struct Words {
     symbols: &'static [&'static str],
-    /// Smallest last.
+    /// The unknowns, the smallest last.
     unknowns: &'static [&'static str],
     equations: &'static [&'static str],
 }
@@ -81,12 +81,12 @@ impl Form {
         }
     }
 
-    /// The names of its symbols, in the order in which a step gives their values.
+    /// The names of its symbols, in the order of their values in a step.
     pub fn symbols(self) -> &'static [&'static str] {
         self.words().symbols
     }
 
-    /// The forms that a step of this form is solved by: where two equations are dependent, each is solved alone.
+    /// The forms that a step of this form uses. If two equations are dependent, each is solved alone.
     pub fn needs(self) -> &'static [Form] {
         match self {
             Form::Angle => &[Form::Angle],
@@ -99,7 +99,7 @@ impl Form {
         }
     }
 
-    /// The number of solutions, where they are finitely many and the equations are independent.
+    /// The number of solutions if they are finitely many and the equations are independent.
     pub fn degree(self) -> usize {
         match self {
             Form::Angle | Form::Quadratic => 2,
@@ -108,7 +108,7 @@ impl Form {
         }
     }
 
-    /// A name for files: `angle`, `turn`, ...
+    /// A name for files, such as `angle` or `turn`.
     pub fn name(self) -> &'static str {
         match self {
             Form::Angle => "angle",
@@ -121,10 +121,10 @@ impl Form {
         }
     }
 
-    /// The equations, with the symbols as numbers that a user might give.
+    /// The equations, with the symbols as inputs.
     ///
     /// # Errors
-    /// Never: the words of every form are a system.
+    /// Does not fail: the names and equations of every form are a valid system.
     pub fn system(self) -> Result<System> {
         let words = self.words();
         let symbol = |(index, name): (usize, &&str)| Parameter {
@@ -150,10 +150,10 @@ impl Form {
     }
 }
 
-/// A form with what its equations amount to at all values of the symbols, proved.
+/// A form and its proved solution for all values of the symbols.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormBasis {
-    /// The shape.
+    /// The form.
     pub form: Form,
     /// Its equations.
     pub system: System,
@@ -162,7 +162,7 @@ pub struct FormBasis {
 }
 
 impl FormBasis {
-    /// The forms that `steps` are solved by, each once.
+    /// The forms that `steps` use, each once.
     pub(super) fn needed(steps: &[ProvedStep]) -> Vec<Form> {
         let mut forms: Vec<Form> = steps.iter().flat_map(|step| step.shape.form.needs()).copied().collect();
         forms.sort_unstable();
@@ -173,7 +173,7 @@ impl FormBasis {
     /// Derives and proves `form`.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error of `watch` if it stops the derivation.
     pub fn derive(form: Form, watch: &Watch) -> Result<Self> {
         let system = form.system()?;
         let tree = derive_tree(&system, Orders::Requested, watch)?;

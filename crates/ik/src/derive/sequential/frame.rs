@@ -1,4 +1,4 @@
-//! What every program of a chain has, however its joints are found.
+//! The parts that every program of a chain has, for any method.
 
 use super::checks::checks;
 use super::layout::Layout;
@@ -7,15 +7,14 @@ use crate::solver::{Block, Case, Joint, JointValue, Operand, Program, Step, Unit
 use groebot_robot::document::word;
 use groebot_robot::kinematics::{Chain, LengthUnit};
 
-/// A program of `chain` with everything but blocks that find joints: the target, the joints, the given ones where they are told to be,
-/// the checks.
+/// A program of `chain` without the blocks that find joints: the target, the joints, the blocks that set given joints, the checks.
 pub(in crate::derive) fn frame_of(chain: &Chain, mechanism: &Mechanism) -> Program {
     let layout = Layout::new(mechanism, chain.length_unit());
     let blocks = mechanism.given().iter().map(|&joint| given(mechanism, &layout, joint)).collect();
     Program { blocks, ..framed(chain, mechanism, layout) }
 }
 
-/// The same with the unknowns that blocks have laid out.
+/// Same as [`frame_of`], with a layout to which blocks have added unknowns.
 pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Program {
     let reach = reach(chain);
     Program {
@@ -37,14 +36,14 @@ pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Pr
     }
 }
 
-/// The size of the chain's positions; one when it is a point.
+/// The size of the chain's positions; one if all are zero.
 pub(super) fn reach(chain: &Chain) -> f64 {
     let first = chain.joints().first().map_or(0.0, |joint| joint.location().coords.norm());
     let reach = chain.reach() + first;
     if reach > 0.0 { reach } else { 1.0 }
 }
 
-/// The joints with their units and what their values are made of.
+/// The joints with their units and their values as functions of the unknowns.
 fn joints(chain: &Chain, layout: &Layout) -> Vec<Joint> {
     let unit = |value: &JointValue| match (value, chain.length_unit()) {
         (JointValue::Angle { .. }, _) => Unit::Radian,
@@ -59,7 +58,7 @@ fn joints(chain: &Chain, layout: &Layout) -> Vec<Joint> {
     chain.joints().iter().zip(&layout.joints).map(joint).collect()
 }
 
-/// The block that puts a given joint where the user says.
+/// The block that sets a given joint to its input value.
 pub(super) fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Block {
     let unknowns = match layout.joints[joint] {
         JointValue::Angle { cosine, sine } => vec![cosine, sine],

@@ -1,9 +1,10 @@
 //! An angle from an equation of degree two in its cosine and sine, by the tangent of half the angle ([`HalfAngles`]).
 //!
-//! With `t = tan((q - f)/2)` the turned cosine and sine `c', s'` fulfil `t (1 + c') = s'` and `1 - c' = t s'`, unless `q` is opposite to
-//! `f`. A Groebner basis that eliminates c and s gives a quartic in t. A polynomial of degree two has at most four zeros on the
-//! circle, so of five directions `f` at least one is opposite to none of the answers: the quartic's leading coefficient is the
-//! polynomial's value there, and the direction where it is greatest is taken.
+//! With `t = tan((q - f)/2)`, the rotated cosine and sine `c', s'` fulfil `t (1 + c') = s'` and `1 - c' = t s'`, unless `q` is opposite to `f`. A Groebner
+//! basis that eliminates c and s gives a quartic in t.
+//!
+//! A polynomial of degree two has at most four zeros on the circle. So of five directions `f`, at least one is opposite to no solution. The quartic's leading
+//! coefficient is the polynomial's value opposite to `f`. The direction with the greatest such value is used.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,12 +16,12 @@ use groebot_algebra::groebner::{Options, Strategy, basis};
 use groebot_algebra::number::{BigRational, Rationals, Ring, Style};
 use groebot_algebra::poly::{Block, Order, Polynomial, PolynomialRing, parse};
 
-/// Cosine and sine of the directions f, as fractions.
+/// The cosine and sine of each direction f, as numerators over a common denominator.
 const DIRECTIONS: [(i32, i32, i32); 5] = [(1, 0, 1), (0, 1, 1), (-1, 0, 1), (0, -1, 1), (3, 4, 5)];
 
 type Poly = Polynomial<BigRational>;
 
-/// One direction with the basis that eliminates the angle's cosine and sine.
+/// One direction, with the basis that eliminates the angle's cosine and sine.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct HalfAngle {
@@ -55,7 +56,7 @@ impl HalfAngles {
     /// Computes and proves the bases.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error of `watch` if it stops the computation.
     pub fn derive(watch: &Watch) -> Result<Self> {
         let derive = |direction| {
             let (ring, generators) = setting(direction)?;
@@ -66,7 +67,7 @@ impl HalfAngles {
         DIRECTIONS.into_iter().map(derive).collect::<Result<_>>().map(HalfAngles)
     }
 
-    /// The text of the proofs.
+    /// The stored form of the proofs.
     pub(super) fn stored(&self) -> Vec<Stored> {
         let text = |half: &HalfAngle, list: &[Poly]| -> Vec<String> {
             list.iter().map(|f| half.ring.format(f, Style::Text)).collect()
@@ -78,10 +79,10 @@ impl HalfAngles {
         self.0.iter().map(stored).collect()
     }
 
-    /// Proves stored bases anew.
+    /// Proves stored bases again.
     ///
     /// # Errors
-    /// [`ErrorKind::Certificate`] for a claim that does not hold.
+    /// [`ErrorKind::Certificate`] for a false claim.
     pub(super) fn again(stored: &[Stored]) -> Result<Self> {
         if stored.len() != DIRECTIONS.len() {
             return Err(Error::new(ErrorKind::Certificate, "half angles: five directions are needed"));
@@ -115,7 +116,7 @@ impl HalfAngle {
     /// The smallest polynomial of the basis whose greatest unknown is this one: 0, 1, 2 for c, s, t.
     ///
     /// # Errors
-    /// [`ErrorKind::Certificate`] when there is none.
+    /// [`ErrorKind::Certificate`] if there is none.
     pub fn stair(&self, unknown: usize) -> Result<&Poly> {
         let greatest = |f: &Poly| (0..3).find(|&v| self.ring.degree_in(f, v) > 0);
         let missing = || Error::new(ErrorKind::Certificate, "a half angle's basis does not determine every unknown");

@@ -1,4 +1,4 @@
-//! Where a program keeps what: inputs, parameters and unknowns of a [`Mechanism`]'s solver ([`Layout`]).
+//! The indices of inputs, parameters and unknowns in the program of a [`Mechanism`] ([`Layout`]).
 
 use num_traits::ToPrimitive;
 
@@ -14,7 +14,7 @@ use groebot_algebra::number::BigRational;
 use groebot_robot::kinematics::upright::GIVEN;
 use groebot_robot::kinematics::{BaseAxis, JointKind, LengthUnit, Task};
 
-/// The names and places of all numbers of a program.
+/// The names and indices of all numbers of a program.
 pub(super) struct Layout {
     pub inputs: Vec<Input>,
     pub conditions: Vec<Condition>,
@@ -22,25 +22,25 @@ pub(super) struct Layout {
     pub unknowns: Vec<String>,
     /// By joint: its unknowns.
     pub joints: Vec<JointValue>,
-    /// For a ray, the unknowns that hold two unit vectors across it and each other.
+    /// For a ray, the unknowns that contain two unit vectors perpendicular to it and to each other.
     pub across: Option<[[usize; 3]; 2]>,
-    /// By joint: the parameters that are its value when it is given: a cosine and a sine, or a length.
+    /// By joint: the parameters with its value if it is given: a cosine and a sine, or a length.
     pub given: Vec<Vec<usize>>,
-    /// For a target with pitch and roll, the parameters that are the cosine and the sine of the roll, and of the pitch.
+    /// For a target with pitch and roll, the parameters with the cosine and the sine of the roll, and of the pitch.
     pub told: Option<[usize; 4]>,
-    /// For such a target, the unknowns that are the cosine and the sine of the arm's first joint.
+    /// For such a target, the unknowns with the cosine and the sine of the arm's first joint.
     pub swing: Option<[usize; 2]>,
-    /// The first parameter of the target.
+    /// The index of the first parameter of the target.
     pub first: usize,
 }
 
-/// Where the inputs of the task `position_pitch_roll` stand.
+/// The indices of the inputs of the task `position_pitch_roll`.
 const HEIGHT: usize = 2;
 const PITCH: usize = 3;
 const ROLL: usize = 4;
 
 impl Layout {
-    /// The layout for `mechanism` with lengths in `unit`.
+    /// The layout for `mechanism`, with lengths in `unit`.
     pub fn new(mechanism: &Mechanism, unit: LengthUnit) -> Self {
         let mut layout = Layout {
             inputs: Vec::new(),
@@ -81,7 +81,7 @@ impl Layout {
         layout
     }
 
-    /// The inputs and parameters of the given joints, those that follow others last.
+    /// Adds the inputs and parameters of the given joints. Those that follow others come last.
     fn givens(&mut self, mechanism: &Mechanism, length: Unit) {
         if let Some(standing) = mechanism.standing() {
             return self.standing_givens(mechanism, standing, length);
@@ -102,7 +102,7 @@ impl Layout {
         }
     }
 
-    /// Inputs that are the values of given joints, and their parameters.
+    /// Adds the inputs with the values of given joints, and their parameters.
     fn give_inputs(&mut self, mechanism: &Mechanism, given: &[usize], length: Unit) {
         for &index in given {
             let joint = &mechanism.joints()[index];
@@ -113,7 +113,8 @@ impl Layout {
         }
     }
 
-    /// The same of a loop that stands for a target with pitch and roll: these, the way from the first axis and the height are of the target.
+    /// Adds the given joints of a loop that replaces a target with pitch and roll. The loop's own given joints (pitch, roll, distance from the first axis,
+    /// height) get their values from the target.
     fn standing_givens(&mut self, mechanism: &Mechanism, standing: &Standing, length: Unit) {
         let (own, told) = mechanism.given().split_at(mechanism.given().len() - GIVEN.len());
         self.give_inputs(mechanism, own, length);
@@ -129,7 +130,7 @@ impl Layout {
         }
     }
 
-    /// The parameters of a given joint by the rules for its cosine, sine and value.
+    /// Adds the parameters of a given joint, with the rules for its cosine, sine and value.
     fn give(&mut self, joint: &ScrewJoint, index: usize, [cosine, sine, value]: [Rule; 3]) {
         let rules = if joint.is_revolute() { vec![('c', cosine), ('s', sine)] } else { vec![('d', value)] };
         for (letter, rule) in rules {
@@ -138,7 +139,7 @@ impl Layout {
         }
     }
 
-    /// The inputs and parameters of the task.
+    /// Adds the inputs and parameters of the task.
     fn target(&mut self, mechanism: &Mechanism, length: Unit) {
         let names = mechanism.inputs();
         let planar = matches!(mechanism.task(), Task::PlanarPose { .. });
@@ -179,7 +180,7 @@ impl Layout {
         };
     }
 
-    /// Leaves out the unknowns of all joints but the first `count`.
+    /// Removes the unknowns of all joints after the first `count`.
     pub fn keep_joints(&mut self, count: usize) {
         let last = self.joints[..count].last().map_or(0, |value| match *value {
             JointValue::Angle { cosine, sine } => cosine.max(sine) + 1,
@@ -188,13 +189,13 @@ impl Layout {
         self.unknowns.truncate(last);
     }
 
-    /// A new unknown.
+    /// Adds an unknown and returns its index.
     pub fn unknown(&mut self, name: &str) -> usize {
         self.unknowns.push(name.to_owned());
         self.unknowns.len() - 1
     }
 
-    /// What relations see of the target and of the joints in `known`; others stay unknown.
+    /// The values that relations use: those of the target and of the joints in `known`. Other joints remain unknown.
     pub fn assignment(
         &self,
         mechanism: &Mechanism,
@@ -225,7 +226,7 @@ impl Layout {
         Ok(Assignment { joints: joints.collect(), target })
     }
 
-    /// The values that a joint has in relations: c and s / sqrt n, or d / sqrt n.
+    /// The values of a joint in relations: c and s / sqrt n, or d / sqrt n.
     fn known(&self, mechanism: &Mechanism, joint: usize) -> closure::JointValue<Emitted> {
         let square = &mechanism.joints()[joint].square;
         let factor = 1.0 / square.to_f64().unwrap_or(1.0).sqrt();
@@ -238,7 +239,7 @@ impl Layout {
         }
     }
 
-    /// The same with magnitudes: cosines, sines and rotation entries count as one, lengths as the greatest of them.
+    /// Same as [`Layout::assignment`], but with magnitudes. Cosines, sines and rotation entries count as one, lengths as the greatest length.
     pub fn sizes(
         &self,
         mechanism: &Mechanism,
@@ -267,7 +268,7 @@ impl Layout {
     }
 }
 
-/// The numbers of a position and an angle about `axis`, with the cosine and the sine of the turn since the zero configuration in place of the angle's own.
+/// The numbers of a position and an angle about `axis`. The angle's cosine and sine are replaced by those of the rotation since the zero configuration.
 fn turned_since_zero(
     mechanism: &Mechanism,
     axis: BaseAxis,
@@ -284,13 +285,13 @@ fn turned_since_zero(
     position.iter().cloned().chain(turns).collect()
 }
 
-/// The numbers of the pose that a closed loop has for a target: the identity.
+/// The target numbers of a closed loop: the identity pose.
 fn closed(integer: impl Fn(i32) -> Emitted) -> Vec<Emitted> {
     let rotation = (0..9).map(|entry| i32::from(entry / 3 == entry % 3));
     [0; 3].into_iter().chain(rotation).map(integer).collect()
 }
 
-/// How far the target is from the first axis: the first two parameters are where it is, seen from above.
+/// The rule for the distance of the target from the first axis. The first two parameters are its position seen from above.
 fn radius(standing: &Standing) -> Rule {
     let register = Operand::Register;
     let [x, y] = standing.upright.axis.each_ref().map(|x| Operand::Constant(x.to_f64().unwrap_or(0.0)));

@@ -1,5 +1,5 @@
-//! From a plan to a solver: each step's equations become a [`FormBasis`] with free symbols, proved on all strata, and the symbols
-//! become code that computes their values from the target and the joints before.
+//! From a plan to a solver. Each step's equations become a [`FormBasis`] with free symbols, proved on all strata. The symbols become code that computes their
+//! values from the target and the earlier joints.
 
 mod cases;
 pub(super) mod certificate;
@@ -45,21 +45,21 @@ use super::view::View;
 use crate::solver::Program;
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// A step of a plan whose equations have been recognised.
+/// A step of a plan whose form is known.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ProvedStep {
-    /// The place of the joint.
+    /// The index of the joint.
     pub joint: usize,
     /// The equations.
     pub relations: Vec<Relation>,
-    /// What is left when other joints are eliminated from them, where that is done.
+    /// The elimination of other joints from the equations, if the step has one.
     pub elimination: Option<Elimination>,
-    /// The shape in the joint.
+    /// The form of the equations in the joint.
     pub shape: Shape,
 }
 
-/// The solution of a chain one joint at a time, proved.
+/// The proved solution of a chain, one joint at a time.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Sequential {
@@ -69,11 +69,11 @@ pub struct Sequential {
     pub steps: Vec<ProvedStep>,
     /// The forms that the steps use, solved.
     pub form_bases: Vec<FormBasis>,
-    /// The half angles, where a step has an equation of degree two in cosine and sine.
+    /// The half angles, if a step has an equation of degree two in cosine and sine.
     pub half_angles: Option<HalfAngles>,
 }
 
-/// A chain that is solved one joint at a time.
+/// The view of a chain that is solved one joint at a time.
 pub type SequentialView<'a> = View<'a, ChainProblem, Sequential>;
 
 impl Sequential {
@@ -94,11 +94,11 @@ impl Sequential {
             .map_err(told)
     }
 
-    /// Derives and proves `plan`, one of `mechanism`.
+    /// Derives and proves `plan`, a plan of `mechanism`.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Certificate`] that names the step when the plan is wrong; [`crate::ErrorKind::Unsupported`] for a step that
-    /// no form fits; what `watch` stops with.
+    /// [`crate::ErrorKind::Certificate`] that names the step, if the plan is wrong. [`crate::ErrorKind::Unsupported`] for a step that no form fits. The error
+    /// of `watch` if it stops the derivation.
     pub(super) fn of_plan(mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
         let mut eliminate = |step: &PlanStep, away: &[usize]| Elimination::derive(mechanism, step, away, watch);
         let steps = certificate::prove_plan(mechanism, &plan, &mut eliminate)?;
@@ -106,11 +106,13 @@ impl Sequential {
         Ok(Sequential { plan, steps, form_bases, half_angles })
     }
 
-    /// With the solver of `problem`, whose mechanism is `mechanism`. Newton's method polishes every answer of the closed form on the described chain, and
-    /// answers are measured there. Where the task asks for more than the joints can do, the ideal chain decides which answers there are.
+    /// Adds the program of `problem`, whose mechanism is `mechanism`.
+    ///
+    /// Newton's method polishes every solution of the closed form on the described chain, and solutions are measured there. If the task asks for more than the
+    /// joints can do, the ideal chain decides which solutions exist.
     ///
     /// # Errors
-    /// As [`Mechanism::new`]; [`crate::ErrorKind::Unsupported`] for what a program cannot hold.
+    /// As [`Mechanism::new`]; [`crate::ErrorKind::Unsupported`] for a problem that a program cannot represent.
     pub(super) fn compiled(self, problem: &ChainProblem, mechanism: &Mechanism) -> Result<(Self, Program)> {
         let program = program::of_problem(problem, mechanism, &self)?;
         Ok((self, program))
@@ -118,7 +120,7 @@ impl Sequential {
 }
 
 impl SequentialView<'_> {
-    /// The solver of the ideal chain itself, where the program polishes its answers on another.
+    /// The solver of the ideal chain itself, if the program polishes its solutions on another chain.
     ///
     /// # Errors
     /// As [`Mechanism::new`].
@@ -129,10 +131,10 @@ impl SequentialView<'_> {
     }
 }
 
-/// The forms that `steps` use, solved and proved.
+/// Solves and proves the forms that `steps` use.
 ///
 /// # Errors
-/// What `watch` stops with.
+/// The error of `watch` if it stops the computation.
 fn forms(steps: &[ProvedStep], watch: &Watch) -> Result<(Vec<FormBasis>, Option<HalfAngles>)> {
     let half_angles = HalfAngles::are_needed(steps).then(|| HalfAngles::derive(watch)).transpose()?;
     let form_bases = FormBasis::needed(steps).into_iter().map(|form| FormBasis::derive(form, watch));

@@ -1,4 +1,4 @@
-//! From a plan's steps to a [`Program`]: a block for each joint, the checks behind them.
+//! A [`Program`] from a plan's steps: a block for each joint, then the checks.
 
 use super::cases::{Place, Sized, cases, quartic, tell_spread};
 use super::checks::{checks, polishing};
@@ -20,13 +20,13 @@ use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, Task};
 
-/// Two linear equations are nearly dependent when their determinant is below this share of its size.
+/// Two linear equations are nearly dependent if their determinant is below this fraction of its size.
 const DEPENDENT: f64 = 1e-6;
 
-/// The program of a chain whose plan has been derived. Its formulas are off by `slack` on the chain that answers are measured on.
+/// The program of a chain whose plan has been derived. `slack` bounds the error of its formulas on the chain on which solutions are measured.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for what a program cannot hold.
+/// [`ErrorKind::Unsupported`] for a problem that a program cannot represent.
 pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Sequential, slack: Slack) -> Result<Program> {
     let form_bases = parts.form_bases.as_slice();
     let mut layout = Layout::new(mechanism, chain.length_unit());
@@ -56,7 +56,7 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Sequential, 
     let most = if mechanism.followers().is_empty() { dimension } else { dimension.max(product) };
     let program = Program {
         capacity: (2 * most + blocks.len()).min(4096),
-        // Where the task asks for more than the joints can do, special targets might have more, and so might a chain that is not ideal.
+        // Special targets may have more solutions if the task asks for more than the joints can do. So may a chain that is not ideal.
         isolated: (mechanism.is_tight() && slack == Slack::NONE).then_some(parts.plan.dimension),
         blocks,
         ..framed(chain, mechanism, layout)
@@ -85,7 +85,7 @@ pub(super) fn of_problem(problem: &ChainProblem, mechanism: &Mechanism, method: 
     Ok(program)
 }
 
-/// The checks of a program of `ideal` that is polished on `chain`, which has its joints and its task.
+/// The checks for a program of `ideal` whose solutions are polished on `chain`. Both chains have the same joints and task.
 ///
 /// # Errors
 /// As [`Mechanism::new`].
@@ -98,8 +98,8 @@ pub(in crate::derive) fn checks_on(ideal: &Chain, chain: &Chain) -> Result<Check
     Ok(polishing(&Mechanism::of_chain(chain)?, &layout, reach(chain)))
 }
 
-/// The chain `truth` beside its ideal, that of `mechanism` and `program`, where the task asks for more than the joints can do: then the chain as described has
-/// no answer where the ideal one has several, or only the one that made the target. None where it is left to polishing.
+/// The equations of the chain `truth` as described, if the task asks for more than the joints can do. Then the described chain may have no solution where the
+/// ideal one has several, or only the one from which the target was made. `None` if polishing handles the difference.
 ///
 /// # Errors
 /// As [`Mechanism::of_chain`].
@@ -119,8 +119,8 @@ fn described_by(mechanism: &Mechanism, truth: &Chain, report: &Report, program: 
     Ok(fits.then_some(described))
 }
 
-/// Whether the equations say more than the joints can do: for a planar pose that the chain stays in its plane, for an angle about an axis that the tip does not
-/// tilt.
+/// Whether the equations have conditions that no joint can influence. A planar pose requires that the chain stays in its plane, an angle about an axis that the
+/// tip does not tilt.
 fn asks_for_more(mechanism: &Mechanism) -> bool {
     let freedoms = mechanism.seen().freedoms();
     matches!(mechanism.task(), Task::PlanarPose { .. } | Task::PositionYaw { .. })
@@ -132,8 +132,9 @@ fn form_basis(form_bases: &[FormBasis], form: Form) -> Result<&FormBasis> {
     form_bases.iter().find(|form_basis| form_basis.form == form).ok_or_else(missing)
 }
 
-/// The joint that moves freely where the first of these steps leaves its joint free: that joint itself, and for the hidden one, which is no
-/// joint of an answer, the first that follows from it; its leader where it has one.
+/// The joint that is reported as free where the first of these steps leaves its joint free.
+///
+/// It is that joint itself, or its leader if it has one. The hidden joint belongs to no solution; the first joint that follows from it replaces it.
 fn free(mechanism: &Mechanism, steps: &[ProvedStep]) -> usize {
     let own = steps.iter().map(|step| step.joint).find(|joint| mechanism.hidden() != Some(*joint));
     let leading = |joint: usize| mechanism.joints()[joint].coupling.as_ref().map_or(joint, |coupling| coupling.leader);
@@ -193,7 +194,7 @@ impl Context<'_> {
     }
 }
 
-/// The guard that two linear equations are nearly dependent, so that each is solved alone as well: answers are measured in the end.
+/// The guard for two nearly dependent linear equations. Each is then also solved alone; the final measurement removes wrong solutions.
 fn dependent([a, b, e, f]: [Sized; 4], slack: Slack, assembler: &mut Assembler) -> Guard {
     let mut determinant = |part: fn(&Sized) -> Operand, sum: bool| {
         let (left, right) = (assembler.mul(part(&a), part(&f)), assembler.mul(part(&b), part(&e)));

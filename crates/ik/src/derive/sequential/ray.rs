@@ -1,4 +1,4 @@
-//! A ray as a pose: any turn about it is chosen, by two unit vectors across it.
+//! A ray as a pose: two unit vectors perpendicular to the ray fix an arbitrary rotation about it.
 
 use nalgebra::Vector3;
 use num_traits::ToPrimitive;
@@ -8,11 +8,11 @@ use crate::derive::closure::{Arithmetic, Mechanism};
 use crate::derive::equations::assemble::Assembler;
 use crate::solver::{Block, Case, Operand, Pivot, Step};
 
-/// Where the parameters of a ray's direction stand.
+/// The parameters of a ray's direction.
 const DIRECTION: [Operand; 3] = [Operand::Parameter(3), Operand::Parameter(4), Operand::Parameter(5)];
 
-/// The block that finds two unit vectors across a ray and each other: the first is across a coordinate axis as well, that from which the
-/// ray is farthest.
+/// The block that finds two unit vectors perpendicular to a ray and to each other. The first is also perpendicular to a coordinate axis: the one with the
+/// greatest angle to the ray.
 pub(super) fn across([first, second]: [[usize; 3]; 2]) -> Block {
     let case = |axis: usize| {
         let (mut assembler, d) = (Assembler::default(), DIRECTION);
@@ -46,8 +46,8 @@ pub(super) fn across([first, second]: [[usize; 3]; 2]) -> Block {
     Block::numbered("directions across the ray", Vec::new(), (0..3).map(case).collect())
 }
 
-/// The pose that stands for a ray: its point, and the rotation from where the tip is at zero that takes the aim and two unit vectors across
-/// it to the direction and the unknowns `across`.
+/// The pose that replaces a ray: its point, and a rotation from the zero configuration. The rotation takes the tip's direction and two unit vectors
+/// perpendicular to it to the ray's direction and the unknowns `across`.
 pub(super) fn turned(mechanism: &Mechanism, across: [[usize; 3]; 2], emitter: &mut Emitter<'_>) -> Vec<Emitted> {
     let aim = mechanism.aim().each_ref().map(|entry| entry.to_f64().unwrap_or(0.0));
     let aim = Vector3::from(aim).normalize();

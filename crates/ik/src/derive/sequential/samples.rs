@@ -1,38 +1,38 @@
-//! The places at which cases put a free joint. Main type: [`Samples`].
+//! The sampled values of a free joint. Main type: [`Samples`].
 
 use super::ProvedStep;
 use super::slack::Slack;
 use crate::solver::JointValue;
 
-/// A free angle is put at places round the circle, none of them one that a solution is likely to have by itself.
+/// The offset of the samples of a free angle. With it, no sample is a value that a solution is likely to have.
 const FIRST: f64 = 0.4;
-/// A free length is put at places on both sides of this share of the reach.
+/// The centre of the samples of a free length, as a fraction of the reach.
 const MIDDLE: f64 = 0.1;
 
-/// A slide that goes beyond this multiple of the reach needs places of its own: an arm on a rail reaches targets from a part of it only.
+/// A prismatic joint whose limits exceed this multiple of the reach is sampled along its travel. An arm on a rail reaches a target from only a part of the
+/// rail.
 const FAR: f64 = 1.2;
-/// So many places there are within a reach then, and so many altogether at most.
+/// The number of samples per reach along such a travel, and the maximum number of samples.
 const CLOSE: f64 = 3.0;
 const MOST: f64 = 64.0;
 
-/// How many places there are for an angle, and for a length.
+/// The number of samples for an angle, and for a length.
 #[derive(Clone, Copy)]
 pub(super) struct Samples {
     angles: i32,
     lengths: i32,
 }
 
-/// One from which a member of the self-motion is reached is enough.
+/// For roots of degree at most two: one sample near enough to a member of the self-motion is sufficient.
 const FEW: Samples = Samples { angles: 8, lengths: 5 };
-/// Where roots of polynomials of higher degree than two are known to fewer digits, so that nearer places are needed: next to a double root a
-/// self-motion may go round a small part of the circle.
+/// For roots of higher degree, which have fewer correct digits and need nearer samples. Next to a double root, a self-motion may cover only a small part of the
+/// circle.
 const MORE: Samples = Samples { angles: 16, lengths: 16 };
-/// Where the formulas are those of an ideal chain: the chain that is meant has a few answers there instead of a self-motion, and each is looked for
-/// from the places next to it.
+/// For the formulas of an ideal chain. The described chain has a few solutions there instead of a self-motion, and each is searched from the nearest samples.
 const MANY: Samples = Samples { angles: 16, lengths: 5 };
 
 impl Samples {
-    /// Those of a program of these steps, whose formulas are off by `slack`.
+    /// The numbers of samples for a program of these steps, whose formulas have the error bound `slack`.
     pub fn of(steps: &[ProvedStep], slack: Slack) -> Self {
         match slack {
             Slack::NONE if steps.iter().all(|step| step.shape.form.degree() <= 2) => FEW,
@@ -41,7 +41,7 @@ impl Samples {
         }
     }
 
-    /// The places of a joint \[rad, or the unit of `reach`\]; where a slide's `travel` is longer than what the arm reaches, along that.
+    /// The samples of a joint \[rad, or the unit of `reach`\]. A prismatic joint with a long `travel` is sampled along it.
     pub fn places(self, joint: JointValue, reach: f64, travel: Option<(f64, f64)>) -> Vec<f64> {
         if let Some((low, high)) = travel.filter(|(low, high)| low.abs().max(high.abs()) > FAR * reach) {
             let count = (CLOSE * (high - low) / reach).ceil().clamp(f64::from(self.lengths), MOST) as usize;

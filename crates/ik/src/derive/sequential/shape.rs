@@ -1,4 +1,4 @@
-//! Which [`Form`] a step's equations have in their joint, by an exact look at their coefficients.
+//! The [`Form`] of a step's equations in their joint, determined from their exact coefficients.
 
 use std::collections::BTreeMap;
 
@@ -12,19 +12,19 @@ use crate::derive::planner::{PlanStep, Way};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// The shape of a step's equations.
+/// The form of a step's equations, and its constant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     /// The form.
     pub form: Form,
-    /// Of a [`Form::Turn`]: `k` with `b2 = k a1` and `k b1 = -n a2`, where `ai c + bi s'` are the two equations.
+    /// For a [`Form::Turn`]: `k` with `b2 = k a1` and `k b1 = -n a2`, where `ai c + bi s'` are the two equations.
     pub ratio: Option<BigRational>,
 }
 
-/// The shape of `step` in its joint.
+/// The form of the equations of `step` in its joint.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] when the equations are not of the kind that the step says.
+/// [`ErrorKind::Unsupported`] if the equations do not have the structure that the step claims.
 pub(super) fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
     let plain = |form| Ok(Shape { form, ratio: None });
     let revolute = mechanism.joints()[step.joint].is_revolute();
@@ -47,7 +47,7 @@ pub(super) fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
     }
 }
 
-/// Whether these are the relations by which the joint follows another one: `c = ..` and `s' = ..`.
+/// Whether these are the relations of a joint that follows another one: `c = ..` and `s' = ..`.
 fn follows(joint: usize, relations: [&Relation; 2]) -> bool {
     relations
         .map(Relation::followed)
@@ -56,7 +56,7 @@ fn follows(joint: usize, relations: [&Relation; 2]) -> bool {
         .all(|(followed, unknown)| followed.is_some_and(|[follower, _, own]| follower == joint && own == unknown))
 }
 
-/// The shape of what an elimination leaves.
+/// The form of the result of an elimination.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a degree that no form has.
@@ -85,7 +85,7 @@ fn part(polynomial: &Multilinear<TargetPoly>, factor: Factor) -> BTreeMap<Vec<Fa
     with.map(|(product, value)| (rest(product.list()), value.clone())).collect()
 }
 
-/// The ratio that makes two equations a turn.
+/// The constant `k` of [`Shape::ratio`], if the two equations are a rotation.
 fn turn(mechanism: &Mechanism, joint: usize, relations: &[Relation; 2]) -> Result<Option<BigRational>> {
     let mut symbolic = Symbolic::new(mechanism)?;
     let mut parts = Vec::new();
@@ -95,7 +95,7 @@ fn turn(mechanism: &Mechanism, joint: usize, relations: &[Relation; 2]) -> Resul
     }
     let square = &mechanism.joints()[joint].square;
     let [(a1, b1), (a2, b2)] = &parts[..] else { return Ok(None) };
-    // b2 = k a1 and -n a2 = k b1.
+    // The conditions are b2 = k a1 and -n a2 = k b1.
     let negative: BTreeMap<_, _> =
         a2.iter().map(|(product, value)| (product.clone(), symbolic.ring.scale(value, &-square))).collect();
     let ratio = quotient(b2, a1).or_else(|| quotient(&negative, b1));

@@ -1,9 +1,10 @@
-//! Joints that two chains share, found from both chains at once: [`Simultaneous`].
+//! Joints that two chains share, found from both chains together: [`Simultaneous`].
 //!
-//! Of each chain a relation is taken that holds no other unknown joint: what the two lines, planes or points keep between them is the
-//! same whatever the joints between do, so these drop out. One shared joint is a pair of equations: each serves where the other says
-//! nothing. Of two, which neither chain determines alone, one is eliminated: the relations are linear and homogeneous in its cosine and
-//! sine, and their determinant is an equation in the other one.
+//! One relation of each chain is used that contains only shared unknown joints. Such a relation holds an invariant of two lines, planes or points that the
+//! joints between them do not change.
+//!
+//! One shared joint gives a pair of equations; if one is singular, the other determines the joint. Of two shared joints that neither chain determines alone,
+//! one is eliminated. The relations are linear and homogeneous in its cosine and sine, and their determinant is an equation in the other joint.
 
 use serde::{Deserialize, Serialize};
 
@@ -28,13 +29,13 @@ use crate::solver::{
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
 
-/// A chain, and what stands before its names in a program.
+/// A chain, and the prefix of its names in a program.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct Side<'a> {
     /// The chain.
     pub chain: &'a Chain,
-    /// What stands before the names of its inputs and joints.
+    /// The prefix of the names of its inputs and joints.
     pub prefix: &'a str,
 }
 
@@ -42,16 +43,16 @@ pub struct Side<'a> {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Simultaneous {
-    /// The number of joints, given ones too, that stand first in both chains and are shared.
+    /// The number of shared joints, including given ones. They are the first joints of both chains.
     pub shared: usize,
-    /// The joint that is found first, from a relation of each chain; where there is another, which is eliminated for that, then this one,
-    /// from the same relations.
+    /// The step for the joint that is found first, from a relation of each chain. If there is a second joint, it is eliminated in that step, and a second step
+    /// finds it from the same relations.
     pub steps: Vec<ProvedStep>,
     /// The forms that the steps use, solved.
     pub form_bases: Vec<FormBasis>,
-    /// The half angles, where an equation of degree two in cosine and sine is left.
+    /// The half angles, if an equation has degree two in cosine and sine.
     pub half_angles: Option<HalfAngles>,
-    /// Finds the shared joints. Of its answers only the given joints are measured: programs of the chains are to follow.
+    /// The program that finds the shared joints. Its checks cover only the given joints, because programs of the chains follow.
     pub program: Program,
 }
 
@@ -59,7 +60,7 @@ pub struct Simultaneous {
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::derive) struct Stored {
-    /// The place of the joint that is found first, and of the other one.
+    /// The index of the joint that is found first, and of the other one.
     joints: Vec<usize>,
     relations: [Relation; 2],
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -70,12 +71,11 @@ pub(in crate::derive) struct Stored {
 }
 
 impl Simultaneous {
-    /// Finds the relations of two chains, whose first `shared` joints are the same actuators, that determine the unknown ones among these;
-    /// proves them and what follows.
+    /// Derives and proves the unknown joints among the first `shared` joints of two chains, which are common actuators. It searches for relations of both
+    /// chains that determine them.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] when the shared joints are not one or two unknown ones that turn, or no relations fit; as
-    /// [`Mechanism::new`].
+    /// [`ErrorKind::Unsupported`] if the unknown shared joints are not one or two revolute ones, or if no relations fit. As [`Mechanism::new`].
     pub fn derive(sides: [Side<'_>; 2], shared: usize, watch: &Watch) -> Result<Self> {
         let common = Common::new(sides, shared)?;
         let steps = common.search(watch)?;
@@ -83,10 +83,10 @@ impl Simultaneous {
         common.assemble(steps, form_bases, half_angles)
     }
 
-    /// What is stored of the proof.
+    /// The stored form of the proof.
     ///
     /// # Errors
-    /// When a form's field cannot be built: never for a derivation that was made by this crate.
+    /// If a form's field cannot be built. This does not occur for a derivation that this crate made.
     pub(in crate::derive) fn stored(&self) -> Result<Stored> {
         let [f, g] = self.relations()?;
         let elimination = self.steps.first().and_then(|step| step.elimination.as_ref());
@@ -102,7 +102,7 @@ impl Simultaneous {
     /// The relations, one of each chain.
     ///
     /// # Errors
-    /// [`ErrorKind::Certificate`] when there are not two: never for a derivation that was made by this crate.
+    /// [`ErrorKind::Certificate`] if there are not two. This does not occur for a derivation that this crate made.
     pub fn relations(&self) -> Result<[&Relation; 2]> {
         match self.steps.first().map(|step| step.relations.as_slice()) {
             Some([f, g]) => Ok([f, g]),
@@ -110,10 +110,10 @@ impl Simultaneous {
         }
     }
 
-    /// Proves a stored derivation anew, without search.
+    /// Proves a stored derivation again, without search.
     ///
     /// # Errors
-    /// [`ErrorKind::Certificate`] for a claim that does not hold.
+    /// [`ErrorKind::Certificate`] for a false claim.
     pub(in crate::derive) fn again(sides: [Side<'_>; 2], shared: usize, stored: &Stored) -> Result<Self> {
         let common = Common::new(sides, shared)?;
         let mut joints = stored.joints.clone();
@@ -134,13 +134,13 @@ impl Simultaneous {
         common.assemble(steps, form_bases, half_angles)
     }
 
-    /// The most complex values of the shared joints together. Two dependent equations in one joint have two common solutions.
+    /// The maximum number of complex values of the shared joints together. Two dependent equations in one joint have two common solutions.
     pub fn dimension(&self) -> usize {
         self.steps.iter().map(|step| step.shape.form.degree().max(2)).product()
     }
 }
 
-/// Two mechanisms whose first joints are the same actuators, which turn.
+/// Two mechanisms whose first joints are common revolute actuators.
 struct Common<'a> {
     sides: [Side<'a>; 2],
     mechanisms: [Mechanism; 2],
@@ -177,7 +177,7 @@ impl<'a> Common<'a> {
         Ok(Common { sides, mechanisms, shared, unknown })
     }
 
-    /// The steps from the first relations that fit.
+    /// The steps from the first suitable relations.
     fn search(&self, watch: &Watch) -> Result<Vec<ProvedStep>> {
         let [first, second] = [self.candidates(0)?, self.candidates(1)?];
         let pairs = || first.iter().flat_map(|f| second.iter().map(move |g| [f.clone(), g.clone()]));
@@ -199,8 +199,8 @@ impl<'a> Common<'a> {
         Err(unsupported())
     }
 
-    /// The relations of one of the chains that hold no joint but shared ones: the arc between the two things that are measured is
-    /// left out where what is measured stays the same on it.
+    /// The relations of one chain that contain only shared joints. A relation has an arc of further joints between its two objects. The arc is removed if its
+    /// joints do not change the measured quantity.
     fn candidates(&self, side: usize) -> Result<Vec<Relation>> {
         let mechanism = &self.mechanisms[side];
         let mut symbolic = Symbolic::new(mechanism)?;
@@ -282,7 +282,7 @@ impl<'a> Common<'a> {
         Ok(Simultaneous { shared: self.shared, steps, form_bases, half_angles, program })
     }
 
-    /// The program that finds the shared joints. The inputs and parameters of the second chain's target stand last.
+    /// The program that finds the shared joints. The inputs and parameters of the second chain's target come last.
     fn program(&self, layout: Layout, other: Layout, blocks: Vec<Block>, scale: f64) -> Program {
         let checks = held(&layout, self.mechanisms[0].given(), self.shared);
         let mut program = Program {
@@ -325,7 +325,7 @@ fn joint((value, joint): (&JointValue, &groebot_robot::kinematics::Joint)) -> Jo
     Joint { name: joint.name.clone(), unit: Unit::Radian, value: *value }
 }
 
-/// The equations that hold the joints `given` among `count` where they are told to be.
+/// The equations that fix the joints `given`, among `count` joints, at their input values.
 fn held(layout: &Layout, given: &[usize], count: usize) -> Checks {
     let mut checks = Checks::default();
     let mut emit = |operation: Operation| {
@@ -356,7 +356,7 @@ fn held(layout: &Layout, given: &[usize], count: usize) -> Checks {
     checks
 }
 
-/// The rule with its input `by` places further on.
+/// The rule with `by` added to its input index.
 fn moved(rule: Rule, by: usize) -> Rule {
     let Ok(rule) = rule.with_input(|index| Ok::<_, std::convert::Infallible>(index + by));
     rule

@@ -1,8 +1,7 @@
-//! One revolute joint eliminated from two relations that turn a vector: the sum of their squares.
+//! Elimination of one revolute joint from two relations that rotate a vector, by the sum of their squares.
 //!
-//! Where `P c + Q s' + U = 0` and, after a multiple of it is added, `k (P s' - Q c/n) + V = 0`, the circle `c^2 + n s'^2 = 1` gives
-//! `U^2 + n/k^2 V^2 = P^2 + Q^2/n`, in which the joint does not occur (Pieper 1968). It is a combination of the two relations and the
-//! circle, and the cofactors are known.
+//! Let `P c + Q s' + U = 0` and, after a multiple of it is added, `k (P s' - Q c/n) + V = 0`. The circle `c^2 + n s'^2 = 1` then gives `U^2 + n/k^2 V^2 = P^2 +
+//! Q^2/n`, without the joint (Pieper 1968). This is a combination of the two relations and the circle with known cofactors.
 
 use num_traits::Zero;
 
@@ -18,8 +17,8 @@ struct Linear {
     u: Poly,
 }
 
-/// The polynomial without the variables `place` and the next, the cosine and sine, and its cofactors by `f`, `g` and the circle with `n`; `None` when no
-/// multiple of `f` makes a turn of the two.
+/// The polynomial without the cosine and sine, variables `place` and the next, and its cofactors by `f`, `g` and the circle with `n`. `None` if no multiple of
+/// `f` makes the two relations a rotation.
 pub(super) fn by_squares(
     ring: &PolynomialRing<Rationals>,
     [f, g]: [&Poly; 2],
@@ -54,7 +53,7 @@ fn linear(ring: &PolynomialRing<Rationals>, f: &Poly, place: usize) -> Option<Li
     (ring.degree_in(&p, place + 1) == 0).then_some(Linear { p, q, u })
 }
 
-/// The numbers with `q2 + m q1 = k p1` and `p2 + m p1 = -k q1 / n`.
+/// The numbers `k` and `m` with `q2 + m q1 = k p1` and `p2 + m p1 = -k q1 / n`.
 fn turn(
     ring: &PolynomialRing<Rationals>,
     a: &Linear,

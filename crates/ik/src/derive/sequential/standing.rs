@@ -1,4 +1,5 @@
-//! From the loop of an arm that stands upright back to the arm: its first joint from the loop's last, which is counted from the target's azimuth.
+//! The first joint of an arm with a vertical first axis, from the last joint of the loop that replaces it. The loop's joint is relative to the target's
+//! azimuth.
 
 use num_traits::ToPrimitive;
 
@@ -7,8 +8,7 @@ use crate::derive::closure::Standing;
 use crate::derive::equations::assemble::Assembler;
 use crate::solver::{Block, Case, Guard, JointValue, Operand, Step};
 
-/// Makes `layout` that of the arm itself, and adds the block that finds its first joint to those of the loop. `reach` is the size of its
-/// positions.
+/// Makes `layout` that of the arm itself, and adds the block of its first joint to those of the loop. `reach` is the size of its positions.
 pub(super) fn close(standing: &Standing, layout: &mut Layout, blocks: &mut Vec<Block>, reach: f64) {
     let count = standing.plain.joints().len();
     let Some(first) = layout.swing else { return };
@@ -28,12 +28,12 @@ pub(super) fn close(standing: &Standing, layout: &mut Layout, blocks: &mut Vec<B
     (layout.joints, layout.given) = (joints, given);
 }
 
-/// How many of the loop's given joints are the arm's own.
+/// The number of the loop's given joints that are given joints of the arm.
 fn count_of_own(standing: &Standing) -> usize {
     standing.plain.given().len()
 }
 
-/// The block of the first joint: `q1 = q + azimuth`, with the azimuth of a target on the first axis zero.
+/// The block of the first joint: `q1 = q + azimuth`. The azimuth of a target on the first axis is zero.
 fn block(standing: &Standing, [c, s]: [usize; 2], first: [usize; 2], radius: usize, reach: f64) -> Block {
     let mut assembler = Assembler::default();
     let axis = standing.upright.axis.each_ref().map(|x| Operand::Constant(x.to_f64().unwrap_or(0.0)));

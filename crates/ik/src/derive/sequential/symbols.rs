@@ -1,4 +1,4 @@
-//! The symbols of a step's form: their values and typical sizes from the coefficients of the step's relations, in the least code.
+//! The symbols of a step's form: their values and typical sizes from the coefficients of the step's relations, in the shortest code.
 
 use num_traits::{Signed, ToPrimitive};
 
@@ -15,16 +15,16 @@ use crate::derive::equations::assemble::{Assembler, FlatTerm, of_least_work};
 use crate::solver::Operand;
 use groebot_algebra::number::BigRational;
 
-/// The symbols of a step's form, and what computes them.
+/// The symbols of a step's form, and their code.
 pub(super) struct Symbols {
     pub list: Vec<Sized>,
-    /// How many instructions compute their values.
+    /// The number of instructions that compute their values.
     work: usize,
     pub assembler: Assembler,
 }
 
 impl Symbols {
-    /// Whether the same values are numbers, which no code computes.
+    /// Whether exactly the same values are constants, which need no code.
     fn has_numbers_of(&self, other: &Symbols) -> bool {
         let is_number = |symbol: &Sized| number(&symbol.value).is_some();
         self.list.iter().map(is_number).eq(other.list.iter().map(is_number))
@@ -32,7 +32,7 @@ impl Symbols {
 }
 
 impl Context<'_> {
-    /// The symbols of the step's form, by sums of the length that leaves the least code but makes none of what cancels.
+    /// The symbols of the step's form, in the shortest code over several lengths of sums. Constant values must remain constants.
     pub fn shortest(&self, layout: &Layout) -> Result<Symbols> {
         let [usual, others @ ..] = Assembler::ways();
         let usual = self.symbols(layout, usual)?;
@@ -44,7 +44,7 @@ impl Context<'_> {
         Ok(of_least_work(usual, alike, |symbols| symbols.work))
     }
 
-    /// The step's relations with the mechanisms that they belong to.
+    /// The step's relations, grouped with their mechanisms.
     fn sides<'b>(&'b self, layout: &'b Layout) -> Vec<(&'b Mechanism, &'b Layout, &'b [Relation])> {
         let relations = self.step.relations.as_slice();
         match self.partner {
@@ -56,7 +56,7 @@ impl Context<'_> {
         }
     }
 
-    /// The symbols of the step's form. Their sizes matter only where a guard asks for them.
+    /// The symbols of the step's form. Sizes are computed only if a guard may read them.
     fn symbols(&self, layout: &Layout, mut assembler: Assembler) -> Result<Symbols> {
         let assembler = &mut assembler;
         let mut equations = Vec::new();
@@ -97,8 +97,7 @@ impl Context<'_> {
         Ok(sizes.into_iter().map(|size| assembler.abs(size)).collect())
     }
 
-    /// The symbols from the equations' coefficients. With the true sine `s = sqrt(n) s'`. Where `equations` are sizes, `values` are
-    /// what they are the sizes of.
+    /// The symbols from the equations' coefficients, for the physical sine `s = sqrt(n) s'`. If `equations` are sizes, `values` are the corresponding values.
     fn combine(
         &self,
         equations: &[Multilinear<Emitted>],
@@ -140,7 +139,7 @@ impl Context<'_> {
         }
     }
 
-    /// The symbols from what an elimination leaves.
+    /// The symbols from the result of an elimination.
     fn left(
         &self,
         elimination: &Elimination,
@@ -187,9 +186,8 @@ impl Context<'_> {
     }
 }
 
-/// The size of a term `q S^powers`, in the magnitudes of the symbols and, behind them, their sizes: where each symbol is off by a share
-/// of its size, the term is off by that share of this. It is no less than the term itself, and far less than the product of sizes
-/// where symbols are small.
+/// The error factor of a term `q S^powers`, as terms in the symbols' magnitudes and then their sizes. If each symbol has an error of a fraction of its size,
+/// the term has an error of that fraction of this sum. The sum is at least the term itself, and much less than the product of sizes if symbols are small.
 fn derivatives(q: &BigRational, powers: &[u32]) -> Vec<FlatTerm> {
     if powers.iter().all(|&power| power == 0) {
         return vec![FlatTerm::new(q.abs(), powers)];
@@ -205,7 +203,7 @@ fn derivatives(q: &BigRational, powers: &[u32]) -> Vec<FlatTerm> {
     held.map(by).collect()
 }
 
-/// The value of a number.
+/// The value of a constant operand.
 fn number(value: &Operand) -> Option<f64> {
     match value {
         Operand::Constant(value) => Some(*value),
@@ -213,7 +211,7 @@ fn number(value: &Operand) -> Option<f64> {
     }
 }
 
-/// Whether it is a number other than zero.
+/// Whether the operand is a nonzero constant.
 fn is_number(value: &Operand) -> bool {
     number(value).is_some_and(|value| value != 0.0)
 }

@@ -1,4 +1,4 @@
-//! What a chain's tip reaches, as the inputs of its program.
+//! The target that a chain's tip reaches, as the inputs of its program.
 
 use crate::Result;
 use crate::derive::problem::ChainProblem;

@@ -1,4 +1,4 @@
-//! The formulation of the closed loop of six axes with one of them hidden ([`Formulation`]).
+//! The formulation of the closed loop of six axes with one hidden axis ([`Formulation`]).
 
 use groebot_runtime::six_axes;
 use serde::{Deserialize, Serialize};
@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct Formulation {
     /// The joint, from 0, whose angle or displacement is the eigenvalue.
     pub hidden: usize,
-    /// Whether the equations are multiplied by half the angle, or by the displacement, of the second joint after it
-    /// instead of the first.
+    /// The joint that doubles the equations: they are multiplied by its half angle or displacement. False for the first joint after the hidden one, true for
+    /// the second.
     pub second: bool,
 }
 

@@ -9,16 +9,16 @@ use super::formulation::Formulation;
 /// A line with a direction, and a point on it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Line {
-    /// Of length one.
+    /// The direction, of length one.
     pub direction: [f64; 3],
     /// Any point of the line.
     pub point: [f64; 3],
 }
 
-/// The axes of six joints at zero, from base to tip.
+/// The axes of six joints at zero joint values, from base to tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
-    /// Directions of length one, and points; for a prismatic joint any point.
+    /// Directions of length one, and points. The point of a prismatic joint is arbitrary.
     pub lines: [Line; 6],
     /// By joint, whether it is prismatic.
     pub slides: [bool; 6],
@@ -27,8 +27,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The solver of the chain whose tip is at `tip` at zero, in the unit of the lines; the formulations are tried in
-    /// this order.
+    /// The solver of the chain, in the unit of the lines. `tip` is the pose of the tip at zero joint values. The formulations are tried in this order.
     ///
     /// # Panics
     /// As [`Formulations::new`].

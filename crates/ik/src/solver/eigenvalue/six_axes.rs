@@ -8,7 +8,7 @@ use super::layout::{Layout, Line};
 use crate::solver::{JointValue, Operand};
 use crate::{Error, ErrorKind, Result};
 
-/// The unknowns of six joints, found together.
+/// A step that finds the unknowns of six joints together.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "SixAxesParts", into = "SixAxesParts")]
 pub struct SixAxes {
@@ -19,20 +19,19 @@ pub struct SixAxes {
 /// The parts of [`SixAxes`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SixAxesParts {
-    /// The axes at zero, from base to tip: directions of length one, points in the unit of the target.
+    /// The axes at zero joint values, from base to tip: directions of length one, points in the unit of the target.
     pub lines: [Line; 6],
     /// By joint, whether it is prismatic.
     #[serde(default, skip_serializing_if = "is_none")]
     pub slides: [bool; 6],
     /// A typical length of the chain, in the same unit.
     pub length: f64,
-    /// The tip in the base frame at zero.
+    /// The pose of the tip in the base frame at zero joint values.
     #[serde(with = "RigidParts")]
     pub tip: Rigid,
     /// The eigenvalue problems, in the order in which they are tried.
     pub formulations: Vec<Formulation>,
-    /// The distance from this robot to the one on which solutions are polished, in fractions of its reach and rad; zero
-    /// if they are equal.
+    /// The distance from this robot to the one on which solutions are polished, as a fraction of its reach and in rad. Zero if they are equal.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub within: f64,
     /// The unknowns that are set: angles, and values of the prismatic joints.
@@ -82,7 +81,7 @@ impl SixAxes {
         self.chain
     }
 
-    /// The step for a robot at this distance, on which solutions are polished.
+    /// Same step, for a robot at this distance, on which solutions are polished.
     ///
     /// # Errors
     /// As [`SixAxes::new`].

@@ -25,14 +25,14 @@ pub(super) struct Prepared {
     pub turns: Vec<Turn>,
 }
 
-/// Cases of which one runs.
+/// One of several alternative cases, of which one runs.
 #[derive(Clone, Debug)]
 pub(super) enum Turn {
     /// A case that its guards select.
     Told(Told),
-    /// The best conditioned of several cases, each with its pivot.
+    /// A group of cases, each with its pivot. The best conditioned one runs.
     Elected(Vec<(u32, Told)>),
-    /// A gap, with its number.
+    /// A gap, with its number: a stratum that could not be derived.
     Open(usize, Told),
 }
 
@@ -87,7 +87,7 @@ pub(super) struct Six {
     pub stride: usize,
 }
 
-/// The destination of a joint's value.
+/// The memory address for a joint's value.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum JointPlace {
     Angle([u32; 2]),

@@ -43,7 +43,7 @@ impl Equations {
         Ok(&workspace.changes)
     }
 
-    /// ArticulatedBody-body algorithm (ABA), when no joint is a mimic joint.
+    /// Articulated-body algorithm (ABA), when no joint is a mimic joint.
     fn forward_by_bodies(&self, workspace: &mut Workspace, state: State<'_>, torques: &[f64]) -> Result<()> {
         let first = self.first();
         self.prepare(workspace, state, None);

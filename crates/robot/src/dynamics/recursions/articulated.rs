@@ -7,7 +7,7 @@ use super::scalar::{Divisible, Scalar};
 use super::six::{Frame, Mass, Matrix, Six, Three, add, cross, dot, turned, turned_back};
 use super::tree::{Body, Freedom, Tree};
 
-/// ArticulatedBody-body inertia in the frame of a body. For a motion `(v, w)` the force is `(L v + H w, H' v + A w)`.
+/// Articulated-body inertia in the frame of a body. For a motion `(v, w)` the force is `(L v + H w, H' v + A w)`.
 #[derive(Clone, Debug)]
 pub struct ArticulatedInertia<S> {
     /// The matrix `L`.

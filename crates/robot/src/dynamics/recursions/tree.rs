@@ -37,7 +37,7 @@ pub struct Tree<S> {
     pub base: Mass<S>,
     /// The body of each joint.
     pub bodies: Vec<Body<S>>,
-    /// The joints, sorted so that parents come first.
+    /// The joints, sorted topologically: each joint is after its parent.
     pub order: Vec<usize>,
 }
 

@@ -10,11 +10,11 @@ use groebot_algebra::number::BigRational;
 /// From this grain on, directions are written in short numbers.
 const COARSE: f64 = 1e-4;
 
-/// The ideal directions within `tolerance`. A direction near the previous one's parallel or perpendicular becomes
-/// parallel or perpendicular. Among these, the direction of an earlier joint or along coordinate axes is preferred.
-/// Otherwise the direction is unchanged, except that it is moved to a coordinate plane if it is near one. Exact
-/// directions keep their length. Others get integers that are as short as `grain`, a fraction of the tolerance,
-/// permits, because later directions and points are products of these.
+/// The ideal directions within `tolerance`. A direction that is almost parallel or perpendicular to the previous one
+/// becomes exactly so. Among these, the direction of an earlier joint or along coordinate axes is preferred. Otherwise
+/// the direction is unchanged, except that it is moved to a coordinate plane if it is near one. Exact directions keep
+/// their length. Others get integers that are as short as `grain`, a fraction of the tolerance, permits, because later
+/// directions and points are products of these.
 pub(super) fn directions(joints: &[Joint], tolerance: f64, grain: f64) -> Vec<ExactVector> {
     let mut ideal: Vec<ExactVector> = Vec::new();
     for joint in joints {

@@ -2,9 +2,9 @@
 //!
 //! A description is a measurement: exporters write 6.1e-17 for zero, 1.5707963 for a quarter turn, five decimals.
 //! Closed forms need axes that exactly intersect, are parallel or perpendicular. [`Chain::ideal`] makes relations exact
-//! that hold within a tolerance. It goes from base to tip, each joint relative to the previous one. So each relation of
-//! neighbouring axes is decided once, and rounding errors do not add up. All numbers stay rational. A relation that
-//! already holds, or fails by more than the tolerance, is unchanged.
+//! that hold within a tolerance. It proceeds from base to tip, each joint relative to the previous one. So each
+//! relation of neighbouring axes is decided once, and rounding errors do not add up. All numbers stay rational. A
+//! relation that already holds, or fails by more than the tolerance, is unchanged.
 
 mod directions;
 mod meeting;
@@ -100,8 +100,8 @@ fn lengths(chain: &Chain, tolerance: f64) -> f64 {
     tolerance * size(chain)
 }
 
-/// The reach. If a tenth of the first joint's distance from the base is larger, that is used, for example for a head
-/// whose axes intersect at its tip. One for a chain that is a single point at the origin.
+/// The reach, or a tenth of the first joint's distance from the base if that is larger. An example is a head whose axes
+/// intersect at its tip. One for a chain that is a single point at the origin.
 fn size(chain: &Chain) -> f64 {
     let distance = chain.joints().first().map_or(0.0, |joint| joint.location().coords.norm());
     let size = chain.reach().max(0.1 * distance);

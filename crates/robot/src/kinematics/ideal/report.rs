@@ -57,7 +57,7 @@ pub struct Report {
     pub reach: f64,
     /// The relations that were made exact, from base to tip.
     pub relations: Vec<Relation>,
-    /// The axes that moved, and the tip. Shifts of earlier joints move the later ones too.
+    /// The axes that moved, and the tip. Shifts of earlier joints also move the later ones.
     pub moved: Vec<Moved>,
 }
 
@@ -92,8 +92,8 @@ impl Report {
     /// of the reach.
     ///
     /// A joint whose axis is rotated by `a` and shifted by `d` differs from the ideal joint by a rigid motion before
-    /// and its inverse after. So the angle differs by at most `2 a`, and the position by at most `2 (a r + d)`, where
-    /// `r` is the reach. The bound is the sum over the joints plus the tip's own difference.
+    /// the joint and its inverse after it. So the angle differs by at most `2 a`, and the position by at most
+    /// `2 (a r + d)`, where `r` is the reach. The bound is the sum over the joints plus the tip's own difference.
     pub fn bound(&self) -> f64 {
         self.moved.iter().map(|moved| 2.0 * (moved.angle + moved.distance / self.reach)).sum()
     }

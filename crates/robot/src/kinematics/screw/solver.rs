@@ -127,8 +127,8 @@ impl ScrewSolver {
         })
     }
 
-    /// The order of subproblems. Others are used too when one of its steps degenerates at a pose that is not singular,
-    /// or no solution is found.
+    /// The order of subproblems. Other orders are also used, if one of its steps degenerates at a pose that is not
+    /// singular or no solution is found.
     pub fn plan(&self) -> &Plan {
         &self.orders.first.plan
     }

@@ -1,4 +1,5 @@
-//! One step of a plan: an equation in which all but one, two or three unknown joints cancel, and its subproblem.
+//! One step of a plan: an equation in which one, two or three unknown joints remain and the others cancel, and its
+//! subproblem.
 //!
 //! The loop is cut so that its last joints, the *tail*, leave an object b fixed. The joints before them are the *rest*.
 //! Either the rest moves b to its position `T b`. Or a run of joints in the rest leaves an object a fixed and cancels

@@ -253,7 +253,7 @@ fn two_slides(first: &Screw, second: &Screw, third: &Screw, p: &Point3<f64>, k: 
 /// The values of the first joint that move `x` near `k`, while the other joints move it on a surface with this
 /// `normal`.
 ///
-/// If `k` is near the first axis, `x` hardly determines the angle. Then two angles move `k` back to the surface.
+/// If `k` is near the first axis, the angle is ill-conditioned. Then two angles move `k` back to the surface.
 fn reach_by(
     first: &Screw,
     x: &Point3<f64>,

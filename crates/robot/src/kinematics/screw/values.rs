@@ -7,8 +7,8 @@
 //! * a joint is *free* when moving it changes the required quantity by at most [`TOLERANCE`] of the size;
 //! * two values become one where the target is within [`ROUNDING`] of the size of an end of its interval.
 //!
-//! Near an end the target hardly depends on the joint: a relative error e of the target gives an error of about sqrt(e)
-//! of the angle. The reached point is accurate in all cases.
+//! Near an end the target's sensitivity to the joint is almost zero: a relative error e of the target gives an error of
+//! about sqrt(e) of the angle. The reached point is accurate in all cases.
 
 use std::ops::Deref;
 

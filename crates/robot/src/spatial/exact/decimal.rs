@@ -1,4 +1,4 @@
-//! Recognition of decimals that stand for exact numbers.
+//! Recognition of decimals that approximate exact numbers.
 
 use num_traits::{One, Signed};
 

@@ -12,7 +12,7 @@ use groebot_algebra::number::BigRational;
 pub struct Placement {
     /// Its rotation, outer_from_frame.
     pub rotation: ExactRotation,
-    /// The exact rotation that its rounded numbers stand for, if it differs: 1.5708 stands for a quarter turn.
+    /// The exact rotation that its rounded numbers approximate, if it differs: 1.5708 means a quarter turn.
     pub meant: Option<ExactRotation>,
     /// Its origin, in the length unit of the description.
     pub origin: ExactVector,
@@ -74,7 +74,7 @@ impl Placement {
         Placement { rotation, meant: self.meant.as_ref().map(ExactRotation::inverse), origin }
     }
 
-    /// The exact rotation that its numbers stand for.
+    /// The exact rotation that its numbers approximate.
     pub fn meant(&self) -> &ExactRotation {
         self.meant.as_ref().unwrap_or(&self.rotation)
     }

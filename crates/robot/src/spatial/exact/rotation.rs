@@ -24,7 +24,7 @@ pub struct Turn {
     steps: u8,
     /// The remainder in \[-pi/4, pi/4\] \[rad\].
     rest: f64,
-    /// The steps of the exact angle that this angle stands for, if it differs. That angle has no remainder.
+    /// The steps of the exact angle that this angle approximates, if it differs. That angle has no remainder.
     meant: Option<u8>,
 }
 

@@ -138,7 +138,7 @@ impl Table {
         }));
     }
 
-    /// The multiplication by `variable`, as far as it is computed.
+    /// The known part of the multiplication by `variable`.
     pub fn matrix(&self, variable: usize) -> Matrix<'_> {
         let place = |product: &Product| match *product {
             Product::Border(border) => self.places[border].map_or(Column::Unknown, Column::Row),

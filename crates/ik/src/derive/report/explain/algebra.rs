@@ -1,4 +1,4 @@
-//! Formulas of a chain's report: equations by the unknowns of one joint.
+//! Formulas of a chain's report: equations sorted by the unknowns of one joint.
 
 use std::collections::BTreeMap;
 
@@ -9,17 +9,18 @@ use crate::derive::closure::{Factor, Mechanism, Relation};
 use crate::derive::sequential::{Symbolic, TargetPoly};
 use groebot_algebra::number::{BigRational, Ring, Style};
 
-/// The most terms that are written out.
+/// The maximum number of terms that the report prints.
 const MOST_TERMS: usize = 120;
 
-/// A relation sorted by the unknowns of one joint: for each product of them, the products of the others with the target's part.
+/// A relation sorted by the unknowns of one joint. It maps each product of these unknowns to its coefficient: products of the other unknowns, each with a
+/// polynomial in the target.
 pub struct Sorted {
     symbolic: Symbolic,
     parts: BTreeMap<Vec<Factor>, Vec<(Vec<Factor>, TargetPoly)>>,
 }
 
 impl Sorted {
-    /// `relation` by the unknowns of `joint`.
+    /// `relation`, sorted by the unknowns of `joint`.
     pub fn new(mechanism: &Mechanism, relation: &Relation, joint: usize) -> Result<Self> {
         let mut symbolic = Symbolic::new(mechanism)?;
         let polynomial = symbolic.polynomial(mechanism, relation)?;
@@ -52,7 +53,7 @@ impl Sorted {
         signs(whole.into_iter().map(term)) + " = 0"
     }
 
-    /// `factor` times the coefficient of `own`, in words where it is long.
+    /// `factor` times the coefficient of `own`; a long coefficient is shortened to `[5 terms]`.
     pub fn coefficient(&self, mechanism: &Mechanism, own: &[Factor], factor: &BigRational) -> String {
         let Some(parts) = self.parts.get(own) else { return "0".to_owned() };
         match parts.iter().map(|(_, value)| value.terms().len()).sum() {
@@ -109,7 +110,7 @@ pub fn name(mechanism: &Mechanism, factor: Factor) -> String {
     }
 }
 
-/// `c1*s2'`; empty for 1.
+/// A product as text, such as `c1*s2'`; empty for 1.
 pub fn product(mechanism: &Mechanism, factors: &[Factor]) -> String {
     factors.iter().map(|factor| name(mechanism, *factor)).collect::<Vec<_>>().join("*")
 }
@@ -127,7 +128,7 @@ pub fn renamed(text: &str, names: &[(String, String)]) -> String {
     result
 }
 
-/// `a + b - c`.
+/// A sum as text, such as `a + b - c`.
 pub fn signs(terms: impl Iterator<Item = String>) -> String {
     terms.collect::<Vec<_>>().join(" + ").replace("+ -", "- ")
 }

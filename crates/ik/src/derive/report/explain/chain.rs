@@ -166,7 +166,7 @@ fn plan(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism)
     page.say(&format!("Together: $({}) = {}$ solutions.", degrees.join(")("), derived.method.plan.product()));
 }
 
-/// How an answer's branch number is made of the steps' choices.
+/// Adds how the branch number of a solution follows from the choices of the steps.
 fn branches(page: &mut Document, derived: SequentialView<'_>) {
     page.section(Line::of("Which branch is which"));
     page.say(
@@ -197,7 +197,7 @@ fn branches(page: &mut Document, derived: SequentialView<'_>) {
     }
 }
 
-/// `0 to 1 generic, 2 where A = 0, B = 0`.
+/// The digits of a block as text, such as `0 to 1 generic, 2 where A = 0, B = 0`.
 fn digits(block: &Block) -> String {
     let mut cases: Vec<(usize, usize, String)> = Vec::new();
     for case in &block.cases {

@@ -1,4 +1,4 @@
-//! The report of chains that share actuators: how they are put together, then the report of each.
+//! The report of coupled chains: their composition, then the report of each chain.
 
 use super::algebra::joint_unknowns;
 use super::document::{Document, Line, Stage};
@@ -39,7 +39,7 @@ pub fn document(derived: CoupledView<'_>, stage: Option<Stage>) -> Result<Docume
     Ok(page)
 }
 
-/// How shared joints are found from both chains at once.
+/// Adds how shared joints are found from both chains together.
 fn shared(page: &mut Document, derived: CoupledView<'_>, stage: Option<Stage>) -> Result<()> {
     let Some(simultaneous) = &derived.method.simultaneous else { return Ok(()) };
     page.section(Line::default().name(&derived.simultaneous_names().join(", ")).and(": from both chains at once"));
@@ -89,7 +89,7 @@ pub fn shared_order(simultaneous: &Simultaneous) -> &'static str {
 /// The number of the first relation of shared joints, behind that of the loop.
 const FIRST: usize = 2;
 
-/// Which actuator moves which joints.
+/// Adds a table of the actuators and the joints that each moves.
 fn actuators(page: &mut Document, derived: CoupledView<'_>) {
     page.section(Line::of("The chains and their actuators"));
     let mut rows = vec![["actuator", "chain", "joint"].map(Line::of).to_vec()];

@@ -1,6 +1,6 @@
-//! What a report is made of, whatever it is printed as. Main type: [`Document`].
+//! The parts of a report, independent of the output format. Main type: [`Document`].
 //!
-//! A formula is plain text in the notation of the stage files, `A*c1 + B*s1 = 0`; [`super::latex`] typesets it.
+//! A formula is plain text in the notation of the stage files, `A*c1 + B*s1 = 0`. [`super::latex`] typesets it.
 
 /// A stage of a derivation: a part of its report with a file of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,36 +25,36 @@ impl Stage {
 /// A report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
-    /// Its heading.
+    /// The title.
     pub title: String,
-    /// Its text, in order.
+    /// The parts, in order.
     pub parts: Vec<Part>,
 }
 
-/// A piece of a report.
+/// A part of a report.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Part {
     /// A heading.
     Section(Line),
     /// A paragraph.
     Paragraph(Line),
-    /// A formula on a line of its own, with its number: `3.1`.
+    /// A formula on a separate line, with its number, such as `3.1`.
     Equation {
-        /// The number, without parentheses; empty for none.
+        /// The number without parentheses; empty for no number.
         number: String,
-        /// What holds.
+        /// The formula.
         formula: String,
     },
     /// A list.
     Items(Vec<Line>),
-    /// Cells by rows, the head first.
+    /// A table: cells by rows, the header first.
     Table(Vec<Vec<Line>>),
 }
 
-/// A piece of a line.
+/// A part of a line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Span {
-    /// Words.
+    /// Plain text.
     Words(String),
     /// A name as the user wrote it, or a command.
     Name(String),
@@ -62,17 +62,17 @@ pub enum Span {
     Formula(String),
 }
 
-/// Text without a break of paragraph.
+/// Text without a paragraph break.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line(pub Vec<Span>);
 
 impl Line {
-    /// Our own prose, in which formulas are between dollars: `where $A = B = 0$`.
+    /// A line of report text, whose formulas are between dollar signs: `where $A = B = 0$`.
     pub fn of(prose: &str) -> Self {
         Line::default().and(prose)
     }
 
-    /// Somebody else's words, taken as they are.
+    /// A line of text from the input, used unchanged.
     pub fn plain(text: &str) -> Self {
         Line::default().words(text)
     }
@@ -84,7 +84,7 @@ impl Line {
         self
     }
 
-    /// With more of our own prose.
+    /// Appends report text, as in [`Line::of`].
     #[must_use]
     pub fn and(mut self, prose: &str) -> Self {
         for (index, piece) in prose.split('$').enumerate().filter(|(_, piece)| !piece.is_empty()) {
@@ -94,14 +94,14 @@ impl Line {
         self
     }
 
-    /// With a name.
+    /// Appends a name.
     #[must_use]
     pub fn name(mut self, name: &str) -> Self {
         self.0.push(Span::Name(name.to_owned()));
         self
     }
 
-    /// With a formula.
+    /// Appends a formula.
     #[must_use]
     pub fn formula(mut self, text: &str) -> Self {
         self.0.push(Span::Formula(text.to_owned()));
@@ -110,14 +110,14 @@ impl Line {
 }
 
 impl Part {
-    /// Whether it is a formula that stands alone.
+    /// Whether the part is a formula on a separate line.
     fn is_equation(&self) -> bool {
         matches!(self, Part::Equation { .. })
     }
 }
 
 impl Document {
-    /// The parts, formulas that follow one another together.
+    /// The parts, with consecutive formulas grouped.
     pub(super) fn groups(&self) -> impl Iterator<Item = &[Part]> {
         self.parts.chunk_by(|a, b| a.is_equation() && b.is_equation())
     }
@@ -144,7 +144,7 @@ impl Document {
         self.parts.push(Part::Section(line));
     }
 
-    /// Adds a paragraph of our own prose, see [`Line::of`].
+    /// Adds a paragraph of report text, as in [`Line::of`].
     pub fn say(&mut self, prose: &str) {
         self.paragraph(Line::of(prose));
     }
@@ -171,13 +171,13 @@ impl Document {
         }
     }
 
-    /// Adds a table, the head first.
+    /// Adds a table, the header first.
     pub fn table(&mut self, rows: Vec<Vec<Line>>) {
         self.parts.push(Part::Table(rows));
     }
 }
 
-/// `formula` in lines of at most about `width`, as `measure` sees them: broken before ` + `, ` - ` and ` = ` that stand under no root.
+/// `formula` split into lines of at most about `width`, as measured by `measure`. Lines start at ` + `, ` - ` and ` = ` outside of roots.
 pub fn broken(formula: &str, width: usize, measure: impl Fn(&str) -> usize) -> Vec<&str> {
     let (mut lines, mut start, mut last) = (Vec::new(), 0, None);
     let mut roots: Vec<bool> = Vec::new();

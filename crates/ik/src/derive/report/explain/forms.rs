@@ -1,4 +1,4 @@
-//! The forms of a chain's report: equations with free symbols, their bases with proof, their roots and their strata.
+//! The section on forms in a chain's report: equations with free symbols, their bases with proofs, their roots and strata.
 
 use super::algebra::signs;
 use super::document::{Document, Line};
@@ -7,7 +7,7 @@ use crate::Result;
 use crate::derive::sequential::{Form, FormBasis, HalfAngle, HalfAngles, SequentialView};
 use groebot_algebra::number::{Ring, Style};
 
-/// The equations of a form in its joint.
+/// The equations of a form, in the unknowns of its joint.
 pub fn equations(form: Form) -> &'static [&'static str] {
     match form {
         Form::Angle => &["A*c + B*s + C = 0"],
@@ -35,7 +35,7 @@ pub fn why(form: Form) -> &'static str {
     }
 }
 
-/// The triangular form where no denominator vanishes, each polynomial as `f = 0`.
+/// The triangular form where no denominator vanishes. Each polynomial is text `f = 0`.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Certificate`] for half angles without a quartic.
@@ -52,7 +52,7 @@ fn half_angle(halves: &HalfAngles) -> Result<Vec<String>> {
     [2, 1, 0].into_iter().map(|unknown| Ok(format!("{} = 0", sorted(half, unknown)?))).collect()
 }
 
-/// The polynomial that determines an unknown, sorted by its powers.
+/// The polynomial that determines an unknown, sorted by powers of this unknown.
 fn sorted(half: &HalfAngle, unknown: usize) -> Result<String> {
     let name = &half.ring.variables()[unknown];
     let parts = half.ring.coefficients_in(half.stair(unknown)?, unknown);
@@ -68,7 +68,7 @@ fn sorted(half: &HalfAngle, unknown: usize) -> Result<String> {
     Ok(signs(terms))
 }
 
-/// Where the branches of a form come from.
+/// The origin of the branches of a form, as text.
 pub fn roots(form: Form) -> &'static str {
     match form {
         Form::Angle => {
@@ -97,7 +97,7 @@ pub fn roots(form: Form) -> &'static str {
     }
 }
 
-/// What happens where the formulas of a form break down.
+/// The behaviour where the formulas of a form are singular, as text.
 pub fn singular(form: Form) -> &'static str {
     match form {
         Form::Angle => {
@@ -125,7 +125,7 @@ pub fn singular(form: Form) -> &'static str {
 /// Adds the section on the forms that the steps use.
 ///
 /// # Errors
-/// When a field cannot be built: never for a derivation that was made by this crate.
+/// If a field cannot be built. This does not occur for a derivation that this crate made.
 pub fn explain(page: &mut Document, derived: SequentialView<'_>) -> Result<()> {
     page.section(Line::of("Why each basis is right"));
     page.say(

@@ -1,4 +1,4 @@
-//! What a chain's axes have in common, and why joints cancel in a relation, in words.
+//! Text on a chain's geometry: which axes meet or are parallel, and why joints cancel in a relation.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use super::document::Line;
 use crate::derive::closure::{Letter, Measure, Mechanism, Object, Relation, ScrewJoint, common_point, parallel, show};
 use groebot_robot::kinematics::Task;
 
-/// Which neighbouring axes meet or are parallel.
+/// Neighbouring axes that meet or are parallel, one line for each group.
 pub fn common(mechanism: &Mechanism) -> Vec<Line> {
     let joints = mechanism.joints();
     let aligned = |row: &[ScrewJoint]| row.iter().all(|joint| parallel(&joint.axis, &row[0].axis));
@@ -24,7 +24,7 @@ pub fn common(mechanism: &Mechanism) -> Vec<Line> {
     lines
 }
 
-/// The rows of two or more joints that pass the test and are not part of a longer one that does.
+/// The ranges of two or more neighbouring joints that pass the test and are not part of a longer such range.
 fn longest(joints: &[ScrewJoint], test: impl Fn(&[ScrewJoint]) -> bool) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
     for start in 0..joints.len() {
@@ -36,7 +36,7 @@ fn longest(joints: &[ScrewJoint], test: impl Fn(&[ScrewJoint]) -> bool) -> Vec<R
     found
 }
 
-/// Why joints do not occur in `relation`: one line for each of its objects.
+/// Reasons why joints do not occur in `relation`: one line for each of its two objects.
 pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
     let line = |object: &Object, idle: &[usize], seen: bool| {
         let what = Line::of("The ").and(noun(object, relation.measure)).and(" ").formula(&vector(object));
@@ -51,13 +51,13 @@ pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
         what.and(&format!(": {who}{verb} it in place, for {}.", reason(mechanism, idle, object, relation.measure)))
     };
     let [run, tail] = relation.cancelled(mechanism);
-    // What the task does not see of the tip stands behind the last joint.
+    // Coordinates of the tip that the task does not use are not constrained after the last joint.
     let partly = !matches!(mechanism.seen(), Task::Pose | Task::PlanarPose { .. } | Task::PositionYaw { .. });
     let at_tip = relation.right.0.last() == Some(&Letter::Target);
     vec![line(&relation.fixed, &run, false), line(&relation.moved, &tail, partly && at_tip)]
 }
 
-/// What a relation says.
+/// The statement of a relation with this measure.
 pub fn conserved(measure: Measure) -> &'static str {
     match measure {
         Measure::Angle => {
@@ -74,7 +74,7 @@ pub fn conserved(measure: Measure) -> &'static str {
     }
 }
 
-/// Where a single equation says nothing about its joint.
+/// The geometric condition under which a single equation does not determine its joint.
 pub fn degenerate(measure: Measure) -> &'static str {
     match measure {
         Measure::Angle => {
@@ -127,7 +127,7 @@ fn reason(mechanism: &Mechanism, idle: &[usize], object: &Object, measure: Measu
     turning.into_iter().chain(sliding).collect::<Vec<_>>().join(", and ")
 }
 
-/// `joint 3`, `joints 1, 2 and 4`, counted from 1.
+/// Joints counted from 1, as text: `joint 3`, `joints 1, 2 and 4`.
 pub fn numbers(places: impl IntoIterator<Item = usize>) -> String {
     let list: Vec<String> = places.into_iter().map(|place| (place + 1).to_string()).collect();
     match list.split_last() {

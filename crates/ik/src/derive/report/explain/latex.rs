@@ -3,17 +3,17 @@
 use super::document::{Document, Line, Part, Span, broken};
 use groebot_algebra::poly::latex_name;
 
-/// The longest line of a formula that stands alone, in typeset characters.
+/// The maximum length of a line of a displayed formula, in typeset characters.
 const WIDTH: usize = 74;
-/// The widest table whose last column needs no breaks, in characters.
+/// The maximum width of a table whose last column has no line breaks, in characters.
 const TABLE_WIDTH: usize = 88;
-/// The narrowest last column, in characters.
+/// The minimum width of the last column, in characters.
 const COLUMN: usize = 20;
 /// The space between two columns, in characters.
 const GAP: usize = 2;
 
 impl Document {
-    /// The report as LaTeX: a whole article.
+    /// The report as a complete LaTeX article.
     pub fn to_latex(&self) -> String {
         let mut text = String::from(
             "\\documentclass[11pt,a4paper]{article}\n\\usepackage[margin=25mm]{geometry}\n\\usepackage[T1]{fontenc}\n\
@@ -42,7 +42,7 @@ fn part(part: &Part) -> String {
     }
 }
 
-/// One part, or formulas that follow one another.
+/// One part, or consecutive formulas as one `gather*` environment.
 fn group(parts: &[Part]) -> String {
     match parts {
         [part @ (Part::Section(_) | Part::Paragraph(_) | Part::Items(_) | Part::Table(_))] => self::part(part),
@@ -54,7 +54,7 @@ fn group(parts: &[Part]) -> String {
     }
 }
 
-/// Tagged with its number, the lines of a long one under one another.
+/// A formula with its number as tag. A long formula is split into several lines.
 fn equation(number: &str, formula: &str) -> String {
     let lines: Vec<String> = broken(formula, WIDTH, visible).into_iter().map(typeset).collect();
     let tag = if number.is_empty() { String::new() } else { format!(" \\tag{{{}}}", escaped(number)) };
@@ -64,7 +64,7 @@ fn equation(number: &str, formula: &str) -> String {
     }
 }
 
-/// With a rule below the head.
+/// A table with a rule below the header.
 fn table(rows: &[Vec<Line>]) -> String {
     let row = |cells: &Vec<Line>| cells.iter().map(line).collect::<Vec<_>>().join(" & ") + " \\\\\n";
     let columns = columns(rows);
@@ -76,7 +76,7 @@ fn table(rows: &[Vec<Line>]) -> String {
     )
 }
 
-/// As wide as their cells; of a table that would be too wide, the last one takes what the others leave, and breaks its lines.
+/// The column specification. If the table is too wide, the last column gets the remaining width and breaks its lines.
 fn columns(rows: &[Vec<Line>]) -> String {
     let count = rows.first().map_or(0, Vec::len);
     let width = |column: usize| rows.iter().filter_map(|row| row.get(column)).map(seen).max().unwrap_or(0) + GAP;
@@ -88,7 +88,7 @@ fn columns(rows: &[Vec<Line>]) -> String {
     format!("{}p{{{share:.2}\\textwidth}}", "l".repeat(count - 1))
 }
 
-/// About how many characters of a line are seen.
+/// The approximate number of printed characters of a line.
 fn seen(line: &Line) -> usize {
     let span = |span: &Span| match span {
         Span::Words(text) | Span::Name(text) => text.chars().count(),
@@ -106,7 +106,7 @@ fn line(line: &Line) -> String {
     line.0.iter().map(span).collect()
 }
 
-/// Text without LaTeX's special characters.
+/// Text with LaTeX's special characters escaped.
 fn escaped(text: &str) -> String {
     let escape = |c: char| match c {
         '\\' => "\\textbackslash{}".to_owned(),
@@ -118,12 +118,12 @@ fn escaped(text: &str) -> String {
     text.chars().map(escape).collect()
 }
 
-/// About how many characters of a formula are seen.
+/// The approximate number of printed characters of a formula.
 fn visible(formula: &str) -> usize {
     formula.chars().filter(|c| !"*^{}".contains(*c)).count()
 }
 
-/// A formula in the notation of the stage files, as LaTeX mathematics.
+/// A formula in the notation of the stage files, converted to LaTeX mathematics.
 pub(super) fn typeset(formula: &str) -> String {
     let mut rest = formula;
     let mut text = String::new();
@@ -135,7 +135,7 @@ pub(super) fn typeset(formula: &str) -> String {
     text
 }
 
-/// The length of the first token of a formula that is not empty, and its LaTeX.
+/// The length of the first token of a non-empty formula, and its LaTeX.
 fn token(rest: &str, c: char) -> (usize, String) {
     let run = |test: fn(char) -> bool| rest.find(|c| !test(c)).unwrap_or(rest.len());
     if let Some(inner) = rest.strip_prefix("sqrt(").and_then(enclosed) {
@@ -167,7 +167,7 @@ fn token(rest: &str, c: char) -> (usize, String) {
     }
 }
 
-/// What stands before the parenthesis that closes.
+/// The text before the closing parenthesis.
 fn enclosed(text: &str) -> Option<&str> {
     let mut depth = 1;
     for (at, c) in text.char_indices() {

@@ -1,10 +1,10 @@
-//! A [`Document`] as Markdown that is read as easily on a terminal, formulas being plain text; and the same without Markdown's marks.
+//! A [`Document`] as Markdown that is easy to read on a terminal: formulas are plain text. Also as plain text without code spans and escapes.
 
 use groebot_algebra::escape::{line, markdown};
 
 use super::document::{Document, Line, Part, Span, broken};
 
-/// The longest line of a formula that stands alone, in characters.
+/// The maximum length of a line of a displayed formula, in characters.
 const WIDTH: usize = 100;
 
 impl Document {
@@ -73,7 +73,7 @@ impl Printer {
         }
     }
 
-    /// Spaces at the ends belong to the line.
+    /// The text, escaped in Markdown. Keeps spaces at both ends.
     fn words(&self, text: &str) -> String {
         if self.is_plain {
             return line(text).into_owned();
@@ -83,7 +83,7 @@ impl Printer {
     }
 }
 
-/// Indented, the number before it.
+/// An indented formula after its number.
 fn equation(number: &str, formula: &str) -> String {
     let label = if number.is_empty() { String::new() } else { format!("({number})  ") };
     let lines = broken(formula, WIDTH, |text| text.chars().count());

@@ -1,7 +1,7 @@
-//! The report that explains a derivation to a student: which equations determine which joints and what cancels in them, the
-//! polynomials, why each basis is right, where each branch comes from, and what happens at singularities.
+//! The report that explains a derivation to students.
 //!
-//! [`explain`] makes a [`Document`], which is printed as Markdown, as LaTeX or as plain text. A [`Stage`] is a part of it.
+//! It shows the equations that determine each joint, what cancels in them, the polynomials, why each basis is correct, the origin of each branch, and the
+//! behaviour at singularities. [`explain`] makes a [`Document`], which is printed as Markdown, LaTeX or plain text. A [`Stage`] is a part of it.
 
 mod algebra;
 mod chain;
@@ -25,7 +25,7 @@ use crate::derive::{AnyView, Derivation};
 /// The report of a derivation.
 ///
 /// # Errors
-/// When a field cannot be built: never for a derivation that was made by this crate.
+/// If a field cannot be built. This does not occur for a derivation that this crate made.
 pub fn explain(derivation: &Derivation) -> Result<Document> {
     document(derivation, None)
 }

@@ -1,4 +1,4 @@
-//! One step of a chain's report: its relations, what cancels in them, the equation in its joint, and its roots.
+//! The section on one step in a chain's report: its relations, what cancels in them, the equation in its joint, and its roots.
 
 use num_traits::One;
 
@@ -11,7 +11,7 @@ use crate::derive::planner::Way;
 use crate::derive::sequential::{Elimination, Form, ProvedStep, SequentialView};
 use groebot_algebra::number::{BigRational, Ring, Style};
 
-/// The longest combination that is written out, in characters.
+/// The maximum length of a printed combination, in characters.
 const LONGEST: usize = 1500;
 
 /// Adds the section of step `index`: its relations are of the stage of equations, its formulas of the triangular stage.
@@ -38,9 +38,9 @@ struct Writer<'a> {
     mechanism: &'a Mechanism,
     step: &'a ProvedStep,
     index: usize,
-    /// The relations by the joint's unknowns.
+    /// The relations, sorted by the joint's unknowns.
     sorted: Vec<Sorted>,
-    /// The last number of an equation.
+    /// The number of the last equation.
     numbers: usize,
 }
 
@@ -68,7 +68,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// A joint that follows another one.
+    /// Adds the law of a joint that follows another one.
     fn follows(&mut self) {
         for relation in &self.step.relations {
             self.page.say(&format!("Here {}:", relation.meaning(self.mechanism)));
@@ -111,7 +111,7 @@ impl Writer<'_> {
         self.page.display(text);
     }
 
-    /// Adds an equation with the step's next number, and gives the number.
+    /// Adds an equation with the step's next number, and returns the number.
     fn equation(&mut self, formula: String) -> String {
         self.numbers += 1;
         let number = format!("{}.{}", self.index + 1, self.numbers);
@@ -119,7 +119,7 @@ impl Writer<'_> {
         number
     }
 
-    /// The equation in the joint, and what its symbols stand for.
+    /// Adds the equation in the joint, and the definitions of its symbols.
     fn symbols(&mut self) {
         let form = self.step.shape.form;
         self.page.say(match form {
@@ -142,7 +142,7 @@ impl Writer<'_> {
         values.into_iter().for_each(|value| self.page.display(value));
     }
 
-    /// `A = ...`: the symbols of the form, with the true sine and length.
+    /// The symbols of the form, such as `A = ...`, in terms of the physical sine and length.
     fn values(&self) -> Vec<String> {
         let joint = self.step.joint;
         let one = BigRational::one();
@@ -182,7 +182,7 @@ impl Writer<'_> {
         }
     }
 
-    /// `/sqrt(n)^power`; nothing where the axis has length one.
+    /// `/sqrt(n)^power`; empty if the axis has length one.
     fn over(&self, power: usize) -> String {
         if self.joint().square.is_one() {
             String::new()
@@ -191,13 +191,13 @@ impl Writer<'_> {
         }
     }
 
-    /// The unknowns of a form by the names of this joint's.
+    /// The unknowns of a form, each with its name for this joint.
     fn own_names(&self) -> Vec<(String, String)> {
         let symbol = &self.joint().symbol;
         ["c", "s", "d", "w", "t"].iter().map(|name| ((*name).to_owned(), format!("{name}{symbol}"))).collect()
     }
 
-    /// How other joints go, and what is left.
+    /// Adds the elimination of other joints and its result.
     fn elimination(&mut self, elimination: &Elimination) {
         let names = self.elimination_names(elimination);
         let away = match &self.derived.method.plan.steps[self.index].way {
@@ -242,7 +242,7 @@ impl Writer<'_> {
         names.map(|(old, factor)| (old.clone(), name(self.mechanism, factor))).collect()
     }
 
-    /// The triangular form and its roots.
+    /// Adds the triangular form and its roots.
     fn triangular(&mut self) -> Result<()> {
         let (form, own) = (self.step.shape.form, self.own_names());
         let stairs = forms::triangular(self.derived, form)?;
@@ -267,12 +267,12 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// The step before that has told all about this form.
+    /// The earlier step whose section describes this form.
     fn told(&self) -> Option<usize> {
         self.derived.method.steps[..self.index].iter().position(|step| step.shape.form == self.step.shape.form)
     }
 
-    /// What it means in the mechanism that the joint's symbols vanish.
+    /// Adds the geometric meaning of vanishing symbols.
     fn singular(&mut self) {
         let form = self.step.shape.form;
         if self.step.elimination.is_some() || !matches!(form, Form::Angle | Form::Turn) {
@@ -306,7 +306,7 @@ pub fn symbol_lines(mechanism: &Mechanism, elimination: &Elimination, (step, fir
     lines.collect()
 }
 
-/// `A = text/sqrt(3)`.
+/// A definition as text, such as `A = text/sqrt(3)`.
 fn scaled(symbol: &str, text: &str, root: &str) -> String {
     match root {
         "" => format!("{symbol} = {text}"),
@@ -315,7 +315,7 @@ fn scaled(symbol: &str, text: &str, root: &str) -> String {
     }
 }
 
-/// Prose whose formulas, between dollars, have their names replaced.
+/// Report text with names replaced in its formulas, which are between dollar signs.
 fn renamed_prose(prose: &str, names: &[(String, String)]) -> String {
     let pieces = prose.split('$').enumerate();
     let pieces = pieces.map(|(index, piece)| if index % 2 == 0 { piece.to_owned() } else { renamed(piece, names) });

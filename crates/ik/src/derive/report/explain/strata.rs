@@ -1,4 +1,4 @@
-//! A tree of strata in a report: bases, the combinations of the equations that prove them, and what is left where they break down.
+//! A tree of strata in a report: bases, the combinations of equations that prove them, and the remaining system where they are singular.
 
 use super::algebra::signs;
 use super::document::{Document, Line};
@@ -10,16 +10,16 @@ use crate::derive::equations::tree::{Node, Outcome, Solved};
 use crate::derive::equations::triangular::presented;
 use groebot_algebra::number::{Ring, Style};
 
-/// The longest combination that is written out, in characters.
+/// The maximum length of a printed combination, in characters.
 const LONGEST: usize = 360;
 
-/// The polynomials of a solved stratum, smallest unknown first, each as `f = 0`.
+/// The polynomials of a solved stratum as text `f = 0`, smallest unknown first.
 pub fn stairs(solved: &Solved) -> Vec<String> {
     let polynomials = solved.triangular.stairs.iter().flat_map(|stair| &stair.polynomials);
     polynomials.map(|f| format!("{} = 0", presented(&solved.triangular.ring, f))).collect()
 }
 
-/// Adds why `certified` is a Groebner basis of the equations, which stand as `f1`, `f2`, ... in the report.
+/// Adds the proof that `certified` is a Groebner basis of the equations, which the report calls `f1`, `f2`, ...
 pub fn proof(page: &mut Document, setting: &Setting, certified: &Certified) -> Result<()> {
     let ring = certified.ring(setting)?;
     let mut left_out = 0;
@@ -46,7 +46,7 @@ pub fn proof(page: &mut Document, setting: &Setting, certified: &Certified) -> R
     Ok(())
 }
 
-/// `text` as a factor: in parentheses where it is a sum.
+/// `text` as a factor: in parentheses if it is a sum.
 pub fn factor(text: &str) -> String {
     let mut depth = 0;
     let sum = text.char_indices().any(|(at, c)| {
@@ -75,7 +75,7 @@ fn tidy(text: &str) -> String {
     result + rest
 }
 
-/// Adds what happens where a denominator vanishes. `free` names the joints of a self-motion.
+/// Adds the behaviour where a denominator vanishes. `free` returns text that names the joints of a self-motion.
 pub fn degenerate(page: &mut Document, tree: &Node, free: &dyn Fn(&Node) -> String) {
     let mut items = Vec::new();
     for node in tree.walk().into_iter().skip(1) {

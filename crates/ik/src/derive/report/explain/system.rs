@@ -1,4 +1,4 @@
-//! The report of equations that are solved together.
+//! The report of equations that are solved as one system.
 
 use super::document::{Document, Line, Stage};
 use super::strata;
@@ -15,7 +15,7 @@ use groebot_algebra::poly::Order;
 /// The report of `derivation`, or of one of its stages.
 ///
 /// # Errors
-/// When a field cannot be built: never for a derivation that was made by this crate.
+/// If a field cannot be built. This does not occur for a derivation that this crate made.
 pub fn document(derivation: EquationsView<'_>, stage: Option<Stage>) -> Result<Document> {
     let mut page = Document::of(&derivation.problem.name, stage);
     if Stage::Equations.is_in(stage) {

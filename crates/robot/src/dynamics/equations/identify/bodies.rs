@@ -18,8 +18,8 @@ const STEPS: usize = 200;
 /// Newton decrement below which full steps are taken, and the one at which a stage ends.
 const FULL: f64 = 0.25;
 const NEAR: f64 = 0.1;
-/// Minimum mass and extent of a given body relative to the mean of all bodies, so that it is in the interior of the
-/// feasible set.
+/// Minimum mass and extent of a given body, relative to the mean of all bodies. They keep the body in the interior of
+/// the feasible set.
 const LEAST: f64 = 1e-3;
 
 /// Consistent bodies that explain the torques best.

@@ -6,7 +6,7 @@ use crate::{Error, ErrorKind, Result};
 
 /// Threshold for an undetermined parameter: least singular value relative to the greatest.
 const UNDETERMINED: f64 = 1e-10;
-/// Maximum number of iterations for the singular values. A few times their number is usual.
+/// Maximum number of iterations for the singular values. Usually about three times their number are needed.
 const ITERATIONS: usize = 100_000;
 
 /// Result of linear least squares.
