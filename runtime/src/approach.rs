@@ -23,8 +23,7 @@ pub(crate) struct Approach<M: Mechanism> {
 
 impl<M: Mechanism> Problem<'_, M> {
     /// The end of plain Newton steps by the normal equations from `q`, whose cosines and sines are `at`. `None` unless the equations hold there within rounding
-    /// and
-    /// are regular at each step.
+    /// and are regular at each step.
     pub fn approached(&mut self, at: &Places<M>, q: &Joints<M>) -> Option<Approach<M>> {
         let (mut at, mut end) = (at.clone(), q.clone());
         self.step_back(&Array::by(self.joints(), |_| 0.0), &mut at, &mut end)?;
@@ -172,8 +171,7 @@ impl<M: Mechanism, N: Number> Normal<M, N> {
 }
 
 /// Newton steps of several candidates: their sums, the residuals at their ends, and the relative residuals and least pivots at the candidates. `sound` is 1
-/// where
-/// the equations are regular and the steps short, else 0.
+/// where the equations are regular and the steps short, else 0.
 pub(crate) struct Ways<M: Mechanism> {
     steps: Joints<M, Abreast<M>>,
     residual: Abreast<M>,

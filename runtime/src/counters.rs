@@ -1,6 +1,5 @@
 //! Counters of the work of solving, by phase: calls, steps, evaluations of the equations and time. With the feature `counters` they count for the whole
-//! process,
-//! and `take` reads them. Without it they compile to no instruction.
+//! process, and `take` reads them. Without it they compile to no instruction.
 
 /// A phase of solving. A phase that another one calls counts separately.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

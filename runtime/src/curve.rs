@@ -1,7 +1,6 @@
 //! Continuation along curves on which the equations of a nearby mechanism hold almost. Where the formulas have a self-motion, the mechanism itself may have
 //! isolated solutions anywhere on the remaining curve. Newton steps find none of them, because the equations change little along the curve. A walk holds one
-//! joint
-//! after the other while the remaining ones minimise the residual. At each solution the residual changes its sign.
+//! joint after the other while the remaining ones minimise the residual. At each solution the residual changes its sign.
 //!
 //! Same as `six_axes/curve.rs`, for any number of joints and equations. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.)
 
@@ -121,8 +120,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Follows the curve next to a candidate, in both directions if it is not closed. Where the residual is zero along the curve, it is a self-motion, and one
-    /// member
-    /// is kept.
+    /// member is kept.
     fn walk_curve(&mut self, found: &Found, q: Joints<M>, starts: &mut Starts<M>) {
         let Some((home, held)) = self.problem.start(&q, found.free) else { return };
         let sides = [-PACE[1], PACE[1]].map(|way| {
@@ -256,8 +254,7 @@ impl<M: Mechanism> Answers<'_, M> {
 
 impl<M: Mechanism> Problem<'_, M> {
     /// The place on the curve next to `q`, and the joint that is held to reach it. This is a free joint. Where none is free, or the others move without it, it
-    /// is the
-    /// joint that moves farthest in the direction in which the equations change least.
+    /// is the joint that moves farthest in the direction in which the equations change least.
     fn start(&mut self, q: &Joints<M>, free: u32) -> Option<(Place<M>, usize)> {
         let of_free = if free == 0 { None } else { self.start_with(q, free.trailing_zeros() as usize) };
         if of_free.is_some() {
@@ -327,8 +324,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The minimum of a parabola through the residuals of three places, projected on a direction; the middle place has the least residual. Also returns the
-    /// side on which
-    /// the minimum is.
+    /// side on which the minimum is.
     fn vertex(&mut self, unit: &Place<M>, least: &Place<M>, sides: &[Place<M>; 2]) -> Option<(usize, Place<M>)> {
         let [low, middle, high] = [&sides[0], least, &sides[1]].map(|place| place.along(unit));
         let lengths = sides.each_ref().map(|side| self.facts().farthest(side.q.as_ref(), least.q.as_ref()));

@@ -1,10 +1,8 @@
 //! Tasks with more conditions than joints, for a mechanism whose description has rounded numbers ([`Facts::within`]).
 //!
 //! The ideal mechanism determines the solutions. Among the candidates for the target, the nearest one defines a target that the ideal mechanism reaches. If
-//! both
-//! targets agree [within](Facts::within) the tolerance, all solutions of the second one are used. Each is then moved, by least squares, to where the mechanism
-//! as
-//! described is nearest to the requested target.
+//! both targets agree [within](Facts::within) the tolerance, all solutions of the second one are used. Each is then moved, by least squares, to where the
+//! mechanism as described is nearest to the requested target.
 
 use crate::angles::angle;
 use crate::conditions::conform;
@@ -193,8 +191,7 @@ fn onto_self_motion<M: Mechanism>(
 
 /// Adds joint values with which the ideal mechanism also reaches the target within the tolerance, and which are far from all solutions of the nearby target.
 /// Such solutions exist at singular poses, where solutions part by as much as the target deviates, and near the boundary of the workspace, where two solutions
-/// merge.
-/// Joint values are skipped if they belong to a self-motion at the nearby target, which `q` reaches.
+/// merge. Joint values are skipped if they belong to a self-motion at the nearby target, which `q` reaches.
 fn add_others<M: Mechanism>(
     mechanism: &M,
     (p, within): (&Parameters<M>, f64),
@@ -285,8 +282,7 @@ fn fit_to<M: Mechanism>(problem: &mut Problem<'_, Described<'_, M>>, answer: &mu
 }
 
 /// Moves all solutions in this manner, keeps those that are distinct and returns their number. A solution that would coincide with another one is not moved:
-/// the
-/// ideal mechanism distinguishes them.
+/// the ideal mechanism distinguishes them.
 fn fit_all<M: Mechanism>(problem: &mut Problem<'_, Described<'_, M>>, out: &mut [Solution<M>]) -> usize {
     let facts = problem.facts();
     let mut kept = 0;

@@ -9,8 +9,7 @@ use crate::tolerances::{BENT, DAMPINGS, FREEING, LEAPS, STIFF};
 
 impl<M: Mechanism> Problem<'_, M> {
     /// Joint values next to `q` at which the first of the joints `free` can move, to first order, while the others keep the equations' values. Among these,
-    /// those with
-    /// the least residual. The joints `free` keep their values. `None` where no such joint values are near.
+    /// those with the least residual. The joints `free` keep their values. `None` where no such joint values are near.
     ///
     /// The component of the free joint's derivative orthogonal to the derivatives by the other joints must vanish. Gauss-Newton steps achieve this (variable
     /// projection: G. Golub, V. Pereyra 1973). The weight of the equations themselves decreases to zero over the steps.
@@ -46,8 +45,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The component of a column orthogonal to the derivatives by the joints that are not `free`, and the joint velocities that cancel the rest. The velocity
-    /// of
-    /// the column's joint is one.
+    /// of the column's joint is one.
     fn across(
         &mut self,
         rows: &Equations<M, Joints<M>>,

@@ -2,9 +2,8 @@
 //!
 //! The robot's own file, printed by `groebot codegen --lang rust`, has the program as straight-line code and implements [`Mechanism`]. [`Solve`] then provides
 //! all solutions of a target. Each is verified by forward kinematics, at singular poses and on self-motions too. It also provides joint limits and turns,
-//! cosines
-//! and sines, and batches in the lanes of vector registers. Solving allocates nothing and has no state. Equal targets have bitwise equal solutions on every
-//! machine.
+//! cosines and sines, and batches in the lanes of vector registers. Solving allocates nothing and has no state. Equal targets have bitwise equal solutions on
+//! every machine.
 //!
 //! Without the feature `std` (on by default) the crate needs `core` and the C library's `sqrt`.
 #![cfg_attr(not(feature = "std"), no_std)]

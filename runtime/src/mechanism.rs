@@ -81,8 +81,7 @@ pub trait Mechanism: Sized {
         f64: With<N>;
 
     /// The derivative of each equation by each joint, equation by equation. `None` where the derivatives are [computed from the values](crate::derivatives),
-    /// because
-    /// these are affine in the numbers of each joint, as for a chain.
+    /// because these are affine in the numbers of each joint, as for a chain.
     fn jacobian(&self, _p: &Parameters<Self>, _at: &Places<Self>) -> Option<Equations<Self, Joints<Self>>> {
         None
     }
@@ -135,8 +134,7 @@ pub struct Facts<'a> {
     /// Number of consecutive candidates that differ only in signs and have equal residuals.
     pub twins: usize,
     /// By joint: number of consecutive candidates of an ordinary target whose cosine and sine differ only in sign. Empty where targets of a batch are solved
-    /// one by
-    /// one.
+    /// one by one.
     pub runs: &'a [usize],
     /// Characteristic length of the mechanism.
     pub scale: f64,
@@ -153,8 +151,7 @@ pub struct Facts<'a> {
     /// The formulas belong to a mechanism near the one of the equations. This many equations define the Newton steps from its solutions.
     pub nearby: Option<usize>,
     /// The equations are those of the ideal of a described mechanism, and have more conditions than joints. A target counts as reached by the ideal mechanism
-    /// when
-    /// its relative residual is at most this. It bounds twice the residual of one mechanism at a solution of the other.
+    /// when its relative residual is at most this. It bounds twice the residual of one mechanism at a solution of the other.
     pub within: Option<f64>,
     /// The solution that the source of the mechanism selects.
     pub preference: Option<Preference>,

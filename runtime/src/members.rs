@@ -10,8 +10,7 @@ use crate::tolerances::{ADRIFT, ALONE, MERGE, NEAR, REGULAR, ROUNDING};
 
 impl<M: Mechanism> Answers<'_, M> {
     /// Keeps a member of a self-motion. It is moved along the self-motion only if its residual exceeds rounding. This happens where the self-motion covers only
-    /// a part of
-    /// the circle, or where there is none and an isolated solution is nearby.
+    /// a part of the circle, or where there is none and an isolated solution is nearby.
     pub fn refine_member(&mut self, found: &Found, q: Joints<M>) {
         let _phase = Phase::Member.begin();
         let is_known = self.merged.contains(found) || self.out[..self.count].iter().any(|a| is_told(a, found));
@@ -84,8 +83,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Whether a member is on a known self-motion of its branch: a continuous motion connects them. Where further joints are free, it is assumed to be on one,
-    /// and this
-    /// is recorded.
+    /// and this is recorded.
     fn is_on_known(&mut self, found: &Found, (q, fit): &End<M>) -> bool {
         let Answers { problem, out, count, trails, .. } = self;
         let last = trails.last(found.branch, |free| free == found.free);
@@ -129,8 +127,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Keeps the end of the steps from a candidate for a member of a self-motion. It is either a member of another self-motion, of one joint that a case frees,
-    /// or an
-    /// isolated solution. A new isolated solution may have a second one next to it.
+    /// or an isolated solution. A new isolated solution may have a second one next to it.
     fn keep_alone(&mut self, found: &Found, end: End<M>, missed: f64) {
         if end.1.relative > ALONE {
             return self.miss(end);

@@ -24,8 +24,7 @@ pub(crate) struct Triangle<M: Mechanism> {
 
 impl<M: Mechanism> Problem<'_, M> {
     /// Takes Newton steps from joint values with known residuals, damped where a plain step fails. A step is accepted only if the relative residual decreases,
-    /// at once or
-    /// after a leap. Joints that are `held` do not move.
+    /// at once or after a leap. Joints that are `held` do not move.
     pub fn polish(&mut self, start: End<M>, held: u32) -> End<M> {
         let (mut end, mut slow) = (start, 0);
         for _ in 0..POLISH_STEPS {
@@ -50,8 +49,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The least damped step that lowers the relative residual. Where the residual exceeds rounding, the first choice is a step that halves it, then a leap,
-    /// then any
-    /// decrease. Where it is within rounding, a short plain step is the last one.
+    /// then any decrease. Where it is within rounding, a short plain step is the last one.
     fn improved(&mut self, (q, fit): &End<M>, held: u32) -> Option<End<M>> {
         let leaps = (ROUNDING..=NEAR).contains(&fit.relative);
         let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -86,8 +84,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Takes Newton steps until the relative residual is less than `relative`. Between two close roots the first step leads beyond one of them; each further
-    /// one divides
-    /// the residual by four.
+    /// one divides the residual by four.
     fn returned(&mut self, mut q: Joints<M>, relative: f64, held: u32) -> Option<End<M>> {
         for _ in 0..RETURNS {
             let step = self.newton_step(&q, 0.0, held)?;
@@ -101,8 +98,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Takes a full or partial Newton step, then damped steps until the relative residual is at most `enough`. Next to a self-motion the residual changes
-    /// little along a
-    /// curved path, but increases along each straight one.
+    /// little along a curved path, but increases along each straight one.
     fn leap(&mut self, q: &Joints<M>, enough: f64, held: u32) -> Option<End<M>> {
         let step = self.newton_step(q, 0.0, held)?;
         let longest = self.facts().longest(step.as_ref());
@@ -152,8 +148,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Takes damped Gauss-Newton steps from `q` to the minimum of the sum of squared relative residuals. A step is accepted only if the sum decreases, and
-    /// moves each joint
-    /// by at most `most` (rad, or relative to the length scale). Joints that are `held` do not move.
+    /// moves each joint by at most `most` (rad, or relative to the length scale). Joints that are `held` do not move.
     pub fn fitted(&mut self, q: Joints<M>, held: u32, most: f64) -> End<M> {
         let (mut q, mut squares) = (q.clone(), self.squares(&q));
         for _ in 0..FITTING_STEPS {
@@ -198,8 +193,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The least pivot of the triangular factor of the Jacobian at `q`, relative to the largest. It is within rounding at a double root, and where the joints
-    /// can move
-    /// while the equations hold.
+    /// can move while the equations hold.
     pub fn regularity(&mut self, q: &Joints<M>) -> f64 {
         self.regularity_of(q, 0)
     }
@@ -210,8 +204,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The direction in which the equations change least, with its largest component equal to one, and that change relative to the largest pivot. Computed by
-    /// inverse
-    /// iteration from the triangular factor. `None` where a pivot is zero, or no steps are left.
+    /// inverse iteration from the triangular factor. `None` where a pivot is zero, or no steps are left.
     pub fn stillest(&self, mut triangle: Triangle<M>) -> Option<(Joints<M>, f64)> {
         if self.steps.are_spent() {
             return None;

@@ -48,8 +48,7 @@ pub trait Number:
     /// term.
     fn real_roots<const D: usize>(polynomials: &[&[Self]], scale: Self) -> Roots<Self, D>;
     /// The real roots of a polynomial in the tangent of half an angle. A double root may miss the axis by rounding times a power of `spread`: terms are
-    /// weighted with
-    /// `spread` times the greater of the tangent and one.
+    /// weighted with `spread` times the greater of the tangent and one.
     fn half_angle_roots<const D: usize>(polynomial: &[Self], spread: Self) -> Roots<Self, D>;
 
     /// Applies a function to scalars. `None` for several targets at once: programs that need it solve targets one by one.

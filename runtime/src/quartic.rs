@@ -1,8 +1,6 @@
 //! The real roots of an ordinary quartic, several times faster than by [`crate::roots::real_roots`]. Ferrari's method gives two quadratics (Cardano, Ars Magna,
-//! 1545),
-//! then two Newton steps improve all roots at once. Whether a quartic is ordinary is tested. Where a quantity is near a limit, the result is `None`, and the
-//! caller uses the
-//! general method.
+//! 1545), then two Newton steps improve all roots at once. Whether a quartic is ordinary is tested. Where a quantity is near a limit, the result is `None`, and
+//! the caller uses the general method.
 
 use crate::arithmetic::Arithmetic;
 use crate::number::Scale;
@@ -24,8 +22,7 @@ const RESOLVENT_STEPS: usize = 24;
 type Ordinary = ([f64; 4], usize);
 
 /// All real roots of the quartic with these coefficients, constant term first. `scale` has the typical size of the unknown. `None` where the quartic is not
-/// ordinary:
-/// its leading coefficient is small, roots are close to each other, complex roots are close to the real axis, or the steps do not converge.
+/// ordinary: its leading coefficient is small, roots are close to each other, complex roots are close to the real axis, or the steps do not converge.
 pub(crate) fn ordinary_roots(coefficients: &[f64; 5], scale: Scale) -> Option<Ordinary> {
     let [e, d, c, b, lead] = *coefficients;
     let largest = coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()));
@@ -82,8 +79,8 @@ fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: Scale) -> Option<Ordinary>
     Some((roots, count))
 }
 
-/// The greatest root of `z^3 + u z^2 + v z - w` for `w > 0`, to half its digits. Newton steps start at an upper bound: a root above `typical` has
-/// `z^2 <= -u z - v + w / typical`.
+/// The greatest root of `z^3 + u z^2 + v z - w` for `w > 0`, to half its digits. Newton steps start at an upper bound: a root above `typical` has `z^2 <= -u z
+/// - v + w / typical`.
 fn resolved(u: f64, v: f64, w: f64, typical: f64) -> Option<f64> {
     let (falling, under) = (f64::max(-u, 0.0), f64::max(-v, 0.0));
     let inside = falling * falling + 4.0 * (under + w / typical);

@@ -110,8 +110,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Keeps a solution that is a member of a self-motion of one joint that a case frees. The formulas of a nearby mechanism do not distinguish these from
-    /// isolated
-    /// solutions. Returns whether it is one.
+    /// isolated solutions. Returns whether it is one.
     fn keep_moving(&mut self, found: &Found, end: &End<M>, regularity: f64) -> bool {
         let may_move = end.1.relative <= ROUNDING && regularity <= REGULAR;
         let joint = if may_move { self.problem.joint_on_long_self_motion(&end.0) } else { None };
@@ -128,8 +127,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Searches for a second solution next to one whose candidate was a double root. Their distance is about the square root of the candidate's residual. The
-    /// second
-    /// one is in the direction in which the equations change least: a parabola through the first one has its second root there.
+    /// second one is in the direction in which the equations change least: a parabola through the first one has its second root there.
     fn twin(&mut self, found: &Found, end: &Joints<M>, triangle: Triangle<M>, missed: f64) {
         let _phase = Phase::Twin.begin();
         let nearby = Arithmetic::sqrt(missed);
@@ -152,8 +150,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Polishes again from points on either side of a candidate. Their distance is the square root of the residual, for a double root or an angle with little
-    /// influence.
-    /// If none of these leads to a solution, starts are farther away.
+    /// influence. If none of these leads to a solution, starts are farther away.
     pub fn around(&mut self, found: &Found, end: &End<M>, missed: f64) {
         let _phase = Phase::Around.begin();
         let weights = self.problem.weights(&end.0);
@@ -186,8 +183,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Keeps a solution if the equations hold. Of equal solutions, the branch of the first and the joints of the best are kept. A second root of a double one
-    /// gets the
-    /// next free number below `last`.
+    /// gets the next free number below `last`.
     pub fn keep(&mut self, found: &Found, (q, fit): End<M>) {
         if !(fit.accepted || self.may_stay(&q, &fit)) {
             return self.miss((q, fit));
@@ -272,8 +268,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 
     /// Merges the nearest two isolated solutions while there are more than a target can have: at a singular configuration rounding makes several of one. The
-    /// better
-    /// one is kept.
+    /// better one is kept.
     pub fn unite(&mut self) {
         let Some(most) = self.problem.facts().isolated else { return };
         while self.count > most && self.out[..self.count].iter().filter(|answer| answer.is_isolated()).count() > most {
@@ -340,8 +335,7 @@ impl<M: Mechanism> Answers<'_, M> {
 
 impl<M: Mechanism> Problem<'_, M> {
     /// Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than [`MERGE`]. Half-way between
-    /// them the
-    /// residual is then no larger than at the worse of the two.
+    /// them the residual is then no larger than at the worse of the two.
     pub fn are_blurred(&mut self, (a, of_a): (&Joints<M>, f64), (b, of_b): (&Joints<M>, f64)) -> bool {
         let bound = f64::max(f64::max(of_a, of_b), ALIKE);
         let is_near = self.facts().farthest(a.as_ref(), b.as_ref()) <= BLUR;
@@ -352,8 +346,8 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 }
 
-/// Whether an isolated solution belongs to the self-motion of a member that holds within rounding. If the cases before have lost no solution, the residual
-/// of the self-motion may be larger.
+/// Whether an isolated solution belongs to the self-motion of a member that holds within rounding. If the cases before have lost no solution, the residual of
+/// the self-motion may be larger.
 fn is_on<M: Mechanism>(
     problem: &mut Problem<'_, M>,
     loners: &mut Loners<M>,
@@ -390,8 +384,7 @@ fn are_alike<M: Mechanism>(problem: &Problem<'_, M>, a: &Solution<M>, b: &Soluti
 }
 
 /// Whether `a` is kept when `b` is equal to it: the better one is kept. However, a self-motion within rounding is preferred to its isolated members, and its
-/// first
-/// member to the later ones.
+/// first member to the later ones.
 fn holds_against<M: Mechanism>(a: &Solution<M>, b: &Solution<M>) -> bool {
     match (a.is_isolated(), b.is_isolated()) {
         (true, false) if b.relative <= ROUNDING => false,

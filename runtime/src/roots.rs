@@ -56,8 +56,7 @@ pub(crate) fn of_the_leading<const D: usize>(polynomials: &[&[f64]], scale: Scal
 }
 
 /// All real roots of the polynomial with these coefficients, constant term first. Roots that agree within rounding are reported once. So is a double root that
-/// misses
-/// the axis by rounding, relative to the unknown's typical size `scale`.
+/// misses the axis by rounding, relative to the unknown's typical size `scale`.
 pub fn real_roots<const D: usize>(coefficients: &[f64], scale: f64) -> Roots<f64, D> {
     scaled_roots(coefficients, Scale::typical(scale))
 }
@@ -184,8 +183,7 @@ impl Polynomial {
     }
 
     /// The roots, given the ascending critical points and a bound on all of them. There is one in each interval with a change of sign. Critical points where
-    /// `p` touches
-    /// the axis are roots too.
+    /// `p` touches the axis are roots too.
     fn roots_between<const L: usize>(&self, critical: &Roots<f64, L>, bound: f64) -> Roots<f64, L> {
         let mut roots = Roots::NONE;
         let (mut low, mut low_sign) = (-bound, self.sign(-bound));
@@ -238,8 +236,7 @@ impl Polynomial {
     }
 
     /// The root between two points where `p` is monotone and changes its sign. Newton's method is used while it reduces its steps to a quarter and stays
-    /// inside, else
-    /// bisection.
+    /// inside, else bisection.
     fn root_between(&self, mut low: f64, mut high: f64) -> f64 {
         let rising = self.sign(high) > 0.0;
         let mut x = 0.5 * low + 0.5 * high;

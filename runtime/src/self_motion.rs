@@ -11,10 +11,9 @@ use crate::tolerances::{
 };
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// Whether the equations also hold, within `bound` or rounding, when the joints `free` are moved and the others follow. One direction suffices, because
-    /// in the other one the self-motion may branch. Where `q` is not singular this is false without a trial. A self-motion may cover only a small part of the
-    /// circle. Where `q`
-    /// is singular within rounding, shorter displacements are therefore tried, each an eighth of the one before.
+    /// Whether the equations also hold, within `bound` or rounding, when the joints `free` are moved and the others follow. One direction suffices, because in
+    /// the other one the self-motion may branch. Where `q` is not singular this is false without a trial. A self-motion may cover only a small part of the
+    /// circle. Where `q` is singular within rounding, shorter displacements are therefore tried, each an eighth of the one before.
     pub fn lies_on_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64) -> bool {
         let regularity = self.regularity(q);
         self.leads_to_self_motion(q, free, bound, regularity)
@@ -30,8 +29,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// A joint that alone parametrises a self-motion, as a set. Of the joints that some case frees, it is the one found first. If the formulas are those of a
-    /// nearby
-    /// mechanism and free none, it may be any joint.
+    /// nearby mechanism and free none, it may be any joint.
     pub fn joint_on_self_motion(&mut self, q: &Joints<M>, bound: f64) -> Option<u32> {
         if self.facts().freed.is_empty() && self.facts().nearby.is_none() {
             return None;
@@ -89,8 +87,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether the others follow in one direction. The displacement is doubled until it has its full length. From a short one the joints must return to `q`:
-    /// steps may
-    /// lead from an isolated solution to a self-motion next to it, but not back.
+    /// steps may lead from an isolated solution to a self-motion next to it, but not back.
     fn leads_aside(&mut self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
         let (mut before, mut at) = (q.clone(), q.clone());
         let mut share = 1.0 / FIRST_STAGE;
@@ -133,8 +130,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether a continuous motion of the joints, during which the equations hold, connects two members of self-motions with equal free joints. It is a
-    /// straight line, or
-    /// the free joints move straight and the others follow. If the shorter direction of rotation fails, a joint takes the longer one.
+    /// straight line, or the free joints move straight and the others follow. If the shorter direction of rotation fails, a joint takes the longer one.
     pub fn leads_to(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
         let member = |q| Member { q, tangent: None };
         self.leads_straight_to(a, b, free) || self.leads_round_to(member(a), member(b), free)
@@ -177,8 +173,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether cubic curves connect two members of a self-motion along one of two displacements of a free joint. Not tried where the displacement is shorter
-    /// than the
-    /// first step of following it.
+    /// than the first step of following it.
     fn are_joined_by_cubics(
         &mut self,
         a: &Member<'_, M>,
@@ -204,10 +199,8 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether cubic Hermite curves approximate the self-motion between two of its places. Half-way along each curve, the correction of the other joints must
-    /// be at most
-    /// [`ARRIVED`]. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their error is of
-    /// fourth order in
-    /// their length.)
+    /// be at most [`ARRIVED`]. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their
+    /// error is of fourth order in their length.)
     fn is_interpolated(&mut self, [first, last]: [Knot<M>; 2], joint: usize) -> bool {
         let (facts, free, start) = (self.facts(), 1 << joint, first.q.as_ref()[joint]);
         let (mut at, mut count) = (Some(first), 1);

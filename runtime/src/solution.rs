@@ -20,8 +20,7 @@ pub struct Solution<M: Mechanism> {
     /// Bit `j` is set where joint `j` is free: this is one member of a self-motion.
     pub free: u32,
     /// False where the [steps](crate::tolerances::MOST_STEPS) of the target were used up before all work was done. This holds for all of its solutions, and
-    /// others may be
-    /// missing. [`Solution::relative`] is then at most [`crate::tolerances::UNSETTLED`].
+    /// others may be missing. [`Solution::relative`] is then at most [`crate::tolerances::UNSETTLED`].
     pub settled: bool,
 }
 
@@ -146,17 +145,19 @@ pub enum Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Error::NotFinite => f.write_str("a number of the target is infinite or not a number; give finite ones"),
-            Error::NotRotation => {
-                f.write_str("the rotation of the target is off by more than 1e-9; give a right-handed rotation matrix")
-            }
+            Error::NotFinite => f.write_str("a target number is infinite or NaN; all must be finite"),
+            Error::NotRotation => f.write_str(
+                "the rotation of the target is not orthogonal within 1e-9; give a right-handed rotation matrix",
+            ),
             Error::NotUnit => {
-                f.write_str("the direction of the target is not of length one within 1e-9; give a unit vector")
+                f.write_str("the direction of the target does not have length one within 1e-9; give a unit vector")
             }
             Error::Unsettled => {
-                f.write_str("the steps of the target were spent before an answer was found; allow more of them")
+                f.write_str("the steps of the target were used up before a solution was found; allow more steps")
             }
-            Error::OpenStratum(number) => write!(f, "the target lies on stratum {number}, which could not be derived"),
+            Error::OpenStratum(number) => {
+                write!(f, "the target is on stratum {number}, for which no derivation exists")
+            }
         }
     }
 }

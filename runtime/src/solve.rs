@@ -16,12 +16,10 @@ use crate::tolerances::MOST_STEPS;
 /// Inverse kinematics of a mechanism.
 ///
 /// For a pose task, a target is the pose of the tip in the base frame: twelve numbers, the position and the rotation by rows. Other tasks have their own
-/// numbers. Units are metres
-/// and radians unless the mechanism's file specifies others. Angles of solutions are in (-pi, pi].
+/// numbers. Units are metres and radians unless the mechanism's file specifies others. Angles of solutions are in (-pi, pi].
 pub trait Solve: Mechanism {
     /// Writes all solutions for `target` to the front of `out`, ordered by branch, and returns their number: 0 when the target is out of reach. Branch numbers
-    /// are consistent
-    /// from target to target. If `out` is too short, it receives the best ones.
+    /// are consistent from target to target. If `out` is too short, it receives the best ones.
     ///
     /// # Errors
     /// See [`Error`]; the content of `out` is then undefined.
@@ -30,8 +28,7 @@ pub trait Solve: Mechanism {
     }
 
     /// Same as [`Solve::solve`], with at most `steps` [steps](MOST_STEPS) of polishing, to bound the time for a target. When they are used up, its solutions
-    /// are not
-    /// [settled](Solution::settled).
+    /// are not [settled](Solution::settled).
     ///
     /// # Errors
     /// Same as [`Solve::solve`]; [`Error::Unsettled`] where no solution was found before.
@@ -40,8 +37,7 @@ pub trait Solve: Mechanism {
     }
 
     /// Same as [`Solve::solve`], but where there is no solution, returns the joint values with the least relative residual, if polishing led to any. These are
-    /// not a
-    /// solution, as their residual shows.
+    /// not a solution, as their residual shows.
     ///
     /// # Errors
     /// Same as [`Solve::solve`].
@@ -74,8 +70,7 @@ pub trait Solve: Mechanism {
     }
 
     /// Same as [`Solve::solve`], by cosines and sines. At ordinary targets no arc tangent is computed. Where a candidate must be polished, or two are close to
-    /// each other, the
-    /// cosines and sines are those of the angles that [`Solve::solve`] finds.
+    /// each other, the cosines and sines are those of the angles that [`Solve::solve`] finds.
     ///
     /// # Errors
     /// Same as [`Solve::solve`].
@@ -89,10 +84,8 @@ pub trait Solve: Mechanism {
     }
 
     /// Same as [`Solve::solve`], for many targets; the lanes of a vector register process several at once. The solutions of a target follow those of the target
-    /// before
-    /// in `out`. An entry of `counts` is their number, or the error. Returns the number of solved targets. These are all, unless `counts` is shorter or `out`
-    /// has no room
-    /// for the solutions of the next one.
+    /// before in `out`. An entry of `counts` is their number, or the error. Returns the number of solved targets. These are all, unless `counts` is shorter or
+    /// `out` has no room for the solutions of the next one.
     ///
     /// Each solution is bitwise equal to that of [`Solve::solve`], which also solves all targets here that are not ordinary.
     fn solve_batch(
@@ -115,8 +108,7 @@ pub trait Solve: Mechanism {
     }
 
     /// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`. NaN when a target number is not finite, a
-    /// condition does not
-    /// hold or an equation's value is NaN. Also NaN where equations read numbers that follow from no joint.
+    /// condition does not hold or an equation's value is NaN. Also NaN where equations read numbers that follow from no joint.
     fn residual(&self, target: &Inputs<Self>, q: &Joints<Self>) -> f64 {
         let (mut target, facts) = (target.clone(), self.facts());
         if facts.has_extras || conform(facts.conditions, target.as_mut()).is_err() {
@@ -139,8 +131,7 @@ pub trait Solve: Mechanism {
     }
 
     /// Same as [`Solve::solve`], for the solutions that have a turn within `limits`. Each is moved there by as few turns of each angle as possible. A member of
-    /// a self-motion
-    /// outside of the limits is moved along it in steps of 0.1, one free joint at a time.
+    /// a self-motion outside of the limits is moved along it in steps of 0.1, one free joint at a time.
     ///
     /// # Errors
     /// Same as [`Solve::solve`].
@@ -177,8 +168,7 @@ pub trait Solve: Mechanism {
     }
 
     /// The number of turns of `q` within `limits`: joint values that differ from it by whole turns of its angles. Limits hold within 1e-9, because rounding may
-    /// move a joint
-    /// beyond its limit. An angle that lacks a limit counts once. 0 when `q` cannot be brought within `limits`; at most [`limits::MOST_TURNS`].
+    /// move a joint beyond its limit. An angle that lacks a limit counts once. 0 when `q` cannot be brought within `limits`; at most [`limits::MOST_TURNS`].
     fn count_turns(&self, q: &Joints<Self>, limits: &Joints<Self, [f64; 2]>) -> usize {
         limits::count_turns(&self.facts(), q.as_ref(), limits.as_ref())
     }
@@ -191,8 +181,7 @@ pub trait Solve: Mechanism {
     }
 
     /// The index of the solution that is nearest to `reference` after turns within `limits`, the first of equals, and its nearest turn. `None` when no solution
-    /// is
-    /// within `limits`. The distance is the sum of the joints' squared differences, each times its non-negative weight.
+    /// is within `limits`. The distance is the sum of the joints' squared differences, each times its non-negative weight.
     fn nearest(
         &self,
         list: &[Solution<Self>],
@@ -207,8 +196,7 @@ pub trait Solve: Mechanism {
 impl<M: Mechanism> Solve for M {}
 
 /// The target for which the tool is at `pose`. `base` is the pose of the base, `tool` that of the tool in the frame of the tip; the result is `base^-1 pose
-/// tool^-1`.
-/// A pose is 12 numbers, a position and a rotation by rows. They are the first 12 target numbers.
+/// tool^-1`. A pose is 12 numbers, a position and a rotation by rows. They are the first 12 target numbers.
 pub fn target_of(base: &[f64; 12], tool: &[f64; 12], pose: &[f64; 12]) -> [f64; 12] {
     let mut target = [0.0; 12];
     for i in 0..3 {

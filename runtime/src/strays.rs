@@ -55,8 +55,7 @@ impl Strays {
     }
 
     /// Whether a solution may have been lost. This is possible where a kind exists only on a part of the circle and its candidates are close to the stratum:
-    /// rounding may
-    /// have hidden a solution at the end of that part.
+    /// rounding may have hidden a solution at the end of that part.
     pub fn are_doubtful(&self) -> bool {
         let is_doubtful = |kind: &Kind| kind.is_astray && kind.missed <= DOUBTED && !kind.count.is_multiple_of(PLACES);
         self.are_too_many || self.kinds[..self.count].iter().any(is_doubtful)

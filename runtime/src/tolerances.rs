@@ -10,8 +10,7 @@ pub const BLUR: f64 = 5e-2;
 /// Rounding error of an equation that holds, relative to its size.
 pub const ROUNDING: f64 = 1e-14;
 /// Real roots are close to each other when they differ by at most this, relative to the unknown's typical size. Rounding of the squared difference may then
-/// merge two
-/// roots or split one. Larger effects of rounding show in the residuals of the solutions.
+/// merge two roots or split one. Larger effects of rounding show in the residuals of the solutions.
 pub const MEETING: f64 = 1e-5;
 /// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's typical size.
 pub const TANGENT: f64 = 1e-10;
@@ -26,16 +25,14 @@ pub const OFF: f64 = 1e-2;
 /// lost a solution is then within rounding.
 pub const BESIDE: f64 = 1e-7;
 /// A case does not run where a denominator is below this share of its scale. A factor of degree two in the distance from its stratum may be as small as the
-/// square of
-/// that distance's rounding error. Wrong candidates are measured and dropped.
+/// square of that distance's rounding error. Wrong candidates are measured and dropped.
 pub const TINY: f64 = 1e-30;
 /// Among polynomials for one unknown, the first whose leading coefficient exceeds this share of the largest one is used.
 pub const PIVOT: f64 = 1e-9;
 /// A leading coefficient below this share of the largest coefficient counts as zero.
 pub const NEGLIGIBLE: f64 = 1e-290;
 /// Maximal number of polishing steps for a target, unless [`crate::Solve::solve_bounded`] specifies another. A step is one linear system of Newton's method, or
-/// one
-/// evaluation of the equations at joint values. When they are used up, candidates are no longer polished, and solutions are not settled.
+/// one evaluation of the equations at joint values. When they are used up, candidates are no longer polished, and solutions are not settled.
 pub const MOST_STEPS: usize = 300_000;
 /// When the polishing steps are used up, a candidate with at most this relative residual is a solution, but not a settled one.
 pub const UNSETTLED: f64 = 1e-6;
@@ -44,16 +41,13 @@ pub const POLISH_STEPS: usize = 32;
 /// Maximal number of least-squares steps that bring a described mechanism nearest to a target that only its ideal reaches.
 pub const FITTING_STEPS: usize = 16;
 /// Weights of the residual in the successive steps towards a configuration where a joint moves freely. The error of that configuration is at most the product
-/// of the
-/// weights times the residual, which is within rounding in the end.
+/// of the weights times the residual, which is within rounding in the end.
 pub const FREEING: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-8];
 /// Displacement of the joints (rad, or relative to the length scale) for finite differences of the Jacobian. Their error is its square.
 pub const BENT: f64 = 1e-4;
 /// Damping added where a plain Newton step fails, as at a singular configuration, relative to the size of the squared Jacobian. The last value is for a
-/// solution that
-/// is singular in two directions. In one of these the derivative is rounding, which misleads the plain step. In the other one it decreases with the square root
-/// of the residual,
-/// so that larger damping would stop the steps too early.
+/// solution that is singular in two directions. In one of these the derivative is rounding, which misleads the plain step. In the other one it decreases with
+/// the square root of the residual, so that larger damping would stop the steps too early.
 pub const DAMPINGS: [f64; 6] = [0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1e-18];
 /// Lengths of the leaps (rad, or relative to the length scale) that are tried where no step halves the residual; the first that helps is taken.
 pub const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
@@ -71,8 +65,7 @@ pub const POLISHED: f64 = 1e-15;
 /// double root steps are longer.
 pub const SHORT: f64 = 1e-9;
 /// A member of a self-motion with a relative residual between [`ROUNDING`] and this is polished with its free joints held. Its residual is due to rounding in
-/// earlier
-/// blocks, and only rounding separates it from solutions next to it.
+/// earlier blocks, and only rounding separates it from solutions next to it.
 pub const ADRIFT: f64 = 1e-6;
 /// Bound on the candidates' relative residual near a stratum. Below it, rounding may hide a solution of the cases before at the boundary of the workspace.
 pub const DOUBTED: f64 = 1e-9;
@@ -83,8 +76,7 @@ pub const SINGULAR: f64 = 1e-13;
 /// Where each pivot is more than this share of the largest, a solution is not a member of a self-motion.
 pub const REGULAR: f64 = 1e-6;
 /// Where each pivot is more than this share of the largest, a solution that holds within [`ROUNDING`] is a root of its own. Rounding moves its joints by far
-/// less
-/// than the distance to another one.
+/// less than the distance to another one.
 pub const DISTINCT: f64 = 1e-4;
 /// Number of trial displacements in the test for self-motions, each an eighth of the one before.
 pub const NARROWS: usize = 5;
@@ -93,8 +85,7 @@ pub const DOUBLINGS: usize = 8;
 /// Half of the maximal displacement (rad) of an angle with little influence on the equations, in the search for the two roots of a double one.
 pub const APART: f64 = 0.7;
 /// Factor for the distance of starts around a singular candidate when no nearer one leads to a solution. Along some directions, as next to two double roots at
-/// once, the
-/// residual grows a thousand times more slowly than the square of the distance.
+/// once, the residual grows a thousand times more slowly than the square of the distance.
 pub const FARTHER: f64 = 16.0;
 /// Maximal factor of that distance.
 pub const FARTHEST: f64 = 256.0;
@@ -104,8 +95,7 @@ pub const ALONE: f64 = 1e-13;
 /// If polishing moves a candidate by more than this share of the square root of its residual, another solution may be next to it.
 pub const LEVER: f64 = 0.1;
 /// A second solution is searched for where formulas of a nearby mechanism propose one. Condition: the equations change by less than this factor times the
-/// square root of
-/// the residual, which is about the distance of the two.
+/// square root of the residual, which is about the distance of the two.
 pub const TWIN: f64 = 10.0;
 /// Distance of the Newton step that estimates the position of a second solution, relative to that square root.
 pub const TWIN_AT: f64 = 2.0;
@@ -113,8 +103,8 @@ pub const TWIN_AT: f64 = 2.0;
 pub const TWIN_WITHIN: f64 = 32.0;
 /// Where the relative residual of a candidate is at most this, a second step with the derivatives of the first leads to within [`ROUNDING`].
 pub const CHORD: f64 = 5e-6;
-/// Maximal number of plain Newton steps from a candidate of a nearby mechanism's formulas to within [`ROUNDING`], each followed by
-/// [a second one](CHORD) with equal derivatives. A candidate that needs more is polished with damping.
+/// Maximal number of plain Newton steps from a candidate of a nearby mechanism's formulas to within [`ROUNDING`], each followed by [a second one](CHORD) with
+/// equal derivatives. A candidate that needs more is polished with damping.
 pub const APPROACHES: usize = 3;
 /// Such a step is taken where each pivot of the normal equations is more than this share of their size.
 pub const PLAIN: f64 = 1e-6;
@@ -127,8 +117,7 @@ pub const TURN: f64 = 1e-2;
 /// Number of inverse iterations for the direction in which the equations change least.
 pub const INVERSIONS: usize = 3;
 /// Two close solutions are one if the relative residual half-way between them is at most this, which is little more than a solution's rounding error. Between
-/// two
-/// distinct solutions it may be only a little larger.
+/// two distinct solutions it may be only a little larger.
 pub const ALIKE: f64 = 2.5e-15;
 /// A self-motion that is followed to another member's free joints is the self-motion of that member if the other joints agree within this.
 pub const ARRIVED: f64 = 1e-3;
@@ -138,8 +127,7 @@ pub const ALONG: [f64; 3] = [6e-3, 2.5e-2, 0.2];
 /// Where a step moves other joints farther than this from the extrapolated line, it may lead to another self-motion: the step is shortened.
 pub const LEAPT: f64 = 0.1;
 /// Maximal relative residual along a self-motion. Where it is larger after a few Newton steps, the joints do not follow. Close self-motions are distinguished
-/// if
-/// the residual between them is larger.
+/// if the residual between them is larger.
 pub const ASTRAY: f64 = 1e-8;
 /// Maximal number of steps from one member to another.
 pub const PACES: usize = 100;

@@ -1,8 +1,7 @@
 //! Cosines and sines. All operations round alike on every machine; the inverse functions are in [`crate::angles`].
 //!
 //! The functions of C libraries are slow, and their last digits differ from one library to the next. The polynomials here interpolate at Chebyshev points and
-//! were
-//! computed with 60 digits. Sine and cosine of `|x| <= pi/4` are `x + x^3 S(x^2)` and `1 - x^2/2 + x^4 C(x^2)`, with relative errors of 2e-17 and 1e-18.
+//! were computed with 60 digits. Sine and cosine of `|x| <= pi/4` are `x + x^3 S(x^2)` and `1 - x^2/2 + x^4 C(x^2)`, with relative errors of 2e-17 and 1e-18.
 
 use core::f64::consts::{FRAC_2_PI, PI, TAU};
 

@@ -32,8 +32,7 @@ fn beside_a_singular_wrist(way: f64) -> impl Iterator<Item = [f64; 6]> {
 }
 
 /// Eight solutions, as at other poses of this arm. Candidates for members of the self-motion at the singular pose have residuals proportional to the distance
-/// from it. When they
-/// were polished along it, some came within the tolerance and were reported as self-motions.
+/// from it. When they were polished along it, some came within the tolerance and were reported as self-motions.
 #[test]
 fn poses_next_to_a_singular_wrist_have_isolated_answers() {
     for way in [1e-4, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, -1e-6, -1e-9] {

@@ -23,8 +23,7 @@ const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
 /// Least pivot, relative to the largest entry of its matrix, at which an origin is accepted at once.
 const SOUND: f64 = 1e-9;
 /// Bound on the squared distance of coincident eigenvalues, relative to `1 + |x|^2`, times the relative pivot. Within it rounding may have split a multiple
-/// eigenvalue,
-/// possibly into a complex pair.
+/// eigenvalue, possibly into a complex pair.
 const COINCIDING: f64 = 1e-14;
 
 /// A candidate for a solution.
@@ -66,8 +65,7 @@ struct Problem<'a> {
 
 impl Candidates {
     /// The eigenvalue problem at a displacement, for eigenvalues at most `deepest` off the real line. Each `attempt` has another origin of the half angle.
-    /// `None` when the
-    /// pencil is singular for this target, or not finite.
+    /// `None` when the pencil is singular for this target, or not finite.
     #[inline(always)]
     pub fn new(chain: &Chain, displacement: &Rigid, attempt: usize, deepest: f64) -> Option<Self> {
         let formulation = chain.formulations.of(attempt);

@@ -97,8 +97,8 @@ pub struct Chain {
     pub length: f64,
     /// The eigenvalue problems, in the order in which they are tried.
     pub formulations: Formulations,
-    /// Tolerance between this robot and the one for which solutions are wanted (relative to `length`, and rad); zero where both are equal. Complex
-    /// solutions within this distance of each other count as lost solutions, because they may be real for the other robot.
+    /// Tolerance between this robot and the one for which solutions are wanted (relative to `length`, and rad); zero where both are equal. Complex solutions
+    /// within this distance of each other count as lost solutions, because they may be real for the other robot.
     pub within: f64,
 }
 

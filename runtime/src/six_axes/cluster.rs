@@ -1,10 +1,8 @@
 //! Coincident eigenvalues ([`Cluster`]): solutions with equal values of the hidden joint, separated by the doubled joint.
 //!
 //! Inverse iteration finds one vector of the space that their eigenvectors span. Simultaneous iteration finds a basis of this space. Multiplying the monomials
-//! by
-//! the tangent of half the doubled angle is a matrix in this basis, with as many rows as solutions. Its eigenvectors are the solutions' coordinates (R. M.
-//! Corless,
-//! P. M. Gianni and B. M. Trager, ISSAC 1997, 133-140).
+//! by the tangent of half the doubled angle is a matrix in this basis, with as many rows as solutions. Its eigenvectors are the solutions' coordinates (R. M.
+//! Corless, P. M. Gianni and B. M. Trager, ISSAC 1997, 133-140).
 
 use core::array::from_fn;
 

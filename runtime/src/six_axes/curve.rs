@@ -1,10 +1,9 @@
 //! Continuation along curves on which the target is nearly reached, as next to a self-motion ([`Walk`]).
 //!
 //! Next to a self-motion, the isolated solutions of a target may be anywhere on the curve that remains of the self-motion. Newton steps find none of them,
-//! because the
-//! Jacobian has rank five within a small error. A walk keeps the five equations that the joints influence, and follows the tangent. The residual of the sixth
-//! equation changes its
-//! sign at each solution. (Steps along the tangent: E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.)
+//! because the Jacobian has rank five within a small error. A walk keeps the five equations that the joints influence, and follows the tangent. The residual of
+//! the sixth equation changes its sign at each solution. (Steps along the tangent: E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter
+//! 3.)
 
 use core::array::from_fn;
 use core::f64::consts::TAU;
@@ -60,8 +59,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Follows the curves, in both directions if they are not closed, and adds solutions where the sixth equation changes its sign. If its residual is zero all
-    /// along, the curve
-    /// is a self-motion, and one member is added.
+    /// along, the curve is a self-motion, and one member is added.
     pub fn run(mut self, search: &mut Search) {
         for index in 0..self.count {
             let Some(start) = self.starts[index].take() else { continue };
@@ -122,8 +120,8 @@ impl<'a> Walk<'a> {
         None
     }
 
-    /// Adds the solution between two places where the sixth equation has different signs, by false position (the Illinois rule: M. Dowell and P. Jarratt,
-    /// BIT 11 (1971) 168-174).
+    /// Adds the solution between two places where the sixth equation has different signs, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT
+    /// 11 (1971) 168-174).
     fn change(&self, a: &Place, b: &Place, search: &mut Search) {
         let (mut low, mut high) = (a.section.value, b.section.value);
         if (low <= 0.0) == (high <= 0.0) || f64::max(low.abs(), high.abs()) <= LEVEL {

@@ -47,8 +47,7 @@ impl Hessenberg {
     }
 
     /// `H := P H P`: from the left on rows, and from the right on columns after `column`. The left product acts on groups of four columns, and the first group
-    /// begins at
-    /// `column` or before. There only `column` itself changes, because all columns before it are zero.
+    /// begins at `column` or before. There only `column` itself changes, because all columns before it are zero.
     #[inline(always)]
     fn reflect(&mut self, v: &[f64; SIZE], column: usize) {
         let (first, behind) = (column / 4, (column + 1) / 4);

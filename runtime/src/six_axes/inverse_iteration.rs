@@ -8,8 +8,8 @@ use super::vector::{largest, product};
 use crate::lanes::{Lanes, Mask};
 use crate::number::Number;
 
-/// Number of iterations: solutions of `(H - x) y = b`. It is odd, because near a double eigenvalue with one eigenvector the inverse resembles that
-/// of a perturbed Jordan block, whose square is close to the identity.
+/// Number of iterations: solutions of `(H - x) y = b`. It is odd, because near a double eigenvalue with one eigenvector the inverse resembles that of a
+/// perturbed Jordan block, whose square is close to the identity.
 const ROUNDS: usize = 3;
 /// Number of eigenvectors that are computed at once.
 const WIDTH: usize = 4;

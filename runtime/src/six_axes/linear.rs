@@ -11,8 +11,7 @@ pub(super) fn clear<const N: usize>(row: &mut [f64; N], pivot: &[f64; N], column
 }
 
 /// Solves `L X = R` in place: `rows` has the `N` columns of `L`, then those of `R`. `R` becomes `X`, and `L` is destroyed. Returns the smallest pivot relative
-/// to the
-/// largest entry of `L`. It is zero when `L` is singular or not finite; `R` is then undefined. `N` and `W` are even.
+/// to the largest entry of `L`. It is zero when `L` is singular or not finite; `R` is then undefined. `N` and `W` are even.
 #[inline(always)]
 pub(super) fn solve<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) -> f64 {
     let largest = largest(0.0, &rows.each_ref().map(|row| *row.first_chunk::<N>().unwrap_or(&[0.0; N])));

@@ -1,8 +1,7 @@
 //! The generalised eigenvalue problem ([`Pencil`]): `(A - x B) v = 0` with sixteen rows and columns.
 //!
 //! Each equation is multiplied by the cosine and by the sine of half of one near joint's angle. There are then as many equations as products. The reason is
-//! that there
-//! are four homogeneous monomials of degree three in half that angle, and three of degree two. Half a turn is then an ordinary point.
+//! that there are four homogeneous monomials of degree three in half that angle, and three of degree two. Half a turn is then an ordinary point.
 
 use core::array::from_fn;
 
@@ -32,8 +31,8 @@ pub(super) struct Doubled {
 }
 
 impl Doubled {
-    /// A row times the cosine (`power` 0) or the sine (`power` 1) of the half angle: `1 = C^2 + S^2`, `c = C^2 - S^2`, `s = 2 C S`. For a prismatic joint,
-    /// `1 = C^2`, `d = C S`, `d^2 = S^2`.
+    /// A row times the cosine (`power` 0) or the sine (`power` 1) of the half angle: `1 = C^2 + S^2`, `c = C^2 - S^2`, `s = 2 C S`. For a prismatic joint, `1 =
+    /// C^2`, `d = C S`, `d^2 = S^2`.
     #[inline(always)]
     fn row<const W: usize>(self, row: &Row, reduced: &Reduced, power: usize) -> [f64; W] {
         let (step, other) = if self.second { (1, 3) } else { (3, 1) };

@@ -1,13 +1,10 @@
 //! Functions of Raghavan and Roth, affine in the cosine and sine of every joint ([`Profile`]).
 //!
-//! For a line with direction `l` through a point `p`, the fourteen functions `p`, `l`, `p x l`, `(p.p) l - 2 (p.l) p`, `p.p` and `p.l` span a space that
-//! rigid motions map into itself. With the origin on the axis of a rotation, six functions are invariant: the components of the four vectors along the axis,
-//! and the two scalars.
-//! The orthogonal components of the vectors rotate. A prismatic joint acts on them by polynomials of degree two in its displacement: 1, d^2, d take the place
-//! of 1, c, s.
-//! Such a joint leaves invariant its direction `l`, a direction `a` orthogonal to it, and lines along `l`. Then `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x
-//! a)` are
-//! fourteen functions with equal properties.
+//! For a line with direction `l` through a point `p`, the fourteen functions `p`, `l`, `p x l`, `(p.p) l - 2 (p.l) p`, `p.p` and `p.l` span a space that rigid
+//! motions map into itself. With the origin on the axis of a rotation, six functions are invariant: the components of the four vectors along the axis, and the
+//! two scalars. The orthogonal components of the vectors rotate. A prismatic joint acts on them by polynomials of degree two in its displacement: 1, d^2, d
+//! take the place of 1, c, s. Such a joint leaves invariant its direction `l`, a direction `a` orthogonal to it, and lines along `l`. Then `a`, `l`, `p x l`,
+//! `l x a`, `p.a` and `p.(l x a)` are fourteen functions with equal properties.
 
 use core::array::from_fn;
 

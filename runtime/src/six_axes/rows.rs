@@ -23,8 +23,8 @@ pub(super) struct Rows {
 
 /// The functions invariant under a translation: `l`, the component of `p x l` along the axis, those of `p` orthogonal to it.
 const UNMOVED: [usize; STILL] = [1, STILL + 1, STILL + TURNING + 1, 2, STILL, STILL + TURNING];
-/// The other functions, and which multiple of which function `-N` maps each to, or the constant -2: `N p = w`, `N (p x l) = w x l`,
-/// `N ((p.p) l - 2 (p.l) p) = -2 w x (p x l) - 2 (p.l) w`, `N (p.p) = 2 p.w`, `N (p.l) = l.w`.
+/// The other functions, and which multiple of which function `-N` maps each to, or the constant -2: `N p = w`, `N (p x l) = w x l`, `N ((p.p) l - 2 (p.l) p) =
+/// -2 w x (p x l) - 2 (p.l) w`, `N (p.p) = 2 p.w`, `N (p.l) = l.w`.
 const SLIDING: [(usize, usize, f64); MOVING] = [
     (0, 0, 0.0),
     (STILL + 2, STILL + TURNING + 1, 1.0),
@@ -36,8 +36,8 @@ const SLIDING: [(usize, usize, f64); MOVING] = [
     (TURNING + 1, 1, -1.0),
 ];
 
-/// Invariant functions among `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x a)`, for a prismatic fourth joint: ten in all. Four of them are among the
-/// moving equations: `r = 0` and `s = 0` become `s - x r = 0` and `-r - x s = 0`, which are equivalent for all `x` except `i` and `-i`.
+/// Invariant functions among `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x a)`, for a prismatic fourth joint: ten in all. Four of them are among the moving
+/// equations: `r = 0` and `s = 0` become `s - x r = 0` and `-r - x s = 0`, which are equivalent for all `x` except `i` and `-i`.
 const UNMOVED_DIRECTED: [usize; STILL] = [0, 1, 2, 3, STILL, STILL + 1];
 /// These four functions.
 const PAIRED: [(usize, usize, f64); 4] = [
@@ -56,8 +56,7 @@ const SLIDING_DIRECTED: [(usize, usize, f64); 4] = [
 
 impl Rows {
     /// The equations from the functions that the hidden joint moves and those of their images. The flags say whether the hidden joint and the fourth one after
-    /// it are
-    /// prismatic.
+    /// it are prismatic.
     #[inline(always)]
     pub fn new(near: &Profile, far: &Profile, [slides, is_directed]: [bool; 2]) -> Self {
         match (slides, is_directed) {

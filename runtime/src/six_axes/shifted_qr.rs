@@ -1,6 +1,5 @@
 //! All eigenvalues of a Hessenberg matrix by implicit double-shift QR steps (Golub and Van Loan, Algorithms 7.5.1 and 7.5.2). Only eigenvalues are computed, so
-//! rows
-//! and columns outside the active block are not updated.
+//! rows and columns outside the active block are not updated.
 //!
 //! J. G. F. Francis, The QR transformation, Computer Journal 4 (1961/62) 265-271 and 332-345.
 
@@ -129,8 +128,8 @@ impl Window<'_> {
         [x, y, h[i + 1][i] * h[i + 2][i + 1]]
     }
 
-    /// Reflects rows and columns `top..top + N` so that `column`, which is left of them, becomes a multiple of its first unit vector. The reflection is
-    /// `1 - u w^T`, where the first entry of `u` is one, and `w` is a multiple of `u`.
+    /// Reflects rows and columns `top..top + N` so that `column`, which is left of them, becomes a multiple of its first unit vector. The reflection is `1 - u
+    /// w^T`, where the first entry of `u` is one, and `w` is a multiple of `u`.
     #[inline(always)]
     fn reflect<const N: usize>(&mut self, top: usize, column: [f64; N]) {
         let square = column.iter().map(|entry| entry * entry).sum::<f64>();

@@ -241,8 +241,8 @@ impl Attempt<'_> {
     }
 
     /// Moves joint values from the displaced target to the target in stages, each at a quarter of the distance of the one before. Next to a self-motion the
-    /// curvature grows with
-    /// the inverse distance from it, and steps must be shorter. Returns the joint values of the last stage that succeeded, and the residual at the target.
+    /// curvature grows with the inverse distance from it, and steps must be shorter. Returns the joint values of the last stage that succeeded, and the
+    /// residual at the target.
     fn led(&self, q: &mut [f64; 6]) -> ([f64; 6], f64) {
         let (mut last, mut residual, mut size) = (*q, 1.0, self.size);
         for stage in 0..STAGES {
