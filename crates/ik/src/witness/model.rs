@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::check::ORDINARY;
 use super::newton::{jacobian, largest, newton, smallest_singular_value};
 use crate::derive::{JointKindUnknown, ParameterSource, Quantity, System};
 use groebot_algebra::poly::Expression;
@@ -11,8 +12,6 @@ use groebot_robot::spatial::angle;
 pub(super) const RESIDUAL: f64 = 1e-11;
 /// The value below which a joint vector is certainly a solution, so that no solver may miss it.
 pub(super) const EXACT: f64 = 1e-13;
-/// The lower limit of the scaled Jacobian's smallest singular value at an ordinary joint vector.
-pub(super) const ORDINARY: f64 = 1e-3;
 
 /// A name with its value and its size. A cosine or sine has size one, because its rounding error does not decrease with its value.
 struct Named<'a> {

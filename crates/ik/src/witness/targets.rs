@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::Draws;
+use super::check::Target;
 use super::model::{EXACT, Model, replaced};
 use super::newton::newton;
 use super::random::Random;
@@ -49,13 +50,6 @@ enum Slot {
     Boundary,
     Stratum,
     Far,
-}
-
-/// A target, and the joint values that made it, if any.
-pub(super) struct Target {
-    pub kind: Kind,
-    pub inputs: Vec<f64>,
-    pub joints: Option<Vec<f64>>,
 }
 
 /// The source of targets for one program.

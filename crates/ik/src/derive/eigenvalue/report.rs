@@ -98,7 +98,7 @@ impl EigenvalueView<'_> {
         }
         if Stage::Plan.is_in(stage) {
             let lines = self.given().into_iter().chain(self.counts()).chain(self.choices());
-            page.items(lines.map(|line| Line::of(&line)).collect());
+            lines.for_each(|line| page.paragraph(Line::plain(&line)));
         }
         page
     }

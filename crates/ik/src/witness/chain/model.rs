@@ -17,8 +17,6 @@ pub(super) const RESIDUAL: f64 = 1e-11;
 pub(super) const EXACT: f64 = 1e-13;
 /// Same as [`EXACT`], but next to a singular configuration. There, a target at a distance of 1e-13 may have other solutions, or a self-motion.
 pub(super) const SHARP: f64 = 1e-14;
-/// The lower limit of the scaled Jacobian's smallest singular value at an ordinary joint vector.
-pub(super) const ORDINARY: f64 = 1e-3;
 
 /// The chain, its task, and which of its joints are unknown.
 pub(super) struct Model<'a> {

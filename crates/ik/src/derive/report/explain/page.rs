@@ -9,7 +9,7 @@ use crate::derive::coupled::CoupledView;
 use crate::derive::eigenvalue::EigenvalueView;
 use crate::derive::equations::EquationsView;
 use crate::derive::problem::ChainProblem;
-use crate::derive::sequential::SequentialView;
+use crate::derive::sequential::{Form, SequentialView};
 use crate::derive::{AnyView, Derivation};
 use crate::solver::Program;
 use groebot_robot::document::word;
@@ -91,12 +91,17 @@ fn steps(page: &mut Document, view: SequentialView<'_>) -> Result<()> {
     let mechanism = Mechanism::new(&view.problem.chain)?;
     page.say(&format!("Up to {} solutions. The joints are found one at a time:", view.method.plan.dimension));
     let items = view.method.steps.iter().map(|step| {
-        let form = step.shape.form;
-        let name = Line::of("Joint ").name(&mechanism.joints()[step.joint].name);
-        let line = name.and(&format!(": {}. Singular: {}", forms::why(form), forms::singular(form)));
+        let line = Line::of("Joint ").name(&mechanism.joints()[step.joint].name);
+        let line = line.and(", form ").name(step.shape.form.name()).and(&format!(": {}.", forms::why(step.shape.form)));
         step.relations.iter().fold(line, |line, relation| meaning(line.and(" "), &mechanism, relation))
     });
     page.items(items.collect());
+    page.say("Singular:");
+    let mut forms: Vec<Form> = view.method.steps.iter().map(|step| step.shape.form).collect();
+    forms.sort_unstable();
+    forms.dedup();
+    let line = |form: Form| Line::of("In the form ").name(form.name()).and(", ").and(forms::singular(form));
+    page.items(forms.into_iter().map(line).collect());
     Ok(())
 }
 
@@ -117,8 +122,7 @@ fn eigenvalue(view: EigenvalueView<'_>) -> Document {
         .name("6_check.csv")
         .and("."),
     );
-    view.given().iter().for_each(|line| page.paragraph(Line::plain(line)));
-    page.items(view.choices().iter().map(|line| Line::plain(line)).collect());
+    view.given().iter().chain(&view.choices()).for_each(|line| page.paragraph(Line::plain(line)));
     page
 }
 

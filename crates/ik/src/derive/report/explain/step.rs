@@ -249,7 +249,7 @@ impl Writer<'_> {
         self.page.paragraph(
             Line::of("The Groebner basis of the form ")
                 .name(form.name())
-                .and(", proved below for symbols that may be anything, is triangular: one unknown after the other."),
+                .and(", proved for all values of the symbols, is triangular: one unknown after the other."),
         );
         for stair in stairs {
             self.equation(renamed(&stair, &own));
