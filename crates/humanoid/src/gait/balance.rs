@@ -1,5 +1,4 @@
-//! Balance of a motion: the zero moment point (ZMP), the support polygon and the stability margins of RH0 3.1.1 at each
-//! sample. Main type: [`Balance`].
+//! Balance of a motion at each sample: the zero moment point (ZMP), the support polygon and the stability margins of RH0 3.1.1. Main type: [`Balance`].
 
 use nalgebra::{Point2, Vector3};
 
@@ -15,7 +14,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::dynamics::Momentum;
 use groebot_robot::spatial::Pose;
 
-/// Corners of a standing sole within this height of its lowest corner count as contacts \[m\].
+/// Corners of a supporting sole within this height of its lowest corner count as contacts \[m\].
 const TOUCH: f64 = 1e-6;
 
 /// The balance at one sample.

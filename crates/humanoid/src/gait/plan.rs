@@ -1,5 +1,4 @@
-//! Planning of a walk, from a request to checked joint angles. Phases that would fall are slowed down; infeasible walks
-//! are refused. Main type: [`Walk`].
+//! Planning of a walk, from a request to checked joint angles. Phases that would fall are slowed down; infeasible walks are rejected. Main type: [`Walk`].
 
 use nalgebra::Point2;
 

@@ -129,7 +129,7 @@ impl Map {
                     '#' | '@' | 'O' | 'T' | 'W' => Cell::Occupied,
                     _ => {
                         let text = format!(
-                            "`{}` is no cell; give . or G or S, ?, or # or @ or O or T or W",
+                            "`{}` is not a cell; give . or G or S, ?, or # or @ or O or T or W",
                             shown(&character.to_string())
                         );
                         return Err(bad(text));

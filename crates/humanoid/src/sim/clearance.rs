@@ -77,11 +77,10 @@ impl Links {
         Ok(Links { names: robot.links().iter().map(|link| link.name.clone()).collect(), parts, feet })
     }
 
-    /// The least distance of each link from each object of a room and from the floor over postures, nearest first;
-    /// samples are numbered from `first`.
+    /// The least distance of each link from each object of a room and from the floor over postures, nearest first. Samples are numbered from `first`.
     ///
     /// # Errors
-    /// As [`groebot_robot::dynamics::Model::place`]; [`Watch::check`].
+    /// Same as [`groebot_robot::dynamics::Model::place`]; [`Watch::check`].
     pub fn clearances(
         &self,
         biped: &Biped,

@@ -1,4 +1,4 @@
-//! Whatever is asked for: a walk that keeps what it promises, or a refusal that says when and why.
+//! Arbitrary requests: the result is a walk that fulfils all conditions, or an error with the time and the reason.
 
 use groebot_humanoid::gait::{Durations, Gait, Laws, Measures, Regular, Route, Side, Style, Usual, plan};
 use groebot_humanoid::walkers::{NAO_ONE_STEP, RH0_GENERIC, TEO_ONE_STEP};
@@ -11,7 +11,7 @@ use proptest::test_runner::TestRunner;
 use super::nao::feet_are_where_they_should_be;
 use super::{request, robot, walk};
 
-/// So many values of a strategy, the same in every run: that many walks succeed is a part of the promise.
+/// This number of values of a strategy, equal in every run, so that the number of successful walks can be tested.
 fn values<S: Strategy>(strategy: S, count: usize) -> impl Iterator<Item = S::Value> {
     let mut runner = TestRunner::deterministic();
     (0..count).map(move |_| strategy.new_tree(&mut runner).unwrap().current())
@@ -61,13 +61,13 @@ fn a_walk_keeps_its_promises_or_is_refused() {
 
 type OneStepCase = ((usize, bool, f64, f64), (f64, f64, f64, f64), (f64, f64, f64, bool));
 
-/// Goals beside the robot: where the arc to them would miss, the walk turns on the spot.
+/// Goals beside the robot: the arc to them would miss, so the walk turns on the spot.
 const ONCE_FAILED: [OneStepCase; 2] = [
     ((2, false, 1.0, 0.0), (0.0, -0.13493199218350077, 0.03, 0.0), (0.3, 0.0, 1.0, false)),
     ((0, false, 1.0, 0.0), (0.0, 0.02898547189591927, 0.04, 0.0), (0.3, 0.0, 2.869413256592946, false)),
 ];
 
-/// The same of one step goal, for all robots that walk by it, by both versions of its laws.
+/// The test for walks by one step goal, for all robots that have them, with both versions of its laws.
 #[test]
 fn one_step_goal_keeps_its_promises_or_is_refused() {
     let laws = (0usize..3, any::<bool>(), 1.0..5.0f64, 0.0..0.01f64);

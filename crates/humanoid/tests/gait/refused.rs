@@ -1,4 +1,4 @@
-//! What cannot be walked is refused with the reason, or slowed down.
+//! Infeasible walks are rejected with the reason, or slowed down.
 
 use groebot_humanoid::gait::{Gait, Laws, OneStep, Regular, Request, Route, Summary, plan};
 use groebot_humanoid::{ErrorKind, Watch};

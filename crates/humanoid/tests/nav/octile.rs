@@ -1,4 +1,4 @@
-//! Ways over eight neighbours beside rounds over all cells until nothing changes.
+//! Paths over eight neighbours, compared with iterations over all cells until nothing changes.
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::nav::{Guide, Map};
@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 
 use super::random_map;
 
-/// Lengths from a cell in cells, by Bellman's and Ford's rounds.
+/// Path lengths from a cell, in cells, by Bellman-Ford iterations.
 fn lengths(map: &Map, start: usize) -> Vec<f64> {
     let (columns, rows) = (map.columns() as i64, map.rows() as i64);
     let free =
@@ -55,7 +55,7 @@ fn octile_ways_are_shortest_and_cut_no_corner() {
     assert!(reached > 400, "{reached}");
 }
 
-/// Each step leads over free cells, along a row, a column or a diagonal, whose neighbours on both sides are free.
+/// Each move is along a row, a column or a diagonal over free cells; for a diagonal the cells on both sides are free.
 fn check_steps(map: &Map, points: &[nalgebra::Point2<f64>]) {
     for pair in points.windows(2) {
         let away = (pair[1] - pair[0]) / map.resolution();

@@ -1,4 +1,4 @@
-//! Ways pulled taut and rounded: each by what it is, against the cells of the map.
+//! Taut and smooth paths, checked by their definitions against the cells of the map.
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::nav::{Field, Map, Method, Part, Path};
@@ -6,7 +6,7 @@ use nalgebra::{Point2, Vector2};
 
 use super::random_map;
 
-/// Ways over the middles of cells, of random maps.
+/// Paths over the middles of cells, on random maps.
 fn ways() -> Vec<(Map, Path)> {
     let mut all = vec![];
     for (seed, share) in [(1, 0.05), (2, 0.15), (3, 0.25), (4, 0.35)] {
@@ -36,7 +36,7 @@ fn is_clear(map: &Map, place: &Point2<f64>) -> bool {
     near(own.x).iter().any(|x| near(own.y).iter().any(|y| is_free(map, *x, *y)))
 }
 
-/// A taut way turns at convex corners only, towards their obstacle: no string about it is shorter.
+/// A taut path turns only at convex corners, around their obstacles: no string nearby is shorter.
 #[test]
 fn a_taut_way_bends_about_corners_only() {
     let mut bends = 0;
@@ -64,7 +64,8 @@ fn a_taut_way_bends_about_corners_only() {
     assert!(bends > 100, "{bends}");
 }
 
-/// Arcs of the radius that is asked for, each part going on where the one before ends, in its direction but at the corners that are told; all of it clear.
+/// Arcs have the requested radius. Each segment continues where the one before ends, in its direction except at the reported sharp corners. The path is clear
+/// of obstacles.
 #[test]
 fn a_smooth_way_goes_on_in_its_direction() {
     let (mut arcs, mut sharp) = (0, 0);
@@ -93,7 +94,7 @@ fn a_smooth_way_goes_on_in_its_direction() {
     assert!(arcs > 100 && sharp > 10, "{arcs} {sharp}");
 }
 
-/// A right angle in the open, with numbers by hand: the arc begins one radius before the corner and saves `2 - pi / 2` of it.
+/// A right angle without obstacles, computed by hand: the arc begins one radius before the corner and saves `2 - pi / 2` radii.
 #[test]
 fn a_right_angle_is_a_quarter_of_a_circle() {
     let map = Map::new(40, 40, 0.1).unwrap();
@@ -109,7 +110,7 @@ fn a_right_angle_is_a_quarter_of_a_circle() {
     let wall = map.with(&[groebot_humanoid::nav::Shape::rectangle(Point2::new(2.5, 1.5), 0.98, 0.98, 0.0)]).unwrap();
     let around = way.smoothed(&wall, 0.5).unwrap();
     assert!(around.sharp.is_empty() && around.length() > smooth.length());
-    // A radius beyond what the legs have room for leaves the corner.
+    // A radius that exceeds the adjacent segments leaves the corner sharp.
     assert_eq!(way.smoothed(&map, 2.5).unwrap().sharp, vec![Point2::new(3.0, 1.0)]);
 }
 

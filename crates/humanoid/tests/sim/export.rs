@@ -1,4 +1,4 @@
-//! Files of scenes by a reader that stands here; how other programs read them is tested in `viewer/tests/export.test.mjs`.
+//! Scene files, checked with a reader in this module. `viewer/tests/export.test.mjs` tests how other programs read them.
 
 use groebot_humanoid::ErrorKind;
 use groebot_humanoid::sim::export::{Body, Material, Node, Scene};
@@ -15,7 +15,7 @@ fn finger() -> Robot {
     Robot::from_urdf(FINGER).unwrap()
 }
 
-/// The finger's three joints that lead, and a base that goes far away and turns.
+/// The three leading joints of the finger, and a base that moves far away and rotates.
 fn tumble(away: f64) -> Trajectory {
     let samples = 12;
     let wave = |sample: usize, place: usize| (1.3 * sample as f64 + 2.1 * place as f64).sin();
@@ -32,7 +32,7 @@ fn tumble(away: f64) -> Trajectory {
     }
 }
 
-/// Where the tip is at a sample, with y up.
+/// The pose of the tip at a sample, with y up.
 fn tip(trajectory: &Trajectory, sample: usize) -> Pose {
     let chain = finger().chain(None, Some("tip")).unwrap();
     let mut q = [&trajectory.q[sample][..], &[0.0, 0.0]].concat();
@@ -41,7 +41,7 @@ fn tip(trajectory: &Trajectory, sample: usize) -> Pose {
     y_from_z * trajectory.base[sample] * chain.forward(&q).unwrap()
 }
 
-/// A file of glTF taken apart.
+/// The parts of a glTF file.
 struct Glb {
     json: Value,
     binary: Vec<u8>,
@@ -63,7 +63,7 @@ impl Glb {
         self.json[name].as_array().map_or(&[], Vec::as_slice)
     }
 
-    /// The rows of an accessor of singles.
+    /// The rows of an accessor of 32-bit floats.
     fn rows(&self, accessor: &Value) -> Vec<Vec<f64>> {
         let told = &self.list("accessors")[accessor.as_u64().unwrap() as usize];
         let view = &self.list("bufferViews")[told["bufferView"].as_u64().unwrap() as usize];
@@ -164,7 +164,7 @@ fn glb_has_a_node_a_link_and_bounds_that_hold() {
     assert!(seen > 20);
 }
 
-/// Triangles face outwards: what they enclose has a volume above zero, that of the body as far as it is round.
+/// Triangles face outwards: the enclosed volume is positive and equals that of the body, within the error of the approximation by flat faces.
 #[test]
 fn solids_are_closed() {
     let text = r#"<robot name="r"><link name="a"><visual><geometry><GEOMETRY/></geometry></visual></link></robot>"#;
@@ -213,7 +213,7 @@ fn names_become_legal_and_stay_apart() {
     }
     assert!(x3d.contains("<TimeSensor DEF='Clock_2'") && wrl.contains("ROUTE Clock_2.fraction_changed TO"));
     assert!(x3d.contains("title='it\\&apos;s &lt;a> \\\"scene\\\" &amp; more'"), "{x3d}");
-    // glTF takes them as they are.
+    // glTF uses them without change.
     let glb = Glb::of(&scene);
     assert!(glb.list("nodes").iter().zip(names).all(|(node, name)| node["name"] == name));
 }
@@ -254,7 +254,7 @@ fn what_cannot_be_shown_is_refused() {
     refused(&|own| own.nodes[1].turns.truncate(11), "node `palm`: it moves at another number of samples than 12");
     refused(&|own| own.times[3] = own.times[2], "sample 4: its time is not after the previous one");
     refused(&|own| own.times[0] = -1.0, "begin at zero");
-    // Singles are what glTF has, and it alone.
+    // Only glTF has 32-bit floats.
     let mut near = scene.clone();
     near.times.iter_mut().for_each(|time| *time = 1e6 + 1e-3 * *time);
     assert!(near.to_glb().unwrap_err().message().contains("single precision") && near.to_x3d().is_ok());
@@ -263,7 +263,7 @@ fn what_cannot_be_shown_is_refused() {
     assert!(large.to_glb().unwrap_err().message().contains("too large for single precision"));
 }
 
-/// What is not read of a mesh is told, and the rest is shown.
+/// A mesh that cannot be read is reported, and the rest is shown.
 #[test]
 fn a_mesh_that_is_missing_is_told() {
     let text = r#"<robot name="r"><link name="a"><visual><geometry><mesh filename="package://r/gone.stl"/></geometry></visual></link>
@@ -300,7 +300,7 @@ fn meshes_are_put_in() {
     assert!(wrl.contains("coord Coordinate { point [ 0 0 0 1 0 0 0 0.5 0 ] }"), "{wrl}");
 }
 
-/// One sample, or the same one again and again, is a robot that stands.
+/// With one sample, or with identical samples, the robot does not move.
 #[test]
 fn what_does_not_move_has_no_clock() {
     let mut still = tumble(0.0);
@@ -337,7 +337,7 @@ mod vrml {
         let turn = UnitQuaternion::from_axis_angle(&-Vector3::x_axis(), angle);
         assert!((outer.pose.rotation.angle_to(&turn)) < 1e-12 && outer.scale == [0.001; 3] && outer.parts.is_empty());
         assert!(scene.to_wrl().unwrap().contains("geometry Box { size 0.02 0.25 0.02 }"));
-        // A whole file, its children in brackets, a remark and commas say the same.
+        // A complete file, with its children in brackets, a comment and commas, has equal meaning.
         let whole = FIGURE.replace("children DEF Shape Shape {", "children [ DEF Shape Shape { # the box");
         let whole = whole.replacen("    }\n}\n", "    }]\n}\n", 1).replace("0.8 0.8 0", "0.8, 0.8, 0");
         assert_eq!(Scene::from_vrml(&format!("#VRML V2.0 utf8\n{whole}")).unwrap(), scene);
@@ -366,7 +366,7 @@ mod vrml {
             (&deep, Unsupported, 1, "deeper than 64"),
             ("Transform {\ncenter 0 0 0 }", UnknownKey, 2, "Transform has no field `center` here"),
             ("Transform { scale 1 1 1\n scale 1 1 1 }", DuplicateName, 2, "`scale` is given twice"),
-            ("Transform {\ntranslation 1 2 }", Syntax, 2, "`}` is no number; give 3 here"),
+            ("Transform {\ntranslation 1 2 }", Syntax, 2, "`}` is not a number; give 3 here"),
             ("Transform { translation 1 nan 0 }", BadValue, 1, "give a finite number"),
             ("Transform { scale 1 0 1 }", BadValue, 1, "give a positive number"),
             ("Transform { rotation 0 0 0 1 }", BadValue, 1, "no direction"),
@@ -398,7 +398,7 @@ mod vrml {
         assert_eq!(Glb::of(&scene).list("nodes").len(), 90_000);
     }
 
-    /// Whatever is cut out of the figure, or put into it, is read or refused.
+    /// Any text removed from the figure, or inserted into it, is read or rejected.
     #[test]
     fn damaged_figures_do_no_harm() {
         for at in (0..FIGURE.len()).filter(|at| FIGURE.is_char_boundary(*at)) {

@@ -1,4 +1,4 @@
-//! The data of a page against what they were made of; how the page shows them is tested in Chromium: `viewer/tests`.
+//! The data of a page compared with their sources. Tests in Chromium (`viewer/tests`) check how the page shows them.
 
 use groebot_humanoid::ErrorKind;
 use groebot_humanoid::view::{Page, RunRequest, Sole, WalkRecord};
@@ -24,7 +24,7 @@ fn track(name: &str, slides: bool) -> JointTrack {
     JointTrack { name: name.to_owned(), slides, limits: None, speed: None }
 }
 
-/// Three samples; the feet stand one after the other.
+/// Three samples in which the feet support one after the other.
 fn motion() -> Trajectory {
     let sole = |name: &str, y: f64, stands: [bool; 3]| {
         let pose =
@@ -52,7 +52,7 @@ fn data(page: &Page) -> Value {
     serde_json::from_str(&page.data()).unwrap()
 }
 
-/// The doubles of a packed text: zlib in base64, of all first bytes, then all second ones and so on.
+/// The doubles of a packed text: zlib in base64, first all first bytes, then all second ones and so on.
 fn doubles(text: &Value) -> Vec<f64> {
     let digit = |letter: u8| match letter {
         b'A'..=b'Z' => letter - b'A',
@@ -96,7 +96,7 @@ fn numbers_are_exact_and_what_does_not_change_stands_once() {
     assert_eq!((&told["joints"], &told["q"][0]), (&json!([1, 0]), &json!(0.2)));
     assert_eq!(doubles(&told["q"][1]), [1.0 / 3.0, -1e-300, 2.0]);
     assert_eq!(doubles(&told["figures"][0]["values"]), [0.1, 0.2, 0.3]);
-    // A negative zero is another number, and stays one.
+    // A negative zero is preserved.
     assert!(told["points"][0]["at"][1].as_f64().unwrap().is_sign_negative());
     assert_eq!((&told["contacts"][0]["stands"], told.get("base")), (&json!("110"), None));
     assert_eq!(told["contacts"][1]["outline"].as_array().unwrap().len(), 4);
@@ -108,14 +108,14 @@ fn support_is_the_hull_of_the_soles_that_stand() {
     let told = &data(&page)["motion"]["support"];
     assert_eq!((doubles(&told["starts"]), doubles(&told["counts"])), (vec![0.0, 2.0], vec![6.0, 4.0]));
     let corners = doubles(&told["corners"]);
-    // The right sole alone: its corners turned by 0.3 rad about (1, -0.1).
+    // The right sole alone: its corners rotated by 0.3 rad about (1, -0.1).
     let (sine, cosine) = 0.3f64.sin_cos();
     for (x, y) in [(0.1, 0.05), (-0.1, 0.05), (-0.1, -0.05), (0.1, -0.05)] {
         let (x, y) = (1.0 + cosine * x - sine * y, -0.1 + sine * x + cosine * y);
         let is_there = corners[12..].chunks(2).any(|corner| (corner[0] - x).hypot(corner[1] - y) < 1e-15);
         assert!(is_there, "({x}, {y}) is not in {corners:?}");
     }
-    // Outlines are not known: no polygon.
+    // If outlines are not known, there is no polygon.
     let page = Page::of_robot(&arm(), None).unwrap().with_motion(&motion(), None, &soles()[..1]).unwrap();
     assert!(data(&page)["motion"].get("support").is_none());
 }
@@ -139,7 +139,7 @@ fn a_walks_record_tells_polygons_soles_steps_and_phases() {
     assert_eq!(told["steps"].as_array().unwrap().len(), 3);
     assert_eq!(told["steps"][2], json!({ "foot": "left", "x": 1.0, "y": 0.1, "yaw": 0.3 }));
     assert_eq!(told["phases"], json!([{ "action": "swing", "step": 1, "from": 0.0, "to": 0.3 }]));
-    // The right foot stands alone at the last sample: back in its frame the polygon is its sole.
+    // The right foot supports alone at the last sample: in its frame the polygon is its sole.
     let corner = &told["contacts"][1]["outline"][0];
     let (x, y) = (corner[0].as_f64().unwrap(), corner[1].as_f64().unwrap());
     let (sine, cosine) = 0.3f64.sin_cos();
@@ -202,7 +202,7 @@ fn shapes_are_what_is_seen_else_what_collides() {
     assert_eq!((&kinds[0]["kind"], &kinds[0]["radius"]), (&json!("sphere"), &json!(0.1)));
     assert_eq!((&kinds[1]["kind"], &kinds[1]["size"]), (&json!("box"), &json!([1.0, 2.0, 3.0])));
     assert_eq!(kinds[1]["pose"][11], json!(1.0));
-    // The mesh is asked for, and lost.
+    // The mesh is requested, but missing.
     let told = data(&Page::of_robot(&robot, Some(&Meshes::default())).unwrap());
     assert!(told["robot"]["notes"][0].as_str().unwrap().contains("`lost.stl` is not found"), "{told}");
 }
@@ -216,12 +216,12 @@ fn the_page_is_one_file_that_its_data_cannot_end() {
     assert!(html.contains("<title>{{data}} &amp; {{script}} &lt;b></title>"));
     assert_eq!(html.matches("</script>").count(), 2);
     assert!(html.contains("default-src 'none'") && html.trim_end().ends_with("</html>"));
-    // What is bundled stands in the page with its licence.
+    // Bundled code is in the page with its licence.
     assert!(html.contains("three.js authors") && html.contains("Permission is hereby granted, free of charge"));
     assert!(html.len() < 800_000, "{}", html.len());
 }
 
-/// The frames and axes of a chain's page, multiplied in turn by Rodrigues' formula, against the chain's own product of exponentials.
+/// The frames and axes of a chain's page, composed with Rodrigues' formula, agree with the chain's own product of exponentials.
 #[test]
 fn a_chain_stands_with_its_axes_in_turn() {
     for name in ["ur5", "puma", "rrp", "nao_left_leg"] {
@@ -278,7 +278,7 @@ fn a_run_holds_its_room_with_furniture_from_above() {
     let ball = &scene["pieces"][0];
     assert_eq!((&ball["at"], &ball["height"]), (&json!([2.0, 1.0, std::f64::consts::FRAC_PI_2]), &json!(0.6)));
     for corner in ball["outline"].as_array().unwrap() {
-        // The corners of a polygon of 48 sides around it.
+        // The corners of a polygon with 48 sides around the circle.
         let away = corner[0].as_f64().unwrap().hypot(corner[1].as_f64().unwrap());
         assert!((away * (std::f64::consts::PI / 48.0).cos() - 0.3).abs() < 1e-12);
     }

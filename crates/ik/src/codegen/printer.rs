@@ -19,7 +19,7 @@ const LINE: usize = 96;
 /// One level of indentation.
 pub(super) const INDENT: &str = "    ";
 
-/// The precedence of a text, which decides about parentheses.
+/// The precedence of a text, which determines whether it needs parentheses.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Binding {
     Sum,
@@ -83,7 +83,7 @@ pub(super) struct Printer<'a> {
     demand: Demand,
     /// The number of register 0.
     first_register: usize,
-    /// Registers that are read once, until they are read.
+    /// Registers that are read once and have not been read yet.
     waiting: HashMap<usize, Expression>,
 }
 
@@ -126,7 +126,7 @@ impl<'a> Printer<'a> {
         lines
     }
 
-    /// Declarations of all registers that still wait to become part of an expression.
+    /// Declarations of all registers that have not become part of an expression yet.
     pub fn settle(&mut self) -> Vec<String> {
         let mut waiting: Vec<(usize, Expression)> = self.waiting.drain().collect();
         waiting.sort_by_key(|(index, _)| *index);

@@ -16,7 +16,7 @@ pub(super) struct Function {
     /// Its number, from 1.
     pub number: usize,
     pub label: String,
-    /// The known values that are its arguments, after the parameters.
+    /// The known values that are its arguments, in addition to the parameters.
     pub known: Vec<String>,
     pub lines: Vec<String>,
     /// Whether it has one call that runs often, so that a language should inline it.
@@ -43,8 +43,8 @@ pub(super) fn functions(scene: &Scene<'_>, dialect: &dyn Dialect) -> Vec<Functio
         walk.block(index, 0);
         let lines = walk.lines;
         let known = scene.layout.known_before(index);
-        let is_told = |unknown: &usize| known[*unknown] && reads(&lines, &scene.names.unknowns[*unknown]);
-        let known = (0..known.len()).filter(is_told).map(|unknown| scene.names.unknowns[unknown].clone()).collect();
+        let is_read = |unknown: &usize| known[*unknown] && reads(&lines, &scene.names.unknowns[*unknown]);
+        let known = (0..known.len()).filter(is_read).map(|unknown| scene.names.unknowns[unknown].clone()).collect();
         let before = index.checked_sub(1).map_or(&[][..], |before| &blocks[before].cases);
         let is_inlined = index == 0 || before.iter().filter(|case| !case.is_rare()).count() == 1;
         functions.push(Function {
@@ -59,7 +59,7 @@ pub(super) fn functions(scene: &Scene<'_>, dialect: &dyn Dialect) -> Vec<Functio
     functions
 }
 
-/// Whether several cases lead to the block with this index, or none does.
+/// Whether the number of cases that lead to the block with this index is not one.
 fn stands_alone(blocks: &[Block], index: usize) -> bool {
     index == 0 || blocks[index - 1].cases.iter().filter(|case| !case.open).count() != 1
 }
@@ -85,7 +85,7 @@ struct Walk<'a> {
     /// The number of loops and claims so far.
     loops: usize,
     claims: usize,
-    /// The number in the name of the code of the choices so far.
+    /// The number in the name of the record of the choices so far.
     found: usize,
 }
 
@@ -326,7 +326,7 @@ impl<'a> Walk<'a> {
         self.open(self.dialect.open_samples(self.loops, &names, table_number, table.len()));
     }
 
-    /// Prints the loop over solutions of six axes; returns the code of the choice.
+    /// Prints the loop over solutions for six axes. Returns the record of the choice.
     fn six_axes(&mut self, six: &SixAxes, printer: &mut Printer<'_>) -> How {
         let (scene, dialect) = (self.scene, self.dialect);
         self.loops += 1;

@@ -1,30 +1,30 @@
-//! What a map is to tell. Main type: [`Ask`].
+//! Options of a map. Main type: [`Ask`].
 
 use super::grid::Grid;
 use crate::solver::Program;
 use crate::{Error, ErrorKind, Result};
 
-/// What is counted at each place.
+/// The quantities that are counted at each place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Measure {
-    /// The orientations with an answer, and all answers.
+    /// The orientations with a solution, and all solutions.
     #[default]
     Count,
-    /// Of these, those within limits.
+    /// Only solutions within joint limits.
     Limits,
-    /// Beside both, how well the arm moves: of each orientation the answer with the greatest manipulability.
+    /// In addition, the manipulability: for each orientation that of the best solution.
     Manipulability,
 }
 
 impl Measure {
-    /// All of them by name.
+    /// All measures by name.
     pub const NAMES: [(&'static str, Measure); 3] =
         [("count", Measure::Count), ("limits", Measure::Limits), ("manipulability", Measure::Manipulability)];
 
-    /// The one with that name.
+    /// The measure with this name.
     ///
     /// # Errors
-    /// [`ErrorKind::UnknownName`] for others.
+    /// [`ErrorKind::UnknownName`] for other names.
     pub fn of(name: &str) -> Result<Self> {
         let found = Measure::NAMES.iter().find(|(own, _)| *own == name);
         found.map(|(_, measure)| *measure).ok_or_else(|| {
@@ -42,37 +42,38 @@ impl Measure {
     }
 }
 
-/// A question: which poses, and what is counted of their answers.
+/// Options of a map: the poses, and the quantities that are counted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ask {
-    /// The places, in the solver's unit of length; one on each axis that its task does not ask for.
+    /// The places, in the solver's unit of length. An axis without a coordinate in the task has one place.
     pub grid: Grid,
-    /// How many orientations there are at each place, spread evenly over all that the task tells apart. Where it asks for none there is one.
+    /// Number of orientations at each place, spread evenly over all orientations that the task distinguishes. It is one if the task has no orientation.
     pub orientations: usize,
-    /// With a seed, the orientations of each place are turned by a rotation of its own, which depends on the seed and the place's number alone.
+    /// If there is a seed, the orientations of each place are rotated by a rotation of its own, which depends only on the seed and the index of the place.
     pub seed: Option<u64>,
-    /// The values of the joints that are given with each target.
+    /// The values of the joints that are inputs of each target.
     pub given: Vec<f64>,
-    /// What is counted.
+    /// The quantities that are counted.
     pub measure: Measure,
-    /// By joint, its least and greatest value, where only answers with a turn within are counted. [`Measure::Limits`] takes the described ones where these are none.
+    /// By joint, its least and greatest value. If given, only solutions with a turn within them are counted. [`Measure::Limits`] uses the limits of the
+    /// description if these are not given.
     pub limits: Option<Vec<[f64; 2]>>,
 }
 
 impl Ask {
-    /// One orientation at each place, whose answers are counted.
+    /// Options for one orientation at each place, with its solutions counted.
     pub fn new(grid: Grid) -> Self {
         Ask { grid, orientations: 1, seed: None, given: Vec::new(), measure: Measure::Count, limits: None }
     }
 
-    /// The limits that a program's source describes, infinite where it tells none.
+    /// The limits in the description of a program's source, infinite for joints without limits.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] where it tells none at all.
+    /// [`ErrorKind::BadValue`] if the description has no limits at all.
     pub fn described(program: &Program) -> Result<Vec<[f64; 2]>> {
         let limits = program.limits();
         if limits.iter().flatten().all(|limit| limit.is_infinite()) {
-            let text = format!("of {} no limits are described; give some", program.name);
+            let text = format!("{}: no limits are described; give limits", program.name);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         Ok(limits)

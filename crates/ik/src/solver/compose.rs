@@ -266,7 +266,10 @@ fn unknowns_of(value: JointValue) -> Vec<usize> {
 fn paired(first: &Joint, next: &Joint) -> Result<Vec<(usize, usize)>> {
     let (mine, theirs) = (unknowns_of(first.value), unknowns_of(next.value));
     if first.unit != next.unit || mine.len() != theirs.len() {
-        let text = format!("`{}` and `{}` are shared; both must turn, or slide in one unit", first.name, next.name);
+        let text = format!(
+            "`{}` and `{}` are shared; both must be revolute, or prismatic with one unit",
+            first.name, next.name
+        );
         return Err(refuse(text));
     }
     Ok(mine.into_iter().zip(theirs).collect())

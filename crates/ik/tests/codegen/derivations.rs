@@ -1,4 +1,4 @@
-//! The committed mechanisms: their files are what a derivation writes today, and their printed solvers answer like the program.
+//! The committed mechanisms: their files are up to date with derivations, and their printed solvers agree with the program.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fs;
@@ -37,7 +37,7 @@ fn a_program_says_what_it_comes_from() {
         let links = (other.base.as_deref(), other.tip.as_deref());
         assert!(other.hash != told.hash && links == (Some("torso"), Some("hand")), "{other:?}");
     }
-    // From the root of a URDF to its only leaf, which nobody asked for by name.
+    // From the root of a URDF to its only leaf, without names in the input.
     for text in ["5_solver.h", "5_solver.rs", "5_ikfast.cpp"]
         .map(|file| fs::read_to_string(folder("irb4600_rounded").join(file)))
     {
@@ -46,7 +46,7 @@ fn a_program_says_what_it_comes_from() {
     }
 }
 
-/// Reachable, unreachable, boundary and degenerate targets, and what is no target.
+/// Reachable, unreachable, boundary, degenerate and invalid targets.
 fn targets(reach: f64) -> Vec<Vec<f64>> {
     let mut targets = Vec::new();
     for k in 0..2500 {
@@ -78,7 +78,7 @@ fn printed_solvers_answer_like_the_program() {
     }
 }
 
-/// The C file of every stored program is C99 to the letter; its Rust file is a module of a crate. Warnings are errors.
+/// The C file of every stored program conforms strictly to C99, and its Rust file is a module of a crate. Warnings are errors.
 #[test]
 fn every_stored_solver_compiles() {
     let folder = tempfile::tempdir().unwrap();
@@ -104,7 +104,7 @@ fn every_stored_solver_compiles() {
     rustc(folder.path(), &library);
 }
 
-/// Targets that a chain reaches, singular ones among them, and some out of reach or no target.
+/// Targets that a chain reaches, some of them singular, and some that are out of reach or invalid.
 pub fn targets_of(program: &Program, count: usize) -> Vec<Vec<f64>> {
     let mut targets: Vec<Vec<f64>> =
         joint_values(program, count, random()).iter().filter_map(|q| program.reached(q)).collect();
@@ -129,7 +129,7 @@ fn printed_solvers_of_chains_answer_like_the_program() {
     }
 }
 
-/// A UR5 with its elbow and wrist straight and the wrist's offset in line, where the last step of polishing differs most, and poses next to that.
+/// A UR5 with a stretched elbow and wrist and the wrist's offset in line, and poses next to that. The last polishing step differs most there.
 #[test]
 fn printed_solvers_answer_poses_that_are_singular_twice() {
     let [ur5] = &named(&["ur5"])[..] else { panic!("it is stored") };

@@ -48,7 +48,7 @@ fn the_command_overrides_the_folder() {
     assert_eq!((chain.task(), chain.given(), chain.joints()[1].name.as_str()), (Task::Position, vec![1], "three"));
     assert_eq!(asked.or(&input.ends).direction, None);
     let aimed = Ends { direction: asked.or(&input.ends).direction.or(input.ends.direction.clone()), ..asked };
-    assert_error(&input.chain(&aimed).unwrap_err(), ErrorKind::BadValue, None, "aims no direction");
+    assert_error(&input.chain(&aimed).unwrap_err(), ErrorKind::BadValue, None, "orients no direction");
 }
 
 #[test]

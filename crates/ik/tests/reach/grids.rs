@@ -1,4 +1,4 @@
-//! Places, orientations and refusals.
+//! Places, orientations and errors.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -38,7 +38,7 @@ fn what_is_no_grid_is_refused() {
 fn questions_that_no_map_answers_are_refused() {
     let here = Ask::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.2, 0.2, 1)]));
     let refused = |name: &str, ask: &Ask| map(name, ask).unwrap_err();
-    // No place is asked for, or two tips.
+    // The task has no position, or two tips.
     for name in ["wrist_rotation", "nao_head"] {
         assert_eq!(refused(name, &here).kind(), ErrorKind::Unsupported, "{name}");
     }
@@ -52,7 +52,7 @@ fn questions_that_no_map_answers_are_refused() {
     for given in [vec![], vec![0.1, 0.2], vec![f64::NAN]] {
         assert!(refused("iiwa14", &Ask { given, ..here.clone() }).message().contains("A3"));
     }
-    // Nothing is said of its limits, or the wrong thing.
+    // The limits are missing or invalid.
     assert_eq!(refused("planar_2r", &Ask { measure: Measure::Limits, ..here.clone() }).kind(), ErrorKind::BadValue);
     for limits in [vec![[0.0, 1.0]], vec![[0.0, f64::NAN]; 2], vec![[0.0, 1.0], [1.0, 0.0]]] {
         assert_eq!(refused("planar_2r", &Ask { limits: Some(limits), ..here.clone() }).kind(), ErrorKind::BadValue);
@@ -65,8 +65,8 @@ fn questions_that_no_map_answers_are_refused() {
 
 #[test]
 fn orientations_are_spread_evenly_over_all() {
-    // An arm whose tip is where the three axes of its wrist meet. For each way of the arm, where rotations are spread evenly the sine of the wrist's pitch is, too, and one of two answers has the pitch between -90 and 90
-    // degrees: up to an angle a it has the share (1 + sin a) / 2 of all.
+    // An arm whose tip is the centre of its spherical wrist. For each posture of the arm and evenly distributed rotations, the sine of the wrist's pitch is
+    // evenly distributed too, and one of two solutions has its pitch between -90 and 90 degrees. Up to an angle a the share of solutions is (1 + sin a) / 2.
     let text =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations/puma/0_chain.toml")).unwrap();
     let at_wrist = text.replace("[0, 1.524, 0.15]", "[0, 1.524, 0]");
@@ -137,7 +137,7 @@ fn long_maps_can_be_stopped() {
 
 #[test]
 fn given_joints_are_told_from_numbers_of_the_same_name() {
-    // The upright arm has a joint `roll`, and its task a number of that name.
+    // The upright arm has a joint `roll`, and its task has an input with that name.
     let told = [
         ("upright_arm", 0),
         ("iiwa14", 1),
@@ -149,7 +149,7 @@ fn given_joints_are_told_from_numbers_of_the_same_name() {
     for (name, count) in told {
         let mut program = derivation(name).1;
         assert_eq!(program.given(), program.inputs.len() - count..program.inputs.len(), "{name}");
-        // Without what is known of the source, by the names.
+        // Without the field about the source, by the names.
         program.about = None;
         assert_eq!(program.given().len(), if name == "upright_arm" { 1 } else { count }, "{name}");
     }

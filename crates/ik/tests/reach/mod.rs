@@ -1,4 +1,4 @@
-//! Maps of what solvers reach: against plane geometry, against the screw solver, and against other ways to count the same.
+//! Reachability maps, compared with plane geometry, with the screw solver, and with other methods of counting.
 
 mod arms;
 mod grids;

@@ -1,4 +1,4 @@
-//! Maps as JSON, CSV and pictures.
+//! Maps as JSON, CSV and SVG pictures.
 
 use groebot_ik::ErrorKind;
 use groebot_ik::reach::{Ask, Measure, ReachMap};
@@ -73,7 +73,7 @@ fn slices_show_what_is_reached() {
     let places = grid([(-1.0, 1.0, 21), (-1.0, 1.0, 21), (0.0, 0.0, 1)]);
     let ring = map("planar_2r", &Ask::new(places)).unwrap();
     let svg = ring.to_svg(None);
-    // One slice; what is reached has the last colour, so that the area of its paths is that of the places.
+    // One slice. All reached places have the last colour, so that the area of its paths is that of the places.
     assert!(svg.contains(">z = 0.000 m<") && !svg.contains(">x = "));
     let path = svg.lines().find(|line| line.starts_with("<path class=\"s32\"")).unwrap();
     let widths = path
@@ -87,7 +87,7 @@ fn slices_show_what_is_reached() {
     let cell = 300.0 / 21.0;
     assert!((widths.sum::<f64>() / cell - ring.reached() as f64).abs() < 1.0, "{}", ring.reached());
     assert_eq!(svg.matches("<path").count(), 1);
-    // An axis too small for numbers beside it.
+    // An axis too small for numbers next to it.
     let tiny = grid([(0.0, 1e-310, 3), (0.0, 1e-310, 2), (0.0, 0.0, 1)]);
     assert!(map("planar_2r", &Ask::new(tiny)).unwrap().to_svg(None).starts_with("<svg"));
     let many = small(Measure::Manipulability);

@@ -37,8 +37,7 @@ pub enum Form {
     Shorter,
     /// Straight-line code, the fastest form.
     Straight,
-    /// Loops over the bodies, whose parameters are in tables. Forward dynamics with joints that follow others is
-    /// straight-line code anyway.
+    /// Loops over the bodies, whose parameters are in tables. Forward dynamics (ABA) with joints that follow others is always straight-line code.
     Recursive,
 }
 
@@ -70,16 +69,15 @@ impl Printed<'_> {
     /// Prints a Rust file that needs the crate `groebot-runtime` (edition 2024).
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for forward dynamics where bodies without mass would move.
+    /// [`ErrorKind::BadValue`] for forward dynamics if bodies without mass would move.
     pub fn rust(&self) -> Result<String> {
         Ok(super::fill(RUST, &self.outline(&Rust, "")?))
     }
 
-    /// Prints a header and a source file in C99 that need `groebot_dynamics.h`, for files `stem.h` and `stem.c`; names
-    /// begin with the robot's.
+    /// Prints a header and a source file in C99 that need `groebot_dynamics.h`, for files `stem.h` and `stem.c`. Names begin with the robot's.
     ///
     /// # Errors
-    /// As [`Printed::rust`].
+    /// Same as [`Printed::rust`].
     pub fn c99(&self, stem: &str) -> Result<[String; 2]> {
         let outline = self.outline(&C, stem)?;
         Ok([HEADER, SOURCE].map(|skeleton| super::fill(skeleton, &outline)))
@@ -88,7 +86,7 @@ impl Printed<'_> {
     /// The number of operations of a function.
     ///
     /// # Errors
-    /// As [`Printed::rust`].
+    /// Same as [`Printed::rust`].
     pub fn operations(&self, function: Function) -> Result<usize> {
         Ok(self.record(function)?.code.len())
     }
@@ -125,7 +123,7 @@ impl Printed<'_> {
 
     fn function(&self, function: Function, recursive: &Recursive, language: &dyn Language) -> Result<FunctionText> {
         let body = self.record(function)?;
-        // One language decides for both, so that they round alike.
+        // The length in Rust determines the form in both languages, so that they round alike.
         let is_long = || self.straight(function, &body, &Rust).0.iter().map(String::len).sum::<usize>() > LONGEST;
         let has_loops = function != Function::Forward || recursive.is_plain();
         let is_recursive = has_loops && (self.form == Form::Recursive || self.form == Form::Shorter && is_long());

@@ -140,7 +140,7 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
         for (at, letter) in word.0.iter().enumerate() {
             let Some(joint) = letter.joint() else { continue };
             if joint >= count || word.0[..at].iter().any(|other| other.joint() == Some(joint)) {
-                return bad(format!("the word `{word}` may have each of the {count} joints once"));
+                return bad(format!("the word `{word}` must contain each of the {count} joints at most once"));
             }
         }
         Ok(())

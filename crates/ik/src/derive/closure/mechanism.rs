@@ -264,8 +264,8 @@ impl Mechanism {
         self.seen().freedoms() <= self.independent()
     }
 
-    /// Whether the steps of a plan must have as many solutions as the loop. If the task asks for more than the joints can do, or joints follow others, steps
-    /// may have more. The unused equations are then evaluated at run time.
+    /// Whether the steps of a plan must have as many solutions as the loop. If the task is overdetermined (more numbers than independent joints), or joints
+    /// follow others, steps may have more. The unused equations are then evaluated at run time.
     pub fn counts_exactly(&self) -> bool {
         self.is_tight() && self.followers().is_empty()
     }

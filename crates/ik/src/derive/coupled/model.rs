@@ -149,10 +149,10 @@ fn is_word(text: &str) -> bool {
 fn check_coupled(parts: &CoupledParts) -> Checked {
     let bad = |part, text: String| fault(part, ErrorKind::BadValue, text);
     if !is_word(&parts.name) {
-        return bad(Part::Whole, "`name` is no word; give letters, digits and `_`, no digit first".to_owned());
+        return bad(Part::Whole, "`name` is not a word; give letters, digits and `_`, no digit first".to_owned());
     }
     let Some(first) = parts.chains.first() else {
-        return bad(Part::Whole, "there is no chain; give one or more".to_owned());
+        return bad(Part::Whole, "there are no chains; give at least one".to_owned());
     };
     for (index, member) in parts.chains.iter().enumerate() {
         let part = Part::Chain(index);
@@ -192,7 +192,7 @@ fn check_shared(parts: &CoupledParts) -> Checked {
         }
         let kind = |place: JointPlace| parts.joint(place).map(|joint| joint.kind);
         if group.iter().any(|&place| kind(place) != kind(group[0])) {
-            return fault(part, ErrorKind::BadValue, format!("{}: all must turn, or all slide", names()));
+            return fault(part, ErrorKind::BadValue, format!("{}: all must be revolute, or all prismatic", names()));
         }
     }
     Ok(())

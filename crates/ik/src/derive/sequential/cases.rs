@@ -288,7 +288,7 @@ impl<'a> Builder<'a> {
         let symbol = |name: &String| {
             let index = all.iter().position(|symbol| symbol == name);
             index.map(|index| self.place.symbols[index]).ok_or_else(|| {
-                Error::new(ErrorKind::UnknownName, format!("`{name}` is no symbol of `{}`", self.form.name()))
+                Error::new(ErrorKind::UnknownName, format!("`{name}` is not a symbol of `{}`", self.form.name()))
             })
         };
         names.iter().map(symbol).collect()

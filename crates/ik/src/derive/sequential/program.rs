@@ -56,7 +56,7 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Sequential, 
     let most = if mechanism.followers().is_empty() { dimension } else { dimension.max(product) };
     let program = Program {
         capacity: (2 * most + blocks.len()).min(4096),
-        // Special targets may have more solutions if the task asks for more than the joints can do. So may a chain that is not ideal.
+        // Special targets may have more solutions if the task is overdetermined (more numbers than independent joints). So may a chain that is not ideal.
         isolated: (mechanism.is_tight() && slack == Slack::NONE).then_some(parts.plan.dimension),
         blocks,
         ..framed(chain, mechanism, layout)
@@ -98,8 +98,8 @@ pub(in crate::derive) fn checks_on(ideal: &Chain, chain: &Chain) -> Result<Check
     Ok(polishing(&Mechanism::of_chain(chain)?, &layout, reach(chain)))
 }
 
-/// The equations of the chain `truth` as described, if the task asks for more than the joints can do. Then the described chain may have no solution where the
-/// ideal one has several, or only the one from which the target was made. `None` if polishing handles the difference.
+/// The equations of the chain `truth` as described, if the task is overdetermined (more numbers than independent joints). Then the described chain may have no
+/// solution where the ideal one has several, or only the one from which the target was made. `None` if polishing handles the difference.
 ///
 /// # Errors
 /// As [`Mechanism::of_chain`].

@@ -34,7 +34,7 @@ impl Symbols {
 impl Context<'_> {
     /// The symbols of the step's form, in the shortest code over several lengths of sums. Constant values must remain constants.
     pub fn shortest(&self, layout: &Layout) -> Result<Symbols> {
-        let [usual, others @ ..] = Assembler::ways();
+        let [usual, others @ ..] = Assembler::variants();
         let usual = self.symbols(layout, usual)?;
         let mut alike = Vec::with_capacity(others.len());
         for other in others {

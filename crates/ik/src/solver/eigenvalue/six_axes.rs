@@ -62,7 +62,7 @@ impl SixAxes {
         ensure((0.0..=1.0).contains(&parts.within), "six axes: a tolerance from 0 to 1 is allowed")?;
         let suits = |(joint, slides): (&JointValue, &bool)| matches!(joint, JointValue::Plain(_)) == *slides;
         let suit = parts.joints.iter().zip(&parts.slides).all(suits);
-        ensure(suit, "six axes: angles, and plain values of joints that slide, are allowed")?;
+        ensure(suit, "six axes: angles, and plain values of prismatic joints, are allowed")?;
         let count = parts.formulations.len();
         let known = (1..=Formulations::ROOM).contains(&count) && parts.formulations.iter().all(Formulation::is_valid);
         ensure(known, "six axes: 1 to 12 formulations, each of which hides one of joints 0 to 5, is allowed")?;

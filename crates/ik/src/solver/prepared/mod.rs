@@ -94,7 +94,7 @@ impl Solver {
         if inputs.len() != numbers.len() + given.len() || !named {
             let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
             let text = format!(
-                "a target of {} numbers and {} given values; the solver asks for {}",
+                "a target of {} numbers and {} given values; the solver needs {}",
                 numbers.len(),
                 given.len(),
                 names.join(", ")

@@ -71,7 +71,7 @@ struct Moving<'a> {
     model: &'a dyn Configuration,
     /// The certified number of complex solutions, if it is known.
     bound: Option<usize>,
-    /// The maximum error of a solution, for tasks that ask for more than the joints can do: a fraction of the reach, and rad.
+    /// The maximum error of a solution, for overdetermined tasks (more numbers than independent joints): a fraction of the reach, and rad.
     tolerance: f64,
 }
 

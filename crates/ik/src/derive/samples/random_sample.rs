@@ -28,12 +28,12 @@ impl Random {
 
 /// Joint values and the target that they reach, modulo a prime.
 #[derive(Clone, Debug)]
-pub struct Specimen {
+pub struct RandomSample {
     joints: Vec<JointValue<u64>>,
     target: Target<u64>,
 }
 
-impl Specimen {
+impl RandomSample {
     /// Random values of all joints, and their target.
     ///
     /// # Errors
@@ -48,7 +48,7 @@ impl Specimen {
         let assignment = Assignment { joints, target: nowhere };
         let parameters = parameters(mechanism, &assignment, arithmetic)?;
         let target = Target::new(mechanism, &parameters, arithmetic)?;
-        Ok(Specimen { joints: assignment.joints, target })
+        Ok(RandomSample { joints: assignment.joints, target })
     }
 
     /// `relation` at these joint values and this target, as a polynomial in the joints of the set `unknown`.
