@@ -99,7 +99,7 @@ fn check_both(
         // The search requires that the target is reached exactly, but solutions only need to come near it.
         Some(inexact) => {
             let options = Options { oracle: 0, ..amounts.polished };
-            check_within(described, polished, None, (&options, MISSES * told.within), watch)?
+            check_within(described, polished, None, (&options, MISSES * inexact.within), watch)?
         }
         None => check_chain(described, polished, None, &amounts.polished, watch)?,
     };

@@ -1,5 +1,6 @@
 //! The check of a program that solves equations together: [`check_equations`].
 
+use super::chain::model::Joints;
 use super::check::{ByScrews, Check, SINGULAR, Subject};
 use super::model::{EXACT, Model, RESIDUAL};
 use super::report::{Fault, Report};
@@ -128,7 +129,7 @@ impl Subject for InEquations<'_> {
         let sizes = self.model.joint_sizes(target);
         let joints = |angles: &[f64]| -> Vec<f64> {
             let value = |(joint, angle): (usize, &f64)| {
-                if self.model.is_angle(joint) { *angle } else { sizes[joint] * (0.5 * angle).tan() }
+                if self.model.turns(joint) { *angle } else { sizes[joint] * (0.5 * angle).tan() }
             };
             angles.iter().enumerate().map(value).collect()
         };

@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 
 use super::Moving;
 use super::count::Counter;
-use super::model::{Configuration, Model, RESIDUAL};
+use super::model::{Configuration, Joints, Model, RESIDUAL};
 use super::rational::Rationals;
 use super::targets::Targets;
 use crate::derive::coupled::{ChainStage, CoupledView};
@@ -144,17 +144,19 @@ impl Member<'_> {
     }
 }
 
-impl Configuration for CoupledModel<'_> {
+impl Joints for CoupledModel<'_> {
     fn count(&self) -> usize {
         self.count
     }
 
-    fn unknown(&self) -> &[usize] {
-        &self.unknown
-    }
-
     fn turns(&self, joint: usize) -> bool {
         self.joint(joint).is_some_and(|(member, joint)| member.whole.turns(joint))
+    }
+}
+
+impl Configuration for CoupledModel<'_> {
+    fn unknown(&self) -> &[usize] {
+        &self.unknown
     }
 
     fn length(&self) -> f64 {

@@ -7,11 +7,11 @@ mod count;
 pub mod coupled;
 mod exact;
 mod form;
-mod model;
+pub(super) mod model;
 mod rational;
 mod round;
 mod self_motion;
-mod singular;
+pub(super) mod singular;
 mod targets;
 
 use super::check::{ByScrews, Check, ORDINARY, Solver, Subject};

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-use super::model::{Configuration, Model};
+use super::model::{Configuration, Joints, Model};
 use super::round::RoundTargets;
 use super::singular::null_vector;
 use crate::witness::Draws;
