@@ -91,12 +91,12 @@ pub(super) fn realised(
 
 /// The support polygon of a reference.
 pub fn support(biped: &Biped, reference: &Reference) -> Polygon {
-    let standing: Vec<(Side, Pose)> = [Side::Left, Side::Right]
+    let supporting: Vec<(Side, Pose)> = [Side::Left, Side::Right]
         .into_iter()
         .filter(|side| reference.stands[*side as usize])
         .map(|side| (side, reference.world_from_soles[side as usize]))
         .collect();
-    biped.support(&standing, TOUCH)
+    biped.support(&supporting, TOUCH)
 }
 
 /// The momenta between consecutive samples, with rest before the first and after the last: one more than there are

@@ -144,13 +144,13 @@ fn things(room: &Room) -> Vec<Solids> {
         let bounds = shape.compute_aabb(&ParryPose::IDENTITY);
         (shape, bounds)
     };
-    let standing =
+    let solids =
         prisms(room).into_iter().map(|(thing, parts)| Solids { thing, parts: parts.iter().map(part).collect() });
     let half_space = SharedShape::new(HalfSpace::new(Vector::new(0.0, 0.0, 1.0)));
     let far = Vector::new(f64::MAX, f64::MAX, f64::MAX);
     let below = Aabb::new(-far, Vector::new(f64::MAX, f64::MAX, 0.0));
     let floor = Solids { thing: Thing::Floor, parts: vec![(half_space, below)] };
-    standing.chain([floor]).collect()
+    solids.chain([floor]).collect()
 }
 
 impl Prism {

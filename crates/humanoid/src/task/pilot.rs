@@ -157,7 +157,7 @@ impl Pilot {
     /// # Errors
     /// As [`crate::gait::plan`].
     pub fn stand(&self, feet: [Footprint; 2], action: Action, watch: &Watch) -> Result<Walk> {
-        self.walk(Route::standing(feet), &[action], watch)
+        self.walk(Route::at_rest(feet), &[action], watch)
     }
 
     /// Same as [`Pilot::stand`], but with another height of the upright trunk \[m\].
@@ -168,7 +168,7 @@ impl Pilot {
         action: Action,
         watch: &Watch,
     ) -> Result<Walk> {
-        let mut request = self.request(Route::standing(feet));
+        let mut request = self.request(Route::at_rest(feet));
         if let Gait::OneStep(one_step) = &mut request.gait {
             one_step.upright = height;
         }

@@ -95,8 +95,8 @@ impl Page {
     ///
     /// # Errors
     /// As [`crate::nav::Room::from_toml`], [`crate::sim::Start::of_robot`] and [`crate::sim::Run::new`].
-    pub fn with_run(mut self, asked: &RunRequest<'_>) -> Result<Self> {
-        self.data.run = Some(run(asked)?);
+    pub fn with_run(mut self, request: &RunRequest<'_>) -> Result<Self> {
+        self.data.run = Some(run(request)?);
         self.data.wasm = Some(bytes::file(WASM));
         Ok(self)
     }

@@ -28,12 +28,12 @@ fn a_walk_keeps_its_promises_or_is_refused() {
     {
         let (nao, _) = robot();
         let first = if right { Side::Right } else { Side::Left };
-        let mut asked = request(&Regular { steps: 4, length, aside: 0.0, turn, half_width: 0.05, first });
-        asked.style = Style { lift, amplitude, ahead, torso_height, half_width: 0.05 };
-        asked.margin = margin;
-        asked.durations = Durations { rest: if preview { 1.5 } else { 0.2 }, shift, swing, lower: None };
-        asked.gait = if preview { Gait::Preview } else { Gait::Sine };
-        match walk(&asked) {
+        let mut requested = request(&Regular { steps: 4, length, aside: 0.0, turn, half_width: 0.05, first });
+        requested.style = Style { lift, amplitude, ahead, torso_height, half_width: 0.05 };
+        requested.margin = margin;
+        requested.durations = Durations { rest: if preview { 1.5 } else { 0.2 }, shift, swing, lower: None };
+        requested.gait = if preview { Gait::Preview } else { Gait::Sine };
+        match walk(&requested) {
             Err(error) => {
                 assert_eq!(error.kind(), ErrorKind::BadValue);
                 assert!(error.message().contains(" (t = "), "{}", error);
@@ -48,7 +48,7 @@ fn a_walk_keeps_its_promises_or_is_refused() {
                         let value = postures[sample].q[joint];
                         assert!(range.limits.0 <= value && value <= range.limits.1);
                         let before = postures[sample.saturating_sub(1)].q[joint];
-                        assert!((value - before).abs() / 0.01 <= range.speed * asked.speed_share + 1e-12);
+                        assert!((value - before).abs() / 0.01 <= range.speed * requested.speed_share + 1e-12);
                     }
                 }
                 let Route { steps, .. } = &walk.schedule.route;
@@ -85,11 +85,11 @@ fn one_step_goal_keeps_its_promises_or_is_refused() {
             one_step.laws = Laws::Rh0 { power };
         }
         let amplitude = share * usual.amplitude;
-        let asked = Usual { gait: Gait::OneStep(one_step), length, lift, amplitude, period, ..usual.clone() };
-        let asked = if crouched { asked } else { asked.from_upright(&humanoid) };
+        let requested = Usual { gait: Gait::OneStep(one_step), length, lift, amplitude, period, ..usual.clone() };
+        let requested = if crouched { requested } else { requested.from_upright(&humanoid) };
         let measures = Measures { length, half_width: humanoid.half_width(), most_turn: usual.most_turn };
         let route = Route::towards(&Point2::new(x, y), None, Side::Right, &measures).unwrap();
-        let request = asked.request(&humanoid, route, usual.hip_heights[0] - lower);
+        let request = requested.request(&humanoid, route, usual.hip_heights[0] - lower);
         match plan(&humanoid, &legs, &request, &Watch::none()) {
             Err(error) => {
                 assert_eq!(error.kind(), ErrorKind::BadValue);

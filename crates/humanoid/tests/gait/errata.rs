@@ -43,7 +43,7 @@ fn ten_motors_do_not_turn_an_upright_trunk_over_a_level_foot() {
 }
 
 #[test]
-fn the_printed_way_aside_does_not_return_to_the_middle() {
+fn the_printed_lateral_motion_does_not_return_to_the_middle() {
     // The middle is W_p inwards from the supporting foot.
     let end = printed_aside(LENGTH / 2.0);
     assert!((end + HALF_WIDTH).abs() > 0.15 && end > 0.0, "at both ends the trunk is still beyond the foot: {end}");

@@ -7,13 +7,13 @@ use nalgebra::Vector3;
 use super::{regular, request, robot, walk};
 
 #[test]
-fn the_floor_gives_what_momentum_asks_for() {
+fn ground_reactions_equal_the_rate_of_momentum() {
     let (biped, _) = robot();
     let weight = Vector3::new(0.0, 0.0, biped.model.mass() * GRAVITY);
-    let asked = request(&Regular { steps: 3, ..regular() });
+    let requested = request(&Regular { steps: 3, ..regular() });
     let mut apart = Vec::new();
     for tick in [0.02, 0.01] {
-        let walk = walk(&Request { tick, ..asked.clone() }).unwrap();
+        let walk = walk(&Request { tick, ..requested.clone() }).unwrap();
         let forces = walk.forces(biped);
         assert_eq!(forces.len(), walk.balances.len());
         let mut most = 0.0_f64;
@@ -52,7 +52,7 @@ fn the_floor_gives_what_momentum_asks_for() {
 }
 
 #[test]
-fn forces_stand_in_the_table_and_greatest_torques_are_told() {
+fn forces_are_in_the_table_and_greatest_torques_are_reported() {
     let (biped, _) = robot();
     let walk = walk(&request(&Regular { steps: 2, ..regular() })).unwrap();
     let forces = walk.forces(biped);

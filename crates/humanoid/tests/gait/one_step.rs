@@ -120,7 +120,7 @@ proptest! {
 
     /// A route to a goal ends there with feet side by side. No step turns more than permitted or is longer than one length.
     #[test]
-    fn ways_to_a_goal_arrive(x in -2.0..3.0f64, y in -2.0..2.0f64, right: bool) {
+    fn routes_to_a_goal_arrive(x in -2.0..3.0f64, y in -2.0..2.0f64, right: bool) {
         let goal = Point2::new(x, y);
         let first = if right { Side::Right } else { Side::Left };
         let route = Route::towards(&goal, None, first, &MEASURES).unwrap();

@@ -45,7 +45,7 @@ proptest! {
 }
 
 #[test]
-fn side_steps_lead_aside_and_close() {
+fn side_steps_move_sideways_and_close() {
     for (aside, first) in [(0.01, Side::Left), (-0.01, Side::Right), (0.01, Side::Right)] {
         let route = Route::regular(&Regular { steps: 8, length: 0.0, aside, first, ..regular() }).unwrap();
         let [left, right] = route.stands().pop().unwrap();
@@ -53,9 +53,9 @@ fn side_steps_lead_aside_and_close() {
         let total = leading as f64 * aside;
         assert!((left.y - 0.05 - total).abs() < 1e-12 && (right.y + 0.05 - total).abs() < 1e-12, "{aside}");
         // With the published 50 mm the AnkleRoll of the swing foot is near its limit; 40 mm leave a margin.
-        let mut asked = groebot_humanoid::gait::Request { route, ..request(&regular()) };
-        asked.style.amplitude = 0.04;
-        super::nao::feet_are_where_they_should_be(&walk(&asked).unwrap());
+        let mut requested = groebot_humanoid::gait::Request { route, ..request(&regular()) };
+        requested.style.amplitude = 0.04;
+        super::nao::feet_are_where_they_should_be(&walk(&requested).unwrap());
     }
 }
 

@@ -16,7 +16,7 @@ fn actions(walk: &Walk) -> impl Iterator<Item = (usize, Action)> + '_ {
 
 /// "When y reaches 50 mm over the right foot, the left foot begins its swing, and the other way round."
 #[test]
-fn feet_stand_until_the_centre_of_mass_is_50_mm_aside() {
+fn feet_rest_until_the_centre_of_mass_is_displaced_by_50_mm() {
     let walk = walk(&request(&regular())).unwrap();
     let mut swings = 0;
     for (sample, action) in actions(&walk) {

@@ -158,7 +158,7 @@ fn shortest(map: &Map, ends: [Spot; 2], guide: &Guide) -> Option<Shortest> {
 fn agrees(map: &Map, ends: [Spot; 2], guide: &Guide) -> bool {
     let expected = Floor { map }.shortest(ends[0], ends[1]) * map.resolution();
     let Some(found) = shortest(map, ends, guide) else {
-        assert!(expected.is_infinite(), "{ends:?}: a way of {expected}");
+        assert!(expected.is_infinite(), "{ends:?}: a path of {expected}");
         return false;
     };
     let length = found.path.length();
@@ -168,7 +168,7 @@ fn agrees(map: &Map, ends: [Spot; 2], guide: &Guide) -> bool {
 }
 
 #[test]
-fn ways_are_those_of_all_corners_that_see_one_another() {
+fn paths_agree_with_the_visibility_graph() {
     let mut numbers = Random(7);
     let (mut reached, mut enclosed) = (0, 0);
     for seed in 0..240 {
@@ -219,7 +219,7 @@ fn a_field_and_a_bounded_effort_leave_what_is_true() {
 
 /// From points all over a map to one goal.
 #[test]
-fn distances_of_all_corners_lead_the_same_way() {
+fn distances_of_all_corners_give_equal_paths() {
     let mut numbers = Random(11);
     let (mut reached, mut enclosed) = (0, 0);
     for seed in 0..60 {
@@ -259,17 +259,17 @@ fn spot(map: &Map, point: &Point2<f64>) -> Spot {
 
 /// The pose of a map in the world does not change the lengths of its paths.
 #[test]
-fn a_turned_map_has_the_same_ways() {
+fn a_rotated_map_has_equal_paths() {
     let map = random_map(30, 20, 0.25, 5);
     let turned = map.clone().placed(Point2::new(3.7, -1.2), 0.6).unwrap();
     let free: Vec<usize> = (0..600).filter(|cell| map.is_free(*cell)).collect();
     let mut reached = 0;
     for pair in free.windows(90).step_by(7) {
         let (start, goal) = (pair[0], pair[89]);
-        let way = |map: &Map| {
+        let path = |map: &Map| {
             map.shortest_path(&map.centre(start), &map.centre(goal), &Guide::default(), &Watch::none()).unwrap()
         };
-        let (Ok(one), Ok(other)) = (way(&map), way(&turned)) else { continue };
+        let (Ok(one), Ok(other)) = (path(&map), path(&turned)) else { continue };
         assert!((one.path.length() - other.path.length()).abs() < 1e-9);
         reached += 1;
     }
@@ -295,7 +295,7 @@ fn a_small_enclosure_is_found_from_either_side() {
 }
 
 #[test]
-fn what_cannot_be_asked_is_refused() {
+fn invalid_queries_are_refused() {
     let map = Map::from_text("..#\n...\n", 1.0).unwrap();
     let (start, goal) = (Point2::new(0.5, 0.5), Point2::new(1.5, 1.5));
     let ask = |start: &Point2<f64>, guide: &Guide| map.shortest_path(start, &goal, guide, &Watch::none());
@@ -317,7 +317,7 @@ fn what_cannot_be_asked_is_refused() {
 
 /// A record that `scripts/navigation/visibility.py` verifies with an independent geometry.
 const RECORD: &str =
-    concat!(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), "/crates/humanoid/tests/nav/shortest_ways.csv");
+    concat!(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), "/crates/humanoid/tests/nav/shortest_paths.csv");
 
 #[test]
 fn the_record_that_python_checks_is_up_to_date() {

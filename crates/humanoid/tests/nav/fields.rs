@@ -43,7 +43,7 @@ fn shortest(map: &Map, goals: &[usize]) -> Vec<f64> {
 }
 
 #[test]
-fn m3r_is_the_shortest_way_over_four_neighbours() {
+fn m3r_is_the_shortest_path_over_four_neighbours() {
     for (share, seed) in [(0.0, 1), (0.2, 2), (0.35, 3)] {
         for map in [random_map(41, 29, share, seed), with_speeds(random_map(41, 29, share, seed))] {
             let free: Vec<usize> = (0..map.cells().len()).filter(|cell| map.is_free(*cell)).collect();
@@ -181,7 +181,7 @@ fn what_has_no_field_is_refused() {
 
 /// A field has no local minima except its goals: the descent from every reached cell ends at one, with the expected length.
 #[test]
-fn every_way_down_ends_in_a_goal() {
+fn every_descent_ends_in_a_goal() {
     for method in [Method::M3r, Method::FastMarching(1), Method::FastMarching(2)] {
         let map = random_map(33, 27, 0.25, 9);
         let free: Vec<usize> = (0..map.cells().len()).filter(|cell| map.is_free(*cell)).collect();
@@ -190,13 +190,13 @@ fn every_way_down_ends_in_a_goal() {
         let mut enclosed = 0;
         for start in free.iter().copied() {
             match found.descend(&map, &map.centre(start)).unwrap() {
-                Ok(way) => {
-                    let last = map.cell_at(way.points.last().unwrap()).unwrap();
+                Ok(path) => {
+                    let last = map.cell_at(path.points.last().unwrap()).unwrap();
                     assert!(goals.contains(&last) && found.times()[start].is_finite());
-                    let cells: Vec<usize> = way.points.iter().map(|point| map.cell_at(point).unwrap()).collect();
+                    let cells: Vec<usize> = path.points.iter().map(|point| map.cell_at(point).unwrap()).collect();
                     assert!(cells.windows(2).all(|pair| found.times()[pair[1]] < found.times()[pair[0]]));
                     // No path is shorter than the straight distance.
-                    assert!(way.length() >= (way.points[0] - way.points[way.points.len() - 1]).norm() - 1e-12);
+                    assert!(path.length() >= (path.points[0] - path.points[path.points.len() - 1]).norm() - 1e-12);
                 }
                 Err(enclosure) => {
                     enclosed += 1;

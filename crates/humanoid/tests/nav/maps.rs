@@ -32,12 +32,12 @@ fn characters_and_pixels_are_the_same_room() {
 }
 
 #[test]
-fn a_description_tells_where_its_image_stands() {
+fn a_description_names_its_image_file() {
     let folder = tempfile::tempdir().unwrap();
     let yaml = folder.path().join("room.yaml");
     std::fs::write(folder.path().join("room.pgm"), b"P5 2 1 255\n\xff\x00").unwrap();
-    let told = "image: room.pgm # beside it\nresolution: 0.05\norigin: [-1.0, 2.0, 0.5]\nnegate: 1\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
-    std::fs::write(&yaml, told).unwrap();
+    let description = "image: room.pgm # beside it\nresolution: 0.05\norigin: [-1.0, 2.0, 0.5]\nnegate: 1\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+    std::fs::write(&yaml, description).unwrap();
     let map = Map::read(&yaml, 1.0).unwrap();
     assert_eq!((map.cells(), map.resolution()), (&[Cell::Occupied, Cell::Free][..], 0.05));
     let middle = map.centre(1);
@@ -56,7 +56,7 @@ fn a_description_tells_where_its_image_stands() {
         ("negate: 1", "mode: tri", ErrorKind::BadValue, "line 4: `mode` is `tri`; give one of trinary, scale, raw"),
         ("room.pgm", "hall.pgm", ErrorKind::Io, "hall.pgm"),
     ] {
-        std::fs::write(&yaml, told.replacen(from, to, 1)).unwrap();
+        std::fs::write(&yaml, description.replacen(from, to, 1)).unwrap();
         let error = Map::read(&yaml, 1.0).unwrap_err();
         assert!(error.kind() == kind && error.to_string().contains(words), "{error}");
     }

@@ -11,17 +11,17 @@ fn field(map: &Map, goal: &Point2<f64>, method: Method) -> Field {
 }
 
 /// Asserts that a path leads from cell to cell, over free cells only, to a goal.
-fn assert_leads(map: &Map, way: &Path, start: &Point2<f64>, goal: &Point2<f64>) {
-    let cells: Vec<usize> = way.points.iter().map(|point| map.free_cell_at(point).unwrap()).collect();
+fn assert_leads(map: &Map, path: &Path, start: &Point2<f64>, goal: &Point2<f64>) {
+    let cells: Vec<usize> = path.points.iter().map(|point| map.free_cell_at(point).unwrap()).collect();
     assert_eq!((cells[0], cells[cells.len() - 1]), (map.cell_at(start).unwrap(), map.cell_at(goal).unwrap()));
-    assert!(way.points.windows(2).all(|pair| (pair[1] - pair[0]).norm() < 1.5 * map.resolution()));
+    assert!(path.points.windows(2).all(|pair| (pair[1] - pair[0]).norm() < 1.5 * map.resolution()));
 }
 
 /// The duration of a path; half of each move is in each of the two cells.
-fn duration(map: &Map, way: &Path) -> f64 {
+fn duration(map: &Map, path: &Path) -> f64 {
     let slowness = |point: &Point2<f64>| 1.0 / f64::from(map.speeds().unwrap()[map.cell_at(point).unwrap()]);
     let step = |pair: &[Point2<f64>]| (pair[1] - pair[0]).norm() * 0.5 * (slowness(&pair[0]) + slowness(&pair[1]));
-    way.points.windows(2).map(step).sum()
+    path.points.windows(2).map(step).sum()
 }
 
 /// Snow on the left, a dry floor on the right.
@@ -43,7 +43,7 @@ fn fermat(start: &Point2<f64>, goal: &Point2<f64>) -> (f64, f64) {
 
 /// Fig. 4-11, left: the quickest path bends at the border of the media and is not the shortest one.
 #[test]
-fn a_way_over_two_media_bends() {
+fn a_path_over_two_media_bends() {
     let (map, start, goal) = two_media();
     let (crossing, least) = fermat(&start, &goal);
     let time = |method: Method| field(&map, &goal, method).times()[map.cell_at(&start).unwrap()];
@@ -54,22 +54,22 @@ fn a_way_over_two_media_bends() {
     // The time of M3R is between that and sqrt(2) of it.
     let ratio = time(Method::M3r) / least;
     assert!(ratio > 1.0 && ratio < 2f64.sqrt(), "{ratio}");
-    let way = field(&map, &goal, Method::FastMarching(2)).descend(&map, &start).unwrap().unwrap();
-    assert_leads(&map, &way, &start, &goal);
+    let path = field(&map, &goal, Method::FastMarching(2)).descend(&map, &start).unwrap().unwrap();
+    assert_leads(&map, &path, &start, &goal);
     let straight = start.y + (goal.y - start.y) * (2.0 - start.x) / (goal.x - start.x);
-    let across = way.points.iter().find(|point| point.x > 2.0).unwrap().y;
+    let across = path.points.iter().find(|point| point.x > 2.0).unwrap().y;
     assert!((across - crossing).abs() < 0.5 * (straight - crossing).abs(), "{across} {crossing} {straight}");
     // The straight line takes longer than the path, and the path takes at least the optimal time.
     let line = (goal - start).norm();
     let share = (2.0 - start.x) / (goal.x - start.x);
     let straight = line * (share / 0.25 + (1.0 - share));
-    let found = duration(&map, &way);
-    assert!(way.length() > line && found < straight && found > 0.999 * least, "{found} {straight} {least}");
+    let found = duration(&map, &path);
+    assert!(path.length() > line && found < straight && found > 0.999 * least, "{found} {straight} {least}");
 }
 
 /// Fig. 4-11, right: with obstacles.
 #[test]
-fn a_way_over_two_media_goes_around_obstacles() {
+fn a_path_over_two_media_goes_around_obstacles() {
     let (map, start, goal) = two_media();
     let obstacles = [
         Shape::rectangle(Point2::new(2.4, 1.3), 0.4, 2.2, 0.0),
@@ -78,14 +78,14 @@ fn a_way_over_two_media_goes_around_obstacles() {
     let with = map.with(&obstacles).unwrap();
     for method in [Method::M3r, Method::FastMarching(1), Method::FastMarching(2)] {
         let found = field(&with, &goal, method);
-        let way = found.descend(&with, &start).unwrap().unwrap();
-        assert_leads(&with, &way, &start, &goal);
+        let path = found.descend(&with, &start).unwrap().unwrap();
+        assert_leads(&with, &path, &start, &goal);
         let cell = map.cell_at(&start).unwrap();
         let without = field(&map, &goal, method).times()[cell];
         // For M3R there are many shortest paths along rows and columns, some of which avoid both obstacles.
         assert!(found.times()[cell] > without || (method == Method::M3r && found.times()[cell] >= without - 1e-9));
         // Above the wall, which extends to y = 2.4.
-        assert!(way.points.iter().find(|point| point.x > 2.4).unwrap().y > 2.4);
+        assert!(path.points.iter().find(|point| point.x > 2.4).unwrap().y > 2.4);
     }
 }
 
@@ -119,8 +119,8 @@ fn a_potential_field_is_stuck_in_the_bay() {
     assert!(around.iter().all(|other| potential.values()[*other] >= potential.values()[cell]));
     // Without obstacles between it leads to the goal.
     let clear = Point2::new(0.52, 4.72);
-    let way = Potential::new(&map, &Point2::new(5.52, 4.72), &FORCES).unwrap().descend(&map, &clear).unwrap().unwrap();
-    assert_leads(&map, &way, &clear, &Point2::new(5.52, 4.72));
+    let path = Potential::new(&map, &Point2::new(5.52, 4.72), &FORCES).unwrap().descend(&map, &clear).unwrap().unwrap();
+    assert_leads(&map, &path, &clear, &Point2::new(5.52, 4.72));
 }
 
 /// Fig. 4-13: a field leads out of the bay.
@@ -131,10 +131,10 @@ fn m3r_leaves_the_bay() {
         let found = field(&map, &goal, method);
         let inside = Point2::new(3.02, 2.52);
         for start in [start, inside] {
-            let way = found.descend(&map, &start).unwrap().unwrap();
-            assert_leads(&map, &way, &start, &goal);
+            let path = found.descend(&map, &start).unwrap().unwrap();
+            assert_leads(&map, &path, &start, &goal);
             // Around an end of the bay, which no line through the bay does.
-            assert!(way.points.iter().any(|point| (point.y - 2.5).abs() > 1.4));
+            assert!(path.points.iter().any(|point| (point.y - 2.5).abs() > 1.4));
         }
     }
 }
@@ -171,7 +171,7 @@ fn a_potential_is_attraction_and_repulsion() {
 
 /// Fig. 4-14: ten starts in one field, among round, hollow and irregular obstacles.
 #[test]
-fn ten_starts_have_ways_in_one_field() {
+fn ten_starts_have_paths_in_one_field() {
     let polygon = |corners: &[(f64, f64)]| Shape::Polygon(corners.iter().map(|(x, y)| Point2::new(*x, *y)).collect());
     let obstacles = [
         Shape::Circle { centre: Point2::new(3.0, 7.0), radius: 0.8 },
@@ -189,10 +189,10 @@ fn ten_starts_have_ways_in_one_field() {
     for method in [Method::M3r, Method::FastMarching(1), Method::FastMarching(2)] {
         let found = field(&map, &goal, method);
         for start in &starts {
-            let way = found.descend(&map, start).unwrap().unwrap();
-            assert_leads(&map, &way, start, &goal);
+            let path = found.descend(&map, start).unwrap().unwrap();
+            assert_leads(&map, &path, start, &goal);
             let time = found.times()[map.cell_at(start).unwrap()];
-            assert!(way.length() >= (goal - start).norm() - 0.1 && time >= (goal - start).norm() - 0.2);
+            assert!(path.length() >= (goal - start).norm() - 0.1 && time >= (goal - start).norm() - 0.2);
         }
     }
 }

@@ -30,7 +30,7 @@ fn floor() -> Map {
 }
 
 #[test]
-fn two_half_planes_bend_a_way_by_snells_law() {
+fn two_half_planes_bend_a_path_by_snells_law() {
     for speed in [0.2, 0.5, 0.8, 3.0] {
         let map = floor().with_speed(&Shape::rectangle(Point2::new(0.0, 1.5), 4.0, 10.0, 0.0), speed).unwrap();
         for (start, goal) in [((0.33, 0.21), (3.71, 2.8)), ((1.9, 0.1), (2.6, 2.9)), ((0.5, 2.0), (3.5, 2.0))] {
@@ -46,7 +46,7 @@ fn two_half_planes_bend_a_way_by_snells_law() {
 }
 
 #[test]
-fn a_strip_bends_a_way_twice() {
+fn a_strip_bends_a_path_twice() {
     for speed in [0.3, 0.6, 2.5] {
         let map = floor().with_speed(&Shape::rectangle(Point2::new(2.0, 1.5), 1.0, 10.0, 0.0), speed).unwrap();
         for (start, goal) in [((0.2, 0.3), (3.8, 2.7)), ((1.0, 0.1), (3.0, 2.9))] {
@@ -102,8 +102,8 @@ fn no_obstacle_is_passed() {
     assert!(reached > 8);
 }
 
-fn samples_are_free(map: &Map, way: &Path) {
-    for pair in way.points.windows(2) {
+fn samples_are_free(map: &Map, path: &Path) {
+    for pair in path.points.windows(2) {
         for part in 0..=1000 {
             let own = map.in_map(&(pair[0] + (pair[1] - pair[0]) * (f64::from(part) / 1000.0)));
             // On a border at least one of the adjacent cells is free.

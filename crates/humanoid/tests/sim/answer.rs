@@ -75,7 +75,7 @@ fn an_answer_is_seen_beside_its_plan() {
 }
 
 #[test]
-fn what_an_answer_lacks_is_told() {
+fn missing_tracks_are_reported() {
     let plan = walk(0.2, 0.0, 0.5, 10.0);
     let of = |answer: &Trajectory| Comparison::of(&plan, answer, 500.0).unwrap_err();
     let mut lame = plan.clone();

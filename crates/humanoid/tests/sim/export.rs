@@ -65,16 +65,16 @@ impl Glb {
 
     /// The rows of an accessor of 32-bit floats.
     fn rows(&self, accessor: &Value) -> Vec<Vec<f64>> {
-        let told = &self.list("accessors")[accessor.as_u64().unwrap() as usize];
-        let view = &self.list("bufferViews")[told["bufferView"].as_u64().unwrap() as usize];
+        let object = &self.list("accessors")[accessor.as_u64().unwrap() as usize];
+        let view = &self.list("bufferViews")[object["bufferView"].as_u64().unwrap() as usize];
         let number = |of: &Value, key: &str| of[key].as_u64().unwrap() as usize;
-        let width = match told["type"].as_str().unwrap() {
+        let width = match object["type"].as_str().unwrap() {
             "SCALAR" => 1,
             kind => kind[3..].parse().unwrap(),
         };
         let from = number(view, "byteOffset");
         let bytes = &self.binary[from..from + number(view, "byteLength")];
-        assert_eq!((told["componentType"].as_u64(), bytes.len()), (Some(5126), 4 * width * number(told, "count")));
+        assert_eq!((object["componentType"].as_u64(), bytes.len()), (Some(5126), 4 * width * number(object, "count")));
         let single = |four: &[u8]| f64::from(f32::from_le_bytes(four.try_into().unwrap()));
         bytes.chunks(4 * width).map(|row| row.chunks(4).map(single).collect()).collect()
     }
@@ -99,7 +99,7 @@ impl Glb {
 
     fn own(&self, node: usize, sample: usize) -> Pose {
         let animation = &self.json["animations"][0];
-        let told = |path: &str, usual: &[f64]| -> Vec<f64> {
+        let field = |path: &str, usual: &[f64]| -> Vec<f64> {
             let channels = animation["channels"].as_array().into_iter().flatten();
             let mut own = channels.filter(|one| one["target"]["node"] == node && one["target"]["path"] == path);
             match (own.next(), &self.list("nodes")[node][path]) {
@@ -112,14 +112,14 @@ impl Glb {
                 (None, fixed) => serde_json::from_value(fixed.clone()).unwrap(),
             }
         };
-        let [at, turn] = [told("translation", &[0.0; 3]), told("rotation", &[0.0, 0.0, 0.0, 1.0])];
+        let [at, turn] = [field("translation", &[0.0; 3]), field("rotation", &[0.0, 0.0, 0.0, 1.0])];
         let turn = UnitQuaternion::from_quaternion(Quaternion::new(turn[3], turn[0], turn[1], turn[2]));
         Pose::from_parts(Translation3::new(at[0], at[1], at[2]), turn)
     }
 }
 
 #[test]
-fn links_of_glb_are_where_kinematics_says_near_and_far() {
+fn links_of_glb_agree_with_kinematics_near_and_far() {
     for away in [0.0, 30.0, 400.0] {
         let trajectory = tumble(away);
         let scene = Scene::of_robot(&finger(), None, Some(&trajectory)).unwrap();
@@ -149,11 +149,11 @@ fn glb_has_a_node_a_link_and_bounds_that_hold() {
     let mut seen = 0;
     for primitive in glb.list("meshes").iter().flat_map(|mesh| mesh["primitives"].as_array().unwrap()) {
         let points = glb.rows(&primitive["attributes"]["POSITION"]);
-        let told = &glb.list("accessors")[primitive["attributes"]["POSITION"].as_u64().unwrap() as usize];
+        let object = &glb.list("accessors")[primitive["attributes"]["POSITION"].as_u64().unwrap() as usize];
         for axis in 0..3 {
             let all = || points.iter().map(|point| point[axis]);
-            assert_eq!(told["min"][axis].as_f64(), all().reduce(f64::min));
-            assert_eq!(told["max"][axis].as_f64(), all().reduce(f64::max));
+            assert_eq!(object["min"][axis].as_f64(), all().reduce(f64::min));
+            assert_eq!(object["max"][axis].as_f64(), all().reduce(f64::max));
         }
         let normals = primitive["attributes"].get("NORMAL").map(|normals| glb.rows(normals));
         for normal in normals.iter().flatten() {
@@ -265,7 +265,7 @@ fn what_cannot_be_shown_is_refused() {
 
 /// A mesh that cannot be read is reported, and the rest is shown.
 #[test]
-fn a_mesh_that_is_missing_is_told() {
+fn a_missing_mesh_is_reported() {
     let text = r#"<robot name="r"><link name="a"><visual><geometry><mesh filename="package://r/gone.stl"/></geometry></visual></link>
         <link name="b"><visual><geometry><box size="1 1 1"/></geometry><material name="m"><color rgba="1 0 0 0.5"/></material></visual></link>
         <joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>"#;
@@ -347,8 +347,8 @@ mod vrml {
     fn children_hang_on_their_parents() {
         let text = "Transform { translation 1 0 0 children [ DEF a Transform { children Shape { geometry Box { } } } Transform { } ] } Shape { }";
         let scene = Scene::from_vrml(text).unwrap();
-        let told: Vec<_> = scene.nodes.iter().map(|node| (&node.name[..], node.parent, node.parts.len())).collect();
-        assert_eq!(told, [("Transform", None, 0), ("a", Some(0), 1), ("Transform", Some(0), 0), ("Shape", None, 0)]);
+        let nodes: Vec<_> = scene.nodes.iter().map(|node| (&node.name[..], node.parent, node.parts.len())).collect();
+        assert_eq!(nodes, [("Transform", None, 0), ("a", Some(0), 1), ("Transform", Some(0), 0), ("Shape", None, 0)]);
         assert!(scene.check().is_ok());
     }
 

@@ -149,10 +149,13 @@ fn each_part_has_its_fault_in_the_order_of_the_file() {
         .replace("0 0 1", "0 0 0")
         .replace("</joint>", "<mimic joint=\"gone\"/></joint>");
     let read = Robot::from_urdf(&robot(&pan, &CAM.replace("value=\"1\"", "value=\"much\""))).unwrap();
-    let told: Vec<String> = read.faults().iter().map(|fault| fault.error.to_string()).collect();
-    assert_eq!(told.len(), 3, "{told:?}");
-    assert!(told[0].starts_with("line 5: link `cam`") && told[1].starts_with("line 8: joint `pan`: axis"), "{told:?}");
-    assert!(told[2].contains("mimics `gone`"), "{told:?}");
+    let messages: Vec<String> = read.faults().iter().map(|fault| fault.error.to_string()).collect();
+    assert_eq!(messages.len(), 3, "{messages:?}");
+    assert!(
+        messages[0].starts_with("line 5: link `cam`") && messages[1].starts_with("line 8: joint `pan`: axis"),
+        "{messages:?}"
+    );
+    assert!(messages[2].contains("mimics `gone`"), "{messages:?}");
 }
 
 #[test]

@@ -62,7 +62,7 @@ fn rh0_gets_to_the_sofa_past_a_piano_that_was_moved() {
 
 /// Furniture and goal change during the walk. The path is computed anew from the robot's position, and earlier obstacles no longer count.
 #[test]
-fn what_changes_on_the_way_is_obeyed() {
+fn changes_during_the_walk_take_effect() {
     let room = known("living-room");
     let changes = [
         moved("chair", 3.1, 2.7, 6),
@@ -91,7 +91,7 @@ fn what_changes_on_the_way_is_obeyed() {
 }
 
 #[test]
-fn rh0_leaves_what_nearly_encloses_it_and_is_told_when_it_is_shut_in() {
+fn rh0_leaves_a_near_enclosure_and_a_full_one_is_reported() {
     let room = known("encirclement");
     // After the fourth step the gap is closed.
     let closed = [moved("chair", 1.6, 3.0, 4), moved("planetary ball", 1.6, 3.5, 4)];

@@ -157,7 +157,7 @@ fn a_run_that_is_walled_in_waits_until_it_is_not() {
 
 /// The parameters in the thesis' sections are those of RH0's own gait. Setting NAO's and TEO's own parameters changes nothing.
 #[test]
-fn figures_are_told_in_their_units() {
+fn figures_have_their_units() {
     let rh0 = run("rh0", (0.6, 1.2), (3.0, 1.2));
     let (own, thesis) = (rh0.figures().values, PRESETS[0].figures.values);
     for ((figure, own), thesis) in FIGURES.iter().zip(own).zip(thesis) {

@@ -67,7 +67,7 @@ const HEADINGS: usize = 16;
 
 /// Whether a path exists for the footprint: body, and soles side by side. It is an A* search over the middles of cells and headings, with moves to the eight
 /// neighbouring cells and turns to the next heading.
-fn has_way(pilot: &Pilot, floor: &Floor, from: &Footprint, to: &Point2<f64>) -> bool {
+fn has_path(pilot: &Pilot, floor: &Floor, from: &Footprint, to: &Point2<f64>) -> bool {
     let map = floor.map();
     let [start, goal] = [from.point(), *to].map(|at| map.cell_at(&at).unwrap());
     let columns = map.columns();
@@ -100,13 +100,13 @@ fn has_way(pilot: &Pilot, floor: &Floor, from: &Footprint, to: &Point2<f64>) -> 
         };
         go(cell, (turned + 1) % HEADINGS, 0.5);
         go(cell, (turned + HEADINGS - 1) % HEADINGS, 0.5);
-        for way in [(0, 1), (1, 0), (1, 1), (1, -1), (0, -1), (-1, 0), (-1, -1), (-1, 1)] {
-            let at = Vector2::new(column as i64 + way.1, row as i64 + way.0);
+        for offset in [(0, 1), (1, 0), (1, 1), (1, -1), (0, -1), (-1, 0), (-1, -1), (-1, 1)] {
+            let at = Vector2::new(column as i64 + offset.1, row as i64 + offset.0);
             if at.x >= 0 && at.y >= 0 && at.x < columns as i64 && at.y < map.rows() as i64 {
                 go(
                     at.y as usize * columns + at.x as usize,
                     turned,
-                    f64::from(way.0 as i32).hypot(f64::from(way.1 as i32)),
+                    f64::from(offset.0 as i32).hypot(f64::from(offset.1 as i32)),
                 );
             }
         }
@@ -152,9 +152,9 @@ fn outcome(seed: u64) -> Option<(bool, String)> {
             );
             (checks.hold(), format!("solved,{line}"))
         }
-        Ok(Err(_)) => (!has_way(&pilot, &floor, &start, &to), "enclosed,,,,,".to_owned()),
+        Ok(Err(_)) => (!has_path(&pilot, &floor, &start, &to), "enclosed,,,,,".to_owned()),
         Err(error) => {
-            (!has_way(&pilot, &floor, &start, &to), format!("no steps,,,,,{}", error.message().replace(',', ";")))
+            (!has_path(&pilot, &floor, &start, &to), format!("no steps,,,,,{}", error.message().replace(',', ";")))
         }
     })
 }

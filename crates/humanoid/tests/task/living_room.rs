@@ -64,7 +64,7 @@ fn rh0_leaves_what_nearly_encloses_it() {
 }
 
 #[test]
-fn rh0_walled_in_by_furniture_is_told_so() {
+fn an_enclosure_of_rh0_by_furniture_is_reported() {
     let (_, pilot) = pilot("rh0");
     let room = encirclement().with_moved("chair", Point2::new(1.6, 3.0), 0.0).unwrap();
     let map = room.with_moved("planetary ball", Point2::new(1.6, 3.5), 0.0).unwrap().map().unwrap();
@@ -95,8 +95,8 @@ fn a_field_follows_a_chair_that_is_moved() {
         // In a window around the robot the descent leads around the chair.
         let window = Window { columns: 20..75, rows: 30..85 };
         let local = field.within(&after, &window, &watch).unwrap();
-        let way = local.descend(&after, &Point2::new(1.3, 2.8)).unwrap().unwrap();
-        assert!(way.points.iter().all(|point| after.is_free(after.cell_at(point).unwrap())));
-        assert!((way.points[way.points.len() - 1] - goals[0]).norm() < 0.06);
+        let path = local.descend(&after, &Point2::new(1.3, 2.8)).unwrap().unwrap();
+        assert!(path.points.iter().all(|point| after.is_free(after.cell_at(point).unwrap())));
+        assert!((path.points[path.points.len() - 1] - goals[0]).norm() < 0.06);
     }
 }

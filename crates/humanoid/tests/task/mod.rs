@@ -78,8 +78,8 @@ fn is_walked(pilot: &Pilot, walk: &Walk) {
         for side in [Side::Left, Side::Right] {
             let foot = &biped.feet[side as usize];
             let sole = placed.motion(foot.body) * foot.torso_from_sole;
-            let asked = walk.references[sample].world_from_soles[side as usize];
-            assert!((sole.to_homogeneous() - asked.to_homogeneous()).norm() < 1e-6, "{sample}");
+            let reference = walk.references[sample].world_from_soles[side as usize];
+            assert!((sole.to_homogeneous() - reference.to_homogeneous()).norm() < 1e-6, "{sample}");
         }
     }
     let again = balance(biped, &walk.references, &walk.motion, tick).unwrap();

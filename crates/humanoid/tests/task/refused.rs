@@ -9,7 +9,7 @@ use nalgebra::Point2;
 use super::{APART, ROOM, goal, pilot, room};
 
 #[test]
-fn a_robot_that_is_walled_in_is_told_by_what() {
+fn the_enclosure_of_a_robot_is_reported() {
     let (_, pilot) = pilot("rh0");
     // The gap beside the wall is narrower than the robot's core.
     let map = room(&ROOM.replace("box = [0.1, 1.5]", "box = [0.1, 2.4]").replace("at = [1.6, 0.8]", "at = [1.6, 1.2]"));
@@ -73,7 +73,7 @@ fn bad_input_is_refused() {
 
 /// For a body wider than every passage no path exists, which is reported. On a floor without walls it does not leave the map.
 #[test]
-fn a_body_wider_than_every_passage_gets_nowhere() {
+fn a_body_wider_than_every_passage_has_no_path() {
     let walker =
         groebot_humanoid::walkers::walker("rh0", groebot_humanoid::walkers::Outline::Measured).unwrap().unwrap();
     let usual = walker.gaits[0].1.clone();

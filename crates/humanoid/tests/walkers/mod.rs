@@ -8,7 +8,7 @@ use groebot_robot::spatial::Pose;
 use nalgebra::{Matrix4, Vector3, Vector4};
 
 #[test]
-fn nao_has_24_joints_and_weighs_what_its_documentation_says() {
+fn nao_has_24_joints_and_its_documented_mass() {
     let nao = nao_v5();
     assert!((nao.mass() - 5.305).abs() < 5e-4, "{}", nao.mass());
     let names: Vec<&str> = nao.moving().iter().map(|joint| nao.joints()[*joint].name.as_str()).collect();

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use super::ask::Measure;
 use super::map::ReachMap;
+use super::request::Measure;
 use groebot_robot::drawing::frame::{BELOW, Frame};
 use groebot_robot::drawing::svg::Svg;
 

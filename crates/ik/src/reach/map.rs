@@ -1,8 +1,8 @@
 //! Reachability map of a solver. Main type: [`ReachMap`].
 
-use super::ask::{Ask, Measure};
 use super::grid::Grid;
 use super::poses::POSITION;
+use super::request::{Measure, Request};
 use crate::solver::{Program, Unit};
 
 /// The counts at one place.
@@ -33,7 +33,7 @@ pub struct ReachMap {
     pub grid: Grid,
     /// Number of orientations at each place.
     pub orientations: usize,
-    /// The seed of the rotations of the orientations, see [`Ask::seed`].
+    /// The seed of the rotations of the orientations, see [`Request::seed`].
     pub seed: Option<u64>,
     /// The quantities that were counted.
     pub measure: Measure,
@@ -48,18 +48,18 @@ impl ReachMap {
     ///
     /// # Panics
     /// If the number of entries is not that of the places.
-    pub fn of(program: &Program, ask: &Ask, orientations: usize, entries: Vec<Entry>) -> Self {
-        assert_eq!(entries.len(), ask.grid.places(), "an entry for each place");
+    pub fn of(program: &Program, request: &Request, orientations: usize, entries: Vec<Entry>) -> Self {
+        assert_eq!(entries.len(), request.grid.places(), "an entry for each place");
         let unit = program.inputs.iter().find(|input| POSITION.contains(&input.name.as_str())).map(|input| input.unit);
         ReachMap {
             solver: program.name.clone(),
             task: program.about.as_ref().map_or_else(|| "its equations".to_owned(), |about| about.task.clone()),
             unit: unit.map_or("", Unit::symbol).to_owned(),
-            grid: ask.grid,
+            grid: request.grid,
             orientations,
-            seed: ask.seed,
-            measure: ask.measure,
-            limited: ask.limits.is_some() || ask.measure == Measure::Limits,
+            seed: request.seed,
+            measure: request.measure,
+            limited: request.limits.is_some() || request.measure == Measure::Limits,
             entries,
         }
     }

@@ -4,16 +4,16 @@
 //! A pose is computed from its index and not stored (F. Zacharias, C. Borst and G. Hirzinger, Capturing robot workspace structure: representing robot
 //! capabilities, IROS 2007).
 
-mod ask;
 mod drawing;
 mod grid;
 mod map;
 mod orientations;
 mod poses;
+mod request;
 mod stored;
 mod survey;
 
-pub use ask::{Ask, Measure};
 pub use grid::{Axis, Grid};
 pub use map::{Entry, ReachMap};
+pub use request::{Measure, Request};
 pub use survey::{Solves, Survey};

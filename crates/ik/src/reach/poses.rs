@@ -5,9 +5,9 @@ use std::ops::Range;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::ask::Ask;
 use super::grid::Grid;
 use super::orientations::{Turn, direction, rotation};
+use super::request::Request;
 use crate::solver::{Condition, Program};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
@@ -54,13 +54,13 @@ impl Poses {
     /// - [`ErrorKind::Unsupported`] for a task without a position, or with inputs that are neither that, an orientation, nor given joints.
     /// - [`ErrorKind::BadValue`] for no orientations or more than 10^6, for a number of given values that is not that of the given joints, and for several
     ///   places on an axis without a coordinate in the task.
-    pub(super) fn new(program: &Program, ask: &Ask) -> Result<Self> {
-        let Ask { orientations, ref given, .. } = *ask;
+    pub(super) fn new(program: &Program, request: &Request) -> Result<Self> {
+        let Request { orientations, ref given, .. } = *request;
         if !(1..=MOST).contains(&orientations) {
             let text = format!("{orientations} orientations at a place; 1 to {MOST} are allowed");
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let targets = ask.grid.places().saturating_mul(orientations);
+        let targets = request.grid.places().saturating_mul(orientations);
         limits::check_count("targets, places times orientations,", targets, limits::REACH_TARGETS)?;
         let position = POSITION.map(|name| input(program, name));
         let spread = Spread::of(program, orientations);
@@ -77,20 +77,28 @@ impl Poses {
         }
         if others.len() != given.len() || !given.iter().all(|value| value.is_finite()) {
             let names: Vec<&str> = program.inputs[others.clone()].iter().map(|input| input.name.as_str()).collect();
-            let asked = if names.is_empty() { "none are".to_owned() } else { names.join(", ") };
+            let required = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
             let text = format!(
-                "{} finite values of given joints are required ({asked}); {given:?} are specified",
+                "{} finite values of given joints are required ({required}); {given:?} are specified",
                 others.len()
             );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let idle = position.iter().zip(ask.grid.axes()).zip(["x", "y", "z"]);
+        let idle = position.iter().zip(request.grid.axes()).zip(["x", "y", "z"]);
         if let Some(((_, axis), name)) = idle.into_iter().find(|((input, axis), _)| input.is_none() && axis.count > 1) {
             let text = format!("the task has no {name}; use 1 place instead of {} on that axis", axis.count);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let given = others.zip(given.iter().copied()).collect();
-        Ok(Poses { inputs: program.inputs.len(), grid: ask.grid, position, spread, given, seed: ask.seed, wrist: None })
+        Ok(Poses {
+            inputs: program.inputs.len(),
+            grid: request.grid,
+            position,
+            spread,
+            given,
+            seed: request.seed,
+            wrist: None,
+        })
     }
 
     /// Number of orientations at each place.
@@ -129,7 +137,7 @@ impl Poses {
         kept.clear();
         let orientations = self.orientations();
         let (mut here, mut at, mut turn) = (None, [0.0; 3], Turn::none());
-        let (mut way, mut room) = (Vector3::zeros(), f64::INFINITY);
+        let (mut offset, mut room) = (Vector3::zeros(), f64::INFINITY);
         for number in numbers {
             let (place, orientation) = (number / orientations, number % orientations);
             if here != Some(place) {
@@ -137,11 +145,11 @@ impl Poses {
                 turn = self.seed.map_or(Turn::none(), |seed| Turn::by_chance(seed, place));
                 if let Some((ball, _)) = &self.wrist {
                     // |w + o|^2 <= r^2, with w from the ball's centre to the tip, and o from there to the point.
-                    way = turn.back(&(Vector3::from(at) - ball.middle.coords));
-                    room = (ball.radius.powi(2) - way.norm_squared() - ball.point.coords.norm_squared()) / 2.0;
+                    offset = turn.back(&(Vector3::from(at) - ball.middle.coords));
+                    room = (ball.radius.powi(2) - offset.norm_squared() - ball.point.coords.norm_squared()) / 2.0;
                 }
             }
-            if self.wrist.as_ref().is_some_and(|(_, offsets)| way.dot(&offsets[orientation]) > room) {
+            if self.wrist.as_ref().is_some_and(|(_, offsets)| offset.dot(&offsets[orientation]) > room) {
                 continue;
             }
             let target = &mut targets[kept.len() * self.inputs..][..self.inputs];

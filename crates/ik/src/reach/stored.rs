@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use serde::{Deserialize, Serialize};
 
-use super::ask::Measure;
 use super::grid::{Axis, Grid};
 use super::map::{Entry, ReachMap};
 use super::poses::MOST;
+use super::request::Measure;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::JsonFormat;
 

@@ -7,9 +7,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::ask::{Ask, Measure};
 use super::map::{Entry, ReachMap};
 use super::poses::Poses;
+use super::request::{Measure, Request};
 use crate::solver::{JointValue, Program, Solved, Solver};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::{Ball, Chain, Solution};
@@ -54,7 +54,7 @@ pub struct Survey<'a> {
     chain: Option<&'a Chain>,
     /// A ball that the tip cannot leave.
     ball: Option<Ball>,
-    ask: &'a Ask,
+    request: &'a Request,
     poses: Poses,
     /// By joint, whether it is revolute.
     turns: Vec<bool>,
@@ -79,8 +79,13 @@ impl<'a> Survey<'a> {
     ///   manipulability without a chain.
     /// - [`ErrorKind::BadValue`] for no orientations or more than 10^6, for a number of given values that is not that of the given joints, for several places
     ///   on an axis without a coordinate in the task, and for limits that are invalid or missing in the description.
-    pub fn new(solver: &'a dyn Solves, program: &'a Program, chain: Option<&'a Chain>, ask: &'a Ask) -> Result<Self> {
-        let poses = Poses::new(program, ask)?;
+    pub fn new(
+        solver: &'a dyn Solves,
+        program: &'a Program,
+        chain: Option<&'a Chain>,
+        request: &'a Request,
+    ) -> Result<Self> {
+        let poses = Poses::new(program, request)?;
         let turns: Vec<bool> =
             program.joints.iter().map(|joint| matches!(joint.value, JointValue::Angle { .. })).collect();
         if let Some(chain) = chain.filter(|chain| chain.joints().len() != turns.len()) {
@@ -95,19 +100,19 @@ impl<'a> Survey<'a> {
             Some(wrist) => poses.within(wrist),
             None => poses,
         };
-        let chain = chain.filter(|_| ask.measure == Measure::Manipulability);
-        if ask.measure == Measure::Manipulability && chain.is_none() {
+        let chain = chain.filter(|_| request.measure == Measure::Manipulability);
+        if request.measure == Measure::Manipulability && chain.is_none() {
             let text = "manipulability requires the chain of the solver; give the folder of its derivation";
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
-        let limits = match (&ask.limits, ask.measure) {
-            (None, Measure::Limits) => Some(Ask::described(program)?),
+        let limits = match (&request.limits, request.measure) {
+            (None, Measure::Limits) => Some(Request::described(program)?),
             (limits, _) => limits.clone(),
         };
         if let Some(limits) = &limits {
             check(limits, program)?;
         }
-        Ok(Survey { solver, program, chain, ball, ask, poses, turns, limits })
+        Ok(Survey { solver, program, chain, ball, request, poses, turns, limits })
     }
 
     /// Number of orientations at each place.
@@ -123,7 +128,7 @@ impl<'a> Survey<'a> {
     /// # Panics
     /// If the grid does not have these places.
     pub fn entries(&self, places: Range<usize>, watch: &Watch) -> Result<Vec<Entry>> {
-        assert!(places.end <= self.ask.grid.places(), "the grid has {} places", self.ask.grid.places());
+        assert!(places.end <= self.request.grid.places(), "the grid has {} places", self.request.grid.places());
         let share = (PIECE / self.orientations()).max(1);
         let done = AtomicUsize::new(0);
         let mut entries = vec![Entry::default(); places.len()];
@@ -142,8 +147,8 @@ impl<'a> Survey<'a> {
     /// # Errors
     /// Same as [`Survey::entries`].
     pub fn map(&self, watch: &Watch) -> Result<ReachMap> {
-        let entries = self.entries(0..self.ask.grid.places(), watch)?;
-        Ok(ReachMap::of(self.program, self.ask, self.orientations(), entries))
+        let entries = self.entries(0..self.request.grid.places(), watch)?;
+        Ok(ReachMap::of(self.program, self.request, self.orientations(), entries))
     }
 
     /// Counts at the places from index `first` on.
@@ -178,7 +183,7 @@ impl<'a> Survey<'a> {
 
     /// Whether a place is out of reach of the chain.
     fn is_beyond(&self, place: usize) -> bool {
-        let at = Point3::from(self.ask.grid.at(place));
+        let at = Point3::from(self.request.grid.at(place));
         self.ball.is_some_and(|ball| !ball.holds(&at))
     }
 

@@ -20,22 +20,28 @@ fn folder(name: &str) -> PathBuf {
 }
 
 #[test]
-fn a_program_says_what_it_comes_from() {
+fn a_program_names_its_source() {
     for (name, task) in [("planar_2r", "planar_position in xy"), ("nao_head", "direction of [1, 0, 0]")] {
         let mut source = Source::read(&folder(name)).unwrap();
         let about = |source: &Source| {
             Derivation::of(source, &Watch::none()).unwrap().about(source).program().about.clone().unwrap()
         };
-        let told = about(&source);
-        assert_eq!((told.task.as_str(), told.base.as_deref()), (task, None), "{name}");
+        let about_source = about(&source);
+        assert_eq!((about_source.task.as_str(), about_source.base.as_deref()), (task, None), "{name}");
         let limits: Vec<_> = source.chain.as_ref().unwrap().joints().iter().map(|joint| joint.limits).collect();
-        assert!(told.limits == limits || limits.iter().all(Option::is_none) && told.limits.is_empty(), "{told:?}");
-        assert!(told.hash.len() == 16 && told.hash.bytes().all(|byte| byte.is_ascii_hexdigit()), "{told:?}");
+        assert!(
+            about_source.limits == limits || limits.iter().all(Option::is_none) && about_source.limits.is_empty(),
+            "{about_source:?}"
+        );
+        assert!(
+            about_source.hash.len() == 16 && about_source.hash.bytes().all(|byte| byte.is_ascii_hexdigit()),
+            "{about_source:?}"
+        );
         source.text.push(' ');
         source.links = Some(["torso".into(), "hand".into()]);
         let other = about(&source);
         let links = (other.base.as_deref(), other.tip.as_deref());
-        assert!(other.hash != told.hash && links == (Some("torso"), Some("hand")), "{other:?}");
+        assert!(other.hash != about_source.hash && links == (Some("torso"), Some("hand")), "{other:?}");
     }
     // From the root of a URDF to its only leaf, without names in the input.
     for text in ["5_solver.h", "5_solver.rs", "5_ikfast.cpp"]

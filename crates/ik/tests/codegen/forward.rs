@@ -9,7 +9,7 @@ use super::samples::{arm, leg, polar, wrist};
 use super::stored::{all, joint_values, reached};
 
 #[test]
-fn every_stored_chain_reaches_what_its_forward_kinematics_say() {
+fn every_stored_chain_reaches_its_forward_kinematics() {
     let mut chains = 0;
     for stored in all() {
         let Some(chain) = stored.chain else { continue };
@@ -39,7 +39,7 @@ fn every_stored_chain_reaches_what_its_forward_kinematics_say() {
 }
 
 #[test]
-fn the_joint_that_is_given_is_told_from_the_target() {
+fn a_given_joint_is_distinguished_from_the_target() {
     for stored in all() {
         let Some(chain) = &stored.chain else { continue };
         let Some(forward) = stored.program.forward() else { continue };

@@ -68,7 +68,7 @@ fn answers_are_equal(program: &Program, targets: &[Vec<f64>], executables: &[Exe
             let place = format!("{} in {language} at {target:?}", program.name);
             check(program, target, expected, &mut numbers, &place, &mut report);
         }
-        assert_eq!(numbers.next(), None, "{language} says more than it was asked");
+        assert_eq!(numbers.next(), None, "{language} prints more numbers than expected");
     }
     println!("{}: {} targets, {report:?}", program.name, targets.len());
     Some(report)

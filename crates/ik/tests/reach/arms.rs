@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use groebot_ik::Watch;
-use groebot_ik::reach::{Ask, Measure, Survey};
+use groebot_ik::reach::{Measure, Request, Survey};
 use groebot_robot::kinematics::screw::ScrewSolver;
 use groebot_robot::kinematics::{Chain, Target};
 use groebot_robot::spatial::Pose;
@@ -28,7 +28,7 @@ fn rotations(count: usize) -> Vec<UnitQuaternion<f64>> {
 fn two_links_reach_a_ring() {
     let (long, short) = (0.5, 0.4);
     let places = grid([(-1.0, 1.0, 41), (-1.0, 1.0, 41), (0.0, 0.0, 1)]);
-    let found = map("planar_2r", &Ask { measure: Measure::Manipulability, ..Ask::new(places) }).unwrap();
+    let found = map("planar_2r", &Request { measure: Measure::Manipulability, ..Request::new(places) }).unwrap();
     for (place, entry) in found.entries.iter().enumerate() {
         let [x, y, _] = places.at(place);
         let distance = x.hypot(y);
@@ -52,7 +52,7 @@ fn limits_leave_what_is_within() {
     let places = grid([(-0.8, 0.8, 9), (0.05, 0.85, 9), (0.0, 0.0, 1)]);
     // The elbow bends in one direction. The shoulder's limits need a whole turn, which no solution has initially.
     let limits = vec![[TAU, TAU + PI], [0.0, 3.0]];
-    let within = map("planar_2r", &Ask { limits: Some(limits), ..Ask::new(places) }).unwrap();
+    let within = map("planar_2r", &Request { limits: Some(limits), ..Request::new(places) }).unwrap();
     let mut kept = 0;
     for (place, entry) in within.entries.iter().enumerate() {
         let [x, y, _] = places.at(place);
@@ -73,15 +73,15 @@ fn self_motions_are_walked_to_within_limits() {
     // On its yaw axis the polar arm may rotate freely; half of all rotations are within limits.
     let places = grid([(0.0, 0.0, 1), (1.0, 1.6, 4), (0.0, 0.0, 1)]);
     let free = [f64::NEG_INFINITY, f64::INFINITY];
-    let all = map("polar", &Ask::new(places)).unwrap();
+    let all = map("polar", &Request::new(places)).unwrap();
     assert_eq!(all.reached(), 4);
     for yaw in [[0.3, 0.45], [-2.9, -2.75], [2.9, 3.05]] {
-        let within = map("polar", &Ask { limits: Some(vec![yaw, free, free]), ..Ask::new(places) }).unwrap();
+        let within = map("polar", &Request { limits: Some(vec![yaw, free, free]), ..Request::new(places) }).unwrap();
         assert_eq!(within.reached(), 4, "{yaw:?}");
     }
     // Beside the axis no rotation is within limits.
     let beside = grid([(0.3, 0.3, 1), (1.0, 1.6, 4), (0.0, 0.0, 1)]);
-    let within = map("polar", &Ask { limits: Some(vec![[0.3, 0.4], free, free]), ..Ask::new(beside) }).unwrap();
+    let within = map("polar", &Request { limits: Some(vec![[0.3, 0.4], free, free]), ..Request::new(beside) }).unwrap();
     assert_eq!(within.reached(), 0);
 }
 
@@ -108,7 +108,7 @@ fn arms_of_six_joints_reach_what_the_screw_solver_reaches_by_chance() {
         let witness: Vec<(f64, f64)> =
             (0..places.places()).map(|place| by_screws(&chain, places.at(place).into(), &rotations)).collect();
         for seed in [None, Some(11)] {
-            let found = map(name, &Ask { orientations: 1500, seed, ..Ask::new(places) }).unwrap();
+            let found = map(name, &Request { orientations: 1500, seed, ..Request::new(places) }).unwrap();
             for (place, entry) in found.entries.iter().enumerate() {
                 let (share, answers) = witness[place];
                 let own = f64::from(entry.answers) / 1500.0;
@@ -126,12 +126,12 @@ fn arms_of_six_joints_reach_what_the_screw_solver_reaches_by_chance() {
 #[test]
 fn tilts_and_directions_and_angles_are_spread_too() {
     // A ray, pitch and roll, and the angle in a plane: the share agrees with that for other orientations.
-    let asked =
+    let tasks =
         [("nao_left_arm", [0.06, 0.13, 0.11]), ("upright_arm", [0.3, 0.2, 0.4]), ("planar_3r", [0.5, 0.3, 0.0])];
-    for (name, at) in asked {
+    for (name, at) in tasks {
         let places = grid(at.map(|at| (at, at, 1)));
         let share = |orientations: usize, seed: Option<u64>| {
-            map(name, &Ask { orientations, seed, ..Ask::new(places) }).unwrap().index(0)
+            map(name, &Request { orientations, seed, ..Request::new(places) }).unwrap().index(0)
         };
         let dense = share(20_000, None);
         assert!(dense > 0.01, "{name}: {dense}");
@@ -202,15 +202,16 @@ fn units_and_joints_that_follow_leave_the_manipulability_as_it_is() {
 }
 
 #[test]
-fn what_lies_beyond_the_chain_is_told_as_if_it_was_asked() {
+fn places_beyond_the_chain_are_counted_as_by_the_solver() {
     for (name, reach, seed) in
         [("ur5", 1.6, None), ("ur5", 1.0, Some(3)), ("puma", 1.2, None), ("nao_left_arm", 0.35, None)]
     {
         let (chain, program) = derivation(name);
         let axis = (-reach, reach, 11);
-        let (ask, solver) = (Ask { orientations: 30, seed, ..Ask::new(grid([axis; 3])) }, program.solver());
-        let by =
-            |chain: Option<&Chain>| Survey::new(&solver, &program, chain, &ask).unwrap().map(&Watch::none()).unwrap();
+        let (request, solver) = (Request { orientations: 30, seed, ..Request::new(grid([axis; 3])) }, program.solver());
+        let by = |chain: Option<&Chain>| {
+            Survey::new(&solver, &program, chain, &request).unwrap().map(&Watch::none()).unwrap()
+        };
         let whole = by(None);
         assert_eq!(whole, by(Some(&chain)), "{name}");
         assert!(whole.reached() > 100, "{name}");
@@ -223,9 +224,10 @@ fn the_best_and_the_mean_are_those_of_all_answers() {
     let reach = chain.reach();
     let at = [0.4 * reach, 0.2 * reach, 0.3 * reach];
     // One orientation at a place: the identity rotated by the seed of the place. There are as many maps as orientations.
-    let ask = Ask { orientations: 50, measure: Measure::Manipulability, ..Ask::new(grid(at.map(|at| (at, at, 1)))) };
+    let request =
+        Request { orientations: 50, measure: Measure::Manipulability, ..Request::new(grid(at.map(|at| (at, at, 1)))) };
     let solver = program.solver();
-    let found = Survey::new(&solver, &program, Some(&chain), &ask).unwrap().map(&Watch::none()).unwrap();
+    let found = Survey::new(&solver, &program, Some(&chain), &request).unwrap().map(&Watch::none()).unwrap();
     // The rotation of the spiral in the form of the paper (M. Alexa 2022, listing 1).
     let (phi, psi) = (2f64.sqrt(), 1.533_751_168_755_204_3_f64);
     let (mut best, mut sum, mut reached) = (0.0f64, 0.0, 0);

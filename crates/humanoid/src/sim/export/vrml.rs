@@ -58,8 +58,8 @@ impl Scene {
 fn words(text: &str) -> Vec<(usize, &str)> {
     let mut words = Vec::new();
     for (place, line) in text.lines().enumerate() {
-        let told = line.split('#').next().unwrap_or("");
-        for piece in told.split(|letter: char| letter.is_whitespace() || letter == ',') {
+        let code = line.split('#').next().unwrap_or("");
+        for piece in code.split(|letter: char| letter.is_whitespace() || letter == ',') {
             let mut rest = piece;
             while let Some(at) = rest.find(BRACKETS) {
                 words.extend([(place + 1, &rest[..at]), (place + 1, &rest[at..=at])]);

@@ -1,4 +1,4 @@
-//! Options of a map. Main type: [`Ask`].
+//! Options of a map. Main type: [`Request`].
 
 use super::grid::Grid;
 use crate::solver::Program;
@@ -44,7 +44,7 @@ impl Measure {
 
 /// Options of a map: the poses, and the quantities that are counted.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ask {
+pub struct Request {
     /// The places, in the solver's unit of length. An axis without a coordinate in the task has one place.
     pub grid: Grid,
     /// Number of orientations at each place, spread evenly over all orientations that the task distinguishes. It is one if the task has no orientation.
@@ -60,10 +60,10 @@ pub struct Ask {
     pub limits: Option<Vec<[f64; 2]>>,
 }
 
-impl Ask {
+impl Request {
     /// Options for one orientation at each place, with its solutions counted.
     pub fn new(grid: Grid) -> Self {
-        Ask { grid, orientations: 1, seed: None, given: Vec::new(), measure: Measure::Count, limits: None }
+        Request { grid, orientations: 1, seed: None, given: Vec::new(), measure: Measure::Count, limits: None }
     }
 
     /// The limits in the description of a program's source, infinite for joints without limits.
