@@ -111,7 +111,7 @@ pub(super) trait Subject {
     fn is_found_by_screws(&self, answer: &Solution) -> bool;
 
     /// The target that `q` reaches with each joint moved by a fraction of a displacement; `shift` gives that displacement for the number of a joint.
-    fn beside(&self, target: &[f64], q: Vec<f64>, shift: &dyn Fn(usize) -> f64) -> Option<Vec<f64>>;
+    fn moved_target(&self, target: &[f64], q: Vec<f64>, shift: &dyn Fn(usize) -> f64) -> Option<Vec<f64>>;
 
     /// The joint vectors that the numeric oracle finds from a number of starting points.
     ///
@@ -248,22 +248,22 @@ impl Check<'_> {
             row.oracle = Some(found.len());
             faults.extend((!self.has_found(&row.target, answers, &found)).then_some(Fault::Oracle));
         }
-        faults.extend((!self.agrees_beside(row, answers)?).then_some(Fault::Moved));
+        faults.extend((!self.agrees_when_moved(row, answers)?).then_some(Fault::Moved));
         Ok(faults)
     }
 
     /// Whether each ordinary solution of a reached target that is moved by [`MOVED`] is next to one of these.
-    fn agrees_beside(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
+    fn agrees_when_moved(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
         let q = row.joints.clone().or_else(|| answers.first().map(|answer| answer.q.clone()));
-        let beside = q.and_then(|q| self.subject.beside(&row.target, q, &|number| MOVED * share(number)));
-        let Some(beside) = beside else { return Ok(true) };
-        let others = match self.solver.solve(&beside) {
+        let moved = q.and_then(|q| self.subject.moved_target(&row.target, q, &|number| MOVED * share(number)));
+        let Some(moved) = moved else { return Ok(true) };
+        let others = match self.solver.solve(&moved) {
             Err(error) if error.kind() == ErrorKind::Unsupported => return Ok(true),
-            others => self.completed(&beside, others?),
+            others => self.completed(&moved, others?),
         };
         Ok(others.iter().all(|other| {
-            let sigma = self.subject.sigma(&beside, &other.q);
-            sigma <= ORDINARY || self.is_near(&beside, &other.q, answers, FOLLOWS * MOVED / sigma)
+            let sigma = self.subject.sigma(&moved, &other.q);
+            sigma <= ORDINARY || self.is_near(&moved, &other.q, answers, FOLLOWS * MOVED / sigma)
         }))
     }
 

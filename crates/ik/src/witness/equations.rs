@@ -52,7 +52,7 @@ struct InEquations<'a> {
 
 impl InEquations<'_> {
     /// Whether `q` is `answer`, or a member of the self-motion that it represents.
-    fn stands_for(&self, target: &[f64], answer: &Solution, q: &[f64]) -> bool {
+    fn represents(&self, target: &[f64], answer: &Solution, q: &[f64]) -> bool {
         if answer.free.is_empty() {
             return self.model.matches(target, q, &answer.q);
         }
@@ -105,20 +105,20 @@ impl Subject for InEquations<'_> {
     /// The distance is without free joints.
     fn known(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> (Option<f64>, Option<Fault>) {
         let gap = |answer: &Solution| self.model.distance(target, q, &member(answer, q));
-        let is_found = answers.iter().any(|answer| self.stands_for(target, answer, q));
+        let is_found = answers.iter().any(|answer| self.represents(target, answer, q));
         (answers.iter().map(gap).reduce(f64::min), (!is_found).then_some(Fault::Missing))
     }
 
     fn covers(&self, target: &[f64], some: &[Solution], answer: &Solution) -> bool {
         let is_sure = self.model.misfit(target, &answer.q) <= EXACT;
-        !is_sure || some.iter().any(|other| self.stands_for(target, other, &answer.q))
+        !is_sure || some.iter().any(|other| self.represents(target, other, &answer.q))
     }
 
     fn is_found_by_screws(&self, _: &Solution) -> bool {
         true
     }
 
-    fn beside(&self, target: &[f64], q: Vec<f64>, shift: &dyn Fn(usize) -> f64) -> Option<Vec<f64>> {
+    fn moved_target(&self, target: &[f64], q: Vec<f64>, shift: &dyn Fn(usize) -> f64) -> Option<Vec<f64>> {
         let sizes = self.model.joint_sizes(target);
         let moved: Vec<f64> = (0..q.len()).map(|joint| q[joint] + shift(joint) * sizes[joint]).collect();
         self.model.inputs_at(&moved, target)

@@ -1,5 +1,10 @@
-//! Numeric checks of a derived program by independent witnesses: the original equations in floating point, joint values that made the target, forward
-//! kinematics, the exact number of real roots (Sturm), the screw solver, a numeric oracle.
+//! Numeric checks of a derived program by independent witnesses:
+//! * the original equations in floating point;
+//! * joint values that made the target;
+//! * forward kinematics;
+//! * the exact number of real roots (Sturm);
+//! * the screw solver;
+//! * a numeric oracle.
 
 mod accuracy;
 pub mod chain;

@@ -171,7 +171,7 @@ impl Subject for Moving<'_> {
         self.model.sigma(&answer.q) > ORDINARY && jacobian.nrows() <= jacobian.ncols()
     }
 
-    fn beside(&self, _: &[f64], mut q: Vec<f64>, shift: &dyn Fn(usize) -> f64) -> Option<Vec<f64>> {
+    fn moved_target(&self, _: &[f64], mut q: Vec<f64>, shift: &dyn Fn(usize) -> f64) -> Option<Vec<f64>> {
         for (number, &joint) in self.model.unknown().iter().enumerate() {
             q[joint] += shift(number) * self.model.unit(joint);
         }
