@@ -1,7 +1,8 @@
 //! The report that explains a derivation to students.
 //!
 //! It shows the equations that determine each joint, the joints that cancel, and the polynomials. It explains why each basis is correct, the origin of each
-//! behaviour at singularities. [`explain`] makes a [`Document`], which is printed as Markdown, LaTeX or plain text. A [`Stage`] is a part of it.
+//! branch, and the behaviour at singularities. [`explain`] makes a [`Document`], which is printed as Markdown, LaTeX or plain text.
+//! A [`Stage`] is a part of it.
 
 mod algebra;
 mod chain;
