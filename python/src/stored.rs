@@ -11,7 +11,7 @@ use groebot::solver::{self, Condition, Placement, Program, TaskPlacement};
 use groebot::{Error, ErrorKind, Result, Watch};
 use serde_json::{Value, json};
 
-use crate::arrays::Asked;
+use crate::arrays::TargetShape;
 use crate::kernel::{Interpreted, Kernel};
 use crate::known;
 use crate::origin::{CERTIFICATE, Origin};
@@ -33,7 +33,7 @@ pub struct Stored {
     /// The text of the stored proof.
     certificate: Option<String>,
     proved: OnceLock<Arc<Derivation>>,
-    pub asked: Asked,
+    pub target_shape: TargetShape,
     /// Where base and tool are.
     pub placement: Option<TaskPlacement>,
     /// The solver of the library, prepared at its first use.
@@ -48,7 +48,7 @@ impl Stored {
             Some(known) => known.kernel(),
             None => Arc::new(Interpreted::new(&program)) as Arc<dyn Kernel>,
         };
-        let asked = asked(&program);
+        let target_shape = target_shape(&program);
         let is_printed = printed.is_some();
         Stored {
             program,
@@ -58,7 +58,7 @@ impl Stored {
             origin,
             certificate,
             proved: OnceLock::new(),
-            asked,
+            target_shape,
             placement: None,
             library: OnceLock::new(),
         }
@@ -72,7 +72,7 @@ impl Stored {
         let placement = Some(TaskPlacement::new(&self.program, placement)?);
         let (program, kernel) = (self.program.clone(), Arc::clone(&self.kernel));
         let (chain, origin) = (self.chain.clone(), self.origin.clone());
-        let (is_printed, asked) = (self.is_printed, self.asked);
+        let (is_printed, target_shape) = (self.is_printed, self.target_shape);
         Ok(Stored {
             program,
             kernel,
@@ -81,7 +81,7 @@ impl Stored {
             origin,
             certificate: None,
             proved: OnceLock::new(),
-            asked,
+            target_shape,
             placement,
             library: OnceLock::new(),
         })
@@ -210,7 +210,7 @@ impl Stored {
 }
 
 /// The shape of a program's targets.
-fn asked(program: &Program) -> Asked {
+fn target_shape(program: &Program) -> TargetShape {
     let given = program.given().len();
     let own = program.inputs.len() - given;
     let mut rotations = program.conditions.iter().filter_map(|condition| match condition {
@@ -218,5 +218,5 @@ fn asked(program: &Program) -> Asked {
         Condition::Unit(_) => None,
     });
     let rotation = rotations.next().filter(|_| rotations.next().is_none());
-    Asked { own, given, rotation, is_pose: own == 12 && rotation == Some(3) }
+    TargetShape { own, given, rotation, is_pose: own == 12 && rotation == Some(3) }
 }

@@ -31,7 +31,10 @@ pub fn real_roots_of<'w>(coefficients: &[BigRational], watch: impl Into<Option<&
     let watch = Watch::or_none(watch);
     let polynomial = integral(coefficients);
     if polynomial.is_empty() {
-        return Err(Error::new(ErrorKind::BadValue, "every number is a root of the zero polynomial; give another"));
+        return Err(Error::new(
+            ErrorKind::BadValue,
+            "every number is a root of the zero polynomial; give a nonzero polynomial",
+        ));
     }
     let parts = square_free_parts(&polynomial);
     let radical = parts.iter().fold(vec![BigInt::one()], |f, (_, part)| product(&f, part));
