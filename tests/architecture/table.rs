@@ -28,7 +28,7 @@ const TABLE: [(&str, Uses); 28] = [
         "witness",
         Uses::Only(&["number", "poly", "groebner", "roots", "real", "spatial", "kinematics", "solver", "derive"]),
     ),
-    ("codegen", Uses::Only(&["number", "dynamics", "solver"])),
+    ("codegen", Uses::Only(&["number", "kinematics", "dynamics", "solver"])),
     ("motion", Uses::Only(&["spatial", "model", "kinematics"])),
     ("gait", Uses::Only(&["drawing", "spatial", "model", "kinematics", "dynamics", "motion"])),
     ("walkers", Uses::Only(&["spatial", "model", "kinematics", "robots", "gait"])),

@@ -2,7 +2,6 @@
 
 use super::ask::{Ask, Measure};
 use super::grid::Grid;
-use super::poses::POSITION;
 use crate::solver::{Program, Unit};
 
 /// What was found at a place.
@@ -50,10 +49,11 @@ impl ReachMap {
     /// For another number of entries than places.
     pub fn of(program: &Program, ask: &Ask, orientations: usize, entries: Vec<Entry>) -> Self {
         assert_eq!(entries.len(), ask.grid.places(), "an entry for each place");
-        let unit = program.inputs.iter().find(|input| POSITION.contains(&input.name.as_str())).map(|input| input.unit);
+        let tip = program.tip().filter(|tip| tip.layout().lengths() > 0);
+        let unit = tip.map(|tip| program.inputs[tip.first_input].unit);
         ReachMap {
             solver: program.name.clone(),
-            task: program.about.as_ref().map_or_else(|| "its equations".to_owned(), |about| about.task.clone()),
+            task: program.asked(),
             unit: unit.map_or("", Unit::symbol).to_owned(),
             grid: ask.grid,
             orientations,

@@ -3,10 +3,11 @@
 use nalgebra::Vector3;
 use num_traits::{One, Zero};
 
-use super::parts::{TOLERANCE, show};
+use super::parts::TOLERANCE;
 use super::validate::check_plane;
 use super::{BaseAxis, Chain, ExactVector, Joint, JointKind};
 use crate::document::shown;
+use crate::spatial::exact::vector::show;
 use crate::spatial::exact::vector::sine;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;

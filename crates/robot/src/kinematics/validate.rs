@@ -3,11 +3,12 @@
 
 use num_traits::{One, Signed, Zero};
 
-use super::parts::{ChainParts, Joint, JointKind, Tip, WIDEST, show};
+use super::parts::{ChainParts, Joint, JointKind, Tip, WIDEST};
 use super::task::Plane;
 use super::{ExactMatrix, ExactVector};
 use crate::document::{one_among, shown};
 use crate::model::is_plain;
+use crate::spatial::exact::vector::show;
 use crate::spatial::exact::vector::{cosine, sine};
 use crate::{Error, ErrorKind};
 use groebot_algebra::limits;

@@ -73,6 +73,15 @@ fn share(a: &ExactVector, b: &ExactVector, part: impl Fn(&BigInt, &BigInt) -> Bi
     root(&BigRational::new_raw(part(&product, &lengths), lengths))
 }
 
+/// Formats a vector as `[1/2, 0, 1]`.
+pub fn show(vector: &ExactVector) -> String {
+    let [x, y, z] = vector.each_ref().map(|entry| match entry.to_string() {
+        short if short.len() <= 24 => short,
+        _ => entry.to_f64().unwrap_or(f64::NAN).to_string(),
+    });
+    format!("[{x}, {y}, {z}]")
+}
+
 /// A line in space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
