@@ -1,13 +1,13 @@
 //! Closed-form inverse kinematics that is complete and proven: from a description of a mechanism to a solver of all solutions.
 //!
-//! The modules stand in the order of the way that the data goes; each stage is plain data that prints.
+//! The modules are in the order of the data flow. Each stage is a plain struct that implements `Display`.
 //!
 //! ```
 //! use groebot::codegen;
 //! use groebot::kinematics::Target;
 //! use groebot::model::Robot;
 //!
-//! // A robot as its file describes it, here with angles of 1.5708, and the chain from its root to its tip.
+//! // A robot from its description, here with angles of 1.5708, and the chain from its root to its tip.
 //! let robot = Robot::read("tests/corpus/urdf/ur5.urdf")?;
 //! let chain = robot.chain(None, None)?;
 //!
@@ -15,7 +15,7 @@
 //! let derivation = groebot::derive(&chain)?;
 //! let solver = derivation.solver();
 //!
-//! // All solutions of a pose, and forward kinematics as their witness.
+//! // All solutions of a pose, checked by forward kinematics.
 //! let pose = chain.forward(&[0.1, -1.2, 1.4, -0.3, 0.8, 0.5])?;
 //! let solutions = solver.solve(&pose)?;
 //! assert_eq!(solutions.len(), 8);
@@ -29,7 +29,7 @@
 //! # Ok::<(), groebot::Error>(())
 //! ```
 //!
-//! The polynomials of a mechanism whose equations are one block, such as NAO's leg in its sagittal plane, are what [`derive::Derivation`] shows:
+//! A mechanism may have one block of equations, such as NAO's leg in its sagittal plane. [`derive::Derivation`] displays its polynomials:
 //! `examples/02_planar_leg.rs`.
 #![cfg_attr(test, allow(missing_docs))]
 

@@ -51,7 +51,7 @@ def puma():
 
 
 def puma_symbolic():
-    """The same with its four lengths as parameters."""
+    """Same as `position`, but with its four lengths as parameters."""
     a2, a3, d3, d4 = unknowns(["a2", "a3", "d3", "d4"])
     return position([(0, 0, "-1"), (d3, a2, "0"), (0, -a3, "1")], (0, 0, d4), ["a2", "a3", "d3", "d4"])
 

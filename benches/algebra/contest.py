@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Groebner bases by groebot and its peers, interleaved, on one processor. README.md says how to run it.
+"""Groebner bases by groebot and its peers, interleaved, on one processor. README.md describes its use.
 
     contest.py                                           all lines, all peers
     contest.py --only katsura-9,noon-8 --peers msolve,crate --field 'GF(32003)' --order grevlex
-    contest.py --corpus --without-ours --peers msolve,giac,crate --rounds 1 --limit 10       who agrees with the corpus
+    contest.py --corpus --without-ours --peers msolve,giac,crate --rounds 1 --limit 10       whose results agree with the corpus
     contest.py --output ../record/2026-11-21-groebner.csv
 """
 
@@ -70,7 +70,7 @@ def matches(problem, arguments):
 
 
 def contest(problem, players, arguments):
-    """The results of every player, round by round; one that fails, is slow or answers wrongly plays no further round."""
+    """The results of all contestants, round by round. A contestant that fails, is slow or returns a wrong result is excluded from later rounds."""
     results = {name: [] for name, player in players.items() if player.accepts(problem)}
     for turn in range(arguments.rounds):
         for name, found in results.items():
@@ -81,14 +81,14 @@ def contest(problem, players, arguments):
 
 
 def checked(problem, result):
-    """The result, without its time when its answer differs from the corpus."""
+    """The result, without its time if its basis differs from the corpus."""
     if result.basis is not None and problem.known_hash not in (None, problem.hash_of(result.basis)):
         return contestants.Result(None, result.memory_kb, "wrong")
     return result
 
 
 def row(problem, results):
-    """One line of the record: medians of the rounds, the best peer, and our time as a multiple of its time."""
+    """One row of the record: medians of the rounds, the fastest peer, and our time divided by its time."""
     medians = {name: median(found) for name, found in results.items()}
     times = {f"{name}_s": text(medians[name] or results[name][-1].note) for name in results}
     peers = {name: seconds for name, seconds in medians.items() if name != "ours" and seconds}
@@ -102,13 +102,13 @@ def row(problem, results):
 
 
 def median(found):
-    """The median time, None when a run failed."""
+    """The median time; None if a run failed."""
     seconds = [result.seconds for result in found]
     return None if None in seconds else statistics.median(seconds)
 
 
 def notes(results):
-    """Singular's method, and whose answers are those of the corpus."""
+    """Singular's method, and the contestants whose results agree with the corpus."""
     method = [f"singular: {found[-1].note}" for name, found in results.items() if name == "singular" and found[-1].seconds]
     agree = [name for name, found in results.items() if found[0].basis is not None]
     return "; ".join(method + ([f"checked: {' '.join(agree)}"] if agree else []))
@@ -119,7 +119,7 @@ def text(value):
 
 
 def write(path, rows):
-    """The whole record: what was measured so far, on which machine, from which commit."""
+    """Writes the whole record: the results so far, the machine and the commit."""
     with open(path, "w", newline="") as file:
         writer = csv.DictWriter(file, [*COLUMNS, "machine", "commit"], lineterminator="\n")
         writer.writeheader()

@@ -1,4 +1,4 @@
-"""The contestants: each computes the basis of a problem and tells its time, its memory and, on request, its answer."""
+"""The contestants. Each computes the basis of a problem and reports its time, its memory and, on request, its result."""
 
 import functools
 import re
@@ -17,8 +17,9 @@ INFINITE = "[1,"
 
 @dataclass
 class Result:
-    """One run; `seconds` is None with the reason in `note`. `basis`: expanded texts, if asked for and printed. `proof`: seconds of
-    the proof, or why there is none."""
+    """One run; `seconds` is None with the reason in `note`. `basis`: expanded texts, if requested and printed. `proof`: seconds of the proof, or why there is
+    none.
+    """
 
     seconds: float | None
     memory_kb: int = 0
@@ -29,7 +30,7 @@ class Result:
 
 @dataclass
 class Contestant:
-    """What all share: the program, the processor it runs on and the limit of time."""
+    """Common parts of contestants: the program, the processor on which it runs, and the time limit."""
 
     program: str
     core: int = 0
@@ -43,7 +44,7 @@ class Contestant:
         return process.run(command, self.core, self.limit, text)
 
     def startup(self, problem):
-        """The processor time on a trivial problem of the same field and order."""
+        """The processor time for a trivial problem of the same field and order."""
         key = (problem.field, problem.order)
         if key not in self.startups:
             trivial = Problem("trivial", *key, ["x", "y"], TRIVIAL)
@@ -57,7 +58,7 @@ class Contestant:
         return Result(self.refined(own, outcome, problem), outcome.memory_kb, basis=basis)
 
     def refined(self, own, _outcome, _problem):
-        """The time that counts; `own` is what the contestant's clock says."""
+        """The time that is reported; `own` is the time by the contestant's clock."""
         return own
 
 
@@ -71,7 +72,7 @@ class Rust(Contestant):
         return self.reported(problem, ["--print"] * with_answer)
 
     def reported(self, problem, options):
-        """What the program says of itself; its memory is that of the first computation."""
+        """The output of the program. Its memory is that of the first computation."""
         with tempfile.NamedTemporaryFile("w", suffix=".ms") as file:
             file.write(problem.msolve_text())
             file.flush()
@@ -88,7 +89,7 @@ class Rust(Contestant):
 
 @dataclass
 class Ours(Rust):
-    """groebot; over Q it proves the basis once, with a limit of its own."""
+    """groebot. Over Q it proves the basis once, with a separate time limit."""
 
     proof_limit: float = 20
     proofs: dict = field(default_factory=dict)
@@ -102,16 +103,17 @@ class Ours(Rust):
         return result
 
     def proof_of(self, problem):
-        """In a process of its own, whose limit counts from the start of the proof."""
+        """Runs the proof in a separate process. Its limit counts from the start of the proof."""
         limits = self.limit + self.proof_limit
         result = Ours(self.program, self.core, limits).reported(problem, ["--prove", str(self.proof_limit)])
         return result.note if result.seconds is None else result.proof
 
 
 class Msolve(Contestant):
-    """msolve: F4 (and over Q many primes); lex is its rational parametrisation, which is no basis but holds as much.
-    Its clock has hundredths of a second: the processor time, without that of the start, refines it within the rounding.
-    Modulo 2^31-1 the parametrisation does not end and takes gigabytes (version 0.10.1)."""
+    """msolve: F4 (and over Q many primes); for lex its rational parametrisation, which has the same information as the basis. Its clock has a resolution of
+    0.01 s. The processor time, minus that of the start, refines it within this resolution. Modulo 2^31-1 the parametrisation does not terminate and uses
+    gigabytes of memory (version 0.10.1).
+    """
 
     def accepts(self, problem):
         return not problem.parameters and (problem.order == "grevlex" or problem.characteristic < 2**30)
@@ -134,13 +136,13 @@ class Msolve(Contestant):
 
 
 def elements(text):
-    """The polynomials of `[f,\ng]:` without the comments in front."""
+    """The polynomials of `[f,\ng]:` without the leading comments."""
     lines = "".join(line for line in text.splitlines() if not line.startswith("#"))
     return lines.strip("[]: ").split(",")
 
 
 class Giac(Contestant):
-    """giac's gbasis, over Q with its probabilistic check. It has no correct answers modulo primes above 1073741789."""
+    """giac's gbasis, over Q with its probabilistic check. Its results modulo primes above 1073741789 are wrong."""
 
     def accepts(self, problem):
         return not problem.parameters and problem.characteristic <= 1073741789
@@ -164,7 +166,7 @@ def plain(text, variables):
 
 
 class Singular(Contestant):
-    """Singular's best method: all of them in the first round, afterwards the one that won."""
+    """Singular's fastest method: all methods in the first round, then the fastest one."""
 
     METHODS = {
         ("grevlex", True): ["std", "slimgb"],
@@ -223,7 +225,7 @@ exit;
 
 
 def roster(arguments):
-    """All contestants by name; ours comes first."""
+    """All contestants by name; groebot is first."""
     common = (arguments.core, arguments.limit)
     return {
         "ours": Ours(arguments.ours, arguments.core, arguments.limit_of_ours or arguments.limit),

@@ -54,13 +54,13 @@ class Problem:
         return f"{','.join(self.variables)}\n{head}\n" + ",\n".join(self.reduced()) + "\n"
 
     def hash_of(self, texts):
-        """The hash of a basis printed as expanded texts."""
+        """The hash of a basis, printed as expanded texts."""
         basis = [polynomials.read(text, self.variables, self.characteristic) for text in texts]
         return polynomials.basis_hash(basis, self.order, self.characteristic)
 
 
 def lines():
-    """All lines: numeric systems modulo primes and over Q in grevlex, modulo primes in lex; then the blocks with parameters."""
+    """All lines: numeric systems modulo primes and over Q in grevlex, and modulo primes in lex; then the blocks with parameters."""
     graded = family("katsura", 7, 10) + family("cyclic", 6, 8) + family("eco", 10, 12) + family("noon", 6, 8)
     rational = family("katsura", 7, 9) + family("cyclic", 6, 7) + family("noon", 6, 7) + ["eco_10"]
     change = ["katsura_7", "katsura_8", "cyclic_6", "eco_10", "noon_6"]
@@ -71,7 +71,7 @@ def lines():
 
 
 def corpus_lines():
-    """Every answer of the corpus."""
+    """All results of the corpus."""
     for path in sorted((CORPUS / "systems").glob("*.toml")):
         for answer in tomllib.loads(path.read_text()).get("answer", []):
             yield problem(path.stem, answer["field"], answer["order"])
@@ -82,7 +82,7 @@ def family(name, first, last):
 
 
 def problem(name, field_name, order):
-    """The system `name`, read from the corpus or made by its family."""
+    """The system `name`, from the corpus or from its family."""
     file = CORPUS / "systems" / f"{name}.toml"
     if not file.exists():
         word, _, size = name.rpartition("_")

@@ -1,4 +1,4 @@
-"""Runs one contestant on one processor and measures it from outside."""
+"""Runs a contestant on one processor and measures it from outside."""
 
 import os
 import pathlib
@@ -12,7 +12,7 @@ MEMORY_KB = 4 << 20
 
 @dataclass
 class Outcome:
-    """What a process left: why it has no result (empty if it has one), processor time [s], peak of resident memory [kB], output."""
+    """The result of a process: the reason why it has no result (empty if it has one), processor time [s], peak of resident memory [kB], output."""
 
     stopped: str
     cpu: float
@@ -37,7 +37,7 @@ def run(command, core, limit, text=""):
 
 
 def watch(child, limit):
-    """Waits for the end; the kernel's own maximum would count the memory of this interpreter before the start."""
+    """Waits for the end. The kernel's own maximum would include the memory of this interpreter before the start."""
     start, memory, stopped = time.monotonic(), 0, ""
     while True:
         memory = max(memory, resident_peak(child.pid))
@@ -53,7 +53,7 @@ def watch(child, limit):
 
 
 def resident_peak(pid):
-    """The line VmHWM of a process, 0 when it is gone."""
+    """The value of VmHWM of a process; 0 if it has ended."""
     try:
         status = pathlib.Path(f"/proc/{pid}/status").read_text()
     except OSError:

@@ -1,5 +1,6 @@
-"""Answers, line by line, how long other programs take for a field. A line of standard input is `file side goal`; its answer is the processor time in
-nanoseconds of scikit-fmm (order 1) and that of scikit-image. A file holds one byte a cell, 1 where it is free, then a float32 a cell, its speed."""
+"""Reports, line by line, the time that other programs need for a distance field. A line of standard input is `file side goal`. The response is the processor
+time in nanoseconds of scikit-fmm (order 1) and that of scikit-image. A file has one byte per cell, 1 where it is free, then its speed, a float32 per cell.
+"""
 
 import sys
 import time

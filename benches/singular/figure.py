@@ -1,4 +1,4 @@
-"""Draws the time of a pose against the distance of a joint from where the robot is singular: docs/singular_times.svg.
+"""Draws the time of a pose against the distance of a joint from a singular configuration: docs/singular_times.svg.
 
     python3 benches/singular/figure.py
 

@@ -1,10 +1,10 @@
-"""Time of a pose in ssik and EAIK against the distance of the wrist from where the robot is singular, and how many poses they do not solve.
+"""Time of a pose in ssik and EAIK against the distance of the wrist from a singular configuration, and the number of poses that they do not solve.
 
     python3 -m venv peers && peers/bin/pip install ssik EAIK numpy
     peers/bin/python benches/singular/peers.py 200 >> benches/record/DATE-singular-peers.csv
 
-The wrist joint stands 10^-k rad from zero, the others at random. Both are called from Python pose by pose, as they are used; processor time, the least of five
-rounds. Without: poses with no answer that reaches them within 1e-9 (m, and entries of the rotation).
+The wrist joint is at 10^-k rad, the others at random. Both are called from Python pose by pose, as in normal use. The time is the processor time, the minimum
+of five rounds. Without: poses with no solution within 1e-9 (m, and entries of the rotation).
 """
 
 import math
@@ -31,7 +31,7 @@ ROUNDS = 5
 
 
 def hp_robot(path):
-    """EAIK's robot: axes, and offsets between points on them, of which as many as can be are shared."""
+    """EAIK's robot: axes, and offsets between points on them. As many points as possible are shared."""
     table = tomllib.loads(path.read_text())
     axes = np.array([joint["axis"] for joint in table["joint"]], float)
     points = np.array([joint["point"] for joint in table["joint"]], float)
@@ -43,7 +43,7 @@ def hp_robot(path):
 
 
 def shared(axis, point, other, place):
-    """The point of the other axis that is nearest to an axis; its own one where they are parallel."""
+    """The point of the other axis that is nearest to an axis, or its own point if they are parallel."""
     normal = np.cross(axis, other)
     if normal @ normal < 1e-12:
         return place

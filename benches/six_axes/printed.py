@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Times printed solvers, Rust and C, of six axes unless others are named, at random targets, and counts lost joints.
+"""Measures generated solvers in Rust and C at random targets, and counts lost joint values. By default they are those with six axes.
 
     cargo build --release
     python3 benches/six_axes/printed.py [--poses 100000] [--folders general_6r,crx_like,/tmp/mine] [--groebot PROGRAM] > record.csv
 
-Needs rustc and cc: what they compile is the single file of run time and robot that `groebot codegen --single-file` prints. A folder is one of `derivations`, or a path. Each target is made of random joints (angles in (-pi, pi], ways in [-1, 1] lengths); it is lost when no answer is
-within 1e-6 of them. `us_mean` is processor time of all solving over the number of targets, so that other work on the machine does not count
-but by its use of the caches; the percentiles are wall time.
+Needs rustc and cc, which compile the output of `groebot codegen --single-file`. A folder is one of `derivations`, or a path. Each target is reached by random
+joint values (angles in (-pi, pi], displacements in [-1, 1] lengths). It is lost if no solution is within 1e-6 of them. `us_mean` is the processor time of all
+calls divided by the number of targets. Other processes affect it only through the caches. The percentiles are wall time.
 """
 
 import argparse
@@ -22,13 +22,13 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def sliding(printed):
-    """The indices of the joints that slide, of a solver in C."""
+    """The indices of the prismatic joints of a C solver."""
     joints = re.findall(r"GB_(ANGLE|LENGTH)\(", re.search(r"#define GB_JOINT_LIST (.*)", printed)[1])
     return [index for index, kind in enumerate(joints) if kind == "LENGTH"]
 
 
 def build(name, work, groebot):
-    """The two programs that measure a folder's solver: language, bytes of the solver, path."""
+    """Builds the two programs that measure a folder's solver: language, bytes of the solver, path."""
     folder = ROOT / "derivations" / name
     rust, c = work / f"{folder.name}_solver.rs", work / f"{folder.name}_solver.c"
     for language, file in (("rust", rust), ("c", c)):

@@ -1,9 +1,9 @@
-"""What Dask costs beside the blocks themselves, and what a block of a million poses of a UR5 spends on what.
+"""Overhead of Dask compared with the blocks themselves, and the time of each part of a block of a million poses of a UR5.
 
     pip install dist/groebot-*.whl[dask]
     python python/benches/blocks.py [rounds] [blocks] > benches/record/DATE-blocks.csv
 
-The workers take the time of each `Block.write` by their own clocks. The overhead is what is left of a run's time: one worker has nothing else to do.
+The workers measure the time of each `Block.write`. The overhead is the rest of a run's time, because the single worker does nothing else.
 """
 
 from __future__ import annotations

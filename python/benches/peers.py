@@ -1,10 +1,10 @@
-"""groebot beside other solvers of inverse kinematics for Python, in one run.
+"""groebot compared with other inverse-kinematics solvers for Python, in one run.
 
     python -m venv peers && peers/bin/pip install dist/groebot-*.whl ssik EAIK ik-geo py-opw-kinematics scipy
     peers/bin/python python/benches/peers.py > benches/record/DATE-python.csv
 
-All solve poses that random joint values reach. Contestants take turns, and the median over the rounds is told: of the time on the clock, and of the processor's time, which
-does not grow where others compute beside. A contestant that cannot be run is a row with the reason.
+All solve poses that random joint values reach. Contestants take turns. The record has the median over the rounds of the wall time and of the processor time,
+which is independent of other processes. A contestant that cannot run has a row with the reason.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ MANY, SOME = 20_000, 400
 
 
 def axes_and_offsets(solver, wrist):
-    """The axes (6, 3) and the offsets (7, 3) between points on them at zero; the joints of `wrist` share a point."""
+    """The axes (6, 3) and the offsets (7, 3) between points on them at zero. The joints of `wrist` share a point."""
     twists = solver.jacobian(np.zeros(6), "spatial").T
     axes = twists[:, 3:]
     points = np.cross(axes, twists[:, :3])
@@ -93,14 +93,14 @@ def of_opw(q):
 
 
 def turned(solver, poses):
-    """The poses as a solver by axes and offsets sees them: without the tip's rotation at zero."""
+    """The poses in the frame of a solver that uses axes and offsets: without the tip's rotation at zero."""
     bare = poses.copy()
     bare[:, :3, :3] = poses[:, :3, :3] @ solver.forward(np.zeros(6))[:3, :3].T
     return bare
 
 
 def entrants(name, wrist, family, prebuilt):
-    """The contestants of a robot, each with its number of poses and its work, or with the reason why it does not run."""
+    """The contestants of a robot: each has its number of poses and its function, or the reason why it does not run."""
     solver = groebot.Solver.named(name)
     q = np.random.default_rng(1).uniform(-3, 3, (4000, 6))
     poses = solver.forward(q)

@@ -1,6 +1,7 @@
-"""How long a map of a UR5 takes, and how much memory: writes lines of benches/record/DATE-reach.csv to standard output.
+"""Time and memory of a reach map of a UR5: writes lines of benches/record/DATE-reach.csv to standard output.
 
-`python benches/reach.py [POSES]`, by default a thousand million: a cube around the reach, a hundred orientations at each place. Poses beyond the chain's length are told from their place; how many were solved is told, too.
+`python benches/reach.py [POSES]`, by default a thousand million: a cube around the reach, a hundred orientations at each place. Poses beyond the chain's length
+are excluded by their position. The number of solved poses is reported.
 """
 
 import resource

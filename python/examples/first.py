@@ -1,4 +1,4 @@
-"""A first look: one pose, many poses, a robot of one's own, and why it holds."""
+"""First steps: one pose, many poses, a solver of your own robot, and its proof."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The blocks of `groebot.blocks` on Ray: what `groebot.dask.solve_parquet` does on Dask. `pip install groebot[parquet] ray`."""
+"""The blocks of `groebot.blocks` on Ray, as an alternative to `groebot.dask.solve_parquet`. `pip install groebot[parquet] ray`."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """Closed-form inverse kinematics that is complete and proven.
 
-A `Solver` finds all joint values that bring the tip of a chain to a target: `Solver.named("ur5")` is one that comes with groebot, `derive(Robot.from_urdf(path))`
-derives one with a proof, `Solver.load(folder)` reads one that was derived. Metres and radians everywhere; quaternions are x, y, z, w; a pose of shape (4, 4) is
-that of the tip in the frame of the chain's base.
+A `Solver` computes all joint values that move the tip of a chain to a target. `Solver.named("ur5")` returns a solver of the package.
+`derive(Robot.from_urdf(path))` derives one with a proof. `Solver.load(folder)` reads a derived one. Units are metres and radians; quaternions are x, y, z, w. A
+pose of shape (4, 4) is that of the tip in the frame of the chain's base.
 """
 
 from ._batch import Batch, PaddedBatch, Status

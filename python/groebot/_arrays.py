@@ -1,4 +1,4 @@
-"""Whatever holds numbers, as arrays of doubles."""
+"""Conversion of objects with numbers to arrays of doubles."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from ._errors import BadValueError
 
 
 def numbers(given: Any) -> tuple[npt.NDArray[np.float64], bool]:
-    """`given` as a contiguous array of doubles, and whether it has single precision.
+    """Converts `given` to a contiguous array of doubles. Also returns whether it has single precision.
 
-    scipy's Rotation and RigidTransform, spatialmath's SE3 and SO3, and pairs (position, Rotation) are taken as their matrices.
+    Rotation and RigidTransform of scipy, SE3 and SO3 of spatialmath, and pairs (position, Rotation) are converted to matrices.
     """
     array = np.asarray(_matrices(given))
     if array.dtype.kind not in "fiu":

@@ -15,42 +15,42 @@ Floats = npt.NDArray[np.floating[Any]]
 
 
 class Status(IntEnum):
-    """Why a row has no solution, or not all."""
+    """Reason why a row has no solution, or not all."""
 
     SOLVED = 0
-    """It has some."""
+    """The row has solutions."""
     UNREACHABLE = 1
-    """It is out of reach."""
+    """The target is out of reach."""
     NOT_FINITE = 2
-    """A number is infinite or none."""
+    """A number is infinite or NaN."""
     NOT_ROTATION = 3
-    """The rotation, the quaternion or the last row of the matrix is none."""
+    """The rotation matrix, the quaternion or the last row of the matrix is invalid."""
     NOT_UNIT = 4
-    """The direction is not of length one."""
+    """The direction does not have length one."""
     OPEN = 5
-    """It lies on a stratum that could not be derived."""
+    """The target is on a stratum that could not be derived."""
     BEYOND_LIMITS = 6
     """All solutions are beyond the limits."""
     UNSETTLED = 7
-    """The steps of polishing that a target may take were spent: other solutions may be missing."""
+    """The maximum number of polishing steps of a target was reached: other solutions may be missing."""
 
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """The solutions of N targets, M in all: those of row i are the rows `starts[i]` to `starts[i + 1]` of the other arrays, by branch."""
+    """The solutions of N targets, M in total. Those of row i are the rows `starts[i]` to `starts[i + 1]` of the other arrays, sorted by branch."""
 
     q: Floats
     """Joint values, (M, joints): radians in (-pi, pi], lengths in the solver's unit."""
     starts: npt.NDArray[np.int64]
-    """Where the solutions of each row begin, (N + 1,)."""
+    """Index of the first solution of each row, (N + 1,)."""
     residual: Floats
-    """The largest magnitude among the equations' values, (M,)."""
+    """The largest residual of the equations, (M,)."""
     branch: npt.NDArray[np.int32]
-    """Which roots of which equations, (M,): a branch keeps its number from target to target."""
+    """Branch number, (M,): which roots of which equations were used. A branch keeps its number from target to target."""
     free: npt.NDArray[np.uint32]
-    """Bit j is set where joint j may take any value at a singular target, (M,)."""
+    """Bit j is set if joint j is free at a singular target, (M,)."""
     status: npt.NDArray[np.uint8]
-    """Why a row has no solution, (N,): a `Status`."""
+    """The `Status` of each row, (N,)."""
     joints: tuple[str, ...]
     """The names of the joints."""
 
@@ -66,16 +66,16 @@ class Batch:
 
     @property
     def counts(self) -> npt.NDArray[np.int64]:
-        """How many solutions each row has, (N,)."""
+        """Number of solutions of each row, (N,)."""
         return np.diff(self.starts)
 
     @property
     def row(self) -> npt.NDArray[np.int64]:
-        """The row that each solution is of, (M,)."""
+        """Row of each solution, (M,)."""
         return np.repeat(np.arange(len(self)), self.counts)
 
     def padded(self, width: int | None = None) -> PaddedBatch:
-        """The same with room for `width` solutions in each row, by default for as many as a row has at most."""
+        """Converts to arrays with `width` solutions per row, by default the maximum number of a row."""
         most = int(self.counts.max(initial=0))
         width = most if width is None else width
         if width < most:
@@ -91,12 +91,12 @@ class Batch:
 
 @dataclass(frozen=True, eq=False)
 class PaddedBatch:
-    """The solutions of N targets in arrays with room for K in each row; NaN, and branch -1, stand where there is none."""
+    """The solutions of N targets in arrays with K solutions per row. Unused entries are NaN, and -1 for the branch."""
 
     q: Floats
     """Joint values, (N, K, joints)."""
     counts: npt.NDArray[np.int64]
-    """How many solutions each row has, (N,)."""
+    """Number of solutions of each row, (N,)."""
     residual: Floats
     """(N, K)."""
     branch: npt.NDArray[np.int32]
@@ -104,7 +104,7 @@ class PaddedBatch:
     free: npt.NDArray[np.uint32]
     """(N, K)."""
     status: npt.NDArray[np.uint8]
-    """Why a row has no solution, (N,): a `Status`."""
+    """The `Status` of each row, (N,)."""
     joints: tuple[str, ...]
     """The names of the joints."""
 
@@ -113,7 +113,7 @@ class PaddedBatch:
 
 
 def made(arrays: tuple[Any, ...], joints: list[str], layout: str, dtype: npt.DTypeLike | None) -> Batch | PaddedBatch:
-    """The batch of what was solved, in a layout and with a type of floats."""
+    """Builds the batch of the solutions, in a layout and with a floating-point type."""
     if layout not in ("ragged", "padded"):
         raise BadValueError(f"the layout `{layout}` is not known; give ragged or padded", "bad_value")
     q, starts, residual, branch, free, status = arrays

@@ -8,5 +8,5 @@ from . import _groebot
 
 
 def main() -> int:
-    """Runs the command on the arguments of this process: the exit status."""
+    """Runs the command with the arguments of this process. Returns the exit status."""
     return _groebot._run(["groebot", *sys.argv[1:]])

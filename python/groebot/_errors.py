@@ -7,10 +7,10 @@ import numpy.typing as npt
 
 
 class GroebotError(Exception):
-    """What went wrong: `kind` is one word to match on, the message says what is allowed.
+    """An error: `kind` is a word for tests in programs, and the message has the allowed values.
 
-    Kinds: io, syntax, unknown_key, missing_key, bad_value, duplicate_name, unknown_name, overflow, inconsistent, positive_dimensional, cancelled, budget, unsupported,
-    certificate, no_way, other.
+    Kinds: io, syntax, unknown_key, missing_key, bad_value, duplicate_name, unknown_name, overflow, inconsistent, positive_dimensional, cancelled, budget,
+    unsupported, certificate, no_way, other.
     """
 
     kind: str
@@ -28,11 +28,11 @@ class GroebotError(Exception):
 
 
 class BadValueError(GroebotError, ValueError):
-    """A value, a name or a text outside of what is allowed."""
+    """A value, a name or a text that is not allowed."""
 
 
 class NoWayError(GroebotError):
-    """There is no way over a map: nothing as wide as the body's core leaves the cells of `enclosure`, (N, 2) \\[m\\]."""
+    """There is no path over a map: a body as wide as the robot's core cannot leave the cells of `enclosure`, (N, 2) \\[m\\]."""
 
     enclosure: npt.NDArray[np.float64]
 
@@ -48,5 +48,5 @@ _VALUES = {"bad_value", "syntax", "unknown_key", "missing_key", "duplicate_name"
 
 
 def of_kind(kind: str, message: str, file: str | None, line: int | None) -> GroebotError:
-    """The exception of a kind."""
+    """The exception class of a kind."""
     return (BadValueError if kind in _VALUES else GroebotError)(message, kind, file, line)

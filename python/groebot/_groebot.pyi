@@ -13,12 +13,12 @@ __all__ = ["Robot", "Solution", "Solver", "__version__", "_reach", "_reach_as", 
 __version__: str
 
 class _Matrix(Protocol):
-    """scipy's Rotation and RigidTransform."""
+    """A Rotation or RigidTransform of scipy."""
 
     def as_matrix(self) -> npt.NDArray[Any]: ...
 
 class _Se3(Protocol):
-    """spatialmath's SE3 and SO3."""
+    """An SE3 or SO3 of spatialmath."""
 
     @property
     def A(self) -> Any: ...

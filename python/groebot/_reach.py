@@ -1,4 +1,4 @@
-"""What a solver reaches, place by place."""
+"""Reach maps of a solver over a grid."""
 
 from __future__ import annotations
 
@@ -28,25 +28,25 @@ _COLUMNS = ("reached", "answers", "open", "best", "mean")
 
 
 class Axis(NamedTuple):
-    """Places on an axis, evenly spaced."""
+    """Evenly spaced grid points on an axis."""
 
     start: float
-    """The first one, in the solver's unit of length."""
+    """The first point, in the solver's unit of length."""
     stop: float
-    """The last one."""
+    """The last point."""
     num: int
-    """How many there are."""
+    """Number of points."""
 
     @property
     def places(self) -> npt.NDArray[np.float64]:
-        """Where they are: (count,)."""
+        """The coordinates of the points, (count,)."""
         share = np.arange(self.num) / max(self.num - 1, 1)
         return self.start * (1 - share) + self.stop * share
 
 
 @dataclass(frozen=True)
 class Ask:
-    """What `reach_map` is asked for, as what JSON can hold."""
+    """The arguments of `reach_map`, as values that JSON can represent."""
 
     axes: tuple[Axis, Axis, Axis]
     orientations: int
@@ -57,7 +57,7 @@ class Ask:
 
     @property
     def places(self) -> int:
-        """How many places there are."""
+        """Number of grid points."""
         x, y, z = (axis.num for axis in self.axes)
         return x * y * z
 
@@ -69,7 +69,7 @@ class Ask:
         threads: int | None = None,
         progress: Callable[[str, int, int], object] | None = None,
     ) -> dict[str, Any]:
-        """The columns of the places from `start` to before `stop`, and the number of orientations."""
+        """The columns of the grid points from `start` to before `stop`, and the number of orientations."""
         limits = self.limits if isinstance(self.limits, (bool, type(None))) else np.asarray(self.limits, np.float64)
         given = list(self.given)
         return _reach(solver, self.axes, self.orientations, self.measure, limits, given, self.seed, start, stop, threads, progress)
@@ -83,7 +83,7 @@ def asked(
     given: npt.ArrayLike | None,
     seed: int | None,
 ) -> Ask:
-    """What is asked for, in plain numbers. `BadValueError` for what is no grid."""
+    """Converts the arguments to plain numbers. `BadValueError` for an invalid grid."""
     if isinstance(grid, Mapping):
         if unknown := set(grid) - {"x", "y", "z"}:
             raise BadValueError(f"a grid has the axes x, y and z; {min(unknown)!r} is none of them", "bad_value")
@@ -124,7 +124,7 @@ def _axis(name: str, axis: AxisLike) -> Axis:
 
 @dataclass(frozen=True)
 class ReachMap:
-    """What a solver reaches: for each place of a grid, how many orientations have an answer and how many answers there are. Columns have the shape (x, y, z)."""
+    """Reach map of a solver: for each grid point, the number of orientations with a solution and the number of solutions. Columns have the shape (x, y, z)."""
 
     solver: str
     """The solver's name."""
@@ -133,25 +133,25 @@ class ReachMap:
     """The unit of the grid: m or mm."""
     axes: tuple[Axis, Axis, Axis]
     orientations: int
-    """How many orientations there are at each place."""
+    """Number of orientations at each grid point."""
     seed: int | None
     measure: Measure
     limited: bool
-    """Whether only answers within limits were counted."""
+    """Whether only solutions within limits are counted."""
     reached: npt.NDArray[np.uint32]
-    """How many orientations have an answer that counts."""
+    """Number of orientations with a counted solution."""
     answers: npt.NDArray[np.uint32]
-    """How many answers count."""
+    """Number of counted solutions."""
     open: npt.NDArray[np.uint32]
-    """How many orientations lie on strata that could not be derived; they count as if they had no answers."""
+    """Number of orientations on strata that could not be derived. They count as orientations without a solution."""
     best: npt.NDArray[np.float32] | None = None
-    """The greatest manipulability of an answer (Yoshikawa's, metres and radians), where it was measured."""
+    """The largest manipulability of a solution (Yoshikawa's, metres and radians), if measured."""
     mean: npt.NDArray[np.float32] | None = None
-    """The mean, over the orientations that are reached, of the greatest manipulability of each."""
+    """The mean over the reached orientations of the largest manipulability of each, if measured."""
 
     @staticmethod
     def of(solver: Solver, ask: Ask, columns: Mapping[str, Any]) -> ReachMap:
-        """The map of the columns of all places."""
+        """Builds the map from the columns of all grid points."""
         shape = tuple(axis.num for axis in ask.axes)
         own = {name: columns[name].reshape(shape) for name in _COLUMNS if name in columns}
         limited = bool(ask.limits) or ask.measure == "limits"
@@ -160,7 +160,7 @@ class ReachMap:
 
     @property
     def index(self) -> npt.NDArray[np.float64]:
-        """The share of orientations that are reached, (x, y, z)."""
+        """The reachability index: the fraction of reached orientations, (x, y, z)."""
         return self.reached / self.orientations
 
     @property
@@ -181,7 +181,7 @@ class ReachMap:
         return f"<groebot.ReachMap {self.solver}: {x} x {y} x {z} places, {self.orientations} orientations, {100 * share:.1f} % reached>"
 
     def to_json(self) -> str:
-        """The map as `groebot reach` writes it; `groebot view` shows it."""
+        """Converts the map to the JSON of `groebot reach`, which `groebot view` shows."""
         told = {"format": 1, "solver": self.solver, "task": self.task, "unit": self.unit}
         axes = {name: {"from": axis.start, "to": axis.stop, "count": axis.num} for name, axis in zip("xyz", self.axes)}
         seed = {} if self.seed is None else {"seed": self.seed}
@@ -193,7 +193,7 @@ class ReachMap:
 
     @staticmethod
     def from_json(text: str) -> ReachMap:
-        """Reads what `to_json` and `groebot reach` write. `BadValueError` for what is no map."""
+        """Reads the JSON of `to_json` or `groebot reach`. `BadValueError` for other text."""
         told = json.loads(_reach_as(text, "json"))
         axes = tuple(Axis(told[name]["from"], told[name]["to"], told[name]["count"]) for name in "xyz")
         shape = tuple(axis.num for axis in axes)
@@ -204,7 +204,7 @@ class ReachMap:
         return ReachMap(axes=axes, seed=told.get("seed"), **same, **own)  # type: ignore[arg-type]
 
     def table(self) -> arrow.Table:
-        """The map as a table of pyarrow: x, y, z and the columns, a row a place."""
+        """Converts the map to a pyarrow table: x, y, z and the columns, one row per grid point."""
         import pyarrow as arrow
 
         places = np.meshgrid(self.x, self.y, self.z, indexing="ij")
@@ -213,7 +213,7 @@ class ReachMap:
         return arrow.table(columns)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes the map: `.json`, `.csv`, `.svg` (slices across z), `.npz` (all columns and axes) or `.parquet` (a row a place)."""
+        """Writes the map: `.json`, `.csv`, `.svg` (slices across z), `.npz` (all columns and axes) or `.parquet` (one row per grid point)."""
         file = Path(path)
         if file.suffix == ".npz":
             columns = {name: column for name in _COLUMNS if (column := getattr(self, name)) is not None}
@@ -228,7 +228,7 @@ class ReachMap:
             raise BadValueError(f"{file}: a map is written as .json, .csv, .svg, .npz or .parquet", "bad_value")
 
     def slices(self, across: Literal["x", "y", "z"] | None = None) -> Picture:
-        """At most twelve slices across an axis, coloured by the share of orientations, or by the mean manipulability where it was measured."""
+        """Draws at most twelve slices across an axis. Their colour is the fraction of reached orientations, or the mean manipulability if measured."""
         if across not in (None, "x", "y", "z"):
             raise BadValueError(f"slices are across x, y or z; not {across!r}", "bad_value")
         return Picture(_reach_as(self.to_json(), "svg", None if across is None else "xyz".index(across)))
@@ -237,7 +237,7 @@ class ReachMap:
         return self.slices().svg
 
     def view(self, solver: Solver, path: str | PathLike[str] | None = None, *, open: bool | None = None, height: int = 600) -> View:
-        """The page of the solver with this map in it, as `Solver.view` shows it."""
+        """Shows the page of the solver with this map, as `Solver.view`."""
         with tempfile.TemporaryDirectory(prefix="groebot-reach-") as folder:
             file = Path(folder, "map.json")
             file.write_text(self.to_json(), encoding="utf-8")
@@ -246,7 +246,7 @@ class ReachMap:
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture that notebooks show."""
+    """A picture that notebooks display."""
 
     svg: str
 
@@ -266,12 +266,14 @@ def reach_map(
     threads: int | None = None,
     progress: Callable[[str, int, int], object] | None = None,
 ) -> ReachMap:
-    """Counts what a solver reaches, place by place.
+    """Computes a reach map: the number of solutions at each point of a grid.
 
-    `grid` tells x, y and z in the solver's unit of length, each as (from, to, count), as a number, or as evenly spaced places; an axis that the task does not ask for is left out of a mapping. At each place are `orientations`, spread
-    evenly over all that the task tells apart; with `seed` those of each place are turned by a rotation of its own. `measure` is count, limits (answers within the described limits alone) or manipulability; `limits` as
-    in `Solver.solve_batch` restrict the answers of each. `given` are the values of given joints, `threads` all processors by default, `progress(stage, done, open)` is called now and then. Poses are made where they are counted: the
-    map takes 20 bytes a place, and its columns as much.
+    `grid` gives x, y and z in the solver's unit of length, each as (from, to, count), as a number, or as evenly spaced values. A mapping omits axes that are
+    not part of the task. At each grid point there are `orientations`, evenly spread over those that the task distinguishes. With `seed`, those of each grid
+    point are rotated at random. `measure` is count, limits (only solutions within the limits of the description) or manipulability. `limits` as in
+    `Solver.solve_batch` restrict the solutions. `given` are the values of given joints. `threads` is by default the number of processors.
+    `progress(stage, done, open)` is called periodically. Poses are generated while they are counted: the map uses 20 bytes per grid point, and its columns use
+    the same amount.
     """
     ask = asked(grid, orientations, measure, limits, given, seed)
     return ReachMap.of(solver, ask, ask.columns(solver, threads=threads, progress=progress))

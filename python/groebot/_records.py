@@ -1,4 +1,4 @@
-"""What longer work gives back."""
+"""Results of long computations."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from ._groebot import Robot
 
 @dataclass(frozen=True)
 class Check:
-    """A check that held: the proof was followed again, and all ordinary targets were solved right."""
+    """A successful check: the proof was verified again, and all ordinary targets were solved correctly."""
 
     targets: int
-    """Targets that were solved against the witnesses."""
+    """Number of targets that were compared with independent solvers."""
     weak_spots: tuple[str, ...]
-    """Singular targets at which answers are lost."""
+    """Singular targets at which solutions are lost."""
     table: str
-    """One line a target, as CSV."""
+    """One line for each target, as CSV."""
 
 
 @dataclass(frozen=True)
 class Explanation:
-    """A derivation, told to a student. Notebooks show it; `str` is its Markdown."""
+    """An explanation of a derivation for students. Notebooks display it; `str` is its Markdown."""
 
     markdown: str
     latex: str
@@ -44,16 +44,16 @@ class Explanation:
 
 @dataclass(frozen=True)
 class Jump:
-    """Where a path must jump from one branch to another."""
+    """A jump of a path from one branch to another."""
 
     index: int
-    """The pose that is jumped to; 0 where the path begins away from `q0`."""
+    """The index of the pose after the jump; 0 if the path does not begin at `q0`."""
     joint: int
-    """The joint that goes furthest."""
+    """The joint with the largest step."""
     step: float
-    """How far [rad, or the unit of length]."""
+    """The size of this step [rad, or the unit of length]."""
     why: str
-    """Why, in words."""
+    """The reason, as text."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,14 +61,14 @@ class Path:
     """Joint values along poses."""
 
     q: npt.NDArray[np.float64]
-    """(N, joints); joints without limits turn on from where they were."""
+    """(N, joints). Joints without limits are continuous over whole turns."""
     jumps: list[Jump]
-    """Where branches end, in order; empty where the path is continuous."""
+    """The jumps between branches, in order; empty if the path is continuous."""
 
 
 @dataclass(frozen=True, eq=False)
 class Walk:
-    """A walk over a map, every sample of it checked."""
+    """A walk over a map, with every sample checked."""
 
     times: npt.NDArray[np.float64]
     """(samples,) [s]."""
@@ -77,17 +77,17 @@ class Walk:
     q: npt.NDArray[np.float64]
     """Joint values, (samples, joints) [rad]."""
     base: npt.NDArray[np.float64]
-    """The pose of the torso in the world, (samples, 4, 4)."""
+    """The pose of the torso in the world frame, (samples, 4, 4)."""
     margin: npt.NDArray[np.float64]
-    """How far the zero moment point is inside of the support polygon, (samples,) [m]."""
+    """The distance of the zero moment point from the border of the support polygon, (samples,) [m]."""
     way: npt.NDArray[np.float64]
-    """The corners of the way of the middle of the feet, (corners, 2) [m]."""
+    """The corners of the path of the midpoint of the feet, (corners, 2) [m]."""
     footsteps: npt.NDArray[np.float64]
-    """Where feet are put: x, y, yaw, (steps, 3) [m, rad]."""
+    """The footsteps: x, y, yaw, (steps, 3) [m, rad]."""
     feet: list[str]
-    """Which foot is put, left or right."""
+    """The foot of each footstep: left or right."""
     csv: str
-    """The walk as `groebot navigate` writes it: what `groebot view` and `groebot simulate` read."""
+    """Converts the walk to the CSV of `groebot navigate`, which `groebot view` and `groebot simulate` read."""
 
 
 def _robot(text: str, base: str | None, tip: str | None, floating: bool, gravity: list[float]) -> Robot:

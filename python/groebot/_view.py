@@ -1,4 +1,4 @@
-"""The page of a solver: all solutions, live, while the target is dragged."""
+"""The page of a solver: all solutions, updated while the target is dragged."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from ._groebot import Solver
 
 @dataclass(frozen=True)
 class View:
-    """A page that shows a solver. Notebooks show it in their frame; it needs no server and asks nobody for anything."""
+    """A self-contained HTML page that shows a solver. Notebooks display it in a frame. It needs no server and makes no network requests."""
 
     path: Path
-    """The page, one HTML file."""
+    """The path of the HTML file."""
     height: int = 600
-    """How high it is in a notebook [pixels]."""
+    """Its height in a notebook [pixels]."""
 
     def _repr_html_(self) -> str:
         # The page itself, not its address: a notebook on another machine can also read it.
@@ -41,10 +41,11 @@ def view(
     height: int = 600,
     reach: str | PathLike[str] | None = None,
 ) -> View:
-    """The page of `groebot view` for this solver: all solutions while the target is dragged.
+    """Writes the page of `groebot view` for this solver: all solutions, updated while the target is dragged.
 
-    `path` takes the page; without it that is a file among the temporary ones. It opens in the browser, unless a notebook shows what is returned; `open` decides otherwise. `height` is that
-    in a notebook [pixels]; `reach` is a file with a map of what is reached (`ReachMap.save`). Of a task other than a pose the page shows the chain alone. `BadValueError` where a solver does not know its chain.
+    `path` is the output file, by default a temporary file. The page is opened in the browser, except in a notebook, which displays the returned object; `open`
+    overrides this. `height` is that in a notebook [pixels]. `reach` is a file with a reach map (`ReachMap.save`). For tasks other than a pose the page shows
+    only the chain. `BadValueError` for a solver without a chain.
     """
     page = Path(path) if path is not None else Path(tempfile.mkdtemp(prefix="groebot-view-"), f"{_file_name(self.name)}.html")
     with tempfile.TemporaryDirectory(prefix="groebot-view-") as folder:
@@ -60,7 +61,7 @@ def view(
 
 
 def _write(solver: Solver, folder: Path) -> None:
-    """The folder that `groebot derive` would write, as far as the page needs it."""
+    """The files of `groebot derive` that the page needs."""
     stored = json.loads(solver.to_json())
     files = stored.get("files")
     if not files:

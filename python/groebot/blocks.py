@@ -1,9 +1,10 @@
-"""Work that is cut into blocks, each of which becomes one parquet file.
+"""Work in blocks, each of which becomes one parquet file.
 
-A block is a pure function of the work and of a range of rows. Its file is written aside and then renamed: what is there is whole, whoever is killed, and is not done again. Who calls
-`Block.write`, and on how many machines, does not matter: the files are the same to the last byte with one version of pyarrow. `run` does it here, `groebot.dask` on Dask.
+A block is a pure function of the work and a range of rows. Its file is written under a temporary name and then renamed. So a file with the final name is
+complete, also after a process was killed, and is not computed again. `Block.write` may be called by any process on any machine. With one version of pyarrow,
+the files are bitwise identical. `run` computes the blocks in this process, `groebot.dask` on Dask.
 
-The folder is on a disk that all who work see under the same path. This module needs pyarrow (`pip install groebot[parquet]`).
+All processes must see the folder under the same path. This module needs pyarrow (`pip install groebot[parquet]`).
 """
 
 from __future__ import annotations
@@ -29,38 +30,39 @@ from ._errors import BadValueError
 from ._groebot import __version__
 
 BLOCK = 1_000_000
-"""Rows of a block, unless told."""
+"""Default number of rows of a block."""
 FORMAT = 1
-"""The number of the format of the files."""
+"""The version number of the file format."""
 _ASIDE = ".aside"
 
 
 class Work(ABC):
-    """What is done for a range of rows. It travels to those who do it by pickle."""
+    """A computation over a range of rows. It is sent to workers by pickle."""
 
     @property
     @abstractmethod
     def rows(self) -> int:
-        """How many rows there are."""
+        """Number of rows."""
 
     @abstractmethod
     def told(self) -> dict[str, Any]:
-        """All that the result depends on, as what JSON can hold. `Work.key` is its hash."""
+        """All data on which the result depends, as values that JSON can represent. `Work.key` is its hash."""
 
     @abstractmethod
     def tables(self, start: int, stop: int) -> Iterator[arrow.Table]:
-        """What becomes of the rows from `start` to before `stop`, in pieces: the same whenever it is asked. Each becomes a row group of the file."""
+        """The results for the rows from `start` to before `stop`, as tables. Each table becomes a row group of the file. Repeated calls return equal results.
+        """
 
     @cached_property
     def key(self) -> str:
-        """The SHA-256 of what is told, in hexadecimal."""
+        """The SHA-256 hash of these data, in hexadecimal."""
         text = json.dumps({"format": FORMAT, "groebot": __version__, **self.told()}, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 
 
 @dataclass(frozen=True)
 class Block:
-    """The rows from `start` to before `stop`, and the folder that takes them."""
+    """The rows from `start` to before `stop`, and the output folder."""
 
     folder: str
     start: int
@@ -71,17 +73,17 @@ class Block:
         return Path(self.folder, f"block-{self.start:012}-{self.stop:012}.parquet")
 
     def marks(self, work: Work) -> dict[bytes, bytes]:
-        """What the file says of itself."""
+        """The metadata of the file."""
         said = {"key": work.key, "start": self.start, "stop": self.stop, "rows": work.rows, "format": FORMAT}
         return {f"groebot.{name}".encode(): str(value).encode() for name, value in said.items()}
 
     def is_done(self, work: Work) -> bool:
-        """Whether the file is there, whole, and of this work."""
+        """Whether the file exists, is complete, and belongs to this work."""
         marks = _marks(self.path)
         return marks is not None and self.marks(work).items() <= marks.items()
 
     def write(self, work: Work) -> bool:
-        """Does the block where it is not done: whether it was to be done."""
+        """Computes the block if necessary. Returns whether it was computed."""
         if self.is_done(work):
             return False
         aside = self.path.with_name(f".{self.path.stem}-{socket.gethostname()}-{os.getpid()}-{uuid.uuid4().hex}{_ASIDE}")
@@ -107,24 +109,24 @@ class Block:
 
 @dataclass(frozen=True)
 class Done:
-    """What a run did."""
+    """The result of a run."""
 
     files: list[Path]
-    """One file a block, in the order of the rows."""
+    """One file for each block, in the order of the rows."""
     written: int
-    """Blocks that were done."""
+    """Number of computed blocks."""
     found: int
-    """Blocks that had been done before."""
+    """Number of blocks that existed before."""
 
 
 Each = Callable[[Sequence[Block]], Iterable[bool]]
 
 
 def run(work: Work, out: str | os.PathLike[str], block: int = BLOCK, each: Each | None = None) -> Done:
-    """Does all blocks of a work into the folder `out`, which is made where it is not there.
+    """Computes all blocks of a work into the folder `out`, which is created if necessary.
 
-    `each` calls `Block.write(work)` for the blocks that it is given, in any order and wherever it likes, and yields what that tells; without it they are done one after the other, here.
-    `BadValueError` where the folder has blocks of other work, or of another size.
+    `each` calls `Block.write(work)` for the blocks that it receives, in any order and on any machine, and yields the results. Without it, the blocks are
+    computed one after the other in this process. `BadValueError` if the folder has blocks of other work, or of another size.
     """
     blocks = planned(work, out, block)
     left = [one for one in blocks if not one.is_done(work)]
@@ -136,7 +138,7 @@ def run(work: Work, out: str | os.PathLike[str], block: int = BLOCK, each: Each 
 
 
 def planned(work: Work, out: str | os.PathLike[str], block: int = BLOCK) -> list[Block]:
-    """The blocks of a work, after a look at the folder that takes them."""
+    """The blocks of a work, after a check of the output folder."""
     if block < 1:
         raise BadValueError(f"a block of {block} rows has none; give 1 or more", "bad_value")
     folder = Path(out).absolute()
@@ -155,7 +157,7 @@ def planned(work: Work, out: str | os.PathLike[str], block: int = BLOCK) -> list
 def finished(out: str | os.PathLike[str], work: Work | None = None) -> Iterator[tuple[int, Path]]:
     """The files of finished work in order, each with its first row.
 
-    `BadValueError` where a block is missing, or is of other work than `work`, or than the first.
+    `BadValueError` if a block is missing, or belongs to other work than `work` or than the first block.
     """
     folder, at, rows, key = Path(out), 0, None, None if work is None else work.key.encode()
     for path in sorted(folder.glob("block-*.parquet")):

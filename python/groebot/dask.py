@@ -1,6 +1,7 @@
-"""Many targets on many machines, by Dask (`pip install groebot[dask]`).
+"""Many targets on many machines, with Dask (`pip install groebot[dask]`).
 
-All workers see the files under the same paths. Workers and the driver may be killed at any time: the second run does what is left, and the files are the same to the last byte.
+All workers must see the files under the same paths. Workers and the driver may be killed at any time. A second run computes the missing blocks, and the files
+are bitwise identical.
 """
 
 from __future__ import annotations
@@ -27,10 +28,11 @@ def solve_parquet(
     threads: int = 1,
     **options: Any,
 ) -> blocks.Done:
-    """Solves the targets of parquet files into the folder `out`, `block` of them in each file.
+    """Solves the targets of parquet files into the folder `out`, with `block` targets in each file.
 
-    `source` is a file, a folder or a pattern; `columns` hold the numbers of a target in order, in single columns or as one of lists: the solver's inputs by default. `keep` says what is
-    written (`groebot.parquet.Solve`), `options` are those of `groebot.parquet.Solve.of`; `threads` are those of one task. `BadValueError` as `groebot.blocks.run` and `Solver.solve_batch`.
+    `source` is a file, a folder or a pattern. `columns` are the columns with the numbers of a target in order, as single columns or one column of lists; by
+    default the solver's inputs. `keep` selects the written columns (`groebot.parquet.Solve`). `options` are those of `groebot.parquet.Solve.of`. `threads` is
+    the number of threads of one task. `BadValueError` as `groebot.blocks.run` and `Solver.solve_batch`.
     """
     work = parquet.Solve.of(solver, source, columns, keep, threads, **options)
     return run(client, work, out, block)
@@ -47,10 +49,10 @@ def reach_map(
     threads: int = 1,
     **options: Any,
 ) -> ReachMap:
-    """Counts what a solver reaches into the folder `out`, and reads the map.
+    """Computes a reach map into the folder `out`, and reads the map.
 
-    Arguments as those of `groebot.reach_map`; `options` are its `limits=`, `given=` and `seed=`. A block has `block` places, by default those of about a million poses; `threads` are those of one task. `BadValueError` as
-    `groebot.blocks.run` and `groebot.reach_map`.
+    Arguments are as for `groebot.reach_map`; `options` are its `limits=`, `given=` and `seed=`. A block has `block` grid points, by default those of about a
+    million poses. `threads` is the number of threads of one task. `BadValueError` as `groebot.blocks.run` and `groebot.reach_map`.
     """
     work = reach.Reach.of(solver, grid, orientations, measure, threads=threads, **options)
     run(client, work, out, reach.block(work) if block is None else block)
@@ -58,7 +60,7 @@ def reach_map(
 
 
 def run(client: Client, work: blocks.Work, out: str | os.PathLike[str], block: int = blocks.BLOCK) -> blocks.Done:
-    """Does all blocks of a work on the workers of `client`, as `groebot.blocks.run` does here."""
+    """Computes all blocks of a work on the workers of `client`, otherwise as `groebot.blocks.run`."""
 
     def each(left: Sequence[blocks.Block]) -> Iterator[bool]:
         # A task, not scattered data: if the worker that holds it is killed, Dask computes it again.

@@ -1,6 +1,7 @@
 """Targets and solutions in parquet files (`pip install groebot[parquet]`).
 
-`groebot.blocks.run(Solve.of(solver, "targets.parquet"), "solutions")` solves them here, `groebot.dask.solve_parquet` on many machines; `batches` reads what was written.
+`groebot.blocks.run(Solve.of(solver, "targets.parquet"), "solutions")` solves targets in this process, `groebot.dask.solve_parquet` on many machines. `batches`
+reads the solutions.
 """
 
 from __future__ import annotations
@@ -26,32 +27,32 @@ from ._errors import BadValueError
 from ._groebot import Solver
 
 KEEP = ("status", "q", "residual", "branch", "free")
-"""What is written of each target."""
+"""The columns that are written for each target."""
 PIECE = 1 << 15
-"""Rows that are solved and written at once."""
+"""Number of rows that are solved and written together."""
 _JOINT = "q_"
 
 
 @dataclass(frozen=True)
 class Part:
-    """A parquet file that targets are read from."""
+    """A parquet file with targets."""
 
     path: str
     rows: int
     footer: str
-    """The SHA-256 of its footer: it changes with what is written."""
+    """The SHA-256 hash of its footer, which changes with the content."""
 
 
 @dataclass(frozen=True)
 class Targets:
-    """Targets in parquet files, one in each row, whose numbers are in columns or in one column of lists."""
+    """Targets in parquet files, one per row. Their numbers are in single columns or in one column of lists."""
 
     parts: tuple[Part, ...]
     columns: tuple[str, ...]
 
     @staticmethod
     def of(source: str | os.PathLike[str], columns: Sequence[str]) -> Targets:
-        """Those of one file, of all `*.parquet` of a folder in the order of their names, or of all that a pattern with `*` matches."""
+        """The targets of a file, of all `*.parquet` of a folder sorted by name, or of all files that match a pattern with `*`."""
         where = Path(source).absolute()
         if where.is_dir():
             files = sorted(where.glob("*.parquet"))
@@ -117,11 +118,12 @@ def _numbers(name: str, column: arrow.ChunkedArray) -> npt.NDArray[np.float64]:
 class Solve(blocks.Work):
     """Solves targets: each row of a table has all solutions of one target.
 
-    `status` is a `groebot.Status`. For each joint there is a column `q_JOINT`, a list of its value in each solution; `residual`, `branch` and `free` are lists as long, `count` is how long.
+    `status` is a `groebot.Status`. Each joint has a column `q_JOINT`, a list of its values in the solutions. `residual`, `branch` and `free` are lists of the
+    same length, and `count` is this length.
     """
 
     solver: str
-    """What `Solver.to_json` writes."""
+    """The result of `Solver.to_json`."""
     targets: Targets
     keep: tuple[str, ...] = KEEP
     options: dict[str, Any] = field(default_factory=dict)
@@ -137,10 +139,10 @@ class Solve(blocks.Work):
         threads: int = 1,
         **options: Any,
     ) -> Solve:
-        """The work on targets in parquet files, looked at before any of it is sent away.
+        """Builds the work for targets in parquet files, and checks it before it is sent to workers.
 
-        `columns` are by default those of the solver's inputs and given joints. `options` are `limits=`, `near=` (one for all), `given=` and `dtype=` of `solve_batch`; rows that are no targets have
-        their status.
+        `columns` are by default those of the solver's inputs and given joints. `options` are `limits=`, `near=` (one for all), `given=` and `dtype=` of
+        `solve_batch`. Invalid targets are reported by their status.
         """
         unknown = set(options) - {"limits", "near", "given", "dtype"}
         if unknown:
@@ -172,7 +174,7 @@ class Solve(blocks.Work):
         }
 
     def solved(self, start: int, stop: int) -> Iterator[Batch]:
-        """The solutions of the rows from `start` to before `stop`, in pieces that stay in the processor's reach."""
+        """The solutions of the rows from `start` to before `stop`, in parts that fit into the processor's cache."""
         solver = _solver(self.solver)
         numbers = self.targets.read(start, stop)
         if numbers.shape[1] == 16:
@@ -220,9 +222,9 @@ def _columns(name: str, batch: Batch) -> dict[str, arrow.Array]:
 
 
 def batches(out: str | os.PathLike[str]) -> Iterator[tuple[int, Batch]]:
-    """What `Solve` wrote, block by block: the first row of each, and its solutions. All was kept.
+    """Reads the output of `Solve`, block by block: the first row of each, and its solutions. All columns must have been written.
 
-    `BadValueError` as `groebot.blocks.finished`, and where something was not kept.
+    `BadValueError` as `groebot.blocks.finished`, and if a column is missing.
     """
     for start, path in blocks.finished(out):
         yield start, _batch(path)

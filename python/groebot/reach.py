@@ -1,6 +1,6 @@
-"""Maps of what a solver reaches in blocks of parquet files (`pip install groebot[parquet]`).
+"""Reach maps in blocks of parquet files (`pip install groebot[parquet]`).
 
-`groebot.blocks.run(Reach.of(solver, grid), "map")` counts here, `groebot.dask.reach_map` on many machines; `read` reads the map that was written.
+`groebot.blocks.run(Reach.of(solver, grid), "map")` computes a map in this process, `groebot.dask.reach_map` on many machines. `read` reads the map.
 """
 
 from __future__ import annotations
@@ -21,15 +21,15 @@ from ._groebot import Solver
 from ._reach import _COLUMNS, Ask, Grid, Measure, ReachMap, asked
 
 PIECE = 1 << 16
-"""Places that are counted and written at once."""
+"""Number of grid points that are computed and written together."""
 
 
 @dataclass(frozen=True)
 class Reach(blocks.Work):
-    """Counts places: each row of a table is a place of the grid, `x`, `y`, `z` and the columns of `groebot.ReachMap`."""
+    """Computes grid points: each row of a table is a point of the grid, with `x`, `y`, `z` and the columns of `groebot.ReachMap`."""
 
     solver: str
-    """What `Solver.to_json` writes."""
+    """The result of `Solver.to_json`."""
     ask: Ask
     threads: int = 1
 
@@ -45,7 +45,9 @@ class Reach(blocks.Work):
         seed: int | None = None,
         threads: int = 1,
     ) -> Reach:
-        """The work on a grid, looked at before any of it is sent away. Arguments as those of `groebot.reach_map`; `threads` are those of one block."""
+        """Builds the work for a grid, and checks it before it is sent to workers. Arguments are as for `groebot.reach_map`; `threads` is the number of threads
+        of one block.
+        """
         ask = asked(grid, orientations, measure, limits, given, seed)
         # Errors are reported here, not by a remote worker.
         ask.columns(solver, 0, 0, 1)
@@ -72,13 +74,13 @@ class Reach(blocks.Work):
 
 
 def block(work: Reach, poses: int = blocks.BLOCK) -> int:
-    """So many places have about so many poses."""
+    """Number of grid points with about this number of poses."""
     orientations: int = work.ask.columns(_solver(work.solver), 0, 0, 1)["orientations"]
     return max(1, poses // orientations)
 
 
 def read(out: str | os.PathLike[str], work: Reach) -> ReachMap:
-    """The map that a finished work wrote. `BadValueError` as `groebot.blocks.finished`."""
+    """The map of a finished work. `BadValueError` as `groebot.blocks.finished`."""
     files = [path for _, path in blocks.finished(out, work)]
     table = arrow.concat_tables(parquet.read_table(path, use_threads=False) for path in files)
     columns: dict[str, Any] = {name: table[name].to_numpy() for name in _COLUMNS if name in table.column_names}

@@ -16,7 +16,7 @@ def random():
 
 @pytest.fixture(scope="session")
 def derived():
-    """The solver of the URDF of a UR5: derived once for all tests, for it is immutable."""
+    """The solver of a UR5 URDF, derived once for all tests, because it is immutable."""
     from witness import UR5_URDF
 
     return groebot.derive(groebot.Robot.from_urdf(UR5_URDF))

@@ -1,4 +1,4 @@
-"""Starts two workers here and solves; is killed by `test_dask.py`. Arguments: targets, folder, rows of a block."""
+"""Starts two workers and solves targets. `test_dask.py` kills this process. Arguments: targets, folder, rows of a block."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Many targets: the rows of one, whatever layout, type and number of threads."""
+"""Many targets: rows equal those of single targets, for all layouts, types and numbers of threads."""
 
 import multiprocessing
 import threading

@@ -1,4 +1,4 @@
-"""Blocks: what is written is what `solve_batch` finds, is whole or not there, and is not done twice."""
+"""Blocks: their content equals the results of `solve_batch`. A file is complete or absent, and is not computed twice."""
 
 import os
 
@@ -155,7 +155,7 @@ def test_a_block_that_cannot_be_written_leaves_nothing(tmp_path, ur5, source):
 
 
 class Watched(blocks.Work):
-    """Tells what the folder holds while it is written, and may break off."""
+    """Records the content of the folder while it is written. It can interrupt the work."""
 
     def __init__(self, folder, breaks=False):
         self.folder, self.breaks, self.seen = folder, breaks, []

@@ -1,4 +1,4 @@
-"""Two workers that are processes: killed, or the driver with them, and the same to the last byte."""
+"""Two worker processes. They or the driver are killed, and the files are bitwise identical."""
 
 import os
 import signal
@@ -49,7 +49,7 @@ def source(tmp_path_factory, ur5, q):
 
 @pytest.fixture(scope="module")
 def undisturbed(tmp_path_factory, ur5, source):
-    """What one process writes, without Dask."""
+    """The files of one process without Dask."""
     out = tmp_path_factory.mktemp("undisturbed")
     blocks.run(Solve.of(ur5, source), out, BLOCK)
     return contents(out)

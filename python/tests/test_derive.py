@@ -1,4 +1,4 @@
-"""From a description to a solver: derived, interrupted, asked for other tasks."""
+"""From a description to a solver: derivation, interruption, other tasks."""
 
 import os
 import pickle
@@ -98,7 +98,7 @@ def test_a_budget_of_time():
 
 @pytest.fixture
 def heard():
-    """Interrupts are heard also where these tests run in the background of a script, whose shell has them ignored."""
+    """Enables interrupts. A script that runs these tests in the background has a shell that ignores them."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)

@@ -1,4 +1,4 @@
-"""The snippets of docs/from_other_solvers.md run; those of others where they are installed, and find the same solutions."""
+"""The snippets of docs/from_other_solvers.md run. If the other packages are installed, their snippets run too, and find the same solutions."""
 
 import importlib.util
 import re

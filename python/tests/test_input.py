@@ -1,4 +1,4 @@
-"""Whatever is handed in: an exception that says what is allowed, or a status; never an abort, a panic or a hang."""
+"""Invalid arguments cause an exception with the allowed values, or a status. They never cause an abort, a panic or a hang."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""Every notebook runs from its first cell to its last, and stores no outputs. With the wheel that is sent to people, GROEBOT_RELEASE=1, it takes less than a minute."""
+"""Every notebook runs from its first cell to its last, and stores no outputs. With the published wheel, GROEBOT_RELEASE=1, it takes less than a minute."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Dynamics and navigation: against numbers of numpy alone, and Pinocchio where it is installed."""
+"""Dynamics and navigation, compared with results of numpy, and of Pinocchio if it is installed."""
 
 import xml.etree.ElementTree as ElementTree
 
@@ -18,7 +18,7 @@ def robot():
 
 
 def bodies():
-    """By link with a mass: its name, the mass, where its centre is, and the inertia about it along the link's axes."""
+    """For each link with a mass: its name, mass, centre of mass, and the inertia about it along the link's axes."""
     for link in ElementTree.parse(UR5).getroot().findall("link"):
         inertial = link.find("inertial")
         if inertial is None:
@@ -31,7 +31,7 @@ def bodies():
 
 
 def motion(q, name, centre, step=1e-5):
-    """How the centre of a link moves with each joint, and how it turns, in the frame of the root."""
+    """The linear and angular velocity of a link's centre per joint velocity, in the root frame."""
     place = lambda q: urdf_forward(UR5, q, name)
     own, columns = place(q), []
     for joint in np.eye(6) * step:

@@ -1,4 +1,4 @@
-"""One target: all solutions, each of which the witness takes back to the target."""
+"""One target: all solutions. An independent forward kinematics maps each solution to the target."""
 
 import json
 import pickle
@@ -112,7 +112,7 @@ def test_load_takes_folders_and_files(tmp_path):
 
 
 def test_load_proves_a_thin_folder_again():
-    """A folder with hashes instead of outputs gives the solver that is derived from its description."""
+    """A folder with hashes instead of outputs has the solver that is derived from its description."""
     folder = DERIVATIONS / "planar_4r"
     assert (folder / "outputs.sha256").exists() and not (folder / "5_program.json").exists()
     solver, derived = Solver.load(folder), groebot.derive(folder)

@@ -1,4 +1,4 @@
-"""The page of a solver, looked at without a browser."""
+"""The page of a solver, tested without a browser."""
 
 import html
 import json

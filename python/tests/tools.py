@@ -1,4 +1,4 @@
-"""What a test asks for beyond groebot and numpy."""
+"""Requirements of tests other than groebot and numpy."""
 
 import importlib
 import os
@@ -7,7 +7,7 @@ import pytest
 
 
 def need(*modules):
-    """Leaves the tests of a file out, aloud, where a module is missing; with GROEBOT_REQUIRE_TOOLS=1 that is an error."""
+    """Skips the tests of a file with a message if a module is missing. With GROEBOT_REQUIRE_TOOLS=1 that is an error."""
     if os.environ.get("GROEBOT_REQUIRE_TOOLS") == "1":
         for name in modules:
             importlib.import_module(name)

@@ -1,4 +1,4 @@
-"""Witnesses that share nothing with groebot: forward kinematics of Denavit-Hartenberg tables and of URDFs, in numpy alone."""
+"""Forward kinematics of Denavit-Hartenberg tables and URDFs in numpy, independent of groebot."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def dh_forward(table, q):
 
 
 def urdf_forward(path, q, tip):
-    """The pose (4, 4) of the link `tip` in the root, by the tree of a URDF; joint values in the order of the file."""
+    """The pose (4, 4) of the link `tip` in the root frame, by the tree of a URDF. Joint values are in the order of the file."""
     root = ElementTree.parse(path).getroot()
     joints = root.findall("joint")
     moving = [joint.get("name") for joint in joints if joint.get("type") in ("revolute", "continuous", "prismatic")]
@@ -78,5 +78,5 @@ def _motion(kind, axis, value):
 
 
 def same_angles(a, b):
-    """How far joint values are apart but for whole turns."""
+    """The difference of joint values, modulo whole turns."""
     return np.abs((np.asarray(a) - np.asarray(b) + np.pi) % (2 * np.pi) - np.pi).max(-1)

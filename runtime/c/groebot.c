@@ -1,5 +1,5 @@
-/* What seldom runs on a robot, for all robots: polynomials' roots, Newton's method next to singular configurations, self-motions, answers that are one,
- * limits and turns. As groebot-runtime's files of the same names, operation by operation; robots come in by a gb_mechanism. */
+/* Parts of the run time that are compiled once for all robots: roots of polynomials, Newton's method near singular configurations, self-motions, merging of
+ * equal solutions, limits and turns. They do the same operations as the files of groebot-runtime with these names; a robot is given by its gb_mechanism. */
 #ifndef GROEBOT_C
 #define GROEBOT_C
 
@@ -8,7 +8,7 @@
 #endif
 #include "groebot.h"
 
-/* The tolerances are those of groebot-runtime's tolerances.rs, which says what they are for. */
+/* The tolerances are those of groebot-runtime's tolerances.rs, where they are documented. */
 #define GB_PIVOT GB_EITHER(1e-9, 1e-4)
 #define GB_NEGLIGIBLE GB_EITHER(1e-290, 1e-30)
 #define GB_TOLERATED GB_EITHER(1e-6, 1e-3)

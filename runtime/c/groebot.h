@@ -1,19 +1,20 @@
-/* What runs on a robot, in C99: the run time of inverse kinematics that groebot derives.
+/* Run time of inverse kinematics in C99: the code that runs on a robot with solvers that groebot derives.
  *
- * A robot's own file holds its program as straight-line code, and includes this one. It stands there for three readers:
- *   - callers of a robot find the types and functions that GB_DECLARE declares;
- *   - a robot's file, which includes itself, finds what its program is written in, once for each type of number (GB_WIDTH is 1 for one number, or how many
- *     a register holds), and at last (GB_WIDTH is 0) the functions that it offers;
- *   - groebot.c, compiled once for all robots, holds what seldom runs: it refines answers at singular poses, and finds roots of polynomials.
+ * A robot's own file has its program as straight-line code, and includes this one. This file serves three purposes:
+ * - for callers of a robot's solver, GB_DECLARE declares the types and functions;
+ * - a robot's file includes itself once for each type of number (GB_WIDTH is 1 for one number, or the number of lanes of a register), and this file then
+ *   defines what its program uses. At last (GB_WIDTH is 0) this file defines the public functions;
+ * - groebot.c, compiled once for all robots, has the rarely used parts: it refines solutions at singular poses, and finds roots of polynomials.
  *
- * Nothing is allocated, there is no state, and the same target has the same answers, to the last bit, with every compiler: all is built of IEEE 754's
- * operations in the order in which they are written. Compile with -ffp-contract=off where products may be contracted (gcc without -std=c99), and never
- * with -ffast-math. Of the C library it takes sqrt, and fmod for angles beyond a million.
+ * Solving allocates nothing and has no state. Equal targets have bitwise equal solutions with every compiler, because all operations are those of IEEE 754 in
+ * the written order. Compile with -ffp-contract=off where products may be contracted (gcc without -std=c99), and never with -ffast-math. The C library must
+ * provide sqrt, and fmod for angles beyond a million.
  *
- * GB_FLOAT makes every number a float. GB_LANES says how many numbers a register takes at once: 1 for plain C.
+ * With GB_FLOAT every number is a float. GB_LANES is the number of lanes of a register: 1 for plain C.
  *
- * The folder groebot/ beside this file holds what this file and groebot.c are made of. All in one file: GB_LINKAGE defined as `static GB_UNUSED`, then this
- * file, the robot's header, its source, which then includes that one file, and groebot.c, parts in their places and without the other lines that include. */
+ * The folder groebot/ next to this file has the parts of this file and of groebot.c. All of them can be combined in one file. Define GB_LINKAGE as `static
+ * GB_UNUSED`, then append this file, the robot's header, its source, which includes that one file, and groebot.c. Insert the parts in their places, and
+ * remove the other lines that include files. */
 #ifndef GROEBOT_H
 #define GROEBOT_H
 
@@ -38,56 +39,59 @@ typedef double gb_real;
 #endif
 #endif
 
-/* A number of the target is infinite or not a number. */
+/* A target number is infinite or NaN. */
 #define GB_NOT_FINITE (-1)
-/* The target lies on a stratum that could not be derived. */
+/* The target is on a stratum for which no derivation exists. */
 #define GB_OPEN_STRATUM (-2)
-/* The rotation of the target is off by more than 1e-9 (1e-4 in single precision). */
+/* The rotation of the target is not orthogonal within 1e-9 (1e-4 in single precision). */
 #define GB_NOT_ROTATION (-3)
-/* The direction of the target is not of length one within 1e-9 (1e-4 in single precision). */
+/* The direction of the target does not have length one within 1e-9 (1e-4 in single precision). */
 #define GB_NOT_UNIT (-4)
-/* The steps of the target were spent before an answer was found: there may be some. */
+/* The steps of the target were used up before a solution was found. Solutions may exist. */
 #define GB_UNSETTLED (-5)
-/* The most steps of polishing that a target may take, where it is not said otherwise (define it when you compile the robot's file and groebot.c). A step is a
- * linear system of Newton's method, or an evaluation of the equations at joint values. When they are spent, candidates are not polished any more, and answers
- * are not settled. */
+/* Default of the maximal number of polishing steps for a target (define it when you compile the robot's file and groebot.c). A step is one linear system of
+ * Newton's method, or one evaluation of the equations at joint values. When they are used up, candidates are no longer polished, and solutions are not
+ * settled. */
 #ifndef GB_MOST_STEPS
 #define GB_MOST_STEPS 300000
 #endif
-/* The most turns that are counted. */
+/* Maximal number of turns that are counted. */
 #define GB_MOST_TURNS 1000000
 
-/* Declares what a robot offers. Targets have so many numbers in metres and radians, unless the robot's file says so: the pose of the tip in the base
- * frame as its position and its rotation by rows, or what else the task is. Angles of solutions lie in (-pi, pi].
+/* Declares the types and functions of a robot's solver. For a pose task, a target is the pose of the tip in the base frame: its position and its rotation by
+ * rows. Other tasks have their own numbers. Units are metres and radians unless the robot's file specifies others. Angles of solutions are in (-pi, pi].
  *
- * NAME_solution: an answer.
- *     q           joint values, in the order of the joints
- *     residual    the largest magnitude among the equations' values at q, in the equations' own unit
- *     relative    the largest share of an equation's value in its size
- *     branch      which cases and which roots gave it; it keeps its number from target to target
- *     chosen      whether the source of the mechanism would choose this one
- *     settled     false where the steps of the target (GB_MOST_STEPS) were spent before all work was done. All of its answers say so: others may be missing,
- *                 and `relative` tells how well each holds, at most 1e-6 (1e-3 in single precision)
- *     free        bit j is set where joint j may take any value here: this is one member of a self-motion
- * NAME_pairs: an answer by joint's cosine and sine; a length's value and zero.
+ * NAME_solution: one solution.
+ * - q: joint values, in the order of the joints
+ * - residual: the largest magnitude among the equations' values at q, in the equations' own unit
+ * - relative: the largest value of an equation relative to its size
+ * - branch: number of the combination of cases and roots; consistent from target to target
+ * - chosen: whether the source of the mechanism would select this solution
+ * - settled: false where the steps of the target (GB_MOST_STEPS) were used up before all work was done. This holds for all of its solutions, and others may be
+ *   missing. `relative` is then at most 1e-6 (1e-3 in single precision)
+ * - free: bit j is set where joint j is free: this is one member of a self-motion
+ * NAME_pairs: one solution by the cosine and sine of each joint; a length's value and zero.
  *
- * NAME_solve: writes all solutions to the front of out, which has room for NAME_CAPACITY, by branch; their number, 0 out of reach, or a code below 0.
- * NAME_solve_bounded: the same with so many steps at most; GB_UNSETTLED where no answer was found before they were spent.
- * NAME_solve_or_nearest: as NAME_solve; where there is none, nearest is what missed the equations by the least share, or its residual is infinite.
- * NAME_solve_pairs: the same by cosines and sines; at ordinary targets no arc tangent is taken.
- * NAME_solve_batch: many targets, several at once in the lanes of registers. The solutions of a target stand in out behind those of the one before,
- *     counts says how many they are or why there are none. How many targets were solved: all, unless out has no room for those of the next one.
- *     Each solution is that of NAME_solve to the last bit.
- * NAME_residual: the largest magnitude of an equation's value at joint values q; not a number for a target that NAME_solve refuses, and where
- *     equations read what follows from no joint.
- * NAME_forward: the target that joint values reach; false for equations that do not compare the tip with the target.
- * NAME_target_of: the target at which the tool is at a pose, with the base at another pose and the tool at its own pose seen from the tip.
- * NAME_count_turns: limits are the least and the greatest value of each joint in turn. The number of joint values that differ from q by whole turns of
- *     angles and lie within limits, which hold within 1e-9; an angle that lacks a limit counts once.
- * NAME_turn: writes the one with this index to out. Turns of the last joint follow one another.
- * NAME_solve_within: as NAME_solve, moved into limits by as few turns as can be, members of a self-motion along it; those that cannot are left out.
- * NAME_nearest: the index of the solution that comes nearest to a reference by turns within limits, which are written to q; -1 when none does. The
- *     distance is the sum of the squared differences, each times its weight. */
+ * NAME_solve: writes all solutions to the front of out, ordered by branch. out has room for NAME_CAPACITY. Returns their number, 0 if the target is out of
+ * reach, or a code below 0.
+ * NAME_solve_bounded: same as NAME_solve with at most so many steps. Returns GB_UNSETTLED where no solution was found before they were used up.
+ * NAME_solve_or_nearest: same as NAME_solve. Where there is no solution, nearest has the least relative residual found; its residual is infinite if none was
+ * found.
+ * NAME_solve_pairs: same as NAME_solve by cosines and sines; at ordinary targets no arc tangent is computed.
+ * NAME_solve_batch: same as NAME_solve for many targets; the lanes of registers process several at once. The solutions of a target follow those of the target
+ * before in out. An entry of counts is their number or an error code. Returns the number of solved targets: all, unless out has no room for the solutions of
+ * the next one. Each solution is bitwise equal to that of NAME_solve.
+ * NAME_residual: the largest magnitude of an equation's value at joint values q. NaN for a target that NAME_solve rejects, and where equations read numbers
+ * that follow from no joint.
+ * NAME_forward: the target that joint values reach. Returns false for equations that do not compare the tip with the target.
+ * NAME_target_of: the target for which the tool is at a pose. base is the pose of the base, and tool that of the tool in the frame of the tip.
+ * NAME_count_turns: the number of joint values that differ from q by whole turns of angles and are within limits. limits has the least and the greatest value
+ * of each joint in turn. They hold within 1e-9. An angle that lacks a limit counts once.
+ * NAME_turn: writes the turn with this index to out. The last joint changes fastest.
+ * NAME_solve_within: same as NAME_solve, with each solution moved into limits by as few turns as possible, and members of a self-motion along it. Other
+ * solutions are omitted.
+ * NAME_nearest: the index of the solution that is nearest to a reference after turns within limits, or -1 if there is none. Writes its turn to q. The
+ * distance is the sum of the squared differences, each times its weight. */
 #define GB_DECLARE(name, inputs, joints_, capacity)                                                                                \
     typedef struct {                                                                                                               \
         gb_real q[joints_];                                                                                                        \

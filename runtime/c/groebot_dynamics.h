@@ -1,8 +1,8 @@
-/* What printed equations of motion stand on, in C99: cosines and sines. Nothing is linked beside it but the C library's fmod, for angles beyond a million
- * rad (a thousand in single precision). As groebot-runtime's trigonometry.rs, operation by operation: the same numbers to the last bit with every compiler, if
- * products are not contracted (gcc: -std=c99 or -ffp-contract=off).
+/* Functions that printed equations of motion use, in C99: cosines and sines. The only dependency is the C library's fmod, for angles beyond a million rad (a
+ * thousand in single precision). The operations are those of groebot-runtime's trigonometry.rs. Results are bitwise equal with every compiler, if products are
+ * not contracted (gcc: -std=c99 or -ffp-contract=off).
  *
- * GB_FLOAT makes every number a float. */
+ * With GB_FLOAT every number is a float. */
 #ifndef GROEBOT_DYNAMICS_H
 #define GROEBOT_DYNAMICS_H
 
@@ -23,7 +23,7 @@ typedef double gb_real;
 #endif
 #endif
 
-/* A literal; one in double and one in single precision. */
+/* A literal, and a choice of two literals by precision. */
 #ifdef GB_FLOAT
 #define GB_N(number) number##f
 #define GB_N_OR(number, single) single##f
@@ -57,11 +57,11 @@ static inline gb_real gb_of_bits(gb_bits bits)
     return number;
 }
 
-/* The cosine and the sine of an angle, each within one unit of its last place up to a million rad. No branch is taken, so that compilers take several
- * angles at once. */
+/* The cosine and the sine of an angle, each within one unit of its last place up to a million rad. There is no branch, so that compilers can vectorise over
+ * several angles. */
 static inline void gb_pair(gb_real angle, gb_real *cosine, gb_real *sine)
 {
-    /* Added to a number, it leaves the nearest whole one, the last bits of which it shows. */
+    /* Adding this to a number rounds that one to an integer, which is then in the last bits. */
     const gb_real whole = GB_N_OR(6755399441055744.0, 12582912.0);
     const gb_real shifted = angle * GB_N(0.6366197723675814) + whole, quarters = shifted - whole;
     /* Products of the first two parts of a quarter turn are exact, and so is the first difference. */
@@ -84,7 +84,7 @@ static inline void gb_pair(gb_real angle, gb_real *cosine, gb_real *sine)
     *sine = gb_of_bits(((bits_s & ~odd) | (bits_c & odd)) ^ ((turn & 2) << GB_SIGN_AT));
 }
 
-/* An angle that gb_pair is exact for. */
+/* An angle in the range in which gb_pair is accurate. */
 static inline gb_real gb_near(gb_real angle)
 {
     const gb_real most = GB_N_OR(1e6, 1e3);

@@ -1,7 +1,7 @@
-//! Angles from cosines and sines, by operations that round alike everywhere.
+//! Angles from cosines and sines. All operations round alike on every machine.
 //!
-//! The arc tangent of `|z| <= tan(pi/8)` is `z + z^3 P(z^2)`, a polynomial that interpolates at Chebyshev points, found with 60 digits; the share of the
-//! angle that is off is 7e-18.
+//! The arc tangent of `|z| <= tan(pi/8)` is `z + z^3 P(z^2)`. `P` interpolates at Chebyshev points and was computed with 60 digits; the relative error of the
+//! angle is 7e-18.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
@@ -23,12 +23,12 @@ pub const SERIES: [f64; 11] = [
 ];
 /// `tan(pi/8)`.
 pub const EIGHTH: f64 = 0.41421356237309503;
-/// What the double nearest to `pi/4` lacks.
+/// Difference between `pi/4` and the nearest double.
 pub const REST: f64 = 3.061616997868383e-17;
-/// What those of `pi/2` and `pi` lack.
+/// Differences between `pi/2`, `pi` and their nearest doubles.
 const REST_OF: [f64; 2] = [2.0 * REST, 4.0 * REST];
 
-/// The angle in [0, pi/2] of a cosine and a sine that are not negative; not a number where both are zero.
+/// The angle in [0, pi/2] of a non-negative cosine and a non-negative sine. NaN where both are zero.
 #[inline(always)]
 pub fn acute<N: Number>(across: N, up: N) -> N
 where
@@ -44,7 +44,7 @@ where
     (FRAC_PI_2 - (angle - REST_OF[0])).or(angle, steep)
 }
 
-/// The angle in (-pi, pi] of a cosine and a sine, given the one of their magnitudes; zero is not negative.
+/// The angle in (-pi, pi] of a cosine and a sine, given the acute angle of their magnitudes. Zero is never negative.
 #[inline(always)]
 pub fn unfold<N: Number>(acute: N, cosine: N, sine: N) -> N
 where
@@ -54,7 +54,7 @@ where
     (angle + TAU).or(angle, angle.at_most(N::of(-PI))) + 0.0
 }
 
-/// `atan2(sine, cosine)` in (-pi, pi], within 5e-16 rad, and zero never negative; not a number where both are zero.
+/// `atan2(sine, cosine)` in (-pi, pi], within 5e-16 rad. Zero is never negative; NaN where both are zero.
 #[inline]
 pub fn angle<N: Number>(cosine: N, sine: N) -> N
 where

@@ -1,4 +1,4 @@
-//! From candidates to answers: they wait to be measured together, and are kept where they are found, or [refined](crate::refine). Main type: [`Answers`].
+//! From candidates to solutions. Candidates are collected, then measured together, and kept unchanged or [refined](crate::refine). Main type: [`Answers`].
 
 use core::ops::Range;
 
@@ -14,43 +14,43 @@ use crate::storage::Array;
 use crate::strays::{Loners, Merged, Strays, Trails};
 use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
 
-/// Angles differ by more than [`BLUR`] where their difference has a cosine below this.
+/// Two angles differ by more than [`BLUR`] where the cosine of their difference is below this.
 pub(crate) const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
 
-/// The answers so far.
+/// The solutions found so far.
 pub(crate) struct Answers<'a, M: Mechanism> {
     pub problem: Problem<'a, M>,
     pub out: &'a mut [Solution<M>],
-    /// Where pairs are written instead, and whether all candidates so far can be.
+    /// The output for pairs, and whether all candidates so far can be written as pairs.
     pairs: Option<&'a mut [Pairs<M>]>,
     usual: bool,
     pub count: usize,
-    /// Whether usual cases alone have run.
+    /// Whether only the usual cases have run.
     is_ordinary: bool,
-    /// How many candidates there have been, and had with the last one that did not hold where it was found.
+    /// Number of candidates so far, and that number at the last candidate that needed polishing.
     candidates: usize,
     pub unsound: usize,
-    /// The same with the last one of close roots.
+    /// Number of candidates at the last one of close roots.
     pub doubted: usize,
-    /// Whether on each stratum so far the cases before have lost no answer; formulas of a nearby mechanism tell nothing of that.
+    /// Whether, on each stratum so far, the cases before it have lost no solution. Always false with the formulas of a nearby mechanism.
     pub suffices: bool,
-    /// Candidates for members of self-motions that were dropped for this.
+    /// Candidates for members of self-motions that were dropped for this reason.
     pub strays: Strays,
-    /// Answers that are no members of self-motions.
+    /// Solutions that are not members of self-motions.
     pub loners: Loners<M>,
-    /// Members of self-motions of the list.
+    /// Members of self-motions in the list.
     pub trails: Trails<M>,
-    /// Whether the member that is kept is on none of these.
+    /// Whether the member that is being kept is on none of the known self-motions.
     pub is_another: bool,
-    /// Members with several free joints that were found to be on a self-motion of the list.
+    /// Members with several free joints that were found to be on a self-motion in the list.
     pub merged: Merged,
-    /// Candidates next to which a curve is walked along behind all others.
+    /// Candidates next to which a curve is followed after all candidates are processed.
     pub starts: Option<Starts<M>>,
-    /// The first stratum met that could not be derived.
+    /// The first stratum met for which no derivation exists.
     pub open: Option<usize>,
-    /// The joints that missed the equations by the least share of their size, where they are no answer.
+    /// The joint values with the least relative residual that are not a solution.
     pub nearest: Option<End<M>>,
-    /// By place: the numbers of candidates that wait to be measured, and how each was found.
+    /// By place: the numbers of the candidates that are waiting, and how each was found.
     at: Places<M, Abreast<M>>,
     found: Abreast<M, Found>,
     waiting: usize,
@@ -78,7 +78,7 @@ impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
         self.is_rare(guard) && {
             let suffices = self.suffice_since(before);
             self.suffices &= suffices;
-            // A double root is off by the square root of what rounding leaves: a stratum may be nearer than that.
+            // The error of a double root is the square root of the rounding error: the stratum may be nearer than that.
             guard.beside || !suffices || self.doubted > before
         }
     }
@@ -116,7 +116,7 @@ impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
 }
 
 impl<'a, M: Mechanism> Answers<'a, M> {
-    /// None yet; solutions go to `out`, or pairs to `pairs` if there is a place for them.
+    /// An empty list. Solutions go to `out`, or pairs to `pairs` if it is given.
     #[inline(always)]
     pub fn new(problem: Problem<'a, M>, out: &'a mut [Solution<M>], pairs: Option<&'a mut [Pairs<M>]>) -> Self {
         let Facts { places, candidates: room, nearby, .. } = problem.facts();
@@ -145,14 +145,14 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         }
     }
 
-    /// Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum.
+    /// Whether there were candidates after the first `candidates`, and each was a solution without polishing. Then no solution is lost beside a stratum.
     #[cold]
     fn suffice_since(&mut self, candidates: usize) -> bool {
         self.flush();
         self.candidates > candidates && self.unsound <= candidates
     }
 
-    /// Walks through the blocks, and takes in all candidates; where an answer may have been lost, once more.
+    /// Evaluates the blocks and takes in all candidates. Repeats this where a solution may have been lost.
     #[inline(never)]
     pub fn find(&mut self) -> Result<(), Error> {
         let (mechanism, parameters) = (self.problem.mechanism, self.problem.parameters);
@@ -167,13 +167,13 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
     }
 
-    /// Whether there are as many isolated answers as a target can have.
+    /// Whether the target has its maximal number of isolated solutions.
     fn are_all(&self) -> bool {
         let count = self.out[..self.count].iter().filter(|answer| answer.is_isolated()).count();
         self.problem.facts().isolated.is_some_and(|most| count >= most)
     }
 
-    /// Brings all answers into the form that callers see; their number.
+    /// Brings all solutions into their final form and returns their number.
     #[inline(always)]
     pub fn conclude(&mut self) -> Result<usize, Error> {
         self.unite();
@@ -187,40 +187,40 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.usual && self.problem.facts().isolated.is_none_or(|most| self.count <= most)
     }
 
-    /// Whether those that wait are the candidates of an ordinary target.
+    /// Whether the waiting candidates are those of an ordinary target.
     #[inline(always)]
     fn are_ordinary(&self) -> bool {
         let Facts { candidates: room, runs, .. } = self.problem.facts();
         !runs.is_empty() && self.is_ordinary && self.waiting == room && self.candidates == room
     }
 
-    /// So many of the candidates that wait, in a row, miss the equations by the same.
+    /// How many consecutive waiting candidates have equal residuals.
     #[inline(always)]
     fn twins<const W: usize>(&self) -> usize {
         let Facts { candidates, twins, .. } = self.problem.facts();
         if candidates % (W * twins) == 0 && self.are_ordinary() { twins } else { 1 }
     }
 
-    /// Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others.
+    /// Keeps the waiting candidates that solve the equations within rounding, and refines the others.
     #[inline(never)]
     #[allow(unsafe_code)]
     pub fn flush(&mut self) {
         #[cfg(all(target_arch = "x86_64", feature = "std"))]
         if self.problem.facts().candidates.is_multiple_of(4) && std::is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has what the function is compiled for.
+            // SAFETY: the processor supports the target feature of the function.
             return unsafe { self.flush_by_4() };
         }
         self.flush_by::<LANES>();
     }
 
-    /// Not by [`crate::registers`]: in a closure nothing tells that `self` is alone, which costs a fifteenth.
+    /// Does not use [`crate::registers`]: in a closure the compiler cannot assume that `self` is not aliased, which costs 7 % of the time.
     #[cfg(all(target_arch = "x86_64", feature = "std"))]
     #[target_feature(enable = "avx2")]
     fn flush_by_4(&mut self) {
         self.flush_by::<4>();
     }
 
-    /// The same, so many at once.
+    /// Processes `W` waiting candidates at a time.
     #[inline(always)]
     fn flush_by<const W: usize>(&mut self) {
         if self.pairs.is_some() {
@@ -243,7 +243,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             let (residual, relative) = (fits.residual.as_ref()[k], fits.relative.as_ref()[k]);
             let fit = Fit { residual, relative, accepted: true };
             let holds = free == 0 && !close && relative < ROUNDING && fits.sound.as_ref()[k] > 0.0;
-            // The second of two that are alike is as far from those before as the first.
+            // The second of two twins has the same distance to earlier candidates as the first.
             let nearest = if k % twins == 0 { 0 } else { k - 1 };
             if holds && usual && self.write_apart(nearest..k, k, &q, &fit) {
                 continue;
@@ -258,7 +258,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         }
     }
 
-    /// The same for candidates of a nearby mechanism's formulas: they are led to answers.
+    /// Processes candidates of a nearby mechanism's formulas: Newton steps lead them to solutions.
     fn flush_nearby(&mut self, joints: &Joints<M, Abreast<M>>, ways: &Ways<M>) {
         let room = self.problem.facts().candidates;
         let waiting = core::mem::take(&mut self.waiting).min(room);
@@ -290,10 +290,10 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         }
     }
 
-    /// Writes a candidate that holds if there is room, and it is apart from others.
+    /// Writes an accepted candidate if there is room and it differs from the others.
     #[inline(always)]
     fn write_apart(&mut self, others: Range<usize>, k: usize, q: &Joints<M>, fit: &Fit) -> bool {
-        // A loop, for what an iterator is given is not inlined here.
+        // A loop, because a closure given to an iterator is not inlined here.
         for other in others {
             if !self.are_apart(k, other) {
                 return false;
@@ -306,7 +306,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         has_room
     }
 
-    /// Writes an answer behind the others.
+    /// Appends a solution.
     #[inline(always)]
     pub fn write(&mut self, found: &Found, q: Joints<M>, fit: &Fit) {
         let Found { branch, free, .. } = *found;
@@ -323,7 +323,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         self.refine(self.candidates + 1 + k - waiting, &found, q);
     }
 
-    /// Lets the equations read what follows from no joint from a candidate that waits.
+    /// Copies the numbers that follow from no joint from a waiting candidate, so that the equations read them.
     fn extras_of(&mut self, k: usize) {
         if self.problem.facts().has_extras {
             self.problem.extras = Some(self.places_of(k));
@@ -339,7 +339,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         Array::by(self.problem.joints(), |i| joints.as_ref()[i].as_ref()[k])
     }
 
-    /// Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart.
+    /// Writes the waiting candidates as pairs, as long as all solve the equations within rounding and differ from each other.
     #[inline(always)]
     fn flush_pairs<const W: usize>(&mut self) {
         let facts = self.problem.facts();
@@ -370,7 +370,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         }
     }
 
-    /// Whether an angle tells two candidates apart.
+    /// Whether two candidates differ in at least one angle.
     #[inline(always)]
     fn are_apart(&self, k: usize, other: usize) -> bool {
         let at = self.at.as_ref();
@@ -385,13 +385,13 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     }
 }
 
-/// Apart from callers, so that the parameters are known not to change.
+/// A function of its own, so that the compiler knows that the parameters do not change.
 #[inline(never)]
 fn walk<M: Mechanism>(mechanism: &M, parameters: &Parameters<M>, answers: &mut Answers<'_, M>) {
     mechanism.walk(parameters, answers);
 }
 
-/// Whether an angle tells two answers apart.
+/// Whether two solutions differ in at least one angle.
 #[inline(always)]
 fn tell_apart<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M, [f64; 2]>, b: &Joints<M, [f64; 2]>) -> bool {
     let (a, b) = (a.as_ref(), b.as_ref());

@@ -1,4 +1,4 @@
-//! The short way from a candidate of a nearby mechanism's formulas to the answer next to it: [`Problem::approached`], and [`Ways`] of several.
+//! Newton steps from a candidate of a nearby mechanism's formulas to the solution next to it: [`Problem::approached`], and [`Ways`] for several candidates.
 
 use crate::counters::{Event, Phase};
 use crate::lanes::Lanes;
@@ -9,21 +9,21 @@ use crate::storage::Array;
 use crate::tolerances::{APPROACHES, CHORD, PLAIN, ROUNDING, TURN};
 use crate::trigonometry::{cosine_and_sine, in_turn};
 
-/// Where the short way has led.
+/// The end of the Newton steps from a candidate.
 pub(crate) struct Approach<M: Mechanism> {
-    /// The joints there.
+    /// The joint values.
     pub end: Joints<M>,
-    /// How well they solve the equations: within rounding.
+    /// Their residuals, which are within rounding.
     pub fit: Fit,
-    /// What the candidate missed, as a share of the equations' sizes.
+    /// The relative residual of the candidate.
     pub missed: f64,
-    /// The least pivot of the normal equations at the candidate, as a share of their size.
+    /// The least pivot of the normal equations at the candidate, relative to their size.
     pub pivot: f64,
 }
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// Where plain Newton steps by the normal equations lead from `q`, of which the equations read `at`, if these hold there within rounding and are
-    /// regular on the way.
+    /// The end of plain Newton steps by the normal equations from `q`, whose cosines and sines are `at`. `None` unless the equations hold there within rounding
+    /// and are regular at each step.
     pub fn approached(&mut self, at: &Places<M>, q: &Joints<M>) -> Option<Approach<M>> {
         let (mut at, mut end) = (at.clone(), q.clone());
         self.step_back(&Array::by(self.joints(), |_| 0.0), &mut at, &mut end)?;
@@ -55,7 +55,7 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// Takes a step from `q`, and what the equations read of it; none where a pair is far from the circle.
+    /// Subtracts a step from `q` and updates the cosines and sines. `None` where a pair is far from the unit circle.
     fn step_back(&self, step: &Joints<M>, at: &mut Places<M>, q: &mut Joints<M>) -> Option<()> {
         let at = at.as_mut();
         for (i, joint) in self.facts().joints.iter().enumerate() {
@@ -82,10 +82,10 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 }
 
-/// Coefficients of the series of sine and cosine.
+/// Coefficients of the Taylor series of sine and cosine.
 const PARTS: [f64; 3] = [1.0 / 20.0, 1.0 / 6.0, 1.0 / 12.0];
 
-/// A pair of a cosine and a sine turned back by a small way, nearer to the circle, and the factor that led there.
+/// A pair of a cosine and a sine turned back by a small angle and normalised, and the normalising factor.
 #[inline(always)]
 fn turned_back<N: Number>(way: N, [c, s]: [N; 2]) -> ([N; 2], N)
 where
@@ -97,7 +97,7 @@ where
     ([along * c + across * s, along * s - across * c], norm)
 }
 
-/// The largest share of a value in its size.
+/// The largest relative residual.
 #[inline(always)]
 fn missed_by<M: Mechanism, N: Number>(value: &Shorts<M, N>, size: &Shorts<M, N>) -> N {
     let shares = value.as_ref().iter().zip(size.as_ref());
@@ -112,15 +112,15 @@ fn dot<M: Mechanism, N: Number>(a: &Shorts<M, N>, b: &Shorts<M, N>) -> N {
 /// Normal equations `J^T J`, eliminated without pivoting.
 struct Normal<M: Mechanism, N: Number> {
     columns: Joints<M, Shorts<M, N>>,
-    /// Below the diagonal, what each row was eliminated by.
+    /// The factors of the elimination are below the diagonal.
     square: Joints<M, Joints<M, N>>,
     inverse: Joints<M, N>,
-    /// The least pivot as a share of their size.
+    /// The least pivot, relative to the size of the equations.
     pivot: N,
 }
 
 impl<M: Mechanism, N: Number> Normal<M, N> {
-    /// Those of the derivatives by each joint; not `sound` where a pivot is small.
+    /// The normal equations of these derivatives by each joint. `sound` becomes zero where a pivot is small.
     #[inline(always)]
     fn new(columns: Joints<M, Shorts<M, N>>, joints: usize, sound: &mut N) -> Self {
         let none = N::of(0.0);
@@ -170,8 +170,8 @@ impl<M: Mechanism, N: Number> Normal<M, N> {
     }
 }
 
-/// The short ways of candidates: the sums of their steps, how well the equations hold behind them, what they were missed by and the least pivot before, and
-/// whether the equations are regular and near: 1, else 0.
+/// Newton steps of several candidates: their sums, the residuals at their ends, and the relative residuals and least pivots at the candidates. `sound` is 1
+/// where the equations are regular and the steps short, else 0.
 pub(crate) struct Ways<M: Mechanism> {
     steps: Joints<M, Abreast<M>>,
     residual: Abreast<M>,
@@ -182,7 +182,7 @@ pub(crate) struct Ways<M: Mechanism> {
 }
 
 impl<M: Mechanism> Ways<M> {
-    /// Those of the first so many candidates, `W` at once.
+    /// Takes the steps for the first `waiting` candidates, `W` at once.
     #[inline(always)]
     pub fn new<const W: usize>(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
         let _phase = Phase::Waiting.begin();
@@ -203,7 +203,7 @@ impl<M: Mechanism> Ways<M> {
         ways
     }
 
-    /// Those of `W` candidates. What one of them comes to does not depend on the others.
+    /// Takes the steps for `W` candidates. The result of one does not depend on the others.
     #[inline(always)]
     fn run<const W: usize>(
         &mut self,
@@ -237,7 +237,7 @@ impl<M: Mechanism> Ways<M> {
             if self.write(problem, p, first, &mut walkers) {
                 return;
             }
-            // That of the first candidate stands for all.
+            // The first candidate is representative of all.
             if self.missed.as_ref()[0] > CHORD {
                 continue;
             }
@@ -249,7 +249,7 @@ impl<M: Mechanism> Ways<M> {
         }
     }
 
-    /// Writes what the candidates that were not done before have come to; whether all are done.
+    /// Writes the results of the candidates that were not finished before, and returns whether all are finished.
     #[inline(always)]
     fn write<const W: usize>(
         &mut self,
@@ -275,7 +275,7 @@ impl<M: Mechanism> Ways<M> {
         walkers.are_done.iter().all(|is_done| *is_done)
     }
 
-    /// That of the candidate with index `k`, from `q`.
+    /// The result for the candidate with index `k`, which begins at `q`.
     pub fn approach(&self, problem: &Problem<'_, M>, k: usize, q: &Joints<M>) -> Approach<M> {
         let end = Array::by(problem.joints(), |i| {
             let value = q.as_ref()[i] - self.steps.as_ref()[i].as_ref()[k];
@@ -287,10 +287,10 @@ impl<M: Mechanism> Ways<M> {
     }
 }
 
-/// How many candidates are measured at once.
+/// Number of candidates that are measured at once.
 pub(crate) const LANES: usize = 2;
 
-/// What the equations read of so many candidates, each so many behind the one before.
+/// The cosines and sines of `W` candidates, with the given stride between them.
 #[inline(always)]
 pub(crate) fn abreast<M: Mechanism, const W: usize>(
     at: &Places<M, Abreast<M>>,
@@ -301,8 +301,8 @@ pub(crate) fn abreast<M: Mechanism, const W: usize>(
     Array::by(rows.len(), |i| Lanes(core::array::from_fn(|lane| rows[i].as_ref()[first + lane * stride])))
 }
 
-/// Candidates next to each other: what the equations read of each, the sum of its steps, whether its equations are regular and near (1, else 0), and whether
-/// it need not go on, for it has arrived or cannot.
+/// Newton iterations of several candidates side by side: for each its cosines and sines, the sum of its steps, whether its equations are regular and its steps
+/// short (1, else 0), and whether it is finished.
 struct Walkers<M: Mechanism, const W: usize> {
     here: Places<M, Lanes<W>>,
     steps: Joints<M, Lanes<W>>,
@@ -311,7 +311,7 @@ struct Walkers<M: Mechanism, const W: usize> {
 }
 
 impl<M: Mechanism, const W: usize> Walkers<M, W> {
-    /// As [`Problem::step_back`]; those with a long step, or a pair far from the circle, are not sound.
+    /// Same as [`Problem::step_back`]. A candidate with a long step, or with a pair far from the unit circle, becomes unsound.
     #[inline(always)]
     fn step_back(&mut self, problem: &Problem<'_, M>, step: &Joints<M, Lanes<W>>) {
         let at = self.here.as_mut();

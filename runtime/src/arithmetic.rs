@@ -1,14 +1,14 @@
-//! What `core` lacks: square roots and rounding. With the feature `std` they are its own, without it the root is the C library's.
+//! Functions that `core` lacks: square root and rounding. With the feature `std` they are those of `std`; without it the square root is the C library's.
 
 /// Functions of a number.
 pub(crate) trait Arithmetic {
     /// The square root, correctly rounded.
     fn sqrt(self) -> Self;
-    /// The nearest whole number, halves away from zero.
+    /// The nearest integer, halves away from zero.
     fn round(self) -> Self;
-    /// The greatest whole number that is not greater.
+    /// The greatest integer that is not greater than the number.
     fn floor(self) -> Self;
-    /// The least whole number that is not less.
+    /// The least integer that is not less than the number.
     fn ceil(self) -> Self;
 }
 
@@ -64,14 +64,14 @@ impl Arithmetic for f64 {
     }
 }
 
-/// The nearest whole number, halves away from zero: that of `std` is a call of the C library where the processor need not have SSE4.1.
+/// The nearest integer, halves away from zero. That of `std` calls the C library on targets without SSE4.1.
 #[inline(always)]
 fn to_nearest(x: f64) -> f64 {
-    // Just below one half: what is added to it must not round up to one.
+    // Just below one half, because adding one half to it must not round up to one.
     whole(x + 0.499_999_999_999_999_94_f64.copysign(x))
 }
 
-/// The number without what is behind its point.
+/// The integer part of the number.
 #[inline(always)]
 fn whole(x: f64) -> f64 {
     const ALL_WHOLE: f64 = (1_u64 << 52) as f64;

@@ -16,15 +16,15 @@ use crate::steps::Steps;
 use crate::storage::Array;
 use crate::tolerances::{MOST_STEPS, ROUNDING};
 
-/// What is written of a solution.
+/// The output format of a solution: angles or pairs.
 pub(crate) trait Answer<M: Mechanism>: Clone {
-    /// Whether it holds joint values, not cosines and sines.
+    /// Whether it has joint values instead of cosines and sines.
     const IS_BY_ANGLES: bool;
-    /// No answer yet.
+    /// An empty entry.
     fn none(mechanism: &M) -> Self;
-    /// That of an ordinary candidate in a lane.
+    /// The solution of an ordinary candidate in a lane.
     fn of<const W: usize>(facts: &Facts<'_>, bundle: &Bundle<M, W>, candidate: usize, lane: usize) -> Self;
-    /// All of one target.
+    /// All solutions of one target.
     fn solve(mechanism: &M, target: &Inputs<M>, list: &mut [Self]) -> Result<usize, Error>;
 }
 
@@ -82,7 +82,7 @@ impl<M: Mechanism> Answer<M> for Pairs<M> {
     }
 }
 
-/// In the widest registers that the processor has.
+/// Solves a batch in the widest registers that the processor has.
 pub(crate) fn solve_widest<M: Mechanism, A: Answer<M>>(
     mechanism: &M,
     targets: &[Inputs<M>],
@@ -126,7 +126,7 @@ pub(crate) fn solve_widest<M: Mechanism, A: Answer<M>>(
     solve_by::<M, A, WIDTH>(mechanism, targets, out, counts)
 }
 
-/// One after the other.
+/// Solves the targets of a batch one after the other.
 fn solve_singly<M: Mechanism, A: Answer<M>>(
     mechanism: &M,
     targets: &[Inputs<M>],
@@ -175,7 +175,7 @@ fn solve_by<M: Mechanism, A: Answer<M>, const W: usize>(
     done
 }
 
-/// All of one target, where there may be less room than solutions: then none is written.
+/// Writes all solutions of one target, or none if there is not enough room.
 #[cold]
 #[inline(never)]
 fn solve_into<M: Mechanism, A: Answer<M>>(mechanism: &M, target: &Inputs<M>, room: &mut [A]) -> Result<usize, Error> {
@@ -187,16 +187,16 @@ fn solve_into<M: Mechanism, A: Answer<M>>(mechanism: &M, target: &Inputs<M>, roo
     Ok(count)
 }
 
-/// The candidates of several targets. No lanes lie across a cache line.
+/// The candidates of several targets. The alignment keeps each row within a cache line.
 #[repr(C, align(64))]
 pub(crate) struct Bundle<M: Mechanism, const W: usize> {
     at: Abreast<M, Places<M, Lanes<W>>>,
     q: Abreast<M, Joints<M, Lanes<W>>>,
     residual: Abreast<M, Lanes<W>>,
     relative: Abreast<M, Lanes<W>>,
-    /// Which targets have no such candidate.
+    /// Which targets do not have this candidate.
     dead: Abreast<M, Mask<W>>,
-    /// Which targets are not ordinary: a case of a stratum may run, roots are close, a candidate misses the equations or is next to another.
+    /// Which targets are not ordinary: a case of a stratum may run, roots are close, a candidate has a large residual, or two candidates are close.
     doubt: Mask<W>,
     branch: Abreast<M, usize>,
     count: usize,
@@ -267,7 +267,7 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
         }
     }
 
-    /// Finds those of up to `W` targets, of which there is one at least, and their angles if they are wanted.
+    /// Finds the candidates of 1 to `W` targets, and their angles if `wants_angles`.
     #[inline(always)]
     fn find(&mut self, mechanism: &M, facts: &Facts<'_>, targets: &[Inputs<M>], wants_angles: bool) {
         let number = |i: usize, lane: usize| targets[lane.min(targets.len() - 1)].as_ref()[i];
@@ -288,7 +288,7 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
         self.find_joints(facts, wants_angles);
     }
 
-    /// Doubts where a candidate misses the equations.
+    /// Marks targets with a candidate whose residual is too large.
     #[inline(always)]
     fn measure(&mut self, mechanism: &M, facts: &Facts<'_>, p: &Parameters<M, Lanes<W>>) {
         for k in (0..facts.candidates).step_by(facts.twins) {
@@ -300,7 +300,7 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
         }
     }
 
-    /// Doubts where two candidates are next to one another. Of those that are alike one is enough: the others are as far from one another.
+    /// Marks targets with two candidates close to each other. One of each group of twins is compared: its twins have equal distances.
     #[inline(always)]
     fn tell_apart(&mut self, facts: &Facts<'_>) {
         let (mut doubt, at, dead) = (self.doubt, self.at.as_ref(), self.dead.as_ref());
@@ -321,7 +321,7 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
         self.doubt = doubt;
     }
 
-    /// Finds joint values, angles only if they are wanted; doubts where they are none.
+    /// Computes the joint values, angles only if they are wanted. Marks targets where these are not finite.
     #[inline(always)]
     fn find_joints(&mut self, facts: &Facts<'_>, wants_angles: bool) {
         let mut doubt = self.doubt;
@@ -352,12 +352,12 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
         self.doubt = doubt;
     }
 
-    /// Writes the solutions of the target in a lane, with room for all candidates; how many there are.
+    /// Writes the solutions of the target in a lane and returns their number. `room` must hold all candidates.
     #[inline(always)]
     fn write<A: Answer<M>>(&self, facts: &Facts<'_>, lane: usize, room: &mut [A]) -> usize {
         let mut count = 0;
         for k in 0..facts.candidates {
-            // One number each: a whole vector would be copied for it.
+            // Single numbers are read; otherwise the compiler copies a whole vector.
             room[count] = A::of(facts, self, k, lane);
             count += usize::from(self.dead.as_ref()[k].0[lane] == 0);
         }

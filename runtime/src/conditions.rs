@@ -1,11 +1,11 @@
-//! What a target must fulfil: rotations and unit vectors, checked and freed from their last digits' error.
+//! Conditions on a target: rotation matrices and unit vectors are checked, and rounding errors in them are corrected.
 
 use crate::mechanism::Condition;
 use crate::number::{Number, With};
 use crate::solution::Error;
 use crate::tolerances::CONSISTENT;
 
-/// Moves a target onto its conditions, which it may miss by a little.
+/// Projects a target onto its conditions; an error if it is farther from them than the tolerance.
 #[inline(always)]
 pub(crate) fn conform(conditions: &[Condition], target: &mut [f64]) -> Result<(), Error> {
     if !target.iter().all(|value| value.is_finite()) {
@@ -22,7 +22,7 @@ pub(crate) fn conform(conditions: &[Condition], target: &mut [f64]) -> Result<()
     Ok(())
 }
 
-/// One Newton step towards what a condition asks for; false when that is far.
+/// Takes one Newton step towards a condition. False when the target is far from it.
 #[inline(always)]
 pub(crate) fn fulfil<N: Number>(condition: Condition, target: &mut [N]) -> N::Truth
 where
@@ -34,8 +34,8 @@ where
     }
 }
 
-/// One Newton step towards the nearest rotation of a matrix by rows, `R - (R R^T - 1) R / 2` (N. Higham, "Computing the polar decomposition - with
-/// applications", 1986); false when that is far, or it is a reflection.
+/// Takes one Newton step from a matrix by rows towards the nearest rotation, `R - (R R^T - 1) R / 2` (N. Higham, "Computing the polar decomposition - with
+/// applications", 1986). False when the matrix is far from a rotation or is a reflection.
 #[inline(always)]
 fn make_rotation<N: Number>(r: &mut [N]) -> N::Truth
 where
@@ -60,7 +60,7 @@ where
     N::of(0.0).at_most(determinant) & deviation.at_most(N::of(CONSISTENT))
 }
 
-/// One Newton step towards the nearest unit vector; false when that is far.
+/// Takes one Newton step towards the nearest unit vector. False when the vector is far from it.
 #[inline(always)]
 fn make_unit<N: Number>(v: &mut [N]) -> N::Truth
 where

@@ -1,24 +1,24 @@
-//! What solving takes, by phase: calls, steps, evaluations of the equations and time. With the feature `counters` these are counted for the whole process, and
-//! `take` reads them; without it nothing is counted, and no instruction is left of it.
+//! Counters of the work of solving, by phase: calls, steps, evaluations of the equations and time. With the feature `counters` they count for the whole
+//! process, and `take` reads them. Without it they compile to no instruction.
 
-/// A phase of solving. What a phase calls that is a phase itself counts there.
+/// A phase of solving. A phase that another one calls counts separately.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// The walk through the blocks, and all that no other phase has.
+    /// Evaluation of the blocks, and everything that belongs to no other phase.
     Walk,
-    /// Candidates measured side by side, or led by short steps.
+    /// Measurement of several candidates side by side, and their Newton steps by normal equations.
     Waiting,
-    /// A candidate polished that does not hold where it was found.
+    /// Polishing of a candidate with a residual above rounding.
     Polish,
-    /// Starts around a singular candidate.
+    /// Restarts around a singular candidate.
     Around,
-    /// The second answer looked for next to a steep one.
+    /// Search for a second solution next to an ill-conditioned one.
     Twin,
-    /// Whether a candidate is a member of a self-motion.
+    /// Test whether a candidate is a member of a self-motion.
     Member,
-    /// Walks along curves next to self-motions.
+    /// Continuation along curves next to self-motions.
     Curve,
-    /// A new answer compared with those that are near.
+    /// Comparison of a new solution with those nearby.
     Compare,
 }
 
@@ -36,18 +36,18 @@ impl Phase {
     ];
 }
 
-/// What is counted of each phase.
+/// A quantity that is counted in each phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
-    /// How often the phase began.
+    /// Number of times the phase began.
     Call,
-    /// Newton steps by a triangle of reflections, damped ones too.
+    /// Newton steps by QR factorisation, damped ones included.
     Step,
-    /// Newton steps by normal equations; of candidates side by side each counts once.
+    /// Newton steps by normal equations; each of several candidates side by side counts once.
     Short,
-    /// Evaluations of the equations beside those of steps.
+    /// Evaluations of the equations outside of steps.
     Evaluation,
-    /// Time of the clock \[ns\].
+    /// Elapsed time \[ns\].
     Time,
 }
 
@@ -63,7 +63,7 @@ pub use of_feature::take;
 mod of_feature {
     use super::{Event, Phase};
 
-    /// Nothing: phases are not counted.
+    /// Does nothing: phases are not counted.
     pub(crate) struct Within;
 
     impl Phase {
@@ -94,7 +94,7 @@ mod of_feature {
     static PHASE: AtomicUsize = AtomicUsize::new(0);
     static SINCE: AtomicU64 = AtomicU64::new(0);
 
-    /// Until this is dropped, what happens counts for a phase; then for the one before.
+    /// Guard of a phase: until it is dropped, events count for this phase, afterwards for the phase before.
     pub(crate) struct Within(usize);
 
     impl Drop for Within {
@@ -121,7 +121,7 @@ mod of_feature {
         COUNTS[PHASE.load(Relaxed)][event as usize].fetch_add(amount, Relaxed);
     }
 
-    /// Ends the phase, and returns it.
+    /// Ends the current phase and returns it.
     fn change(next: usize) -> usize {
         static START: OnceLock<Instant> = OnceLock::new();
         let now = START.get_or_init(Instant::now).elapsed().as_nanos() as u64;
@@ -129,7 +129,7 @@ mod of_feature {
         PHASE.swap(next, Relaxed)
     }
 
-    /// What has been counted since the last call: by [`Phase::ALL`], by [`Event::ALL`]. Of one thread at a time this makes sense.
+    /// The counts since the last call, by [`Phase::ALL`] and [`Event::ALL`]. Meaningful only while one thread solves.
     pub fn take() -> [[u64; Event::ALL.len()]; Phase::ALL.len()] {
         change(PHASE.load(Relaxed));
         core::array::from_fn(|phase| core::array::from_fn(|event| COUNTS[phase][event].swap(0, Relaxed)))

@@ -1,8 +1,8 @@
-//! Curves all along which the equations of a nearby mechanism almost hold. Where its formulas have a self-motion, the mechanism itself may have isolated answers
-//! anywhere on what is left of that, and Newton's steps find none of them: along the curve the equations hardly change. A walk holds one joint after the other
-//! while the others fit best; what is then missed changes its sign at each answer.
+//! Continuation along curves on which the equations of a nearby mechanism hold almost. Where the formulas have a self-motion, the mechanism itself may have
+//! isolated solutions anywhere on the remaining curve. Newton steps find none of them, because the equations change little along the curve. A walk holds one
+//! joint after the other while the remaining ones minimise the residual. At each solution the residual changes its sign.
 //!
-//! As `six_axes/curve.rs`, for any number of joints and equations. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.)
+//! Same as `six_axes/curve.rs`, for any number of joints and equations. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.)
 
 use crate::answers::Answers;
 use crate::counters::Phase;
@@ -12,52 +12,52 @@ use crate::problem::Problem;
 use crate::starts::{Starts, product};
 use crate::tolerances::{ACCEPT, ALONE, NEAR, REGULAR, ROUNDING};
 
-/// The most least-squares steps across the curve.
+/// Maximal number of least-squares steps that correct a place onto the curve.
 const ROUNDS: usize = 6;
-/// None of them moves a joint by more (rad, or relative to the length scale).
+/// Maximal movement of a joint in such a step (rad, or relative to the length scale).
 const BOUND: f64 = 0.5;
-/// The last one moves no joint by more.
+/// Movement of all joints at which a correction has converged.
 const SETTLED: f64 = 1e-8;
-/// Where another joint too hardly changes the equations, by this share of what others do, there is more than a curve.
+/// Where a second joint changes the equations by less than this share of what the others do, the solution set has more than one dimension.
 const RANK: f64 = 1e-3;
 /// The shortest, the first and the longest step along the curve (rad, or relative to the length scale).
 const PACE: [f64; 3] = [1.5e-3, 2.5e-2, 0.1];
-/// The most steps of a walk in one direction.
+/// Maximal number of steps of a walk in one direction.
 const PACES: usize = 400;
-/// A step leads to no other curve where it ends no farther from the line of the step before than this share of its length.
+/// The end of a step must be no farther from the extrapolated line than this share of the step's length. Otherwise it may be on another curve.
 const STRAIGHT: f64 = 0.5;
-/// The square of the least cosine between what two places next to each other miss.
+/// The least squared cosine between the residual vectors at two consecutive places.
 const ALIGNED: f64 = 0.5;
-/// How many times as much the square of what is missed may be at one of them as at the other.
+/// The largest ratio of the squared residuals at two consecutive places.
 const FEWFOLD: f64 = 30.0;
-/// Rounds of the false position between two steps.
+/// Iterations of false position between two steps.
 const NARROWED: usize = 24;
-/// The most parabolas that tell where a curve misses least.
+/// Maximal number of parabolas that search for the least residual on a curve.
 const PARABOLAS: usize = 12;
-/// Where a parabola's vertex misses more than this share of what the place before missed, the curve may stay away from zero.
+/// Where the residual at a parabola's vertex is more than this share of the one before, the curve may have no zero.
 const FALLEN: f64 = 0.5;
-/// It does where so many do.
+/// The search stops after so many such vertices.
 const STALLS: usize = 2;
-/// A curve that misses no more than this all along is a self-motion: next to one that is exact an answer's tolerance has room for it.
+/// A curve whose relative residual nowhere exceeds this is a self-motion. The factor leaves room for the tolerance of solutions next to an exact self-motion.
 const WHOLE: f64 = 10.0 * ACCEPT;
 
 /// A place on a curve.
 struct Place<M: Mechanism> {
     q: Joints<M>,
-    /// What is missed there, as shares of the equations' sizes.
+    /// The relative residuals there.
     miss: Equations<M>,
-    /// The most of it.
+    /// The largest of them.
     most: f64,
 }
 
 /// A walk along one curve.
 struct Walk<M: Mechanism> {
-    /// How its answers are found: as its start was, but isolated.
+    /// How its solutions are found: same as its start, but isolated.
     found: Found,
     home: Place<M>,
-    /// The place so far that misses least.
+    /// The place with the least residual so far.
     best: Place<M>,
-    /// The most that is missed so far.
+    /// The largest residual so far.
     most: f64,
 }
 
@@ -68,12 +68,12 @@ impl<M: Mechanism> Clone for Place<M> {
 }
 
 impl<M: Mechanism> Place<M> {
-    /// What is missed in the direction of what another place misses, times the length of that.
+    /// The scalar product of the residual vectors of two places.
     fn along(&self, other: &Place<M>) -> f64 {
         product(self.miss.as_ref(), other.miss.as_ref())
     }
 
-    /// Whether what is missed changes little from another place, or has its sign changed: then nothing between is overlooked.
+    /// Whether the residual vector changes little from another place, or only its sign: then no solution between the two is missed.
     fn goes_on(&self, other: &Place<M>) -> bool {
         let [here, there, along] = [self.along(self), other.along(other), self.along(other)];
         let is_aligned = along * along > ALIGNED * here * there;
@@ -92,11 +92,11 @@ impl<M: Mechanism> Walk<M> {
 }
 
 impl<M: Mechanism> Answers<'_, M> {
-    /// Remembers a candidate next to which there is a curve, for [a walk](Answers::walk_curves) behind all candidates; whether there is one.
+    /// Stores a candidate next to which there is a curve, for [`Answers::walk_curves`] after all candidates. Returns whether there is one.
     #[cold]
     pub fn begin_curve(&mut self, found: &Found, q: &Joints<M>) -> bool {
         let _phase = Phase::Curve.begin();
-        // Another candidate's numbers that follow from no joint would not fit.
+        // Numbers that follow from no joint belong to one candidate, so they cannot be stored.
         let place = if self.problem.facts().has_extras { None } else { self.problem.start(q, found.free) };
         let Some((start, held)) = place else { return false };
         let free = if is_in(found.free, held) { found.free } else { 0 };
@@ -107,7 +107,7 @@ impl<M: Mechanism> Answers<'_, M> {
         true
     }
 
-    /// Walks along the curves next to candidates, and keeps the answers on them.
+    /// Follows the curves next to the stored candidates, and keeps the solutions on them.
     #[cold]
     pub fn walk_curves(&mut self) {
         let _phase = Phase::Curve.begin();
@@ -119,7 +119,8 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Walks along the curve next to a candidate, both ways if it does not close; of one that misses nothing, a self-motion, a member is kept.
+    /// Follows the curve next to a candidate, in both directions if it is not closed. Where the residual is zero along the curve, it is a self-motion, and one
+    /// member is kept.
     fn walk_curve(&mut self, found: &Found, q: Joints<M>, starts: &mut Starts<M>) {
         let Some((home, held)) = self.problem.start(&q, found.free) else { return };
         let sides = [-PACE[1], PACE[1]].map(|way| {
@@ -144,7 +145,7 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Walks from home through `at` until the curve closes or ends; whether it closed.
+    /// Follows the curve from home through `at` until it closes or ends. Returns whether it closed.
     fn leads_home(&mut self, walk: &mut Walk<M>, mut at: Place<M>, starts: &mut Starts<M>) -> bool {
         let (mut before, mut pace, mut last, mut is_away) = (walk.home.clone(), PACE[1], PACE[1], false);
         self.change(&walk.found, &before, &at);
@@ -161,7 +162,7 @@ impl<M: Mechanism> Answers<'_, M> {
             let Some((next, length)) = self.problem.pace(&before, &at, last, &mut pace) else { return false };
             self.change(&walk.found, &at, &next);
             self.dip(&walk.found, [&before, &at, &next]);
-            // Places that miss nothing but rounding are one answer, or several next to each other.
+            // Consecutive places with residuals within rounding are one solution, or several close together.
             if (at.most <= ALONE) != (next.most <= ALONE) {
                 self.keep_on_curve(&walk.found, if at.most <= ALONE { at.q.clone() } else { next.q.clone() });
             }
@@ -170,8 +171,8 @@ impl<M: Mechanism> Answers<'_, M> {
         false
     }
 
-    /// Keeps the answer between two places where what is missed changes its sign, by false position (the Illinois rule: M. Dowell and P. Jarratt,
-    /// BIT 11 (1971) 168-174).
+    /// Keeps the solution between two places where the residual changes its sign, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT 11 (1971)
+    /// 168-174).
     fn change(&mut self, found: &Found, a: &Place<M>, b: &Place<M>) {
         if a.along(b) > 0.0 || f64::max(a.most, b.most) <= ALONE {
             return;
@@ -196,7 +197,7 @@ impl<M: Mechanism> Answers<'_, M> {
         self.keep_on_curve(found, if near.most <= far.most { near.q } else { far.q });
     }
 
-    /// Where what is missed falls and rises again with one sign, there may be two answers, or a double one: it is least at the vertex of a parabola.
+    /// Searches for two solutions, or a double one, where the residual has a minimum without a change of sign: at the vertex of a parabola.
     fn dip(&mut self, found: &Found, [a, b, c]: [&Place<M>; 3]) {
         let unit = if a.most > c.most { a } else { c };
         let (middle, ends) = (b.along(unit), f64::min(a.along(unit), c.along(unit)));
@@ -232,7 +233,7 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Keeps what a place on a curve is polished to, if that is an answer that is not known: a member of a self-motion where one joint moves.
+    /// Polishes a place on a curve and keeps the result if it is a new solution: a member of a self-motion where one joint can move.
     fn keep_on_curve(&mut self, found: &Found, q: Joints<M>) {
         let end = self.problem.polished(q, 0);
         if self.is_listed(&end.0) {
@@ -243,7 +244,7 @@ impl<M: Mechanism> Answers<'_, M> {
         self.keep(&Found { free, ..*found }, end);
     }
 
-    /// Keeps a member of a self-motion, of the joints that the candidate freed, or of the one that was held first.
+    /// Keeps a member of a self-motion of the joints that the candidate frees, or of the joint that was held first.
     fn keep_whole_curve(&mut self, found: &Found, held: usize, q: Joints<M>) {
         let free = if found.free == 0 { 1 << held } else { found.free };
         let end = self.problem.polished(q, free);
@@ -252,8 +253,8 @@ impl<M: Mechanism> Answers<'_, M> {
 }
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// The place on the curve next to joints, and the joint that is held to come there: a free one, or where none is or others move without it, the one that
-    /// moves farthest where the equations hardly change.
+    /// The place on the curve next to `q`, and the joint that is held to reach it. This is a free joint. Where none is free, or the others move without it, it
+    /// is the joint that moves farthest in the direction in which the equations change least.
     fn start(&mut self, q: &Joints<M>, free: u32) -> Option<(Place<M>, usize)> {
         let of_free = if free == 0 { None } else { self.start_with(q, free.trailing_zeros() as usize) };
         if of_free.is_some() {
@@ -264,13 +265,13 @@ impl<M: Mechanism> Problem<'_, M> {
         self.start_with(q, held)
     }
 
-    /// The place next to joints that is come to with one joint held, if it is on a curve, along which all others follow.
+    /// The place next to `q` reached with one joint held, if it is on a curve along which all other joints follow.
     fn start_with(&mut self, q: &Joints<M>, held: usize) -> Option<(Place<M>, usize)> {
         let place = self.settled(q.clone(), held)?;
         (self.regularity_of(&place.q, 1 << held) > RANK).then_some((place, held))
     }
 
-    /// Least-squares steps with one joint held, until they are short.
+    /// Takes least-squares steps with one joint held, until they are short.
     fn settled(&mut self, mut q: Joints<M>, held: usize) -> Option<Place<M>> {
         for _ in 0..ROUNDS {
             if self.steps.are_spent() {
@@ -295,14 +296,14 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// The place on the curve at a share of the way from `a` to `b`.
+    /// The place on the curve at a fraction `share` of the distance from `a` to `b`.
     fn between(&mut self, a: &Place<M>, b: &Place<M>, share: f64) -> Option<Place<M>> {
         let facts = self.facts();
         let held = farthest(differences::<M>(&facts, &b.q, &a.q).as_ref());
         self.settled(beyond::<M>(&facts, &b.q, &a.q, -share), held)
     }
 
-    /// A step along the curve from `at`, shorter where it bends, and its length; none where the curve ends.
+    /// A step along the curve from `at`, shorter where it bends, and its length. `None` where the curve ends.
     fn pace(&mut self, before: &Place<M>, at: &Place<M>, last: f64, pace: &mut f64) -> Option<(Place<M>, f64)> {
         let facts = self.facts();
         let held = farthest(differences::<M>(&facts, &at.q, &before.q).as_ref());
@@ -322,7 +323,8 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// Where a parabola through what three places miss of a direction is least, the one between missing less than the others, and towards which of these that is.
+    /// The minimum of a parabola through the residuals of three places, projected on a direction; the middle place has the least residual. Also returns the
+    /// side on which the minimum is.
     fn vertex(&mut self, unit: &Place<M>, least: &Place<M>, sides: &[Place<M>; 2]) -> Option<(usize, Place<M>)> {
         let [low, middle, high] = [&sides[0], least, &sides[1]].map(|place| place.along(unit));
         let lengths = sides.each_ref().map(|side| self.facts().farthest(side.q.as_ref(), least.q.as_ref()));
@@ -333,7 +335,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 }
 
-/// The place of the entry with the greatest magnitude, the first of equals.
+/// The index of the entry with the greatest magnitude, the first of equals.
 fn farthest(way: &[f64]) -> usize {
     let farther = |best: usize, i: usize| if way[i].abs() > way[best].abs() { i } else { best };
     (1..way.len()).fold(0, farther)

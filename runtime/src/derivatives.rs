@@ -1,12 +1,12 @@
-//! The derivatives of equations by the joints.
+//! Jacobian of equations by the joints.
 
 use crate::lanes::Lanes;
 use crate::mechanism::{Equations, Joint, Joints, Mechanism, Parameters, Places};
 use crate::number::Number;
 use crate::storage::Array;
 
-/// The derivative of each equation by each joint, where the equations are affine in the numbers of each: their values at the numbers' derivatives
-/// less those at zeros, both at once.
+/// The derivative of each equation by each joint, where the equations are affine in the numbers of each joint. It is their values at the numbers' derivatives
+/// minus their values at zeros; both are evaluated at once.
 pub fn of_affine<M: Mechanism>(mechanism: &M, p: &Parameters<M>, at: &Places<M>) -> Equations<M, Joints<M>> {
     let (facts, p, at) = (mechanism.facts(), p.as_ref(), at.as_ref());
     let p: Parameters<M, Lanes<2>> = Array::by(p.len(), |i| Lanes::of(p[i]));

@@ -1,8 +1,8 @@
-//! Tasks that ask for more than the joints can do, of a mechanism that a description tells in rounded numbers ([`Facts::within`]).
+//! Tasks with more conditions than joints, for a mechanism whose description has rounded numbers ([`Facts::within`]).
 //!
-//! The ideal mechanism decides which answers there are: of the candidates for the target the one that comes nearest tells a target that the ideal mechanism
-//! reaches, and if the two are the same [within](Facts::within) the tolerance, the answers are all that reach it. Each is then brought, in the sense of least
-//! squares, to where the mechanism as described is nearest to the target itself.
+//! The ideal mechanism determines the solutions. Among the candidates for the target, the nearest one defines a target that the ideal mechanism reaches. If
+//! both targets agree [within](Facts::within) the tolerance, all solutions of the second one are used. Each is then moved, by least squares, to where the
+//! mechanism as described is nearest to the requested target.
 
 use crate::angles::angle;
 use crate::conditions::conform;
@@ -57,7 +57,7 @@ impl<M: Mechanism> Mechanism for Described<'_, M> {
     }
 }
 
-/// The target that is read off what the equations compare.
+/// The target computed from the values that the equations compare.
 pub(crate) fn read_off<M: Mechanism>(facts: &Facts<'_>, tip: &Equations<M>, q: &Joints<M>) -> Inputs<M> {
     Array::by(facts.inputs, |i| match facts.reached[i] {
         Reached::Value(value) => tip.as_ref()[value],
@@ -66,7 +66,7 @@ pub(crate) fn read_off<M: Mechanism>(facts: &Facts<'_>, tip: &Equations<M>, q: &
     })
 }
 
-/// The target that joint values reach as described.
+/// The target that the mechanism as described reaches with these joint values.
 pub(crate) fn reached<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Inputs<M> {
     let facts = mechanism.facts();
     let target: Inputs<M> = Array::by(facts.inputs, |_| 0.0);
@@ -75,13 +75,13 @@ pub(crate) fn reached<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Inputs<M> {
     read_off::<M>(&facts, &mechanism.described(&nothing, &place::<M>(&facts, q, None)), q)
 }
 
-/// Candidates for a target, which the joints may miss, handed on until that is enough.
+/// Candidates for a target that the joints may not reach exactly, passed on until `take` returns true.
 struct Proposals<'a, F> {
     facts: Facts<'a>,
     take: F,
     is_done: bool,
     candidates: usize,
-    /// The joints that some candidate frees.
+    /// The joints that at least one candidate frees.
     free: u32,
     open: Option<usize>,
 }
@@ -129,7 +129,7 @@ impl<M: Mechanism, F: FnMut(&Found, Joints<M>) -> bool> Candidates<f64, M> for P
     }
 }
 
-/// Hands on the candidates for a target until `take` has enough; the joints that some candidate frees.
+/// Passes on the candidates for a target until `take` returns true. Returns the joints that at least one candidate frees.
 fn propose<M: Mechanism>(
     mechanism: &M,
     p: &Parameters<M>,
@@ -141,11 +141,11 @@ fn propose<M: Mechanism>(
     proposals.open.map_or(Ok(proposals.free), |number| Err(Error::OpenStratum(number)))
 }
 
-/// The joints with which the ideal mechanism is nearest to a target, if there are any candidates, and the joints that some of these free.
+/// The joint values with which the ideal mechanism is nearest to a target, if there are candidates, and the joints that at least one of these frees.
 fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>, steps: &mut Steps) -> Result<(Option<End<M>>, u32), Error> {
     let (mut problem, mut best) = (Problem::new(mechanism, p, steps), None::<End<M>>);
     let free = propose(mechanism, p, |_, q| {
-        // On a stratum joints only seem to be free where the other equations tell them.
+        // On a stratum a joint may only appear free, because the remaining equations determine it.
         let end = problem.fitted(q, 0, LEAPS[0]);
         let is_nearer = best.as_ref().is_none_or(|(_, fit)| end.1.relative < fit.relative);
         if is_nearer {
@@ -156,7 +156,7 @@ fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>, steps: &mut Steps) ->
     Ok((best, free))
 }
 
-/// A member of a self-motion of the ideal mechanism that comes within the tolerance of a target, where a candidate leads to one.
+/// A member of a self-motion of the ideal mechanism that reaches the target within the tolerance, if a candidate leads to one.
 fn find_member<M: Mechanism>(
     mechanism: &M,
     p: &Parameters<M>,
@@ -173,7 +173,7 @@ fn find_member<M: Mechanism>(
     Ok(member)
 }
 
-/// The joints next to `q` at which the ideal mechanism has a self-motion of the joints `free` that comes within the tolerance of the target.
+/// Joint values next to `q` at which the ideal mechanism has a self-motion of the joints `free` and reaches the target within the tolerance.
 fn onto_self_motion<M: Mechanism>(
     problem: &mut Problem<'_, M>,
     q: Joints<M>,
@@ -189,9 +189,9 @@ fn onto_self_motion<M: Mechanism>(
     (is_near && ideal.lies_on_self_motion(&q, free, ROUNDING)).then_some(q)
 }
 
-/// Adds joints with which the ideal mechanism comes within the tolerance of the target, too, and that are far from all answers to the target next to it: where it
-/// reaches one pose in more ways than most, these part by as much as the target is off, and where two answers would meet just out of reach they are one. Joints are
-/// no other answer where they are of a self-motion that the mechanism has at the target next to it, which `q` reaches.
+/// Adds joint values with which the ideal mechanism also reaches the target within the tolerance, and which are far from all solutions of the nearby target.
+/// Such solutions exist at singular poses, where solutions part by as much as the target deviates, and near the boundary of the workspace, where two solutions
+/// merge. Joint values are skipped if they belong to a self-motion at the nearby target, which `q` reaches.
 fn add_others<M: Mechanism>(
     mechanism: &M,
     (p, within): (&Parameters<M>, f64),
@@ -214,7 +214,7 @@ fn add_others<M: Mechanism>(
             return false;
         }
         let (q, fit) = problem.fitted(q, 0, LEAPS[0]);
-        // On a stratum joints only seem to be free where the other equations tell them: then no others are within the tolerance next to these.
+        // On a stratum a joint may only appear free, because the remaining equations determine it: then no other joint values nearby are within the tolerance.
         let mut is_alone = || found.free == 0 || problem.regularity(&q) * BLUR > within;
         if fit.relative <= within && is_far(&q) && is_alone() && !is_member(&q, problem.steps) {
             let Fit { residual, relative, .. } = fit;
@@ -234,7 +234,7 @@ fn add_others<M: Mechanism>(
     Ok(count)
 }
 
-/// All answers to a target that fulfils its conditions; where there is none, where the mechanism comes nearest to it.
+/// All solutions of a target that fulfils its conditions. If there is none, the joint values with which the mechanism is nearest to it.
 #[inline(never)]
 pub(crate) fn solve_described<M: Mechanism>(
     mechanism: &M,
@@ -275,13 +275,14 @@ fn ideal_parameters<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Option<Parame
     Some(mechanism.parameters(&target))
 }
 
-/// Brings an answer of the ideal mechanism to where the described one is nearest to the target.
+/// Moves a solution of the ideal mechanism to where the mechanism as described is nearest to the target.
 fn fit_to<M: Mechanism>(problem: &mut Problem<'_, Described<'_, M>>, answer: &mut Solution<M>) {
     let (q, fit) = problem.fitted(answer.q.clone(), answer.free, BLUR);
     (answer.q, answer.residual, answer.relative) = (q, fit.residual, fit.relative);
 }
 
-/// Brings all answers there, and keeps those that are new; their number. Where one would become another one it stays: the ideal mechanism tells them apart.
+/// Moves all solutions in this manner, keeps those that are distinct and returns their number. A solution that would coincide with another one is not moved:
+/// the ideal mechanism distinguishes them.
 fn fit_all<M: Mechanism>(problem: &mut Problem<'_, Described<'_, M>>, out: &mut [Solution<M>]) -> usize {
     let facts = problem.facts();
     let mut kept = 0;
@@ -306,7 +307,7 @@ fn fit_all<M: Mechanism>(problem: &mut Problem<'_, Described<'_, M>>, out: &mut 
     kept
 }
 
-/// As [`crate::Solve::solve_within`], for one answer: a member of a self-motion is moved along that of the ideal mechanism.
+/// Same as [`crate::Solve::solve_within`], for one solution. A member of a self-motion is moved along that of the ideal mechanism.
 pub(crate) fn within_limits<M: Mechanism>(
     mechanism: &M,
     p: &Parameters<M>,

@@ -1,4 +1,4 @@
-//! One number.
+//! [`Number`](crate::number::Number) for a single `f64`.
 
 use crate::number::{Number, Roots, Scale};
 use crate::roots;

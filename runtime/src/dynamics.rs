@@ -1,10 +1,10 @@
-//! What printed equations of motion stand on: cosines and sines of all joints at once.
+//! Functions that printed equations of motion use: cosines and sines of all joints at once.
 
 use core::f64::consts::TAU;
 
 use crate::six_axes::vector;
 
-/// Beyond so many rad an angle first loses whole turns.
+/// An angle beyond this is first reduced by whole turns \[rad\].
 const FAR: f64 = 1e6;
 
 /// The cosines and the sines of angles in rad, each within one unit of its last place up to a million rad.

@@ -7,7 +7,7 @@ use crate::problem::Problem;
 use crate::solution::{Error, Solution};
 use crate::steps::Steps;
 
-/// All joint values with which the equations hold.
+/// Finds all joint values with which the equations hold.
 #[inline]
 pub(crate) fn solve_ideal<M: Mechanism>(
     mechanism: &M,

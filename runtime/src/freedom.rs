@@ -1,4 +1,4 @@
-//! The joint values next to a target at which a joint can move while the others keep the tip where it is: [`Problem::freed`].
+//! Joint values next to a target at which a joint can move while the tip does not: [`Problem::freed`].
 
 use crate::joints::{is_in, shifted, stepped};
 use crate::mechanism::{Equations, Joints, Mechanism};
@@ -8,11 +8,11 @@ use crate::storage::Array;
 use crate::tolerances::{BENT, DAMPINGS, FREEING, LEAPS, STIFF};
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// Of the joint values next to `q` at which the first of the joints `free` can move while the others keep the equations' values, to first order, those with
-    /// which the equations are missed least. The joints `free` stay. None where no such joint values are near.
+    /// Joint values next to `q` at which the first of the joints `free` can move, to first order, while the others keep the equations' values. Among these,
+    /// those with the least residual. The joints `free` keep their values. `None` where no such joint values are near.
     ///
-    /// What the derivative by the free joint has across the derivatives by the others must vanish. Gauss-Newton steps bring that about (variable projection: G.
-    /// Golub, V. Pereyra 1973); the share that the equations themselves have in a step falls to nothing.
+    /// The component of the free joint's derivative orthogonal to the derivatives by the other joints must vanish. Gauss-Newton steps achieve this (variable
+    /// projection: G. Golub, V. Pereyra 1973). The weight of the equations themselves decreases to zero over the steps.
     pub fn freed(&mut self, mut q: Joints<M>, free: u32) -> Option<Joints<M>> {
         for share in FREEING {
             let step = self.freeing_step(&q, free, share)?;
@@ -44,8 +44,8 @@ impl<M: Mechanism> Problem<'_, M> {
         triangle.substituted()
     }
 
-    /// What a column has across the derivatives by the joints that are not `free`, and how the joints move for it to be no more than that: the one with the
-    /// column's number by one.
+    /// The component of a column orthogonal to the derivatives by the joints that are not `free`, and the joint velocities that cancel the rest. The velocity
+    /// of the column's joint is one.
     fn across(
         &mut self,
         rows: &Equations<M, Joints<M>>,
@@ -69,7 +69,7 @@ impl<M: Mechanism> Problem<'_, M> {
         Some((Array::by(count, rest), way))
     }
 
-    /// How the equations' derivatives change along a way.
+    /// The change of the Jacobian along a displacement of the joints.
     fn bends(&self, q: &Joints<M>, way: &Joints<M>) -> Equations<M, Joints<M>> {
         let width = BENT / f64::max(self.facts().longest(way.as_ref()), 1.0);
         let moved = |by: f64| {

@@ -1,4 +1,4 @@
-//! Joint values: how far they are from each other, how they are moved, and what the equations read of them.
+//! Joint values: distances, displacements, and the numbers that the equations read of them.
 
 use core::f64::consts::{PI, TAU};
 
@@ -12,7 +12,7 @@ pub(crate) fn is_in(set: u32, joint: usize) -> bool {
     set >> joint & 1 != 0
 }
 
-/// A difference of two angles by the shorter way round.
+/// A difference of two angles, reduced to (-pi, pi].
 #[inline(always)]
 fn shorter(difference: f64) -> f64 {
     if difference > PI {
@@ -32,13 +32,13 @@ impl Joint {
 }
 
 impl Facts<'_> {
-    /// A difference of two values of a joint, of angles by the shorter way round.
+    /// A difference of two values of a joint; of angles, reduced to (-pi, pi].
     #[inline(always)]
     fn shortest(&self, joint: usize, difference: f64) -> f64 {
         if self.joints[joint].is_angle() { shorter(difference) } else { difference }
     }
 
-    /// What a joint's differences are shares of: one for an angle, a length's size.
+    /// The unit of a joint's differences: 1 for an angle, the magnitude of a length.
     #[inline(always)]
     fn span(&self, joint: usize, value: f64) -> f64 {
         if self.joints[joint].is_angle() { 1.0 } else { f64::max(self.scale, value.abs()) }
@@ -50,32 +50,32 @@ impl Facts<'_> {
         if self.joints[joint].is_angle() { wrap(value) } else { value }
     }
 
-    /// Whether joint values differ by `tolerance` at most. Those that are found last tell soonest.
+    /// Whether joint values differ by at most `tolerance`. Joints that are found last are compared first, because they differ most often.
     #[inline(always)]
     pub(crate) fn is_within(&self, a: &[f64], b: &[f64], tolerance: f64) -> bool {
         self.last_first.iter().all(|&i| self.shortest(i, a[i] - b[i]).abs() <= tolerance * self.span(i, a[i]))
     }
 
-    /// The farthest that a joint is from `b` in `a`: an angle, or a share of a length's size.
+    /// The largest difference of a joint: an angle, or relative to the magnitude of a length.
     pub(crate) fn farthest(&self, a: &[f64], b: &[f64]) -> f64 {
         let way = |i: usize| self.shortest(i, a[i] - b[i]).abs() / self.span(i, a[i]);
         (0..self.joints.len()).fold(0.0, |farthest, i| f64::max(farthest, way(i)))
     }
 
-    /// Whether joint values differ by `tolerance` at most, those of a set left out.
+    /// Whether joint values differ by at most `tolerance`, the joints of a set left out.
     pub(crate) fn is_close(&self, a: &[f64], b: &[f64], left_out: u32, tolerance: f64) -> bool {
         let is_close = |i: usize| self.shortest(i, a[i] - b[i]).abs() <= tolerance * self.span(i, a[i]);
         (0..self.joints.len()).all(|i| is_in(left_out, i) || is_close(i))
     }
 
-    /// The longest way of a joint in a step: an angle, or a share of the length scale.
+    /// The largest movement of a joint in a step: an angle, or relative to the length scale.
     pub(crate) fn longest(&self, step: &[f64]) -> f64 {
         let way = |i: usize| if self.joints[i].is_angle() { step[i].abs() } else { step[i].abs() / self.scale };
         (0..self.joints.len()).fold(0.0, |longest, i| f64::max(longest, way(i)))
     }
 }
 
-/// `a - b` joint by joint, angles by the shorter way round.
+/// `a - b` joint by joint, angles reduced to (-pi, pi].
 pub(crate) fn differences<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M>, b: &Joints<M>) -> Joints<M> {
     Array::by(facts.joints.len(), |i| facts.shortest(i, a.as_ref()[i] - b.as_ref()[i]))
 }
@@ -90,20 +90,20 @@ pub(crate) fn shifted<M: Mechanism>(facts: &Facts<'_>, q: &Joints<M>, way: &Join
     Array::by(facts.joints.len(), |i| facts.wrapped(i, q.as_ref()[i] + way.as_ref()[i]))
 }
 
-/// `q` with a joint moved: an angle by `way`, a length by that share of its size.
+/// `q` with one joint moved: an angle by `way`, a length by `way` times its magnitude.
 pub(crate) fn moved<M: Mechanism>(facts: &Facts<'_>, q: &Joints<M>, joint: usize, way: f64) -> Joints<M> {
     let (mut next, value) = (q.clone(), q.as_ref()[joint]);
     next.as_mut()[joint] = facts.wrapped(joint, value + way * facts.span(joint, value));
     next
 }
 
-/// The joints beyond `b` on the line from `a`, by `ahead` times their distance.
+/// Linear extrapolation from `a` through `b`, by `ahead` times their distance.
 pub(crate) fn beyond<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M>, b: &Joints<M>, ahead: f64) -> Joints<M> {
     let way = differences::<M>(facts, b, a);
     Array::by(facts.joints.len(), |i| b.as_ref()[i] + ahead * way.as_ref()[i])
 }
 
-/// What the equations read of joint values; `like` has the numbers that follow from no joint.
+/// The numbers that the equations read of joint values. `like` provides the numbers that follow from no joint.
 pub(crate) fn place<M: Mechanism>(facts: &Facts<'_>, q: &Joints<M>, like: Option<&Places<M>>) -> Places<M> {
     let mut at: Places<M> = like.cloned().unwrap_or_else(|| Array::by(facts.places, |_| 0.0));
     for (joint, value) in facts.joints.iter().zip(q.as_ref()) {

@@ -8,7 +8,7 @@ use crate::number::{Number, Roots, Scale};
 use crate::roots::{self, MOST};
 use crate::tolerances::{MEETING, TINY};
 
-/// Numbers that operations take at once.
+/// `W` numbers on which operations act at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lanes<const W: usize>(pub [f64; W]);
 
@@ -50,28 +50,28 @@ impl<const W: usize> Neg for Lanes<W> {
     }
 }
 
-/// Where something is so: all bits or none.
+/// A truth value per lane: all bits set or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mask<const W: usize>(pub [u64; W]);
 
 impl<const W: usize> Mask<W> {
-    /// Nowhere.
+    /// False in all lanes.
     pub const NONE: Self = Mask([0; W]);
 
-    /// Where it is not so.
+    /// The negation.
     #[inline(always)]
     #[must_use]
     pub(crate) fn inverted(self) -> Self {
         Mask(self.0.map(|bits| !bits))
     }
 
-    /// Where neither is so.
+    /// True where neither is true.
     #[inline(always)]
     pub(crate) fn or_not(self, other: Self) -> Self {
         (self | other).inverted()
     }
 
-    /// Whether it is so anywhere.
+    /// Whether it is true in any lane.
     #[inline(always)]
     pub(crate) fn any(self) -> bool {
         self.0.iter().fold(0, |all, bits| all | bits) != 0
@@ -94,7 +94,7 @@ impl<const W: usize> BitOr for Mask<W> {
     }
 }
 
-/// Where a candidate is none, for an equation on the way has no root, and where roots before are close to one another.
+/// Lanes in which a candidate does not exist, because an equation has no root, and lanes in which earlier roots are close to each other.
 #[derive(Clone, Copy, Debug)]
 pub struct Doubt<const W: usize> {
     pub(crate) dead: Mask<W>,
@@ -134,7 +134,7 @@ impl<const W: usize> Number for Lanes<W> {
         Lanes(from_fn(|i| if is_so.0[i] != 0 { self.0[i] } else { other.0[i] }))
     }
 
-    /// Where there are none, they are no numbers.
+    /// A root that does not exist is NaN.
     #[inline(always)]
     fn roots_of_square(constant: Self, scale: Self, tangent: f64) -> Roots<Self, 2> {
         let dead = constant.at_most(tangent * constant.max(scale * scale)).inverted();
@@ -160,14 +160,14 @@ impl<const W: usize> Number for Lanes<W> {
         Doubt { dead: Mask::NONE, close: Mask([if is_close { !0 } else { 0 }; W]) }
     }
 
-    /// What is no number is: it belongs to no candidate.
+    /// NaN counts as true: it belongs to no candidate.
     #[inline(always)]
     fn is_away(self, scale: Self) -> Mask<W> {
         self.abs().at_most(TINY * scale).inverted()
     }
 }
 
-/// By number: those that have fewer roots than others have none in the last places.
+/// Finds the roots lane by lane. Lanes with fewer roots than others have none at the end.
 fn roots_by_lane<const W: usize, const D: usize>(
     polynomials: &[&[Lanes<W>]],
     scale: impl Fn(usize) -> Scale,

@@ -1,11 +1,11 @@
-//! What runs on a robot: the run time of inverse kinematics that the package `groebot` derives.
+//! Run time of inverse kinematics: the code that runs on a robot with solvers that the package `groebot` derives.
 //!
-//! A robot's own file, printed by `groebot codegen --lang rust`, holds its program as straight-line code and implements [`Mechanism`]; [`Solve`] is
-//! what it offers then: all solutions of a target, each measured on forward kinematics, singular poses and self-motions included, limits and turns,
-//! cosines and sines, and batches in the lanes of vector registers. Nothing is allocated, there is no state, and the same target has the same answers, to
-//! the last bit, on every machine.
+//! The robot's own file, printed by `groebot codegen --lang rust`, has the program as straight-line code and implements [`Mechanism`]. [`Solve`] then provides
+//! all solutions of a target. Each is verified by forward kinematics, at singular poses and on self-motions too. It also provides joint limits and turns,
+//! cosines and sines, and batches in the lanes of vector registers. Solving allocates nothing and has no state. Equal targets have bitwise equal solutions on
+//! every machine.
 //!
-//! Without the feature `std` (a default) the crate needs `core` and the C library's `sqrt`.
+//! Without the feature `std` (on by default) the crate needs `core` and the C library's `sqrt`.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 pub mod angles;

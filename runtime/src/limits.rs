@@ -1,4 +1,4 @@
-//! Limits of joints, and turns: the joint values that are a solution up to whole turns.
+//! Joint limits and turns: joint values that equal a solution up to whole turns.
 
 use core::f64::consts::TAU;
 
@@ -10,16 +10,16 @@ use crate::solution::Solution;
 use crate::steps::Steps;
 use crate::tolerances::{MOST_STEPS, SLACK, STRIDE, STRIDES};
 
-/// The most turns that are counted.
+/// Maximal number of turns that are counted.
 pub const MOST_TURNS: usize = 1_000_000;
 
 impl Joint {
-    /// A turn of an angle, 0 for a length.
+    /// The period of a joint: a full turn for an angle, 0 for a length.
     fn turn(self) -> f64 {
         if self.is_angle() { TAU } else { 0.0 }
     }
 
-    /// The least and the greatest number of turns that bring the joint within its limits: the first is greater when none does.
+    /// The least and the greatest number of turns that bring the joint within its limits. The first is greater when none does.
     fn turns_within(self, value: f64, limit: [f64; 2]) -> (f64, f64) {
         let (low, high) = (limit[0] - SLACK - value, limit[1] + SLACK - value);
         if self.is_angle() {
@@ -29,12 +29,12 @@ impl Joint {
     }
 }
 
-/// The number of turns between bounds that is nearest to another.
+/// The number of turns between bounds that is nearest to a given one.
 fn nearest_turn(turn: f64, first: f64, last: f64) -> f64 {
     f64::min(f64::max(turn, first), last) + 0.0
 }
 
-/// The bounds, brought together where one is infinite, and not too far apart.
+/// The bounds made finite and limited to a maximal distance.
 fn finite_turns(mut first: f64, mut last: f64) -> (f64, f64) {
     if !first.is_finite() || !last.is_finite() {
         first = nearest_turn(0.0, first, last);
@@ -43,7 +43,7 @@ fn finite_turns(mut first: f64, mut last: f64) -> (f64, f64) {
     (first, f64::min(last, first + MOST_TURNS as f64))
 }
 
-/// The number of turns of `q`.
+/// Counts the combinations of turns of `q` within limits.
 pub(crate) fn count_turns(facts: &Facts<'_>, q: &[f64], limits: &[[f64; 2]]) -> usize {
     let mut count = 1.0;
     for ((joint, value), limit) in facts.joints.iter().zip(q).zip(limits) {
@@ -58,7 +58,7 @@ pub(crate) fn count_turns(facts: &Facts<'_>, q: &[f64], limits: &[[f64; 2]]) -> 
     count as usize
 }
 
-/// Moves `q` to its turn with this index.
+/// Moves `q` to the combination of turns with this index.
 pub(crate) fn turn(facts: &Facts<'_>, q: &mut [f64], limits: &[[f64; 2]], mut index: usize) {
     for ((joint, value), limit) in facts.joints.iter().zip(q).zip(limits).rev() {
         let (first, last) = joint.turns_within(*value, *limit);
@@ -69,7 +69,7 @@ pub(crate) fn turn(facts: &Facts<'_>, q: &mut [f64], limits: &[[f64; 2]], mut in
     }
 }
 
-/// Joints moved by as few turns as can be within limits; none when that cannot be.
+/// Joints moved within limits by as few turns as possible. `None` when that is impossible.
 pub(crate) fn turned_within<M: Mechanism>(
     facts: &Facts<'_>,
     q: &Joints<M>,
@@ -87,8 +87,8 @@ pub(crate) fn turned_within<M: Mechanism>(
     Some(place)
 }
 
-/// A member of a self-motion moved along it, one free joint at a time in short strides, to where it is within limits, with its residual; none
-/// when it meets no such place.
+/// A member of a self-motion moved along it until it is within limits, with its residual. Free joints are moved one at a time in short steps. `None` when no
+/// such place is found.
 pub(crate) fn strides_within<M: Mechanism>(
     problem: &mut Problem<'_, M>,
     answer: &Solution<M>,
@@ -115,7 +115,7 @@ pub(crate) fn strides_within<M: Mechanism>(
     None
 }
 
-/// Of a list of solutions, the one that can come nearest to a reference by turns within limits.
+/// Of a list of solutions, the one nearest to a reference after turns within limits.
 pub(crate) fn nearest<M: Mechanism>(
     facts: &Facts<'_>,
     list: &[Solution<M>],

@@ -1,4 +1,4 @@
-//! Candidates side by side: how well they solve the equations ([`Fits`]), and their joint values ([`joints`]).
+//! Residuals ([`Fits`]) and joint values ([`joints`]) of several candidates at once.
 
 use core::array::from_fn;
 
@@ -12,7 +12,7 @@ use crate::problem::{Problem, everywhere, fit};
 use crate::storage::Array;
 use crate::tolerances::ROUNDING;
 
-/// How well candidates solve the equations, and whether they are of joints at all: 1, else 0.
+/// Residuals of candidates, and whether a candidate is valid: 1, else 0.
 pub(crate) struct Fits<M: Mechanism> {
     pub residual: Abreast<M>,
     pub relative: Abreast<M>,
@@ -20,7 +20,7 @@ pub(crate) struct Fits<M: Mechanism> {
 }
 
 impl<M: Mechanism> Fits<M> {
-    /// Those of the first so many candidates, of which some in a row may be alike.
+    /// Measures the first `waiting` candidates. So many of them in a row may have equal residuals.
     #[inline(always)]
     pub fn new<const W: usize>(
         problem: &Problem<'_, M>,
@@ -47,7 +47,7 @@ impl<M: Mechanism> Fits<M> {
     }
 }
 
-/// Whether candidates are of joints at all: 1, else 0.
+/// Whether candidates have finite pairs near the unit circle: 1, else 0.
 #[inline(always)]
 fn sound<M: Mechanism, const W: usize>(facts: &Facts<'_>, at: &Places<M, Lanes<W>>) -> Lanes<W> {
     let (mut sound, at) = (Lanes([1.0; W]), at.as_ref());
@@ -63,7 +63,7 @@ fn sound<M: Mechanism, const W: usize>(facts: &Facts<'_>, at: &Places<M, Lanes<W
     sound
 }
 
-/// By joint and candidate, the joint values. Angles that differ in signs alone, as they do at an ordinary target, are computed once.
+/// The joint values, by joint and candidate. Angles that differ only in sign, as at an ordinary target, are computed once.
 #[inline(always)]
 pub(crate) fn joints<M: Mechanism, const W: usize>(
     facts: &Facts<'_>,
@@ -84,7 +84,7 @@ pub(crate) fn joints<M: Mechanism, const W: usize>(
     q
 }
 
-/// Finds angles of which a power of two in a row differ in signs alone: one with this logarithm.
+/// Computes angles of which `2^alike` consecutive ones differ only in sign.
 #[inline(always)]
 fn find_angles<M: Mechanism, const W: usize>(cosines: &[f64], sines: &[f64], alike: u32, angles: &mut [f64]) {
     let room = cosines.len();

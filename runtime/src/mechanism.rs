@@ -1,11 +1,11 @@
-//! What is particular to a mechanism and its task ([`Mechanism`]), and what takes its candidates in ([`Candidates`]).
+//! Interface of a derived solver ([`Mechanism`]) and the receiver of its candidates ([`Candidates`]).
 
 use crate::number::{Guard, Number, Roots, With};
 use crate::storage::{Array, Storage};
 
 /// A row with one value for each joint of a mechanism.
 pub type Joints<M, T = f64> = <<M as Mechanism>::Storage as Storage>::Joints<T>;
-/// A row with one value for each number of a target.
+/// A row with one value for each target number.
 pub type Inputs<M, T = f64> = <<M as Mechanism>::Storage as Storage>::Inputs<T>;
 /// A row with one value for each parameter.
 pub type Parameters<M, T = f64> = <<M as Mechanism>::Storage as Storage>::Parameters<T>;
@@ -15,37 +15,37 @@ pub type Places<M, T = f64> = <<M as Mechanism>::Storage as Storage>::Places<T>;
 pub type Equations<M, T = f64> = <<M as Mechanism>::Storage as Storage>::Equations<T>;
 /// A row with one value for each size that equations have.
 pub type Sizes<M, T = f64> = <<M as Mechanism>::Storage as Storage>::Sizes<T>;
-/// A row with one value for each equation of the short way.
+/// A row with one value for each equation of the normal-equation steps.
 pub type Shorts<M, T = f64> = <<M as Mechanism>::Storage as Storage>::Shorts<T>;
 /// A row with one value for each candidate of an ordinary target.
 pub type Abreast<M, T = f64> = <<M as Mechanism>::Storage as Storage>::Candidates<T>;
 
-/// A row with one value for each answer that a target can have.
+/// A row with one value for each possible solution of a target.
 pub type Answered<M, T> = <<M as Mechanism>::Storage as Storage>::Answers<T>;
 
-/// A derived solver: the description of a mechanism and its task in a printed file, or in a program that is read. [`crate::solve`] does the rest.
+/// A derived solver: a mechanism and its task, in a printed file or in a program that is interpreted. [`crate::solve`] does the rest.
 pub trait Mechanism: Sized {
-    /// Where its numbers are stored.
+    /// Storage of its numbers.
     type Storage: Storage;
     /// Whether targets of a batch are solved one after the other.
     const IS_SINGLE: bool = false;
-    /// Whether sixteen of them are solved at once, for each operation takes longer to be told than to be done.
+    /// Whether sixteen targets are solved at once, because the interpreter spends more time on decoding an operation than on computing it.
     const IS_TOLD: bool = false;
 
-    /// What holds for all targets.
+    /// Constants that hold for all targets.
     fn facts(&self) -> Facts<'_>;
 
-    /// The numbers of a target that the walk and the equations read.
+    /// The parameters that the blocks and the equations read, computed from a target.
     fn parameters<N: Number>(&self, target: &Inputs<Self, N>) -> Parameters<Self, N>
     where
         f64: With<N>;
 
-    /// Walks through the blocks: every case that applies, every root, every sample.
+    /// Evaluates the blocks: every case that applies, every root, every sample.
     fn walk<N: Number, C: Candidates<N, Self>>(&self, p: &Parameters<Self, N>, candidates: &mut C)
     where
         f64: With<N>;
 
-    /// What the equations compare with parameters; where they do not, no numbers.
+    /// The values that the equations compare with parameters, or NaN where equations are of another kind.
     fn tip<N: Number>(&self, _at: &Places<Self, N>) -> Equations<Self, N>
     where
         f64: With<N>,
@@ -66,8 +66,8 @@ pub trait Mechanism: Sized {
         values
     }
 
-    /// As [`Mechanism::values`], of the mechanism as described, where the equations are those of the ideal one that it means ([`Facts::within`]). Affine in
-    /// the numbers of each joint.
+    /// Same as [`Mechanism::values`], but for the mechanism as described, where the equations are those of its ideal ([`Facts::within`]). Affine in the numbers
+    /// of each joint.
     fn described<N: Number>(&self, p: &Parameters<Self, N>, at: &Places<Self, N>) -> Equations<Self, N>
     where
         f64: With<N>,
@@ -80,13 +80,13 @@ pub trait Mechanism: Sized {
     where
         f64: With<N>;
 
-    /// The derivative of each equation by each joint, equation by equation; none where they are [found from the values](crate::derivatives), which are affine
-    /// in the numbers of each joint, as those of a chain are.
+    /// The derivative of each equation by each joint, equation by equation. `None` where the derivatives are [computed from the values](crate::derivatives),
+    /// because these are affine in the numbers of each joint, as for a chain.
     fn jacobian(&self, _p: &Parameters<Self>, _at: &Places<Self>) -> Option<Equations<Self, Joints<Self>>> {
         None
     }
 
-    /// The equations of the short way to an answer nearby, where there is one ([`Facts::nearby`]).
+    /// The equations of the normal-equation steps to a solution nearby, for formulas of a [nearby](Facts::nearby) mechanism.
     fn short<N: Number>(&self, _p: &Parameters<Self, N>, _at: &Places<Self, N>) -> Short<Self, N>
     where
         f64: With<N>,
@@ -97,68 +97,68 @@ pub trait Mechanism: Sized {
     }
 }
 
-/// As few equations as say the same near a solution.
+/// A minimal set of equations, equivalent to all equations near a solution.
 #[derive(Clone)]
 pub struct Short<M: Mechanism, N: Number> {
     /// Their values, zero at a solution.
     pub value: Shorts<M, N>,
-    /// What the values are shares of.
+    /// The magnitudes to which the values are relative.
     pub size: Shorts<M, N>,
     /// By joint, the derivatives of the values.
     pub columns: Joints<M, Shorts<M, N>>,
 }
 
-/// What holds for all targets of a mechanism.
+/// Constants of a mechanism that hold for all targets.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts<'a> {
-    /// How many numbers a target has.
+    /// Number of target numbers.
     pub inputs: usize,
-    /// The joints of an answer, in order.
+    /// The joints of a solution, in order.
     pub joints: &'a [Joint],
-    /// The joints, those that are found last first: in these answers differ most.
+    /// The joints, those found last first: solutions differ most often in these.
     pub last_first: &'a [usize],
-    /// How many numbers the equations read of joints.
+    /// Number of numbers that the equations read of joints.
     pub places: usize,
-    /// Whether some of them follow from no joint.
+    /// Whether some of these numbers follow from no joint.
     pub has_extras: bool,
-    /// By equation, which of the sizes is its own.
+    /// By equation, the index of its size.
     pub size_of: &'a [usize],
-    /// How many sizes there are.
+    /// Number of sizes.
     pub sizes: usize,
     /// By equation, the parameter that it compares with the tip; empty where an equation is of another kind.
     pub compared: &'a [usize],
-    /// The places whose numbers turn their signs in the second of a pair of candidates.
+    /// The places whose numbers change sign in the second candidate of a pair.
     pub turned: &'a [usize],
-    /// How many candidates an ordinary target has: an even number, at most 16.
+    /// Number of candidates of an ordinary target: even, and at most 16.
     pub candidates: usize,
-    /// So many candidates in a row differ in signs alone, and miss the equations by the same.
+    /// Number of consecutive candidates that differ only in signs and have equal residuals.
     pub twins: usize,
-    /// By joint: so many candidates of an ordinary target in a row have the same cosine and sine but for signs; empty where many targets are solved one
-    /// by one.
+    /// By joint: number of consecutive candidates of an ordinary target whose cosine and sine differ only in sign. Empty where targets of a batch are solved
+    /// one by one.
     pub runs: &'a [usize],
-    /// A length typical of the mechanism.
+    /// Characteristic length of the mechanism.
     pub scale: f64,
-    /// The most solutions that a target can have.
+    /// Maximal number of solutions of a target.
     pub capacity: usize,
-    /// The most isolated solutions that a target can have, where that is proved.
+    /// Maximal number of isolated solutions of a target, where that is proved.
     pub isolated: Option<usize>,
-    /// The joints that some case frees, ascending.
+    /// The joints that at least one case frees, ascending.
     pub freed: &'a [usize],
-    /// What a target must fulfil.
+    /// The conditions on a target.
     pub conditions: &'a [Condition],
-    /// By number of a target, where the tip gives it; empty where it does not.
+    /// By target number, where forward kinematics finds it. Empty where it does not.
     pub reached: &'a [Reached],
-    /// The formulas are those of a mechanism near the one that the equations are of: so many equations lead on from there.
+    /// The formulas belong to a mechanism near the one of the equations. This many equations define the Newton steps from its solutions.
     pub nearby: Option<usize>,
-    /// The equations are those of the ideal mechanism that a described one means, and ask for more than the joints can do: the least share of their sizes
-    /// within which a target is one that the ideal mechanism reaches. It bounds twice the miss of one mechanism where the other holds.
+    /// The equations are those of the ideal of a described mechanism, and have more conditions than joints. A target counts as reached by the ideal mechanism
+    /// when its relative residual is at most this. It bounds twice the residual of one mechanism at a solution of the other.
     pub within: Option<f64>,
-    /// The source's choice of an answer.
+    /// The solution that the source of the mechanism selects.
     pub preference: Option<Preference>,
 }
 
 impl Facts<'_> {
-    /// Those of nothing.
+    /// Facts of an empty mechanism.
     pub const NONE: Facts<'static> = Facts {
         inputs: 0,
         joints: &[],
@@ -184,88 +184,88 @@ impl Facts<'_> {
     };
 }
 
-/// Where a joint is among the numbers that the equations read.
+/// The place of a joint among the numbers that the equations read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joint {
-    /// It turns: its cosine and its sine.
+    /// A revolute joint: its cosine and its sine.
     Angle([usize; 2]),
-    /// It slides: its value.
+    /// A prismatic joint: its value.
     Length(usize),
 }
 
-/// What numbers of a target must fulfil. Deviations within [`crate::tolerances::CONSISTENT`] are removed; larger ones are an error.
+/// A condition on numbers of a target. Deviations within [`crate::tolerances::CONSISTENT`] are corrected; larger ones are an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Condition {
-    /// The nine numbers from this one on, by rows, are a rotation matrix.
+    /// The nine numbers from this index on, by rows, are a rotation matrix.
     Rotation(usize),
-    /// The three numbers from this one on are a unit vector.
+    /// The three numbers from this index on are a unit vector.
     Unit(usize),
 }
 
-/// Where forward kinematics finds a number of the target.
+/// The source of a target number in forward kinematics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reached {
-    /// The value of the tip that this equation compares.
+    /// The value that this equation compares.
     Value(usize),
-    /// The angle whose cosine and sine these equations compare.
+    /// The angle of the cosine and the sine that these equations compare.
     Angle([usize; 2]),
     /// The value of this joint.
     Joint(usize),
 }
 
-/// Which solutions are marked as the source's own choice.
+/// Which solutions are marked as selected by the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preference {
-    /// The number that the equations read whose root the source chooses.
+    /// The number that the equations read whose root the source selects.
     pub place: usize,
-    /// The greater root, else the smaller.
+    /// Whether the source selects the greater root, else the smaller one.
     pub greatest: bool,
 }
 
 /// How a candidate was found.
 #[derive(Clone, Copy, Debug)]
 pub struct Found<N: Number = f64> {
-    /// Which cases and roots gave it.
+    /// Number of the combination of cases and roots.
     pub branch: usize,
-    /// The end of the branch numbers of the first block's case.
+    /// End of the branch numbers of the first block's case.
     pub last: usize,
-    /// Whether roots on the way are so near one another that rounding moves them.
+    /// Whether roots of earlier steps are so close that rounding moves them.
     pub close: N::Doubt,
     /// Joints that may take any value: bit `j` for joint `j`.
     pub free: u32,
-    /// Whether it stands for two, of which the second differs in signs alone ([`Facts::turned`]).
+    /// Whether it represents two candidates, of which the second differs only in signs ([`Facts::turned`]).
     pub is_pair: bool,
 }
 
 impl<N: Number> Found<N> {
-    /// By a choice of the first block's case whose branch numbers end at `last`.
+    /// The branch of a case of the first block, whose branch numbers end at `last`.
     #[inline(always)]
     pub fn first(branch: usize, last: usize) -> Self {
         Found { branch, last, close: N::SURE, free: 0, is_pair: false }
     }
 
-    /// By a choice among `radix` of a later block.
+    /// The branch after a choice among `radix` of a later block.
     #[inline(always)]
     #[must_use]
     pub fn next(self, radix: usize, number: usize) -> Self {
         Found { branch: radix * self.branch + number, last: radix * self.last, ..self }
     }
 
-    /// By the root with this index.
+    /// The branch of the root with this index.
     #[inline(always)]
     #[must_use]
     pub fn by_root<const D: usize>(self, roots: &Roots<N, D>, index: usize) -> Self {
         Found { close: self.close | roots.doubt(index), ..self }
     }
 
-    /// By both roots.
+    /// The branch of both roots.
     #[inline(always)]
     #[must_use]
     pub fn by_pair(self, roots: &Roots<N, 2>) -> Self {
         Found { is_pair: roots.count() == 2, ..self.by_root(roots, 0) }
     }
 
-    /// By an answer of six axes with these bits: joints of which this tells that they are free, and whether it is only near an answer.
+    /// The branch of a solution for six axes. Its flags are the joints that are free, given as bits in `joints`, and whether it is only near a solution.
     #[must_use]
     pub fn by_answer(self, is_free: &[bool; 6], is_lost: bool, joints: [u32; 6]) -> Self {
         let freed = is_free.iter().zip(joints).filter(|(is_free, _)| **is_free);
@@ -287,24 +287,24 @@ impl<N: Number> Found<N> {
     }
 }
 
-/// Takes candidates in, and decides which cases run.
+/// Receives candidates and decides which cases run.
 pub trait Candidates<N: Number, M: Mechanism> {
-    /// Whether a case runs that usually does.
+    /// Whether a case runs that applies to ordinary targets.
     fn is_usual(&mut self, guard: Guard<N>) -> bool;
-    /// Whether a case runs that rarely does.
+    /// Whether a case runs that applies to singular targets.
     fn is_rare(&mut self, guard: Guard<N>) -> bool;
-    /// Whether the case of a stratum runs: near it, or beside it where the candidates behind the first `before` have sufficed.
+    /// Whether the case of a stratum runs. It runs near the stratum; if the candidates after the first `before` lost no solution, only within rounding of it.
     fn is_due(&mut self, before: usize, guard: Guard<N>) -> bool;
-    /// How many candidates there have been.
+    /// Number of candidates so far.
     fn count(&self) -> usize;
-    /// Takes in that a stratum with this number could not be derived, and whether the target lies on it.
+    /// Records whether the target is on a stratum, with this number, for which no derivation exists.
     fn is_open(&mut self, number: usize, guard: Guard<N>);
-    /// The place of the greatest number that is not negative, the first of equals; their number without one.
+    /// The index of the greatest number that is not negative, the first of equals. The length of the list if all are negative.
     fn elect(&mut self, claims: &[N]) -> usize;
-    /// Takes in a candidate.
+    /// Receives a candidate.
     fn take(&mut self, found: Found<N>, at: &Places<M, N>);
 
-    /// Takes in a candidate, or a pair.
+    /// Receives a candidate, or a pair.
     #[inline(always)]
     fn finish(&mut self, mechanism: &M, found: Found<N>, at: &Places<M, N>) {
         self.take(found, at);
@@ -318,7 +318,7 @@ pub trait Candidates<N: Number, M: Mechanism> {
     }
 }
 
-/// The place of the greatest claim that is not negative, the first of equals; the number of claims without one.
+/// The index of the greatest claim that is not negative, the first of equals. The number of claims if all are negative.
 #[inline(always)]
 pub(crate) fn elected(claims: impl ExactSizeIterator<Item = f64>) -> usize {
     let mut best = (-1.0, claims.len());
@@ -328,7 +328,7 @@ pub(crate) fn elected(claims: impl ExactSizeIterator<Item = f64>) -> usize {
     best.1
 }
 
-/// Runs what rarely happens, out of line.
+/// Runs code of rare cases out of line.
 #[cold]
 #[inline(never)]
 pub fn rarely<T>(what: impl FnOnce() -> T) -> T {

@@ -9,8 +9,8 @@ use crate::solution::Solution;
 use crate::tolerances::{ADRIFT, ALONE, MERGE, NEAR, REGULAR, ROUNDING};
 
 impl<M: Mechanism> Answers<'_, M> {
-    /// Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion
-    /// goes round a part of the circle, or where there is none and an isolated answer stands near the place.
+    /// Keeps a member of a self-motion. It is moved along the self-motion only if its residual exceeds rounding. This happens where the self-motion covers only
+    /// a part of the circle, or where there is none and an isolated solution is nearby.
     pub fn refine_member(&mut self, found: &Found, q: Joints<M>) {
         let _phase = Phase::Member.begin();
         let is_known = self.merged.contains(found) || self.out[..self.count].iter().any(|a| is_told(a, found));
@@ -25,7 +25,7 @@ impl<M: Mechanism> Answers<'_, M> {
         if self.suffices && (missed > ADRIFT || self.strays.are_known(found, missed)) {
             return self.miss(end);
         }
-        // Once more, for an answer next to a self-motion's end, but not from where that is far.
+        // Repeated to find a solution next to a self-motion's end, but not where that end is far.
         if missed > NEAR && self.strays.are_astray(found) {
             return self.miss(end);
         }
@@ -61,7 +61,7 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Keeps what is a member of a long self-motion within rounding, where no answer is lost without it; all is done then.
+    /// Keeps a member of a long self-motion within rounding if no solution is lost without further tests. Returns whether it was kept.
     fn keep_long_member(&mut self, found: &Found, end: &End<M>, is_known: bool) -> bool {
         if end.1.relative <= ROUNDING && self.problem.lies_on_long_self_motion(&end.0, found.free) {
             self.keep_on_trail(found, end.clone());
@@ -74,7 +74,7 @@ impl<M: Mechanism> Answers<'_, M> {
         true
     }
 
-    /// Remembers where several joints are free that members of a candidate's branch are on a self-motion of the list.
+    /// Where several joints are free, records that members of a candidate's branch are on a self-motion in the list.
     pub fn remember_merged(&mut self, i: usize, relative: f64, found: &Found) {
         let are_sharp = f64::max(self.out[i].relative, relative) <= ROUNDING;
         if are_sharp && self.out[i].free == found.free && found.free.count_ones() > 1 {
@@ -82,12 +82,12 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Whether a member is of a self-motion of its branch that is known: a continuous motion joins them. Where other joints are free too, it is taken for
-    /// one; and remembered.
+    /// Whether a member is on a known self-motion of its branch: a continuous motion connects them. Where further joints are free, it is assumed to be on one,
+    /// and this is recorded.
     fn is_on_known(&mut self, found: &Found, (q, fit): &End<M>) -> bool {
         let Answers { problem, out, count, trails, .. } = self;
         let last = trails.last(found.branch, |free| free == found.free);
-        // First, for that is the quickest.
+        // First, because it is the fastest test.
         if fit.relative > ROUNDING || last.is_some_and(|last| problem.leads_straight_to(&last.q, q, found.free)) {
             trails.remember(found, q, None);
             return true;
@@ -105,19 +105,19 @@ impl<M: Mechanism> Answers<'_, M> {
         joins
     }
 
-    /// Whether an isolated answer with these joints is in the list.
+    /// Whether an isolated solution with these joints is in the list.
     pub fn is_listed(&self, q: &Joints<M>) -> bool {
         let is_same = |answer: &Solution<M>| self.problem.facts().is_within(answer.q.as_ref(), q.as_ref(), MERGE);
         self.out[..self.count].iter().any(|answer| answer.is_isolated() && is_same(answer))
     }
 
-    /// Whether a member with the branch and the one free joint of a candidate is in the list: of one branch are all those that do not hold within rounding.
+    /// Whether the list has a member with the branch and the one free joint of a candidate. All members with residuals above rounding count as of one branch.
     fn has_member_of_branch(&self, found: &Found) -> bool {
         let is_of_branch = |a: &Solution<M>| a.branch == found.branch && a.free == found.free;
         found.free.is_power_of_two() && self.out[..self.count].iter().any(is_of_branch)
     }
 
-    /// Whether joints that hold within rounding are one singular configuration with an isolated answer in the list.
+    /// Whether joints with residuals within rounding are the same singular configuration as an isolated solution in the list.
     fn is_joined_to_listed(&mut self, (q, fit): &End<M>) -> bool {
         let Answers { problem, out, count, .. } = self;
         fit.relative <= ROUNDING
@@ -126,8 +126,8 @@ impl<M: Mechanism> Answers<'_, M> {
                 .any(|a| a.is_isolated() && problem.are_blurred((&a.q, a.relative), (q, fit.relative)))
     }
 
-    /// Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an
-    /// isolated answer. One that has not been found before may have another next to it.
+    /// Keeps the end of the steps from a candidate for a member of a self-motion. It is either a member of another self-motion, of one joint that a case frees,
+    /// or an isolated solution. A new isolated solution may have a second one next to it.
     fn keep_alone(&mut self, found: &Found, end: End<M>, missed: f64) {
         if end.1.relative > ALONE {
             return self.miss(end);
@@ -145,7 +145,7 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Keeps a candidate if it is a member of a self-motion; whether it is.
+    /// Keeps a candidate if it is a member of a self-motion. Returns whether it is.
     fn keep_member(&mut self, found: &Found, end: &End<M>) -> bool {
         let is_member = end.1.accepted && self.problem.lies_on_self_motion(&end.0, found.free, end.1.relative);
         if is_member {
@@ -154,7 +154,7 @@ impl<M: Mechanism> Answers<'_, M> {
         is_member
     }
 
-    /// Keeps an answer, and remembers a member.
+    /// Keeps a solution, and records a member.
     fn keep_on_trail(&mut self, found: &Found, end: End<M>) {
         if found.free != 0 {
             self.trails.remember(found, &end.0, None);
@@ -162,7 +162,7 @@ impl<M: Mechanism> Answers<'_, M> {
         self.keep(found, end);
     }
 
-    /// Whether joints are on a self-motion of one joint that the last candidates of this branch have led to.
+    /// Whether joints are on a self-motion of one joint that recent candidates of this branch have led to.
     fn is_on_trail(&mut self, found: &Found, q: &Joints<M>) -> bool {
         let Answers { problem, trails, .. } = self;
         let Some(last) = trails.last(found.branch, u32::is_power_of_two) else { return false };
@@ -175,7 +175,7 @@ impl<M: Mechanism> Answers<'_, M> {
     }
 }
 
-/// Whether an answer is a member of a self-motion within rounding, of the branch and with the free joints of a candidate.
+/// Whether a solution is a member of a self-motion within rounding, with the branch and the free joints of a candidate.
 fn is_told<M: Mechanism>(a: &Solution<M>, found: &Found) -> bool {
     a.relative <= ROUNDING && a.branch == found.branch && a.free == found.free
 }

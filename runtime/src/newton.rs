@@ -1,4 +1,4 @@
-//! Newton's method with all that keeps it from going astray next to singular configurations.
+//! Newton's method with damping and other safeguards near singular configurations.
 
 use crate::arithmetic::Arithmetic;
 use crate::counters::Event;
@@ -11,19 +11,20 @@ use crate::tolerances::{
     ROUNDING, SHORT, STEEP, STIFF,
 };
 
-/// A triangle of columns, the right side in the last one.
+/// A QR factorisation, stored by columns; the right side is the last one.
 pub(crate) struct Triangle<M: Mechanism> {
     numbers: <M::Storage as Storage>::Triangle,
     /// The length of a column: one entry for each equation, then one for each joint.
     rows: usize,
     joints: usize,
-    /// In all columns the entries are zero after those of so many joints. Before the reflection of a pivot they are zero after that of its joint.
+    /// Number of damped joints: in all columns the entries of the other joints are zero. Before the reflection of a pivot, the entries after that of its joint
+    /// are zero.
     damped: usize,
 }
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or
-    /// after a leap. Joints that are `held` stay.
+    /// Takes Newton steps from joint values with known residuals, damped where a plain step fails. A step is accepted only if the relative residual decreases,
+    /// at once or after a leap. Joints that are `held` do not move.
     pub fn polish(&mut self, start: End<M>, held: u32) -> End<M> {
         let (mut end, mut slow) = (start, 0);
         for _ in 0..POLISH_STEPS {
@@ -41,14 +42,14 @@ impl<M: Mechanism> Problem<'_, M> {
         end
     }
 
-    /// The same from joints that are not measured yet.
+    /// Same as [`Problem::polish`], from joint values that are not measured yet.
     pub fn polished(&mut self, q: Joints<M>, held: u32) -> End<M> {
         let start = self.measured(q);
         self.polish(start, held)
     }
 
-    /// The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where
-    /// it is rounding and a plain step is short, that is the last.
+    /// The least damped step that lowers the relative residual. Where the residual exceeds rounding, the first choice is a step that halves it, then a leap,
+    /// then any decrease. Where it is within rounding, a short plain step is the last one.
     fn improved(&mut self, (q, fit): &End<M>, held: u32) -> Option<End<M>> {
         let leaps = (ROUNDING..=NEAR).contains(&fit.relative);
         let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
@@ -82,8 +83,8 @@ impl<M: Mechanism> Problem<'_, M> {
         leap.or(fallen)
     }
 
-    /// Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads
-    /// beyond one of them, and from there on each quarters the miss.
+    /// Takes Newton steps until the relative residual is less than `relative`. Between two close roots the first step leads beyond one of them; each further
+    /// one divides the residual by four.
     fn returned(&mut self, mut q: Joints<M>, relative: f64, held: u32) -> Option<End<M>> {
         for _ in 0..RETURNS {
             let step = self.newton_step(&q, 0.0, held)?;
@@ -96,8 +97,8 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss
-    /// hardly changes along a bent way, and rises on each straight one.
+    /// Takes a full or partial Newton step, then damped steps until the relative residual is at most `enough`. Next to a self-motion the residual changes
+    /// little along a curved path, but increases along each straight one.
     fn leap(&mut self, q: &Joints<M>, enough: f64, held: u32) -> Option<End<M>> {
         let step = self.newton_step(q, 0.0, held)?;
         let longest = self.facts().longest(step.as_ref());
@@ -120,7 +121,7 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`.
+    /// Whether the equations hold within `bound` half-way between two close configurations, on a path that may be curved.
     pub fn are_joined(&mut self, a: &Joints<M>, b: &Joints<M>, bound: f64, held: u32) -> bool {
         if self.facts().farthest(a.as_ref(), b.as_ref()) > BLUR {
             return false;
@@ -138,7 +139,7 @@ impl<M: Mechanism> Problem<'_, M> {
         fit.relative <= bound
     }
 
-    /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`; none when it is singular, or no steps are left. The rows are turned into a triangle by reflections.
+    /// The least-squares step `(J^T J + d |J^T J|)^-1 J^T f`, by QR factorisation. `None` when it is singular, or when no steps are left.
     pub fn newton_step(&mut self, q: &Joints<M>, damping: f64, held: u32) -> Option<Joints<M>> {
         if self.steps.are_spent() {
             return None;
@@ -146,8 +147,8 @@ impl<M: Mechanism> Problem<'_, M> {
         self.triangle(q, damping, held).substituted()
     }
 
-    /// Damped Gauss-Newton steps from `q` to where the sum of the squares of what the equations are missed by, as shares of their sizes, is least; each is
-    /// taken only if it falls, and no joint goes farther in it than `most` (rad, or relative to the length scale). Joints that are `held` stay.
+    /// Takes damped Gauss-Newton steps from `q` to the minimum of the sum of squared relative residuals. A step is accepted only if the sum decreases, and
+    /// moves each joint by at most `most` (rad, or relative to the length scale). Joints that are `held` do not move.
     pub fn fitted(&mut self, q: Joints<M>, held: u32, most: f64) -> End<M> {
         let (mut q, mut squares) = (q.clone(), self.squares(&q));
         for _ in 0..FITTING_STEPS {
@@ -163,7 +164,7 @@ impl<M: Mechanism> Problem<'_, M> {
         self.measured(q)
     }
 
-    /// Where the least damped step leads that lowers the sum of squares, what that is there, and how long the step is.
+    /// The end of the least damped step that lowers the sum of squares, the sum there, and the length of the step.
     fn fallen(&mut self, q: &Joints<M>, squares: f64, held: u32, most: f64) -> Option<(Joints<M>, f64, f64)> {
         for damping in DAMPINGS {
             let Some(step) = self.shares(q, damping, held).substituted() else { continue };
@@ -179,7 +180,7 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// The sum of the squares of what the equations are missed by, as shares of their sizes.
+    /// The sum of the squared relative residuals.
     fn squares(&mut self, q: &Joints<M>) -> f64 {
         self.steps.take(Event::Evaluation);
         let (values, sizes) = self.equations(&self.place(q));
@@ -191,19 +192,19 @@ impl<M: Mechanism> Problem<'_, M> {
         sum
     }
 
-    /// The least pivot of the Jacobian's triangle at `q` as a share of the largest: rounding where the joints can move while the equations
-    /// hold, or a root is double.
+    /// The least pivot of the triangular factor of the Jacobian at `q`, relative to the largest. It is within rounding at a double root, and where the joints
+    /// can move while the equations hold.
     pub fn regularity(&mut self, q: &Joints<M>) -> f64 {
         self.regularity_of(q, 0)
     }
 
-    /// The same where joints are `held`.
+    /// Same as [`Problem::regularity`], with the joints in `held` left out.
     pub fn regularity_of(&mut self, q: &Joints<M>, held: u32) -> f64 {
         self.triangle(q, 0.0, held).regularity()
     }
 
-    /// The direction in which the equations change least where they have this triangle, its longest way one, and by what share of the largest pivot they do.
-    /// By inverse iteration; none where a pivot is zero, or no steps are left.
+    /// The direction in which the equations change least, with its largest component equal to one, and that change relative to the largest pivot. Computed by
+    /// inverse iteration from the triangular factor. `None` where a pivot is zero, or no steps are left.
     pub fn stillest(&self, mut triangle: Triangle<M>) -> Option<(Joints<M>, f64)> {
         if self.steps.are_spent() {
             return None;
@@ -228,7 +229,7 @@ impl<M: Mechanism> Problem<'_, M> {
         (longest.is_finite() && longest > 0.0).then_some((unit, share))
     }
 
-    /// How far along a way from a root another one is, if the equations are a parabola there: by a Newton step from so far along the way.
+    /// The distance along `way` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`.
     pub fn second_root(&mut self, root: &Joints<M>, way: &Joints<M>, ahead: f64) -> Option<f64> {
         let there: Joints<M> = Array::by(self.joints(), |i| ahead * way.as_ref()[i]);
         let start = shifted::<M>(&self.facts(), root, &there);
@@ -243,25 +244,25 @@ impl<M: Mechanism> Problem<'_, M> {
         distance.is_finite().then_some(distance)
     }
 
-    /// The triangle of a step's equations.
+    /// The triangular factor of a step's equations.
     pub fn triangle(&mut self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
         let (derivatives, right) = self.slopes(q);
         self.triangle_of(&derivatives, &right, damping, held)
     }
 
-    /// The equations' derivatives by the joints, and their values.
+    /// The Jacobian of the equations and their values.
     fn slopes(&self, q: &Joints<M>) -> (Equations<M, Joints<M>>, Equations<M>) {
         let at = self.place(q);
         (self.derivatives(&at), self.mechanism.values(self.parameters, &at))
     }
 
-    /// The same with the equations as shares of their sizes.
+    /// The triangular factor of the relative equations (each divided by its size).
     pub(crate) fn shares(&mut self, q: &Joints<M>, damping: f64, held: u32) -> Triangle<M> {
         let (derivatives, right) = self.shared(q);
         self.triangle_of(&derivatives, &right, damping, held)
     }
 
-    /// The derivatives of the equations and their values, as shares of their sizes.
+    /// The Jacobian of the relative equations and their values.
     pub(crate) fn shared(&self, q: &Joints<M>) -> (Equations<M, Joints<M>>, Equations<M>) {
         let at = self.place(q);
         let (mut derivatives, (mut right, sizes)) = (self.derivatives(&at), self.equations(&at));
@@ -273,14 +274,14 @@ impl<M: Mechanism> Problem<'_, M> {
         (derivatives, right)
     }
 
-    /// Room for a triangle, all zeros.
+    /// A triangle of zeros.
     pub(crate) fn no_triangle(&self) -> Triangle<M> {
         let joints = self.joints();
         let rows = self.facts().size_of.len() + joints;
         Triangle { numbers: Array::by((joints + 1) * rows, |_| 0.0), rows, joints, damped: joints }
     }
 
-    /// The triangle of equations with these derivatives and values.
+    /// The triangular factor for a given Jacobian and values.
     pub(crate) fn triangle_of(
         &mut self,
         derivatives: &Equations<M, Joints<M>>,
@@ -324,7 +325,7 @@ impl<M: Mechanism> Triangle<M> {
         self.numbers.as_ref()[column * self.rows + row]
     }
 
-    /// Turns columns into a triangle by reflections.
+    /// Reduces the columns to a triangle by Householder reflections.
     pub fn reflect(&mut self) {
         for pivot in 0..self.joints {
             let end = self.rows - self.joints + usize::min(pivot + 1, self.damped);
@@ -346,7 +347,7 @@ impl<M: Mechanism> Triangle<M> {
         }
     }
 
-    /// The least pivot as a share of the largest.
+    /// The least pivot, relative to the largest.
     pub fn regularity(&self) -> f64 {
         let pivots = (0..self.joints).map(|i| self.entry(i, i).abs());
         let (least, most) =
@@ -354,7 +355,7 @@ impl<M: Mechanism> Triangle<M> {
         least / most
     }
 
-    /// Whether the least pivot outweighs the equations' values: no place nearby solves them better than where the plain step leads.
+    /// Whether the least pivot exceeds the equations' values: then no configuration nearby has smaller residuals than the end of the plain step.
     fn is_regular(&self) -> bool {
         let pivots = (0..self.joints).map(|i| self.entry(i, i).abs());
         let (least, most) =
@@ -362,7 +363,7 @@ impl<M: Mechanism> Triangle<M> {
         least * least > STEEP * most * norm(self.column(self.joints))
     }
 
-    /// The solution of the triangular system; none for a zero or non-finite pivot.
+    /// The solution of the triangular system by back substitution. `None` for a zero or non-finite pivot.
     pub fn substituted(&self) -> Option<Joints<M>> {
         let mut solution: Joints<M> = Array::by(self.joints, |_| 0.0);
         for row in (0..self.joints).rev() {

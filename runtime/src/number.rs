@@ -1,4 +1,4 @@
-//! What a solver computes with: one number ([`f64`]), or those of several targets or candidates at once ([`crate::Lanes`]). Main type: [`Number`].
+//! Arithmetic of a solver: one number ([`f64`]), or those of several targets or candidates at once ([`crate::Lanes`]). Main type: [`Number`].
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
@@ -6,13 +6,12 @@ use crate::arithmetic::Arithmetic;
 use crate::tolerances::{BESIDE, GRAZING, NEAR, TANGENT};
 use crate::trigonometry;
 
-/// A number on the left of an operation with several.
+/// A scalar operand on the left of an operation with several numbers.
 pub trait With<N>: Add<N, Output = N> + Sub<N, Output = N> + Mul<N, Output = N> + Div<N, Output = N> {}
 
 impl<N> With<N> for f64 where f64: Add<N, Output = N> + Sub<N, Output = N> + Mul<N, Output = N> + Div<N, Output = N> {}
 
-/// One number, or several at once. Operations are those of IEEE 754, one after the other as they are written, so that each of several numbers is, to
-/// the last bit, what it would be alone.
+/// One number, or several at once. Operations are those of IEEE 754 in the written order. Each of several numbers is bitwise equal to what it would be alone.
 pub trait Number:
     Copy
     + 'static
@@ -26,33 +25,35 @@ pub trait Number:
     + Mul<f64, Output = Self>
     + Div<f64, Output = Self>
 {
-    /// Whether something is so.
+    /// A truth value for each number.
     type Truth: Copy + BitAnd<Output = Self::Truth> + BitOr<Output = Self::Truth>;
-    /// Whether a candidate may have others next to it, or is none.
+    /// Whether a candidate may have others close to it, or does not exist.
     type Doubt: Copy + BitOr<Output = Self::Doubt>;
     /// No doubt.
     const SURE: Self::Doubt;
 
-    /// The number, everywhere.
+    /// The given number in all lanes.
     fn of(number: f64) -> Self;
-    /// By number.
+    /// Applies a function to each pair of numbers.
     fn each(self, other: Self, value: impl Fn(f64, f64) -> f64) -> Self;
-    /// Whether something is so, by number.
+    /// Compares each pair of numbers.
     fn is(self, other: Self, is_so: impl Fn(f64, f64) -> bool) -> Self::Truth;
-    /// The number where something is so, and another elsewhere.
+    /// Selects the number where `is_so` is true, and the other one elsewhere.
     #[must_use]
     fn or(self, other: Self, is_so: Self::Truth) -> Self;
-    /// The real roots of `x^2 + constant`, ascending; a miss that counts as none is up to `tangent` of the square of the unknown's typical size `scale`.
+    /// The real roots of `x^2 + constant`, ascending. A negative radicand counts as zero up to `tangent` times the square of the unknown's typical size
+    /// `scale`.
     fn roots_of_square(constant: Self, scale: Self, tangent: f64) -> Roots<Self, 2>;
-    /// The real roots of the first polynomial whose leading coefficient counts, or of the last one, ascending; coefficients from the constant on.
+    /// The real roots, ascending, of the first polynomial with a significant leading coefficient, or of the last one. Coefficients begin with the constant
+    /// term.
     fn real_roots<const D: usize>(polynomials: &[&[Self]], scale: Self) -> Roots<Self, D>;
-    /// The real roots of a polynomial for the tangent of half an angle, of which one misses the axis by no more than rounding times a power of `spread`: its
-    /// terms count with so many times the greater of the tangent and one.
+    /// The real roots of a polynomial in the tangent of half an angle. A double root may miss the axis by rounding times a power of `spread`: terms are
+    /// weighted with `spread` times the greater of the tangent and one.
     fn half_angle_roots<const D: usize>(polynomial: &[Self], spread: Self) -> Roots<Self, D>;
 
-    /// What is computed of numbers one by one; nothing of several targets, which such programs do not solve at once.
+    /// Applies a function to scalars. `None` for several targets at once: programs that need it solve targets one by one.
     fn alone<A, const L: usize>(numbers: &[Self; L], value: impl FnOnce(&[f64; L]) -> A) -> Option<A>;
-    /// Whether an answer may have others next to it.
+    /// Whether a solution may have others close to it.
     fn doubt_of(is_close: bool) -> Self::Doubt;
 
     /// The real roots of `x^2 + constant`, whose typical size is `scale`.
@@ -61,7 +62,7 @@ pub trait Number:
         Self::roots_of_square(constant, scale, TANGENT)
     }
 
-    /// The same behind roots of polynomials of higher degree, which are less exact.
+    /// Same as [`Number::square_roots`], with a larger tolerance, after roots of polynomials of higher degree.
     #[inline(always)]
     fn grazing_roots(constant: Self, scale: Self) -> Roots<Self, 2> {
         Self::roots_of_square(constant, scale, GRAZING)
@@ -74,28 +75,28 @@ pub trait Number:
         self.each(self, |a, _| a.abs())
     }
 
-    /// The greater one; the other one of a number and what is none.
+    /// The greater one; if one is NaN, the other one.
     #[inline(always)]
     #[must_use]
     fn max(self, other: Self) -> Self {
         self.each(other, f64::max)
     }
 
-    /// The greater of two numbers; the first where one is not a number.
+    /// The greater of two numbers; the first where one is NaN.
     #[inline(always)]
     #[must_use]
     fn greater(self, other: Self) -> Self {
         self.each(other, |a, b| if b > a { b } else { a })
     }
 
-    /// The lesser of two numbers; the first where one is not a number.
+    /// The lesser of two numbers; the first where one is NaN.
     #[inline(always)]
     #[must_use]
     fn lesser(self, other: Self) -> Self {
         self.each(other, |a, b| if b < a { b } else { a })
     }
 
-    /// The greatest among a positive number and magnitudes.
+    /// The greatest of a positive number and the magnitudes of others.
     #[inline(always)]
     fn largest(least: f64, others: &[Self]) -> Self {
         others.iter().fold(Self::of(least), |largest, other| largest.greater(other.abs()))
@@ -108,7 +109,7 @@ pub trait Number:
         self.each(other, |a, b| if b < limit { a } else { 0.0 })
     }
 
-    /// The square root, zero of a number below zero.
+    /// The square root; zero of a negative number.
     #[inline(always)]
     #[must_use]
     fn root(self) -> Self {
@@ -139,7 +140,7 @@ pub trait Number:
         self.is(limit, |a, b| a > b)
     }
 
-    /// Where a factor is as near zero as a stratum reaches.
+    /// Where a factor is so close to zero that the case of a stratum runs.
     #[inline(always)]
     fn near(self, scale: Self) -> Guard<Self> {
         Guard { here: self.abs().at_most(scale * NEAR), beside: self.abs().at_most(scale * BESIDE) }
@@ -156,17 +157,17 @@ pub trait Number:
     fn is_away(self, scale: Self) -> Self::Truth;
 }
 
-/// Where a case's guards hold.
+/// The truth values of a case's guards.
 #[derive(Clone, Copy, Debug)]
 pub struct Guard<N: Number> {
-    /// As near a stratum as it reaches.
+    /// Near the stratum.
     pub here: N::Truth,
-    /// The same where the cases before have lost nothing.
+    /// Within rounding of the stratum, which suffices where the cases before have lost nothing.
     pub beside: N::Truth,
 }
 
 impl<N: Number> Guard<N> {
-    /// A claim to be the best conditioned of a group: the pivot's magnitude, or -1 elsewhere.
+    /// The claim of a pivot in a group: its magnitude where the guard holds, or -1 elsewhere.
     #[inline(always)]
     pub fn claim(self, pivot: N) -> N {
         pivot.abs().or(N::of(-1.0), self.here)
@@ -202,19 +203,19 @@ impl<N: Number, const D: usize> Roots<N, D> {
         self.count
     }
 
-    /// Whether the root with this index is close to another, or double, or none.
+    /// Whether the root with this index is close to another, is double, or does not exist.
     #[inline(always)]
     pub fn doubt(&self, index: usize) -> N::Doubt {
         self.doubts[index]
     }
 }
 
-/// What a polynomial's terms are measured at, to tell a double root from a miss.
+/// The magnitudes at which a polynomial's terms are evaluated, to distinguish a double root from a miss.
 #[derive(Clone, Copy)]
 pub(crate) struct Scale {
     /// The unknown's typical size.
     pub typical: f64,
-    /// How many times the greater of this and the root.
+    /// Factor for the greater of the typical size and the root.
     pub spread: f64,
 }
 
@@ -229,7 +230,7 @@ impl Scale {
         Scale { typical: 1.0, spread }
     }
 
-    /// What the terms at `x` are measured at.
+    /// The magnitude at which terms are evaluated near the root `x`.
     #[inline(always)]
     pub fn at(self, x: f64) -> f64 {
         self.spread * f64::max(self.typical, x.abs())

@@ -1,4 +1,4 @@
-//! The equations at one target: how well joint values solve them ([`Fit`]), and how they change with the joints.
+//! The equations at one target: residuals of joint values ([`Fit`]) and derivatives by the joints.
 
 use crate::counters::Event;
 use crate::derivatives::of_affine;
@@ -14,24 +14,24 @@ use crate::tolerances::ACCEPT;
 pub(crate) struct Problem<'a, M: Mechanism> {
     pub mechanism: &'a M,
     pub parameters: &'a Parameters<M>,
-    /// The numbers of the candidate that follow from no joint, among others.
+    /// The candidate's numbers, of which some follow from no joint.
     pub extras: Option<Places<M>>,
-    /// What is left of the target's steps.
+    /// The remaining steps of the target.
     pub steps: &'a mut Steps,
 }
 
-/// How well joint values solve the equations.
+/// Residuals of joint values.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fit {
     /// The largest magnitude of an equation's value.
     pub residual: f64,
-    /// The largest share of an equation's value in its size.
+    /// The largest value of an equation relative to its size.
     pub relative: f64,
     /// Whether every equation holds.
     pub accepted: bool,
 }
 
-/// Joint values, and how well they solve the equations.
+/// Joint values with their residuals.
 pub(crate) type End<M> = (Joints<M>, Fit);
 
 impl<'a, M: Mechanism> Problem<'a, M> {
@@ -40,19 +40,19 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         Problem { mechanism, parameters, extras: None, steps }
     }
 
-    /// What holds for all targets.
+    /// Constants that hold for all targets.
     #[inline(always)]
     pub fn facts(&self) -> Facts<'a> {
         self.mechanism.facts()
     }
 
-    /// How many joints there are.
+    /// Number of joints.
     #[inline(always)]
     pub fn joints(&self) -> usize {
         self.facts().joints.len()
     }
 
-    /// What the equations read of joint values.
+    /// The numbers that the equations read of joint values.
     pub fn place(&self, q: &Joints<M>) -> Places<M> {
         place::<M>(&self.facts(), q, self.extras.as_ref())
     }
@@ -62,18 +62,18 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         (self.mechanism.values(self.parameters, at), self.mechanism.sizes(self.parameters, at))
     }
 
-    /// How well joint values solve the equations.
+    /// The residuals of joint values.
     pub fn measure(&mut self, q: &Joints<M>) -> Fit {
         self.measure_at(&self.place(q), q)
     }
 
-    /// The joint values with how well they solve the equations.
+    /// The joint values with their residuals.
     pub fn measured(&mut self, q: Joints<M>) -> End<M> {
         let fit = self.measure(&q);
         (q, fit)
     }
 
-    /// As [`Problem::measure`], where the cosines and sines of `q` are known.
+    /// Same as [`Problem::measure`], where the cosines and sines of `q` are known.
     pub fn measure_at(&mut self, at: &Places<M>, q: &Joints<M>) -> Fit {
         self.steps.take(Event::Evaluation);
         let (values, sizes) = self.equations(at);
@@ -99,7 +99,7 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         own.unwrap_or_else(|| of_affine(self.mechanism, self.parameters, at))
     }
 
-    /// How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length.
+    /// The influence of each joint on the equations: the greatest derivative relative to its equation's size, at most one. It is one for a length.
     pub fn weights(&self, q: &Joints<M>) -> Joints<M> {
         let at = self.place(q);
         let rows = self.derivatives(&at);
@@ -117,14 +117,14 @@ impl<'a, M: Mechanism> Problem<'a, M> {
     }
 }
 
-/// The parameters in all lanes.
+/// The parameters repeated in all lanes.
 #[inline(always)]
 pub(crate) fn everywhere<M: Mechanism, const W: usize>(problem: &Problem<'_, M>) -> Parameters<M, Lanes<W>> {
     let numbers = problem.parameters.as_ref();
     Array::by(numbers.len(), |i| Lanes::of(numbers[i]))
 }
 
-/// The largest magnitude of an equation's value, and its largest share of the equation's size.
+/// The largest magnitude of an equation's value, and the largest relative one.
 #[inline(always)]
 pub(crate) fn fit<M: Mechanism, const W: usize>(
     mechanism: &M,

@@ -1,29 +1,28 @@
-//! The real roots of an ordinary quartic, several times faster than [`crate::roots::real_roots`] finds them otherwise: Ferrari's two quadratics
-//! (Cardano, Ars Magna, 1545), then two Newton steps for all roots at once. Whether a quartic is ordinary is tested, not assumed: where anything is
-//! near a limit there is no answer, and the caller goes the general way.
+//! The real roots of an ordinary quartic, several times faster than by [`crate::roots::real_roots`]. Ferrari's method gives two quadratics (Cardano, Ars Magna,
+//! 1545), then two Newton steps improve all roots at once. Whether a quartic is ordinary is tested. Where a quantity is near a limit, the result is `None`, and
+//! the caller uses the general method.
 
 use crate::arithmetic::Arithmetic;
 use crate::number::Scale;
 
-/// The leading coefficient is more than this share of the largest one: the change of the unknown then costs few digits.
+/// Least leading coefficient, relative to the largest one: the change of the unknown then loses few digits.
 const LED: f64 = 1e-2;
-/// The product of the two quadratics misses the quartic by no more than this share of its size.
+/// Largest relative difference between the product of the two quadratics and the quartic.
 const FACTORED: f64 = 1e-8;
-/// Roots, real or complex, differ by more than this share of their size.
+/// Least relative distance of roots, real or complex.
 const DISTINCT: f64 = 2e-3;
-/// The last Newton step is no longer than this share of a root's size: the next one would be lost in rounding.
+/// Longest last Newton step, relative to a root: the next one would be within rounding.
 const SETTLED: f64 = 1e-9;
-/// A root of the resolvent is found when a step is no longer than this share of it: that halves the digits which are open.
+/// Relative length of the last Newton step for a root of the resolvent: half of the digits are then correct.
 const RESOLVED: f64 = 1e-5;
-/// Newton steps for the resolvent, at most.
+/// Maximal number of Newton steps for the resolvent.
 const RESOLVENT_STEPS: usize = 24;
 
-/// Real roots in ascending order: the first so many of the four.
+/// Real roots in ascending order, and their number.
 type Ordinary = ([f64; 4], usize);
 
-/// All real roots of the quartic with these coefficients, constant term first; `scale` has the typical size of the unknown. `None` where
-/// the quartic is not ordinary: its leading coefficient is small, roots are next to each other or complex ones next to the axis, or
-/// the steps do not settle.
+/// All real roots of the quartic with these coefficients, constant term first. `scale` has the typical size of the unknown. `None` where the quartic is not
+/// ordinary: its leading coefficient is small, roots are close to each other, complex roots are close to the real axis, or the steps do not converge.
 pub(crate) fn ordinary_roots(coefficients: &[f64; 5], scale: Scale) -> Option<Ordinary> {
     let [e, d, c, b, lead] = *coefficients;
     let largest = coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()));
@@ -40,13 +39,13 @@ pub(crate) fn ordinary_roots(coefficients: &[f64; 5], scale: Scale) -> Option<Or
         let (low, high) = (f64::min(roots[1], roots[3]), f64::max(roots[0], roots[2]));
         roots = [f64::min(roots[0], roots[2]), f64::min(low, high), f64::max(low, high), f64::max(roots[1], roots[3])];
     }
-    // A root that is not settled is not a number, and no distance holds for it.
+    // A root that has not converged is NaN, and fails every comparison.
     let apart = |pair: &[f64]| pair[1] - pair[0] > DISTINCT * f64::max(scale.at(pair[0]), scale.at(pair[1]));
     roots[..count].windows(2).all(apart).then_some((roots, count))
 }
 
-/// The roots of the two real quadratics whose product is `x^4 + b x^3 + c x^2 + d x + e`: two of either, ascending, the second two next to
-/// the first.
+/// The roots of the two real quadratics whose product is `x^4 + b x^3 + c x^2 + d x + e`: two of each, ascending; those of the second follow those of the
+/// first.
 fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: Scale) -> Option<Ordinary> {
     // With y = x + b / 4 it is y^4 + p y^2 + q y + r.
     let (quarter, square) = (0.25 * b, b * b);
@@ -80,8 +79,8 @@ fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: Scale) -> Option<Ordinary>
     Some((roots, count))
 }
 
-/// The greatest root of `z^3 + u z^2 + v z - w` for `w > 0`, to half its digits, by Newton steps down from a bound of it: a root
-/// above `typical` has `z^2 <= -u z - v + w / typical`.
+/// The greatest root of `z^3 + u z^2 + v z - w` for `w > 0`, to half its digits. Newton steps start at an upper bound: a root above `typical` has `z^2 <= -u z
+/// - v + w / typical`.
 fn resolved(u: f64, v: f64, w: f64, typical: f64) -> Option<f64> {
     let (falling, under) = (f64::max(-u, 0.0), f64::max(-v, 0.0));
     let inside = falling * falling + 4.0 * (under + w / typical);
@@ -98,7 +97,7 @@ fn resolved(u: f64, v: f64, w: f64, typical: f64) -> Option<f64> {
     None
 }
 
-/// Two Newton steps from a root's approximation; not a number where they do not settle.
+/// Two Newton steps from the approximation of a root. NaN where they do not converge.
 fn settled(&[e, d, c, b]: &[f64; 4], mut x: f64, scale: f64) -> f64 {
     let mut step = 0.0;
     for _ in 0..2 {

@@ -1,4 +1,4 @@
-//! Candidates that are no answers where they were found, and answers next to each other.
+//! Refinement of candidates that are not solutions yet, and of solutions close to each other.
 
 use crate::answers::Answers;
 use crate::approach::Approach;
@@ -16,12 +16,13 @@ use crate::tolerances::{
     TWIN, TWIN_AT, TWIN_WITHIN, UNSETTLED,
 };
 
-/// The most answers of a target.
+/// Maximal number of solutions of a target.
 const MOST: usize = 4096;
 const WORD: usize = u64::BITS as usize;
 
 impl<M: Mechanism> Answers<'_, M> {
-    /// Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too.
+    /// Polishes a candidate with its number, and keeps the result if it solves the equations. Where two solutions almost meet, further starts around it are
+    /// tried.
     #[cold]
     #[inline(never)]
     pub fn refine(&mut self, number: usize, found: &Found, q: Joints<M>) {
@@ -58,7 +59,7 @@ impl<M: Mechanism> Answers<'_, M> {
             if !is_nearby || regularity <= DISTINCT {
                 self.around(found, &end, missed);
             }
-            // Such a candidate stands between two answers: starts from the other side too.
+            // Such a candidate is between two solutions: starts again from the other side.
             let way = differences::<M>(&self.problem.facts(), &q, &end.0);
             let start = shifted::<M>(&self.problem.facts(), &q, &way);
             let start = self.problem.polished(start, 0);
@@ -70,8 +71,8 @@ impl<M: Mechanism> Answers<'_, M> {
         self.keep(found, end);
     }
 
-    /// Looks for curves next to where steps from a candidate have led, and next to the candidate where they have led far from it; whether they have come to
-    /// an end on a curve.
+    /// Searches for curves next to the end of the steps from a candidate, and next to the candidate if that is far away. Returns whether the steps ended on a
+    /// curve.
     fn leads_to_curve(
         &mut self,
         found: &Found,
@@ -88,7 +89,7 @@ impl<M: Mechanism> Answers<'_, M> {
         false
     }
 
-    /// Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer.
+    /// Keeps the end of the Newton steps from the candidate with this number. If the equations are ill-conditioned, searches for a second solution.
     pub fn arrive(&mut self, number: usize, found: &Found, approach: Approach<M>) {
         let Approach { end, fit, missed, pivot } = approach;
         let is_steep = pivot < missed * if found.close { STEEP } else { MILD };
@@ -108,8 +109,8 @@ impl<M: Mechanism> Answers<'_, M> {
         self.twin(found, &end, triangle, missed);
     }
 
-    /// Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a
-    /// self-motion as to an isolated answer. Whether it is one.
+    /// Keeps a solution that is a member of a self-motion of one joint that a case frees. The formulas of a nearby mechanism do not distinguish these from
+    /// isolated solutions. Returns whether it is one.
     fn keep_moving(&mut self, found: &Found, end: &End<M>, regularity: f64) -> bool {
         let may_move = end.1.relative <= ROUNDING && regularity <= REGULAR;
         let joint = if may_move { self.problem.joint_on_long_self_motion(&end.0) } else { None };
@@ -119,14 +120,14 @@ impl<M: Mechanism> Answers<'_, M> {
         joint.is_some()
     }
 
-    /// Whether a curve goes through an answer of a nearby mechanism, or through where steps to one have come to an end: then it is followed.
+    /// Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed.
     fn is_curve(&mut self, found: &Found, (q, fit): &End<M>, regularity: f64) -> bool {
         let is_singular = (ROUNDING..=NEAR).contains(&fit.relative) || fit.accepted && regularity <= REGULAR;
         is_singular && self.begin_curve(found, q)
     }
 
-    /// One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it misses: the other one
-    /// is in the direction in which the equations change least, where a parabola through this one has its second root.
+    /// Searches for a second solution next to one whose candidate was a double root. Their distance is about the square root of the candidate's residual. The
+    /// second one is in the direction in which the equations change least: a parabola through the first one has its second root there.
     fn twin(&mut self, found: &Found, end: &Joints<M>, triangle: Triangle<M>, missed: f64) {
         let _phase = Phase::Twin.begin();
         let nearby = Arithmetic::sqrt(missed);
@@ -148,8 +149,8 @@ impl<M: Mechanism> Answers<'_, M> {
         self.keep(found, end);
     }
 
-    /// Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly
-    /// matters. Where none leads to an answer, from farther ones.
+    /// Polishes again from points on either side of a candidate. Their distance is the square root of the residual, for a double root or an angle with little
+    /// influence. If none of these leads to a solution, starts are farther away.
     pub fn around(&mut self, found: &Found, end: &End<M>, missed: f64) {
         let _phase = Phase::Around.begin();
         let weights = self.problem.weights(&end.0);
@@ -173,7 +174,7 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Remembers a candidate that is no answer if it comes nearest so far.
+    /// Stores a candidate that is not a solution if its residual is the least so far.
     pub fn miss(&mut self, end: End<M>) {
         let is_nearer = self.nearest.as_ref().is_none_or(|nearest| end.1.relative < nearest.1.relative);
         if !end.1.accepted && end.1.relative.is_finite() && is_nearer {
@@ -181,8 +182,8 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept;
-    /// a second root of a double one takes the next free number below `last`.
+    /// Keeps a solution if the equations hold. Of equal solutions, the branch of the first and the joints of the best are kept. A second root of a double one
+    /// gets the next free number below `last`.
     pub fn keep(&mut self, found: &Found, (q, fit): End<M>) {
         if !(fit.accepted || self.may_stay(&q, &fit)) {
             return self.miss((q, fit));
@@ -198,14 +199,14 @@ impl<M: Mechanism> Answers<'_, M> {
         self.keep_one(found, q, &fit);
     }
 
-    /// Whether what no steps are left to polish is near enough to an answer.
+    /// Whether a candidate that could not be polished, because no steps are left, is near enough to a solution.
     fn may_stay(&self, q: &Joints<M>, fit: &Fit) -> bool {
         let are_finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
         let is_whole = are_finite(q.as_ref()) && self.problem.extras.as_ref().is_none_or(|at| are_finite(at.as_ref()));
         self.problem.steps.are_spent() && fit.relative <= UNSETTLED && is_whole
     }
 
-    /// As [`Answers::keep`], where others are near.
+    /// Same as [`Answers::keep`], where other solutions are near.
     #[cold]
     #[inline(never)]
     fn keep_one(&mut self, found: &Found, q: Joints<M>, fit: &Fit) {
@@ -236,7 +237,7 @@ impl<M: Mechanism> Answers<'_, M> {
         self.push(answer);
     }
 
-    /// Drops the answers whose index does not stay.
+    /// Drops the solutions for whose index `stays` is false.
     fn retain(&mut self, stays: impl Fn(usize) -> bool) {
         let mut kept = 0;
         for i in 0..self.count {
@@ -248,7 +249,7 @@ impl<M: Mechanism> Answers<'_, M> {
         self.count = kept;
     }
 
-    /// Adds an answer; where there are too many, the worst is left out.
+    /// Adds a solution. If there are too many, the worst is dropped.
     fn push(&mut self, answer: Solution<M>) {
         if self.count == self.out.len() {
             let mut worst = None;
@@ -266,8 +267,8 @@ impl<M: Mechanism> Answers<'_, M> {
         self.count += 1;
     }
 
-    /// Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the
-    /// nearest two are one, and the better of them stays.
+    /// Merges the nearest two isolated solutions while there are more than a target can have: at a singular configuration rounding makes several of one. The
+    /// better one is kept.
     pub fn unite(&mut self) {
         let Some(most) = self.problem.facts().isolated else { return };
         while self.count > most && self.out[..self.count].iter().filter(|answer| answer.is_isolated()).count() > most {
@@ -297,7 +298,7 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Marks what the source would choose.
+    /// Marks the solutions that the source would select.
     pub fn mark_choice(&mut self) {
         let Some(preference) = self.problem.facts().preference else { return };
         let sign = if preference.greatest { -1.0 } else { 1.0 };
@@ -309,8 +310,7 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Whether two answers are one: members of one self-motion, or within [`MERGE`] with joints left out that are free in either, or one singular
-    /// configuration.
+    /// Whether two solutions are one: members of one self-motion, one singular configuration, or within [`MERGE`] without the joints that are free in either.
     fn is_one(&mut self, index: usize, b: &Solution<M>) -> bool {
         let Answers { problem, out, is_another, suffices, loners, .. } = self;
         let a = &out[index];
@@ -334,8 +334,8 @@ impl<M: Mechanism> Answers<'_, M> {
 }
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond [`MERGE`]: they hold
-    /// half-way too, as well as at the worse of the two.
+    /// Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than [`MERGE`]. Half-way between
+    /// them the residual is then no larger than at the worse of the two.
     pub fn are_blurred(&mut self, (a, of_a): (&Joints<M>, f64), (b, of_b): (&Joints<M>, f64)) -> bool {
         let bound = f64::max(f64::max(of_a, of_b), ALIKE);
         let is_near = self.facts().farthest(a.as_ref(), b.as_ref()) <= BLUR;
@@ -346,8 +346,8 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 }
 
-/// Whether an isolated answer is but a member of the self-motion of a member that holds within rounding. Where the cases before have lost no answer, it may be
-/// of one that holds only almost.
+/// Whether an isolated solution belongs to the self-motion of a member that holds within rounding. If the cases before have lost no solution, the residual of
+/// the self-motion may be larger.
 fn is_on<M: Mechanism>(
     problem: &mut Problem<'_, M>,
     loners: &mut Loners<M>,
@@ -366,13 +366,13 @@ fn is_on<M: Mechanism>(
     !suffices || problem.leads_to(&member.q, &isolated.q, free)
 }
 
-/// Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding.
+/// Whether members of one branch count as one self-motion: where it is not a curve, or its residual exceeds rounding.
 fn are_by_branch<M: Mechanism>(problem: &mut Problem<'_, M>, a: &Solution<M>, b: &Solution<M>) -> bool {
     let are_sharp = f64::max(a.relative, b.relative) <= ROUNDING;
     a.branch == b.branch && !(are_sharp && problem.tangent(&b.q, b.free).is_some())
 }
 
-/// Whether two answers that no steps are left to tell apart count as one: members of a branch, and what polishing might have led to the other.
+/// Whether two solutions count as one when no steps are left to distinguish them: members of one branch, or solutions that polishing might have merged.
 fn are_alike<M: Mechanism>(problem: &Problem<'_, M>, a: &Solution<M>, b: &Solution<M>) -> bool {
     match (a.is_isolated(), b.is_isolated()) {
         (true, true) => {
@@ -383,8 +383,8 @@ fn are_alike<M: Mechanism>(problem: &Problem<'_, M>, a: &Solution<M>, b: &Soluti
     }
 }
 
-/// Whether `a` stays where `b` is equal to it: the better one does. But a self-motion that holds within rounding stays against its members, and
-/// its first member against the others.
+/// Whether `a` is kept when `b` is equal to it: the better one is kept. However, a self-motion within rounding is preferred to its isolated members, and its
+/// first member to the later ones.
 fn holds_against<M: Mechanism>(a: &Solution<M>, b: &Solution<M>) -> bool {
     match (a.is_isolated(), b.is_isolated()) {
         (true, false) if b.relative <= ROUNDING => false,

@@ -1,4 +1,4 @@
-//! Work compiled for vector registers that the processor may have.
+//! Functions compiled for vector registers that the processor may have.
 
 macro_rules! compiled_for {
     ($($(#[$doc:meta])* $name:ident $feature:tt)*) => {
@@ -6,7 +6,7 @@ macro_rules! compiled_for {
             $(#[$doc])*
             ///
             /// # Errors
-            /// The work itself, not done, where the processor has none.
+            /// Returns the work, not done, where the processor lacks the feature.
             #[inline(always)]
             #[allow(unsafe_code)]
             pub fn $name<A, F: FnOnce() -> A>(work: F) -> Result<A, F> {
@@ -16,7 +16,7 @@ macro_rules! compiled_for {
                     fn compiled<A>(work: impl FnOnce() -> A) -> A {
                         work()
                     }
-                    // SAFETY: the processor has what the function is compiled for.
+                    // SAFETY: the processor supports the target feature of the function.
                     return Ok(unsafe { compiled(work) });
                 }
                 Err(work)
@@ -26,13 +26,13 @@ macro_rules! compiled_for {
 }
 
 compiled_for! {
-    /// Does work in registers of eight numbers, and so what is inlined into it.
+    /// Runs a closure, and what is inlined into it, in registers of eight numbers.
     in_avx512 "avx512f"
-    /// Does work in registers of four numbers, and so what is inlined into it.
+    /// Runs a closure, and what is inlined into it, in registers of four numbers.
     in_avx2 "avx2"
 }
 
-/// Does work in the widest registers that the processor has.
+/// Runs a closure in the widest registers that the processor has.
 #[inline(always)]
 pub fn in_widest<A>(work: impl FnOnce() -> A) -> A {
     match in_avx512(work) {

@@ -1,4 +1,4 @@
-//! Real roots of polynomials of one unknown. Main type: [`Roots`].
+//! Real roots of polynomials in one unknown. Main type: [`Roots`].
 
 use crate::arithmetic::Arithmetic;
 pub use crate::number::Roots;
@@ -6,11 +6,11 @@ use crate::number::{Number, Scale};
 use crate::quartic;
 use crate::tolerances::{MEETING, NEGLIGIBLE, PIVOT, TANGENT};
 
-/// Values of `p` up to `degree ROUNDING sum |a_i x^i|` have no sign.
+/// The sign of `p(x)` is undetermined up to `degree ROUNDING sum |a_i x^i|`.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
-/// Steps for each root, at most.
+/// Maximal number of iterations for each root.
 const MAX_STEPS: usize = 256;
-/// The highest degree of a polynomial.
+/// Maximal degree of a polynomial.
 pub const MAX_DEGREE: usize = 16;
 pub(crate) const MOST: usize = MAX_DEGREE + 1;
 
@@ -24,7 +24,7 @@ impl<const D: usize> Roots<f64, D> {
         }
     }
 
-    /// As many of them as there is room for.
+    /// The first of them, up to the capacity `L`.
     fn within<const L: usize>(&self) -> Roots<f64, L> {
         let mut roots = Roots::NONE;
         self.as_slice().iter().for_each(|x| roots.push(*x));
@@ -33,7 +33,7 @@ impl<const D: usize> Roots<f64, D> {
     }
 }
 
-/// All real roots of `x^2 + constant`; a miss is measured against the unknown's typical size `scale`.
+/// All real roots of `x^2 + constant`. The tolerance of a negative radicand is relative to the unknown's typical size `scale`.
 #[inline(always)]
 pub(crate) fn of_square(constant: f64, scale: f64, tangent: f64) -> Roots<f64, 2> {
     let is_met = f64::MIN <= constant && constant <= tangent * constant.greater(scale * scale);
@@ -55,8 +55,8 @@ pub(crate) fn of_the_leading<const D: usize>(polynomials: &[&[f64]], scale: Scal
     scaled_roots(earlier.iter().find(leads).unwrap_or(last), scale)
 }
 
-/// All real roots of the polynomial with these coefficients, constant term first. Roots that rounding cannot tell apart, and
-/// a double root that misses the axis by rounding, measured at the unknown's typical size `scale`, are reported once.
+/// All real roots of the polynomial with these coefficients, constant term first. Roots that agree within rounding are reported once. So is a double root that
+/// misses the axis by rounding, relative to the unknown's typical size `scale`.
 pub fn real_roots<const D: usize>(coefficients: &[f64], scale: f64) -> Roots<f64, D> {
     scaled_roots(coefficients, Scale::typical(scale))
 }
@@ -91,7 +91,7 @@ fn largest(coefficients: &[f64]) -> f64 {
     coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()))
 }
 
-/// A polynomial with coefficients of magnitude one and less, constant term first.
+/// A polynomial with coefficients of magnitude at most one, constant term first.
 struct Polynomial {
     a: [f64; MOST],
     degree: usize,
@@ -99,7 +99,7 @@ struct Polynomial {
 }
 
 impl Polynomial {
-    /// Drops negligible leading coefficients and divides by the largest; none when nothing solvable is left.
+    /// Drops negligible leading coefficients and divides by the largest. `None` when the rest is constant.
     fn new(coefficients: &[f64], scale: Scale) -> Option<Self> {
         let largest = largest(coefficients);
         let mut length = coefficients.len();
@@ -131,7 +131,7 @@ impl Polynomial {
         roots
     }
 
-    /// The roots of a quadratic polynomial without cancellation, and the double root of a tangency once.
+    /// The roots of a quadratic polynomial without cancellation; a double root is reported once.
     fn quadratic_roots<const L: usize>(&self) -> Roots<f64, L> {
         let mut roots = Roots::NONE;
         let (c, b, a) = (self.a[0], self.a[1], self.a[2]);
@@ -164,7 +164,7 @@ impl Polynomial {
         Polynomial { a, degree, scale: self.scale }.scaled()
     }
 
-    /// Two to four times Cauchy's radius: every root, and every root of a derivative, is well inside.
+    /// Two to four times Cauchy's bound: every root, and every root of a derivative, is well inside.
     fn root_bound(&self) -> f64 {
         let mut radius = 1.0;
         while !self.is_led(radius) {
@@ -176,14 +176,14 @@ impl Polynomial {
         2.0 * radius
     }
 
-    /// Whether `|a_n| r^n` is more than all other `|a_i| r^i` together: then no root is as large as `r`.
+    /// Whether `|a_n| r^n` exceeds the sum of all other `|a_i| r^i`: then no root is as large as `r`.
     fn is_led(&self, radius: f64) -> bool {
         let lead = self.a[self.degree].abs();
         self.a[..self.degree].iter().rev().fold(lead, |value, c| value * radius - c.abs()) > 0.0
     }
 
-    /// The roots, given the ascending critical points and a bound on all of them: one in each interval where the sign
-    /// changes, and the critical points where `p` touches the axis.
+    /// The roots, given the ascending critical points and a bound on all of them. There is one in each interval with a change of sign. Critical points where
+    /// `p` touches the axis are roots too.
     fn roots_between<const L: usize>(&self, critical: &Roots<f64, L>, bound: f64) -> Roots<f64, L> {
         let mut roots = Roots::NONE;
         let (mut low, mut low_sign) = (-bound, self.sign(-bound));
@@ -202,7 +202,7 @@ impl Polynomial {
         roots
     }
 
-    /// `-1`, `0` or `1`: the sign of `p(x)`, zero when rounding decides it.
+    /// The sign of `p(x)`: `-1`, `0` or `1`; zero where rounding determines it.
     fn sign(&self, x: f64) -> f64 {
         let (value, size) = self.value_and_size(x, x.abs());
         let noise = ROUNDING * self.degree as f64 * size;
@@ -235,8 +235,8 @@ impl Polynomial {
         (value, slope)
     }
 
-    /// The root between two points where `p` is monotone and changes its sign: Newton's method, which must cut its steps to
-    /// a quarter and stay inside, else bisection.
+    /// The root between two points where `p` is monotone and changes its sign. Newton's method is used while it reduces its steps to a quarter and stays
+    /// inside, else bisection.
     fn root_between(&self, mut low: f64, mut high: f64) -> f64 {
         let rising = self.sign(high) > 0.0;
         let mut x = 0.5 * low + 0.5 * high;
@@ -272,7 +272,7 @@ impl Polynomial {
     }
 }
 
-/// The arithmetic mean, or one that halves the exponents: bounds may be hundreds of decades apart.
+/// The arithmetic mean, or one of the exponents: bounds may differ by hundreds of decades.
 fn middle(low: f64, high: f64, arithmetic: bool) -> f64 {
     if arithmetic {
         return 0.5 * low + 0.5 * high;

@@ -1,4 +1,4 @@
-//! Whether answers are members of a self-motion, and of which: free joints are moved, and the others follow.
+//! Tests whether solutions are members of a self-motion, and of which: free joints are moved, and the others must follow.
 
 use core::f64::consts::TAU;
 
@@ -11,15 +11,15 @@ use crate::tolerances::{
 };
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at
-    /// least: to the other there may be a branching. Where `q` is not singular that is not tried. A self-motion may go round a small part of the
-    /// circle only: where `q` is singular within rounding, shorter ways are tried as well, each an eighth of the one before.
+    /// Whether the equations also hold, within `bound` or rounding, when the joints `free` are moved and the others follow. One direction suffices, because in
+    /// the other one the self-motion may branch. Where `q` is not singular this is false without a trial. A self-motion may cover only a small part of the
+    /// circle. Where `q` is singular within rounding, shorter displacements are therefore tried, each an eighth of the one before.
     pub fn lies_on_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64) -> bool {
         let regularity = self.regularity(q);
         self.leads_to_self_motion(q, free, bound, regularity)
     }
 
-    /// The same within rounding, but for self-motions that go round a small part of the circle only.
+    /// Same as [`Problem::lies_on_self_motion`] within rounding, without self-motions that cover only a small part of the circle.
     pub fn lies_on_long_self_motion(&mut self, q: &Joints<M>, free: u32) -> bool {
         self.regularity(q) <= REGULAR && self.leads_far_aside(q, free)
     }
@@ -28,8 +28,8 @@ impl<M: Mechanism> Problem<'_, M> {
         !self.steps.are_spent() && [ASIDE, -ASIDE].iter().any(|way| self.leads_aside(q, free, *way, ROUNDING))
     }
 
-    /// A joint that lies alone on a self-motion: of those that some case frees the one that is found first; as a set. Where the formulas are those of
-    /// a nearby mechanism and free none, any joint.
+    /// A joint that alone parametrises a self-motion, as a set. Of the joints that some case frees, it is the one found first. If the formulas are those of a
+    /// nearby mechanism and free none, it may be any joint.
     pub fn joint_on_self_motion(&mut self, q: &Joints<M>, bound: f64) -> Option<u32> {
         if self.facts().freed.is_empty() && self.facts().nearby.is_none() {
             return None;
@@ -38,7 +38,7 @@ impl<M: Mechanism> Problem<'_, M> {
         self.joint_that(|problem, free| problem.leads_to_self_motion(q, free, bound, regularity))
     }
 
-    /// The same of long self-motions within rounding, for joints that are singular.
+    /// Same as [`Problem::joint_on_self_motion`], for long self-motions within rounding and singular joint values.
     pub fn joint_on_long_self_motion(&mut self, q: &Joints<M>) -> Option<u32> {
         self.joint_that(|problem, free| problem.leads_far_aside(q, free))
     }
@@ -50,7 +50,7 @@ impl<M: Mechanism> Problem<'_, M> {
         facts.last_first.iter().rev().filter(may).map(|joint| 1 << joint).find(|free| moves(self, *free))
     }
 
-    /// Whether joints next to `q` reach the target, and one of the joints `free` lies on a self-motion there.
+    /// Whether joint values next to `q` reach the target and are on a self-motion of one of the joints `free`.
     pub fn has_member(&mut self, q: &Joints<M>, free: u32) -> bool {
         let (q, fit) = self.polished(q.clone(), 0);
         fit.accepted && (0..self.joints()).any(|i| is_in(free, i) && self.lies_on_self_motion(&q, 1 << i, ROUNDING))
@@ -62,7 +62,7 @@ impl<M: Mechanism> Problem<'_, M> {
             return false;
         }
         let narrows = if bound > ROUNDING || regularity > SINGULAR { 1 } else { NARROWS };
-        // What leads nowhere along the last way but one leads nowhere along longer ones.
+        // If the last displacement but one fails, longer ones fail too.
         let may =
             narrows == 1 || [1.0, -1.0].iter().any(|side| self.sets_out(q, free, side * narrowed(NARROWS - 2), bound));
         may && (0..narrows).any(|narrow| {
@@ -71,13 +71,13 @@ impl<M: Mechanism> Problem<'_, M> {
         })
     }
 
-    /// Whether the others follow where the joints `free` are moved by the first stage of a way.
+    /// Whether the others follow when the joints `free` are moved by the first stage of a displacement.
     fn sets_out(&mut self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
         let start = self.moved_all(q, q, free, way / FIRST_STAGE);
         self.polished(start, free).1.relative <= bound
     }
 
-    /// Joints of which those that are `free` are as far from `q` as a way.
+    /// The joint values `others`, with those that are `free` displaced from `q`.
     fn moved_all(&self, others: &Joints<M>, q: &Joints<M>, free: u32, way: f64) -> Joints<M> {
         let mut next = others.clone();
         for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
@@ -86,8 +86,8 @@ impl<M: Mechanism> Problem<'_, M> {
         next
     }
 
-    /// The same for one way, which is doubled until it is that long, and from where it is short the joints must come back: an isolated answer
-    /// may be led to a self-motion next to it, but not back.
+    /// Whether the others follow in one direction. The displacement is doubled until it has its full length. From a short one the joints must return to `q`:
+    /// steps may lead from an isolated solution to a self-motion next to it, but not back.
     fn leads_aside(&mut self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
         let (mut before, mut at) = (q.clone(), q.clone());
         let mut share = 1.0 / FIRST_STAGE;
@@ -105,7 +105,7 @@ impl<M: Mechanism> Problem<'_, M> {
         true
     }
 
-    /// Whether the joints come back to `q` on along the line from `far` through `near`.
+    /// Whether steps return to `q` on the line from `far` through `near`.
     fn leads_back(&mut self, q: &Joints<M>, free: u32, near: &Joints<M>, far: &Joints<M>, bound: f64) -> bool {
         let mut back = beyond::<M>(&self.facts(), far, near, 1.0);
         for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
@@ -115,8 +115,8 @@ impl<M: Mechanism> Problem<'_, M> {
         fit.accepted && self.are_joined(&back, q, bound, free)
     }
 
-    /// The tangent of the self-motion that `q` is a member of, if that is a curve there, along which one free joint tells all others: their derivatives by
-    /// that joint.
+    /// The tangent of the self-motion at `q`: the derivatives of all joints by one free joint. `None` unless the self-motion is a curve there that this joint
+    /// parametrises.
     pub fn tangent(&mut self, q: &Joints<M>, free: u32) -> Option<Joints<M>> {
         if !free.is_power_of_two() {
             return None;
@@ -129,20 +129,20 @@ impl<M: Mechanism> Problem<'_, M> {
         Some(Array::by(self.joints(), |i| if i == joint { 1.0 } else { -back.as_ref()[i] }))
     }
 
-    /// Whether a continuous motion of the joints, the equations held, joins a member of a self-motion to another one with the same free joints: along a
-    /// straight line, or as the free joints move there and the others follow. Where the shorter way round is barred, a joint takes the longer.
+    /// Whether a continuous motion of the joints, during which the equations hold, connects two members of self-motions with equal free joints. It is a
+    /// straight line, or the free joints move straight and the others follow. If the shorter direction of rotation fails, a joint takes the longer one.
     pub fn leads_to(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
         let member = |q| Member { q, tangent: None };
         self.leads_straight_to(a, b, free) || self.leads_round_to(member(a), member(b), free)
     }
 
-    /// The same along a straight line, of which a joint may take the longer way round.
+    /// Same as [`Problem::leads_to`] along a straight line, on which one joint may rotate in the longer direction.
     pub fn leads_straight_to(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
         let short = differences::<M>(&self.facts(), b, a);
         self.is_straight(a, &short) || self.other_way(&short, free).is_some_and(|long| self.is_straight(a, &long))
     }
 
-    /// The same as the free joints move and the others follow.
+    /// Same as [`Problem::leads_to`] where the free joints move and the others follow.
     pub fn leads_round_to(&mut self, a: Member<'_, M>, b: Member<'_, M>, free: u32) -> bool {
         let short = differences::<M>(&self.facts(), b.q, a.q);
         let long = self.other_way(&short, free);
@@ -153,7 +153,7 @@ impl<M: Mechanism> Problem<'_, M> {
         arrives.or_else(|| self.leads_along(a.q, b.q, free, &long?)).unwrap_or(false)
     }
 
-    /// The way on which a free joint goes the other way round, if it is one that turns.
+    /// The displacement in which the free joint rotates in the opposite direction, if it is revolute.
     fn other_way(&self, way: &Joints<M>, free: u32) -> Option<Joints<M>> {
         let joint = free.trailing_zeros() as usize;
         let turns = free.is_power_of_two() && self.facts().joints[joint].is_angle();
@@ -164,7 +164,7 @@ impl<M: Mechanism> Problem<'_, M> {
         turns.then_some(other)
     }
 
-    /// Whether the equations hold on the straight line along `way`, as they do where axes coincide.
+    /// Whether the equations hold on the straight line along `way`, as for coincident axes.
     fn is_straight(&mut self, a: &Joints<M>, way: &Joints<M>) -> bool {
         [0.5, 0.25, 0.75].iter().all(|share| {
             let at = Array::by(self.joints(), |i| a.as_ref()[i] + share * way.as_ref()[i]);
@@ -172,8 +172,8 @@ impl<M: Mechanism> Problem<'_, M> {
         })
     }
 
-    /// Whether cubic curves join a member of a self-motion to another one along one of two ways of a free joint. Where that goes no farther than the first step
-    /// to follow it, it is not tried.
+    /// Whether cubic curves connect two members of a self-motion along one of two displacements of a free joint. Not tried where the displacement is shorter
+    /// than the first step of following it.
     fn are_joined_by_cubics(
         &mut self,
         a: &Member<'_, M>,
@@ -198,9 +198,9 @@ impl<M: Mechanism> Problem<'_, M> {
         })
     }
 
-    /// Whether cubic curves lead from one place of a self-motion to another: half-way along each curve, the other joints follow by no more than [`ARRIVED`].
-    /// A curve that they do not follow is divided there, until it is too short. (Hermite interpolation: the curves have the self-motion's tangents at their
-    /// ends, and miss it by the fourth power of their length.)
+    /// Whether cubic Hermite curves approximate the self-motion between two of its places. Half-way along each curve, the correction of the other joints must
+    /// be at most [`ARRIVED`]. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their
+    /// error is of fourth order in their length.)
     fn is_interpolated(&mut self, [first, last]: [Knot<M>; 2], joint: usize) -> bool {
         let (facts, free, start) = (self.facts(), 1 << joint, first.q.as_ref()[joint]);
         let (mut at, mut count) = (Some(first), 1);
@@ -225,8 +225,8 @@ impl<M: Mechanism> Problem<'_, M> {
         true
     }
 
-    /// Whether the joints come to `b` as the free ones go `way` from `a` and the others follow, in steps with which they keep up; none where they
-    /// do not.
+    /// Whether the joints arrive at `b` as the free ones are displaced by `way` from `a` and the others follow, with step size control. `None` where they do
+    /// not follow.
     fn leads_along(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32, way: &Joints<M>) -> Option<bool> {
         let facts = self.facts();
         let freed: Joints<M> = Array::by(self.joints(), |i| if is_in(free, i) { way.as_ref()[i] } else { 0.0 });
@@ -259,13 +259,13 @@ impl<M: Mechanism> Problem<'_, M> {
         None
     }
 
-    /// Where the others follow to as the free joints have been moved, if that is near: by a few steps.
+    /// The solution for the other joints after the free joints were moved, if it is near: by a few steps.
     fn followed(&mut self, ahead: Joints<M>, free: u32) -> Option<End<M>> {
         let end = self.corrected(ahead.clone(), free)?;
         (self.facts().farthest(end.0.as_ref(), ahead.as_ref()) <= LEAPT).then_some(end)
     }
 
-    /// The same wherever that is.
+    /// Same as [`Problem::followed`], however far it is.
     fn corrected(&mut self, ahead: Joints<M>, free: u32) -> Option<End<M>> {
         let mut end = self.measured(ahead);
         for _ in 0..RETURNS {
@@ -278,7 +278,7 @@ impl<M: Mechanism> Problem<'_, M> {
         (end.1.relative <= ASTRAY).then_some(end)
     }
 
-    /// Whether joints that have come next to a member of a self-motion are on that one: half-way the equations hold too.
+    /// Whether joint values next to a member of a self-motion are on that self-motion: the equations hold half-way too.
     fn is_there(&mut self, end: End<M>, b: &Joints<M>, free: u32) -> bool {
         let (q, fit) = self.polish(end, free);
         let is_close = fit.accepted && self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED);
@@ -286,16 +286,16 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 }
 
-/// The most cubic curves that one between two members is divided into, as a power of two, and one.
+/// Logarithm to base two of the maximal number of cubic curves between two members, plus one.
 const DIVISIONS: usize = 5;
 
-/// A member of a self-motion, with the tangent if it is known.
+/// A member of a self-motion, with its tangent if that is known.
 pub(crate) struct Member<'a, M: Mechanism> {
     pub q: &'a Joints<M>,
     pub tangent: Option<Joints<M>>,
 }
 
-/// A place on a self-motion where cubic curves meet: joints, the tangent, and how far the free joint has gone.
+/// A knot of the cubic curves on a self-motion: joint values, tangent, and displacement of the free joint.
 struct Knot<M: Mechanism> {
     q: Joints<M>,
     tangent: Joints<M>,
@@ -303,7 +303,7 @@ struct Knot<M: Mechanism> {
 }
 
 impl<M: Mechanism> Knot<M> {
-    /// Half-way along the cubic curve to another place.
+    /// The midpoint of the cubic curve to another knot.
     fn half_way(&self, facts: &Facts<'_>, other: &Self) -> Joints<M> {
         let (bend, apart) = (0.125 * (other.gone - self.gone), differences::<M>(facts, &other.q, &self.q));
         Array::by(facts.joints.len(), |i| {
@@ -313,10 +313,10 @@ impl<M: Mechanism> Knot<M> {
     }
 }
 
-/// The first stage of a way is this share's inverse of it.
+/// Inverse of the share of the first stage in a displacement.
 const FIRST_STAGE: f64 = (1 << (DOUBLINGS - 1)) as f64;
 
-/// One of the ways aside, each an eighth of the one before.
+/// One of the trial displacements, each an eighth of the one before.
 fn narrowed(narrow: usize) -> f64 {
     (0..narrow).fold(ASIDE, |way, _| way / 8.0)
 }

@@ -12,7 +12,7 @@ use crate::storage::Array;
 use crate::tolerances::MOST_STEPS;
 use crate::trigonometry::cosine_and_sine;
 
-/// As [`crate::Solve::solve`].
+/// Same as [`crate::Solve::solve`].
 #[inline]
 pub(crate) fn solve_one<M: Mechanism>(
     mechanism: &M,
@@ -30,7 +30,7 @@ pub(crate) fn solve_one<M: Mechanism>(
     }
 }
 
-/// As [`crate::Solve::solve_pairs`].
+/// Same as [`crate::Solve::solve_pairs`].
 pub(crate) fn solve_one_by_pairs<M: Mechanism>(
     mechanism: &M,
     target: &Inputs<M>,

@@ -1,51 +1,51 @@
-//! What solving gives: [`Solution`], [`Pairs`], [`Error`].
+//! Results of solving: [`Solution`], [`Pairs`], [`Error`].
 
 use core::fmt;
 
 use crate::mechanism::{Joints, Mechanism};
 use crate::storage::{Array, Storage};
 
-/// One answer.
+/// One solution.
 pub struct Solution<M: Mechanism> {
     /// Joint values, in the order of the joints: rad in (-pi, pi], or the unit of lengths.
     pub q: Joints<M>,
     /// The largest magnitude among the equations' values at `q`, in the equations' own unit.
     pub residual: f64,
-    /// The largest share of an equation's value in its size.
+    /// The largest value of an equation relative to its size.
     pub relative: f64,
-    /// Which cases and which roots gave it.
+    /// Number of the combination of cases and roots.
     pub branch: usize,
-    /// Whether the source of the mechanism would choose this one.
+    /// Whether the source of the mechanism would select this solution.
     pub chosen: bool,
-    /// Bit `j` is set where joint `j` may take any value here: this is one member of a self-motion.
+    /// Bit `j` is set where joint `j` is free: this is one member of a self-motion.
     pub free: u32,
-    /// False where the [steps](crate::tolerances::MOST_STEPS) of the target were spent before all work was done. All of its answers say so: others may be
-    /// missing, and [`Solution::relative`] tells how well each holds, at most [`crate::tolerances::UNSETTLED`].
+    /// False where the [steps](crate::tolerances::MOST_STEPS) of the target were used up before all work was done. This holds for all of its solutions, and
+    /// others may be missing. [`Solution::relative`] is then at most [`crate::tolerances::UNSETTLED`].
     pub settled: bool,
 }
 
-/// One answer by cosines and sines.
+/// One solution by cosines and sines.
 pub struct Pairs<M: Mechanism> {
-    /// By joint: the cosine and the sine of an angle; a length's value and zero.
+    /// By joint: the cosine and the sine of an angle, or a length's value and zero.
     pub joints: Joints<M, [f64; 2]>,
-    /// As in [`Solution`].
+    /// Same as [`Solution::residual`].
     pub residual: f64,
-    /// As in [`Solution`].
+    /// Same as [`Solution::branch`].
     pub branch: usize,
-    /// As in [`Solution`].
+    /// Same as [`Solution::free`].
     pub free: u32,
-    /// As in [`Solution`].
+    /// Same as [`Solution::settled`].
     pub settled: bool,
 }
 
 impl<M: Mechanism> Solution<M> {
-    /// No answer yet: what a buffer is filled with.
+    /// An empty entry, with which a buffer is filled.
     pub fn empty(mechanism: &M) -> Self {
         let q = Array::by(mechanism.facts().joints.len(), |_| 0.0);
         Solution { q, residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0, settled: true }
     }
 
-    /// Whether a joint may take any value here.
+    /// Whether a joint is free.
     pub fn is_free(&self, joint: usize) -> bool {
         crate::joints::is_in(self.free, joint)
     }
@@ -58,7 +58,7 @@ impl<M: Mechanism> Solution<M> {
 }
 
 impl<M: Mechanism> Pairs<M> {
-    /// No answer yet: what a buffer is filled with.
+    /// An empty entry, with which a buffer is filled.
     pub fn empty(mechanism: &M) -> Self {
         let joints = Array::by(mechanism.facts().joints.len(), |_| [0.0; 2]);
         Pairs { joints, residual: 0.0, branch: 0, free: 0, settled: true }
@@ -126,36 +126,38 @@ impl<M: Mechanism> PartialEq for Pairs<M> {
     }
 }
 
-/// Why a target has no answer.
+/// Reasons why a target has no solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
-    /// A number of the target is infinite or not a number.
+    /// A target number is infinite or NaN.
     NotFinite,
-    /// The rotation of the target is off by more than [`crate::tolerances::CONSISTENT`].
+    /// The rotation of the target is not orthogonal within [`crate::tolerances::CONSISTENT`].
     NotRotation,
-    /// The direction of the target is not of length one within [`crate::tolerances::CONSISTENT`].
+    /// The direction of the target does not have length one within [`crate::tolerances::CONSISTENT`].
     NotUnit,
-    /// The target lies on the stratum with this number, which could not be derived.
+    /// The target is on the stratum with this number, for which no derivation exists.
     OpenStratum(usize),
-    /// The [steps](crate::tolerances::MOST_STEPS) of the target were spent before an answer was found: there may be some.
+    /// The [steps](crate::tolerances::MOST_STEPS) of the target were used up before a solution was found. Solutions may exist.
     Unsettled,
 }
 
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Error::NotFinite => f.write_str("a number of the target is infinite or not a number; give finite ones"),
-            Error::NotRotation => {
-                f.write_str("the rotation of the target is off by more than 1e-9; give a right-handed rotation matrix")
-            }
+            Error::NotFinite => f.write_str("a target number is infinite or NaN; all must be finite"),
+            Error::NotRotation => f.write_str(
+                "the rotation of the target is not orthogonal within 1e-9; give a right-handed rotation matrix",
+            ),
             Error::NotUnit => {
-                f.write_str("the direction of the target is not of length one within 1e-9; give a unit vector")
+                f.write_str("the direction of the target does not have length one within 1e-9; give a unit vector")
             }
             Error::Unsettled => {
-                f.write_str("the steps of the target were spent before an answer was found; allow more of them")
+                f.write_str("the steps of the target were used up before a solution was found; allow more steps")
             }
-            Error::OpenStratum(number) => write!(f, "the target lies on stratum {number}, which could not be derived"),
+            Error::OpenStratum(number) => {
+                write!(f, "the target is on stratum {number}, for which no derivation exists")
+            }
         }
     }
 }

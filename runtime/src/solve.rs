@@ -1,4 +1,4 @@
-//! What a mechanism's solver offers: [`Solve`].
+//! Public functions of a mechanism's solver: [`Solve`].
 
 use crate::answers::Answers;
 use crate::batch::solve_widest;
@@ -15,32 +15,32 @@ use crate::tolerances::MOST_STEPS;
 
 /// Inverse kinematics of a mechanism.
 ///
-/// A target is the pose of the tip in the base frame as twelve numbers, its position and its rotation by rows, or what else the task is; metres and
-/// radians, unless the mechanism's file says so. Angles of solutions lie in (-pi, pi].
+/// For a pose task, a target is the pose of the tip in the base frame: twelve numbers, the position and the rotation by rows. Other tasks have their own
+/// numbers. Units are metres and radians unless the mechanism's file specifies others. Angles of solutions are in (-pi, pi].
 pub trait Solve: Mechanism {
-    /// Writes all solutions for `target` to the front of `out`, by branch, and returns their number: 0 when it is out of reach. A branch keeps its number
-    /// from target to target. With room for fewer than the target has, the best of them.
+    /// Writes all solutions for `target` to the front of `out`, ordered by branch, and returns their number: 0 when the target is out of reach. Branch numbers
+    /// are consistent from target to target. If `out` is too short, it receives the best ones.
     ///
     /// # Errors
-    /// As [`Error`] says; the content of `out` has no meaning then.
+    /// See [`Error`]; the content of `out` is then undefined.
     fn solve(&self, target: &Inputs<Self>, out: &mut [Solution<Self>]) -> Result<usize, Error> {
         self.solve_bounded(target, MOST_STEPS, out)
     }
 
-    /// As [`Solve::solve`], with so many [steps](MOST_STEPS) of polishing at most, for who must bound the time of a target. When they are spent, its answers
+    /// Same as [`Solve::solve`], with at most `steps` [steps](MOST_STEPS) of polishing, to bound the time for a target. When they are used up, its solutions
     /// are not [settled](Solution::settled).
     ///
     /// # Errors
-    /// As [`Solve::solve`]; [`Error::Unsettled`] where no answer was found before.
+    /// Same as [`Solve::solve`]; [`Error::Unsettled`] where no solution was found before.
     fn solve_bounded(&self, target: &Inputs<Self>, steps: usize, out: &mut [Solution<Self>]) -> Result<usize, Error> {
         solve_one(self, target, out, &mut Steps::at_most(steps))
     }
 
-    /// As [`Solve::solve`]; where there is no solution, the joint values that missed the equations by the least share of their size, if polishing led to
-    /// some: no solution, and marked as such by its residual.
+    /// Same as [`Solve::solve`], but where there is no solution, returns the joint values with the least relative residual, if polishing led to any. These are
+    /// not a solution, as their residual shows.
     ///
     /// # Errors
-    /// As [`Solve::solve`].
+    /// Same as [`Solve::solve`].
     fn solve_or_nearest(
         &self,
         target: &Inputs<Self>,
@@ -69,11 +69,11 @@ pub trait Solve: Mechanism {
         Ok((count, nearest.map(solution)))
     }
 
-    /// As [`Solve::solve`], by cosines and sines. At ordinary targets no arc tangent is taken; where a candidate needs more than a measurement, or
-    /// two are next to each other, the cosines and sines are those of the angles that [`Solve::solve`] finds.
+    /// Same as [`Solve::solve`], by cosines and sines. At ordinary targets no arc tangent is computed. Where a candidate must be polished, or two are close to
+    /// each other, the cosines and sines are those of the angles that [`Solve::solve`] finds.
     ///
     /// # Errors
-    /// As [`Solve::solve`].
+    /// Same as [`Solve::solve`].
     fn solve_pairs(&self, target: &Inputs<Self>, out: &mut [Pairs<Self>]) -> Result<usize, Error> {
         solve_one_by_pairs(self, target, out)
     }
@@ -83,11 +83,11 @@ pub trait Solve: Mechanism {
         pairs_of(self, solution)
     }
 
-    /// As [`Solve::solve`], for many targets, of which the lanes of a vector register take several at once. The solutions of a target stand in `out`
-    /// behind those of the target before, and `counts` says how many they are, or why there are none. Returns how many targets were solved:
-    /// all, unless `counts` is shorter or `out` has no room for the solutions of the next one.
+    /// Same as [`Solve::solve`], for many targets; the lanes of a vector register process several at once. The solutions of a target follow those of the target
+    /// before in `out`. An entry of `counts` is their number, or the error. Returns the number of solved targets. These are all, unless `counts` is shorter or
+    /// `out` has no room for the solutions of the next one.
     ///
-    /// Each solution is that of [`Solve::solve`] to the last bit, which solves all targets that are not ordinary here too.
+    /// Each solution is bitwise equal to that of [`Solve::solve`], which also solves all targets here that are not ordinary.
     fn solve_batch(
         &self,
         targets: &[Inputs<Self>],
@@ -97,7 +97,7 @@ pub trait Solve: Mechanism {
         solve_widest(self, targets, out, counts)
     }
 
-    /// As [`Solve::solve_batch`], by cosines and sines: those of [`Solve::solve_pairs`] to the last bit.
+    /// Same as [`Solve::solve_batch`], by cosines and sines. Each solution is bitwise equal to that of [`Solve::solve_pairs`].
     fn solve_pairs_batch(
         &self,
         targets: &[Inputs<Self>],
@@ -107,8 +107,8 @@ pub trait Solve: Mechanism {
         solve_widest(self, targets, out, counts)
     }
 
-    /// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`. Not a number when a number of the target is
-    /// not finite, a condition does not hold or an equation's value is not a number, and where equations read what follows from no joint.
+    /// The largest magnitude among the equations' values at joint values `q`: zero where `q` reaches `target`. NaN when a target number is not finite, a
+    /// condition does not hold or an equation's value is NaN. Also NaN where equations read numbers that follow from no joint.
     fn residual(&self, target: &Inputs<Self>, q: &Joints<Self>) -> f64 {
         let (mut target, facts) = (target.clone(), self.facts());
         if facts.has_extras || conform(facts.conditions, target.as_mut()).is_err() {
@@ -121,7 +121,7 @@ pub trait Solve: Mechanism {
         if are_numbers { values.as_ref().iter().fold(0.0, larger) } else { f64::NAN }
     }
 
-    /// The target that joint values `q` reach; none for equations that do not compare the tip with the target.
+    /// The target that joint values `q` reach. `None` for equations that do not compare the tip with the target.
     fn forward(&self, q: &Joints<Self>) -> Option<Inputs<Self>> {
         let facts = self.facts();
         (facts.reached.len() == facts.inputs).then(|| match facts.within {
@@ -130,11 +130,11 @@ pub trait Solve: Mechanism {
         })
     }
 
-    /// As [`Solve::solve`], for the solutions that have a turn within `limits`: each is moved there by as few turns of each angle as can be.
-    /// A member of a self-motion is moved along it in strides of 0.1, a free joint at a time, where it is not within limits itself.
+    /// Same as [`Solve::solve`], for the solutions that have a turn within `limits`. Each is moved there by as few turns of each angle as possible. A member of
+    /// a self-motion outside of the limits is moved along it in steps of 0.1, one free joint at a time.
     ///
     /// # Errors
-    /// As [`Solve::solve`].
+    /// Same as [`Solve::solve`].
     fn solve_within(
         &self,
         target: &Inputs<Self>,
@@ -167,23 +167,21 @@ pub trait Solve: Mechanism {
         Ok(kept)
     }
 
-    /// The number of turns of `q`: the joint values that differ from it by whole turns of its angles and lie within `limits`, which hold
-    /// within 1e-9, for rounding makes that of a joint at its limit. An angle that lacks a limit counts once. 0 when `q` cannot be brought
-    /// within `limits`; at most [`limits::MOST_TURNS`].
+    /// The number of turns of `q` within `limits`: joint values that differ from it by whole turns of its angles. Limits hold within 1e-9, because rounding may
+    /// move a joint beyond its limit. An angle that lacks a limit counts once. 0 when `q` cannot be brought within `limits`; at most [`limits::MOST_TURNS`].
     fn count_turns(&self, q: &Joints<Self>, limits: &Joints<Self, [f64; 2]>) -> usize {
         limits::count_turns(&self.facts(), q.as_ref(), limits.as_ref())
     }
 
-    /// The turn of `q` with this index, which is below their number. Turns of the last joint follow one another.
+    /// The turn of `q` with this index, which must be below their number. The last joint changes fastest.
     fn turn(&self, q: &Joints<Self>, limits: &Joints<Self, [f64; 2]>, index: usize) -> Joints<Self> {
         let mut turned = q.clone();
         limits::turn(&self.facts(), turned.as_mut(), limits.as_ref(), index);
         turned
     }
 
-    /// Of a list of solutions, the index of the one that can come nearest to `reference` by turns within `limits`, the first of equals, with
-    /// its nearest turn; none when no solution comes within `limits`. The distance is the sum of the joints' squared differences, each times
-    /// its weight, which is not negative.
+    /// The index of the solution that is nearest to `reference` after turns within `limits`, the first of equals, and its nearest turn. `None` when no solution
+    /// is within `limits`. The distance is the sum of the joints' squared differences, each times its non-negative weight.
     fn nearest(
         &self,
         list: &[Solution<Self>],
@@ -197,8 +195,8 @@ pub trait Solve: Mechanism {
 
 impl<M: Mechanism> Solve for M {}
 
-/// A pose is 12 numbers, as at the front of a target: a position, and a rotation by rows. The target, its first 12 numbers, with which the
-/// tool is at a pose where the base is at another pose and the tool is at its own pose seen from the tip: `base^-1 pose tool^-1`.
+/// The target for which the tool is at `pose`. `base` is the pose of the base, `tool` that of the tool in the frame of the tip; the result is `base^-1 pose
+/// tool^-1`. A pose is 12 numbers, a position and a rotation by rows. They are the first 12 target numbers.
 pub fn target_of(base: &[f64; 12], tool: &[f64; 12], pose: &[f64; 12]) -> [f64; 12] {
     let mut target = [0.0; 12];
     for i in 0..3 {

@@ -1,4 +1,4 @@
-//! The run time's own text, for whoever puts it and a robot's file together.
+//! Source text of the run time, from which single-file solvers are assembled.
 
 /// The Rust modules in the order of [`crate`], each with its name.
 pub const RUST: [(&str, &str); 36] = [
@@ -76,7 +76,7 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 /// The source that belongs to [`C_SIX_AXES_HEADER`].
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
-/// What the files in C include, each by its path.
+/// The files that the C sources include, each by its path.
 pub const C_PARTS: [(&str, &str); 48] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),

@@ -1,14 +1,14 @@
-//! Where walks along curves begin: [`Starts`].
+//! Start points of continuation along curves: [`Starts`].
 
 use crate::joints::{beyond, differences};
 use crate::mechanism::{Facts, Found, Joints, Mechanism};
 
-/// How many starts wait for their walk.
+/// Maximal number of stored starts.
 const ROOM: usize = 32;
-/// How near to a step a start is on the same curve (rad, or relative to the length scale).
+/// A start within this distance of a step is on the same curve (rad, or relative to the length scale).
 const PASSED: f64 = 1e-2;
 
-/// Where walks begin: the candidates, and joints on the curves next to them.
+/// Starts of walks: the candidates, and joint values on the curves next to them.
 pub(crate) struct Starts<M: Mechanism> {
     pub list: [Option<(Found, Joints<M>)>; ROOM],
     pub count: usize,
@@ -21,13 +21,13 @@ impl<M: Mechanism> Starts<M> {
         self.count == ROOM
     }
 
-    /// Adds one, where there is [room](Starts::is_full).
+    /// Adds a start if there is [room](Starts::is_full).
     pub fn add(&mut self, found: Found, q: Joints<M>) {
         self.list[self.count] = Some((found, q));
         self.count += 1;
     }
 
-    /// Forgets those that a step passes.
+    /// Removes the starts that a step passes.
     pub fn pass(&mut self, facts: &Facts<'_>, from: &Joints<M>, to: &Joints<M>) {
         let way = differences::<M>(facts, to, from);
         for start in &mut self.list[..self.count] {

@@ -1,35 +1,35 @@
-//! How much polishing a target may take: [`Steps`].
+//! Limit on the polishing work for a target: [`Steps`].
 
 use crate::counters::Event;
 use crate::mechanism::Mechanism;
 use crate::solution::{Error, Solution};
 
-/// What is left of the steps that a target may take ([`crate::tolerances::MOST_STEPS`]).
+/// The remaining steps of a target ([`crate::tolerances::MOST_STEPS`]).
 pub(crate) struct Steps {
     left: usize,
 }
 
 impl Steps {
-    /// So many steps at most: they are spent with the next one, which tells that they are not enough.
+    /// At most `most` steps. They are used up with the next one, which shows that they did not suffice.
     pub fn at_most(most: usize) -> Self {
         Steps { left: most.saturating_add(1) }
     }
 
-    /// Takes one.
+    /// Uses one step.
     #[inline(always)]
     pub fn take(&mut self, event: Event) {
         event.count();
         self.left = self.left.saturating_sub(1);
     }
 
-    /// Whether none is left: what has not been polished stays as it is.
+    /// Whether no step is left: candidates that have not been polished are then kept unchanged.
     #[inline(always)]
     pub fn are_spent(&self) -> bool {
         self.left == 0
     }
 }
 
-/// Marks all answers to a target that are not settled, for its steps are spent; their number.
+/// Marks all solutions of a target as not settled if its steps are used up, and returns their number.
 #[inline(always)]
 pub(crate) fn settle<M: Mechanism>(steps: &Steps, answers: &mut [Solution<M>]) -> Result<usize, Error> {
     let are_settled = !steps.are_spent();

@@ -1,10 +1,10 @@
-//! Storage of a mechanism's numbers: arrays whose lengths are known when a solver is compiled ([`Fixed`]), or lists of one that is read.
+//! Storage of a mechanism's numbers: arrays whose lengths are known at compile time ([`Fixed`]), or lists for a program that is interpreted.
 
 use core::array::from_fn;
 
 /// A row of values.
 pub trait Array<T>: Clone + AsRef<[T]> + AsMut<[T]> {
-    /// The row with so many values.
+    /// The row of this length, with the values of a function.
     fn by(length: usize, value: impl FnMut(usize) -> T) -> Self;
 }
 
@@ -16,9 +16,9 @@ impl<T: Clone, const L: usize> Array<T> for [T; L] {
     }
 }
 
-/// The rows that solving takes.
+/// The types of rows that solving uses.
 pub trait Storage {
-    /// One value for each number of the target.
+    /// One value for each target number.
     type Inputs<T: Clone>: Array<T>;
     /// One for each parameter.
     type Parameters<T: Clone>: Array<T>;
@@ -30,13 +30,13 @@ pub trait Storage {
     type Equations<T: Clone>: Array<T>;
     /// One for each size that equations have.
     type Sizes<T: Clone>: Array<T>;
-    /// One for each equation of the short way to an answer nearby.
+    /// One for each equation of the normal-equation steps.
     type Shorts<T: Clone>: Array<T>;
     /// One for each candidate of an ordinary target.
     type Candidates<T: Clone>: Array<T>;
-    /// One for each answer that a target can have.
+    /// One for each possible solution of a target.
     type Answers<T: Clone>: Array<T>;
-    /// For each joint, and once more, a number for each equation and each joint.
+    /// `JOINTS + 1` columns with one number for each equation and each joint.
     type Triangle: Array<f64>;
 }
 

@@ -1,11 +1,11 @@
-//! Candidates for members of self-motions that are none, where no answer is lost without them: [`Strays`]; and answers that are no members: [`Loners`].
+//! Candidates for members of self-motions that turn out to be none ([`Strays`]), and solutions that are not members ([`Loners`]).
 
 use crate::mechanism::{Facts, Found, Joints, Mechanism};
 use crate::tolerances::DOUBTED;
 
-/// How many kinds are told apart.
+/// Maximal number of kinds that are distinguished.
 const KINDS: usize = 16;
-/// A free joint is put at so many places round the circle, or at a multiple of it.
+/// Number of places round the circle at which a free joint is sampled; a multiple of it is possible.
 const PLACES: usize = 8;
 
 /// Candidates of one branch with the same free joints.
@@ -14,12 +14,12 @@ struct Kind {
     branch: usize,
     free: u32,
     count: usize,
-    /// The most that one of them misses the equations by.
+    /// The largest relative residual of such a candidate.
     missed: f64,
     is_astray: bool,
 }
 
-/// What is known of candidates by kind.
+/// Records about candidates by kind.
 pub(crate) struct Strays {
     kinds: [Kind; KINDS],
     count: usize,
@@ -33,7 +33,7 @@ impl Strays {
         are_too_many: false,
     };
 
-    /// Counts a candidate that misses the equations by so much, and tells whether those of its kind have turned out to be no members.
+    /// Counts a candidate with its relative residual. Returns whether candidates of its kind are known not to be members.
     pub fn are_known(&mut self, found: &Found, missed: f64) -> bool {
         let Some(kind) = self.kind(found) else { return false };
         kind.count += 1;
@@ -41,21 +41,21 @@ impl Strays {
         kind.is_astray
     }
 
-    /// Whether those of this kind have turned out to be no members.
+    /// Whether candidates of this kind are known not to be members.
     pub fn are_astray(&self, found: &Found) -> bool {
         let is_it = |kind: &&Kind| (kind.branch, kind.free) == (found.branch, found.free);
         self.kinds[..self.count].iter().find(is_it).is_some_and(|kind| kind.is_astray)
     }
 
-    /// Those of this kind are no members.
+    /// Records that candidates of this kind are not members.
     pub fn mark(&mut self, found: &Found) {
         if let Some(kind) = self.kind(found) {
             kind.is_astray = true;
         }
     }
 
-    /// Whether an answer may have been lost: a kind is there on a part of the circle only, next to whose end rounding may have hidden one, so near
-    /// the stratum are its candidates.
+    /// Whether a solution may have been lost. This is possible where a kind exists only on a part of the circle and its candidates are close to the stratum:
+    /// rounding may have hidden a solution at the end of that part.
     pub fn are_doubtful(&self) -> bool {
         let is_doubtful = |kind: &Kind| kind.is_astray && kind.missed <= DOUBTED && !kind.count.is_multiple_of(PLACES);
         self.are_too_many || self.kinds[..self.count].iter().any(is_doubtful)
@@ -76,7 +76,7 @@ impl Strays {
     }
 }
 
-/// Branches and free joints of members that are on a self-motion of another branch, as many as there is room for.
+/// Branches and free joints of members that are on a self-motion of another branch, up to a maximal number.
 pub(crate) struct Merged {
     kinds: [(usize, u32); KINDS],
     count: usize,
@@ -97,10 +97,10 @@ impl Merged {
     }
 }
 
-/// How many members are remembered; of more, the first is forgotten.
+/// Maximal number of stored members; when it is exceeded, the first is removed.
 const MEMBERS: usize = 32;
 
-/// A member of a self-motion: with which branch and free joints it was found, and the tangent there where it has been needed.
+/// A member of a self-motion: its branch and free joints, and the tangent once it has been computed.
 pub(crate) struct Known<M: Mechanism> {
     branch: usize,
     pub free: u32,
@@ -108,8 +108,7 @@ pub(crate) struct Known<M: Mechanism> {
     pub tangent: Option<Joints<M>>,
 }
 
-/// Candidates that have turned out to be members of self-motions of the list: strata repeat each other, and the next candidate of a branch is near the last one
-/// most often.
+/// Candidates known to be members of self-motions in the list. Strata repeat each other, and the next candidate of a branch is usually near the last one.
 pub(crate) struct Trails<M: Mechanism> {
     list: [Option<Known<M>>; MEMBERS],
     count: usize,
@@ -124,12 +123,12 @@ impl<M: Mechanism> Trails<M> {
         self.count += 1;
     }
 
-    /// Whether the same joints have been found before, within a distance.
+    /// Whether joint values within a distance of these were found before.
     pub fn contains(&self, facts: &Facts<'_>, q: &Joints<M>, free: u32, distance: f64) -> bool {
         self.latest_first().any(|known| known.free == free && facts.is_within(known.q.as_ref(), q.as_ref(), distance))
     }
 
-    /// The last one of a branch with one of these sets of free joints.
+    /// The last one of a branch whose set of free joints satisfies `is_free`.
     pub fn last(&self, branch: usize, is_free: impl Fn(u32) -> bool) -> Option<&Known<M>> {
         self.latest_first().find(|known| known.branch == branch && is_free(known.free))
     }
@@ -140,10 +139,10 @@ impl<M: Mechanism> Trails<M> {
     }
 }
 
-/// How many answers are known to be alone at most; then the first is forgotten.
+/// Maximal number of stored isolated solutions; when it is exceeded, the first is removed.
 const LONERS: usize = 8;
 
-/// Isolated answers that have been found to lie on no self-motion of these joints.
+/// Isolated solutions known not to be on a self-motion of these joints.
 pub(crate) struct Loners<M: Mechanism> {
     list: [Option<(Joints<M>, u32)>; LONERS],
     next: usize,

@@ -1,7 +1,7 @@
-//! Cosines and sines by operations that round alike everywhere; their angles are in [`crate::angles`].
+//! Cosines and sines. All operations round alike on every machine; the inverse functions are in [`crate::angles`].
 //!
-//! Those of C libraries are slow, and differ in the last digit from one library to the next. Polynomials here interpolate at Chebyshev points, found
-//! with 60 digits: sine and cosine of `|x| <= pi/4` are `x + x^3 S(x^2)` and `1 - x^2/2 + x^4 C(x^2)`, off by shares of 2e-17 and 1e-18.
+//! The functions of C libraries are slow, and their last digits differ from one library to the next. The polynomials here interpolate at Chebyshev points and
+//! were computed with 60 digits. Sine and cosine of `|x| <= pi/4` are `x + x^3 S(x^2)` and `1 - x^2/2 + x^4 C(x^2)`, with relative errors of 2e-17 and 1e-18.
 
 use core::f64::consts::{FRAC_2_PI, PI, TAU};
 
@@ -27,7 +27,7 @@ pub const COSINE: [f64; 6] = [
 ];
 /// `pi/2` in parts, of which the first two have 33 bits.
 pub const QUARTER: [f64; 3] = [1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21];
-/// Beyond so many rad an angle first loses whole turns, and with each of them some 2e-16 rad.
+/// An angle beyond this is first reduced by whole turns \[rad\]; each of them adds an error of about 2e-16 rad.
 const FAR: f64 = 1e6;
 
 /// The angle moved by whole turns into (-pi, pi].
@@ -36,7 +36,7 @@ pub fn wrap(angle: f64) -> f64 {
     half_open(angle - TAU * Arithmetic::round(angle / TAU))
 }
 
-/// The same for one that seldom is out of it.
+/// Same as [`wrap`], for an angle that is seldom out of range.
 #[inline(always)]
 pub(crate) fn in_turn(angle: f64) -> f64 {
     if angle.abs() < PI { angle } else { wrap(angle) }
@@ -68,7 +68,7 @@ pub fn sine(angle: f64) -> f64 {
     }
 }
 
-/// The cosine and the sine of an angle in rad: equal to those of [`cosine`] and [`sine`], in two thirds of the time.
+/// The cosine and the sine of an angle in rad. They are equal to [`cosine`] and [`sine`], and take two thirds of the time.
 pub fn cosine_and_sine(angle: f64) -> [f64; 2] {
     let (quarters, x, rest) = reduced(angle);
     let (c, s) = (cosine_of(x, rest), sine_of(x, rest));
@@ -80,7 +80,7 @@ pub fn cosine_and_sine(angle: f64) -> [f64; 2] {
     }
 }
 
-/// The number of quarter turns nearest to an angle, and what is left, in two numbers.
+/// The nearest number of quarter turns, and the remaining angle in two numbers.
 #[inline]
 fn reduced(angle: f64) -> (i64, f64, f64) {
     let angle = if angle.abs() > FAR { angle % TAU } else { angle };

@@ -6,7 +6,7 @@ use groebot_runtime::angles::angle;
 use groebot_runtime::trigonometry::{cosine, sine, wrap};
 use groebot_runtime::{Lanes, Number};
 
-/// How many steps of the last place of a number of size one two numbers differ by.
+/// The difference of two numbers, in units of the last place of 1.
 fn steps(a: f64, b: f64) -> f64 {
     (a - b).abs() / f64::EPSILON
 }

@@ -1,4 +1,4 @@
-//! A planar arm of two links by hand: what a printed file looks like, and what the run time makes of it.
+//! A planar arm with two links, written by hand like a printed file, and its solutions.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,7 +6,7 @@ use groebot_runtime::{
     Candidates, Error, Facts, Fixed, Found, Joint, Mechanism, Number, Pairs, Reached, Solution, Solve, With,
 };
 
-/// Links of length one and a half, in metres: the tip is at `(c1 + c12 / 2, s1 + s12 / 2)`.
+/// A planar arm with links of 1 m and 0.5 m: the tip is at `(c1 + c12 / 2, s1 + s12 / 2)`.
 struct Arm;
 
 const FACTS: Facts<'static> = Facts {

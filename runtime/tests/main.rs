@@ -1,11 +1,11 @@
-//! The run time by itself: angles, roots, and a mechanism written by hand.
+//! Tests of the run time: angles, roots, and a mechanism written by hand.
 
 mod angles;
 mod arm;
 mod real_roots;
 mod singular;
 
-/// Numbers in `[0, 1)`, the same in every run (xorshift, G. Marsaglia 2003).
+/// Random numbers in `[0, 1)`, equal in every run (xorshift, G. Marsaglia 2003).
 fn random() -> impl FnMut() -> f64 {
     let mut state: u64 = 88_172_645_463_325_252;
     move || {

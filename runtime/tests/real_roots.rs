@@ -1,4 +1,4 @@
-//! Real roots of polynomials with known ones.
+//! Real roots of polynomials with known roots.
 
 use groebot_runtime::roots::{MAX_DEGREE, Roots, real_roots};
 use groebot_runtime::{Lanes, Number};
@@ -47,7 +47,7 @@ fn squares_miss_by_little_or_have_no_root() {
     assert!(f64::square_roots(-1e-12, 1.0).doubt(0) && !f64::square_roots(-1.0, 1.0).doubt(0));
 }
 
-/// The tangent of half of 169 degrees: a double root that misses the axis by 1e-5 of the terms there.
+/// The tangent of half of 169 degrees: a double root that misses the axis by 1e-5 of the size of the terms there.
 #[test]
 fn the_tangent_of_half_an_angle_is_measured_where_it_is() {
     let mut raised = with_roots(&[-1.0, 0.5, 10.0, 10.0]);

@@ -1,4 +1,4 @@
-//! Poses next to a singular wrist: isolated answers, the joint values that made the pose among them, and no self-motion.
+//! Poses next to a singular wrist have isolated solutions, among them the joint values that made the pose, and no self-motion.
 
 #![allow(clippy::duplicate_mod)]
 
@@ -21,7 +21,7 @@ fn solved(q: &[f64; 6]) -> Vec<puma::Solution> {
     out[..count].to_vec()
 }
 
-/// Joint values with the wrist so far from where two of its axes are parallel.
+/// Joint values with the wrist at this distance from a configuration with two parallel axes.
 fn beside_a_singular_wrist(way: f64) -> impl Iterator<Item = [f64; 6]> {
     let mut random = random();
     (0..200).map(move |_| {
@@ -31,8 +31,8 @@ fn beside_a_singular_wrist(way: f64) -> impl Iterator<Item = [f64; 6]> {
     })
 }
 
-/// Eight answers, as at other poses of the arm, which is out of no pose's reach. Candidates for members of the self-motion that the singular pose has miss the
-/// pose by a share of the way; as long as they were polished along it, some came within what is accepted and were told as self-motions.
+/// Eight solutions, as at other poses of this arm. Candidates for members of the self-motion at the singular pose have residuals proportional to the distance
+/// from it. When they were polished along it, some came within the tolerance and were reported as self-motions.
 #[test]
 fn poses_next_to_a_singular_wrist_have_isolated_answers() {
     for way in [1e-4, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, -1e-6, -1e-9] {
@@ -40,7 +40,7 @@ fn poses_next_to_a_singular_wrist_have_isolated_answers() {
             let found = solved(&q);
             assert!(found.iter().all(|answer| answer.free == 0), "{way} {q:?}: {found:?}");
             assert_eq!(found.len(), 8, "{way} {q:?}");
-            // Rounding of the pose, and what the arm's joints make of it, moves those of the wrist by its share of the way.
+            // Rounding errors of the pose and of the arm's joints, divided by the distance, are the errors of the wrist's joints.
             let bound = f64::max(1e-7, 1e-12 / f64::abs(way));
             let near = |a: f64, b: f64| (a - b).sin().abs() < bound && (a - b).cos() > 0.0;
             assert!(found.iter().any(|answer| answer.q.iter().zip(q).all(|(a, b)| near(*a, b))), "{way} {q:?}");
@@ -48,7 +48,8 @@ fn poses_next_to_a_singular_wrist_have_isolated_answers() {
     }
 }
 
-/// At the singular pose itself the first and the last joint of the wrist turn against each other: a self-motion for each posture of the arm in which it is singular.
+/// At the singular pose the first and the last joint of the wrist rotate against each other. There is one self-motion for each posture of the arm with a
+/// singular wrist.
 #[test]
 fn a_singular_wrist_has_a_self_motion() {
     for q in beside_a_singular_wrist(0.0) {
@@ -57,12 +58,12 @@ fn a_singular_wrist_has_a_self_motion() {
     }
 }
 
-/// How far the tip of joint values is from a target: a position by the arm's length, or an entry of a rotation.
+/// The error of the tip for joint values: a position relative to the arm's length, or an entry of the rotation.
 fn missed(q: &[f64; 6], target: &[f64; 12]) -> f64 {
     puma::Solver.forward(q).unwrap().iter().zip(target).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
 }
 
-/// With too few steps all answers to a target say that they are not settled, and each holds within what that allows; none is no silent loss.
+/// With too few steps all solutions of a target are marked as not settled, and each holds within the larger tolerance. No solution without steps is an error.
 #[test]
 fn too_few_steps_leave_answers_that_are_not_settled() {
     let (mut unsettled, mut without) = (0, 0);
@@ -87,7 +88,7 @@ fn too_few_steps_leave_answers_that_are_not_settled() {
     assert!(unsettled > 700, "{unsettled}");
 }
 
-/// Where the steps are enough, more of them change nothing.
+/// Where the steps suffice, more of them change nothing.
 #[test]
 fn enough_steps_leave_settled_answers() {
     let mut out = [puma::EMPTY; puma::CAPACITY];
@@ -99,7 +100,7 @@ fn enough_steps_leave_settled_answers() {
     }
 }
 
-/// Ordinary targets take no steps of polishing: next to a stretched elbow alone they do.
+/// Ordinary targets need no polishing steps; targets next to a stretched elbow do.
 #[test]
 fn ordinary_targets_are_settled_without_steps() {
     let mut out = [puma::EMPTY; puma::CAPACITY];

@@ -1,12 +1,12 @@
-"""Computed torque in MuJoCo: the law by groebot's printed C, beside one by MuJoCo's own mass matrix and bias.
+"""Computed torque in MuJoCo: the law by groebot's generated C code, compared with one by MuJoCo's own mass matrix and bias.
 
     python3 -m venv /tmp/mujoco && /tmp/mujoco/bin/pip install -r scripts/control/requirements.txt
     cargo build --release
     /tmp/mujoco/bin/python scripts/control/mujoco_loop.py > benches/record/YYYY-MM-DD-control.csv
 
-UR5 and Stanford of tests/corpus/dynamics follow q_i = 0.3 sin(2 pi 0.4 t + i) for 5 s, each joint 0.02 rad (m) beside it at first, Kp = w^2 and Kv = 2 w with
-w = 20 rad/s, each torque held for a step in which MuJoCo moves the robot by Runge's and Kutta's method. `deviation` is how far errors come from
-0.02 (1 + w t) exp(-w t), `later` the worst error of the second half.
+The UR5 and Stanford arms of tests/corpus/dynamics follow q_i = 0.3 sin(2 pi 0.4 t + i) for 5 s. The initial error of each joint is 0.02 rad (m). The gains are
+Kp = w^2 and Kv = 2 w with w = 20 rad/s. Each torque is constant for a step, which MuJoCo integrates by the Runge-Kutta method. `deviation` is the largest
+deviation of the errors from 0.02 (1 + w t) exp(-w t). `later` is the largest error of the second half.
 """
 
 import argparse
@@ -31,7 +31,7 @@ def desired(t, count):
 
 
 def printed(groebot, name, folder):
-    """The printed inverse dynamics of a robot, as a function of numpy arrays."""
+    """The generated inverse dynamics of a robot, as a function of numpy arrays."""
     source = Path(folder) / f"{name}_motion.c"
     subprocess.run([groebot, "dynamics", CORPUS / f"{name}.urdf", "--lang", "c", "--functions", "inverse", "-o", source], check=True)
     library = source.with_suffix(".so")
@@ -60,7 +60,7 @@ def model_of(name, step, factor=1.0):
 
 
 def run(name, step, inverse, factor=1.0, delay=0, noise=(0.0, 0.0), duration=5.0):
-    """Follows, and tells the deviation from the ideal errors and the worst error of the second half."""
+    """Follows the trajectory. Returns the deviation from the ideal errors and the largest error of the second half."""
     plant, known = model_of(name, step, factor), model_of(name, step)
     data, seen = mujoco.MjData(plant), mujoco.MjData(known)
     count = plant.nv

@@ -1,10 +1,10 @@
 """Inverse dynamics, matrices, derivatives, energy and momentum of robots by Pinocchio: tests/corpus/dynamics.
 
     python3 states.py strip        the descriptions of example-robot-data without shapes
-    python3 states.py witness      the tables beside all descriptions
+    python3 states.py witness      the tables of all descriptions
 
-States are those of a generator that the test in crates/robot/tests/dynamics/pinocchio.rs has too, so that only answers are stored; matrices are stored as products with two
-vectors w and x of the same generator.
+States are those of a generator that the test in crates/robot/tests/dynamics/pinocchio.rs also has, so only results are stored. Matrices are stored as products
+with two vectors w and x of the same generator.
 """
 
 import csv

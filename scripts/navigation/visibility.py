@@ -1,9 +1,10 @@
-"""Shortest ways of crates/humanoid/tests/nav/shortest_ways.csv, by a graph of all corners that see one another in shapely.
+"""Shortest paths of crates/humanoid/tests/nav/shortest_ways.csv, by a visibility graph of all corners in shapely.
 
     python3 -m venv /tmp/navigation && /tmp/navigation/bin/pip install -r scripts/navigation/requirements.txt
     /tmp/navigation/bin/python scripts/navigation/visibility.py
 
-A way is in the closure of the free cells and does not slip between two obstacles that meet at a corner. It fails where a length differs by more than 1e-7 cells.
+A path is in the closure of the free cells. It does not pass between two obstacles with a common corner. The script fails if a length differs by more than 1e-7
+cells.
 """
 
 import csv

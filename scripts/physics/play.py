@@ -1,11 +1,11 @@
-"""Plays a walk open loop on a rigid-body model of its robot in MuJoCo: one run of `groebot simulate`, which holds this script.
+"""Plays a walk in open loop on a rigid-body model of its robot in MuJoCo: one run of `groebot simulate`, which contains this script.
 
     python play.py robot.xml walk.csv answer.csv [--feet LEFT,RIGHT] [--servo STIFFNESS,DAMPING,ARMATURE] [--friction F] [--slope ROLL,PITCH]
                    [--mass FACTOR] [--gain FACTOR] [--latency SECONDS] [--frames FOLDER]
 
-robot.xml is what `groebot export ROBOT --format mjcf` writes, walk.csv a trajectory with a base and the contacts `left` and `right`. answer.csv is a
-trajectory, too, of the same times until the robot falls: joints, base, soles and whether they press on the floor, the zero moment point by the contact
-forces of the last 20 ms, torques. What the motors are and when the robot fell goes to standard output as JSON.
+robot.xml is the output of `groebot export ROBOT --to mjcf`. walk.csv is a trajectory with a base and the contacts `left` and `right`. answer.csv is a
+trajectory with the same times until the robot falls: joints, base, soles and their floor contact, the zero moment point from the contact forces of the last 20
+ms, torques. The motor parameters and the time of the fall are written to standard output as JSON.
 """
 
 import argparse
@@ -42,7 +42,7 @@ POSE = ("x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]")
 
 
 def load(path):
-    """The columns of a trajectory by their names: `q:KNEE [rad]` is `q:KNEE`, `base_x [m]` is `base_x`; and its remarks."""
+    """The columns of a trajectory by their names: `q:KNEE [rad]` is `q:KNEE`, `base_x [m]` is `base_x`. Also returns its remarks."""
     with open(path, newline="") as file:
         lines = list(file)
     remarks = [line for line in lines if line.startswith("#")]
@@ -91,7 +91,7 @@ class Robot:
         self.weight = model.body_subtreemass[0] * GRAVITY
 
     def mount(self, servo, gain):
-        """Gives each joint its motor."""
+        """Adds the motor of each joint."""
         model = self.model
         mass, length = model.body_subtreemass[self.torso], LENGTH * self.height
         self.stiffness = servo[0] * mass * GRAVITY * length * gain
@@ -109,7 +109,7 @@ class Robot:
             model.dof_armature[dof] = max(model.dof_armature[dof], self.armature)
 
     def command(self, time):
-        """Servos go on a straight line from row to row."""
+        """Sets the commands of the servos by linear interpolation between rows."""
         times, time = self.walk["time"], time - self.latency
         row = min(max(int(numpy.searchsorted(times, time, "right")) - 1, 0), len(times) - 1)
         after = min(row + 1, len(times) - 1)
@@ -152,7 +152,7 @@ class Robot:
 
 
 class Table:
-    """What the robot did, a row a sample of the walk."""
+    """The motion of the robot, one row for each sample of the walk."""
 
     def __init__(self, robot):
         self.robot, self.rows = robot, []
@@ -194,7 +194,7 @@ def xyzw(quaternion):
 
 
 def play(robot, film=None):
-    """Plays the walk; the table, and when the robot fell."""
+    """Plays the walk. Returns the table, and the time of the fall."""
     table, times = Table(robot), robot.walk["time"]
     pressures = [robot.pressure()]
     table.add(times[0], pressures[0])

@@ -1,4 +1,4 @@
-"""Runs `groebot derive` and `groebot solve`, and reads what they wrote."""
+"""Runs `groebot derive` and `groebot solve`, and reads their output."""
 
 import collections
 import csv
@@ -17,7 +17,7 @@ from robots import Chain
 
 @dataclass(frozen=True)
 class Run:
-    """A command that has ended: its status, what it wrote, and its seconds on one core."""
+    """The result of a command: its status, its output, and its time on one core [s]."""
 
     status: int
     output: str
@@ -49,19 +49,19 @@ class Derivation:
 
 @dataclass
 class Answers:
-    """The answers to each target, by joint name [rad or m], and how many joints were reported as free."""
+    """The solutions of each target, by joint name [rad or m], and the number of joints that were reported as free."""
 
     solutions: list[list[dict[str, float]]]
     free: int = 0
 
 
 def _one_core() -> None:
-    """Keeps the child on the last of the cores it may use."""
+    """Restricts the child process to the last of its available cores."""
     os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
 
 def run(command: Sequence[str], text: str = "", most: float | None = None) -> Run:
-    """Runs a command on one core. The status is 124 when it took longer than `most` seconds."""
+    """Runs a command on one core. The status is 124 if it took longer than `most` seconds."""
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     try:
         done = subprocess.run(command, input=text, capture_output=True, text=True, timeout=most, preexec_fn=_one_core)
@@ -84,7 +84,7 @@ def derive(program: Path, chain: Chain, folder: Path, budget: float) -> Run:
 
 
 def solve(program: Path, derivation: Derivation, targets: list[list[float]], most: float = 600) -> tuple[Run, Answers]:
-    """All answers to targets, which are numbers in the order of the derivation's inputs."""
+    """All solutions of targets, which are numbers in the order of the derivation's inputs."""
     rows = [",".join(map(repr, target)) for target in targets]
     text = "\n".join([",".join(derivation.inputs), *rows, ""])
     done = run([str(program), "solve", str(derivation.folder)], text, most)
@@ -92,7 +92,7 @@ def solve(program: Path, derivation: Derivation, targets: list[list[float]], mos
 
 
 def _answers(output: str, derivation: Derivation, count: int) -> Answers:
-    """Reads the CSV: a row for each answer, or one with an empty branch for a target without any."""
+    """Reads the CSV: a row for each solution, or one with an empty branch for a target without any."""
     answers = Answers([[] for _ in range(count)])
     rows = csv.reader(output.splitlines())
     header = next(rows, [])
@@ -115,7 +115,7 @@ def weak_spots(derivation: Derivation) -> str:
 
 
 def reason(done: Run) -> str:
-    """Why a command failed, in one line without paths and without the target's numbers."""
+    """The reason why a command failed, in one line without paths and without the target's numbers."""
     lines = done.errors.splitlines()
     said = [line for line in lines if line.startswith("error")] or lines[-1:]
     text = said[0].removeprefix("error: ") if said else f"status {done.status}"

@@ -1,6 +1,7 @@
 """Mass and centre of mass of whole robots, by groebot and by Pinocchio: python masses.py [--groebot PATH] [URDF ...]
 
-Each robot stands at zero and at two random configurations; both must agree to 1e-12, of the mass and of the height. The exit status is 0 when all do.
+Each robot is tested at zero and at two random configurations. Both results must agree to 1e-12, relative to the mass and to the height. The exit status is 0 if
+all agree.
 """
 
 import argparse
@@ -45,7 +46,7 @@ def pinocchio_centre(model, names, values):
 
 
 def compare(program, path):
-    """The worst relative differences of the mass and of the centre, and the figures themselves."""
+    """The largest relative differences of the mass and of the centre, and the values themselves."""
     model = pinocchio.buildModelFromUrdf(str(path), pinocchio.JointModelFreeFlyer())
     told = groebot(program, path)
     names = [joint["name"] for joint in told["joints"]]

@@ -1,4 +1,4 @@
-"""Derives one chain and counts what its solver finds of poses that Pinocchio makes."""
+"""Derives one chain and counts the correct solutions of its solver for poses computed by Pinocchio."""
 
 import math
 import zlib
@@ -13,13 +13,13 @@ from task import Task
 from witness import Witness
 
 ORDINARY = 1e-3
-"""An ordinary pose has no singular value of the scaled Jacobian below this."""
+"""Minimum singular value of the scaled Jacobian at an ordinary pose."""
 SAME, SAME_NEAR_SINGULAR, TWICE = 1e-6, 1e-4, 1e-6
-"""Joint values [rad or m] are the drawn ones within SAME, at other poses SAME_NEAR_SINGULAR; two answers within TWICE are one."""
+"""Joint values [rad or m] are correct within SAME, at other poses within SAME_NEAR_SINGULAR. Two solutions within TWICE are equal."""
 
 
 WEAK_SPOTS = 3
-"""The exit status of a derivation that was written and misses answers at singular poses."""
+"""The exit status of a derivation that was written and misses solutions at singular poses."""
 
 
 @dataclass
@@ -35,7 +35,7 @@ class Row:
     exit: int = 0
     """The exit status of `groebot derive`."""
     weak: str = ""
-    """Which targets of its check fail, where that is WEAK_SPOTS."""
+    """The failing targets of its check, if the status is WEAK_SPOTS."""
     joints: int = 0
     given: str = ""
     wall: float = math.nan
@@ -55,12 +55,12 @@ class Row:
     missed: list[dict[str, float]] = field(default_factory=list)
 
     def json(self) -> dict:
-        """All but what is not a number, which JSON does not have."""
+        """All fields except NaN, which JSON cannot represent."""
         return {key: value for key, value in asdict(self).items() if value == value}
 
 
 def row(chain: Chain, program: Path, out: Path, budget: float, count: int) -> Row:
-    """Derives a chain within `budget` seconds, solves `count` poses of it, and tells what came of both."""
+    """Derives a chain within `budget` seconds, solves `count` poses of it, and returns the results."""
     result = Row(chain.id, chain.robot, chain.package, chain.asked)
     try:
         text = chain.path().read_text()
@@ -87,13 +87,13 @@ def seed(name: str) -> int:
 
 
 def _describe(result: Row, derivation: groebot.Derivation) -> None:
-    """What can be said of a solver without running it."""
+    """The properties of a solver that are known without running it."""
     result.given, result.complex_solutions = ", ".join(derivation.given), derivation.complex_solutions
     result.c_bytes, result.rust_bytes = derivation.size("5_solver.c"), derivation.size("5_solver.rs")
 
 
 def _solve(result: Row, program: Path, task: Task, count: int) -> None:
-    """Solves poses and counts."""
+    """Solves poses and counts the results."""
     drawn = task.witness.draw(count, seed(result.id))
     poses = [task.witness.forward(values) for values in drawn]
     targets = [task.target(pose, values) for pose, values in zip(poses, drawn)]
@@ -108,7 +108,7 @@ def _solve(result: Row, program: Path, task: Task, count: int) -> None:
 def _count(
     result: Row, task: Task, values: dict[str, float], target: list[float], solutions: list[dict[str, float]], reach: float
 ) -> None:
-    """Counts the answers to one target, which was made from `values`."""
+    """Counts the solutions of one target, which `values` reach."""
     ordinary = task.least_singular_value(values, reach) > ORDINARY
     tolerance = SAME if ordinary else SAME_NEAR_SINGULAR
     found = any(task.same(values, solution, tolerance) for solution in solutions)

@@ -1,10 +1,10 @@
-"""Tries EAIK and ssik on the chains of robots.toml: which of them they solve, and of how many poses they find the joint values.
+"""Tests EAIK and ssik on the chains of robots.toml: the chains that they solve, and the number of poses whose joint values they find.
 
     python peers.py --json peers.json [--only ID,...]
 
-Used once for each release, by hand; needs requirements.txt and `pip install EAIK==1.2.2 ssik==8.2.0`. Only poses are tried, of chains of six
-and seven turning joints. Both get axes and points from Pinocchio. Of seven joints EAIK is given the first one with which it knows a
-decomposition; ssik samples the redundancy by itself, so there a pose counts as found when some answer reaches it.
+It is run manually once for each release, and needs requirements.txt and `pip install EAIK==1.2.2 ssik==8.2.0`. Only poses are tested, of chains with six and
+seven revolute joints. Both get axes and points from Pinocchio. For seven joints, EAIK gets the value of the first joint for which it has a decomposition. ssik
+samples the redundant joint itself, so a pose counts as found if one solution reaches it.
 """
 
 import argparse
@@ -23,15 +23,15 @@ from robots import Chain, chosen
 from witness import Witness
 
 POSES, SECONDS = 1000, 12.0
-"""As many poses are tried, or as many as a peer solves in that time."""
+"""Maximum number of poses, and maximum time of a peer."""
 REACHED, SAME = 1e-6, 1e-5
 Values = numpy.ndarray
 Solver = Callable[[numpy.ndarray, Values], list[Values]]
-"""All joint vectors of a pose (4x4); where a joint is given, its value is taken from the vector that made the pose."""
+"""All joint vectors of a pose (4x4). The value of a given joint is taken from the joint vector that reached the pose."""
 
 
 class Screws:
-    """Axes H and offsets P of a chain at zero, and the tip's rotation there."""
+    """Axes H and offsets P of a chain at zero, and the tip's rotation at zero."""
 
     def __init__(self, witness: Witness):
         zero = dict.fromkeys(witness.names, 0.0)
@@ -43,12 +43,12 @@ class Screws:
         self.tip = base_from_tip.rotation
 
     def target(self, pose: pinocchio.SE3) -> numpy.ndarray:
-        """The pose of a tip that is not turned at zero."""
+        """The pose of a tip without rotation at zero."""
         return pinocchio.SE3(pose.rotation @ self.tip.T, pose.translation).homogeneous
 
 
 def eaik_solver(screws: Screws) -> tuple[str, Solver]:
-    """EAIK's way, and its solver; of seven joints one is given, for which a robot is made anew at each pose."""
+    """EAIK's decomposition, and its solver. For seven joints one is given, and a new robot is built for each pose."""
     if len(screws.H) == 6:
         robot = HPRobot(screws.H, screws.P)
         return _family(robot), lambda pose, _: _exact(robot.IK(pose))
@@ -65,7 +65,7 @@ def _family(robot: HPRobot) -> str:
 
 
 def _exact(answer) -> list[Values]:
-    """Those answers that are no least squares."""
+    """The solutions that are not least-squares approximations."""
     return [numpy.array(q) for q, is_least_squares in zip(answer.Q, answer.is_LS) if not is_least_squares]
 
 
@@ -75,7 +75,7 @@ def ssik_solver(screws: Screws) -> tuple[str, Solver]:
 
 
 def tried(make: Callable[[Screws], tuple[str, Solver]], witness: Witness, name: str, sampled: bool) -> dict:
-    """What a peer does on a chain."""
+    """The result of a peer for a chain."""
     start, screws = time.perf_counter(), Screws(witness)
     try:
         way, solver = make(screws)
@@ -107,7 +107,7 @@ def _reaches(witness: Witness, answer: Values, pose: pinocchio.SE3) -> bool:
 
 
 def row(chain: Chain) -> dict:
-    """Both peers on a chain."""
+    """The results of both peers for a chain."""
     witness = Witness(chain.path().read_text(), chain.base, chain.tip)
     if len(witness.joints) not in (6, 7) or witness.sliding:
         return {"id": chain.id, "skipped": f"{len(witness.joints)} joints, {len(witness.sliding)} sliding"}

@@ -1,4 +1,4 @@
-"""The list of chains (robots.toml), and where their URDFs lie in the installed packages."""
+"""The list of chains (robots.toml), and the paths of their URDFs in the installed packages."""
 
 import tomllib
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ LIST = Path(__file__).resolve().with_name("robots.toml")
 
 @dataclass(frozen=True)
 class Chain:
-    """One row of the table: what `groebot derive` is asked."""
+    """One row of the table: the arguments of `groebot derive`."""
 
     id: str
     robot: str
@@ -25,16 +25,16 @@ class Chain:
 
     @property
     def asked(self) -> str:
-        """The task in words."""
+        """The task as text."""
         return f"{self.task} of {self.direction}" if self.direction else self.task
 
     def path(self) -> Path:
-        """The URDF: the one file of the package whose path ends as `urdf` says."""
+        """The URDF: the only file of the package whose path ends with `urdf`."""
         return locate(self.package, self.urdf)
 
 
 def locate(package: str, urdf: str) -> Path:
-    """The one file of an installed package whose path ends with `urdf`."""
+    """The only file of an installed package whose path ends with `urdf`."""
     files = metadata.files(package) or []
     found = [file for file in files if f"/{file}".endswith(f"/{urdf}")]
     if len(found) != 1:
@@ -54,7 +54,7 @@ def read() -> list[Chain]:
 
 
 def chosen(only: str, ci: bool) -> list[Chain]:
-    """The chains named in `only` (identifiers with commas between them), those marked for CI, or all."""
+    """The chains listed in `only` (identifiers separated by commas), those marked for CI, or all."""
     chains = read()
     if only:
         wanted = only.split(",")

@@ -1,8 +1,8 @@
-"""Derives chains of real robots, solves poses that Pinocchio makes, and writes a table of both.
+"""Derives chains of real robots, solves poses computed by Pinocchio, and writes a table of both.
 
     python run.py [--ci | --only ID,...] [--json results.json] [--table docs/robots.md]
 
-The exit status is 0 when every chain is derived, finds all its ordinary poses and has no answer off its pose. See README.md.
+The exit status is 0 if every chain is derived, finds all its ordinary poses and has no wrong solution. See README.md.
 """
 
 import argparse
@@ -36,7 +36,7 @@ def arguments() -> argparse.Namespace:
 
 
 def right(result: Row) -> bool:
-    """Whether a chain does what is promised."""
+    """Whether a chain meets the requirements."""
     return result.status == "derived" and result.ordinary_found == result.ordinary and result.residual <= MOST_RESIDUAL
 
 
@@ -54,7 +54,7 @@ def main() -> int:
 
 
 def measured(args: argparse.Namespace, out: Path) -> int:
-    """Measures the chains that are asked for, whose derivations go to `out`: whether one is wrong."""
+    """Measures the requested chains and writes their derivations to `out`. Returns whether one fails."""
     out.mkdir(parents=True, exist_ok=True)
     rows: list[Row] = []
     for chain in chosen(args.only, args.ci):

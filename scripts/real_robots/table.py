@@ -59,13 +59,13 @@ def found(row: Row) -> str:
 
 
 def shortened(reason: str, most: int = 15) -> str:
-    """The first words of a reason, without what would break a table."""
+    """The first words of a reason, without characters that would break a table."""
     words = reason.replace("|", "/").split()
     return " ".join(words[:most]) + (" ..." if len(words) > most else "")
 
 
 def _totals(rows: list[Row]) -> list[str]:
-    """Sums and medians, a sentence each."""
+    """Sums and medians, one sentence each."""
     derived, robots = [row for row in rows if row.status == "derived"], len({row.robot for row in rows})
     lines = [f"* {len(rows)} chains of {robots} robots: {len(derived)} derived, {len(rows) - len(derived)} not."]
     if not derived:
@@ -83,7 +83,7 @@ def _totals(rows: list[Row]) -> list[str]:
 
 
 def _weak(rows: list[Row]) -> list[str]:
-    """How many derivations end with status 3, and at what targets each."""
+    """The number of derivations with status 3, and the failing targets of each."""
     return [f"* {len(rows)} derivations end with status 3" + (":" if rows else "."), *(f"  * `{row.id}`: {row.weak}" for row in rows)]
 
 

@@ -1,4 +1,4 @@
-"""A task in numbers: its targets, how far an answer is from one, and how singular a pose is for it."""
+"""A task as numbers: its targets, the residual of a solution, and the distance of a pose from singularity."""
 
 import math
 
@@ -11,7 +11,7 @@ from witness import Witness
 
 
 class Task:
-    """What a derivation asks of a chain."""
+    """The task of a derivation of a chain."""
 
     def __init__(self, chain: Chain, witness: Witness, derivation: Derivation):
         self.kind, self.witness, self.derivation = chain.task, witness, derivation
@@ -28,7 +28,7 @@ class Task:
         return [float(values[name] if name in values else named[name]) for name in self.derivation.inputs]
 
     def residual(self, target: list[float], answer: dict[str, float]) -> float:
-        """The largest difference of a coordinate [m or 1] between a target and the pose of an answer."""
+        """The largest difference of a coordinate [m or 1] between a target and the pose of a solution."""
         asked = dict(zip(self.derivation.inputs, target))
         given = {name: asked[name] for name in self.derivation.given}
         reached = self.target(self.witness.forward(answer), given)
@@ -36,7 +36,7 @@ class Task:
         return max(abs(math.remainder(miss, math.tau) if name in ("pitch", "roll") else miss) for name, miss in off)
 
     def least_singular_value(self, values: dict[str, float], length: float) -> float:
-        """Of the task's Jacobian by the joints that are not given; lengths are in units of `length`."""
+        """The smallest singular value of the task's Jacobian for the joints that are not given. Lengths are in units of `length`."""
         twists = self.witness.jacobian(values)
         moves, turns = twists[:3] / length, twists[3:]
         aims = numpy.cross(turns, self.aim, axis=0)
@@ -50,7 +50,7 @@ class Task:
         return float(numpy.linalg.svd(jacobian, compute_uv=False).min())
 
     def same(self, one: dict[str, float], other: dict[str, float], tolerance: float) -> bool:
-        """Whether two sets of joint values are one, angles up to whole turns."""
+        """Whether two sets of joint values are equal, modulo whole turns."""
 
         def apart(name: str) -> float:
             difference = one[name] - other[name]

@@ -1,4 +1,4 @@
-"""Forward kinematics that is not ours: a chain of a URDF in Pinocchio."""
+"""Forward kinematics independent of groebot: a chain of a URDF in Pinocchio."""
 
 import re
 from collections.abc import Iterable
@@ -9,12 +9,12 @@ import numpy
 import pinocchio
 
 PI = numpy.pi
-"""Where a slider has no limits, or equal ones, it is drawn between -1 m and 1 m; a turning joint between -pi and pi."""
+"""Without limits, or with equal ones, a prismatic joint is drawn between -1 m and 1 m, and a revolute joint between -pi and pi."""
 SLIDE = 1.0
 
 
 class Joint:
-    """A joint whose value can be chosen, with the bounds between which it is drawn."""
+    """A joint whose value can be chosen, and its bounds for random values."""
 
     def __init__(self, model: pinocchio.Model, index: int):
         joint = model.joints[index]
@@ -38,8 +38,8 @@ class Joint:
 class Witness:
     """The chain from `base` to `tip` of a URDF, given as text.
 
-    `joints` are those whose values can be chosen. Of joints that move together by `mimic` and all lie in the chain, that is the one
-    that the others follow; where the leader lies outside the chain, a single follower moves freely, as it does in groebot.
+    `joints` are those whose values can be chosen. For joints coupled by `mimic` that are all in the chain, it is the leader. If the leader is outside the
+    chain, a single mimic joint is independent, as in groebot.
     """
 
     def __init__(self, urdf: str, base: str, tip: str):
@@ -53,7 +53,7 @@ class Witness:
         self.joints = [Joint(self.model, i) for i in sorted(leaders - set(driven)) + driven]
 
     def draw(self, count: int, seed: int) -> list[dict[str, float]]:
-        """Joint values, uniform between the bounds."""
+        """Random joint values, uniform between the bounds."""
         random = numpy.random.default_rng(seed)
         low, high = ([getattr(joint, side) for joint in self.joints] for side in ("low", "high"))
         return [dict(zip(self.names, map(float, row))) for row in random.uniform(low, high, (count, len(low)))]
@@ -64,11 +64,11 @@ class Witness:
 
     @cached_property
     def sliding(self) -> set[str]:
-        """The joints whose values are lengths."""
+        """The prismatic joints."""
         return {joint.name for joint in self.joints if joint.slides}
 
     def chosen(self, values: dict[str, float]) -> dict[str, float]:
-        """The values of `joints`, from those of any names that determine them."""
+        """The values of `joints`, computed from those of other joints that determine them."""
         out = {name: values[name] for name in self.names if name in values}
         for name, (leader, factor, offset) in self.followers.items():
             if leader not in out and name in values:
@@ -80,7 +80,7 @@ class Witness:
         return out
 
     def _share(self, sign: str, name: str) -> float:
-        """What a joint of a telescope, of which groebot tells the sum, adds to it where its leader adds one."""
+        """The contribution of a telescope's joint to its value, which is the sum in groebot, when its leader moves by one."""
         return float(sign + "1") * self.followers[name][1]
 
     def forward(self, values: dict[str, float]) -> pinocchio.SE3:
@@ -91,7 +91,7 @@ class Witness:
         return world_from_base.actInv(world_from_tip)
 
     def jacobian(self, values: dict[str, float]) -> numpy.ndarray:
-        """The twist (v, w) of the tip against the base, in the tip's frame, by the rates of `joints`: 6 rows."""
+        """The twist (v, w) of the tip relative to the base, in the tip's frame, per velocity of `joints`: 6 rows."""
         q = self._configuration(values)
         tip_from_base = self.forward(values).inverse()
         # For a model with one joint, Pinocchio returns a vector.
@@ -110,7 +110,7 @@ class Witness:
 
 
 def _model(urdf: str, base: str, tip: str) -> pinocchio.Model:
-    """The model with `mimic` where two joints of the chain move together, otherwise without."""
+    """The model with `mimic` if two joints of the chain are coupled, otherwise without."""
     model = pinocchio.buildModelFromXML(urdf)
     path = [model.names[i] for i in _path(model, _frame(model, base), _frame(model, tip))]
     leaders = _leaders(urdf)
@@ -132,7 +132,7 @@ def _path(model: pinocchio.Model, base: int, tip: int) -> list[int]:
 
 
 def _leaders(urdf: str) -> dict[str, str]:
-    """The joint that each mimicking joint of a URDF follows. (Prefixes that the file does not declare are no matter here.)"""
+    """The leader of each mimic joint of a URDF. Undeclared prefixes in the file are ignored."""
     leaders, names = {}, [""]
 
     def start(tag: str, attributes: dict[str, str]) -> None:
@@ -148,7 +148,7 @@ def _leaders(urdf: str) -> dict[str, str]:
 
 
 def _follower(model: pinocchio.Model, index: int) -> tuple[str, float, float]:
-    """The leader, factor and offset of a joint that mimics."""
+    """The leader, factor and offset of a mimic joint."""
     leaders: Iterable[int] = model.mimicked_joints
     leader = dict(zip(model.mimicking_joints, leaders))[index]
     mimic = model.joints[index].extract()

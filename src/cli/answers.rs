@@ -47,7 +47,7 @@ pub struct Answer<'a> {
     pub target: Vec<f64>,
     /// All solutions.
     pub solutions: Vec<Solution>,
-    /// The reason why there is none, where it is known.
+    /// The reason why there is no solution, if it is known.
     pub reason: Option<String>,
     /// The unit of angles in the target, in JSON and in CSV.
     pub angles: Angles,
@@ -179,13 +179,13 @@ struct Page<'a> {
     target: &'a [f64],
     unit: Units<'a>,
     joints: Vec<&'a str>,
-    /// By joint, the joint that it follows.
+    /// The leader of each mimic joint.
     #[serde(skip_serializing_if = "Option::is_none")]
     follows: Option<Vec<Option<&'a str>>>,
     /// Whether the solver completed its work on the target; otherwise solutions may be missing.
     settled: bool,
     solutions: Vec<Entry<'a>>,
-    /// The reason why there is no solution, where it is known.
+    /// The reason why there is no solution, if it is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<&'a str>,
 }

@@ -26,10 +26,10 @@ const EXAMPLES: &str = "Examples:
 
 docs/basis_files.md describes the three formats and the certificate.";
 
-/// Computes the reduced Groebner basis of a system of polynomials
+/// Computes the reduced Groebner basis of a system of polynomials (Buchberger, F4, FGLM)
 ///
-/// The basis goes to standard output (or to OUT), a summary to standard error. Ctrl-C stops the work and writes
-/// nothing.
+/// The basis is written to standard output (or to OUT), and a summary to standard error. Ctrl-C stops the work and
+/// writes nothing.
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -48,10 +48,10 @@ pub struct Arguments {
     /// Prove the basis and write the proof, by default to NAME.certificate.json in the folder of FILE
     #[arg(long, value_name = "OUT", num_args = 0..=1, require_equals = true)]
     certificate: Option<Option<PathBuf>>,
-    /// Print a basis for every value of the parameters: a list of strata of the parameter space, proved
+    /// Compute a basis for every value of the parameters: a list of strata of the parameter space, with a proof
     #[arg(long, conflicts_with_all = ["certificate", "eliminate", "output_format", "prove"])]
     cover: bool,
-    /// Exclude errors by unlucky primes: prove the basis, or compute exactly only
+    /// Exclude errors by unlucky primes: prove the basis, or use exact computation only
     #[arg(long)]
     prove: bool,
     /// The format of FILE (default: detected from its content)

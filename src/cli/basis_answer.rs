@@ -15,7 +15,7 @@ use groebot_algebra::poly::{Fraction, Fractions, Polynomial, PolynomialRing};
 /// The greatest number of standard monomials that are counted.
 const MAX_DEGREE: usize = 1_000_000;
 
-/// The basis as text, with figures of the ideal.
+/// The basis as text, with properties of the ideal.
 pub struct Answer {
     /// The basis in the requested format.
     pub text: String,
@@ -38,7 +38,7 @@ enum Verdict {
     Exact,
     /// Confirmed modulo a prime that was not used to compute it.
     Probable,
-    /// F4: complete except with a probability below 2^-50 per block of rows. `--prove` excludes that.
+    /// F4: complete except with a probability below 2^-50 for each block of rows. `--prove` excludes that.
     BeyondChance,
 }
 
@@ -140,7 +140,8 @@ impl Question {
     /// Computes the basis.
     ///
     /// # Errors
-    /// Those of [`PolynomialSystem::expand`](groebot_algebra::poly::system::PolynomialSystem::expand) and of the engine; what `watch` stops with.
+    /// Those of [`PolynomialSystem::expand`](groebot_algebra::poly::system::PolynomialSystem::expand) and of the engine; the error with which `watch` stops the
+    /// work.
     pub fn answer(&self, watch: &Watch) -> Result<Answer> {
         compute(self, watch)
     }

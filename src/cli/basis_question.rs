@@ -20,7 +20,8 @@ pub struct Question {
 }
 
 impl Question {
-    /// Asks for the basis of `system` in `order` (by default its own), without the variables `eliminated`.
+    /// Builds the question for the basis of `system` in `order` (by default its own), without the variables
+    /// `eliminated`.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] and [`ErrorKind::DuplicateName`] for names to eliminate; [`ErrorKind::BadValue`] when

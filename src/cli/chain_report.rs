@@ -5,7 +5,7 @@ use groebot_ik::derive::coupled::CoupledView;
 use groebot_ik::derive::eigenvalue::EigenvalueView;
 use groebot_ik::derive::sequential::{Form, SequentialView};
 
-/// Tells about each chain in the order in which they are solved.
+/// Adds the report on each chain, in the order in which they are solved.
 pub fn describe_coupled(page: &mut Page, derived: CoupledView<'_>) {
     let parts = derived.problem.parts();
     page.heading(&format!("{}: {} solutions at most", parts.name, derived.method.dimension()));
@@ -23,7 +23,7 @@ pub fn describe_coupled(page: &mut Page, derived: CoupledView<'_>) {
     }
 }
 
-/// Tells about an eigenvalue problem.
+/// Adds the report on an eigenvalue problem.
 pub fn describe_six_axes(page: &mut Page, derived: EigenvalueView<'_>) {
     page.heading(&format!(
         "{}: {} solutions at most, all joints together",
@@ -35,7 +35,7 @@ pub fn describe_six_axes(page: &mut Page, derived: EigenvalueView<'_>) {
     derived.choices().iter().for_each(|line| page.line(line));
 }
 
-/// Tells about the plan, its steps and the proofs.
+/// Adds the report on the plan, its steps and the proofs.
 pub fn describe(page: &mut Page, derived: SequentialView<'_>) {
     let plan = &derived.method.plan;
     page.heading(&format!("Plan: {} solutions at most", plan.dimension));

@@ -14,9 +14,9 @@ use groebot_robot::document::shown;
 /// Proves a stored derivation again, without the Groebner engine, and compares every file of its folder with the proved
 /// result
 ///
-/// Ends with status 1 and names the file when a proof is forged, damaged or weaker than that of `groebot derive`, or
-/// when a file differs from the proved result. Files that groebot did not write are listed as not checked. In a thin
-/// folder (`derive --thin`) each output is generated again and compared by its hash.
+/// Ends with status 1 and names the file if a proof is forged, damaged or weaker than that of `groebot derive`. The
+/// same holds for a file that differs from the proved result. Files that groebot did not write are listed as not
+/// checked. In a thin folder (`derive --thin`) each output is generated again and compared by its hash.
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  groebot check derivations/nao_leg_sagittal")]
 pub struct Arguments {

@@ -1,4 +1,4 @@
-//! Standard output with a few colours, and without a panic when its reader has closed.
+//! Standard output with colours. It does not panic when its reader has closed.
 
 use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::Path;

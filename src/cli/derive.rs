@@ -65,7 +65,7 @@ pub struct Arguments {
     /// Print JSON instead of the report
     #[arg(long)]
     json: bool,
-    /// Refuse a solver with wrong or missing answers at any target of the numeric check, including singular ones
+    /// Refuse a solver with wrong or missing solutions at any target of the numeric check, including singular ones
     #[arg(long)]
     strict: bool,
     /// Write a thin folder: input, README.md, certificate.json, and in outputs.sha256 a hash of each other file
@@ -166,8 +166,8 @@ fn derive(source: &Source, watch: &Watch) -> Result<Derivation> {
     })
 }
 
-/// Adds advice to `error`: the task that fits where the joints are too few for the requested one, and the tolerance
-/// that would help.
+/// Adds advice to `error`: a task that fits a chain with too few joints for the requested one, and a tolerance that
+/// would help.
 fn advised(source: &Source, error: Error) -> Error {
     let Some((ideal, report)) = &source.ideal else { return error };
     if let Some(task) = fitting_task(ideal) {
@@ -185,12 +185,12 @@ fn advised(source: &Source, error: Error) -> Error {
     Error::new(error.kind(), format!("{}{advice}", error.message()))
 }
 
-/// Fails at the first ordinary target with wrong or missing answers; with `strict`, at the first target of any kind.
+/// Fails at the first ordinary target with wrong or missing solutions; with `strict`, at the first target of any kind.
 /// Errors at singular targets are otherwise reported as [weak spots](witness::Report::weak_spots), because the algebra
 /// is proved.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] with the row, its target and what is wrong.
+/// [`ErrorKind::Certificate`] with the row, its target and the error.
 pub fn refuse_failures(
     source: &Source,
     derivation: &Derivation,
@@ -217,7 +217,7 @@ pub fn refuse_failures(
     Err(Error::new(ErrorKind::Certificate, text))
 }
 
-/// What almost holds of a chain's axes, and what to do then: closed forms of such a chain are at the mercy of rounding.
+/// The relations that a chain's axes almost satisfy, and advice. Closed forms of such a chain are ill-conditioned.
 fn nearly_ideal(source: &Source, derivation: &Derivation) -> String {
     let Some(derived) = derivation.sequential() else { return String::new() };
     let far = derived.problem.measured().remoteness();

@@ -44,13 +44,13 @@ pub struct EndArguments {
     /// `position_yaw` x, whose angle about z is counted from x)
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     direction: Option<Direction>,
-    /// A joint whose value is given with each target (repeatable; default: as described, else one chosen by the planner
-    /// where the task leaves one joint too many); `auto`: as many as are too many, chosen by the planner
+    /// A joint whose value is given with each target (repeatable); `auto`: the planner chooses all redundant joints
+    /// (default: as described, else the planner chooses one redundant joint)
     #[arg(long, value_name = "JOINT", alias = "free")]
     given: Vec<String>,
 }
 
-/// The same options, and whether the ideal robot is used.
+/// The options of [`EndArguments`], and the idealisation.
 #[derive(clap::Args)]
 pub struct IdealEndArguments {
     #[command(flatten)]
@@ -59,7 +59,7 @@ pub struct IdealEndArguments {
     /// intersect (default: 1e-6)
     #[arg(long, value_name = "TOLERANCE", value_parser = number, conflicts_with = "exact")]
     snap: Option<BigRational>,
-    /// Use every digit of the description: axes 1e-17 apart do not intersect
+    /// Use every digit of the description: axes at a distance of 1e-17 do not intersect
     #[arg(long)]
     exact: bool,
 }
@@ -74,7 +74,7 @@ impl IdealEndArguments {
         Ok(Ends { snap, ..self.plain.ends()? })
     }
 
-    /// Sets the task of `chain`, which does not come from a URDF.
+    /// Sets the task of `chain`, whose source is not a URDF.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for links; as [`Ends::ask`].
@@ -123,7 +123,7 @@ impl TipLink {
         (!self.is_given).then(|| Part::Paragraph(line().name("--tip").and(" chooses another.")))
     }
 
-    /// The sentence on a line of its own.
+    /// The sentence as a separate line.
     pub fn line(tip: Option<&TipLink>) -> String {
         tip.and_then(TipLink::note).map(|note| note + "\n").unwrap_or_default()
     }

@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
 }
 
-/// Reports the parts of the links that the reader ignored.
+/// Reports the parts of the links that are not exported.
 fn tell_left_out(robot: &Robot) {
     let notes = robot.links().iter().flat_map(|link| link.notes.iter().map(|note| (shown(&link.name), note)));
     notes.for_each(|(link, note)| console::line("note", &format!("link `{link}`: {note}")));

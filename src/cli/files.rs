@@ -142,8 +142,8 @@ pub fn refuse_input(source: &Source, folder: &Path, files: &[(String, Vec<u8>)])
 /// own folder if it is a mechanism's, else the folder `foo` next to `foo.toml`.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when a file without extension leaves no name for a folder, or the folder has an input of the
-/// other kind, or another one of this kind that nothing has been derived from.
+/// [`ErrorKind::BadValue`] for a file without extension, which determines no folder name. The same for a folder with an
+/// input of the other kind, or with another input of this kind from which nothing has been derived.
 pub fn destination(source: &Source, input: &Path, out: Option<&Path>) -> Result<PathBuf> {
     let file = &source.path;
     let named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
@@ -232,7 +232,7 @@ fn is_ours(folder: &Path, name: &str) -> bool {
     name != stages::PAGE || !fs::read_to_string(folder.join(name)).is_ok_and(by_hand)
 }
 
-/// Whether `folder` has a task file with the same task in other words.
+/// Whether `folder` has a task file with the same task in another form.
 fn keeps_task(source: &Source, folder: &Path) -> bool {
     Ends::read(&folder.join(TASK_NAME)).is_ok_and(|ends| ends == source.ends)
 }

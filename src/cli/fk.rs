@@ -29,7 +29,7 @@ targets without a solution. Unknown names are errors.
 
 A value outside its limits is reported, and is not an error.";
 
-/// Computes the pose of the tip for given joint values (forward kinematics)
+/// Computes the pose of the tip for given joint values (forward kinematics, product of exponentials)
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -105,7 +105,7 @@ struct Answer {
     /// Roll, pitch and yaw \[rad\].
     rpy: [f64; 3],
     outside: Vec<String>,
-    /// The numbers of the task's target.
+    /// The numbers of the target.
     asked: Vec<f64>,
 }
 

@@ -59,10 +59,10 @@ pub fn room_text(file: &Path) -> Result<String> {
     known(file).map_or_else(|| read_text(file, TEXT_LIMIT), |text| Ok(text.to_owned()))
 }
 
-/// Reads the built-in room of that name, or a file.
+/// The room after the requested changes of its furniture.
 ///
 /// # Errors
-/// As [`room_text`] and [`Room::from_toml`].
+/// As [`moved`], [`Room::with_moved`] and [`Room::without`].
 pub fn read_room(file: &Path) -> Result<Room> {
     Room::from_toml(&room_text(file)?).map_err(|error| error.in_file(file))
 }
@@ -78,7 +78,7 @@ pub fn refurnished(room: Room, furniture: &[String]) -> Result<Room> {
     })
 }
 
-/// A piece of furniture and its new position with its anticlockwise rotation \[m, rad\], or its removal: `NAME=X,Y`,
+/// A piece of furniture with its new position and anticlockwise rotation \[m, rad\], or its removal: `NAME=X,Y`,
 /// `NAME=X,Y,YAW` in degrees, `NAME=none`.
 ///
 /// # Errors
@@ -159,7 +159,7 @@ pub fn points(path: &FloorPath) -> Value {
     path.points.iter().map(|point| json!([point.x, point.y])).collect()
 }
 
-/// The middles of the cells that no path leaves \[m\].
+/// The centres of the cells that no path leaves \[m\].
 pub fn enclosure(map: &Map, enclosure: &Enclosure) -> Value {
     let middle = |cell: &usize| {
         let at = map.centre(*cell);

@@ -20,7 +20,7 @@ use groebot_robot::motion::table::pose_of;
 use groebot_robot::motion::{Followed, Pace, follow};
 use groebot_robot::spatial::Pose;
 
-/// The tolerance for the length of a quaternion, such as one with 0.707.
+/// The tolerance for the length of a quaternion, for example one with 0.707.
 const ROUNDED: f64 = 1e-3;
 /// The names of a pose's numbers: of the position, and of the quaternion.
 const POSE: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
@@ -49,7 +49,7 @@ pub struct Arguments {
     /// The poses, CSV; `-` for standard input
     #[arg(long, value_name = "FILE")]
     poses: PathBuf,
-    /// The time between two poses, if the file has none [s]; without it joint rates are unlimited
+    /// The time between two poses, if the file has none [s]; without it joint velocities are unlimited
     #[arg(long, value_name = "SECONDS")]
     every: Option<f64>,
     /// Write the joint trajectory to this CSV file
@@ -113,7 +113,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     console::print(&(TipLink::line(tip.as_ref()) + &summary(&chain, &followed) + &touches))
 }
 
-/// The greatest speeds of the chain's joints, where the description has them.
+/// The maximum velocities of the chain's joints, if the description has them.
 fn speeds(description: &Description, chain: &Chain) -> Vec<Option<f64>> {
     let Description::Robot(robot) = description else { return Vec::new() };
     let speed = |name: &str| robot.joint(name).ok().and_then(|joint| robot.joints()[joint].speed);
@@ -203,7 +203,7 @@ fn touching(robot: &Robot, followed: &Followed) -> Result<String> {
     Ok(text)
 }
 
-/// A summary of the path in a few lines.
+/// A short summary of the path.
 fn summary(chain: &Chain, followed: &Followed) -> String {
     let Followed { trajectory, jumps, .. } = followed;
     let count = trajectory.times.len();

@@ -46,7 +46,7 @@ pub struct Arguments {
     log: PathBuf,
     #[command(flatten)]
     part: PartArguments,
-    /// Estimate viscous and Coulomb friction of each joint too (default: that of the description)
+    /// Also estimate viscous and Coulomb friction of each joint (default: that of the description)
     #[arg(long)]
     friction: bool,
     /// Write a table of the estimates to this CSV file
@@ -66,9 +66,9 @@ struct Report<'a> {
     /// The number of torques minus the number of estimates.
     degrees_of_freedom: usize,
     condition: f64,
-    /// By joint.
+    /// For each joint.
     root_mean_square_misses: Vec<(&'a str, f64)>,
-    /// By joint, as a fraction of the torques' standard deviation.
+    /// For each joint, as a fraction of the torques' standard deviation.
     unexplained: Vec<(&'a str, f64)>,
     parameters: Vec<Row<'a>>,
     consistent: bool,
@@ -87,10 +87,10 @@ struct Report<'a> {
 struct Row<'a> {
     name: &'a str,
     value: f64,
-    /// Half of the 95 % interval; none where no degree of freedom is left.
+    /// Half of the 95 % interval; `None` without degrees of freedom of the noise.
     confidence: Option<f64>,
     described: f64,
-    /// The value for physically consistent bodies; none for friction.
+    /// The value for physically consistent bodies; `None` for friction.
     of_bodies: Option<f64>,
 }
 

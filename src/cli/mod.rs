@@ -89,7 +89,7 @@ const EXAMPLES: &str = "Examples:
 Exit status: 0 success, 1 failure, 2 wrong usage, 3 derived and written but with weak spots at
 singular targets, or a bad log (identify), 4 no path exists, 5 the robot falls, 130 interrupted.";
 
-/// Derives closed-form inverse kinematics of robots that return every solution, with a proof; plans walks and paths
+/// Derives closed-form inverse kinematics of robots, with all solutions and a proof; plans walks and paths
 #[derive(Parser)]
 #[command(name = "groebot", version, after_help = EXAMPLES)]
 struct Cli {
@@ -129,13 +129,14 @@ enum Halt {
     Error(Error),
     /// Standard output has been closed by its reader.
     PipeClosed,
-    /// There is no path; this has been reported.
+    /// There is no path. The command has already reported this.
     NoPath,
-    /// A robot fell; this has been reported.
+    /// A robot fell. The command has already reported this.
     Fell,
-    /// A solver was derived and written, and misses answers at some singular targets; this has been reported.
+    /// A solver was derived and written, but misses solutions at some singular targets. The command has already
+    /// reported this.
     WeakSpots,
-    /// A log does not fit rigid bodies with independent noise; this has been reported.
+    /// A log does not fit rigid bodies with independent noise. The command has already reported this.
     BadData,
 }
 

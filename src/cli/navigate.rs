@@ -86,13 +86,13 @@ pub(super) enum MethodName {
     Exact,
     /// The descent path of a fast marching field
     Fmm,
-    /// The descent path of a field of the thesis' M3R
+    /// The descent path of an M3R field (RH0 thesis)
     M3r,
     /// The descent path of an artificial potential field, which may end in a local minimum
     Potential,
 }
 
-/// Plans the journey and writes the requested files.
+/// Plans the walk and writes the requested files.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;

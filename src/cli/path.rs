@@ -48,8 +48,8 @@ pub struct Arguments {
     /// Pull the path taut (string pulling)
     #[arg(long)]
     taut: bool,
-    /// Replace its corners by arcs of this radius where the map has room [m]; the points are then a twentieth of a cell
-    /// apart
+    /// Replace its corners by arcs of this radius where the map has space [m]; the points are then at a distance of a
+    /// twentieth of a cell
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     smooth: Option<f64>,
     /// The radius of a round robot: the least distance of the path from obstacles and unknown cells [m]
@@ -67,11 +67,11 @@ pub struct Arguments {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum MethodName {
-    /// The shortest path; the quickest one where the map has speeds
+    /// The shortest path, or the fastest one if the map has speeds
     Exact,
     /// The descent path of a fast marching field
     Fmm,
-    /// The descent path of a field of the thesis' M3R
+    /// The descent path of an M3R field (RH0 thesis)
     M3r,
     /// The shortest path on the grid with eight neighbours
     Octile,

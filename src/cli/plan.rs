@@ -21,7 +21,7 @@ const EXAMPLES: &str = "Examples:
 Names: PK1-PK3 Paden-Kahan, PG1-PG8 and Pardos-One Pardos-Gotor, SP5 and SP6 IK-Geo;
 docs/subproblems.md describes each.";
 
-/// Prints how screw theory solves a chain: the joints that cancel, and the subproblem of each step
+/// Prints how screw theory solves a chain: for each step the joints that cancel, and the Paden-Kahan subproblem
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -93,8 +93,7 @@ impl Mechanism {
         &self.input
     }
 
-    /// The chain, with as many given joints as its task leaves too many: the named ones, else those chosen by the
-    /// planner.
+    /// The chain. If its task has redundant joints, the named ones are given, else those chosen by the planner.
     ///
     /// # Errors
     /// As [`InputFile::read`], [`Source::of`] and [`Source::choose_given`]; [`ErrorKind::UnknownName`] for a name that
@@ -105,7 +104,7 @@ impl Mechanism {
         Ok(RequestedChain { source, choice })
     }
 
-    /// Same as [`Mechanism::asked`], but for a numeric search, which needs no closed form: a joint too many that the
+    /// Same as [`Mechanism::asked`], but for a numeric search, which needs no closed form. A redundant joint that the
     /// planner cannot choose stays free.
     ///
     /// # Errors
@@ -127,7 +126,7 @@ impl Mechanism {
         Source::of(InputFile::read(&self.input)?, &ends)
     }
 
-    /// A robot of [`robots`], where no file has its name.
+    /// A robot of [`robots`], if no file has its name.
     fn known_robot(&self) -> Result<Option<Chain>> {
         let name = self.input.to_string_lossy();
         if is_stdin(&self.input)

@@ -52,7 +52,7 @@ pub struct Session {
     /// The watch for the work.
     pub watch: Watch,
     spinner: Option<ProgressBar>,
-    /// The guard of the budgets runs as long as this exists.
+    /// The guard of the budgets runs until this is dropped.
     _alive: Arc<()>,
 }
 
@@ -95,7 +95,7 @@ impl Drop for Session {
 
 /// The interval between two checks of the budgets from outside the work.
 const PERIOD: Duration = Duration::from_millis(20);
-/// The time that work may continue after it should have stopped: most of it checks its watch more often.
+/// The time that work may continue after the watch has stopped. Most work checks the watch more often.
 const GRACE: Duration = Duration::from_secs(1);
 
 /// Ends the process if the work continues for more than [`GRACE`] after the watch has stopped, as in steps that do not
@@ -138,7 +138,7 @@ pub fn interrupted() -> Result<Arc<AtomicBool>> {
         let seen = Arc::clone(&flag);
         let cancelled = || Error::new(ErrorKind::Cancelled, "interrupted");
         let interrupt = move || {
-            // The flag is held here and by its cell. Without another holder nobody checks it.
+            // The flag is held here and in its cell. Without a third holder, no work checks it.
             if seen.swap(true, Ordering::Relaxed) || Arc::strong_count(&seen) == 2 {
                 end(&cancelled());
             }
@@ -169,8 +169,7 @@ pub fn begin_output() -> Result<()> {
     Ok(())
 }
 
-/// The bytes of this process in memory, updated as long as `alive` exists; `None` where the system does not report
-/// them.
+/// The memory of this process in bytes, updated until `alive` is dropped. `None` if the system does not report it.
 fn meter(alive: &Arc<()>) -> Option<Arc<AtomicUsize>> {
     let meter = Arc::new(AtomicUsize::new(resident_bytes()?));
     let (kept, alive) = (Arc::clone(&meter), Arc::downgrade(alive));

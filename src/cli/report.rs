@@ -22,9 +22,9 @@ use groebot_ik::witness;
 pub struct Report<'a> {
     /// The input.
     pub source: &'a Source,
-    /// What came of it.
+    /// The result.
     pub derivation: &'a Derivation,
-    /// What the numeric witnesses found.
+    /// The results of the numeric checks.
     pub checked: &'a witness::Report,
     /// The folder of the files.
     pub folder: &'a Path,

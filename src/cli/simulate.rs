@@ -80,8 +80,8 @@ pub struct Arguments {
     /// The delay of commands [s]
     #[arg(long, value_name = "S", default_value_t = 0.0)]
     latency: f64,
-    /// Simulate slopes up to 3 degrees, frictions from 0.4 to 1 and masses 20 % lower and higher, then all of them
-    /// together, and report which runs fall
+    /// Simulate slopes up to 3 degrees, frictions from 0.4 to 1 and masses 20 % lower and higher, then all combined;
+    /// report which runs fall
     #[arg(long, conflicts_with_all = ["out", "plot", "plot_rates", "plot_torques"])]
     vary: bool,
     /// The time budget [s]
@@ -93,7 +93,7 @@ pub struct Arguments {
     /// Write a picture of the legs' joint angles, references and simulation, to this SVG file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
-    /// Write a picture of their rates to this SVG file
+    /// Write a picture of their velocities to this SVG file
     #[arg(long, value_name = "FILE")]
     plot_rates: Option<PathBuf>,
     /// Write a picture of their torques to this SVG file

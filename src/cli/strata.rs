@@ -8,7 +8,7 @@ use groebot_ik::derive::equations::EquationsView;
 use groebot_ik::derive::equations::plan::{self, Score};
 use groebot_ik::derive::equations::tree::{Node, Outcome};
 
-/// Tells about every stratum of both trees.
+/// Adds every stratum of both trees to the page.
 pub fn describe(page: &mut Page, derivation: EquationsView<'_>) {
     let two = derivation.method.searched.is_some();
     for (title, root) in derivation.method.trees() {

@@ -51,8 +51,8 @@ pub fn shown(text: &str) -> String {
     if text.chars().nth(SHOWN).is_some() { escaped + "..." } else { escaped }
 }
 
-/// Fails if standard input, from which a table would be read, already contains `description`; `option` gives values
-/// instead.
+/// Fails if standard input already contains `description`, because a table would also be read from it. `option` is the
+/// alternative for the values.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`].

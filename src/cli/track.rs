@@ -61,7 +61,7 @@ pub struct Arguments {
     /// The gain of the integral of errors [1/s^3, or N m/(rad s)]
     #[arg(long, value_name = "KI", default_value_t = 0.0)]
     integral: f64,
-    /// The time for which a torque is held [s]
+    /// The time for which a torque is constant [s]
     #[arg(long, value_name = "S", default_value_t = 1e-3)]
     step: f64,
     /// The initial deviation of each joint from the trajectory [rad or m]
@@ -73,7 +73,7 @@ pub struct Arguments {
     /// The number of steps before torques act
     #[arg(long, value_name = "STEPS", default_value_t = 0)]
     delay: usize,
-    /// The standard deviations of measurement noise of positions and rates [rad, rad/s]
+    /// The standard deviations of the measurement noise of positions and velocities [rad, rad/s]
     #[arg(long, value_name = "PLACE,RATE", value_delimiter = ',', num_args = 1..=2)]
     noise: Vec<f64>,
     /// Limit torques to the efforts of the description

@@ -54,7 +54,7 @@ pub struct Arguments {
     /// Include the triangles of STL meshes in the page
     #[arg(long)]
     meshes: bool,
-    /// Show all solutions of the chain from the base to this link (repeatable); the solver is derived first
+    /// Show all solutions of the chain from the base to this link (repeatable); its solver is derived before
     #[arg(long, value_name = "LINK", conflicts_with = "room")]
     tip: Vec<String>,
     /// The first link of such chains (default: the root)

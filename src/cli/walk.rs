@@ -93,7 +93,7 @@ pub struct Arguments {
     /// The rotation of the whole walk, anticlockwise [degrees]
     #[arg(long, default_value_t = 0.0, value_name = "DEGREES", allow_hyphen_values = true, conflicts_with = "route")]
     turn: f64,
-    /// G_CM: the greatest turn of one step, or of a pair of steps in --plan [degrees] (default: the gait's)
+    /// G_CM: the maximum rotation of one step, or of a pair of steps in --plan [degrees] (default: the gait's)
     #[arg(long, value_name = "DEGREES")]
     max_turn: Option<f64>,
     /// The first swing foot
@@ -102,7 +102,7 @@ pub struct Arguments {
     /// Read footsteps from this CSV file
     #[arg(long, value_name = "FILE")]
     footsteps: Option<PathBuf>,
-    /// The walk in words, separated by commas: out, stride, in with left or right; turn left or right with degrees
+    /// The walk as text, separated by commas: out, stride, in with left or right; turn left or right with degrees
     #[arg(long, value_name = "WORDS")]
     plan: Option<String>,
     /// Walk to a place in the initial frame of the feet: forward, to the left [m], and an optional final heading
@@ -154,7 +154,7 @@ pub struct Arguments {
     /// The least distance of the zero moment point from the border of the support polygon [m] (default: the gait's)
     #[arg(long, value_name = "METRES")]
     margin: Option<f64>,
-    /// The greatest joint rate, as a fraction of the joint's limit (default: the gait's)
+    /// The maximum joint velocity, as a fraction of the joint's limit (default: the gait's)
     #[arg(long, value_name = "SHARE")]
     speed: Option<f64>,
     /// The outline of the soles
@@ -173,7 +173,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     /// Add joint torques (inverse dynamics, RNEA) and ground reaction forces: columns of torques and forces, and the
-    /// greatest torques next to the motors' efforts
+    /// largest torques next to the motors' limits
     #[arg(long)]
     torques: bool,
     /// Add the torques of two chains, each on its own foot, RH0 (3-40) and (3-41), the wrench between them through the

@@ -16,10 +16,10 @@ use groebot_robot::robots;
 /// The law of motion of the centre of mass.
 #[derive(Clone, Copy, clap::ValueEnum)]
 pub enum GaitName {
-    /// The sine of NAO (6.8.1): in single support the centre of mass rests
+    /// The sine of NAO (6.8.1): in single support the centre of mass is at rest
     #[value(alias = "seed")]
     Sine,
-    /// Preview control of the zero moment point: the centre of mass never rests
+    /// Preview control of the zero moment point: the centre of mass always moves
     Preview,
     /// One step goal by its generic laws: the centre of mass stays on a circle on the sole
     Osg,

@@ -8,7 +8,7 @@ GB_INLINE T GB_(series)(T u)
     return first + (second + third * fourth) * fourth;
 }
 
-/* The angle in [0, pi/2] of a cosine and a sine that are not negative; not a number where both are zero. */
+/* The angle in [0, pi/2] of a non-negative cosine and a non-negative sine. NaN where both are zero. */
 GB_INLINE T GB_(acute)(T across, T up)
 {
     const GB_(truth) steep = GB_(exceeds)(up, across);
@@ -21,7 +21,7 @@ GB_INLINE T GB_(acute)(T across, T up)
     return GB_(pick)(GB_PI / R(2.0) - (angle - R(2.0) * GB_REST), angle, steep);
 }
 
-/* The angle in (-pi, pi] of a cosine and a sine, given the one of their magnitudes; zero is not negative. */
+/* The angle in (-pi, pi] of a cosine and a sine, given the acute angle of their magnitudes. Zero is never negative. */
 GB_INLINE T GB_(unfold)(T acute, T cosine, T sine)
 {
     const GB_(truth) is_back = GB_(exceeds)(GB_(of)(R(0.0)), cosine);

@@ -1,18 +1,18 @@
-/* From candidates to answers: as answers.rs */
+/* From candidates to solutions: see answers.rs */
 
-/* Whether those that wait are the candidates of an ordinary target. */
+/* Whether the waiting candidates are those of an ordinary target. */
 GB_INLINE bool gb_are_ordinary(const gb_sink_1 *c)
 {
     return c->is_ordinary && c->waiting == GB_CANDIDATES && c->all.candidates == GB_CANDIDATES;
 }
 
-/* So many of the candidates that wait, in a row, miss the equations by the same. */
+/* How many consecutive waiting candidates have equal residuals. */
 GB_INLINE size_t gb_twins(const gb_sink_1 *c)
 {
     return GB_CANDIDATES % (GB_STEP * GB_TWINS) == 0 && gb_are_ordinary(c) ? GB_TWINS : 1;
 }
 
-/* Measures the candidates that wait, of which some in a row may be alike. */
+/* Measures the waiting candidates; so many of them in a row may have equal residuals. */
 static GB_APART void gb_measure_waiting(const gb_sink_1 *c, size_t alike, gb_fits *fits)
 {
     GB_PAIR(number) p[GB_PARAMETERS], at[GB_PLACES], residual, relative;
@@ -38,7 +38,7 @@ static GB_APART void gb_measure_waiting(const gb_sink_1 *c, size_t alike, gb_fit
     }
 }
 
-/* The binary logarithm of how many angles of a joint in a row are computed as one at an ordinary target. */
+/* The binary logarithm of the number of consecutive angles of a joint that are computed as one at an ordinary target. */
 GB_INLINE int gb_run_of(int joint)
 {
     int alike = 0;
@@ -51,7 +51,7 @@ GB_INLINE int gb_run_of(int joint)
     return alike;
 }
 
-/* By joint and candidate that waits, the joint values. Angles that differ in signs alone, as they do at an ordinary target, are computed once. */
+/* The joint values, by joint and waiting candidate. Angles that differ only in sign, as at an ordinary target, are computed once. */
 static GB_APART void gb_find_joints(const gb_sink_1 *c, gb_real (*q)[GB_CANDIDATES])
 {
     const bool is_ordinary = gb_are_ordinary(c);
@@ -85,7 +85,7 @@ static GB_APART void gb_find_joints(const gb_sink_1 *c, gb_real (*q)[GB_CANDIDAT
     }
 }
 
-/* Whether an angle tells two candidates apart. */
+/* Whether two candidates differ in at least one angle. */
 GB_INLINE bool gb_are_apart(const gb_sink_1 *c, size_t k, size_t other)
 {
     GB_UNROLL
@@ -99,7 +99,7 @@ GB_INLINE bool gb_are_apart(const gb_sink_1 *c, size_t k, size_t other)
     return false;
 }
 
-/* Writes a candidate that holds if there is room, and it is apart from others from the `nearest` on. */
+/* Writes an accepted candidate if there is room and it differs from the others from `nearest` on. */
 GB_INLINE bool gb_write_apart(gb_sink_1 *c, size_t nearest, size_t k, const gb_real *q, gb_real residual, gb_real relative)
 {
     for (size_t other = nearest; other < k; other++) {
@@ -124,7 +124,7 @@ GB_INLINE bool gb_write_apart(gb_sink_1 *c, size_t nearest, size_t k, const gb_r
     return true;
 }
 
-/* Lets the equations read what follows from no joint from a candidate that waits. */
+/* Copies the numbers that follow from no joint from a waiting candidate, so that the equations read them. */
 static void gb_extras_of(gb_sink_1 *c, size_t k)
 {
     if (GB_EXTRAS) {
@@ -135,7 +135,7 @@ static void gb_extras_of(gb_sink_1 *c, size_t k)
     }
 }
 
-/* Keeps a candidate that does not simply stand for itself, or refines it. */
+/* Keeps a candidate that needs comparison with others, or refines it. */
 static GB_COLD void gb_look_closer(gb_sink_1 *c, size_t k, size_t waiting, const gb_real *q, const gb_fit *fit)
 {
     const gb_found_1 found = c->found[k];
@@ -156,7 +156,7 @@ GB_INLINE void gb_joints_of(gb_real (*joints)[GB_CANDIDATES], size_t k, gb_real 
 }
 
 #ifdef GB_SHORTS
-/* Leads the candidates that wait to answers: those of a nearby mechanism's formulas. */
+/* Keeps the solutions near the waiting candidates of a nearby mechanism's formulas. */
 static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
 {
     gb_ways ways;
@@ -184,7 +184,7 @@ static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
 }
 
 #else
-/* Keeps, of the candidates that wait, those that solve the equations within rounding, and refines others. */
+/* Keeps the waiting candidates that solve the equations within rounding, and refines the others. */
 static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
 {
     gb_fits fits;
@@ -196,7 +196,7 @@ static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
         const bool holds = c->found[k].free == 0 && !c->found[k].close && fit.relative < GB_ROUNDING && fits.sound[k] > R(0.0);
         gb_real q[GB_JOINTS];
         gb_joints_of(joints, k, q);
-        /* The second of two that are alike is as far from those before as the first. */
+        /* The second of two twins has the same distance to earlier candidates as the first. */
         const size_t nearest = k % twins == 0 ? 0 : k - 1;
         if (holds && is_usual && gb_write_apart(c, nearest, k, q, fit.residual, fit.relative)) {
             continue;
@@ -207,7 +207,7 @@ static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
 }
 #endif
 
-/* Whether an angle tells two answers apart. */
+/* Whether two solutions differ in at least one angle. */
 static bool gb_tell_apart(const gb_pairs *a, const gb_pairs *b)
 {
     GB_UNROLL
@@ -220,7 +220,7 @@ static bool gb_tell_apart(const gb_pairs *a, const gb_pairs *b)
     return false;
 }
 
-/* Writes a candidate as pairs if it is apart from all before it. */
+/* Writes a candidate as pairs if it differs from all before it. */
 static bool gb_write_pairs(gb_sink_1 *c, size_t k, gb_real residual)
 {
     if (c->all.count == GB_CAPACITY) {
@@ -246,7 +246,7 @@ static bool gb_write_pairs(gb_sink_1 *c, size_t k, gb_real residual)
     return true;
 }
 
-/* Writes the candidates that wait as pairs, as long as all solve the equations within rounding and are apart. */
+/* Writes the waiting candidates as pairs, as long as all solve the equations within rounding and differ from each other. */
 static void gb_keep_pairs(gb_sink_1 *c)
 {
     gb_fits fits;
@@ -259,7 +259,7 @@ static void gb_keep_pairs(gb_sink_1 *c)
 }
 
 #ifdef GB_WITHIN
-/* Whether two rows of joint values are within a tolerance, joints left out that are free. */
+/* Whether two rows of joint values agree within a tolerance; free joints are left out. */
 static bool gb_are_within(const gb_real *a, const gb_real *b, uint32_t free, gb_real tolerance)
 {
     for (size_t i = 0; i < GB_JOINTS; i++) {
@@ -278,10 +278,10 @@ static bool gb_are_within(const gb_real *a, const gb_real *b, uint32_t free, gb_
 
 static bool gb_onto_self_motion(const gb_problem *problem, gb_real *q, uint32_t free);
 
-/* Keeps a candidate that comes nearer to the target than those before. */
+/* Keeps a candidate that is nearer to the target than those before. */
 static void gb_take_closest(gb_answers *all, gb_real *q)
 {
-    /* On a stratum joints only seem to be free where the other equations tell them. */
+    /* On a stratum a joint may only appear free, because the remaining equations determine it. */
     const gb_fit fit = gb_fitted(&all->problem, q, 0, R(0.5));
     if (!(all->has_nearest && fit.relative >= all->nearest_fit.relative)) {
         all->has_nearest = true;
@@ -290,7 +290,7 @@ static void gb_take_closest(gb_answers *all, gb_real *q)
     }
 }
 
-/* Keeps a member of a self-motion that comes within the tolerance of the target, next to a candidate for one. */
+/* Keeps a member of a self-motion within the tolerance of the target, next to a candidate for one. */
 static void gb_take_member(gb_answers *all, const gb_found_1 *found, gb_real *q)
 {
     if (found->free != 0 && gb_onto_self_motion(&all->problem, q, found->free)) {
@@ -299,7 +299,7 @@ static void gb_take_member(gb_answers *all, const gb_found_1 *found, gb_real *q)
     }
 }
 
-/* Whether joints are far from all answers. */
+/* Whether joint values are far from all solutions. */
 static bool gb_is_far(const gb_sink_1 *c, const gb_real *q)
 {
     for (size_t i = 0; i < c->all.count; i++) {
@@ -310,7 +310,7 @@ static bool gb_is_far(const gb_sink_1 *c, const gb_real *q)
     return true;
 }
 
-/* Adds a candidate within the tolerance that is far from all answers, and of no self-motion. */
+/* Adds a candidate within the tolerance that is far from all solutions and on no self-motion. */
 static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, gb_real *q)
 {
     const gb_real within = gb_larger(GB_WITHIN, GB_ACCEPT);
@@ -318,7 +318,7 @@ static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, gb_real *q)
         return;
     }
     const gb_fit fit = gb_fitted(&c->all.problem, q, 0, R(0.5));
-    /* On a stratum joints only seem to be free where the other equations tell them: then no others are within the tolerance next to these. */
+    /* On a stratum a joint may only appear free, because the remaining equations determine it: then no other joint values nearby are within the tolerance. */
     if (fit.relative <= within && gb_is_far(c, q) && (found->free == 0 || gb_regularity(&c->all.problem, q) * GB_BLUR > within)
         && !(c->ideal && gb_has_member(c->ideal, q, c->moving))) {
         gb_solution *out = &c->out[c->all.count++];
@@ -331,16 +331,16 @@ static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, gb_real *q)
     }
 }
 
-/* Whether no more candidates are wanted. */
+/* Whether no more candidates are needed. */
 static bool gb_has_enough(const gb_sink_1 *c)
 {
     return c->all.has_nearest && (c->sought == GB_MEMBER || c->all.nearest_fit.relative <= GB_POLISHED);
 }
 
-/* Brings the candidates that wait to what is sought, until there is enough of that. */
+/* Processes the waiting candidates, until no more are needed. */
 static void gb_fit_waiting(gb_sink_1 *c)
 {
-    /* Every case of a stratum runs. */
+    /* This makes the cases of all strata run. */
     c->all.unsound = c->all.candidates;
     for (size_t k = 0; k < c->waiting; k++) {
         gb_real q[GB_MAX_JOINTS];
@@ -366,7 +366,7 @@ static void gb_fit_waiting(gb_sink_1 *c)
 }
 #endif
 
-/* Keeps what is an answer of the candidates that wait. */
+/* Keeps the solutions among the waiting candidates. */
 static GB_APART void gb_flush(gb_sink_1 *c)
 {
     for (int i = 0; c->waiting % 2 == 1 && i < GB_PLACES; i++) {

@@ -1,6 +1,6 @@
-/* The short way from a candidate of a nearby mechanism's formulas to the answer next to it */
+/* Newton steps from a candidate of a nearby mechanism's formulas to the solution next to it */
 
-/* A pair of a cosine and a sine turned back by a small way, nearer to the circle; the factor that led there. */
+/* A pair of a cosine and a sine turned back by a small angle and normalised. Returns the normalising factor. */
 GB_INLINE T GB_(turn_back)(T way, T *cosine, T *sine)
 {
     const T c = *cosine, s = *sine;
@@ -22,12 +22,12 @@ GB_INLINE T GB_(dot_short)(const T *a, const T *b)
     return sum;
 }
 
-/* Normal equations J^T J, eliminated without pivoting: below the diagonal, what each row was eliminated by. The pivot is the least as a share of their size. */
+/* Normal equations J^T J, eliminated without pivoting; the factors are below the diagonal. `pivot` is the least pivot relative to their size. */
 typedef struct {
     T columns[GB_JOINTS][GB_SHORTS], square[GB_JOINTS][GB_JOINTS], inverse[GB_JOINTS], pivot;
 } GB_(normal);
 
-/* Those of the derivatives by each joint; not sound where a pivot is small. */
+/* The normal equations of these derivatives by each joint. `sound` becomes zero where a pivot is small. */
 GB_INLINE void GB_(eliminate)(GB_(normal) *normal, T *sound)
 {
     T size = GB_(of)(R(0.0)), least = GB_(of)(INFINITY);
@@ -52,7 +52,7 @@ GB_INLINE void GB_(eliminate)(GB_(normal) *normal, T *sound)
     normal->pivot = least / size;
 }
 
-/* The step (J^T J)^-1 J^T f. */
+/* The step `(J^T J)^-1 J^T f`. */
 GB_INLINE void GB_(solve_normal)(const GB_(normal) *normal, const T *value, T *step)
 {
     for (int i = 0; i < GB_JOINTS; i++) {
@@ -71,7 +71,7 @@ GB_INLINE void GB_(solve_normal)(const GB_(normal) *normal, const T *value, T *s
     }
 }
 
-/* The first step, the normal equations, and the largest share of a value in its size. */
+/* The first step, the normal equations, and the largest relative residual. */
 GB_INLINE void GB_(first_step)(const T *p, const T *at, T *step, GB_(normal) *normal, T *missed, T *sound)
 {
     T value[GB_SHORTS], size[GB_SHORTS];
@@ -84,7 +84,7 @@ GB_INLINE void GB_(first_step)(const T *p, const T *at, T *step, GB_(normal) *no
     GB_(solve_normal)(normal, value, step);
 }
 
-/* The step behind it, by the same derivatives. */
+/* The second step, with the derivatives of the first. */
 GB_INLINE void GB_(second_step)(const T *p, const T *at, T *step, const GB_(normal) *normal)
 {
     T value[GB_SHORTS], size[GB_SHORTS], columns[GB_JOINTS][GB_SHORTS];
@@ -92,7 +92,7 @@ GB_INLINE void GB_(second_step)(const T *p, const T *at, T *step, const GB_(norm
     GB_(solve_normal)(normal, value, step);
 }
 
-/* Takes a step back; a long one, or a pair far from the circle, is not sound. */
+/* Subtracts a step. A long step, or a pair far from the unit circle, makes the result unsound. */
 GB_INLINE void GB_(step_back)(const T *step, T *at, T *sound)
 {
     GB_UNROLL

@@ -1,6 +1,6 @@
 /* Many targets, several at once */
 
-/* The numbers of up to so many targets, of which there is one at least; where one is infinite, not a number, or breaks a condition, all are doubtful. */
+/* The numbers of 1 to GB_WIDTH targets. Where one is infinite, NaN, or breaks a condition, all are doubtful. */
 GB_INLINE GB_(truth) GB_(gather)(const gb_real *targets, size_t count, T *target)
 {
     GB_(truth) fine = ~GB_(nowhere)();
@@ -20,7 +20,7 @@ GB_INLINE GB_(truth) GB_(gather)(const gb_real *targets, size_t count, T *target
     return fine;
 }
 
-/* Doubts where a candidate misses the equations. */
+/* Marks targets with a candidate whose residual is too large. */
 GB_INLINE void GB_(measure)(GB_(sink) *c, const T *p)
 {
     for (int k = 0; k < GB_CANDIDATES; k += GB_TWINS) {
@@ -34,7 +34,7 @@ GB_INLINE void GB_(measure)(GB_(sink) *c, const T *p)
     }
 }
 
-/* Whether two candidates are next to one another. */
+/* Whether two candidates are close to each other. */
 GB_INLINE GB_(truth) GB_(are_near)(const T *a, const T *b)
 {
     GB_(truth) near = ~GB_(nowhere)();
@@ -51,7 +51,7 @@ GB_INLINE GB_(truth) GB_(are_near)(const T *a, const T *b)
     return near;
 }
 
-/* Doubts where two candidates are next to one another. Of those that are alike one is enough: the others are as far from one another. */
+/* Marks targets with two candidates close to each other. One of each group of twins is compared: its twins have equal distances. */
 GB_INLINE void GB_(tell_apart)(GB_(sink) *c)
 {
     for (int k = 0; k < GB_CANDIDATES; k += GB_TWINS) {
@@ -64,7 +64,7 @@ GB_INLINE void GB_(tell_apart)(GB_(sink) *c)
     }
 }
 
-/* Finds joint values, angles only if they are wanted; doubts where they are none. */
+/* Computes the joint values, angles only if they are wanted. Marks targets where these are not finite. */
 GB_INLINE void GB_(find_joints)(GB_(sink) *c, bool wants_angles)
 {
     for (int i = 0; i < GB_JOINTS; i++) {
@@ -90,7 +90,7 @@ GB_INLINE void GB_(find_joints)(GB_(sink) *c, bool wants_angles)
     }
 }
 
-/* Finds the candidates of up to so many targets. */
+/* Finds the candidates of up to GB_WIDTH targets. */
 GB_INLINE void GB_(find)(GB_(sink) *c, const gb_real *targets, size_t count, bool wants_angles)
 {
     T target[GB_INPUTS], p[GB_PARAMETERS];
@@ -103,7 +103,7 @@ GB_INLINE void GB_(find)(GB_(sink) *c, const gb_real *targets, size_t count, boo
     GB_(find_joints)(c, wants_angles);
 }
 
-/* Writes the solutions of the target in a lane, with room for all candidates; how many there are. */
+/* Writes the solutions of the target in a lane and returns their number. `room` must hold all candidates. */
 GB_INLINE size_t GB_(write_solutions)(const GB_(sink) *c, size_t lane, gb_solution *room)
 {
     size_t count = 0;
@@ -124,7 +124,7 @@ GB_INLINE size_t GB_(write_solutions)(const GB_(sink) *c, size_t lane, gb_soluti
     return count;
 }
 
-/* The same by cosines and sines. */
+/* Writes the solutions of the target in a lane by cosines and sines. */
 GB_INLINE size_t GB_(write_pairs)(const GB_(sink) *c, size_t lane, gb_pairs *room)
 {
     size_t count = 0;
@@ -147,7 +147,7 @@ GB_INLINE size_t GB_(write_pairs)(const GB_(sink) *c, size_t lane, gb_pairs *roo
 
 static GB_COLD int gb_solve_into(const gb_real *target, gb_solution *solutions, gb_pairs *pairs, size_t room);
 
-/* As GB_DECLARE says of NAME_solve_batch, or of NAME_solve_pairs_batch where there are no `solutions`. */
+/* Implements NAME_solve_batch, or NAME_solve_pairs_batch where `solutions` is null (see GB_DECLARE). */
 GB_INLINE size_t GB_(solve_many)(const gb_real *targets, size_t count, gb_solution *solutions, gb_pairs *pairs, size_t room, int *counts)
 {
     GB_(sink) c;

@@ -1,24 +1,24 @@
-/* What takes candidates in */
+/* Receiver of candidates */
 
 #if GB_WIDTH == 1
 
-/* The answers to a target, and by place the numbers of candidates that wait to be measured together, and how each was found. */
+/* The solutions of a target. By place: the numbers of the candidates that are waiting, and how each was found. */
 enum gb_sought { GB_ANSWERS, GB_CLOSEST, GB_MEMBER, GB_OTHERS };
 struct gb_sink_1 {
     gb_answers all;
     gb_solution *out;
-    /* Where pairs are written instead, or null, and whether all candidates so far can be. */
+    /* The output for pairs, or null, and whether all candidates so far can be written as pairs. */
     gb_pairs *pairs;
     bool is_usual;
-    /* Whether only the candidate is wanted that comes nearest to the target, which the joints may miss, or a member of a self-motion, or those beside `known`
-     * answers; where some of these are members of self-motions of the joints `moving`, the problem that they solve, else null. */
+    /* What is searched for: all solutions, the candidate nearest to the target, a member of a self-motion, or solutions other than the `known` ones.
+     * `moving` is the problem that known members of self-motions solve, else null. */
     enum gb_sought sought;
     size_t known;
     const gb_problem *ideal;
     uint32_t moving;
-    /* The joints that some candidate frees. */
+    /* The joints that at least one candidate frees. */
     uint32_t free;
-    /* Whether usual cases alone have run. */
+    /* Whether only the usual cases have run. */
     bool is_ordinary;
     size_t waiting;
     gb_real at[GB_PLACES][GB_CANDIDATES];
@@ -28,14 +28,14 @@ struct gb_sink_1 {
 
 static GB_APART void gb_flush(gb_sink_1 *c);
 
-/* Whether there have been candidates behind so many, and each has held where it was found: then none is lost beside a stratum. */
+/* Whether there were candidates after the first `candidates`, and each was a solution without polishing. Then no solution is lost beside a stratum. */
 static GB_COLD bool gb_suffice_since(gb_sink_1 *c, size_t candidates)
 {
     gb_flush(c);
     return c->all.candidates > candidates && c->all.unsound <= candidates;
 }
 
-/* Takes in one candidate, or the second of a pair. */
+/* Receives one candidate, or the second of a pair. */
 GB_INLINE void gb_take_1(gb_sink_1 *c, const gb_found_1 *found, const gb_real *at)
 {
     if (GB_SELDOM(c->waiting >= GB_CANDIDATES)) {
@@ -59,15 +59,15 @@ struct GB_(sink) {
     T q[GB_CANDIDATES][GB_JOINTS];
     T residual[GB_CANDIDATES];
     T relative[GB_CANDIDATES];
-    /* Which targets have no such candidate. */
+    /* Which targets do not have this candidate. */
     GB_(truth) dead[GB_CANDIDATES];
-    /* Which targets are not ordinary: a case of a stratum may run, roots are close, a candidate misses the equations or is next to another. */
+    /* Which targets are not ordinary: a case of a stratum may run, roots are close, a candidate has a large residual, or two candidates are close. */
     GB_(truth) doubt;
     size_t branch[GB_CANDIDATES];
     size_t count;
 };
 
-/* Takes in one candidate, or the second of a pair. */
+/* Receives one candidate, or the second of a pair. */
 GB_INLINE void GB_(take)(GB_(sink) *c, const GB_(found) *found, const T *at)
 {
     const size_t k = c->count % GB_CANDIDATES;
@@ -84,7 +84,7 @@ GB_INLINE void GB_(take)(GB_(sink) *c, const GB_(found) *found, const T *at)
 #endif
 
 #ifdef GROEBOT_SIX_AXES_H
-/* All values of six joints that reach a target; none of several targets, whose programs take no such steps. */
+/* All values of six joints that reach a target. Not available for several targets at once, whose programs do not use it. */
 GB_INLINE size_t GB_(six_axes)(const gb_chain *chain, const T *target, gb_six_answer *out)
 {
 #if GB_WIDTH == 1
@@ -97,7 +97,7 @@ GB_INLINE size_t GB_(six_axes)(const gb_chain *chain, const T *target, gb_six_an
 #endif
 }
 
-/* By an answer of six axes with these bits: those that it frees are free, and it is doubted where it is only near an answer. */
+/* The branch of a solution for six axes: its free joints are free, and it is doubtful where it is only near a solution. */
 GB_INLINE GB_(found) GB_(by_answer)(GB_(found) found, const gb_six_answer *answer, uint32_t a, uint32_t b, uint32_t c, uint32_t d,
                                     uint32_t e, uint32_t f)
 {
@@ -114,7 +114,7 @@ GB_INLINE GB_(found) GB_(by_answer)(GB_(found) found, const gb_six_answer *answe
 }
 #endif
 
-/* Whether a case that hardly ever does not run runs. */
+/* Whether a case runs that applies to ordinary targets. */
 GB_INLINE bool GB_(is_usual)(GB_(sink) *c, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
@@ -128,7 +128,7 @@ GB_INLINE bool GB_(is_usual)(GB_(sink) *c, GB_(guard) guard)
 #endif
 }
 
-/* Whether one that hardly ever runs does. */
+/* Whether a case runs that applies to singular targets. */
 GB_INLINE bool GB_(is_rare)(GB_(sink) *c, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
@@ -142,8 +142,8 @@ GB_INLINE bool GB_(is_rare)(GB_(sink) *c, GB_(guard) guard)
 #endif
 }
 
-/* Whether the case of a stratum runs: near it, or beside it where the candidates behind the first `before` have sufficed and none is of close roots: a double
- * root is off by the square root of what rounding leaves, and a stratum may be nearer than that. */
+/* Whether the case of a stratum runs. It runs near the stratum. If the candidates after the first `before` lost no solution and none has close roots, it
+ * runs only within rounding. The error of a double root is the square root of the rounding error, so that the stratum may be nearer than it appears. */
 GB_INLINE bool GB_(is_due)(GB_(sink) *c, size_t before, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
@@ -159,7 +159,7 @@ GB_INLINE bool GB_(is_due)(GB_(sink) *c, size_t before, GB_(guard) guard)
 #endif
 }
 
-/* How many candidates there have been. */
+/* Number of candidates so far. */
 GB_INLINE size_t GB_(count)(const GB_(sink) *c)
 {
 #if GB_WIDTH == 1
@@ -170,7 +170,7 @@ GB_INLINE size_t GB_(count)(const GB_(sink) *c)
 #endif
 }
 
-/* Takes in that a stratum could not be derived, and whether the target lies on it. */
+/* Records whether the target is on a stratum for which no derivation exists. */
 GB_INLINE void GB_(is_open)(GB_(sink) *c, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
@@ -180,7 +180,7 @@ GB_INLINE void GB_(is_open)(GB_(sink) *c, GB_(guard) guard)
 #endif
 }
 
-/* The place of the greatest number that is not negative, the first of equals; their number without one. In lanes all must agree. */
+/* The index of the greatest number that is not negative, the first of equals. The length of the list if all are negative. In lanes all must agree. */
 GB_INLINE size_t GB_(elect)(GB_(sink) *c, const T *claims, size_t count)
 {
     size_t first = count;
@@ -207,7 +207,7 @@ GB_INLINE size_t GB_(elect)(GB_(sink) *c, const T *claims, size_t count)
     return first;
 }
 
-/* Takes in a candidate, or a pair. */
+/* Receives a candidate, or a pair. */
 GB_INLINE void GB_(finish)(GB_(sink) *c, GB_(found) found, const T *at)
 {
     GB_(take)(c, &found, at);

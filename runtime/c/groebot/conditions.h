@@ -1,12 +1,12 @@
-/* What a target must fulfil */
+/* Conditions on a target */
 
 GB_INLINE T GB_(dot)(const T *a, const T *b)
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* One Newton step towards the nearest rotation of a matrix by rows, R - (R R^T - 1) R / 2 (N. Higham, "Computing the polar decomposition - with
- * applications", 1986); false when that is far, or it is a reflection. */
+/* Takes one Newton step from a matrix by rows towards the nearest rotation, `R - (R R^T - 1) R / 2` (N. Higham, "Computing the polar decomposition - with
+ * applications", 1986). False when the matrix is far from a rotation or is a reflection. */
 GB_INLINE GB_(truth) GB_(make_rotation)(T *r)
 {
     T excess[3][3], given[9], deviation = GB_(of)(R(0.0));
@@ -25,7 +25,7 @@ GB_INLINE GB_(truth) GB_(make_rotation)(T *r)
     return (GB_(truth))(GB_(at_most)(GB_(of)(R(0.0)), determinant) & GB_(at_most)(deviation, GB_(of)(GB_CONSISTENT)));
 }
 
-/* One Newton step towards the nearest unit vector; false when that is far. */
+/* Takes one Newton step towards the nearest unit vector. False when the vector is far from it. */
 GB_INLINE GB_(truth) GB_(make_unit)(T *v)
 {
     const T excess = GB_(dot)(v, v) - R(1.0);
@@ -35,7 +35,7 @@ GB_INLINE GB_(truth) GB_(make_unit)(T *v)
     return GB_(at_most)(GB_(abs)(excess), GB_(of)(GB_CONSISTENT));
 }
 
-/* Moves a target onto a condition, which it may miss by a little; false where it misses it by more. */
+/* Projects a target onto a condition; false where it is farther from it than the tolerance. */
 GB_INLINE GB_(truth) GB_(fulfil)(gb_condition condition, T *target)
 {
     return condition.is_rotation ? GB_(make_rotation)(target + condition.first) : GB_(make_unit)(target + condition.first);

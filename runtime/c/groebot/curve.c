@@ -1,10 +1,10 @@
-/* Curves all along which the equations of a nearby mechanism almost hold: curve.rs
+/* Continuation along curves on which the equations of a nearby mechanism hold almost: see curve.rs
  *
- * Where its formulas have a self-motion, the mechanism itself may have isolated answers anywhere on what is left of that, and Newton's steps find none of them:
- * along the curve the equations hardly change. A walk holds one joint after the other while the others fit best; what is then missed changes its sign at each
- * answer. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.) */
+ * Where the formulas have a self-motion, the mechanism itself may have isolated solutions anywhere on the remaining curve. Newton steps find none of them,
+ * because the equations change little along the curve. A walk holds one joint after the other while the remaining ones minimise the residual. At each
+ * solution the residual changes its sign. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.) */
 
-/* The tolerances are those of curve.rs, which says what they are for. */
+/* The tolerances are those of curve.rs, where they are documented. */
 #define GB_CURVE_ROUNDS 6
 #define GB_CURVE_BOUND R(0.5)
 #define GB_CURVE_SETTLED GB_EITHER(1e-8, 1e-3)
@@ -22,14 +22,14 @@
 /* The shortest, the first and the longest step along a curve. */
 static const gb_real gb_curve_pace[] = {R(1.5e-3), R(2.5e-2), R(0.1)};
 
-/* A place on a curve: joints, what is missed there as shares of the equations' sizes, and the most of it. */
+/* A place on a curve: joints, the relative residuals there, and the largest of them. */
 typedef struct {
     gb_real q[GB_MAX_JOINTS];
     gb_real miss[GB_MAX_EQUATIONS];
     gb_real most;
 } gb_spot;
 
-/* A walk along one curve: how its answers are found, where it begins, the place so far that misses least, and the most that is missed so far. */
+/* A walk along one curve: how its solutions are found, its start, the place with the least residual so far, and the largest residual so far. */
 typedef struct {
     gb_found_1 found;
     gb_spot home;
@@ -39,7 +39,7 @@ typedef struct {
 
 static bool gb_is_listed(const gb_answers *all, const gb_real *q);
 
-/* The place of the entry with the greatest magnitude, the first of equals. */
+/* The index of the entry with the greatest magnitude, the first of equals. */
 static size_t gb_greatest(const gb_real *way, size_t count)
 {
     size_t best = 0;
@@ -49,7 +49,7 @@ static size_t gb_greatest(const gb_real *way, size_t count)
     return best;
 }
 
-/* The joint that goes farthest from `b` to `a`. */
+/* The joint with the largest difference between `b` and `a`. */
 static size_t gb_farthest_joint(const gb_mechanism *m, const gb_real *a, const gb_real *b)
 {
     gb_real way[GB_MAX_JOINTS];
@@ -66,13 +66,13 @@ static gb_real gb_scalar_product(const gb_real *a, const gb_real *b, size_t coun
     return sum;
 }
 
-/* What a place misses in the direction of what another one misses, times the length of that. */
+/* The scalar product of the residual vectors of two places. */
 static gb_real gb_miss_along(const gb_mechanism *m, const gb_spot *a, const gb_spot *b)
 {
     return gb_scalar_product(a->miss, b->miss, m->equations);
 }
 
-/* Whether what is missed changes little from another place, or has its sign changed: then nothing between is overlooked. */
+/* Whether the residual vector changes little from another place, or only its sign: then no solution between the two is missed. */
 static bool gb_goes_on(const gb_mechanism *m, const gb_spot *spot, const gb_spot *other)
 {
     const gb_real here = gb_miss_along(m, spot, spot), there = gb_miss_along(m, other, other), along = gb_miss_along(m, spot, other);
@@ -81,7 +81,7 @@ static bool gb_goes_on(const gb_mechanism *m, const gb_spot *spot, const gb_spot
         && (along < R(0.0) || gb_larger(here, there) <= GB_CURVE_FEWFOLD * gb_smaller(here, there));
 }
 
-/* Least-squares steps from `spot->q` with one joint held, until they are short; false where they are not. */
+/* Takes least-squares steps from `spot->q` with one joint held, until they are short. False where they do not converge. */
 static bool gb_settle_on_curve(const gb_problem *problem, size_t held, gb_spot *spot)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -117,15 +117,15 @@ static bool gb_settle_on_curve(const gb_problem *problem, size_t held, gb_spot *
     return false;
 }
 
-/* The place next to joints that is come to with one joint held; whether it is on a curve, along which all others follow. */
+/* The place next to joint values reached with one joint held. Returns whether it is on a curve along which all other joints follow. */
 static bool gb_start_with(const gb_problem *problem, const gb_real *q, size_t held, gb_spot *spot)
 {
     gb_copy(spot->q, q, problem->mechanism->joints);
     return gb_settle_on_curve(problem, held, spot) && gb_regularity_of(problem, spot->q, (uint32_t)1 << held) > GB_CURVE_RANK;
 }
 
-/* The place on the curve next to joints, and the joint that is held to come there: a free one, or where none is or others move without it, the one that moves
- * farthest where the equations hardly change. */
+/* The place on the curve next to `q`, and the joint that is held to reach it. This is a free joint. Where none is free, or the others move without it, it is
+ * the joint that moves farthest in the direction in which the equations change least. */
 static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint32_t free, gb_spot *spot, size_t *held)
 {
     gb_triangle triangle;
@@ -145,7 +145,7 @@ static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint3
     return gb_start_with(problem, q, *held, spot);
 }
 
-/* The place on the curve at a share of the way from `a` to `b`. */
+/* The place on the curve at a fraction `share` of the distance from `a` to `b`. */
 static bool gb_between_spots(const gb_problem *problem, const gb_spot *a, const gb_spot *b, gb_real share, gb_spot *middle)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -153,7 +153,7 @@ static bool gb_between_spots(const gb_problem *problem, const gb_spot *a, const 
     return gb_settle_on_curve(problem, gb_farthest_joint(m, b->q, a->q), middle);
 }
 
-/* A step along the curve from `at`, shorter where it bends, and its length, which `last` was before; false where the curve ends. */
+/* A step along the curve from `at`, shorter where it bends, and its length. `last` is the length of the step before. False where the curve ends. */
 static bool gb_pace(const gb_problem *problem, const gb_spot *before, const gb_spot *at, gb_real *last, gb_real *pace, gb_spot *next)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -172,7 +172,7 @@ static bool gb_pace(const gb_problem *problem, const gb_spot *before, const gb_s
     return false;
 }
 
-/* Keeps what a place on a curve is polished to, if that is an answer that is not known: a member of a self-motion where one joint moves. */
+/* Polishes a place on a curve and keeps the result if it is a new solution: a member of a self-motion where one joint can move. */
 static void gb_keep_on_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
     gb_found_1 moving = *found;
@@ -186,7 +186,7 @@ static void gb_keep_on_curve(gb_answers *all, const gb_found_1 *found, const gb_
     gb_keep(all, &moving, end.q, &end.fit);
 }
 
-/* Keeps the answer between two places where what is missed changes its sign, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT 11 (1971)
+/* Keeps the solution between two places where the residual changes its sign, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT 11 (1971)
  * 168-174). */
 static void gb_keep_change(gb_answers *all, const gb_found_1 *found, const gb_spot *a, const gb_spot *b)
 {
@@ -221,7 +221,8 @@ static void gb_keep_change(gb_answers *all, const gb_found_1 *found, const gb_sp
     gb_keep_on_curve(all, found, near.most <= far.most ? near.q : far.q);
 }
 
-/* Where a parabola through what three places miss of a direction is least, the one between missing less than the others, and towards which of these that is. */
+/* The minimum of a parabola through the residuals of three places, projected on a direction; the middle place has the least residual. Also returns the side
+ * on which the minimum is. */
 static bool gb_find_vertex(const gb_problem *problem, const gb_spot *unit, const gb_spot *least, const gb_spot *sides, size_t *side, gb_spot *vertex)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -233,7 +234,7 @@ static bool gb_find_vertex(const gb_problem *problem, const gb_spot *unit, const
     return gb_between_spots(problem, least, &sides[*side], gb_magnitude(way) / lengths[*side], vertex);
 }
 
-/* Where what is missed falls and rises again with one sign, there may be two answers, or a double one: it is least at the vertex of a parabola. */
+/* Searches for two solutions, or a double one, where the residual has a minimum without a change of sign: at the vertex of a parabola. */
 static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot *a, const gb_spot *b, const gb_spot *c)
 {
     const gb_mechanism *m = all->problem.mechanism;
@@ -275,7 +276,7 @@ static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot 
     }
 }
 
-/* Keeps a member of a self-motion, of the joints that the candidate freed, or of the one that was held first. */
+/* Keeps a member of a self-motion of the joints that the candidate frees, or of the joint that was held first. */
 static void gb_keep_whole_curve(gb_answers *all, const gb_found_1 *found, size_t held, const gb_real *q)
 {
     gb_found_1 moving = *found;
@@ -286,7 +287,7 @@ static void gb_keep_whole_curve(gb_answers *all, const gb_found_1 *found, size_t
     gb_keep(all, &moving, end.q, &end.fit);
 }
 
-/* Whether joints are next to a step of a walk. */
+/* Whether joint values are next to a step of a walk. */
 static bool gb_is_passed(const gb_mechanism *m, const gb_real *q, const gb_real *from, const gb_real *to)
 {
     gb_real way[GB_MAX_JOINTS], aside[GB_MAX_JOINTS], nearest[GB_MAX_JOINTS];
@@ -297,7 +298,7 @@ static bool gb_is_passed(const gb_mechanism *m, const gb_real *q, const gb_real 
     return gb_farthest(m, q, nearest) <= GB_CURVE_PASSED;
 }
 
-/* Takes in a place that a walk comes to from the one before, and forgets the starts next to the step. */
+/* Records a new place of a walk, and removes the starts next to the step. */
 static void gb_pass(const gb_mechanism *m, gb_starts *starts, gb_curve *curve, const gb_spot *before, const gb_spot *at)
 {
     for (size_t k = 0; k < starts->count; k++) {
@@ -307,7 +308,7 @@ static void gb_pass(const gb_mechanism *m, gb_starts *starts, gb_curve *curve, c
     curve->best = at->most < curve->best.most ? *at : curve->best;
 }
 
-/* Walks from home through a place until the curve closes or ends; whether it closed. */
+/* Follows the curve from home through a place until it closes or ends. Returns whether it closed. */
 static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, const gb_spot *side)
 {
     const gb_mechanism *m = all->problem.mechanism;
@@ -328,7 +329,7 @@ static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, c
         }
         gb_keep_change(all, &curve->found, &at, &next);
         gb_keep_dip(all, &curve->found, &before, &at, &next);
-        /* Places that miss nothing but rounding are one answer, or several next to each other. */
+        /* Consecutive places with residuals within rounding are one solution, or several close together. */
         if ((at.most <= GB_ALONE) != (next.most <= GB_ALONE)) {
             gb_keep_on_curve(all, &curve->found, at.most <= GB_ALONE ? at.q : next.q);
         }
@@ -338,7 +339,8 @@ static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, c
     return false;
 }
 
-/* Walks along the curve next to a candidate, both ways if it does not close; of one that misses nothing, a self-motion, a member is kept. */
+/* Follows the curve next to a candidate, in both directions if it is not closed. Where the residual is zero along the curve, it is a self-motion, and one
+ * member is kept. */
 static void gb_walk_curve(gb_answers *all, gb_starts *starts, const gb_found_1 *found, const gb_real *q)
 {
     const gb_problem *problem = &all->problem;
@@ -372,7 +374,7 @@ static void gb_walk_curve(gb_answers *all, gb_starts *starts, const gb_found_1 *
     }
 }
 
-/* Walks along the curves next to candidates, and keeps the answers on them. */
+/* Follows the curves next to the stored candidates, and keeps the solutions on them. */
 GB_LINKAGE void gb_walk_curves(gb_answers *all)
 {
     gb_starts starts = all->starts;
@@ -385,13 +387,13 @@ GB_LINKAGE void gb_walk_curves(gb_answers *all)
     }
 }
 
-/* Remembers a candidate next to which there is a curve, for a walk behind all candidates; whether there is one. */
+/* Stores a candidate next to which there is a curve, to follow it after all candidates. Returns whether there is one. */
 static bool gb_begin_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
     const gb_mechanism *m = all->problem.mechanism;
     gb_spot start;
     size_t held;
-    /* Another candidate's numbers that follow from no joint would not fit. */
+    /* Numbers that follow from no joint belong to one candidate, so they cannot be stored. */
     if (m->has_extras || !gb_start_on_curve(&all->problem, q, found->free, &start, &held)) {
         return false;
     }

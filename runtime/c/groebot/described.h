@@ -1,4 +1,4 @@
-/* Tasks that ask for more than the joints can do, of a mechanism that a description tells in rounded numbers: described.rs */
+/* Tasks with more conditions than joints, for a mechanism whose description has rounded numbers: see described.rs */
 
 #ifdef GB_WITHIN
 
@@ -7,7 +7,7 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
 GB_INLINE int gb_solve_ideal(const gb_real *target, gb_solution *out, size_t *steps);
 GB_INLINE int gb_settle(size_t steps, gb_solution *out, size_t count);
 
-/* The equations' values, as described. */
+/* The equations' values of the mechanism as described. */
 static void gb_values_as_described(const gb_real *p, const gb_real *at, gb_real *values)
 {
     gb_described_1(p, at, values);
@@ -27,7 +27,7 @@ static gb_mechanism gb_as_described(void)
     return mechanism;
 }
 
-/* The target that is read off what the equations compare. */
+/* The target computed from the values that the equations compare. */
 static void gb_read_off(const gb_real *tip, const gb_real *q, gb_real *target)
 {
     static const gb_reached reached[GB_INPUTS] = {GB_REACHED};
@@ -47,7 +47,7 @@ static void gb_ideal_target(const gb_real *q, gb_real *target)
     gb_read_off(tip, q, target);
 }
 
-/* The parameters of that target; false where it is none. */
+/* The parameters of that target; false where it is invalid. */
 static bool gb_ideal_parameters(const gb_real *q, gb_real *p)
 {
     gb_real target[GB_INPUTS], conforming[GB_INPUTS] = {0};
@@ -59,7 +59,7 @@ static bool gb_ideal_parameters(const gb_real *q, gb_real *p)
     return true;
 }
 
-/* How well joint values solve the equations. */
+/* Residuals of joint values. */
 static gb_fit gb_measure_of(const gb_problem *problem, const gb_real *q)
 {
     gb_real at[GB_PLACES];
@@ -67,7 +67,7 @@ static gb_fit gb_measure_of(const gb_problem *problem, const gb_real *q)
     return gb_measure_at(problem, at, q);
 }
 
-/* Brings q to where the ideal mechanism has a self-motion of the joints `free` that comes within the tolerance of the target; false where there is none. */
+/* Moves q to where the ideal mechanism has a self-motion of the joints `free` and reaches the target within the tolerance. False where there is none. */
 static bool gb_onto_self_motion(const gb_problem *problem, gb_real *q, uint32_t free)
 {
     const gb_real within = gb_larger(GB_WITHIN, GB_ACCEPT);
@@ -79,7 +79,7 @@ static bool gb_onto_self_motion(const gb_problem *problem, gb_real *q, uint32_t 
     return gb_measure_of(problem, q).relative <= within && gb_lies_on_self_motion(&ideal, q, free, GB_ROUNDING);
 }
 
-/* Brings an answer of the ideal mechanism to where the described one is nearest to the target. */
+/* Moves a solution of the ideal mechanism to where the mechanism as described is nearest to the target. */
 static void gb_fit_to(const gb_problem *problem, gb_solution *answer)
 {
     const gb_fit fit = gb_fitted(problem, answer->q, answer->free, GB_BLUR);
@@ -87,8 +87,8 @@ static void gb_fit_to(const gb_problem *problem, gb_solution *answer)
     answer->relative = fit.relative;
 }
 
-/* Adds those beside answers to the target that q reaches that come within the tolerance of the target, too, and puts all in order; their number, or a code
- * below zero. */
+/* Adds further joint values with which the ideal mechanism reaches the target within the tolerance, and sorts all solutions of the target that q reaches.
+ * Returns their number, or a code below zero. */
 static int gb_add_others(const gb_real *target, const gb_real *q, gb_solution *out, size_t count, size_t *steps)
 {
     gb_sink_1 c;
@@ -114,7 +114,7 @@ static int gb_add_others(const gb_real *target, const gb_real *q, gb_solution *o
     return (int)c.all.count;
 }
 
-/* Whether an answer is none of those before. */
+/* Whether a solution differs from all those before. */
 static bool gb_is_new(const gb_solution *before, size_t count, const gb_solution *answer)
 {
     for (size_t i = 0; i < count; i++) {
@@ -125,8 +125,8 @@ static bool gb_is_new(const gb_solution *before, size_t count, const gb_solution
     return true;
 }
 
-/* Brings all answers to where the described mechanism is nearest to the target, and keeps those that are new; their number. Where one would become another one
- * it stays: the ideal mechanism tells them apart. */
+/* Moves all solutions to where the described mechanism is nearest to the target, keeps those that are distinct and returns their number. A solution that
+ * would coincide with another one is not moved: the ideal mechanism distinguishes them. */
 static size_t gb_fit_all(const gb_problem *problem, gb_solution *out, size_t count)
 {
     size_t kept = 0;
@@ -146,7 +146,7 @@ static size_t gb_fit_all(const gb_problem *problem, gb_solution *out, size_t cou
     return kept;
 }
 
-/* All answers to a target, or a code below zero; where there is none, where the mechanism comes nearest to it. */
+/* All solutions of a target, or a code below zero. If there is none, `nearest` has the joint values with which the mechanism is nearest to it. */
 static GB_APART int gb_solve_described(const gb_real *target, gb_solution *out, gb_solution *nearest, size_t *steps)
 {
     gb_sink_1 c;
@@ -179,7 +179,7 @@ static GB_APART int gb_solve_described(const gb_real *target, gb_solution *out, 
     return count < 0 ? count : gb_settle(*steps, out, gb_fit_all(&problem, out, (size_t)count));
 }
 
-/* Moves an answer to a target of the ideal mechanism within limits; false where that cannot be. */
+/* Moves a solution of a target of the ideal mechanism within limits; false where that is impossible. */
 static bool gb_keep_one_within(const gb_real *p, const gb_real *limits, gb_solution *answer, size_t *steps)
 {
     gb_answers all;
@@ -192,7 +192,7 @@ static bool gb_keep_one_within(const gb_real *p, const gb_real *limits, gb_solut
     return gb_keep_within(&all, limits) == 1;
 }
 
-/* Moves an answer within limits, members of a self-motion along that of the ideal mechanism; false where that cannot be. */
+/* Moves a solution within limits, members of a self-motion along that of the ideal mechanism; false where that is impossible. */
 static bool gb_bring_within(const gb_real *p, const gb_real *limits, gb_solution *answer)
 {
     gb_real ideal[GB_PARAMETERS];
@@ -210,7 +210,7 @@ static bool gb_bring_within(const gb_real *p, const gb_real *limits, gb_solution
     return is_within;
 }
 
-/* The answers that can be brought within limits, to the front. */
+/* Moves the solutions that can be brought within limits to the front. Returns their number. */
 static int gb_bring_all_within(const gb_real *p, const gb_real *limits, gb_solution *out, int count)
 {
     int kept = 0;

@@ -1,7 +1,7 @@
-/* The joint values next to a target at which a joint can move while the others keep the tip where it is: freedom.rs */
+/* Joint values next to a target at which a joint can move while the tip does not: see freedom.rs */
 
-/* What a column has across the derivatives by the joints that are not `free`, and how the joints move for it to be no more than that; false where they
- * cannot. */
+/* The component of a column orthogonal to the derivatives by the joints that are not `free`, and the joint velocities that cancel the rest. False where
+ * there are none. */
 static bool gb_across(const gb_problem *problem, const gb_real *rows, const gb_real *columns, size_t column, uint32_t free, gb_real *rest, gb_real *way)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -27,7 +27,7 @@ static bool gb_across(const gb_problem *problem, const gb_real *rows, const gb_r
     return true;
 }
 
-/* How the equations' derivatives change along a way. */
+/* The change of the Jacobian along a displacement of the joints. */
 static void gb_bend(const gb_problem *problem, const gb_real *q, const gb_real *way, gb_real *bends)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -78,8 +78,8 @@ static bool gb_freeing_step(const gb_problem *problem, const gb_real *q, uint32_
     return gb_substitute(&triangle, step);
 }
 
-/* Of the joint values next to q at which the first of the joints `free` can move while the others keep the equations' values, to first order, those with which
- * the equations are missed least; the joints `free` stay. False where no such joint values are near. */
+/* Joint values next to q at which the first of the joints `free` can move, to first order, while the others keep the equations' values. Among these, those
+ * with the least residual. The joints `free` keep their values. False where no such joint values are near. */
 GB_LINKAGE bool gb_free_joints(const gb_problem *problem, gb_real *q, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;

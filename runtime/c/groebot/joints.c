@@ -1,6 +1,6 @@
-/* Joint values: joints.rs */
+/* Joint values: see joints.rs */
 
-/* Joint values, and how well they solve the equations. */
+/* Joint values with their residuals. */
 typedef struct {
     gb_real q[GB_MAX_JOINTS];
     gb_fit fit;
@@ -16,7 +16,7 @@ static void gb_copy(gb_real *to, const gb_real *from, size_t count)
     memcpy(to, from, count * sizeof *to);
 }
 
-/* A difference of two values of a joint, of angles by the shorter way round. */
+/* A difference of two values of a joint; of angles, reduced to (-pi, pi]. */
 static gb_real gb_shortest(const gb_mechanism *m, size_t joint, gb_real difference)
 {
     if (!m->joint[joint].is_angle) {
@@ -25,7 +25,7 @@ static gb_real gb_shortest(const gb_mechanism *m, size_t joint, gb_real differen
     return difference > GB_PI ? difference - GB_TAU : difference < -GB_PI ? difference + GB_TAU : difference;
 }
 
-/* What a joint's differences are shares of: one for an angle, a length's size. */
+/* The unit of a joint's differences: 1 for an angle, the magnitude of a length. */
 static gb_real gb_span(const gb_mechanism *m, size_t joint, gb_real value)
 {
     return m->joint[joint].is_angle ? R(1.0) : gb_larger(m->scale, gb_magnitude(value));
@@ -37,7 +37,7 @@ static gb_real gb_wrapped(const gb_mechanism *m, size_t joint, gb_real value)
     return m->joint[joint].is_angle ? gb_wrap(value) : value;
 }
 
-/* Whether joint values differ by `tolerance` at most, those of a set left out. */
+/* Whether joint values differ by at most `tolerance`, the joints of a set left out. */
 static bool gb_is_close(const gb_mechanism *m, const gb_real *a, const gb_real *b, uint32_t left_out, gb_real tolerance)
 {
     for (size_t k = 0; k < m->joints; k++) {
@@ -49,7 +49,7 @@ static bool gb_is_close(const gb_mechanism *m, const gb_real *a, const gb_real *
     return true;
 }
 
-/* The farthest that a joint is from b in a: an angle, or a share of a length's size. */
+/* The largest difference of a joint: an angle, or relative to the magnitude of a length. */
 static gb_real gb_farthest(const gb_mechanism *m, const gb_real *a, const gb_real *b)
 {
     gb_real farthest = R(0.0);
@@ -59,7 +59,7 @@ static gb_real gb_farthest(const gb_mechanism *m, const gb_real *a, const gb_rea
     return farthest;
 }
 
-/* The longest way of a joint in a step: an angle, or a share of the length scale. */
+/* The largest movement of a joint in a step: an angle, or relative to the length scale. */
 static gb_real gb_longest(const gb_mechanism *m, const gb_real *step)
 {
     gb_real longest = R(0.0);
@@ -69,7 +69,7 @@ static gb_real gb_longest(const gb_mechanism *m, const gb_real *step)
     return longest;
 }
 
-/* a - b joint by joint, angles by the shorter way round. */
+/* `a - b` joint by joint, angles reduced to (-pi, pi]. */
 static void gb_differences(const gb_mechanism *m, const gb_real *a, const gb_real *b, gb_real *out)
 {
     for (size_t i = 0; i < m->joints; i++) {
@@ -77,7 +77,7 @@ static void gb_differences(const gb_mechanism *m, const gb_real *a, const gb_rea
     }
 }
 
-/* q - step, angles in (-pi, pi]. */
+/* `q - step`, angles in (-pi, pi]. */
 static void gb_stepped(const gb_mechanism *m, const gb_real *q, const gb_real *step, gb_real *out)
 {
     for (size_t i = 0; i < m->joints; i++) {
@@ -85,13 +85,13 @@ static void gb_stepped(const gb_mechanism *m, const gb_real *q, const gb_real *s
     }
 }
 
-/* A joint's value moved: an angle by `way`, a length by that share of its size. */
+/* A joint's value moved: an angle by `way`, a length by `way` times its magnitude. */
 static gb_real gb_moved(const gb_mechanism *m, const gb_real *q, size_t joint, gb_real way)
 {
     return gb_wrapped(m, joint, q[joint] + way * gb_span(m, joint, q[joint]));
 }
 
-/* The joints beyond b on the line from a, by `ahead` times their distance. */
+/* Linear extrapolation from `a` through `b`, by `ahead` times their distance. */
 static void gb_beyond(const gb_mechanism *m, const gb_real *a, const gb_real *b, gb_real ahead, gb_real *out)
 {
     for (size_t i = 0; i < m->joints; i++) {

@@ -1,6 +1,6 @@
-/* Limits of joints, and turns: limits.rs */
+/* Joint limits and turns: see limits.rs */
 
-/* The least and the greatest number of turns that bring a joint within its limits: the first is greater when none does. */
+/* The least and the greatest number of turns that bring a joint within its limits. The first is greater when none does. */
 static void gb_turns_within(const gb_joint *joint, gb_real value, const gb_real *limit, gb_real *first, gb_real *last)
 {
     const gb_real low = limit[0] - GB_SLACK - value, high = limit[1] + GB_SLACK - value;
@@ -9,13 +9,13 @@ static void gb_turns_within(const gb_joint *joint, gb_real value, const gb_real 
     *last = joint->is_angle ? gb_floor(high / GB_TAU) : is_within ? R(0.0) : R(-1.0);
 }
 
-/* The number of turns between bounds that is nearest to another; a bound that is not a number is none. */
+/* The number of turns between bounds that is nearest to a given one. A bound that is NaN is ignored. */
 static gb_real gb_nearest_turn(gb_real turn, gb_real first, gb_real last)
 {
     return gb_smaller(gb_larger(turn, first), last) + R(0.0);
 }
 
-/* The bounds, brought together where one is infinite, and not too far apart. */
+/* The bounds made finite and limited to a maximal distance. */
 static void gb_make_finite(gb_real *first, gb_real *last)
 {
     if (!gb_is_finite(*first) || !gb_is_finite(*last)) {
@@ -24,7 +24,7 @@ static void gb_make_finite(gb_real *first, gb_real *last)
     *last = gb_smaller(*first + (gb_real)GB_MOST_TURNS, *last);
 }
 
-/* A turn of an angle, 0 for a length. */
+/* The period of a joint: a full turn for an angle, 0 for a length. */
 static gb_real gb_turn_of(const gb_joint *joint)
 {
     return joint->is_angle ? GB_TAU : R(0.0);
@@ -56,7 +56,7 @@ GB_LINKAGE void gb_turn(const gb_mechanism *m, const gb_real *q, const gb_real *
     }
 }
 
-/* Moves joints by as few turns as can be within limits; false when that cannot be. */
+/* Moves joints within limits by as few turns as possible; false when that is impossible. */
 static bool gb_turn_within(const gb_mechanism *m, const gb_real *q, const gb_real *limits, gb_real *out)
 {
     for (size_t i = 0; i < m->joints; i++) {
@@ -70,7 +70,7 @@ static bool gb_turn_within(const gb_mechanism *m, const gb_real *q, const gb_rea
     return true;
 }
 
-/* Strides along a self-motion from q by one joint until it is within limits; false when it meets no such place. */
+/* Moves one joint in short steps along a self-motion from q until it is within limits; false when no such place is found. */
 static bool gb_stride_within(const gb_problem *problem, const gb_real *q, uint32_t free, size_t joint, gb_real way, const gb_real *limits, gb_end *place)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -90,7 +90,7 @@ static bool gb_stride_within(const gb_problem *problem, const gb_real *q, uint32
     return false;
 }
 
-/* The same by one free joint after the other, either way. */
+/* Same with one free joint after the other, in both directions. */
 static bool gb_strides_within(const gb_answers *all, size_t answer, const gb_real *limits, gb_end *place)
 {
     const uint32_t free = *gb_free_of(all, answer);
@@ -104,7 +104,7 @@ static bool gb_strides_within(const gb_answers *all, size_t answer, const gb_rea
     return false;
 }
 
-/* Moves answers within limits, and drops those that cannot be; how many are left. */
+/* Moves solutions within limits, and drops those for which that is impossible. Returns the number of the remaining ones. */
 GB_LINKAGE size_t gb_keep_within(const gb_answers *all, const gb_real *limits)
 {
     const gb_mechanism *m = all->problem.mechanism;
@@ -122,7 +122,7 @@ GB_LINKAGE size_t gb_keep_within(const gb_answers *all, const gb_real *limits)
     return kept;
 }
 
-/* The index of the answer that can come nearest to a reference by turns within limits, with its nearest turn; -1 when none comes within limits. */
+/* The index of the solution that is nearest to a reference after turns within limits, and that turn. -1 when no solution is within limits. */
 GB_LINKAGE int gb_nearest(const gb_answers *all, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_real *q)
 {
     const gb_mechanism *m = all->problem.mechanism;
@@ -148,7 +148,8 @@ GB_LINKAGE int gb_nearest(const gb_answers *all, const gb_real *reference, const
     return best;
 }
 
-/* The target at which the tool is at a pose, with the base at another pose and the tool at its own pose seen from the tip: base^-1 pose tool^-1. */
+/* The target for which the tool is at `pose`, where `base` is the pose of the base, and `tool` that of the tool in the frame of the tip: base^-1 pose
+ * tool^-1. */
 GB_LINKAGE void gb_target_of(const gb_real *base, const gb_real *tool, const gb_real *pose, gb_real *target)
 {
     for (int i = 0; i < 12; i++) {

@@ -1,6 +1,6 @@
-/* Measuring several candidates at once */
+/* Measurement of several candidates at once */
 
-/* The first numbers of a row, and to the front of one. */
+/* Loads the first numbers of a row, and stores numbers to the front of one. */
 GB_INLINE T GB_(load)(const gb_real *row)
 {
 #if GB_WIDTH == 1
@@ -12,7 +12,7 @@ GB_INLINE T GB_(load)(const gb_real *row)
 #endif
 }
 
-/* One number, or one and another. */
+/* One number, or two. */
 GB_INLINE T GB_(lanes_of)(gb_real first, gb_real second)
 {
 #if GB_WIDTH == 1
@@ -30,7 +30,7 @@ GB_INLINE void GB_(store)(gb_real *row, T numbers)
     memcpy(row, &numbers, sizeof numbers);
 }
 
-/* The largest magnitude of an equation's value, and its largest share of the equation's size. */
+/* The largest magnitude of an equation's value, and the largest relative one. */
 GB_INLINE void GB_(fit)(const T *p, const T *at, T *residual, T *relative)
 {
     T values[GB_EQUATIONS], sizes[GB_SIZES], largest[GB_SIZES];
@@ -52,7 +52,7 @@ GB_INLINE void GB_(fit)(const T *p, const T *at, T *residual, T *relative)
     }
 }
 
-/* Whether candidates are of joints at all: 1, else 0. */
+/* Whether candidates have finite pairs near the unit circle: 1, else 0. */
 GB_INLINE T GB_(sound)(const T *at)
 {
     T sound = GB_(of)(R(1.0));

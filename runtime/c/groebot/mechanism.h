@@ -1,4 +1,4 @@
-/* What groebot.c asks of a robot */
+/* Description of a robot for groebot.c */
 
 #if GB_LANES > 1
 #define GB_STEP 2
@@ -23,8 +23,8 @@ static void gb_sizes_of(const gb_real *p, const gb_real *at, gb_real *sizes)
 }
 
 #if !defined(GB_JACOBIAN) || defined(GB_WITHIN)
-/* The derivative of each equation by each joint: the equations are affine in the numbers of each, and have the values at the numbers' derivatives less
-   those at zeros. */
+/* The derivative of each equation by each joint, for equations that are affine in the numbers of each joint. It is their values at the numbers' derivatives
+ * minus their values at zeros. */
 GB_INLINE void gb_derive_affine(void (*values)(const gb_real *, const gb_real *, gb_real *), const gb_real *p, const gb_real *at, gb_real *rows)
 {
     for (int j = 0; j < GB_JOINTS; j++) {
@@ -53,7 +53,7 @@ static void gb_jacobian(const gb_real *p, const gb_real *at, gb_real *rows)
 #endif
 
 #ifdef GB_SHORTS
-/* Takes a step back from q, and what the equations read of it; false where a pair is far from the circle. */
+/* Subtracts a step from q and updates the cosines and sines; false where a pair is far from the unit circle. */
 static bool gb_step_back(const gb_real *step, gb_real *at, gb_real *q)
 {
     for (int i = 0; i < GB_JOINTS; i++) {
@@ -75,7 +75,7 @@ static bool gb_step_back(const gb_real *step, gb_real *at, gb_real *q)
     return true;
 }
 
-/* Where plain Newton steps by the normal equations lead from q, if these hold there within rounding and are regular on the way. */
+/* The end of plain Newton steps by the normal equations from q. False unless the equations hold there within rounding and are regular at each step. */
 static bool gb_approach_from(const gb_problem *problem, const gb_real *from, const gb_real *q, gb_approach *approach)
 {
     gb_real at[GB_PLACES], step[GB_JOINTS] = {0};
@@ -154,14 +154,14 @@ static const gb_mechanism gb_this = {
 #endif
 };
 
-/* By candidate: how well it solves the equations, and whether it is of joints at all: 1, else 0. */
+/* By candidate: its residuals, and whether it is valid: 1, else 0. */
 typedef struct {
     gb_real residual[GB_CANDIDATES];
     gb_real relative[GB_CANDIDATES];
     gb_real sound[GB_CANDIDATES];
 } gb_fits;
 
-/* The parameters in all lanes. */
+/* The parameters repeated in all lanes. */
 GB_INLINE void gb_everywhere(const gb_real *p, GB_PAIR(number) *all)
 {
     for (int i = 0; i < GB_PARAMETERS; i++) {

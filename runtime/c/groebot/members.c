@@ -1,6 +1,6 @@
-/* Candidates for members of self-motions: members.rs */
+/* Candidates for members of self-motions: see members.rs */
 
-/* Remembers a member, with the tangent unless that is null. */
+/* Stores a member, with the tangent unless that is null. */
 static void gb_remember(gb_answers *all, size_t branch, uint32_t free, const gb_real *q, const gb_real *tangent)
 {
     const size_t place = all->trails_count++ % GB_MEMBERS;
@@ -13,7 +13,7 @@ static void gb_remember(gb_answers *all, size_t branch, uint32_t free, const gb_
     }
 }
 
-/* The place of the k-th last member that is remembered, from 1; false where there are not so many. */
+/* The index of the k-th last stored member, from 1; false where there are not so many. */
 static bool gb_look_back(const gb_answers *all, size_t k, size_t *place)
 {
     if (k > all->trails_count || k > GB_MEMBERS) {
@@ -23,7 +23,7 @@ static bool gb_look_back(const gb_answers *all, size_t k, size_t *place)
     return true;
 }
 
-/* Whether the same joints have been found to be a member before. */
+/* Whether these joint values were stored as a member before. */
 static bool gb_is_remembered(const gb_answers *all, const gb_real *q, uint32_t free)
 {
     size_t place;
@@ -35,7 +35,7 @@ static bool gb_is_remembered(const gb_answers *all, const gb_real *q, uint32_t f
     return false;
 }
 
-/* The place of the last member of a branch with these free joints, or without `free` with any single one; false where there is none. */
+/* The index of the last member of a branch with these free joints; if `free` is zero, with any single free joint. False where there is none. */
 static bool gb_find_trail(const gb_answers *all, size_t branch, uint32_t free, size_t *place)
 {
     for (size_t k = 1; gb_look_back(all, k, place); k++) {
@@ -47,7 +47,7 @@ static bool gb_find_trail(const gb_answers *all, size_t branch, uint32_t free, s
     return false;
 }
 
-/* Keeps an answer, and remembers a member. */
+/* Keeps a solution, and records a member. */
 static void gb_keep_on_trail(gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
     if (found->free != 0) {
@@ -56,7 +56,7 @@ static void gb_keep_on_trail(gb_answers *all, const gb_found_1 *found, const gb_
     gb_keep(all, found, end->q, &end->fit);
 }
 
-/* Whether joints are on a self-motion of one joint that the last candidates of this branch have led to. */
+/* Whether joints are on a self-motion of one joint that recent candidates of this branch have led to. */
 static bool gb_is_on_trail(gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
     size_t place;
@@ -68,7 +68,7 @@ static bool gb_is_on_trail(gb_answers *all, const gb_found_1 *found, const gb_re
     return true;
 }
 
-/* Keeps a candidate if it is a member of a self-motion; whether it is. */
+/* Keeps a candidate if it is a member of a self-motion. Returns whether it is. */
 static bool gb_keep_member(gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
     const bool is_member = end->fit.accepted && gb_lies_on_self_motion(&all->problem, end->q, found->free, end->fit.relative);
@@ -78,7 +78,7 @@ static bool gb_keep_member(gb_answers *all, const gb_found_1 *found, const gb_en
     return is_member;
 }
 
-/* Whether an isolated answer with these joints is listed. */
+/* Whether an isolated solution with these joints is in the list. */
 static bool gb_is_listed(const gb_answers *all, const gb_real *q)
 {
     for (size_t i = 0; i < all->count; i++) {
@@ -89,8 +89,8 @@ static bool gb_is_listed(const gb_answers *all, const gb_real *q)
     return false;
 }
 
-/* Keeps what a candidate for a member of a self-motion has led to: a member of another self-motion, of one joint that some case frees, or an isolated
- * answer. One that has not been found before may have another next to it. */
+/* Keeps the end of the steps from a candidate for a member of a self-motion. It is either a member of another self-motion, of one joint that a case frees,
+ * or an isolated solution. A new isolated solution may have a second one next to it. */
 static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end *end, gb_real missed)
 {
     if (end->fit.relative > GB_ALONE) {
@@ -110,13 +110,13 @@ static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end
     }
 }
 
-/* Whether an answer in the list is a member of a self-motion within rounding, of the branch and with the free joints of a candidate. */
+/* Whether a solution in the list is a member of a self-motion within rounding, with the branch and the free joints of a candidate. */
 static bool gb_is_told(const gb_answers *all, size_t i, const gb_found_1 *found)
 {
     return *gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free;
 }
 
-/* Whether some member of a candidate's self-motion is known. */
+/* Whether a member of a candidate's self-motion is known. */
 static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
 {
     for (size_t i = 0; i < all->merged_count; i++) {
@@ -132,7 +132,7 @@ static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
     return false;
 }
 
-/* Keeps what is a member of a long self-motion within rounding, where no answer is lost without it. */
+/* Keeps a member of a long self-motion within rounding if no solution is lost without further tests. Returns whether it was kept. */
 static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end, bool is_known)
 {
     if (end->fit.relative <= GB_ROUNDING && gb_lies_on_long_self_motion(&all->problem, end->q, found->free)) {
@@ -147,15 +147,15 @@ static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const 
     return true;
 }
 
-/* Whether a member is of a self-motion of its branch that is known: a continuous motion joins them. Where other joints are free too, it is taken for one; and
- * remembered. */
+/* Whether a member is on a known self-motion of its branch: a continuous motion connects them. Where further joints are free, it is assumed to be on one,
+ * and this is recorded. */
 static bool gb_is_on_known(gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
     const gb_problem *problem = &all->problem;
     gb_real tangent[GB_MAX_JOINTS];
     size_t place = 0;
     const bool has_last = gb_find_trail(all, found->branch, found->free, &place);
-    /* First, for that is the quickest. */
+    /* First, because it is the fastest test. */
     if (end->fit.relative > GB_ROUNDING || (has_last && gb_leads_straight_to(problem, all->trails[place], end->q, found->free))) {
         gb_remember(all, found->branch, found->free, end->q, NULL);
         return true;
@@ -174,7 +174,7 @@ static bool gb_is_on_known(gb_answers *all, const gb_found_1 *found, const gb_en
     return joins;
 }
 
-/* Whether a member with the branch and the one free joint of a candidate is in the list: of one branch are all those that do not hold within rounding. */
+/* Whether the list has a member with the branch and the one free joint of a candidate. All members with residuals above rounding count as of one branch. */
 static bool gb_has_member_of_branch(const gb_answers *all, const gb_found_1 *found)
 {
     for (size_t i = 0; gb_is_single(found->free) && i < all->count; i++) {
@@ -185,7 +185,7 @@ static bool gb_has_member_of_branch(const gb_answers *all, const gb_found_1 *fou
     return false;
 }
 
-/* Whether joints that hold within rounding are one singular configuration with an isolated answer in the list. */
+/* Whether joints with residuals within rounding are the same singular configuration as an isolated solution in the list. */
 static bool gb_is_joined_to_listed(const gb_answers *all, const gb_end *end)
 {
     for (size_t i = 0; end->fit.relative <= GB_ROUNDING && i < all->count; i++) {
@@ -197,8 +197,8 @@ static bool gb_is_joined_to_listed(const gb_answers *all, const gb_end *end)
     return false;
 }
 
-/* Keeps a member of a self-motion. It is moved along it only where it misses the equations by more than rounding: where the self-motion goes round a part of
- * the circle, or where there is none and an isolated answer stands near the place. */
+/* Keeps a member of a self-motion. It is moved along the self-motion only if its residual exceeds rounding. This happens where the self-motion covers only a
+ * part of the circle, or where there is none and an isolated solution is nearby. */
 static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
     const bool is_known = gb_is_known(all, found);
@@ -216,7 +216,7 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
         gb_miss(all, end.q, &end.fit);
         return;
     }
-    /* Once more, for an answer next to a self-motion's end, but not from where that is far. */
+    /* Repeated to find a solution next to a self-motion's end, but not where that end is far. */
     if (missed > GB_NEAR && gb_are_astray(&all->strays, found)) {
         gb_miss(all, end.q, &end.fit);
         return;

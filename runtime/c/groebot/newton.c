@@ -1,7 +1,7 @@
-/* Newton's method with all that keeps it from going astray next to singular configurations: newton.rs */
+/* Newton's method with damping and other safeguards near singular configurations: see newton.rs */
 
-/* Columns, the right side in the last one: one entry for each equation, then one for each joint. In all columns the entries are zero after those of so many
- * joints as are `damped`; before the reflection of a pivot they are zero after that of its joint. */
+/* A QR factorisation, stored by columns; the right side is the last one. A column has one entry for each equation, then one for each joint. Only the first
+ * `damped` joints have non-zero entries. Before the reflection of a pivot, the entries after that of its joint are zero. */
 typedef struct {
     gb_real numbers[(GB_MAX_JOINTS + 1) * (GB_MAX_EQUATIONS + GB_MAX_JOINTS)];
     size_t rows;
@@ -14,7 +14,7 @@ static gb_real *gb_column(gb_triangle *triangle, size_t column)
     return triangle->numbers + column * triangle->rows;
 }
 
-/* Turns columns into a triangle by reflections (A. Householder, "Unitary triangularization of a nonsymmetric matrix", 1958). */
+/* Reduces columns to a triangle by Householder reflections (A. Householder, "Unitary triangularization of a nonsymmetric matrix", 1958). */
 static void gb_reflect(gb_triangle *triangle)
 {
     for (size_t pivot = 0; pivot < triangle->joints; pivot++) {
@@ -44,7 +44,7 @@ static void gb_reflect(gb_triangle *triangle)
     }
 }
 
-/* Room for a mechanism's triangle, all zeros. */
+/* A triangle of zeros for a mechanism. */
 static void gb_clear_triangle(const gb_mechanism *m, gb_triangle *triangle)
 {
     triangle->rows = m->equations + m->joints;
@@ -53,7 +53,7 @@ static void gb_clear_triangle(const gb_mechanism *m, gb_triangle *triangle)
     memset(triangle->numbers, 0, (m->joints + 1) * triangle->rows * sizeof *triangle->numbers);
 }
 
-/* The triangle of equations with these derivatives, their values in the last column; joints that are `held` stay. */
+/* The matrix of equations with these derivatives, their values in the last column. Joints that are `held` do not move. */
 static void gb_fill_triangle(const gb_problem *problem, const gb_real *rows, gb_real damping, uint32_t held, gb_triangle *triangle)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -76,7 +76,7 @@ static void gb_fill_triangle(const gb_problem *problem, const gb_real *rows, gb_
     gb_reflect(triangle);
 }
 
-/* The equations' derivatives by the joints, and their values. */
+/* The Jacobian of the equations and their values. */
 typedef struct {
     gb_real rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS];
     gb_real values[GB_MAX_EQUATIONS];
@@ -90,7 +90,7 @@ static void gb_find_slopes(const gb_problem *problem, const gb_real *q, gb_slope
     problem->mechanism->values(problem->p, at, slopes->values);
 }
 
-/* The triangle of a step's equations, damped. */
+/* The triangular factor of a step's equations, with damping. */
 static void gb_triangle_of(const gb_problem *problem, const gb_slopes *slopes, gb_real damping, uint32_t held, gb_triangle *triangle)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -99,7 +99,7 @@ static void gb_triangle_of(const gb_problem *problem, const gb_slopes *slopes, g
     gb_fill_triangle(problem, slopes->rows, damping, held, triangle);
 }
 
-/* The same at joint values. */
+/* The triangular factor of a step's equations at joint values. */
 static void gb_make_triangle(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_triangle *triangle)
 {
     gb_slopes slopes;
@@ -107,7 +107,7 @@ static void gb_make_triangle(const gb_problem *problem, const gb_real *q, gb_rea
     gb_triangle_of(problem, &slopes, damping, held, triangle);
 }
 
-/* The derivatives of the equations and their values, as shares of their sizes. */
+/* The Jacobian of the relative equations and their values. */
 static void gb_share(const gb_problem *problem, const gb_real *q, gb_real *rows, gb_real *right)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -125,7 +125,7 @@ static void gb_share(const gb_problem *problem, const gb_real *q, gb_real *rows,
     }
 }
 
-/* The triangle of a step's equations as such shares. */
+/* The triangular factor of the relative equations (each divided by its size). */
 static void gb_make_shares(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_triangle *triangle)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -135,7 +135,7 @@ static void gb_make_shares(const gb_problem *problem, const gb_real *q, gb_real 
     gb_fill_triangle(problem, rows, damping, held, triangle);
 }
 
-/* Solves the triangular system; false for a zero or non-finite pivot. */
+/* Solves the triangular system by back substitution; false for a zero or non-finite pivot. */
 static bool gb_substitute(gb_triangle *triangle, gb_real *solution)
 {
     const gb_real *right = gb_column(triangle, triangle->joints);
@@ -153,7 +153,7 @@ static bool gb_substitute(gb_triangle *triangle, gb_real *solution)
     return true;
 }
 
-/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular, or no steps are left. */
+/* The least-squares step (J^T J + d |J^T J|)^-1 J^T f; false when it is singular, or when no steps are left. */
 static bool gb_newton_step(const gb_problem *problem, const gb_real *q, gb_real damping, uint32_t held, gb_real *step)
 {
     gb_triangle triangle;
@@ -176,7 +176,7 @@ static void gb_pivots(gb_triangle *triangle, gb_real *least, gb_real *most)
     }
 }
 
-/* The least pivot of a triangle as a share of the largest. */
+/* The least pivot of a triangle, relative to the largest. */
 static gb_real gb_regularity_in(gb_triangle *triangle)
 {
     gb_real least, most;
@@ -184,7 +184,8 @@ static gb_real gb_regularity_in(gb_triangle *triangle)
     return least / most;
 }
 
-/* That of the Jacobian's triangle at q, joints `held`: rounding where the others can move while the equations hold, or a root is double. */
+/* The least pivot of the triangular factor of the Jacobian at q with joints `held`, relative to the largest. It is within rounding at a double root, and
+ * where the other joints can move while the equations hold. */
 static gb_real gb_regularity_of(const gb_problem *problem, const gb_real *q, uint32_t held)
 {
     gb_triangle triangle;
@@ -192,7 +193,7 @@ static gb_real gb_regularity_of(const gb_problem *problem, const gb_real *q, uin
     return gb_regularity_in(&triangle);
 }
 
-/* The same where no joint is held. */
+/* Same as gb_regularity_of, with no joint held. */
 GB_LINKAGE gb_real gb_regularity(const gb_problem *problem, const gb_real *q)
 {
     return gb_regularity_of(problem, q, 0);
@@ -207,7 +208,7 @@ static gb_real gb_norm(const gb_real *vector, size_t count)
     return gb_square_root(sum);
 }
 
-/* Whether the least pivot outweighs the equations' values: no place nearby solves them better than where the plain step leads. */
+/* Whether the least pivot exceeds the equations' values: then no configuration nearby has smaller residuals than the end of the plain step. */
 static bool gb_is_regular(gb_triangle *triangle)
 {
     gb_real least, most;
@@ -215,8 +216,8 @@ static bool gb_is_regular(gb_triangle *triangle)
     return least * least > GB_STEEP * most * gb_norm(gb_column(triangle, triangle->joints), triangle->rows);
 }
 
-/* The direction in which the equations change least where they have this triangle, its longest way one, and by what share of the largest pivot they do. By
- * inverse iteration; false where a pivot is zero, or no steps are left. */
+/* The direction in which the equations change least, with its largest component equal to one, and that change relative to the largest pivot. Computed by
+ * inverse iteration from the triangular factor. False where a pivot is zero, or no steps are left. */
 static bool gb_stillest(const gb_problem *problem, gb_triangle *triangle, gb_real *way, gb_real *share)
 {
     const size_t joints = problem->mechanism->joints;
@@ -259,7 +260,7 @@ static void gb_shifted(const gb_mechanism *m, const gb_real *q, const gb_real *w
     }
 }
 
-/* How far along a way from a root another one is, if the equations are a parabola there: by a Newton step from so far along the way. */
+/* The distance along `way` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`. */
 static bool gb_second_root(const gb_problem *problem, const gb_real *root, const gb_real *way, gb_real ahead, gb_real *distance)
 {
     gb_real start[GB_MAX_JOINTS], step[GB_MAX_JOINTS], along = R(0.0), square = R(0.0);
@@ -276,8 +277,8 @@ static bool gb_second_root(const gb_problem *problem, const gb_real *root, const
     return gb_is_finite(*distance);
 }
 
-/* Newton steps on until the equations are missed by less than `relative`: from between two roots next to each other the first step leads beyond one of
- * them, and from there on each quarters the miss. */
+/* Takes Newton steps until the relative residual is less than `relative`. Between two close roots the first step leads beyond one of them; each further one
+ * divides the residual by four. */
 static bool gb_return(const gb_problem *problem, gb_end *end, gb_real relative, uint32_t held)
 {
     gb_real step[GB_MAX_JOINTS];
@@ -294,7 +295,7 @@ static bool gb_return(const gb_problem *problem, gb_end *end, gb_real relative, 
     return false;
 }
 
-/* Damped steps back until the equations hold within `enough`. */
+/* Takes damped steps until the relative residual is at most `enough`. */
 static bool gb_come_back(const gb_problem *problem, gb_end *end, gb_real enough, uint32_t held)
 {
     gb_real back[GB_MAX_JOINTS];
@@ -308,8 +309,8 @@ static bool gb_come_back(const gb_problem *problem, gb_end *end, gb_real enough,
     return false;
 }
 
-/* A Newton step, or a part of it, and behind it damped steps back, until the equations hold within `enough`: next to a self-motion the miss hardly changes
- * along a bent way, and rises on each straight one. */
+/* Takes a full or partial Newton step, then damped steps until the relative residual is at most `enough`. Next to a self-motion the residual changes little
+ * along a curved path, but increases along each straight one. */
 static bool gb_leap(const gb_problem *problem, const gb_real *q, gb_real enough, uint32_t held, gb_end *end)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -334,8 +335,8 @@ static bool gb_leap(const gb_problem *problem, const gb_real *q, gb_real enough,
     return false;
 }
 
-/* The least damped step that lowers the relative residual: where it is more than rounding, to half of it, else a leap, else at all. Where it is rounding
- * and a plain step is short, that is the last. */
+/* The least damped step that lowers the relative residual. Where the residual exceeds rounding, the first choice is a step that halves it, then a leap, then
+ * any decrease. Where it is within rounding, a short plain step is the last one. */
 static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -388,8 +389,8 @@ static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
     return has_fallen;
 }
 
-/* Newton steps from joints with their fit, damped where a plain one fails; each is taken only if the relative residual falls, at once or after a leap.
- * Joints that are `held` stay. */
+/* Takes Newton steps from joint values with known residuals, damped where a plain step fails. A step is accepted only if the relative residual decreases, at
+ * once or after a leap. Joints that are `held` do not move. */
 static void gb_polish(const gb_problem *problem, gb_end *end, uint32_t held)
 {
     int slow = 0;
@@ -410,14 +411,14 @@ static void gb_polish(const gb_problem *problem, gb_end *end, uint32_t held)
     }
 }
 
-/* The same from joints that are not measured yet. */
+/* Same as gb_polish, from joint values that are not measured yet. */
 static void gb_polish_from(const gb_problem *problem, gb_end *end, uint32_t held)
 {
     end->fit = gb_measure(problem, end->q);
     gb_polish(problem, end, held);
 }
 
-/* Whether the equations hold half-way between two places next to each other, on a way that may be bent, within `bound`. */
+/* Whether the equations hold within `bound` half-way between two close configurations, on a path that may be curved. */
 static bool gb_are_joined(const gb_problem *problem, const gb_real *a, const gb_real *b, gb_real bound, uint32_t held)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -440,7 +441,7 @@ static bool gb_are_joined(const gb_problem *problem, const gb_real *a, const gb_
     return fit.relative <= bound;
 }
 
-/* The sum of the squares of what the equations are missed by, as shares of their sizes. */
+/* The sum of the squared relative residuals. */
 static gb_real gb_squares(const gb_problem *problem, const gb_real *q)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -456,7 +457,7 @@ static gb_real gb_squares(const gb_problem *problem, const gb_real *q)
     return sum;
 }
 
-/* Takes the least damped step that lowers the sum of squares, and tells how long it is; false where none does. */
+/* Takes the least damped step that lowers the sum of squares, and returns its length; false where none does. */
 static bool gb_fall(const gb_problem *problem, gb_real *q, gb_real *squares, uint32_t held, gb_real most, gb_real *longest)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -482,8 +483,8 @@ static bool gb_fall(const gb_problem *problem, gb_real *q, gb_real *squares, uin
     return false;
 }
 
-/* Damped Gauss-Newton steps from q to where the sum of the squares of what the equations are missed by, as shares of their sizes, is least; each is taken
- * only if it falls, and no joint goes farther in it than `most` (rad, or relative to the length scale). Joints that are `held` stay. */
+/* Takes damped Gauss-Newton steps from `q` to the minimum of the sum of squared relative residuals. A step is accepted only if the sum decreases, and moves
+ * each joint by at most `most` (rad, or relative to the length scale). Joints that are `held` do not move. */
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most)
 {
     gb_real squares = gb_squares(problem, q), longest = INFINITY;

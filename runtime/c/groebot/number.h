@@ -1,23 +1,23 @@
-/* What the program is written in */
+/* Arithmetic of the program */
 
 #if GB_WIDTH == 1
 typedef gb_real gb_number_1;
-/* Whether something is so. */
+/* A truth value for each number. */
 typedef int gb_truth_1;
 #else
 typedef double GB_(number) __attribute__((vector_size(8 * GB_WIDTH)));
-/* Where something is so: all bits or none. */
+/* A truth value per lane: all bits set or none. */
 typedef int64_t GB_(truth) __attribute__((vector_size(8 * GB_WIDTH)));
 #endif
 
-/* Nowhere. */
+/* False in all lanes. */
 GB_INLINE GB_(truth) GB_(nowhere)(void)
 {
     const GB_(truth) nowhere = {0};
     return nowhere;
 }
 
-/* The number, everywhere. */
+/* The given number in all lanes. */
 GB_INLINE T GB_(of)(gb_real number)
 {
 #if GB_WIDTH == 1
@@ -43,7 +43,7 @@ GB_INLINE GB_(truth) GB_(exceeds)(T a, T limit)
     return (GB_(truth))(a > limit);
 }
 
-/* Where something is not so. */
+/* The negation. */
 GB_INLINE GB_(truth) GB_(inverted)(GB_(truth) truth)
 {
 #if GB_WIDTH == 1
@@ -53,7 +53,7 @@ GB_INLINE GB_(truth) GB_(inverted)(GB_(truth) truth)
 #endif
 }
 
-/* Whether something is so anywhere. */
+/* Whether it is true in any lane. */
 GB_INLINE bool GB_(any)(GB_(truth) truth)
 {
 #if GB_WIDTH == 1
@@ -67,7 +67,7 @@ GB_INLINE bool GB_(any)(GB_(truth) truth)
 #endif
 }
 
-/* The number where something is so, and another elsewhere. */
+/* Selects the number where `is_so` is true, and the other one elsewhere. */
 GB_INLINE T GB_(pick)(T a, T b, GB_(truth) truth)
 {
 #if GB_WIDTH == 1
@@ -119,7 +119,7 @@ GB_INLINE T GB_(square_root)(T a)
 #endif
 }
 
-/* By lane, a function of one number. */
+/* Applies a function of one number in each lane. */
 GB_INLINE T GB_(each)(T a, gb_real (*value)(gb_real))
 {
 #if GB_WIDTH == 1
@@ -144,25 +144,25 @@ GB_INLINE T GB_(sin)(T angle)
     return GB_(each)(angle, gb_sine);
 }
 
-/* The greater of two numbers; the first where one is not a number. */
+/* The greater of two numbers; the first where one is NaN. */
 GB_INLINE T GB_(greater)(T a, T b)
 {
     return GB_(pick)(b, a, GB_(exceeds)(b, a));
 }
 
-/* The lesser of two numbers; the first where one is not a number. */
+/* The lesser of two numbers; the first where one is NaN. */
 GB_INLINE T GB_(lesser)(T a, T b)
 {
     return GB_(pick)(b, a, GB_(exceeds)(a, b));
 }
 
-/* The number, or a floor where it is below that or not a number. */
+/* The number, or a floor where it is below that or NaN. */
 GB_INLINE T GB_(above)(T a, T floor)
 {
     return GB_(pick)(a, floor, GB_(exceeds)(a, floor));
 }
 
-/* The greatest among a positive number and magnitudes. */
+/* The greatest of a positive number and the magnitudes of others. */
 GB_INLINE T GB_(largest)(gb_real least, const T *others, size_t count)
 {
     T largest = GB_(of)(least);
@@ -178,32 +178,32 @@ GB_INLINE T GB_(where_below)(T a, T other, gb_real limit)
     return GB_(pick)(a, GB_(of)(R(0.0)), GB_(exceeds)(GB_(of)(limit), other));
 }
 
-/* The square root, zero of a number below zero. */
+/* The square root; zero of a negative number. */
 GB_INLINE T GB_(root)(T a)
 {
     return GB_(square_root)(GB_(above)(a, GB_(of)(R(0.0))));
 }
 
-/* The greater of two numbers; the other one of a number and what is none. */
+/* The greater of two numbers; if one is NaN, the other one. */
 GB_INLINE T GB_(max)(T a, T b)
 {
     return GB_(pick)(b, a, GB_(exceeds)(b, a) | GB_(inverted)(GB_(at_most)(a, a)));
 }
 
-/* Where a case's guards hold: as near a stratum as it reaches, and the same where the cases before have lost nothing. */
+/* The truth values of a case's guards: near the stratum, and within rounding of it, which suffices where the cases before have lost nothing. */
 typedef struct {
     GB_(truth) here;
     GB_(truth) beside;
 } GB_(guard);
 
-/* Where a factor is as near zero as a stratum reaches. */
+/* Where a factor is so close to zero that the case of a stratum runs. */
 GB_INLINE GB_(guard) GB_(near)(T a, T scale)
 {
     const GB_(guard) guard = {GB_(at_most)(GB_(abs)(a), scale * GB_NEAR), GB_(at_most)(GB_(abs)(a), scale * GB_BESIDE)};
     return guard;
 }
 
-/* Where a factor is not zero. In lanes what is no number is not: it belongs to no candidate. */
+/* Where a factor is not zero. In lanes NaN counts as not zero: it belongs to no candidate. */
 GB_INLINE GB_(guard) GB_(away)(T a, T scale)
 {
 #if GB_WIDTH == 1
@@ -229,7 +229,7 @@ GB_INLINE GB_(guard) GB_(always)(void)
     return guard;
 }
 
-/* A claim to be the best conditioned of a group: the pivot's magnitude, or -1 elsewhere. */
+/* The claim of a pivot in a group: its magnitude where the guard holds, or -1 elsewhere. */
 GB_INLINE T GB_(claim)(GB_(guard) guard, T pivot)
 {
     return GB_(pick)(GB_(abs)(pivot), GB_(of)(R(-1.0)), guard.here);

@@ -1,6 +1,6 @@
-/* The equations at one target: problem.rs */
+/* The equations at one target: see problem.rs */
 
-/* What the equations read of joint values. */
+/* The numbers that the equations read of joint values. */
 GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *at)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -17,19 +17,19 @@ GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *a
     }
 }
 
-/* Takes a step of the target's. */
+/* Uses one step of the target. */
 static void gb_take_step(const gb_problem *problem)
 {
     *problem->steps -= *problem->steps > 0;
 }
 
-/* Whether no steps are left: what has not been polished stays as it is. */
+/* Whether no steps are left: candidates that have not been polished are then kept unchanged. */
 static bool gb_are_spent(const gb_problem *problem)
 {
     return *problem->steps == 0;
 }
 
-/* How well joint values solve the equations, which read of them what is at `at`. */
+/* The residuals of joint values whose cosines and sines are `at`. */
 GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, const gb_real *q)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -55,7 +55,7 @@ GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, co
     return fit;
 }
 
-/* How well joint values solve the equations. */
+/* Residuals of joint values. */
 static gb_fit gb_measure(const gb_problem *problem, const gb_real *q)
 {
     gb_real at[GB_MAX_PLACES];
@@ -63,7 +63,7 @@ static gb_fit gb_measure(const gb_problem *problem, const gb_real *q)
     return gb_measure_at(problem, at, q);
 }
 
-/* How much each joint matters to the equations: the greatest derivative as a share of its equation's size, at most one; one for a length. */
+/* The influence of each joint on the equations: the greatest derivative relative to its equation's size, at most one. It is one for a length. */
 static void gb_weights(const gb_problem *problem, const gb_real *q, gb_real *weights)
 {
     const gb_mechanism *m = problem->mechanism;

@@ -1,4 +1,4 @@
-/* What the program offers, below in the robot's file */
+/* Declarations of the program that follows in the robot's file */
 
 typedef struct GB_(sink) GB_(sink);
 GB_INLINE void GB_(parameters)(const T *target, T *p);

@@ -1,4 +1,4 @@
-/* The real roots of an ordinary quartic: quartic.rs (G. Cardano, "Ars Magna", 1545) */
+/* The real roots of an ordinary quartic: see quartic.rs (G. Cardano, "Ars Magna", 1545) */
 
 #define GB_MOST_DEGREE 16
 #define GB_MOST_COEFFICIENTS (GB_MOST_DEGREE + 1)
@@ -14,8 +14,8 @@ static gb_real gb_largest(const gb_real *numbers, size_t count)
 }
 
 #ifndef GB_FLOAT
-/* The greatest root of z^3 + u z^2 + v z - w for w > 0, to half its digits, by Newton steps down from a bound of it: a root above `typical` has
- * z^2 <= -u z - v + w / typical. Below zero where there is none. */
+/* The greatest root of z^3 + u z^2 + v z - w for w > 0, to half its digits. Newton steps start at an upper bound: a root above `typical` has z^2 <= -u z - v
+ * + w / typical. Below zero where there is none. */
 static gb_real gb_resolved(gb_real u, gb_real v, gb_real w, gb_real typical)
 {
     const gb_real falling = gb_larger(R(0.0), -u), under = gb_larger(R(0.0), -v);
@@ -34,7 +34,7 @@ static gb_real gb_resolved(gb_real u, gb_real v, gb_real w, gb_real typical)
     return R(-1.0);
 }
 
-/* Two Newton steps from a root's approximation; not a number where they do not settle. */
+/* Two Newton steps from the approximation of a root. NaN where they do not converge. */
 static gb_real gb_settled(const gb_real *c, gb_real x, gb_real scale)
 {
     gb_real step = R(0.0);
@@ -49,8 +49,8 @@ static gb_real gb_settled(const gb_real *c, gb_real x, gb_real scale)
 
 #define GB_FOUR_DISTINCT R(2e-3)
 
-/* The roots of the two real quadratics whose product is x^4 + c3 x^3 + c2 x^2 + c1 x + c0: two of either, ascending, the second two next to the first; how
- * many, or below zero where the quartic is not ordinary. */
+/* The roots of the two real quadratics whose product is x^4 + c3 x^3 + c2 x^2 + c1 x + c0: two of each, ascending; those of the second follow those of the
+ * first. Returns their number, or a value below zero where the quartic is not ordinary. */
 static int gb_approximate_roots(const gb_real *c, gb_scale scale, gb_real *roots)
 {
     const gb_real typical = gb_scale_at(scale, R(0.0));
@@ -85,7 +85,7 @@ static int gb_approximate_roots(const gb_real *c, gb_scale scale, gb_real *roots
     return count;
 }
 
-/* Puts two ascending pairs into order. */
+/* Sorts two ascending pairs. */
 static void gb_merge_pairs(gb_real *roots)
 {
     const gb_real low = gb_smaller(roots[1], roots[3]), high = gb_larger(roots[0], roots[2]);
@@ -96,8 +96,8 @@ static void gb_merge_pairs(gb_real *roots)
     roots[3] = last;
 }
 
-/* All real roots of the quartic with these coefficients, ascending; below zero where it is not ordinary: its leading coefficient is small, roots are next to
- * each other or complex ones next to the axis, or the steps do not settle. */
+/* All real roots of the quartic with these coefficients, ascending. Below zero where it is not ordinary: its leading coefficient is small, roots are close
+ * to each other, complex roots are close to the real axis, or the steps do not converge. */
 static int gb_ordinary_roots(const gb_real *coefficients, gb_scale scale, gb_real *roots)
 {
     const gb_real lead = coefficients[4], largest = gb_largest(coefficients, 5);

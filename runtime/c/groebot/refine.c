@@ -1,6 +1,6 @@
-/* Candidates that are no answers where they were found, and answers next to each other: refine.rs */
+/* Refinement of candidates that are not solutions yet, and of solutions close to each other: see refine.rs */
 
-/* An answer, as groebot.c sees one in a robot's list. */
+/* A solution in a robot's list, in the form that groebot.c uses. */
 typedef struct {
     gb_real q[GB_MAX_JOINTS];
     gb_fit fit;
@@ -8,7 +8,7 @@ typedef struct {
     uint32_t free;
 } gb_answer;
 
-/* The most answers that are compared with a new one. */
+/* Maximal number of solutions that are compared with a new one. */
 #define GB_MOST_ANSWERS 4096
 
 static char *gb_at(const gb_answers *all, size_t i)
@@ -46,7 +46,7 @@ static uint32_t *gb_free_of(const gb_answers *all, size_t i)
     return (uint32_t *)(void *)(gb_at(all, i) + all->problem.mechanism->free);
 }
 
-/* Writes an answer behind the others. */
+/* Appends a solution. */
 static void gb_write(gb_answers *all, const gb_answer *answer)
 {
     const size_t i = all->count++;
@@ -58,7 +58,7 @@ static void gb_write(gb_answers *all, const gb_answer *answer)
     *gb_free_of(all, i) = answer->free;
 }
 
-/* Exchanges two answers. */
+/* Exchanges two solutions. */
 static void gb_swap(gb_answers *all, size_t i, size_t k)
 {
     char *a = gb_at(all, i), *b = gb_at(all, k);
@@ -69,7 +69,7 @@ static void gb_swap(gb_answers *all, size_t i, size_t k)
     }
 }
 
-/* Drops an answer. */
+/* Drops a solution. */
 static void gb_drop(gb_answers *all, size_t i)
 {
     const size_t size = all->problem.mechanism->solution;
@@ -77,7 +77,7 @@ static void gb_drop(gb_answers *all, size_t i)
     memmove(gb_at(all, i), gb_at(all, i + 1), (all->count - i) * size);
 }
 
-/* Remembers a candidate that is no answer if it comes nearest so far. */
+/* Stores a candidate that is not a solution if its residual is the least so far. */
 static void gb_miss(gb_answers *all, const gb_real *q, const gb_fit *fit)
 {
     if (!fit->accepted && gb_is_finite(fit->relative) && !(all->has_nearest && fit->relative >= all->nearest_fit.relative)) {
@@ -87,7 +87,7 @@ static void gb_miss(gb_answers *all, const gb_real *q, const gb_fit *fit)
     }
 }
 
-/* Whether an isolated answer has been found to lie on no self-motion of these joints. */
+/* Whether an isolated solution is known to be on no self-motion of these joints. */
 static bool gb_is_loner(const gb_answers *all, const gb_real *q, uint32_t free)
 {
     for (size_t i = 0; i < GB_LONERS && i < all->loners_count; i++) {
@@ -102,8 +102,8 @@ static bool gb_is_loner(const gb_answers *all, const gb_real *q, uint32_t free)
     return false;
 }
 
-/* Whether an isolated answer is but a member of the self-motion of a member. Where the cases before have lost no answer, it may be of one that holds only
- * almost. */
+/* Whether an isolated solution belongs to the self-motion of a member. If the cases before have lost no solution, the residual of the self-motion may be
+ * larger. */
 static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, const gb_real *isolated)
 {
     if (gb_is_loner(all, isolated, free)) {
@@ -118,8 +118,8 @@ static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, cons
     return !all->suffices || gb_leads_to(&all->problem, member, isolated, free);
 }
 
-/* Whether two answers next to each other are one at a singular configuration, where the equations leave the joints open beyond GB_MERGE: they hold half-way
- * too, as well as at the worse of the two. */
+/* Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than GB_MERGE. Half-way between
+ * them the residual is then no larger than at the worse of the two. */
 static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real of_a, const gb_real *b, gb_real of_b)
 {
     const gb_real bound = gb_larger(gb_larger(of_a, of_b), GB_ALIKE);
@@ -130,7 +130,7 @@ static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real 
     return gb_are_joined(problem, a, b, bound, 0);
 }
 
-/* Whether the branch tells that members of a self-motion are of one: where it is no curve, or does not hold within rounding. */
+/* Whether members of one branch count as one self-motion: where it is not a curve, or its residual exceeds rounding. */
 static bool gb_are_by_branch(const gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_real relative = gb_larger(*gb_relative_of(all, i), b->fit.relative);
@@ -138,8 +138,8 @@ static bool gb_are_by_branch(const gb_answers *all, size_t i, const gb_answer *b
     return *gb_branch_of(all, i) == b->branch && !(relative <= GB_ROUNDING && gb_find_tangent(&all->problem, b->q, b->free, tangent));
 }
 
-/* Whether an answer in the list and a new one that no steps are left to tell apart count as one: members of a branch, and what polishing might have led to
- * the other. */
+/* Whether a solution in the list and a new one count as one when no steps are left to distinguish them: members of one branch, or solutions that polishing
+ * might have merged. */
 static bool gb_are_alike(const gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_real relative = gb_larger(*gb_relative_of(all, i), b->fit.relative);
@@ -149,8 +149,8 @@ static bool gb_are_alike(const gb_answers *all, size_t i, const gb_answer *b)
     return *gb_branch_of(all, i) == b->branch && *gb_free_of(all, i) == b->free;
 }
 
-/* Whether an answer in the list and a new one are one: members of one self-motion, or within GB_MERGE with joints left out that are free in either, or one
- * singular configuration. */
+/* Whether a solution in the list and a new one are one: members of one self-motion, one singular configuration, or within GB_MERGE without the joints that
+ * are free in either. */
 static bool gb_is_one(gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_problem *problem = &all->problem;
@@ -175,8 +175,8 @@ static bool gb_is_one(gb_answers *all, size_t i, const gb_answer *b)
     return relative <= GB_ROUNDING && gb_is_on(all, a, free, b->q);
 }
 
-/* Whether an answer in the list stays where a new one is equal to it: the better one does. But a self-motion that holds within rounding stays against its
- * members, and its first member against the others. */
+/* Whether a solution in the list is kept when a new one is equal to it: the better one is kept. However, a self-motion within rounding is preferred to its
+ * isolated members, and its first member to the later ones. */
 static bool gb_holds_against(const gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_real relative = *gb_relative_of(all, i);
@@ -187,7 +187,7 @@ static bool gb_holds_against(const gb_answers *all, size_t i, const gb_answer *b
     return (!is_isolated && relative <= GB_ROUNDING) || relative <= b->fit.relative;
 }
 
-/* Adds an answer; where there are too many, the worst is left out. */
+/* Adds a solution. If there are too many, the worst is dropped. */
 static void gb_add(gb_answers *all, const gb_answer *answer)
 {
     if (all->count == all->room) {
@@ -203,7 +203,7 @@ static void gb_add(gb_answers *all, const gb_answer *answer)
     gb_write(all, answer);
 }
 
-/* Whether some answer has this branch. */
+/* Whether a solution has this branch. */
 static bool gb_is_taken(const gb_answers *all, size_t branch)
 {
     for (size_t i = 0; i < all->count; i++) {
@@ -214,7 +214,7 @@ static bool gb_is_taken(const gb_answers *all, size_t branch)
     return false;
 }
 
-/* The first branch from that of a candidate on that no answer has: the second root of a double one takes the next free number below `last`. */
+/* The first branch without a solution, from that of a candidate on: a second root of a double one gets the next free number below `last`. */
 static size_t gb_free_branch(const gb_answers *all, const gb_found_1 *found)
 {
     const size_t next = found->free == 0 ? found->last : found->branch;
@@ -226,7 +226,7 @@ static size_t gb_free_branch(const gb_answers *all, const gb_found_1 *found)
     return found->branch;
 }
 
-/* Remembers that members of a candidate's branch are on a self-motion of the list, where several joints are free. */
+/* Where several joints are free, records that members of a candidate's branch are on a self-motion in the list. */
 static void gb_remember_merged(gb_answers *all, size_t i, const gb_answer *answer, const gb_found_1 *found)
 {
     const bool are_sharp = gb_larger(*gb_relative_of(all, i), answer->fit.relative) <= GB_ROUNDING;
@@ -235,7 +235,7 @@ static void gb_remember_merged(gb_answers *all, size_t i, const gb_answer *answe
     }
 }
 
-/* Keeps an answer where others are near. */
+/* Keeps a solution where others are near. */
 static void gb_keep_one(gb_answers *all, gb_answer *answer, const gb_found_1 *found)
 {
     uint64_t doubles[GB_MOST_ANSWERS / 64] = {0};
@@ -265,7 +265,7 @@ static void gb_keep_one(gb_answers *all, gb_answer *answer, const gb_found_1 *fo
     gb_add(all, answer);
 }
 
-/* Whether a candidate is the first of its branch, and far from all answers. */
+/* Whether a candidate is the first of its branch, and far from all solutions. */
 static bool gb_is_first(const gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
     for (size_t i = 0; i < all->count; i++) {
@@ -277,7 +277,7 @@ static bool gb_is_first(const gb_answers *all, const gb_found_1 *found, const gb
     return found->free == 0;
 }
 
-/* Whether what no steps are left to polish is near enough to an answer. */
+/* Whether a candidate that could not be polished, because no steps are left, is near enough to a solution. */
 static bool gb_may_stay(const gb_problem *problem, const gb_real *q, const gb_fit *fit)
 {
     bool is_whole = true;
@@ -290,8 +290,8 @@ static bool gb_may_stay(const gb_problem *problem, const gb_real *q, const gb_fi
     return gb_are_spent(problem) && fit->relative <= GB_TOLERATED && is_whole;
 }
 
-/* Keeps an answer if the equations hold. Of answers that are one, the branch of the first and the joints of the best are kept; a second root of a double one
- * takes the next free number below `last`. */
+/* Keeps a solution if the equations hold. Of equal solutions, the branch of the first and the joints of the best are kept. A second root of a double one
+ * gets the next free number below `last`. */
 GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit)
 {
     gb_answer answer;
@@ -310,8 +310,8 @@ GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real 
     }
 }
 
-/* Starts again from points to either side, as far as the square root of a miss: of a double root, or where an angle hardly matters. Where none leads to an
- * answer, from farther ones. */
+/* Polishes again from points on either side of a candidate. Their distance is the square root of the residual, for a double root or an angle with little
+ * influence. If none of these leads to a solution, starts are farther away. */
 static void gb_around(gb_answers *all, const gb_found_1 *found, const gb_end *end, gb_real missed)
 {
     const gb_mechanism *m = all->problem.mechanism;
@@ -334,8 +334,8 @@ static void gb_around(gb_answers *all, const gb_found_1 *found, const gb_end *en
     }
 }
 
-/* One double root may have been proposed where two answers are next to each other, as far apart as the square root of what it misses: the other one is in the
- * direction in which the equations change least, where a parabola through this one has its second root. */
+/* Searches for a second solution next to one whose candidate was a double root. Their distance is about the square root of the candidate's residual. The
+ * second one is in the direction in which the equations change least: a parabola through the first one has its second root there. */
 static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end, gb_triangle *triangle, gb_real missed)
 {
     const gb_problem *problem = &all->problem;
@@ -357,8 +357,8 @@ static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end
     }
 }
 
-/* Keeps an answer that one joint moves which some case frees: where the formulas are those of a nearby mechanism, they lead to a member of a self-motion as to
- * an isolated answer. Whether it is one. */
+/* Keeps a solution that is a member of a self-motion of one joint that a case frees. The formulas of a nearby mechanism do not distinguish these from
+ * isolated solutions. Returns whether it is one. */
 static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit, gb_real regularity)
 {
     gb_found_1 moving = *found;
@@ -369,7 +369,7 @@ static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_re
     return moving.free != 0;
 }
 
-/* Whether a curve goes through an answer of a nearby mechanism, or through where steps to one have come to an end: then it is followed. */
+/* Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed. */
 static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit, gb_real regularity)
 {
     const bool is_valley = gb_is_between(fit->relative, GB_ROUNDING, GB_NEAR);
@@ -377,7 +377,7 @@ static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real 
     return is_singular && gb_begin_curve(all, found, q);
 }
 
-/* Keeps what the short way has led to from the candidate with this number, and where it is steep looks for a second answer. */
+/* Keeps the end of the Newton steps from the candidate with this number. If the equations are ill-conditioned, searches for a second solution. */
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach)
 {
     gb_triangle triangle;
@@ -400,7 +400,7 @@ GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *foun
 
 static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_real *q);
 
-/* Such a candidate stands between two answers: starts from the other side too. */
+/* Such a candidate is between two solutions: starts again from the other side. */
 static void gb_start_beyond(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_end *end)
 {
     const gb_mechanism *m = all->problem.mechanism;
@@ -412,8 +412,8 @@ static void gb_start_beyond(gb_answers *all, const gb_found_1 *found, const gb_r
     gb_keep(all, found, start.q, &start.fit);
 }
 
-/* Looks for curves next to where steps from a candidate have led, and next to the candidate where they have led far from it; whether they have come to an end
- * on a curve. */
+/* Searches for curves next to the end of the steps from a candidate, and next to the candidate if that is far away. Returns whether the steps ended on a
+ * curve. */
 static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, bool is_beside, const gb_end *end, gb_real regularity)
 {
     if (is_beside && gb_is_curve(all, found, end->q, &end->fit, regularity) && end->fit.relative >= GB_ROUNDING) {
@@ -425,7 +425,8 @@ static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb
     return false;
 }
 
-/* Polishes a candidate with its number, and keeps what solves the equations. Where two answers all but meet, points around it are tried too. */
+/* Polishes a candidate with its number, and keeps the result if it solves the equations. Where two solutions almost meet, further starts around it are
+ * tried. */
 GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *found, const gb_real *q)
 {
     const gb_problem *problem = &all->problem;
@@ -471,7 +472,7 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     gb_keep(all, found, end.q, &end.fit);
 }
 
-/* How many isolated answers there are. */
+/* Number of isolated solutions. */
 static size_t gb_count_isolated(const gb_answers *all)
 {
     size_t isolated = 0;
@@ -481,14 +482,14 @@ static size_t gb_count_isolated(const gb_answers *all)
     return isolated;
 }
 
-/* Whether there are as many isolated answers as a target can have. */
+/* Whether the target has its maximal number of isolated solutions. */
 GB_LINKAGE bool gb_are_all(const gb_answers *all)
 {
     return gb_count_isolated(all) >= all->problem.mechanism->isolated;
 }
 
-/* Where there are more isolated answers than a target can have, rounding has made several of one at a singular configuration: the nearest two are one, and
- * the better of them stays. */
+/* Merges the nearest two isolated solutions while there are more than a target can have: at a singular configuration rounding makes several of one. The
+ * better one is kept. */
 static void gb_unite(gb_answers *all)
 {
     while (gb_count_isolated(all) > all->problem.mechanism->isolated) {
@@ -517,7 +518,7 @@ static void gb_sort(gb_answers *all)
     }
 }
 
-/* The number whose root the source of the mechanism chooses, so that the least is its choice. */
+/* The number whose root the source of the mechanism selects, with a sign such that the least is selected. */
 static gb_real gb_preference(const gb_answers *all, size_t i)
 {
     const gb_mechanism *m = all->problem.mechanism;
@@ -526,7 +527,7 @@ static gb_real gb_preference(const gb_answers *all, size_t i)
     return (m->prefers_greatest ? R(-1.0) : R(1.0)) * at[m->preferred];
 }
 
-/* Marks what the source would choose. */
+/* Marks the solutions that the source would select. */
 static void gb_mark_choice(gb_answers *all)
 {
     gb_real least = INFINITY;
@@ -538,7 +539,7 @@ static void gb_mark_choice(gb_answers *all)
     }
 }
 
-/* Brings answers into order. */
+/* Sorts the solutions. */
 GB_LINKAGE void gb_put_in_order(gb_answers *all)
 {
     gb_unite(all);

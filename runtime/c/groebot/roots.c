@@ -1,10 +1,10 @@
-/* Real roots of polynomials of one unknown: roots.rs */
+/* Real roots of polynomials in one unknown: see roots.rs */
 
-/* Values of p up to degree GB_SIGNLESS sum |a_i x^i| have no sign. */
+/* The sign of p(x) is undetermined up to degree GB_SIGNLESS sum |a_i x^i|. */
 #define GB_SIGNLESS (R(2.0) * GB_EPSILON)
 #define GB_MOST_ROOT_STEPS 256
 
-/* A polynomial with coefficients of magnitude one and less, constant term first, and what terms are measured at. */
+/* A polynomial with coefficients of magnitude at most one, constant term first, and the magnitudes at which its terms are evaluated. */
 typedef struct {
     gb_real a[GB_MOST_COEFFICIENTS];
     size_t degree;
@@ -33,7 +33,7 @@ static void gb_normalise(gb_scaled *p)
     }
 }
 
-/* Drops negligible leading coefficients and divides by the largest; false when nothing solvable is left. */
+/* Drops negligible leading coefficients and divides by the largest; false when the rest is constant. */
 static bool gb_make_polynomial(const gb_real *coefficients, size_t length, gb_scale scale, gb_scaled *p)
 {
     const gb_real largest = gb_largest(coefficients, length);
@@ -69,7 +69,7 @@ static void gb_derivative(const gb_scaled *p, size_t order, gb_scaled *derivativ
     gb_normalise(derivative);
 }
 
-/* The roots of a quadratic polynomial without cancellation, and the double root of a tangency once. */
+/* The roots of a quadratic polynomial without cancellation; a double root is reported once. */
 static void gb_quadratic_roots(const gb_scaled *p, gb_list *roots)
 {
     const gb_real c = p->a[0], b = p->a[1], a = p->a[2];
@@ -90,7 +90,7 @@ static void gb_quadratic_roots(const gb_scaled *p, gb_list *roots)
     gb_push(roots, second > first || first != first ? second : first);
 }
 
-/* Whether |a_n| r^n is more than all other |a_i| r^i together: then no root is as large as r. */
+/* Whether `|a_n| r^n` exceeds the sum of all other `|a_i| r^i`: then no root is as large as `r`. */
 static bool gb_is_led(const gb_scaled *p, gb_real radius)
 {
     gb_real value = gb_magnitude(p->a[p->degree]);
@@ -100,7 +100,7 @@ static bool gb_is_led(const gb_scaled *p, gb_real radius)
     return value > R(0.0);
 }
 
-/* Two to four times Cauchy's radius: every root, and every root of a derivative, is well inside. */
+/* Two to four times Cauchy's bound: every root, and every root of a derivative, is well inside. */
 static gb_real gb_root_bound(const gb_scaled *p)
 {
     gb_real radius = R(1.0);
@@ -125,7 +125,7 @@ static gb_real gb_value_and_size(const gb_scaled *p, gb_real x, gb_real y, gb_re
     return value;
 }
 
-/* -1, 0 or 1: the sign of p(x), zero when rounding decides it. */
+/* The sign of `p(x)`: `-1`, `0` or `1`; zero where rounding determines it. */
 static gb_real gb_sign(const gb_scaled *p, gb_real x)
 {
     gb_real size;
@@ -134,7 +134,7 @@ static gb_real gb_sign(const gb_scaled *p, gb_real x)
     return value == R(0.0) || (gb_is_finite(noise) && gb_magnitude(value) <= noise) ? R(0.0) : gb_signed(R(1.0), value);
 }
 
-/* Whether p(x) is negligible. */
+/* Whether `p(x)` is negligible. */
 static bool gb_touches(const gb_scaled *p, gb_real x)
 {
     gb_real size;
@@ -142,7 +142,7 @@ static bool gb_touches(const gb_scaled *p, gb_real x)
     return gb_is_finite(size) && gb_magnitude(value) <= GB_TANGENT * size;
 }
 
-/* The arithmetic mean, or one that halves the exponents: bounds may be hundreds of decades apart. */
+/* The arithmetic mean, or one of the exponents: bounds may differ by hundreds of decades. */
 static gb_real gb_middle(gb_real low, gb_real high, bool is_arithmetic)
 {
     if (is_arithmetic) {
@@ -168,8 +168,8 @@ static gb_real gb_newton(const gb_scaled *p, gb_real x, gb_real *value)
     return x - *value / slope;
 }
 
-/* The root between two points where p is monotone and changes its sign: Newton's method, which must cut its steps to a quarter and stay inside, else
- * bisection. */
+/* The root between two points where `p` is monotone and changes its sign. Newton's method is used while it reduces its steps to a quarter and stays inside,
+ * else bisection. */
 static gb_real gb_root_between(const gb_scaled *p, gb_real low, gb_real high)
 {
     const bool is_rising = gb_sign(p, high) > R(0.0);
@@ -203,8 +203,8 @@ static gb_real gb_root_between(const gb_scaled *p, gb_real low, gb_real high)
     return x;
 }
 
-/* The roots, given the ascending critical points and a bound on all of them: one in each interval where the sign changes, and the critical points where p
- * touches the axis. */
+/* The roots, given the ascending critical points and a bound on all of them. There is one in each interval with a change of sign. Critical points where `p`
+ * touches the axis are roots too. */
 static void gb_roots_between(const gb_scaled *p, const gb_list *critical, gb_real bound, gb_list *roots)
 {
     gb_real low = -bound, low_sign = gb_sign(p, low);
@@ -259,8 +259,8 @@ static const gb_polynomial_1 *gb_leading(const gb_polynomial_1 *list, size_t cou
     return &list[count - 1];
 }
 
-/* All real roots of the first polynomial that counts, ascending; how many, and whether some are close to one another, or one is double. Roots that rounding
- * cannot tell apart, and a double root that misses the axis by rounding, are reported once. */
+/* All real roots, ascending, of the first polynomial with a significant leading coefficient. Returns their number, and whether some are close to each other
+ * or one is double. Roots that agree within rounding are reported once. So is a double root that misses the axis by rounding. */
 GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_scale scale, gb_real *values, size_t room, bool *close)
 {
     const gb_polynomial_1 *polynomial = gb_leading(list, count);

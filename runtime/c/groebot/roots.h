@@ -1,4 +1,4 @@
-/* Real roots, ascending, and whether they are close to one another. In lanes each has its place, and is dead where there are fewer. */
+/* Real roots, ascending, and whether they are close to each other. In lanes with fewer roots than places, the remaining places are marked as dead. */
 typedef struct {
     T values[GB_DEGREE];
     size_t count;
@@ -10,7 +10,7 @@ typedef struct {
 #endif
 } GB_(roots);
 
-/* The real roots of x^2 + constant; a miss that counts as none is up to `tangent` of the square of the unknown's typical size. */
+/* The real roots of x^2 + constant. A negative radicand counts as zero up to `tangent` times the square of the unknown's typical size. */
 GB_INLINE GB_(roots) GB_(roots_of_square)(T constant, T scale, gb_real tangent)
 {
     GB_(roots) roots;
@@ -54,14 +54,14 @@ GB_INLINE GB_(roots) GB_(square_roots)(T constant, T scale)
     return GB_(roots_of_square)(constant, scale, GB_TANGENT);
 }
 
-/* The same behind roots of polynomials of higher degree, which are less exact. */
+/* Same as square_roots, with a larger tolerance, after roots of polynomials of higher degree. */
 GB_INLINE GB_(roots) GB_(grazing_roots)(T constant, T scale)
 {
     return GB_(roots_of_square)(constant, scale, GB_GRAZING);
 }
 
-/* The real roots of the first polynomial whose leading coefficient counts, or of the last one; what terms are measured at is so many times the greater of the
- * unknown's typical size and a root. */
+/* The real roots of the first polynomial with a significant leading coefficient, or of the last one. Terms are evaluated at `spread` times the greater of
+ * the unknown's typical size and a root. */
 #if GB_WIDTH == 1
 GB_UNUSED static GB_(roots) GB_(scaled_roots)(const GB_(polynomial) *list, size_t count, T typical, T spread)
 {
@@ -109,19 +109,19 @@ GB_UNUSED static GB_(roots) GB_(scaled_roots)(const GB_(polynomial) *list, size_
 }
 #endif
 
-/* The same, measured at the greater of them. */
+/* Same with terms evaluated at the greater of the unknown's typical size and a root. */
 GB_UNUSED static GB_(roots) GB_(polynomial_roots)(const GB_(polynomial) *list, size_t count, T typical)
 {
     return GB_(scaled_roots)(list, count, typical, GB_(of)(R(1.0)));
 }
 
-/* Those of polynomials for the tangent of half an angle that may miss the axis by more than rounding. */
+/* The real roots of polynomials in the tangent of half an angle, whose double roots may miss the axis by more than rounding. */
 GB_UNUSED static GB_(roots) GB_(half_angle_roots)(const GB_(polynomial) *list, size_t count, T spread)
 {
     return GB_(scaled_roots)(list, count, GB_(of)(R(1.0)), spread);
 }
 
-/* How a candidate was found; in lanes, where it is none too. */
+/* How a candidate was found. In lanes, it also says where the candidate does not exist. */
 #if GB_WIDTH > 1
 typedef struct {
     size_t branch;
@@ -131,7 +131,7 @@ typedef struct {
 } GB_(found);
 #endif
 
-/* By a choice of the first block's case whose branch numbers end at `last`. */
+/* The branch of a case of the first block, whose branch numbers end at `last`. */
 GB_INLINE GB_(found) GB_(first)(size_t branch, size_t last)
 {
 #if GB_WIDTH == 1
@@ -142,7 +142,7 @@ GB_INLINE GB_(found) GB_(first)(size_t branch, size_t last)
     return found;
 }
 
-/* By a choice among `radix` of a later block. */
+/* The branch after a choice among `radix` of a later block. */
 GB_INLINE GB_(found) GB_(next)(GB_(found) found, size_t radix, size_t number)
 {
     found.branch = radix * found.branch + number;
@@ -152,7 +152,7 @@ GB_INLINE GB_(found) GB_(next)(GB_(found) found, size_t radix, size_t number)
     return found;
 }
 
-/* By the root with this index. */
+/* The branch of the root with this index. */
 GB_INLINE GB_(found) GB_(by_root)(GB_(found) found, const GB_(roots) *roots, size_t index)
 {
 #if GB_WIDTH == 1
@@ -164,7 +164,7 @@ GB_INLINE GB_(found) GB_(by_root)(GB_(found) found, const GB_(roots) *roots, siz
     return found;
 }
 
-/* By both roots. */
+/* The branch of both roots. */
 GB_INLINE GB_(found) GB_(by_pair)(GB_(found) found, const GB_(roots) *roots)
 {
     found = GB_(by_root)(found, roots, 0);
@@ -172,7 +172,7 @@ GB_INLINE GB_(found) GB_(by_pair)(GB_(found) found, const GB_(roots) *roots)
     return found;
 }
 
-/* On a stratum where these joints are free: bit j for joint j. */
+/* On a stratum where these joints are free: bit `j` for joint `j`. */
 GB_INLINE GB_(found) GB_(freeing)(GB_(found) found, uint32_t joints)
 {
 #if GB_WIDTH == 1

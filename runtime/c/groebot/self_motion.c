@@ -1,6 +1,6 @@
-/* Members of self-motions: self_motion.rs */
+/* Members of self-motions: see self_motion.rs */
 
-/* Whether the joints come back to q on along the line from `far` through `near`. */
+/* Whether steps return to `q` on the line from `far` through `near`. */
 static bool gb_leads_back(const gb_problem *problem, const gb_real *q, uint32_t free, const gb_real *near, const gb_real *far, gb_real bound)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -13,8 +13,8 @@ static bool gb_leads_back(const gb_problem *problem, const gb_real *q, uint32_t 
     return back.fit.accepted && gb_are_joined(problem, back.q, q, bound, free);
 }
 
-/* Whether the equations hold within `bound` where free joints are moved one way, which is doubled until it is that long, and from where it is short the
- * joints must come back: an isolated answer may be led to a self-motion next to it, but not back. */
+/* Whether the equations hold within `bound` where free joints are moved in one direction. The displacement is doubled until it has its full length. From a
+ * short one the joints must return to q: steps may lead from an isolated solution to a self-motion next to it, but not back. */
 static bool gb_leads_aside(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real way, gb_real bound)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -41,7 +41,7 @@ static bool gb_leads_aside(const gb_problem *problem, const gb_real *q, uint32_t
     return true;
 }
 
-/* Whether the others follow where the joints `free` are moved by the first stage of a way. */
+/* Whether the others follow when the joints `free` are moved by the first stage of a displacement. */
 static bool gb_sets_out(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real way, gb_real bound)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -53,7 +53,7 @@ static bool gb_sets_out(const gb_problem *problem, const gb_real *q, uint32_t fr
     return next.fit.relative <= bound;
 }
 
-/* One of the ways aside, each an eighth of the one before. */
+/* One of the trial displacements, each an eighth of the one before. */
 static gb_real gb_narrowed(int narrow)
 {
     gb_real way = GB_ASIDE;
@@ -63,7 +63,7 @@ static gb_real gb_narrowed(int narrow)
     return way;
 }
 
-/* Whether q leads aside, with what its regularity is. */
+/* Whether the joints can move from q along a self-motion, given the regularity at q. */
 static bool gb_leads_to_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound, gb_real regularity)
 {
     bound = gb_larger(GB_ROUNDING, bound);
@@ -71,7 +71,7 @@ static bool gb_leads_to_self_motion(const gb_problem *problem, const gb_real *q,
         return false;
     }
     const int narrows = bound > GB_ROUNDING || regularity > GB_SINGULAR ? 1 : GB_NARROWS;
-    /* What leads nowhere along the last way but one leads nowhere along longer ones. */
+    /* If the last displacement but one fails, longer ones fail too. */
     const gb_real first = gb_narrowed(GB_NARROWS - 2);
     if (narrows > 1 && !gb_sets_out(problem, q, free, first, bound) && !gb_sets_out(problem, q, free, -first, bound)) {
         return false;
@@ -85,9 +85,9 @@ static bool gb_leads_to_self_motion(const gb_problem *problem, const gb_real *q,
     return false;
 }
 
-/* Whether the equations hold too, within `bound` or rounding, where the joints `free` are elsewhere and the others follow, to one side at least: to the
- * other there may be a branching. Where q is not singular that is not tried. A self-motion may go round a small part of the circle only: where q is
- * singular within rounding, shorter ways are tried as well, each an eighth of the one before. */
+/* Whether the equations also hold, within `bound` or rounding, when the joints `free` are moved and the others follow. One direction suffices, because in
+ * the other one the self-motion may branch. Where `q` is not singular this is false without a trial. A self-motion may cover only a small part of the
+ * circle. Where `q` is singular within rounding, shorter displacements are therefore tried, each an eighth of the one before. */
 GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound)
 {
     return gb_leads_to_self_motion(problem, q, free, bound, gb_regularity(problem, q));
@@ -99,13 +99,13 @@ static bool gb_leads_far_aside(const gb_problem *problem, const gb_real *q, uint
         && (gb_leads_aside(problem, q, free, GB_ASIDE, GB_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ROUNDING));
 }
 
-/* The same within rounding, but for self-motions that go round a small part of the circle only. */
+/* Same as gb_lies_on_self_motion within rounding, without self-motions that cover only a small part of the circle. */
 static bool gb_lies_on_long_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free)
 {
     return gb_regularity(problem, q) <= GB_REGULAR && gb_leads_far_aside(problem, q, free);
 }
 
-/* Whether a joint may be free: some case frees it, or none is freed by formulas of a nearby mechanism. */
+/* Whether a joint may be free: some case frees it, or the formulas are those of a nearby mechanism and free none. */
 static bool gb_may_be_free(const gb_mechanism *m, size_t joint)
 {
     for (size_t i = 0; i < m->freed_count; i++) {
@@ -116,8 +116,8 @@ static bool gb_may_be_free(const gb_mechanism *m, size_t joint)
     return m->freed_count == 0 && m->is_nearby;
 }
 
-/* A joint that lies alone on a self-motion: of those that some case frees the one that is found first; as a set, empty without one. Where the formulas are
- * those of a nearby mechanism and free none, any joint. */
+/* A joint that alone parametrises a self-motion, as a set that may be empty. Of the joints that some case frees, it is the one found first. If the formulas
+ * are those of a nearby mechanism and free none, it may be any joint. */
 static uint32_t gb_joint_on_self_motion(const gb_problem *problem, const gb_real *q, gb_real bound)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -134,7 +134,7 @@ static uint32_t gb_joint_on_self_motion(const gb_problem *problem, const gb_real
     return 0;
 }
 
-/* The same of long self-motions within rounding, for joints that are singular. */
+/* Same as gb_joint_on_self_motion, for long self-motions within rounding and singular joint values. */
 static uint32_t gb_joint_on_long_self_motion(const gb_problem *problem, const gb_real *q)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -147,7 +147,7 @@ static uint32_t gb_joint_on_long_self_motion(const gb_problem *problem, const gb
     return 0;
 }
 
-/* Whether joints next to q reach the target, and one of the joints `free` lies on a self-motion there. */
+/* Whether joint values next to `q` reach the target and are on a self-motion of one of the joints `free`. */
 GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint32_t free)
 {
     const size_t joints = problem->mechanism->joints;
@@ -162,13 +162,13 @@ GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint3
     return false;
 }
 
-/* Whether one joint alone is free. */
+/* Whether exactly one joint is free. */
 static bool gb_is_single(uint32_t free)
 {
     return free != 0 && (free & (free - 1)) == 0;
 }
 
-/* The joint that is free alone. */
+/* The only free joint. */
 static size_t gb_single(const gb_mechanism *m, uint32_t free)
 {
     size_t joint = 0;
@@ -178,8 +178,8 @@ static size_t gb_single(const gb_mechanism *m, uint32_t free)
     return joint;
 }
 
-/* The tangent of the self-motion that q is a member of, if that is a curve there, along which one free joint tells all others: their derivatives by that
- * joint. False if it is none. */
+/* The tangent of the self-motion at q: the derivatives of all joints by one free joint. False unless the self-motion is a curve there that this joint
+ * parametrises. */
 static bool gb_find_tangent(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real *tangent)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -205,7 +205,7 @@ static bool gb_find_tangent(const gb_problem *problem, const gb_real *q, uint32_
     return true;
 }
 
-/* Whether the equations hold on the straight line along `way`, as they do where axes coincide. */
+/* Whether the equations hold on the straight line along `way`, as for coincident axes. */
 static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb_real *way)
 {
     static const gb_real shares[] = {R(0.5), R(0.25), R(0.75)};
@@ -221,7 +221,7 @@ static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb
     return true;
 }
 
-/* Whether joints that have come next to a member of a self-motion are on that one: half-way the equations hold too. */
+/* Whether joint values next to a member of a self-motion are on that self-motion: the equations hold half-way too. */
 static bool gb_is_there(const gb_problem *problem, gb_end *end, const gb_real *b, uint32_t free)
 {
     gb_polish(problem, end, free);
@@ -229,7 +229,7 @@ static bool gb_is_there(const gb_problem *problem, gb_end *end, const gb_real *b
     return is_close && gb_are_joined(problem, end->q, b, GB_ROUNDING, free);
 }
 
-/* How far free joints go on `way`: the farthest of them. */
+/* The largest displacement of a free joint on `way`. */
 static gb_real gb_length_of(const gb_mechanism *m, const gb_real *way, uint32_t free)
 {
     gb_real freed[GB_MAX_JOINTS];
@@ -239,7 +239,7 @@ static gb_real gb_length_of(const gb_mechanism *m, const gb_real *way, uint32_t 
     return gb_longest(m, freed);
 }
 
-/* Whether the others follow, from end->q, where the free joints have been moved: by a few steps. */
+/* Whether the other joints follow, from end->q, after the free joints were moved: by a few steps. */
 static bool gb_correct(const gb_problem *problem, gb_end *end, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -256,7 +256,7 @@ static bool gb_correct(const gb_problem *problem, gb_end *end, uint32_t free)
     return end->fit.relative <= GB_ASTRAY;
 }
 
-/* The same if that is near. */
+/* Same as gb_correct, and the result must be near. */
 static bool gb_followed(const gb_problem *problem, gb_end *end, uint32_t free)
 {
     gb_real ahead[GB_MAX_JOINTS];
@@ -264,20 +264,20 @@ static bool gb_followed(const gb_problem *problem, gb_end *end, uint32_t free)
     return gb_correct(problem, end, free) && gb_farthest(problem->mechanism, end->q, ahead) <= GB_LEAPT;
 }
 
-/* A member of a self-motion, with the tangent if it is known, else null. */
+/* A member of a self-motion, with its tangent if that is known, else null. */
 typedef struct {
     const gb_real *q;
     const gb_real *tangent;
 } gb_member;
 
-/* A place on a self-motion where cubic curves meet: joints, the tangent, and how far the free joint has gone. */
+/* A knot of the cubic curves on a self-motion: joint values, tangent, and displacement of the free joint. */
 typedef struct {
     gb_real q[GB_MAX_JOINTS];
     gb_real tangent[GB_MAX_JOINTS];
     gb_real gone;
 } gb_knot;
 
-/* The place of a member; false if the self-motion is no curve there. */
+/* The knot of a member; false if the self-motion is not a curve there. */
 static bool gb_make_knot(const gb_problem *problem, gb_member member, uint32_t free, gb_knot *knot)
 {
     const size_t joints = problem->mechanism->joints;
@@ -289,7 +289,7 @@ static bool gb_make_knot(const gb_problem *problem, gb_member member, uint32_t f
     return true;
 }
 
-/* Half-way along the cubic curve from one place to another. */
+/* The midpoint of the cubic curve between two knots. */
 static void gb_half_way(const gb_mechanism *m, const gb_knot *near, const gb_knot *far, gb_real *out)
 {
     const gb_real bend = R(0.125) * (far->gone - near->gone);
@@ -299,12 +299,12 @@ static void gb_half_way(const gb_mechanism *m, const gb_knot *near, const gb_kno
     }
 }
 
-/* The most cubic curves that one between two members is divided into, as a power of two, and one. */
+/* Logarithm to base two of the maximal number of cubic curves between two members, plus one. */
 #define GB_DIVISIONS 5
 
-/* Whether cubic curves lead from one place of a self-motion to another: half-way along each curve, the other joints follow by no more than GB_ARRIVED. A curve
- * that they do not follow is divided there, until it is too short. (Hermite interpolation: the curves have the self-motion's tangents at their ends, and miss it
- * by the fourth power of their length.) */
+/* Whether cubic Hermite curves approximate the self-motion between two of its places. Half-way along each curve, the correction of the other joints must be
+ * at most GB_ARRIVED. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their error is
+ * of fourth order in their length.) */
 static bool gb_is_interpolated(const gb_problem *problem, const gb_knot *first, const gb_knot *last, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -338,8 +338,8 @@ static bool gb_is_interpolated(const gb_problem *problem, const gb_knot *first, 
     return true;
 }
 
-/* Whether cubic curves join a member of a self-motion to another one along one of two ways of a free joint, the second of which may be null. Where that goes no
- * farther than the first step to follow it, it is not tried. */
+/* Whether cubic curves connect two members of a self-motion along one of two displacements of a free joint, the second of which may be null. Not tried where
+ * the displacement is shorter than the first step of following it. */
 static bool gb_are_joined_by_cubics(const gb_problem *problem, gb_member a, gb_member b, uint32_t free, const gb_real *way, const gb_real *other)
 {
     const size_t joint = gb_single(problem->mechanism, free);
@@ -357,7 +357,8 @@ static bool gb_are_joined_by_cubics(const gb_problem *problem, gb_member a, gb_m
     return other && gb_is_interpolated(problem, &first, &last, free);
 }
 
-/* Whether the joints come to b as the free ones go `way` from a and the others follow, in steps with which they keep up; in `*arrives`. Whether they do. */
+/* Moves the free joints by `way` from a while the others follow, with step size control. Returns whether they follow; `*arrives` is whether they arrive at
+ * b. */
 static bool gb_leads_along(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free, const gb_real *way, bool *arrives)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -392,7 +393,7 @@ static bool gb_leads_along(const gb_problem *problem, const gb_real *a, const gb
     return false;
 }
 
-/* The way on which a free joint goes the other way round; false if it is none that turns. */
+/* The displacement in which the free joint rotates in the opposite direction; false if it is not revolute. */
 static bool gb_other_way(const gb_mechanism *m, const gb_real *way, uint32_t free, gb_real *other)
 {
     bool turns = false;
@@ -404,7 +405,7 @@ static bool gb_other_way(const gb_mechanism *m, const gb_real *way, uint32_t fre
     return turns;
 }
 
-/* Whether the equations hold on a straight line from one member of a self-motion to another one, of which a joint may take the longer way round. */
+/* Whether the equations hold on a straight line between two members of self-motions, on which one joint may rotate in the longer direction. */
 static bool gb_leads_straight_to(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free)
 {
     gb_real way[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
@@ -412,7 +413,7 @@ static bool gb_leads_straight_to(const gb_problem *problem, const gb_real *a, co
     return gb_is_straight(problem, a, way) || (gb_other_way(problem->mechanism, way, free, other) && gb_is_straight(problem, a, other));
 }
 
-/* Whether the joints come from one member to another one as the free ones move and the others follow. */
+/* Whether the joints arrive at the second member as the free ones move and the others follow. */
 static bool gb_leads_round_to(const gb_problem *problem, gb_member a, gb_member b, uint32_t free)
 {
     gb_real way[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
@@ -428,8 +429,8 @@ static bool gb_leads_round_to(const gb_problem *problem, gb_member a, gb_member 
     return arrives;
 }
 
-/* Whether a continuous motion of the joints, the equations held, joins a member of a self-motion to another one with the same free joints: along a straight
- * line, or as the free joints move there and the others follow. Where the shorter way round is barred, a joint takes the longer. */
+/* Whether a continuous motion of the joints, during which the equations hold, connects two members of self-motions with equal free joints. It is a straight
+ * line, or the free joints move straight and the others follow. If the shorter direction of rotation fails, a joint takes the longer one. */
 static bool gb_leads_to(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free)
 {
     const gb_member from = {a, NULL}, to = {b, NULL};

@@ -1,7 +1,7 @@
-/* What a robot's file and groebot.c share. */
+/* Declarations shared by a robot's file and groebot.c. */
 
 #ifdef __FAST_MATH__
-#error "this run time tells NaN and infinity apart: compile it without -ffast-math"
+#error "this run time uses NaN and infinity: compile it without -ffast-math"
 #endif
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
@@ -25,7 +25,7 @@
 #endif
 #endif
 
-/* Without a C library the compiler's headers of vector code are not whole. */
+/* Without a C library the compiler's headers of vector code are incomplete. */
 #if !__STDC_HOSTED__
 #elif defined(__AVX__)
 #include <immintrin.h>
@@ -51,14 +51,14 @@
 #else
 #define GB_INLINE static inline GB_UNUSED
 #endif
-/* Before a loop over a table: its numbers become part of the code. */
+/* Placed before a loop over a table, so that its numbers become part of the code. */
 #if defined(__GNUC__) && !defined(__clang__)
 #define GB_UNROLL _Pragma("GCC unroll 64")
 #else
 #define GB_UNROLL
 #endif
 
-/* The linkage of groebot.c's functions: static where it stands in one file with a robot's. */
+/* The linkage of groebot.c's functions: static where it is in one file with a robot's solver. */
 #ifndef GB_LINKAGE
 #define GB_LINKAGE GB_API
 #endif
@@ -67,7 +67,7 @@
 #define GB_JOIN(a, b, c) GB_JOINED(a, b, c)
 #define GB_ASSERT(name, condition) typedef char gb_assert_##name[(condition) ? 1 : -1] GB_UNUSED
 
-/* A literal; one in double and one in single precision. */
+/* A literal, and a choice of two literals by precision. */
 #ifdef GB_FLOAT
 #define R(number) number##f
 #define GB_EITHER(number, single) single##f
@@ -96,7 +96,7 @@
 #define GB_MAX_SIZES 8
 #endif
 
-/* The tolerances are those of groebot-runtime's tolerances.rs, which says what they are for. */
+/* The tolerances are those of groebot-runtime's tolerances.rs, where they are documented. */
 #define GB_ACCEPT GB_EITHER(1e-12, 3e-5)
 #define GB_MERGE GB_EITHER(1e-7, 2e-3)
 #define GB_BLUR GB_EITHER(5e-2, 3e-2)
@@ -119,11 +119,11 @@
 
 #define GB_PI R(3.141592653589793)
 #define GB_TAU R(6.283185307179586)
-/* tan(pi/8), and what the number nearest to pi/4 lacks. */
+/* tan(pi/8), and the difference between pi/4 and the nearest number. */
 #define GB_EIGHTH R(0.41421356237309503)
 #define GB_REST GB_EITHER(3.061616997868383e-17, -2.1855694e-8)
 
-/* Where a joint stands among the numbers that the equations read: its cosine and its sine, or a length's value. */
+/* The place of a joint among the numbers that the equations read: its cosine and its sine, or a length's value. */
 typedef struct {
     bool is_angle;
     unsigned char places[2];
@@ -131,7 +131,7 @@ typedef struct {
 #define GB_ANGLE(cosine, sine) {true, {cosine, sine}}
 #define GB_LENGTH(place) {false, {place, place}}
 
-/* Where forward kinematics finds a number of the target: a value of the tip, an angle by two of them, or a joint. */
+/* The source of a target number in forward kinematics: a value of the tip, an angle by two of them, or a joint. */
 enum gb_kind { GB_AS_VALUE, GB_AS_ANGLE, GB_AS_JOINT };
 typedef struct {
     enum gb_kind kind;
@@ -141,7 +141,7 @@ typedef struct {
 #define GB_ANGLE_OF(cosine, sine) {GB_AS_ANGLE, {cosine, sine}}
 #define GB_JOINT(i) {GB_AS_JOINT, {i, i}}
 
-/* What numbers of a target must fulfil, from this one on: nine are a rotation by rows, or three a unit vector. */
+/* A condition on target numbers, from this index on: nine are a rotation by rows, or three a unit vector. */
 typedef struct {
     bool is_rotation;
     unsigned char first;
@@ -149,15 +149,15 @@ typedef struct {
 #define GB_ROTATION(first) {true, first}
 #define GB_UNIT(first) {false, first}
 
-/* How well joint values solve the equations: the largest magnitude of a value, the largest share of one in its size, and whether every equation holds. */
+/* Residuals of joint values: the largest magnitude of a value, the largest relative value, and whether every equation holds. */
 typedef struct {
     gb_real residual;
     gb_real relative;
     bool accepted;
 } gb_fit;
 
-/* How a candidate was found: which cases and roots gave it, where the branch numbers of the first block's case end, which joints are free, whether roots on
- * the way are so near one another that rounding moves them, and whether it stands for two, of which the second differs in signs alone. */
+/* How a candidate was found: the number of the combination of cases and roots, the end of the branch numbers of the first block's case, the free joints,
+ * whether roots of earlier steps are so close that rounding moves them, and whether it represents two candidates, of which the second differs only in signs. */
 typedef struct {
     size_t branch;
     size_t last;
@@ -168,8 +168,8 @@ typedef struct {
 
 typedef struct gb_problem gb_problem;
 
-/* Where the short way from a nearby mechanism's candidate has led: joints that solve the equations within rounding, what the candidate missed, and the least
- * pivot there. */
+/* The end of the Newton steps from a nearby mechanism's candidate: joints that solve the equations within rounding, the candidate's relative residual, and
+ * the least pivot there. */
 typedef struct {
     gb_real end[GB_MAX_JOINTS];
     gb_fit fit;
@@ -177,7 +177,7 @@ typedef struct {
     gb_real pivot;
 } gb_approach;
 
-/* What groebot.c knows of a robot: as `Facts` and `Mechanism` of groebot-runtime. */
+/* Description of a robot for groebot.c, like `Facts` and `Mechanism` of groebot-runtime. */
 typedef struct {
     size_t joints, places, equations, sizes, capacity;
     const gb_joint *joint;
@@ -186,14 +186,14 @@ typedef struct {
     const unsigned char *freed;
     size_t freed_count;
     gb_real scale;
-    /* The most isolated solutions that a target can have, or SIZE_MAX. */
+    /* Maximal number of isolated solutions of a target, or SIZE_MAX. */
     size_t isolated;
     bool has_extras;
     bool is_nearby;
-    /* The place of the number whose root the source chooses, or -1; whether the greater one. */
+    /* The place of the number whose root the source selects, or -1, and whether it selects the greater one. */
     int preferred;
     bool prefers_greatest;
-    /* Where the members of a solution stand. */
+    /* Offsets of the members of a solution. */
     size_t solution, residual, relative, branch, chosen, free;
     void (*values)(const gb_real *p, const gb_real *at, gb_real *values);
     void (*measures)(const gb_real *p, const gb_real *at, gb_real *sizes);
@@ -201,8 +201,7 @@ typedef struct {
     bool (*approach)(const gb_problem *problem, const gb_real *at, const gb_real *q, gb_approach *approach);
 } gb_mechanism;
 
-/* A mechanism's equations at a target; `extras` are the numbers of a candidate that follow from no joint, among others, or null. What is left of the target's
- * steps. */
+/* A mechanism's equations at a target, and the remaining steps. `extras` are the numbers of a candidate, of which some follow from no joint, or null. */
 struct gb_problem {
     const gb_mechanism *mechanism;
     const gb_real *p;
@@ -210,8 +209,8 @@ struct gb_problem {
     size_t *steps;
 };
 
-/* Candidates for members of self-motions that are none, where no answer is lost without them, by branch and free joints: how many there are, the most that
- * one of them misses the equations by, and whether they have turned out to be no members. */
+/* Candidates for members of self-motions that turn out to be none, by branch and free joints: their number, the largest relative residual, and whether they
+ * are known not to be members. */
 #define GB_KINDS 16
 #define GB_LONERS 8
 #define GB_MEMBERS 32
@@ -228,7 +227,7 @@ typedef struct {
     bool are_too_many;
 } gb_strays;
 
-/* Where walks along curves next to self-motions begin, as many as there is room for: how the candidates were found, and joints on the curves. */
+/* Starts of continuation along curves next to self-motions, up to a maximal number: how the candidates were found, and joints on the curves. */
 #define GB_STARTS 32
 typedef struct {
     gb_found_1 found[GB_STARTS];
@@ -237,40 +236,41 @@ typedef struct {
     size_t count;
 } gb_starts;
 
-/* The answers so far. */
+/* The solutions found so far. */
 typedef struct {
     gb_problem problem;
     void *out;
     size_t room;
     size_t count;
-    /* How many candidates there have been, and had with the last one that did not hold where it was found, and with the last of close roots. */
+    /* Number of candidates so far; that number at the last candidate that needed polishing, and at the last one of close roots. */
     size_t candidates;
     size_t unsound;
     size_t doubted;
-    /* Whether on each stratum so far the cases before have lost no answer; formulas of a nearby mechanism tell nothing of that. */
+    /* Whether, on each stratum so far, the cases before it have lost no solution. Always false with the formulas of a nearby mechanism. */
     bool suffices;
-    /* Candidates for members of self-motions that were dropped for this. */
+    /* Candidates for members of self-motions that were dropped for this reason. */
     gb_strays strays;
-    /* Candidates that have turned out to be members of self-motions of the list; of more, the first is forgotten. Strata repeat each other, and the next
-     * candidate of a branch is near the last one most often. Tangents are there where they have been needed. And whether the one that is kept is of another self-motion. */
+    /* Candidates known to be members of self-motions in the list. When their maximal number is exceeded, the first is removed. Strata repeat each other, and
+     * the next candidate of a branch is usually near the last one. A tangent is present once it has been computed. `is_another` is whether the member that
+     * is being kept is of another self-motion. */
     gb_found_1 trails_of[GB_MEMBERS];
     gb_real trails[GB_MEMBERS][GB_MAX_JOINTS];
     gb_real trails_tangent[GB_MEMBERS][GB_MAX_JOINTS];
     bool trails_have_tangent[GB_MEMBERS];
     size_t trails_count;
     bool is_another;
-    /* Of members with several free joints that were found to be on a self-motion of the list: their branches and free joints, as many as there is room for. */
+    /* Branches and free joints of members with several free joints that are on a self-motion in the list, up to a maximal number. */
     gb_found_1 merged[GB_KINDS];
     size_t merged_count;
-    /* Candidates next to which a curve is walked along behind all others. */
+    /* Candidates next to which a curve is followed after all candidates are processed. */
     gb_starts starts;
-    /* Isolated answers that have been found to lie on no self-motion of these joints; of more, the first is forgotten. */
+    /* Isolated solutions known to be on no self-motion of these joints. When their maximal number is exceeded, the first is removed. */
     gb_real loners[GB_LONERS][GB_MAX_JOINTS];
     uint32_t loners_of[GB_LONERS];
     size_t loners_count;
-    /* Whether a stratum was met that could not be derived. */
+    /* Whether a stratum was met for which no derivation exists. */
     bool is_open;
-    /* What missed the equations by the least share of their size. */
+    /* Whether there are joint values with the least relative residual that are no solution. */
     bool has_nearest;
     gb_real nearest[GB_MAX_JOINTS];
     gb_fit nearest_fit;
@@ -282,7 +282,8 @@ typedef struct {
     size_t length;
 } gb_polynomial_1;
 
-/* What a polynomial's terms are measured at, to tell a double root from a miss: so many times the greater of the unknown's typical size and a root. */
+/* The magnitudes at which a polynomial's terms are evaluated, to distinguish a double root from a miss: a factor times the greater of the unknown's typical
+ * size and a root. */
 typedef struct {
     gb_real typical;
     gb_real spread;
@@ -318,25 +319,25 @@ GB_LINKAGE size_t gb_keep_within(const gb_answers *all, const gb_real *limits);
 GB_LINKAGE int gb_nearest(const gb_answers *all, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_real *q);
 GB_LINKAGE void gb_target_of(const gb_real *base, const gb_real *tool, const gb_real *pose, gb_real *target);
 
-/* So many steps at most: they are spent with the next one, which tells that they are not enough. */
+/* At most `most` steps. They are used up with the next one, which shows that they did not suffice. */
 GB_INLINE size_t gb_steps_at_most(size_t most)
 {
     return most < SIZE_MAX ? most + 1 : most;
 }
 
-/* The greater of two numbers; the first where the second is none. */
+/* The greater of two numbers; the first where the second is NaN. */
 GB_INLINE gb_real gb_larger(gb_real a, gb_real b)
 {
     return b > a ? b : a;
 }
 
-/* The lesser of two numbers; the first where the second is none. */
+/* The lesser of two numbers; the first where the second is NaN. */
 GB_INLINE gb_real gb_smaller(gb_real a, gb_real b)
 {
     return b < a ? b : a;
 }
 
-/* The magnitude, without a branch. */
+/* The magnitude, computed without a branch. */
 GB_INLINE gb_real gb_magnitude(gb_real a)
 {
 #ifdef GB_FLOAT
@@ -346,7 +347,7 @@ GB_INLINE gb_real gb_magnitude(gb_real a)
 #endif
 }
 
-/* What a polynomial's terms at x are measured at. */
+/* The magnitude at which a polynomial's terms are evaluated near the root x. */
 GB_INLINE gb_real gb_scale_at(gb_scale scale, gb_real x)
 {
     return scale.spread * gb_larger(scale.typical, gb_magnitude(x));
@@ -362,7 +363,7 @@ GB_INLINE gb_real gb_signed(gb_real a, gb_real sign)
 #endif
 }
 
-/* The square root, by one instruction where there is one: the C library's would look for errors. */
+/* The square root, by one instruction where there is one: that of the C library checks for errors. */
 GB_INLINE gb_real gb_square_root(gb_real a)
 {
 #ifdef GB_FLOAT

@@ -1,6 +1,6 @@
-/* What a robot offers */
+/* Public functions of a robot's solver */
 
-/* Moves a target onto its conditions, which it may miss by a little; a code below zero where that is far. */
+/* Projects a target onto its conditions. Returns a code below zero if it is farther from them than the tolerance. */
 static int gb_conform(const gb_real *target, gb_real *conforming)
 {
     for (int i = 0; i < GB_INPUTS; i++) {
@@ -20,7 +20,7 @@ static int gb_conform(const gb_real *target, gb_real *conforming)
     return 0;
 }
 
-/* Walks through the program to the answers to a target with these parameters; 0, or a code below. */
+/* Evaluates the program to find the solutions of a target with these parameters. Returns 0, or a code below. */
 static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_solution *out, gb_pairs *pairs, enum gb_sought sought, size_t *steps)
 {
     gb_real conforming[GB_INPUTS] = {0};
@@ -60,7 +60,7 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     return c->all.is_open ? GB_OPEN_STRATUM : 0;
 }
 
-/* Whether answers are in order as they are. */
+/* Whether solutions are already sorted. */
 GB_INLINE bool gb_are_in_order(const gb_sink_1 *c)
 {
     bool are_sorted = GB_PREFERRED < 0 && c->all.count <= GB_ISOLATED;
@@ -70,7 +70,7 @@ GB_INLINE bool gb_are_in_order(const gb_sink_1 *c)
     return are_sorted;
 }
 
-/* Marks all answers to a target that are not settled, for its steps are spent; their number, or a code below zero. */
+/* Marks all solutions of a target as not settled if its steps are used up. Returns their number, or a code below zero. */
 GB_INLINE int gb_settle(size_t steps, gb_solution *out, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -79,7 +79,7 @@ GB_INLINE int gb_settle(size_t steps, gb_solution *out, size_t count)
     return steps > 0 || count > 0 ? (int)count : GB_UNSETTLED;
 }
 
-/* All joint values with which the equations hold, or a code below zero. */
+/* Finds all joint values with which the equations hold. Returns their number, or a code below zero. */
 GB_INLINE int gb_solve_ideal(const gb_real *target, gb_solution *out, size_t *steps)
 {
     gb_sink_1 c;
@@ -147,7 +147,7 @@ static void gb_pairs_of(const gb_solution *solution, gb_pairs *out)
     out->settled = solution->settled;
 }
 
-/* The pairs of what the robot's solve finds. */
+/* The solutions of the robot's solve function, as pairs. */
 static GB_COLD int gb_solve_by_angles(const gb_real *target, gb_pairs *out)
 {
     gb_solution list[GB_CAPACITY];
@@ -184,7 +184,7 @@ int GB_PUBLIC(solve_pairs)(const gb_real *target, gb_pairs *out)
 #endif
 }
 
-/* All of one target, where there may be less room than solutions: then none is written. */
+/* Writes all solutions of one target, or none if there is not enough room. */
 static GB_COLD int gb_solve_into(const gb_real *target, gb_solution *solutions, gb_pairs *pairs, size_t room)
 {
     if (room >= GB_CAPACITY) {
@@ -207,7 +207,7 @@ static GB_COLD int gb_solve_into(const gb_real *target, gb_solution *solutions, 
 #define GB_SOLVE_MANY GB_JOIN(gb_solve_many, _, GB_LANES)
 #else
 #define GB_SOLVE_MANY gb_solve_singly
-/* One after the other. */
+/* Solves the targets of a batch one after the other. */
 static size_t gb_solve_singly(const gb_real *targets, size_t count, gb_solution *solutions, gb_pairs *pairs, size_t room, int *counts)
 {
     size_t filled = 0;

@@ -1,6 +1,6 @@
-/* Candidates for members of self-motions that are none, where no answer is lost without them: strays.rs */
+/* Candidates for members of self-motions that turn out to be none: see strays.rs */
 
-/* What is known of a candidate's kind, or null where there are too many. */
+/* The record of a candidate's kind, or null where there are too many. */
 static gb_kind_of_stray *gb_kind(gb_strays *strays, const gb_found_1 *found)
 {
     size_t i = 0;
@@ -18,7 +18,7 @@ static gb_kind_of_stray *gb_kind(gb_strays *strays, const gb_found_1 *found)
     return &strays->kinds[i];
 }
 
-/* Counts a candidate that misses the equations by so much, and tells whether those of its kind have turned out to be no members. */
+/* Counts a candidate with its relative residual. Returns whether candidates of its kind are known not to be members. */
 static bool gb_are_known(gb_strays *strays, const gb_found_1 *found, gb_real missed)
 {
     gb_kind_of_stray *kind = gb_kind(strays, found);
@@ -30,7 +30,7 @@ static bool gb_are_known(gb_strays *strays, const gb_found_1 *found, gb_real mis
     return kind->is_astray;
 }
 
-/* Whether those of a candidate's kind have turned out to be no members. */
+/* Whether candidates of this kind are known not to be members. */
 static bool gb_are_astray(const gb_strays *strays, const gb_found_1 *found)
 {
     for (size_t i = 0; i < strays->count; i++) {
@@ -41,8 +41,8 @@ static bool gb_are_astray(const gb_strays *strays, const gb_found_1 *found)
     return false;
 }
 
-/* Whether an answer may have been lost: a kind is there on a part of the circle only, next to whose end rounding may have hidden one, so near the stratum are
- * its candidates. A free joint is put at eight places round the circle, or at a multiple of it. */
+/* Whether a solution may have been lost. This is possible where a kind exists only on a part of the circle and its candidates are close to the stratum:
+ * rounding may have hidden a solution at the end of that part. A free joint is sampled at eight places round the circle, or at a multiple of it. */
 GB_LINKAGE bool gb_are_doubtful(const gb_strays *strays)
 {
     bool are_doubtful = strays->are_too_many;

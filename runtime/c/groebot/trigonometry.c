@@ -1,25 +1,25 @@
-/* Angles, cosines and sines: trigonometry.rs */
+/* Angles, cosines and sines: see trigonometry.rs */
 
-/* The number without what is behind its point. */
+/* The integer part of the number. */
 static gb_real gb_whole(gb_real x)
 {
     return gb_magnitude(x) < R(1.0) / GB_EPSILON ? gb_signed((gb_real)(int64_t)x, x) : x;
 }
 
-/* The nearest whole number, halves away from zero: what is added is just below one half, which must not round up to one. */
+/* The nearest integer, halves away from zero. The constant is just below one half, because adding one half must not round up to one. */
 GB_LINKAGE gb_real gb_round(gb_real x)
 {
     return gb_whole(x + gb_signed(R(0.5) - R(0.25) * GB_EPSILON, x));
 }
 
-/* The greatest whole number that is not greater. */
+/* The greatest integer that is not greater than the number. */
 static gb_real gb_floor(gb_real x)
 {
     const gb_real whole = gb_whole(x);
     return whole > x ? whole - R(1.0) : whole;
 }
 
-/* The least whole number that is not less. */
+/* The least integer that is not less than the number. */
 static gb_real gb_ceiling(gb_real x)
 {
     return -gb_floor(-x);
@@ -32,7 +32,7 @@ GB_LINKAGE gb_real gb_wrap(gb_real angle)
     return wrapped <= -GB_PI ? wrapped + GB_TAU : wrapped;
 }
 
-/* atan2(sine, cosine) in (-pi, pi], zero never negative; not a number where both are zero. As the header has it for any type of number. */
+/* atan2(sine, cosine) in (-pi, pi]. Zero is never negative; NaN where both are zero. The header has a version for any type of number. */
 GB_LINKAGE gb_real gb_angle(gb_real cosine, gb_real sine)
 {
     const gb_real across = gb_magnitude(cosine), up = gb_magnitude(sine);
@@ -51,7 +51,7 @@ GB_LINKAGE gb_real gb_angle(gb_real cosine, gb_real sine)
     return (whole <= -GB_PI ? whole + GB_TAU : whole) + R(0.0);
 }
 
-/* The number of quarter turns nearest to an angle, and what is left, in two numbers. */
+/* The nearest number of quarter turns, and the remaining angle in two numbers. */
 static int64_t gb_reduced(gb_real angle, gb_real *x, gb_real *rest)
 {
     if (gb_magnitude(angle) > GB_EITHER(1e6, 1e3)) {
@@ -69,7 +69,7 @@ static int64_t gb_reduced(gb_real angle, gb_real *x, gb_real *rest)
     return gb_is_finite(quarters) ? (int64_t)quarters : 0;
 }
 
-/* The sine of x + rest for |x| <= pi/4. */
+/* The sine of `x + rest` for `|x| <= pi/4`. */
 static gb_real gb_sine_of(gb_real x, gb_real rest)
 {
     const gb_real u = x * x;
@@ -78,7 +78,7 @@ static gb_real gb_sine_of(gb_real x, gb_real rest)
     return x + (x * u * (R(-0.16666666666666666) + u * high) + rest * (R(1.0) - R(0.5) * u));
 }
 
-/* The cosine of x + rest for |x| <= pi/4. */
+/* The cosine of `x + rest` for `|x| <= pi/4`. */
 static gb_real gb_cosine_of(gb_real x, gb_real rest)
 {
     const gb_real u = x * x, half = R(0.5) * u, first = R(1.0) - half;
@@ -87,7 +87,7 @@ static gb_real gb_cosine_of(gb_real x, gb_real rest)
     return first + (((R(1.0) - first) - half) + (u * u * high - x * rest));
 }
 
-/* The cosine and the sine of an angle in rad: equal to those of gb_cosine and gb_sine, in two thirds of the time. */
+/* The cosine and the sine of an angle in rad. They are equal to those of gb_cosine and gb_sine, and take two thirds of the time. */
 GB_LINKAGE void gb_cosine_and_sine(gb_real angle, gb_real *cosine, gb_real *sine)
 {
     gb_real x, rest;
@@ -98,7 +98,7 @@ GB_LINKAGE void gb_cosine_and_sine(gb_real angle, gb_real *cosine, gb_real *sine
     *sine = quarters & 2 ? -up : up;
 }
 
-/* The sine of an angle and so many quarter turns. */
+/* The sine of an angle plus so many quarter turns. */
 static gb_real gb_sine_behind(gb_real angle, int64_t quarters)
 {
     gb_real x, rest;

@@ -1,7 +1,7 @@
-/* The short ways of candidates next to each other: as approach.rs */
+/* Newton steps of several candidates side by side: see approach.rs */
 
-/* By candidate, the short ways: the sums of their steps, how well the equations hold behind them, what they were missed by and the least pivot before, and
- * whether the equations are regular and near: 1, else 0. */
+/* By candidate, the result of its Newton steps: their sum, the residuals at the end, and the relative residual and least pivot at the candidate. The last
+ * field is 1 where the equations are regular and the steps short, else 0. */
 typedef struct {
     gb_real steps[GB_JOINTS][GB_CANDIDATES];
     gb_real residual[GB_CANDIDATES];
@@ -11,13 +11,13 @@ typedef struct {
     gb_real sound[GB_CANDIDATES];
 } gb_ways;
 
-/* What candidates next to each other have come to, and whether each need not go on: it has arrived, or cannot. */
+/* The state of candidates side by side, and whether each is finished: it has converged or has failed. */
 typedef struct {
     GB_PAIR(number) at[GB_PLACES], steps[GB_JOINTS], sound, residual, relative;
     bool are_done[GB_STEP];
 } gb_walker;
 
-/* Writes what one of candidates next to each other has come to. */
+/* Writes the result of one of several candidates. */
 GB_INLINE void gb_write_one(gb_ways *ways, const gb_walker *walker, size_t first, size_t lane)
 {
     gb_real numbers[GB_STEP];
@@ -33,7 +33,7 @@ GB_INLINE void gb_write_one(gb_ways *ways, const gb_walker *walker, size_t first
     ways->sound[first + lane] = numbers[lane];
 }
 
-/* Writes what the candidates that were not done before have come to; whether all are done. */
+/* Writes the results of the candidates that were not finished before, and returns whether all are finished. */
 GB_INLINE bool gb_write_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker *walker, size_t first)
 {
     bool are_done = true;
@@ -56,8 +56,8 @@ GB_INLINE void gb_step_walker(gb_walker *walker, const GB_PAIR(number) *step)
     }
 }
 
-/* A step of candidates next to each other, and where that is not enough another one by the same derivatives, if the first of all candidates misses little;
- * whether all are done. */
+/* Takes a step of candidates side by side. If that is not enough and the first of all candidates has a small residual, takes a second one with equal
+ * derivatives. Returns whether all are finished. */
 GB_INLINE bool gb_step_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker *walker, size_t first, bool is_first)
 {
     GB_PAIR(number) step[GB_JOINTS], missed;
@@ -79,7 +79,7 @@ GB_INLINE bool gb_step_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker *
     return gb_write_ways(ways, p, walker, first);
 }
 
-/* Where candidates next to each other start. */
+/* Initialises candidates side by side. */
 GB_INLINE void gb_start_ways(const gb_sink_1 *c, gb_walker *walker, size_t first)
 {
     for (int i = 0; i < GB_PLACES; i++) {
@@ -95,7 +95,7 @@ GB_INLINE void gb_start_ways(const gb_sink_1 *c, gb_walker *walker, size_t first
     GB_PAIR(step_back)(walker->steps, walker->at, &walker->sound);
 }
 
-/* The short ways of the candidates that wait. What one of them comes to does not depend on those next to it. */
+/* Takes the Newton steps of the waiting candidates. The result of one does not depend on the others. */
 static GB_APART void gb_find_ways(const gb_sink_1 *c, gb_ways *ways)
 {
     GB_PAIR(number) p[GB_PARAMETERS];
@@ -111,7 +111,7 @@ static GB_APART void gb_find_ways(const gb_sink_1 *c, gb_ways *ways)
     }
 }
 
-/* Where the short way of a candidate has led from q. */
+/* The end of the Newton steps of a candidate that begins at q. */
 static void gb_follow(const gb_ways *ways, size_t k, const gb_real *q, gb_approach *approach)
 {
     for (int i = 0; i < GB_JOINTS; i++) {
@@ -125,7 +125,7 @@ static void gb_follow(const gb_ways *ways, size_t k, const gb_real *q, gb_approa
     approach->pivot = ways->pivot[k];
 }
 
-/* Where a candidate is led; false where it must be refined. */
+/* Moves a candidate by its Newton steps; false where it must be refined. */
 static bool gb_lead(gb_sink_1 *c, const gb_ways *ways, size_t k, const gb_real *q, gb_approach *approach)
 {
     if (c->found[k].free != 0) {

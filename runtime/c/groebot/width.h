@@ -1,4 +1,4 @@
-/* The next type of number. */
+/* Selects the next type of number. */
 
 #if !defined(GB_WIDTH)
 #define GB_WIDTH 1
@@ -16,14 +16,14 @@
 #ifndef GB_DEFAULTS
 #define GB_DEFAULTS
 
-/* The type or function with this name for the type of number of which it is the turn, and that type. */
+/* The name of a type or function for the current type of number, and that type. */
 #define GB_(name) GB_JOIN(gb_##name, _, GB_WIDTH)
 #define T GB_(number)
-/* A block where a rare case leads to it: it is not put in that place. */
+/* A block that a rare case leads to; it is a function of its own. */
 #define GB_RARELY(block, parameters, ...) \
     static GB_COLD void GB_(rarely_##block) parameters { GB_(block)(__VA_ARGS__); }
 
-/* What a robot's file does not define of its facts. */
+/* Defaults of facts that a robot's file does not define. */
 #ifndef GB_DEGREE
 #define GB_DEGREE 2
 #endif
@@ -67,7 +67,7 @@ GB_UNUSED static const unsigned char gb_runs[GB_JOINTS] = {GB_RUNS};
 typedef GB_PUBLIC(solution) gb_solution;
 typedef GB_PUBLIC(pairs) gb_pairs;
 
-/* Angles differ by more than GB_BLUR where their difference has a cosine below this. */
+/* Two angles differ by more than GB_BLUR where the cosine of their difference is below this. */
 #define GB_FAR_APART (R(1.0) - R(0.52) * GB_BLUR * GB_BLUR)
 
 #if defined(__GNUC__)

@@ -1,4 +1,4 @@
-/* Compares PUMA's answers with those that reference.rs has written, bit for bit. */
+/* Compares PUMA's solutions bitwise with those that reference.rs has written. */
 #include "puma.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ static bool next(FILE *file, uint64_t *word)
     return fread(word, sizeof *word, 1, file) == 1;
 }
 
-/* Whether a number is the next one of a file; all that are none are alike. */
+/* Whether a number is the next one of a file; all NaN are equal. */
 static bool is_next(FILE *file, double number)
 {
     uint64_t word;
@@ -23,7 +23,7 @@ static bool is_next(FILE *file, double number)
     return memcmp(&other, &number, sizeof other) == 0 || (isnan(other) && isnan(number));
 }
 
-/* Whether a solution is the next one of a file, all of which is read. */
+/* Whether a solution is the next one of a file. All of its fields are read. */
 static bool is_next_solution(FILE *file, const puma_solution *solution)
 {
     bool is_equal = true;
@@ -39,7 +39,7 @@ static bool is_next_solution(FILE *file, const puma_solution *solution)
     return is_equal;
 }
 
-/* Whether pairs are the next ones of a file, all of which are read. */
+/* Whether pairs are the next ones of a file. All of their fields are read. */
 static bool are_next_pairs(FILE *file, const puma_pairs *pairs)
 {
     bool is_equal = true;
@@ -53,7 +53,7 @@ static bool are_next_pairs(FILE *file, const puma_pairs *pairs)
     return is_equal;
 }
 
-/* Whether solutions are the next ones of a file, all of which are read. */
+/* Whether solutions are the next ones of a file. All of them are read. */
 static bool are_next_solutions(FILE *file, const puma_solution *out, int count)
 {
     bool are_equal = is_next(file, count);
@@ -63,7 +63,7 @@ static bool are_next_solutions(FILE *file, const puma_solution *out, int count)
     return are_equal;
 }
 
-/* Whether all answers to the target with this number are the next ones of a file. */
+/* Whether all solutions of the target with this number are the next ones of a file. */
 static bool are_next_answers(FILE *file, const double *target, size_t number)
 {
     puma_solution out[PUMA_CAPACITY], nearest;

@@ -1,4 +1,4 @@
-//! Writes targets and the Rust run time's answers to them, which compare.c reads: words of 64 bits, each a number in double precision.
+//! Writes targets and their solutions by the Rust run time, which compare.c reads: words of 64 bits, each a number in double precision.
 #[allow(dead_code)]
 mod puma;
 
@@ -7,10 +7,10 @@ use puma::{CAPACITY, INPUTS, JOINTS, Pairs, Solution, Solve, Solver};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 
-/// Values where joints line up, or nearly do.
+/// Joint values of singular and nearly singular poses.
 const SPECIAL: [f64; 7] = [0.0, 1e-9, 1.5707963267948966, 1e-5, 3.141592653589793, 1e-3, -1.5707963267948966];
 
-/// Numbers in [0, 1): xorshift64 (G. Marsaglia, "Xorshift RNGs", 2003).
+/// Random numbers in [0, 1): xorshift64 (G. Marsaglia, "Xorshift RNGs", 2003).
 struct Random(u64);
 
 impl Random {
@@ -22,7 +22,7 @@ impl Random {
     }
 }
 
-/// A pose that joints reach; every tenth is singular or nearly so, some are none, and some are out of reach.
+/// The pose that random joint values reach. Every tenth is singular or nearly so, some are invalid, and some are out of reach.
 fn target(number: usize, random: &mut Random) -> [f64; INPUTS] {
     let mut q: [f64; JOINTS] = core::array::from_fn(|_| (2.0 * random.next() - 1.0) * 3.1415);
     if number % 10 == 0 {

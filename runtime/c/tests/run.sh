@@ -1,10 +1,10 @@
 #!/bin/sh
-# Compiles and runs the tests of the C run time with every compiler that is there, also with sanitizers, compares PUMA's answers with the Rust run
-# time's, bit for bit, and asks clang-tidy. What is missing is left out, with GROEBOT_REQUIRE_TOOLS=1 an error.
+# Compiles and runs the tests of the C run time with every installed compiler, also with sanitizers. Compares PUMA's solutions bitwise with those of the
+# Rust run time, and runs clang-tidy. A missing tool is skipped; with GROEBOT_REQUIRE_TOOLS=1 it is an error.
 #
-# CC      compilers to try; gcc and clang
-# PUMA    PUMA's derivation, whose printed files are compiled; the one in derivations/
-# WORK    where files go; a new temporary folder, removed at the end
+# CC      compilers to use; default: gcc and clang
+# PUMA    PUMA's derivation, whose printed files are compiled; default: the one in derivations/
+# WORK    folder for output files; default: a new temporary folder, removed at the end
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 runtime=$(cd "$here/../.." && pwd)
@@ -17,15 +17,15 @@ work=$WORK
 strict="-Wall -Wextra -Wpedantic -Werror -I. -I$here/.."
 cd "$work"
 
-# Whether a tool is there.
+# Whether a tool is installed.
 has() {
     command -v "$1" >/dev/null && return
-    echo "$1 is not here"
+    echo "$1 is not installed"
     [ "${GROEBOT_REQUIRE_TOOLS:-}" != 1 ] || exit 1
     return 1
 }
 
-# Whether a compiler has its sanitizers' libraries.
+# Whether a compiler has the libraries of its sanitizers.
 has_sanitizers() {
     echo 'int main(void) { return 0; }' >empty.c
     "$1" $sanitizers empty.c -o empty 2>/dev/null && return
@@ -34,22 +34,22 @@ has_sanitizers() {
     return 1
 }
 
-# The checks of .clang-tidy, for all three files. The last one is for the header's functions, too, in which clang-tidy does not know that of two
-# pointers one is not null.
+# The checks of .clang-tidy, for all three files. The last command also checks the header's functions. There clang-tidy cannot know that one of two
+# pointers is not null.
 tidy() {
     options="-std=c99 -I. -I$here/.."
     null=clang-analyzer-core.NullDereference,-clang-analyzer-core.NonNullParamChecker
     ask="clang-tidy --quiet --config-file=$here/../.clang-tidy"
     $ask "$here/../groebot.c" "$here/../groebot_six_axes.c" -- $options
     $ask --checks=-$null puma.c -- $options -Xclang -analyzer-opt-analyze-headers
-    echo "clang-tidy finds nothing"
+    echo "clang-tidy reports nothing"
 }
 
 for end in c h; do
     sed 's/5_solver/puma/' "$puma/5_solver.$end" >"puma.$end"
 done
 
-# The Rust answers, if there is a Rust to ask.
+# The solutions of the Rust run time, if cargo is installed.
 if has cargo; then
     mkdir -p reference/src
     cp "$here/reference.rs" reference/src/main.rs
@@ -64,10 +64,10 @@ groebot-runtime = { path = "$runtime" }
 [workspace]
 END
     CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$work/target} cargo run --quiet --release --manifest-path reference/Cargo.toml -- "$work/answers"
-    echo "Rust has answered"
+    echo "the Rust run time has written its solutions"
 fi
 
-# A file of the run time with its parts in their places.
+# Prints a file of the run time with its parts inserted.
 whole() {
     while IFS= read -r line; do
         case $line in
@@ -77,7 +77,7 @@ whole() {
     done <"$here/../$1"
 }
 
-# One file of run time and robot: what codegen puts together.
+# Prints run time and robot in one file, like codegen.
 join() {
     echo "#define GB_LINKAGE static GB_UNUSED"
     { whole groebot.h && cat puma.h puma.c && whole groebot.c; } \
@@ -85,7 +85,7 @@ join() {
 }
 join >single.c
 
-# The strict test, then the answers, of one compiler with flags for C.
+# Runs the tests, then compares the solutions, with one compiler and its flags.
 try() {
     echo "$*"
     "$@" $strict "$here/test.c" -lm -o test

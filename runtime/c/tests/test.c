@@ -1,4 +1,4 @@
-/* Tests of the run time with PUMA's file. What is static is in reach: both source files are part of this one. */
+/* Tests of the run time with PUMA's solver. Both source files are part of this one, so that static functions are accessible. */
 #include "puma.c"
 
 #include "../groebot.c"
@@ -8,9 +8,9 @@
 
 #define CHECK(truth) ((truth) ? (void)0 : fail(#truth, __LINE__))
 
-/* How near numbers are that would be equal but for rounding. */
+/* Tolerance for numbers that are equal up to rounding. */
 #define CLOSE GB_EITHER(1e-14, 1e-5)
-/* How near joints come again behind forward kinematics. */
+/* Tolerance for joint values found from forward kinematics. */
 #define FOUND GB_EITHER(1e-8, 2e-2)
 
 static void fail(const char *what, int line)
@@ -24,7 +24,7 @@ static bool are_close(gb_real a, gb_real b, gb_real tolerance)
     return gb_magnitude(a - b) <= tolerance;
 }
 
-/* A number in [-1, 1): xorshift64 (G. Marsaglia, "Xorshift RNGs", 2003). */
+/* A random number in [-1, 1): xorshift64 (G. Marsaglia, "Xorshift RNGs", 2003). */
 static gb_real random_number(void)
 {
     static uint64_t state = 88172645463325252u;
@@ -41,7 +41,7 @@ static void random_joints(gb_real *q)
     }
 }
 
-/* The roots of a polynomial are these. */
+/* Checks the real roots of a polynomial. */
 static void expect_roots(const gb_real *coefficients, size_t length, const gb_real *expected, size_t count, gb_real tolerance)
 {
     const gb_polynomial_1 polynomial = {coefficients, length};

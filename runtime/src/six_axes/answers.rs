@@ -1,4 +1,4 @@
-//! Answers at a target ([`Answers`]), and what a search for them remembers ([`Search`]).
+//! Solutions at a target ([`Answers`]), and the state of the search for them ([`Search`]).
 
 use core::f64::consts::TAU;
 
@@ -7,25 +7,25 @@ use super::rigid::Rigid;
 use crate::arithmetic::Arithmetic;
 use crate::trigonometry::wrap;
 
-/// The most answers that are kept while formulations are united, and the most candidates that are remembered.
+/// Maximal number of solutions that are kept while formulations are merged, and of candidates that are stored.
 pub const ROOM: usize = 32;
-/// Answers whose joints all differ by no more than this (rad) are one.
+/// Solutions are equal when no joint differs by more than this (rad).
 const MERGE: f64 = 1e-7;
-/// The largest residual of an answer, as a share of the length scale or in radians.
+/// The largest residual of a solution, relative to the length scale or in radians.
 pub(super) const ACCEPT: f64 = 1e-12;
-/// Candidates that are no farther than this from one that is known are not remembered again.
+/// Candidates within this distance of a stored one are not stored again.
 const ALIKE: f64 = 1e-2;
-/// An answer on a curve that is no farther than this from one that is known is that one.
+/// A solution on a curve within this distance of a known one is that one.
 const APART: f64 = 1e-4;
 
-/// A joint vector that reaches the target, or one to start from once more, near an answer that was lost.
+/// A joint vector that reaches the target, or a start near a solution that was lost.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Answer {
-    /// The joint angles, in (-pi, pi] (rad); ways in the unit of the target.
+    /// The joint values: angles in (-pi, pi] (rad), displacements in the unit of the target.
     pub q: [f64; 6],
-    /// By joint: whether others make up for it, to first order. They may be free here: one member of a self-motion.
+    /// By joint: whether other joints compensate its motion, to first order. It may be free here, in a member of a self-motion.
     pub free: [bool; 6],
-    /// Whether it is only near an answer.
+    /// Whether it is only near a solution.
     pub lost: bool,
 }
 
@@ -33,29 +33,29 @@ impl Answer {
     const NONE: Self = Answer { q: [0.0; 6], free: [false; 6], lost: false };
 }
 
-/// The answers at one target.
+/// The solutions at one target.
 #[derive(Clone, Copy, Debug)]
 pub struct Answers {
     list: [Answer; 2 * ROOM],
     count: usize,
-    /// How many formulations were run.
+    /// Number of formulations that were run.
     pub runs: usize,
-    /// The most that a candidate of the last run missed the target by before it was polished: a share of the length scale, or rad. `None` where that run
-    /// cannot be trusted to have found all answers.
+    /// The largest residual of a candidate of the last run before polishing, relative to the length scale, or rad. `None` where that run may have missed
+    /// solutions.
     pub accuracy: Option<f64>,
 }
 
 impl Answers {
-    /// None.
+    /// No solutions.
     pub const NONE: Self = Answers { list: [Answer::NONE; 2 * ROOM], count: 0, runs: 0, accuracy: None };
 
-    /// The answers, by ascending joints; then what was lost.
+    /// The solutions, ascending by joint values, then the lost ones.
     #[must_use]
     pub fn as_slice(&self) -> &[Answer] {
         &self.list[..self.count]
     }
 
-    /// Adds an answer if there is room.
+    /// Adds a solution if there is room.
     pub(super) fn push(&mut self, answer: Answer) {
         if let Some(place) = self.list.get_mut(self.count) {
             *place = answer;
@@ -92,7 +92,7 @@ impl List {
         &self.list[..self.count]
     }
 
-    /// Adds a joint vector if none is nearly the same, turns counted.
+    /// Adds a joint vector if the list has none close to it. Angles that differ by whole turns are distinct.
     pub fn remember(&mut self, q: [f64; 6]) {
         let is_alike = |other: &[f64; 6]| is_within(other, &q, &[true; 6], ALIKE);
         if self.count < ROOM && !self.as_slice().iter().any(is_alike) {
@@ -102,7 +102,7 @@ impl List {
     }
 }
 
-/// Answers that differ, each with its residual.
+/// Distinct solutions, each with its residual.
 pub(super) struct Distinct {
     list: [([f64; 6], f64); ROOM],
     pub count: usize,
@@ -115,7 +115,7 @@ impl Distinct {
         self.list[..self.count].iter().map(|(q, _)| q)
     }
 
-    /// Adds an answer, in place of a worse equal one.
+    /// Adds a solution; it replaces an equal one with a larger residual.
     pub fn keep(&mut self, q: [f64; 6], residual: f64, slides: &[bool; 6]) {
         let is_same = |known: &&mut ([f64; 6], f64)| is_within(&known.0, &q, slides, MERGE);
         if let Some(known) = self.list[..self.count].iter_mut().find(is_same) {
@@ -128,7 +128,7 @@ impl Distinct {
         }
     }
 
-    /// Takes an isolated answer in place of a member of a self-motion.
+    /// Replaces a member of a self-motion by an isolated solution.
     #[cold]
     fn displace(&mut self, q: [f64; 6], residual: f64, chain: &Chain) {
         let is_member = |q: &[f64; 6]| chain.free(q).contains(&true);
@@ -141,16 +141,16 @@ impl Distinct {
     }
 }
 
-/// What has been found at a target.
+/// The state of the search at a target.
 pub(super) struct Search {
     pub answers: Distinct,
-    /// Where candidates were that polishing led nowhere: next to a self-motion some isolated answer may be near them.
+    /// Candidates from which polishing failed: next to a self-motion an isolated solution may be near them.
     pub lost: List,
-    /// Candidates off the real line, or such that led to no answer, at a target aside: a curve may be next to them.
+    /// Candidates off the real line, or from which polishing failed at a displaced target: a curve may be next to them.
     pub far: List,
     /// Whether complex solutions nearly meet, for a robot within [`Chain::within`].
     pub is_meeting: bool,
-    /// Where such a robot may have answers.
+    /// Joint values near which that robot may have solutions.
     pub meeting: List,
 }
 
@@ -163,7 +163,7 @@ impl Search {
         is_meeting: false,
     };
 
-    /// Adds an answer; members of self-motions, of which there may be any number, give way to isolated answers.
+    /// Adds a solution. Isolated solutions replace members of self-motions, of which there may be any number.
     pub fn keep(&mut self, chain: &Chain, q: [f64; 6], residual: f64) {
         if self.answers.count < ROOM {
             self.answers.keep(q, residual, &chain.slides);
@@ -172,14 +172,14 @@ impl Search {
         }
     }
 
-    /// Remembers a candidate that polishing led nowhere.
+    /// Stores a candidate from which polishing failed.
     pub fn lose(&mut self, q: [f64; 6]) {
         if q.iter().all(|value| value.is_finite()) {
             self.lost.remember(q);
         }
     }
 
-    /// Polishes joints that a walk along a curve has led to, and keeps them if they are an answer that is not known.
+    /// Polishes joint values from a walk along a curve, and keeps the result if it is a new solution.
     pub fn find(&mut self, chain: &Chain, mut q: [f64; 6], target: &Rigid) {
         let residual = chain.polish(&mut q, target).1;
         let q = wrapped(&q, &chain.slides);
@@ -190,7 +190,7 @@ impl Search {
     }
 }
 
-/// The largest difference of two joint vectors, of angles by the shorter way round.
+/// The largest difference of two joint vectors; of angles, reduced to (-pi, pi].
 pub(super) fn distance(a: &[f64; 6], b: &[f64; 6], slides: &[bool; 6]) -> f64 {
     (0..6).fold(0.0, |most, joint| f64::max(most, difference(a[joint] - b[joint], slides[joint])))
 }

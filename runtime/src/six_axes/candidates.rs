@@ -1,4 +1,4 @@
-//! From the pencil to joint angles: eigenvalues, eigenvectors, back-substitution ([`Candidates`]).
+//! From the matrix pencil to joint angles: eigenvalues, eigenvectors, back-substitution ([`Candidates`]).
 
 use core::array::from_fn;
 
@@ -18,18 +18,18 @@ use crate::angles::angle;
 use crate::arithmetic::Arithmetic;
 use crate::trigonometry::{cosine, sine};
 
-/// Half angles (arc tangents of half a way) from which the hidden one is counted: the first whose matrix can be inverted well is taken.
+/// Origins of the hidden half angle (arc tangent of half a displacement). The first one with a well-conditioned matrix is used.
 const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
-/// The smallest share of a pivot in the largest entry of its matrix at which an origin is taken at once.
+/// Least pivot, relative to the largest entry of its matrix, at which an origin is accepted at once.
 const SOUND: f64 = 1e-9;
-/// The square, times the share of the pivot, of the distance of eigenvalues that coincide: closer than its root, as a share of `1 + |x|^2`, rounding may
-/// have parted a multiple one, into a complex pair as well.
+/// Bound on the squared distance of coincident eigenvalues, relative to `1 + |x|^2`, times the relative pivot. Within it rounding may have split a multiple
+/// eigenvalue, possibly into a complex pair.
 const COINCIDING: f64 = 1e-14;
 
 /// A candidate for a solution.
 #[derive(Clone, Copy)]
 pub(super) struct Candidate {
-    /// The joint values; that of the joint whose line was used is still missing, and a way may be infinite.
+    /// The joint values. That of the joint whose line was used is not computed yet, and a displacement may be infinite.
     pub q: [f64; 6],
     /// [`Eigenvalue::depth`].
     pub depth: f64,
@@ -37,16 +37,16 @@ pub(super) struct Candidate {
 
 /// Candidates for solutions of one formulation.
 pub(super) struct Candidates {
-    /// Those of single eigenvalues first, and of these the real ones.
+    /// Candidates of single eigenvalues first, and of these the real ones.
     list: [Candidate; SIZE],
     count: usize,
-    /// Whether some solutions were not separated, for they share the hidden joint's value and the doubled one's.
+    /// Whether some solutions were not separated, because both the hidden joint and the doubled one have equal values in them.
     pub is_crowded: bool,
-    /// The smallest share of a pivot in the largest entry of the matrix that was inverted.
+    /// The smallest pivot, relative to the largest entry of the inverted matrix.
     pub conditioning: f64,
 }
 
-/// What an eigenvector means.
+/// Computes joint values from an eigenvector.
 struct Reader<'a> {
     slides: &'a [bool; 6],
     formulation: Formulation,
@@ -59,12 +59,12 @@ struct Problem<'a> {
     reader: Reader<'a>,
     form: Hessenberg,
     origin: f64,
-    /// Eigenvalues closer than this share of `1 + |x|^2` coincide.
+    /// Eigenvalues closer than this, relative to `1 + |x|^2`, coincide.
     coinciding: f64,
 }
 
 impl Candidates {
-    /// Those at a displacement, of eigenvalues no farther off the real line than `deepest`; each `attempt` begins with another origin of the half angle.
+    /// The eigenvalue problem at a displacement, for eigenvalues at most `deepest` off the real line. Each `attempt` has another origin of the half angle.
     /// `None` when the pencil is singular for this target, or not finite.
     #[inline(always)]
     pub fn new(chain: &Chain, displacement: &Rigid, attempt: usize, deepest: f64) -> Option<Self> {
@@ -103,17 +103,17 @@ fn equations(chain: &Chain, formulation: Formulation, displacement: &Rigid) -> R
 struct NearReal {
     list: [Eigenvalue; SIZE],
     count: usize,
-    /// By eigenvalue, the first one that it coincides with: itself, when it is that one.
+    /// By eigenvalue, the index of the first one that coincides with it, which may be its own.
     first: [usize; SIZE],
 }
 
 impl NearReal {
-    /// How many eigenvalues coincide with the one at an index and with none before it.
+    /// Number of eigenvalues that coincide with the one at an index, if none before it does.
     fn size(&self, index: usize) -> usize {
         self.first[..self.count].iter().filter(|first| **first == index).count()
     }
 
-    /// Those that stand alone.
+    /// The eigenvalues that coincide with no other one.
     fn alone(&self) -> ([Eigenvalue; SIZE], usize) {
         let (mut alone, mut count) = ([Eigenvalue { re: 0.0, im: 0.0 }; SIZE], 0);
         for index in (0..self.count).filter(|index| self.size(*index) == 1) {
@@ -125,7 +125,7 @@ impl NearReal {
 }
 
 impl Problem<'_> {
-    /// The eigenvalues no farther off the real line than `deepest`, real ones first.
+    /// The eigenvalues at most `deepest` off the real line, real ones first.
     fn near_real(&self, values: &[Eigenvalue; SIZE], deepest: f64) -> NearReal {
         let mut near = NearReal { list: [Eigenvalue { re: 0.0, im: 0.0 }; SIZE], count: 0, first: from_fn(|k| k) };
         for is_real in [true, false] {
@@ -143,14 +143,14 @@ impl Problem<'_> {
         near
     }
 
-    /// Whether rounding may have parted two eigenvalues.
+    /// Whether rounding may have split the two eigenvalues.
     #[inline(always)]
     fn coincide(&self, a: &Eigenvalue, b: &Eigenvalue) -> bool {
         let is_close = (a.re - b.re).abs() <= self.coinciding * (1.0 + a.re * a.re + b.re * b.re);
         is_close && a.depth() <= self.coinciding && b.depth() <= self.coinciding
     }
 
-    /// Half the hidden angle, or the arc tangent of half the way.
+    /// Half the hidden angle, or the arc tangent of half the displacement.
     #[inline(always)]
     fn half(&self, value: &Eigenvalue) -> f64 {
         self.origin + angle(1.0, value.re + value.im)
@@ -171,7 +171,7 @@ impl Problem<'_> {
         candidates
     }
 
-    /// Adds the candidates of eigenvalues that coincide; where these are not separated, a single one.
+    /// Adds the candidates of coincident eigenvalues; if these are not separated, a single one.
     #[cold]
     fn add_coinciding(&self, near: &NearReal, candidates: &mut Candidates) {
         for index in (0..near.count).filter(|index| near.size(*index) > 1) {
@@ -195,12 +195,12 @@ impl Problem<'_> {
 struct Standard {
     origin: f64,
     matrix: Matrix,
-    /// How well `B` was inverted.
+    /// Conditioning of `B`.
     conditioning: f64,
 }
 
 impl Standard {
-    /// That of the first origin whose `B` can be inverted well, or of the best one.
+    /// The matrix for the first origin whose `B` is well conditioned, or for the best one.
     #[inline(always)]
     fn new(pencil: &Pencil, attempt: usize) -> Option<Self> {
         let origin = |index: usize| ORIGINS[(attempt + index) % ORIGINS.len()];
@@ -233,7 +233,7 @@ impl Standard {
 }
 
 impl Reader<'_> {
-    /// The values, given half the hidden angle and its eigenvector.
+    /// The joint values, given half the hidden angle and its eigenvector.
     fn values(&self, hidden: f64, vector: &[f64; SIZE]) -> [f64; 6] {
         let wide = self.pencil.widened(vector);
         let Halved { half, head, is_first } = Halved::of(&wide);
@@ -256,7 +256,7 @@ impl Reader<'_> {
         ordered
     }
 
-    /// The angle or way of the hidden joint, given half of it.
+    /// The angle or displacement of the hidden joint, given half of it.
     #[inline(always)]
     fn doubled(&self, half: f64) -> f64 {
         if !self.slides(0) {
@@ -265,20 +265,20 @@ impl Reader<'_> {
         2.0 * (sine(half) / cosine(half))
     }
 
-    /// Whether the joint `steps` behind the hidden one slides.
+    /// Whether the joint `steps` after the hidden one is prismatic.
     #[inline(always)]
     fn slides(&self, steps: usize) -> bool {
         self.slides[self.formulation.joint(steps)]
     }
 
-    /// 1, c, s of the angles, or 1, d^2, d of the ways, of the near joints.
+    /// 1, c, s of the angles, or 1, d^2, d of the displacements, of the near joints.
     #[inline(always)]
     fn factors(&self, values: [f64; 2]) -> [[f64; 3]; 2] {
         let [c, s] = cosines_and_sines(&values);
         from_fn(|k| if self.slides(k + 1) { [1.0, values[k] * values[k], values[k]] } else { [1.0, c[k], s[k]] })
     }
 
-    /// The products of the far joints; `scale` is what the eigenvector is a multiple by.
+    /// The products of the far joints; `scale` is the factor of the eigenvector.
     #[inline(always)]
     fn far(&self, wide: &Wide, [c, s]: [f64; 2], scale: f64, near: &Products) -> [f64; FAR] {
         let scale = if self.slides[self.formulation.doubled()] { scale * (c * c) } else { scale };
@@ -296,13 +296,13 @@ impl Reader<'_> {
     }
 }
 
-/// What the near monomials say of the doubled joint.
+/// The doubled joint's value, computed from the near monomials.
 struct Halved {
-    /// Half of its angle, or the arc tangent of its way.
+    /// Half of its angle, or the arc tangent of its displacement.
     half: f64,
     /// The products of the other near joint at the greatest monomial: multiples of 1, c, s.
     head: Vector,
-    /// Whether the greatest monomial is the cube of the half angle's cosine, and not that of its sine.
+    /// Whether the greatest monomial is the cube of the half angle's cosine. Otherwise it is that of its sine.
     is_first: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Six joints in any place ([`Chain`]), and the ways to see their loop ([`Formulation`]).
+//! General chains of six joints ([`Chain`]), and the formulations of their loop equation ([`Formulation`]).
 
 use core::array::from_fn;
 
@@ -7,37 +7,37 @@ use super::rigid::Rigid;
 use super::screw::{Axis, Figure};
 use super::vector::{Vector, scale};
 
-/// A way of so many length scales stands for an infinite one, which chains with two sliding joints have among their eigenvalues.
+/// A displacement of so many length scales represents an infinite one. Chains with two prismatic joints have such eigenvalues.
 const LONG: f64 = 1e4;
 
-/// Whether a way stands for an infinite one.
+/// Whether a displacement represents an infinite one.
 pub(super) fn is_infinite(way: f64) -> bool {
     way.is_nan() || way.abs() > LONG
 }
 
-/// Which angle is hidden in the pencil, and which is doubled.
+/// The joint that is hidden in the pencil, and the one that is doubled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Formulation {
-    /// The joint, from 0, whose angle or way is the eigenvalue.
+    /// The joint, from 0, whose angle or displacement is the eigenvalue.
     pub hidden: usize,
-    /// Whether the equations are multiplied by half the angle, or by the way, of the second joint behind it, and not of the first.
+    /// Whether the equations are multiplied by half the angle, or by the displacement, of the second joint after the hidden one instead of the first.
     pub second: bool,
 }
 
 impl Formulation {
-    /// The joint that stands `steps` behind the hidden one in the loop.
+    /// The joint `steps` after the hidden one in the loop.
     #[inline(always)]
     pub(super) fn joint(&self, steps: usize) -> usize {
         (self.hidden + steps) % 6
     }
 
-    /// The joint whose half angle or way the equations are multiplied by.
+    /// The joint by whose half angle or displacement the equations are multiplied.
     pub(super) fn doubled(&self) -> usize {
         self.joint(if self.second { 2 } else { 1 })
     }
 }
 
-/// Formulations in the order in which they are tried; one at least.
+/// Formulations in the order in which they are tried, at least one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Formulations {
     list: [Formulation; Formulations::ROOM],
@@ -45,10 +45,10 @@ pub struct Formulations {
 }
 
 impl Formulations {
-    /// Each joint can be hidden, and each of the two behind it doubled.
+    /// Capacity: each joint can be hidden, and each of the two after it doubled.
     pub const ROOM: usize = 12;
 
-    /// Those of a list.
+    /// Formulations from a list.
     ///
     /// # Panics
     /// When it is empty, longer than [`Formulations::ROOM`], or one hides none of the joints 0 to 5.
@@ -70,35 +70,35 @@ impl Formulations {
         &self.list[..self.count]
     }
 
-    /// That of an attempt: after the last the first again.
+    /// The formulation of an attempt; after the last one the first is used again.
     pub(super) fn of(&self, attempt: usize) -> Formulation {
         self.list[attempt % self.count]
     }
 }
 
-/// Six joints, by the lines that they turn about or slide along.
+/// A chain of six joints, given by their axes of rotation or translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chain {
     /// Directions of the axes at zero, of length one.
     pub directions: [Vector; 6],
-    /// Points on the axes at zero; as all lengths but those of `back`, shares of `length`.
+    /// Points on the axes at zero, divided by `length`, as are all lengths except those of `back`.
     pub points: [Vector; 6],
-    /// Two directions of length one across each axis and each other.
+    /// For each axis, two unit vectors orthogonal to it and to each other.
     pub across: [[Vector; 2]; 6],
-    /// Whether joints slide along their axes.
+    /// Whether joints are prismatic.
     pub slides: [bool; 6],
-    /// At zero each joint's frame, whose z axis is the joint's, in that of the joint before; the first one in the base.
+    /// At zero, each joint's frame in the frame of the joint before; the first one in the base. Its z axis is the joint's axis.
     pub steps: [Rigid; 6],
-    /// At zero the last joint's frame in the base.
+    /// At zero, the last joint's frame in the base.
     pub last: Rigid,
-    /// The base seen from the tip at zero, in the unit of the target.
+    /// The base in the frame of the tip at zero, in the unit of the target.
     pub back: Rigid,
-    /// A length typical of the chain, in the unit of the target.
+    /// Characteristic length of the chain, in the unit of the target.
     pub length: f64,
     /// The eigenvalue problems, in the order in which they are tried.
     pub formulations: Formulations,
-    /// How far the robot for which answers are wanted may be from this one (shares of `length`, and rad); zero where it is this one. Two complex
-    /// solutions that are as near to each other are lost answers: of that robot they may be real.
+    /// Tolerance between this robot and the one for which solutions are wanted (relative to `length`, and rad); zero where both are equal. Complex solutions
+    /// within this distance of each other count as lost solutions, because they may be real for the other robot.
     pub within: f64,
 }
 
@@ -112,7 +112,7 @@ impl Chain {
         Frame { axis: self.axis(formulation.hidden), across: &self.across[formulation.hidden] }
     }
 
-    /// What a joint leaves alone, moved to where the loop is cut behind the target.
+    /// The line or direction that a joint leaves invariant, moved to the other side of the target if `ahead`.
     #[inline(always)]
     pub(super) fn place(&self, formulation: Formulation, steps: usize, ahead: bool, displacement: &Rigid) -> Figure {
         let joint = formulation.joint(steps);
@@ -125,17 +125,17 @@ impl Chain {
         }
     }
 
-    /// The joints with ways times a factor.
+    /// The joint values, with displacements multiplied by a factor.
     pub(super) fn scaled(&self, q: &[f64; 6], factor: f64) -> [f64; 6] {
         from_fn(|joint| if self.slides[joint] { q[joint] * factor } else { q[joint] })
     }
 
-    /// Whether a way among joint values stands for an infinite one.
+    /// Whether a displacement among joint values represents an infinite one.
     pub(super) fn has_infinite(&self, q: &[f64; 6]) -> bool {
         q.iter().zip(&self.slides).any(|(way, slides)| *slides && is_infinite(*way))
     }
 
-    /// What takes the tip from its place at zero to a target.
+    /// The rigid motion from the tip's pose at zero to a target.
     pub(super) fn displacement(&self, target: &[f64; 12]) -> Rigid {
         let rotation = from_fn(|i| from_fn(|j| target[3 + 3 * i + j]));
         let pose = Rigid { rotation, translation: [target[0], target[1], target[2]] };

@@ -1,8 +1,8 @@
-//! Eigenvalues that coincide ([`Cluster`]): solutions that share the hidden joint's value, separated by the doubled joint.
+//! Coincident eigenvalues ([`Cluster`]): solutions with equal values of the hidden joint, separated by the doubled joint.
 //!
-//! Inverse iteration finds one vector of the space that their eigenvectors span. Simultaneous iteration finds a basis of this space. In it, the tangent of
-//! half the doubled angle multiplies the monomials by a matrix with as many rows as solutions, whose eigenvectors are the shares of the basis (R. M. Corless,
-//! P. M. Gianni and B. M. Trager, ISSAC 1997, 133-140).
+//! Inverse iteration finds one vector of the space that their eigenvectors span. Simultaneous iteration finds a basis of this space. Multiplying the monomials
+//! by the tangent of half the doubled angle is a matrix in this basis, with as many rows as solutions. Its eigenvectors are the solutions' coordinates (R. M.
+//! Corless, P. M. Gianni and B. M. Trager, ISSAC 1997, 133-140).
 
 use core::array::from_fn;
 
@@ -14,18 +14,18 @@ use super::vector::product;
 use crate::arithmetic::Arithmetic;
 use crate::trigonometry::{cosine, sine};
 
-/// Rounds of simultaneous iteration.
+/// Number of simultaneous iterations.
 const ROUNDS: usize = 2;
-/// Distance of the iteration's shift from the eigenvalue, as a share of `1 + |x|`, so that the matrix is regular.
+/// Distance of the iteration's shift from the eigenvalue, relative to `1 + |x|`, so that the matrix is regular.
 const SHIFT: f64 = 1e-9;
-/// Half the doubled angle is counted from here.
+/// Origin of half the doubled angle.
 const ORIGIN: f64 = 0.7;
-/// The smallest share of a pivot at which the monomials determine the matrix of tangents.
+/// Least relative pivot at which the monomials determine the matrix of tangents.
 const DETERMINED: f64 = 1e-10;
-/// Tangents closer than this share of `1 + |t|^2` do not separate solutions.
+/// Tangents closer than this, relative to `1 + |t|^2`, do not separate solutions.
 const SEPARATE: f64 = 1e-4;
 
-/// The solutions of eigenvalues that coincide.
+/// The solutions of coincident eigenvalues.
 pub(super) struct Cluster {
     /// Their eigenvectors, in the first rows.
     pub vectors: Matrix,
@@ -34,7 +34,7 @@ pub(super) struct Cluster {
 }
 
 impl Cluster {
-    /// The solutions of `count` eigenvalues at `x`; `None` where the doubled joint does not separate them.
+    /// The solutions of `count` eigenvalues at `x`. `None` where the doubled joint does not separate them.
     #[cold]
     pub fn new(form: &Hessenberg, pencil: &Pencil, x: f64, count: usize) -> Option<Self> {
         let basis = basis(form, x, count)?;
@@ -74,7 +74,7 @@ fn basis(form: &Hessenberg, x: f64, count: usize) -> Option<Matrix> {
     Some(basis)
 }
 
-/// Gram-Schmidt, twice; `None` where vectors depend on one another.
+/// Gram-Schmidt orthonormalisation, applied twice. `None` where vectors are linearly dependent.
 fn orthonormalise(basis: &mut [[f64; SIZE]]) -> Option<()> {
     for j in 0..basis.len() {
         let (known, rest) = basis.split_at_mut(j);
@@ -93,7 +93,7 @@ fn orthonormalise(basis: &mut [[f64; SIZE]]) -> Option<()> {
     Some(())
 }
 
-/// The matrix by which the tangent multiplies the monomials, in a basis, by least squares; rows and columns beyond those of the basis are those of zero.
+/// The matrix, in a basis, of multiplication by the tangent, by least squares. Rows and columns beyond those of the basis are zero.
 fn tangents(basis: &[Wide]) -> Option<Matrix> {
     let (c, s) = (cosine(ORIGIN), sine(ORIGIN));
     let cosines = |vector: &Wide, k: usize| c * vector[k] + s * vector[k + 3];
@@ -113,7 +113,7 @@ fn tangents(basis: &[Wide]) -> Option<Matrix> {
     is_determined.then(|| rows.map(|row| from_fn(|k| row[SIZE + k])))
 }
 
-/// Whether no two tangents are close to one another.
+/// Whether all tangents are distinct within the tolerance.
 fn are_separate(values: &[Eigenvalue]) -> bool {
     let is_close = |a: &Eigenvalue, b: &Eigenvalue| {
         (a.re - b.re).abs() + (a.im - b.im).abs() <= SEPARATE * (1.0 + a.re * a.re + b.re * b.re)

@@ -1,8 +1,9 @@
-//! Curves all along which the target is nearly reached, as next to a self-motion ([`Walk`]).
+//! Continuation along curves on which the target is nearly reached, as next to a self-motion ([`Walk`]).
 //!
-//! Beside a self-motion the isolated answers of a target may stand anywhere on the curve that the self-motion was, and Newton's steps find none of them: the
-//! Jacobian has rank five but for a trace. A walk holds the five equations that joints can change and goes along the tangent; what is missed of the sixth
-//! one changes its sign at each answer. (Steps along the tangent: E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.)
+//! Next to a self-motion, the isolated solutions of a target may be anywhere on the curve that remains of the self-motion. Newton steps find none of them,
+//! because the Jacobian has rank five within a small error. A walk keeps the five equations that the joints influence, and follows the tangent. The residual of
+//! the sixth equation changes its sign at each solution. (Steps along the tangent: E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter
+//! 3.)
 
 use core::array::from_fn;
 use core::f64::consts::TAU;
@@ -15,39 +16,39 @@ use super::section::Place;
 use super::vector::product;
 use crate::arithmetic::Arithmetic;
 
-/// What rounding leaves of the equations on a self-motion.
+/// Rounding error of the equations on a self-motion.
 const LEVEL: f64 = 1e-13;
-/// Steps across the curve at most, from where a walk may begin.
+/// Maximal number of steps across the curve from the start of a walk.
 const ROUNDS: usize = 12;
-/// The same from the end of a step along it.
+/// Maximal number of steps across the curve from the end of a step along it.
 const FEW: usize = 5;
-/// The length of a step along the curve.
+/// Length of a step along the curve.
 const STRIDE: f64 = 0.1;
-/// The least one, as a share of it.
+/// Least length of a step, relative to `STRIDE`.
 const SHORT: f64 = 0.015;
-/// The most steps of a walk in one direction.
+/// Maximal number of steps of a walk in one direction.
 const PACES: usize = 400;
-/// A curve that misses no more than so many times what the robot is off may lead to answers of the one that is meant.
+/// A curve with a residual of at most this factor times [`Chain::within`] may lead to solutions of the robot of interest.
 const BESIDE: f64 = 30.0;
-/// Rounds of the false position between two steps.
+/// Iterations of false position between two steps.
 const NARROWED: usize = 16;
 
-/// A walk along all curves that are found from some joint vectors.
+/// A walk along all curves found from given joint vectors.
 pub(super) struct Walk<'a> {
     chain: &'a Chain,
     target: &'a Rigid,
-    /// Where walks begin; those that another one has passed are left out.
+    /// Starts of walks; those that another walk has passed are removed.
     starts: [Option<Place>; ROOM],
     count: usize,
 }
 
 impl<'a> Walk<'a> {
-    /// A walk that has not begun.
+    /// A walk without starts.
     pub fn new(chain: &'a Chain, target: &'a Rigid) -> Self {
         Walk { chain, target, starts: [None; ROOM], count: 0 }
     }
 
-    /// Begins at `q` too if there is a curve next to it.
+    /// Adds a start at `q` if there is a curve next to it.
     pub fn begin(&mut self, q: [f64; 6]) {
         if self.count < ROOM
             && let Some(place) = self.chain.settled(q, self.target, ROUNDS)
@@ -57,8 +58,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Walks along the curves, both ways if they do not close, and adds answers where the sixth equation changes its sign; of a curve that misses nothing,
-    /// a self-motion, one member.
+    /// Follows the curves, in both directions if they are not closed, and adds solutions where the sixth equation changes its sign. If its residual is zero all
+    /// along, the curve is a self-motion, and one member is added.
     pub fn run(mut self, search: &mut Search) {
         for index in 0..self.count {
             let Some(start) = self.starts[index].take() else { continue };
@@ -78,7 +79,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Walks from `home` until the curve closes or ends; whether it closed. `level` becomes the least and the most that was missed.
+    /// Follows the curve from `home` until it closes or ends. Returns whether it closed. `level` receives the least and the largest residual.
     fn leads_home(&mut self, home: Place, search: &mut Search, level: &mut [f64; 2]) -> bool {
         let slides = &self.chain.slides;
         let (mut before, mut at, mut stride, mut is_away) = (home, home, STRIDE, false);
@@ -103,7 +104,7 @@ impl<'a> Walk<'a> {
         false
     }
 
-    /// A step along the curve, shorter where it bends; `None` where it ends.
+    /// A step along the curve, shorter where it bends. `None` where the curve ends.
     fn pace(&self, at: &Place, stride: &mut f64) -> Option<Place> {
         while *stride >= SHORT * STRIDE {
             let ahead = between(&at.q, &at.section.along, *stride);
@@ -119,8 +120,8 @@ impl<'a> Walk<'a> {
         None
     }
 
-    /// Adds the answer between two places where the sixth equation has different signs, by false position (the Illinois rule: M. Dowell and P. Jarratt,
-    /// BIT 11 (1971) 168-174).
+    /// Adds the solution between two places where the sixth equation has different signs, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT
+    /// 11 (1971) 168-174).
     fn change(&self, a: &Place, b: &Place, search: &mut Search) {
         let (mut low, mut high) = (a.section.value, b.section.value);
         if (low <= 0.0) == (high <= 0.0) || f64::max(low.abs(), high.abs()) <= LEVEL {
@@ -149,7 +150,7 @@ impl<'a> Walk<'a> {
         search.find(self.chain, best.q, self.target);
     }
 
-    /// Where the sixth equation comes near zero and goes away again, there may be two answers, or a double one.
+    /// Searches for two solutions, or a double one, where the sixth equation has an extremum near zero.
     fn dip(&self, [a, b, c]: [&Place; 3], search: &mut Search) {
         let [low, least, high] = [a, b, c].map(|place| place.section.value);
         let is_dip = least.abs() < low.abs() && least.abs() < high.abs() && least.abs() > LEVEL;
@@ -168,12 +169,12 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// `q` moved along `way` by a share of it.
+/// `q` displaced by a share of `way`.
 fn between(q: &[f64; 6], way: &[f64; 6], share: f64) -> [f64; 6] {
     from_fn(|joint| q[joint] + share * way[joint])
 }
 
-/// `q` with the turns of its angles that are nearest to `other`.
+/// `q` with its angles shifted by whole turns to be nearest to `other`.
 fn beside(q: &[f64; 6], other: &[f64; 6], slides: &[bool; 6]) -> [f64; 6] {
     from_fn(|joint| {
         let way = other[joint] - q[joint];

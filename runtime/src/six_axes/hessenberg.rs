@@ -10,7 +10,7 @@ use crate::arithmetic::Arithmetic;
 pub struct Hessenberg {
     /// `H`, by rows.
     pub matrix: Matrix,
-    /// `Q = P_0 P_1 ...` with `P_k = 1 - v v^T`: row `k` is `v`, of length `sqrt(2)`, or zero where nothing was to be done.
+    /// `Q = P_0 P_1 ...` with `P_k = 1 - v v^T`: row `k` is `v`, of length `sqrt(2)`, or zero where no reflection is needed.
     pub reflectors: Matrix,
 }
 
@@ -29,7 +29,7 @@ impl Hessenberg {
         form
     }
 
-    /// The vector `v`, of length `sqrt(2)`, whose reflection makes zeros of what stands below the subdiagonal in `column`.
+    /// The vector `v`, of length `sqrt(2)`, whose reflection eliminates the entries below the subdiagonal in `column`.
     #[inline(always)]
     fn reflector(&self, column: usize) -> Option<[f64; SIZE]> {
         let mut v = [0.0; SIZE];
@@ -46,8 +46,8 @@ impl Hessenberg {
         scale.is_finite().then_some(v)
     }
 
-    /// `H := P H P`, from the left to rows and from the right to columns from `column + 1` on. In groups of four columns the first of which begins at
-    /// `column` or before: there only `column` itself changes, for all before it is zero.
+    /// `H := P H P`: from the left on rows, and from the right on columns after `column`. The left product acts on groups of four columns, and the first group
+    /// begins at `column` or before. There only `column` itself changes, because all columns before it are zero.
     #[inline(always)]
     fn reflect(&mut self, v: &[f64; SIZE], column: usize) {
         let (first, behind) = (column / 4, (column + 1) / 4);
@@ -69,7 +69,7 @@ impl Hessenberg {
     }
 }
 
-/// Takes a multiple of another row from the groups of a row behind the first ones.
+/// Subtracts a multiple of another row, without the first groups of columns.
 #[inline(always)]
 fn subtract(row: &mut [f64; SIZE], factor: f64, over: &[f64; SIZE], first: usize) {
     let (groups, over) = (row.as_chunks_mut::<4>().0, over.as_chunks::<4>().0);
@@ -78,7 +78,7 @@ fn subtract(row: &mut [f64; SIZE], factor: f64, over: &[f64; SIZE], first: usize
     }
 }
 
-/// The scalar product of the groups of four behind the first ones, in four partial sums that do not wait for one another.
+/// The scalar product without the first groups of four, in four independent partial sums.
 #[inline(always)]
 fn dot(a: &[f64; SIZE], b: &[f64; SIZE], first: usize) -> f64 {
     let groups = a.as_chunks::<4>().0[first..].iter().zip(&b.as_chunks::<4>().0[first..]);

@@ -8,30 +8,30 @@ use super::vector::{largest, product};
 use crate::lanes::{Lanes, Mask};
 use crate::number::Number;
 
-/// Solutions of `(H - x) y = b`, each from the one before. Their number is odd: next to a double eigenvalue with one eigenvector the inverse is like that
-/// of a Jordan block that rounding has disturbed, whose square is like the identity.
+/// Number of iterations: solutions of `(H - x) y = b`. It is odd, because near a double eigenvalue with one eigenvector the inverse resembles that of a
+/// perturbed Jordan block, whose square is close to the identity.
 const ROUNDS: usize = 3;
-/// Eigenvectors that are found at once.
+/// Number of eigenvectors that are computed at once.
 const WIDTH: usize = 4;
 
-/// By eigenvector.
+/// One value for each eigenvector.
 type Several = Lanes<WIDTH>;
 type Vectors = [Several; SIZE];
 
 /// `H - x` after Gauss elimination of the subdiagonal with exchange of neighbouring rows.
 struct Eliminated {
-    /// What is above the diagonal, by columns.
+    /// The entries above the diagonal, by columns.
     columns: [Vectors; SIZE],
-    /// One over the diagonal.
+    /// Reciprocals of the diagonal.
     inverses: Vectors,
     /// Whether a row and the next one were exchanged.
     exchanged: [Mask<WIDTH>; SIZE],
-    /// What multiple of the row was subtracted from the next one.
+    /// The multiple of the row that was subtracted from the next one.
     factors: Vectors,
 }
 
 impl Hessenberg {
-    /// Eigenvectors of `A` for real eigenvalues, [`SIZE`] of them at most, of any length; not finite only when the matrix is not.
+    /// Eigenvectors of `A` for at most [`SIZE`] real eigenvalues, not normalised. Not finite only when the matrix is not.
     #[must_use]
     pub fn eigenvectors(&self, values: &[f64]) -> [[f64; SIZE]; SIZE] {
         let zero = [Lanes([0.0; WIDTH]); SIZE];
@@ -49,7 +49,7 @@ impl Hessenberg {
         vectors
     }
 
-    /// Makes `Q y` of `y`.
+    /// Replaces `y` by `Q y`.
     pub(super) fn turn_back(&self, y: &mut [f64; SIZE]) {
         for v in self.reflectors[..SIZE - 2].iter().rev() {
             let share = product(v, y);
@@ -57,7 +57,7 @@ impl Hessenberg {
         }
     }
 
-    /// `Q y` of several.
+    /// `Q y` for several vectors.
     #[inline(always)]
     fn turned_back(&self, mut y: Vectors) -> Vectors {
         for (column, v) in self.reflectors[..SIZE - 2].iter().enumerate().rev() {
@@ -74,7 +74,7 @@ impl Hessenberg {
 }
 
 impl Eliminated {
-    /// Eliminates; pivots are at least a share of the largest entry.
+    /// Eliminates; pivots have a lower bound relative to the largest entry.
     #[inline(always)]
     fn take(&mut self, form: &Hessenberg, largest: f64, x: Several) {
         let matrix = &form.matrix;
@@ -134,7 +134,7 @@ impl Eliminated {
     }
 }
 
-/// Two numbers, exchanged where it is so.
+/// Two numbers, exchanged in lanes where `is_so` is true.
 #[inline(always)]
 fn exchange(a: Several, b: Several, is_so: Mask<WIDTH>) -> (Several, Several) {
     let change = |lane: usize| (a.0[lane].to_bits() ^ b.0[lane].to_bits()) & is_so.0[lane];
@@ -142,7 +142,7 @@ fn exchange(a: Several, b: Several, is_so: Mask<WIDTH>) -> (Several, Several) {
     (changed(a), changed(b))
 }
 
-/// One over a pivot.
+/// The reciprocal of a pivot.
 #[inline(always)]
 fn inverse(pivot: Several, least: Several) -> Several {
     1.0 / least.or(pivot, least.exceeds(pivot.abs()))

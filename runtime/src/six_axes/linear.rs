@@ -2,7 +2,7 @@
 
 use super::vector::largest;
 
-/// Takes a column, in which `pivot` is one, out of a row.
+/// Eliminates a column from a row with a pivot row whose entry there is one.
 #[inline(always)]
 pub(super) fn clear<const N: usize>(row: &mut [f64; N], pivot: &[f64; N], column: usize) {
     let factor = row[column];
@@ -10,8 +10,8 @@ pub(super) fn clear<const N: usize>(row: &mut [f64; N], pivot: &[f64; N], column
     row[column] = 0.0;
 }
 
-/// Solves `L X = R` in place, with the `N` columns of `L` and then those of `R` in `rows`: `R` becomes `X`, `L` is used up. The smallest pivot as a share of
-/// the largest entry of `L`; zero when `L` is singular or not finite, and `R` means nothing then. `N` and `W` are even.
+/// Solves `L X = R` in place: `rows` has the `N` columns of `L`, then those of `R`. `R` becomes `X`, and `L` is destroyed. Returns the smallest pivot relative
+/// to the largest entry of `L`. It is zero when `L` is singular or not finite; `R` is then undefined. `N` and `W` are even.
 #[inline(always)]
 pub(super) fn solve<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) -> f64 {
     let largest = largest(0.0, &rows.each_ref().map(|row| *row.first_chunk::<N>().unwrap_or(&[0.0; N])));
@@ -39,7 +39,7 @@ pub(super) fn solve<const N: usize, const W: usize>(rows: &mut [[f64; W]; N]) ->
     least / largest
 }
 
-/// Takes a multiple of another row from the pairs of a row behind the first ones.
+/// Subtracts a multiple of another row, without the first pairs of columns.
 #[inline(always)]
 fn subtract<const W: usize>(row: &mut [f64; W], factor: f64, over: &[f64; W], first: usize) {
     let (pairs, over) = (row.as_chunks_mut::<2>().0, over.as_chunks::<2>().0);

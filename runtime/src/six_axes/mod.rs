@@ -1,10 +1,10 @@
-//! Six joints in any place, found together: all real solutions, sixteen at most, by one eigenvalue problem ([`Chain`]).
+//! General chains of six joints: all real solutions, at most sixteen, by one eigenvalue problem ([`Chain`]).
 //!
-//! The joint that is hidden moves `E2 E3 (line 4)` to `G E6^-1 E5^-1 (line 4)`, joints counted from it and the axes behind the target moved to its other
-//! side. Of a line, fourteen functions (M. Raghavan and B. Roth, J. Mechanical Design 115 (1993) 502-508) turn with each joint by matrices that are affine
-//! in the cosine and sine of its angle. Seen from the hidden joint, four pairs of them turn as plane vectors do, and six stay as they are. Two vectors
-//! `a`, `b` with `b` turned from `a` fulfil Rodrigues' equation `b - a = x w x (a + b)`, `x` the tangent of half the angle: linear in `x`, so that the
-//! eigenvalue problem has as many rows as the chain has solutions.
+//! Joints are counted from the hidden one, and the axes after the target are moved to its other side. The hidden joint maps `E2 E3 (line 4)` to `G E6^-1 E5^-1
+//! (line 4)`. Fourteen functions of a line (M. Raghavan and B. Roth, J. Mechanical Design 115 (1993) 502-508) are transformed by each joint with matrices that
+//! are affine in the cosine and sine of its angle. In the frame of the hidden joint, four pairs of them rotate as plane vectors do, and six are invariant. Two
+//! vectors `a`, `b` with `b` rotated from `a` fulfil Rodrigues' equation `b - a = x w x (a + b)`, where `x` is the tangent of half the angle. It is linear in
+//! `x`, so that the eigenvalue problem has as many rows as the chain has solutions.
 
 mod answers;
 mod candidates;

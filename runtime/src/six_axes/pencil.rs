@@ -1,7 +1,7 @@
-//! The eigenvalue problem ([`Pencil`]): `(A - x B) v = 0` with sixteen rows and columns.
+//! The generalised eigenvalue problem ([`Pencil`]): `(A - x B) v = 0` with sixteen rows and columns.
 //!
-//! Each equation is multiplied by the cosine and by the sine of half of one near joint's angle. In the homogeneous monomials of half that angle (four of
-//! degree three instead of three of degree two) there are then as many equations as products, and half a turn is a point like any other.
+//! Each equation is multiplied by the cosine and by the sine of half of one near joint's angle. There are then as many equations as products. The reason is
+//! that there are four homogeneous monomials of degree three in half that angle, and three of degree two. Half a turn is then an ordinary point.
 
 use core::array::from_fn;
 
@@ -22,7 +22,7 @@ pub(super) type Wide = [f64; ALL];
 /// A square matrix of [`SIZE`] rows.
 pub type Matrix = [[f64; SIZE]; SIZE];
 
-/// The near joint whose half angle or way the equations are multiplied by.
+/// The near joint by whose half angle or displacement the equations are multiplied.
 #[derive(Clone, Copy)]
 pub(super) struct Doubled {
     /// Whether it is the second one.
@@ -31,8 +31,8 @@ pub(super) struct Doubled {
 }
 
 impl Doubled {
-    /// A row times the cosine (`power` 0) or the sine (`power` 1) of the half angle: `1 = C^2 + S^2`, `c = C^2 - S^2`, `s = 2 C S`; for a joint that
-    /// slides, `1 = C^2`, `d = C S`, `d^2 = S^2`.
+    /// A row times the cosine (`power` 0) or the sine (`power` 1) of the half angle: `1 = C^2 + S^2`, `c = C^2 - S^2`, `s = 2 C S`. For a prismatic joint, `1 =
+    /// C^2`, `d = C S`, `d^2 = S^2`.
     #[inline(always)]
     fn row<const W: usize>(self, row: &Row, reduced: &Reduced, power: usize) -> [f64; W] {
         let (step, other) = if self.second { (1, 3) } else { (3, 1) };
@@ -51,7 +51,7 @@ impl Doubled {
         wide
     }
 
-    /// All rows, first times the cosine, then times the sine: without and with the tangent of half the hidden angle.
+    /// All rows, first times the cosine, then times the sine. The first result is without the tangent of half the hidden angle, the second one with it.
     #[inline(always)]
     fn all<const W: usize>(self, reduced: &Reduced) -> ([[f64; W]; SIZE], [[f64; W]; SIZE]) {
         let (mut constant, mut linear) = ([[0.0; W]; SIZE], [[0.0; W]; SIZE]);
@@ -63,21 +63,21 @@ impl Doubled {
     }
 }
 
-/// The pencil, and how its unknowns are found in it.
+/// The pencil, and how its unknowns are computed from an eigenvector.
 pub(super) struct Pencil {
     /// `A`.
     pub constant: Matrix,
     /// `B`.
     pub linear: Matrix,
-    /// The columns that are left, as places in all columns.
+    /// The remaining columns, as indices among all columns.
     kept: [usize; SIZE],
-    /// What was solved for: a column, and its equation.
+    /// The eliminated unknowns: each with its column and its equation.
     solved: [(usize, Wide); 2 * STILL],
     count: usize,
 }
 
 impl Pencil {
-    /// The pencil of reduced equations; `None` when a column is left that no equation determines.
+    /// The pencil of reduced equations. `None` when no equation determines one of the remaining columns.
     #[inline(always)]
     pub fn new(reduced: &Reduced, doubled: Doubled) -> Option<Self> {
         if reduced.solved < STILL {
@@ -88,7 +88,7 @@ impl Pencil {
         Some(Pencil { constant, linear, kept: from_fn(|k| k), solved, count: 0 })
     }
 
-    /// The same where some still equations did not determine far products.
+    /// Same as [`Pencil::new`], where some still equations did not determine far products.
     #[cold]
     fn narrowed(reduced: &Reduced, doubled: Doubled) -> Option<Self> {
         let (mut constant, mut linear) = doubled.all(reduced);
@@ -117,7 +117,7 @@ impl Pencil {
     }
 }
 
-/// The columns that are kept.
+/// The kept columns.
 #[inline(always)]
 fn narrow(rows: &[Wide; SIZE], kept: &[usize; SIZE]) -> Matrix {
     let mut matrix = [[0.0; SIZE]; SIZE];
@@ -127,7 +127,7 @@ fn narrow(rows: &[Wide; SIZE], kept: &[usize; SIZE]) -> Matrix {
     matrix
 }
 
-/// Solves the still equations that are left, each for its largest column, and takes these columns out of all others.
+/// Solves each remaining still equation for its largest column, and eliminates these columns from all others.
 fn eliminate(solved: &mut [(usize, Wide)], constant: &mut [Wide; SIZE], linear: &mut [Wide; SIZE]) -> Option<()> {
     for index in 0..solved.len() {
         let (row, column) = largest(&solved[index..])?;
@@ -142,7 +142,7 @@ fn eliminate(solved: &mut [(usize, Wide)], constant: &mut [Wide; SIZE], linear: 
     Some(())
 }
 
-/// The place of the largest entry; `None` when all are zero or one is not finite.
+/// The indices of the largest entry. `None` when all are zero or one is not finite.
 fn largest(rows: &[(usize, Wide)]) -> Option<(usize, usize)> {
     let (mut most, mut place) = (0.0, None);
     for (index, (_, row)) in rows.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Forward kinematics of the chain, and Newton steps on it ([`Chain::polish`]).
+//! Forward kinematics of the chain, and its solution by Newton's method ([`Chain::polish`]).
 
 use core::array::from_fn;
 
@@ -8,22 +8,22 @@ use super::rigid::Rigid;
 use super::vector::{Vector, add, cosines_and_sines, cross, dot, norm, product, scale, size, sub, turn};
 use crate::arithmetic::Arithmetic;
 
-/// Newton steps at most: at a singular pose each only halves the miss.
+/// Maximal number of Newton steps: at a singular pose each one only halves the residual.
 const STEPS: usize = 40;
-/// A miss below which no further step is tried.
+/// A residual below which no further step is tried.
 pub(super) const EXACT: f64 = 2e-15;
-/// A miss below which a single step that does not halve it is the last.
+/// A residual below which polishing ends after one step that does not halve it.
 const ROUNDING: f64 = 1e-13;
-/// How often a step may be shortened, over all steps.
+/// Maximal number of times that steps are shortened, over all steps.
 const SHORTENED: usize = 12;
 /// A step that moves a joint by more than this is shortened.
 pub(super) const LONGEST: f64 = 0.5;
-/// The sine of a turn next to half a one, whose axis rounding hides.
+/// The sine of a rotation close to half a turn, at which rounding makes the axis inaccurate.
 const NO_AXIS: f64 = 1e-6;
-/// A column of the Jacobian of which no more than this share is across the columns behind it depends on them.
+/// A Jacobian column depends on the columns after it if at most this share of it is orthogonal to them.
 const SINGULAR: f64 = 1e-6;
 
-/// What a joint vector reaches.
+/// Forward kinematics of a joint vector.
 pub(super) struct Reach {
     axes: [Vector; 6],
     origins: [Vector; 6],
@@ -31,7 +31,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// How far the end is from a target: the way, a share of the length scale, and the turn (rad).
+    /// The pose error to a target: translation relative to the length scale, and rotation (rad).
     #[inline(always)]
     pub fn miss(&self, target: &Rigid) -> [f64; 6] {
         let way = sub(&target.translation, &self.end.translation);
@@ -43,19 +43,20 @@ impl Reach {
     }
 }
 
-/// A turn by more than a right angle, given its sine along its axis: two less the sine, which is nought at half a turn, too.
+/// The error for a rotation by more than a right angle, given its sine along its axis. Its length is two minus the sine, which is not zero at half a turn
+/// either.
 #[cold]
 fn obtuse(turn: &Vector) -> Vector {
     let sine = Arithmetic::sqrt(dot(turn, turn));
     if sine > NO_AXIS { scale(turn, (2.0 - sine) / sine) } else { [2.0, 0.0, 0.0] }
 }
 
-/// A joint vector and what it misses a target by.
+/// A joint vector and its pose error.
 struct Trial {
     q: [f64; 6],
     reach: Reach,
     miss: [f64; 6],
-    /// The largest of it.
+    /// The largest component of the error.
     residual: f64,
 }
 
@@ -78,7 +79,7 @@ impl Chain {
         if self.slides[joint] { frame.then_slid(q[joint]) } else { frame.then_turned([c[joint], s[joint]]) }
     }
 
-    /// The value of `joint` that brings the end nearest to a target, the frame of the last joint, given all others.
+    /// The value of `joint` that brings the last joint's frame nearest to a target, given the other joints.
     pub(super) fn closing(&self, q: &[f64; 6], joint: usize, target: &Rigid) -> f64 {
         let (mut before, moves) = (self.steps[0], cosines_and_sines(q));
         for k in 0..joint {
@@ -93,7 +94,7 @@ impl Chain {
         if self.slides[joint] { motion.translation[2] } else { turn(r[0][0] + r[1][1], r[1][0] - r[0][1]) }
     }
 
-    /// Newton steps from `q` to a target, shortened where they lead away from it; the residual before and after them.
+    /// Takes Newton steps from `q` to a target, shortened where the residual increases. Returns the residual before and after them.
     pub(super) fn polish(&self, q: &mut [f64; 6], target: &Rigid) -> (f64, f64) {
         let mut at = self.trial(*q, target);
         let start = at.residual;
@@ -124,7 +125,7 @@ impl Chain {
         Trial { q, reach, miss, residual: size(&miss) }
     }
 
-    /// The end of a step, shortened until it leads nearer to the target.
+    /// The end of a step, shortened until its residual is smaller.
     #[inline(always)]
     fn stepped(&self, at: &Trial, step: &[f64; 6], target: &Rigid, shortened: &mut usize) -> Trial {
         let mut share = 1.0;
@@ -137,7 +138,7 @@ impl Chain {
         }
     }
 
-    /// The derivatives of the end's place and turn by the joints, in columns.
+    /// The Jacobian: derivatives of the last frame's position and rotation by the joints, in columns.
     #[inline(always)]
     pub(super) fn jacobian(&self, reach: &Reach) -> [[f64; 6]; 6] {
         let mut matrix = [[0.0; 6]; 6];
@@ -151,7 +152,7 @@ impl Chain {
         matrix
     }
 
-    /// A step that makes the miss vanish to first order, no longer than [`LONGEST`].
+    /// A Newton step, at most [`LONGEST`] long.
     #[inline(always)]
     fn newton(&self, at: &Trial) -> Option<[f64; 6]> {
         let (matrix, mut rows) = (self.jacobian(&at.reach), [[0.0; 8]; 6]);
@@ -168,7 +169,7 @@ impl Chain {
         longest.is_finite().then(|| step.map(|entry| share * entry))
     }
 
-    /// Joints that joints behind them make up for, to first order: their columns of the Jacobian depend on those of the joints behind.
+    /// Joints whose motion the joints after them compensate, to first order: their columns of the Jacobian depend on the later columns.
     pub(super) fn free(&self, q: &[f64; 6]) -> [bool; 6] {
         let matrix = self.jacobian(&self.reach(q));
         let (mut kept, mut count, mut free) = ([[0.0; 6]; 6], 0, [false; 6]);

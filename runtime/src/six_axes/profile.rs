@@ -1,23 +1,23 @@
-//! What is affine in the cosine and sine of every joint ([`Profile`]): the functions of Raghavan and Roth.
+//! Functions of Raghavan and Roth, affine in the cosine and sine of every joint ([`Profile`]).
 //!
-//! Of a line with direction `l` through a point `p`, the fourteen functions `p`, `l`, `p x l`, `(p.p) l - 2 (p.l) p`, `p.p` and `p.l` span a space that
-//! rigid motions map into itself. When the origin is on the axis of a turn, the part of the four vectors along it and the two scalars stay, six functions;
-//! the part of the vectors across it turns. A joint that slides acts on them by polynomials of degree two in its way, 1, d^2, d in the place of 1, c, s.
-//! What such a joint leaves alone is its direction `l`, a direction `a` across it, and lines along `l`: `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x a)`
-//! are fourteen functions of the same kind.
+//! For a line with direction `l` through a point `p`, the fourteen functions `p`, `l`, `p x l`, `(p.p) l - 2 (p.l) p`, `p.p` and `p.l` span a space that rigid
+//! motions map into itself. With the origin on the axis of a rotation, six functions are invariant: the components of the four vectors along the axis, and the
+//! two scalars. The orthogonal components of the vectors rotate. A prismatic joint acts on them by polynomials of degree two in its displacement: 1, d^2, d
+//! take the place of 1, c, s. Such a joint leaves invariant its direction `l`, a direction `a` orthogonal to it, and lines along `l`. Then `a`, `l`, `p x l`,
+//! `l x a`, `p.a` and `p.(l x a)` are fourteen functions with equal properties.
 
 use core::array::from_fn;
 
 use super::screw::{Axis, Figure};
 use super::vector::{Vector, cross, dot, scale, sub};
 
-/// Functions that the motion along the hidden axis leaves alone.
+/// Number of functions that the motion along the hidden axis leaves invariant.
 pub(super) const STILL: usize = 6;
-/// Vectors among the functions.
+/// Number of vectors among the functions.
 pub(super) const TURNING: usize = 4;
-/// All functions: of each vector the component along the hidden axis, the two scalars, the components along the two directions across.
+/// All functions: of each vector the component along the hidden axis, then the two scalars, then the components along the two orthogonal directions.
 pub(super) const FUNCTIONS: usize = 3 * TURNING + 2;
-/// The products of one of 1, c, s of a first joint and one of 1, c, s of a second one: the second changes fastest.
+/// The products of one of 1, c, s of a first joint and one of 1, c, s of a second one; the second index changes fastest.
 pub(super) const PRODUCTS: usize = 9;
 
 /// Coefficients of the products.
@@ -25,15 +25,15 @@ pub(super) type Products = [f64; PRODUCTS];
 /// By function, its coefficients.
 pub(super) type Profile = [Products; FUNCTIONS];
 
-/// The frame on the axis whose angle or way is hidden.
+/// The frame on the axis whose angle or displacement is hidden.
 pub(super) struct Frame<'a> {
     pub axis: Axis,
-    /// Two directions across it.
+    /// Two directions orthogonal to it.
     pub across: &'a [Vector; 2],
 }
 
 impl Frame<'_> {
-    /// The functions of a figure that the axis `second` moves first and then the axis `first`.
+    /// The functions of a figure moved first by the axis `second`, then by the axis `first`.
     pub fn profile(&self, first: &Axis, second: &Axis, figure: &Figure) -> Profile {
         let inner = second.samples().map(|by| figure.moved(second, by));
         let table = first.samples().map(|by| inner.map(|figure| self.functions(&figure.moved(first, by))));

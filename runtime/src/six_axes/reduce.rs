@@ -1,4 +1,4 @@
-//! The still equations, solved for products of the joints behind the target ([`Reduced`]).
+//! The still equations, solved for products of the joints after the target ([`Reduced`]).
 
 use core::array::from_fn;
 
@@ -7,21 +7,21 @@ use super::profile::{PRODUCTS, STILL};
 use super::rows::{FAR, Rows};
 use super::vector::largest;
 
-/// A pivot of a still equation below this share of its largest coefficient is not taken while the far products alone are solved for.
+/// While the equations are solved for far products, a pivot below this share of its equation's largest coefficient is not used.
 const WEAK: f64 = 1e-3;
 
-/// The equations after elimination, in the near products and the far ones that are left.
+/// The equations after elimination, in the near products and the remaining far ones.
 pub(super) struct Reduced {
-    /// The first [`Reduced::solved`] of the still ones each give one far product, the others are left as they are.
+    /// The first [`Reduced::solved`] still equations each determine one far product; the others are unchanged.
     pub rows: Rows,
-    /// How many far products are solved for.
+    /// Number of far products that are solved for.
     pub solved: usize,
-    /// The far columns: those that are solved for come first, in the order of their equations.
+    /// Order of the far columns: solved ones first, in the order of their equations.
     pub order: [usize; FAR],
 }
 
 impl Reduced {
-    /// Solves the still equations for as many far products as they determine well, by complete pivoting.
+    /// Solves the still equations for as many far products as are well determined, by complete pivoting.
     #[inline(always)]
     pub fn new(rows: Rows) -> Self {
         let mut reduced = Reduced { rows, solved: 0, order: from_fn(|k| PRODUCTS + k) };
@@ -32,12 +32,12 @@ impl Reduced {
         reduced
     }
 
-    /// How many far products are left.
+    /// Number of remaining far products.
     pub fn left(&self) -> usize {
         FAR - self.solved
     }
 
-    /// The equation and the place in the order of the columns with the largest share of its equation's size.
+    /// The equation, and the index in the order of the columns, of the largest coefficient relative to its equation's size.
     fn pivot(&self) -> Option<(usize, usize)> {
         let (mut best, mut found) = (WEAK, None);
         for row in self.solved..STILL {
@@ -53,7 +53,7 @@ impl Reduced {
         found
     }
 
-    /// Solves equation `row` for the column at `place`, and takes it out of all others.
+    /// Solves equation `row` for the column at `place`, and eliminates it from all others.
     fn eliminate(&mut self, row: usize, place: usize) {
         let (index, rows) = (self.solved, &mut self.rows);
         rows.still.swap(index, row);

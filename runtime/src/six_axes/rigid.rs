@@ -14,15 +14,15 @@ pub struct Rigid {
     pub translation: Vector,
 }
 
-/// The axis of the motions that [`aside`] puts targets by.
+/// The axis of the motions by which [`aside`] displaces targets.
 const DIRECTION: Vector = [0.48, 0.6, 0.64];
 
 impl Rigid {
-    /// The motion that moves nothing.
+    /// The identity.
     pub const NONE: Rigid =
         Rigid { rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], translation: [0.0; 3] };
 
-    /// The direction `v` turned.
+    /// The rotated direction `v`.
     #[inline(always)]
     #[must_use]
     pub fn turned(&self, v: &Vector) -> Vector {
@@ -30,14 +30,14 @@ impl Rigid {
         [dot(x, v), dot(y, v), dot(z, v)]
     }
 
-    /// The point `p` moved.
+    /// The transformed point `p`.
     #[inline(always)]
     #[must_use]
     pub fn moved(&self, p: &Vector) -> Vector {
         add(&self.turned(p), &self.translation)
     }
 
-    /// The motion back.
+    /// The inverse motion.
     #[inline(always)]
     #[must_use]
     pub fn inverse(&self) -> Rigid {
@@ -46,7 +46,7 @@ impl Rigid {
         Rigid { translation: [-x, -y, -z], ..back }
     }
 
-    /// This motion after `other`.
+    /// The composition: `other` first, then this motion.
     #[inline(always)]
     #[must_use]
     pub fn after(&self, other: &Rigid) -> Rigid {
@@ -61,7 +61,7 @@ impl Rigid {
         [x[index], y[index], z[index]]
     }
 
-    /// Then a turn about the moved z axis, given its cosine and sine.
+    /// Followed by a rotation about the moved z axis, given its cosine and sine.
     #[inline(always)]
     pub(super) fn then_turned(&self, [c, s]: [f64; 2]) -> Rigid {
         let turned = |[x, y, z]: Vector| [c * x + s * y, c * y - s * x, z];
@@ -69,14 +69,14 @@ impl Rigid {
         Rigid { rotation: [turned(x), turned(y), turned(z)], ..*self }
     }
 
-    /// Then a slide along the moved z axis.
+    /// Followed by a translation along the moved z axis.
     #[inline(always)]
     pub(super) fn then_slid(&self, way: f64) -> Rigid {
         Rigid { translation: add(&self.translation, &scale(&self.column(2), way)), ..*self }
     }
 }
 
-/// A small motion by `size` (rad, and shares of the length scale), another for each attempt.
+/// A small motion by `size` (rad, and relative to the length scale), different for each attempt.
 pub(super) fn aside(size: f64, attempt: usize) -> Rigid {
     let sign = if attempt.is_multiple_of(2) { size } else { -size };
     let [c, s] = [cosine(sign), sine(sign)];

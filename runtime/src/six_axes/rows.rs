@@ -6,25 +6,25 @@ use super::profile::{PRODUCTS, Products, Profile, STILL, TURNING};
 
 /// Products of the joints on the far side, without 1.
 pub(super) const FAR: usize = PRODUCTS - 1;
-/// Products of the joints on the near side, 1 among them, then those on the far side.
+/// Number of columns: products of the joints on the near side, with 1, then those on the far side.
 pub(super) const COLUMNS: usize = PRODUCTS + FAR;
-/// Equations in which the hidden angle stands.
+/// Number of equations that contain the hidden angle.
 pub(super) const MOVING: usize = 2 * TURNING;
 
-/// The coefficients of the near products and of the far ones.
+/// Coefficients of the near products, then of the far ones.
 pub(super) type Row = [f64; COLUMNS];
 
-/// The equations: `still = 0` and `constant - x linear = 0` with `x` the tangent of half the hidden angle, or half the way.
+/// The equations: `still = 0` and `constant - x linear = 0`, where `x` is the tangent of half the hidden angle, or half the displacement.
 pub(super) struct Rows {
     pub still: [Row; STILL],
     pub constant: [Row; MOVING],
     pub linear: [Row; MOVING],
 }
 
-/// The functions that a slide leaves alone: `l`, the component of `p x l` along the axis, those of `p` across it.
+/// The functions invariant under a translation: `l`, the component of `p x l` along the axis, those of `p` orthogonal to it.
 const UNMOVED: [usize; STILL] = [1, STILL + 1, STILL + TURNING + 1, 2, STILL, STILL + TURNING];
-/// The other functions, and which multiple of which function `-N` makes of each, or the constant -2: `N p = w`, `N (p x l) = w x l`,
-/// `N ((p.p) l - 2 (p.l) p) = -2 w x (p x l) - 2 (p.l) w`, `N (p.p) = 2 p.w`, `N (p.l) = l.w`.
+/// The other functions, and which multiple of which function `-N` maps each to, or the constant -2: `N p = w`, `N (p x l) = w x l`, `N ((p.p) l - 2 (p.l) p) =
+/// -2 w x (p x l) - 2 (p.l) w`, `N (p.p) = 2 p.w`, `N (p.l) = l.w`.
 const SLIDING: [(usize, usize, f64); MOVING] = [
     (0, 0, 0.0),
     (STILL + 2, STILL + TURNING + 1, 1.0),
@@ -36,10 +36,10 @@ const SLIDING: [(usize, usize, f64); MOVING] = [
     (TURNING + 1, 1, -1.0),
 ];
 
-/// The same of the functions `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x a)`, for a fourth joint that slides: ten stay. Four of them stand among the
-/// moving ones: `r = 0` and `s = 0` as `s - x r = 0` and `-r - x s = 0`, which say the same for all `x` but `i` and `-i`.
+/// Invariant functions among `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x a)`, for a prismatic fourth joint: ten in all. Four of them are among the moving
+/// equations: `r = 0` and `s = 0` become `s - x r = 0` and `-r - x s = 0`, which are equivalent for all `x` except `i` and `-i`.
 const UNMOVED_DIRECTED: [usize; STILL] = [0, 1, 2, 3, STILL, STILL + 1];
-/// These four.
+/// These four functions.
 const PAIRED: [(usize, usize, f64); 4] = [
     (STILL + TURNING, STILL + 3, 1.0),
     (STILL + 3, STILL + TURNING, -1.0),
@@ -55,7 +55,8 @@ const SLIDING_DIRECTED: [(usize, usize, f64); 4] = [
 ];
 
 impl Rows {
-    /// What the hidden joint moves, and where it moves it to; whether that joint slides, and the fourth one behind it.
+    /// The equations from the functions that the hidden joint moves and those of their images. The flags say whether the hidden joint and the fourth one after
+    /// it are prismatic.
     #[inline(always)]
     pub fn new(near: &Profile, far: &Profile, [slides, is_directed]: [bool; 2]) -> Self {
         match (slides, is_directed) {
@@ -65,7 +66,7 @@ impl Rows {
         }
     }
 
-    /// The vectors across the hidden axis `w` fulfil Rodrigues' equation `b - a = x w x (a + b)`.
+    /// Equations of a revolute hidden joint: the vectors orthogonal to its axis `w` fulfil Rodrigues' equation `b - a = x w x (a + b)`.
     #[inline(always)]
     fn of_turn(near: &Profile, far: &Profile) -> Self {
         let less = |k: usize| difference(&near[k], &far[k]);
@@ -79,7 +80,8 @@ impl Rows {
         }
     }
 
-    /// A slide by `2 x w` is `exp(2 x N)` with `N^3 = 0`, so that `b - a = x N (a + b)` for all fourteen functions.
+    /// Equations of a prismatic hidden joint: a translation by `2 x w` is `exp(2 x N)` with `N^3 = 0`, so that `b - a = x N (a + b)` for all fourteen
+    /// functions.
     fn of_slide(near: &Profile, far: &Profile) -> Self {
         let constant = from_fn(|column| if column == 0 { -2.0 } else { 0.0 });
         Rows {
@@ -110,13 +112,13 @@ fn times(row: Row, factor: f64) -> Row {
     row.map(|entry| factor * entry)
 }
 
-/// `a + b` in both sides' products.
+/// `a + b` in the products of both sides.
 #[inline(always)]
 fn sum(a: &Products, b: &Products) -> Row {
     difference(a, &b.map(|entry| -entry))
 }
 
-/// `a - b` in both sides' products, whose 1 is the same.
+/// `a - b` in the products of both sides, which share the constant 1.
 #[inline(always)]
 fn difference(a: &Products, b: &Products) -> Row {
     from_fn(|column| match column {

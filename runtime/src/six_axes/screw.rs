@@ -1,4 +1,4 @@
-//! Lines in space that turn about each other ([`Axis`], [`Figure`]).
+//! Axes of joints ([`Axis`]), and lines and directions that they move ([`Figure`]).
 
 use super::rigid::Rigid;
 use super::vector::{Vector, add, cross, dot, scale, sub};
@@ -6,15 +6,15 @@ use super::vector::{Vector, add, cross, dot, scale, sub};
 /// The axis of a joint.
 #[derive(Clone, Copy)]
 pub(super) struct Axis {
-    /// Of length one.
+    /// Unit vector along the axis.
     pub direction: Vector,
     /// Any point of it.
     pub point: Vector,
-    /// Whether the joint slides along it.
+    /// Whether the joint is prismatic.
     pub slides: bool,
 }
 
-/// What a joint leaves alone: the line of its axis; of a joint that slides, directions: along it, and one across it.
+/// The line or directions that a joint leaves invariant: the line of its axis; for a prismatic joint, its direction and one orthogonal to it.
 #[derive(Clone, Copy)]
 pub(super) struct Figure {
     pub direction: Vector,
@@ -23,7 +23,7 @@ pub(super) struct Figure {
 }
 
 impl Figure {
-    /// The figure moved by the joint of an axis, given `c` and `s` of its angle, or `d^2` and `d` of its way.
+    /// The figure moved by the joint of an axis, given `c` and `s` of its angle, or `d^2` and `d` of its displacement.
     #[inline(always)]
     pub fn moved(&self, axis: &Axis, by: [f64; 2]) -> Figure {
         if axis.slides {
@@ -56,13 +56,13 @@ impl Axis {
         add(&along, &add(&scale(&across, c), &scale(&cross(&self.direction, v), s)))
     }
 
-    /// `c` and `s` of the turns, or `d^2` and `d` of the slides, at which functions are sampled.
+    /// `c` and `s` of the rotations, or `d^2` and `d` of the translations, at which functions are sampled.
     #[inline(always)]
     pub fn samples(&self) -> [[f64; 2]; 3] {
         if self.slides { [[0.0, 0.0], [1.0, 1.0], [1.0, -1.0]] } else { [[1.0, 0.0], [0.0, 1.0], [0.0, -1.0]] }
     }
 
-    /// The coefficients of 1, `c`, `s`, or of 1, `d^2`, `d`, of a function that is affine in them, from its values at the samples.
+    /// The coefficients of 1, `c`, `s`, or of 1, `d^2`, `d`, of a function affine in them, from its values at the samples.
     #[inline(always)]
     pub fn coefficients(&self, [f, g, h]: [f64; 3]) -> [f64; 3] {
         let mean = 0.5 * (g + h);

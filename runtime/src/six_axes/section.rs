@@ -1,4 +1,4 @@
-//! The Jacobian next to a curve all along which the target is nearly reached ([`Section`]).
+//! The Jacobian next to a curve on which the target is nearly reached ([`Section`]).
 //!
 //! Bordering: A. Griewank and G. W. Reddien, SIAM J. Numerical Analysis 21 (1984) 176-185.
 
@@ -7,31 +7,31 @@ use super::polish::LONGEST;
 use super::rigid::Rigid;
 use super::vector::{norm, product, size};
 
-/// A fifth pivot of the Jacobian below this share of the first: there is more than a curve.
+/// Where the fifth pivot of the Jacobian is below this share of the first, the solution set has more than one dimension.
 const RANK: f64 = 1e-3;
-/// The largest singular value, about, of what is taken for a curve.
+/// The largest value of the least singular value, approximately, at which a curve is assumed.
 const STEEP: f64 = 1e-2;
-/// Where joints change the sixth equation by more after [`EARLY`] steps across, no curve is near.
+/// Where the joints change the sixth equation by more than this after [`EARLY`] steps across the curve, no curve is near.
 const FLAT: f64 = 5e-2;
-/// Steps behind which that is asked.
+/// Number of steps before [`FLAT`] is tested.
 const EARLY: usize = 2;
-/// The most that may be missed on a curve, as a share of the length scale or in radians.
+/// The largest residual on a curve, relative to the length scale or in radians.
 const ADRIFT: f64 = 1e-3;
-/// A last step across the curve.
+/// The length of a last step across the curve.
 const SETTLED: f64 = 1e-9;
 
-/// The Jacobian at a joint vector: five directions that lead to somewhere and one that hardly does.
+/// The Jacobian at a joint vector, split into five directions that change the pose and one that changes it very little.
 #[derive(Clone, Copy)]
 pub(super) struct Section {
-    /// The shortest step behind which only `value` is missed, to first order.
+    /// The shortest step after which only `value` remains of the residual, to first order.
     step: [f64; 6],
-    /// The tangent of the curve, of length one.
+    /// The unit tangent of the curve.
     pub along: [f64; 6],
-    /// The sum of equations that no joint changes, of length one.
+    /// The unit combination of equations that no joint changes.
     across: [f64; 6],
-    /// What is missed of it.
+    /// The residual of that combination.
     pub value: f64,
-    /// By how much joints change it after all, about the least singular value.
+    /// The derivative of that combination along the tangent, approximately the least singular value.
     slope: f64,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct Place {
 }
 
 impl Section {
-    /// The same with the directions that go on from another one's.
+    /// This section with the signs of its directions consistent with another one's.
     pub fn aligned(mut self, other: &Section) -> Section {
         if product(&self.along, &other.along) < 0.0 {
             self.along = self.along.map(|entry| -entry);
@@ -61,18 +61,18 @@ impl Section {
     }
 }
 
-/// The Jacobian after five steps of elimination, the factors below its diagonal, with what is missed.
+/// The Jacobian after five steps of elimination, with the factors below its diagonal, and the residual.
 struct Cut {
     matrix: [[f64; 6]; 6],
     right: [f64; 6],
-    /// The order of the rows, which were moved.
+    /// The order of the rows, which were exchanged.
     rows: [usize; 6],
-    /// The order of the columns, which were not.
+    /// The order of the columns, which were not moved.
     columns: [usize; 6],
 }
 
 impl Chain {
-    /// The section at `q`; `None` where more than one direction leads nowhere.
+    /// The section at `q`. `None` where more than one direction changes the pose very little.
     pub(super) fn section(&self, q: &[f64; 6], target: &Rigid) -> Option<Section> {
         let reach = self.reach(q);
         let cut = Cut::new(self.jacobian(&reach), reach.miss(target))?;
@@ -87,7 +87,7 @@ impl Chain {
         Some(Section { step, along, across, value: cut.right[5] / lengths[0], slope })
     }
 
-    /// Steps across the curve from `q`, `rounds` at most.
+    /// Takes at most `rounds` steps across the curve from `q`.
     pub(super) fn settled(&self, mut q: [f64; 6], target: &Rigid, rounds: usize) -> Option<Place> {
         for round in 0..rounds {
             let section = self.section(&q, target)?;
@@ -122,7 +122,7 @@ impl Cut {
         Some(cut)
     }
 
-    /// Brings the largest entry to place `k`; its size.
+    /// Exchanges rows and columns so that the largest entry is at `k`. Returns its magnitude.
     fn pivot(&mut self, k: usize) -> f64 {
         let (mut most, mut row, mut place) = (0.0, k, k);
         for i in k..6 {
@@ -152,7 +152,7 @@ impl Cut {
         }
     }
 
-    /// The sum of equations in which no joint is left, the last one's share one.
+    /// The combination of equations that contains no joint; the coefficient of the last one is one.
     fn across(&self) -> [f64; 6] {
         let mut across = [0.0; 6];
         across[self.rows[5]] = 1.0;
@@ -163,7 +163,7 @@ impl Cut {
         across
     }
 
-    /// The joints that solve five equations, given the last of them.
+    /// The joint values that solve five equations, given the last joint.
     fn solved(&self, right: &[f64; 6], last: f64) -> [f64; 6] {
         let mut x = [0.0; 6];
         x[self.columns[5]] = last;

@@ -1,5 +1,5 @@
-//! All eigenvalues of a Hessenberg matrix by implicit double-shift QR steps (Golub and Van Loan, Algorithms 7.5.1 and 7.5.2), the eigenvalues only: rows
-//! and columns outside the block that is being reduced are left alone.
+//! All eigenvalues of a Hessenberg matrix by implicit double-shift QR steps (Golub and Van Loan, Algorithms 7.5.1 and 7.5.2). Only eigenvalues are computed, so
+//! rows and columns outside the active block are not updated.
 //!
 //! J. G. F. Francis, The QR transformation, Computer Journal 4 (1961/62) 265-271 and 332-345.
 
@@ -9,9 +9,9 @@ use super::hessenberg::Hessenberg;
 use super::pencil::{Matrix, SIZE};
 use crate::arithmetic::Arithmetic;
 
-/// QR steps for one deflation; every tenth has an exceptional shift.
+/// Maximal number of QR steps for one deflation; every tenth has an exceptional shift.
 const MAX_STEPS: usize = 60;
-/// The square of a column that is taken for zero.
+/// A column with a smaller squared length counts as zero.
 const FAINT: f64 = 1e-280;
 
 /// An eigenvalue of a real matrix.
@@ -23,7 +23,7 @@ pub struct Eigenvalue {
     pub im: f64,
 }
 
-/// The block that is being reduced: rows and columns `low..=high`.
+/// The active block: rows and columns `low..=high`.
 struct Window<'a> {
     h: &'a mut Matrix,
     low: usize,
@@ -31,14 +31,14 @@ struct Window<'a> {
 }
 
 impl Eigenvalue {
-    /// The size of the imaginary part as a share of `1 + |x|^2`: half the way off the real line of an angle, given the tangent of half of it.
+    /// The imaginary part relative to `1 + |x|^2`: for the tangent of half an angle, half the distance of that angle from the real line.
     pub(super) fn depth(&self) -> f64 {
         self.im.abs() / (1.0 + self.re * self.re + self.im * self.im)
     }
 }
 
 impl Hessenberg {
-    /// All eigenvalues, complex ones in conjugate pairs; `None` when an entry is not finite or the iteration does not end, which is not known to happen.
+    /// All eigenvalues, complex ones in conjugate pairs. `None` when an entry is not finite or the iteration does not converge, which is not known to happen.
     #[must_use]
     pub fn eigenvalues(&self) -> Option<[Eigenvalue; SIZE]> {
         let mut h = self.matrix;
@@ -64,7 +64,7 @@ impl Hessenberg {
     }
 }
 
-/// The first row of the lowest block that does not fall apart, which ends at row `high`; a negligible subdiagonal entry becomes zero.
+/// The first row of the irreducible block that ends at row `high`; a negligible subdiagonal entry is set to zero.
 #[inline(always)]
 fn start_of_block(h: &mut Matrix, high: usize) -> usize {
     for row in (1..=high).rev() {
@@ -94,7 +94,7 @@ fn pair(h: &Matrix, low: usize) -> (Eigenvalue, Eigenvalue) {
 }
 
 impl Window<'_> {
-    /// One double step: the bulge that the shifts make at the top is chased out at the bottom.
+    /// One double step: the bulge that the shifts create at the top is chased to the bottom.
     #[inline(always)]
     fn step(&mut self, is_exceptional: bool) {
         let mut column = self.first_column(self.shifts(is_exceptional));
@@ -109,7 +109,7 @@ impl Window<'_> {
         self.reflect(top, column);
     }
 
-    /// The sum and the product of the shifts: the eigenvalues of the last 2x2 block, or numbers of the size of the last subdiagonal entries.
+    /// The sum and the product of the shifts. These are the eigenvalues of the last 2x2 block, or numbers of the magnitude of the last subdiagonal entries.
     fn shifts(&self, is_exceptional: bool) -> [f64; 2] {
         let (h, m) = (&self.h, self.high);
         if is_exceptional {
@@ -120,7 +120,7 @@ impl Window<'_> {
         [h[m - 1][m - 1] + h[m][m], h[m - 1][m - 1] * h[m][m] - h[m - 1][m] * h[m][m - 1]]
     }
 
-    /// The first column of `(H - a)(H - b)` for the two shifts, as far as it is not zero, from their sum and product.
+    /// The non-zero entries of the first column of `(H - a)(H - b)` for the two shifts, from their sum and product.
     fn first_column(&self, [sum, product]: [f64; 2]) -> [f64; 3] {
         let (h, i) = (&self.h, self.low);
         let x = h[i][i] * (h[i][i] - sum) + product + h[i][i + 1] * h[i + 1][i];
@@ -128,8 +128,8 @@ impl Window<'_> {
         [x, y, h[i + 1][i] * h[i + 2][i + 1]]
     }
 
-    /// Reflects rows and columns `top..top + N` so that `column`, which stands left of them, becomes a multiple of its first unit vector: by
-    /// `1 - u w^T` with `u` that begins with one and `w` a multiple of it.
+    /// Reflects rows and columns `top..top + N` so that `column`, which is left of them, becomes a multiple of its first unit vector. The reflection is `1 - u
+    /// w^T`, where the first entry of `u` is one, and `w` is a multiple of `u`.
     #[inline(always)]
     fn reflect<const N: usize>(&mut self, top: usize, column: [f64; N]) {
         let square = column.iter().map(|entry| entry * entry).sum::<f64>();
@@ -147,7 +147,7 @@ impl Window<'_> {
         }
     }
 
-    /// Columns in groups of four, for it is no matter what happens to those behind the block, and those before `top` are set.
+    /// Reflects columns in groups of four. Columns after the block may change freely, and those before `top` are overwritten.
     #[inline(always)]
     fn reflect_rows<const N: usize>(&mut self, top: usize, u: &[f64; N], w: &[f64; N]) {
         let Some(rows) = self.h[top..].first_chunk_mut::<N>() else { return };

@@ -1,4 +1,4 @@
-//! The solver: formulations in turn until one can be trusted ([`Chain::solve`]).
+//! The solver: formulations are tried in turn until one is reliable ([`Chain::solve`]).
 
 use super::answers::{ACCEPT, Answer, Answers, Distinct, List, Search, wrapped};
 use super::candidates::{Candidate, Candidates};
@@ -7,56 +7,56 @@ use super::curve::Walk;
 use super::rigid::{Rigid, aside};
 use crate::arithmetic::Arithmetic;
 
-/// The share of a pivot below which another formulation is asked too.
+/// Relative pivot below which another formulation is run too.
 const SOUND: f64 = 1e-11;
-/// The share of a pivot below which the pencil is singular: every number is an eigenvalue, and those that are found say nothing.
+/// Relative pivot below which the pencil is singular: every number is an eigenvalue, so that the computed ones are meaningless.
 const SINGULAR: f64 = 1e-13;
-/// The share of a pivot at which a target without real eigenvalues is out of reach.
+/// Relative pivot above which a target without real eigenvalues is out of reach.
 const CLEAR: f64 = 1e-6;
-/// A candidate that misses the target by more before polishing shows that the eigenvalues are not accurate.
+/// A candidate with a larger residual before polishing shows that the eigenvalues are inaccurate.
 const ACCURATE: f64 = 1e-6;
-/// What stands in for the accuracy of the eigenvalues when it is better than that.
+/// Lower bound on the assumed accuracy of the eigenvalues.
 const UNKNOWN: f64 = 1e-11;
-/// The square of a complex eigenvalue's depth as a multiple of the eigenvalues' accuracy: below it, it may be a double root.
+/// Bound on the squared depth of a complex eigenvalue that may be a double root, relative to the accuracy of the eigenvalues.
 const OFF: f64 = 1e3;
-/// Below it, it is tried.
+/// Bound on the squared depth of a complex eigenvalue that is tried, relative to that accuracy.
 const FAR_OFF: f64 = 1e7;
-/// A complex pair that is farther off the real line is no double root that rounding has parted.
+/// A complex pair farther off the real line is not a double root split by rounding.
 const BLURRED: f64 = 1e-2;
-/// More than any eigenvalue is off the real line.
+/// An upper bound on the depth of all eigenvalues.
 const DEEPEST: f64 = 1.0;
-/// By attempt, how far aside the target is put: where solutions share a hidden angle, or a self-motion stands at the same target, the eigenvectors of
-/// isolated ones are only found next to it.
+/// Displacement of the target in each attempt. Some eigenvectors of isolated solutions can only be computed at a displaced target: where solutions share a
+/// hidden angle, and where the target also has a self-motion.
 const DISTURBANCES: [f64; 10] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3, 1e-2, 1e-2];
-/// Targets next to one where complex solutions nearly meet, for a robot that is a little off: how many times as far as that robot is off, in turn to one
-/// side and the other.
+/// Displacements of targets at which complex solutions nearly meet, for a robot within a tolerance. They are relative to that tolerance, alternately in both
+/// directions.
 const MEETINGS: [f64; 4] = [30.0, 30.0, 1e3, 1e3];
-/// Stages in which a candidate next to the target is led to it.
+/// Maximal number of stages in which a candidate at a displaced target is moved to the target.
 const STAGES: usize = 20;
 
-/// A target, and where it is put aside for one attempt.
+/// A target, and its displaced copy for one attempt.
 struct Attempt<'a> {
     chain: &'a Chain,
     number: usize,
-    /// How far aside.
+    /// Size of the displacement.
     size: f64,
-    /// What takes the tip from its place at zero to the target.
+    /// The rigid motion from the tip's pose at zero to the target.
     goal: &'a Rigid,
     /// The frame of the last joint at the target.
     target: &'a Rigid,
-    /// The same at the target aside.
+    /// The frame of the last joint at the displaced target.
     near: Rigid,
     /// The joint whose line is used.
     missing: usize,
 }
 
-/// What an attempt has come to.
+/// The result of an attempt.
 struct Tally {
-    /// Its own answers, which are of interest behind the first attempt.
+    /// The solutions of this attempt alone, which are needed after the first attempt.
     own: Distinct,
-    /// How many candidates led nowhere.
+    /// Number of candidates from which polishing failed.
     lost: usize,
-    /// The most that a candidate missed the target by before it was polished.
+    /// The largest residual of a candidate before polishing.
     worst: f64,
 }
 
@@ -67,7 +67,7 @@ impl Chain {
         self.attempts(target, &DISTURBANCES)
     }
 
-    /// What the first formulation alone finds.
+    /// The solutions that the first formulation alone finds.
     #[must_use]
     pub fn attempt(&self, target: &[f64; 12]) -> Answers {
         self.attempts(target, &DISTURBANCES[..1])
@@ -85,16 +85,16 @@ impl Chain {
         if search.is_meeting {
             self.meet(&goal, &target, &mut search);
         }
-        // A run that can be trusted at once has seen no self-motion.
+        // The first run shows a reliable result only where there is no self-motion.
         self.told(&search, runs, accuracy)
     }
 
-    /// Runs formulations until one can be trusted: their number, and its [`Answers::accuracy`]. What was lost is forgotten then.
+    /// Runs formulations until one is reliable. Returns their number and [`Answers::accuracy`] of the last one. Lost candidates are then removed.
     fn search(&self, goal: &Rigid, target: &Rigid, disturbances: &[f64], search: &mut Search) -> (usize, Option<f64>) {
-        // Each formulation once at the target: again it would only confirm itself.
+        // Each formulation runs once at the target itself: a repetition would have the same result.
         let is_new = |(number, size): &(usize, &f64)| **size > 0.0 || *number < self.formulations.as_slice().len();
         for (number, &size) in disturbances.iter().enumerate().filter(is_new) {
-            // One run aside shows too little of what may be beside it.
+            // One run at a displaced target shows too few of the solutions nearby.
             let is_first_aside = size > 0.0 && DISTURBANCES[number - 1] == 0.0;
             if is_first_aside {
                 search.lost = List::EMPTY;
@@ -112,13 +112,13 @@ impl Chain {
         (disturbances.len(), None)
     }
 
-    /// The square of the depth of complex solutions that may be real for a robot that is a little off.
+    /// The squared depth of complex solutions that may be real for a robot within the tolerance.
     fn parted(&self) -> f64 {
         f64::max(OFF * self.within, f64::min(FAR_OFF * self.within, BLURRED * BLURRED))
     }
 
-    /// Solves targets next to this one, on both sides: two complex solutions are real there on one. Those that lead to no answer come near one of
-    /// the robot that is meant.
+    /// Solves targets next to this one, on both sides: on one of them two complex solutions are real. Those that lead to no solution here are near one of the
+    /// robot of interest.
     #[cold]
     fn meet(&self, goal: &Rigid, target: &Rigid, search: &mut Search) {
         for (k, times) in MEETINGS.iter().enumerate() {
@@ -138,7 +138,7 @@ impl Chain {
         }
     }
 
-    /// Walks along the curves next to answers, and to candidates that led to none.
+    /// Follows the curves next to solutions, and next to candidates from which polishing failed.
     fn walk(&self, target: &Rigid, search: &mut Search) {
         let mut walk = Walk::new(self, target);
         for q in search.answers.iter() {
@@ -150,7 +150,7 @@ impl Chain {
         walk.run(search);
     }
 
-    /// What was found, in the unit of the target.
+    /// The solutions, in the unit of the target.
     fn told(&self, search: &Search, runs: usize, accuracy: Option<f64>) -> Answers {
         let mut answers = Answers::NONE;
         (answers.runs, answers.accuracy) = (runs, accuracy);
@@ -167,7 +167,7 @@ impl Chain {
 }
 
 impl Attempt<'_> {
-    /// Adds the answers of one formulation; its [`Answers::accuracy`].
+    /// Adds the solutions of one formulation. Returns its [`Answers::accuracy`].
     fn run(&self, displacement: &Rigid, search: &mut Search) -> Option<f64> {
         let known = search.answers.count;
         let blurred = f64::max(BLURRED, Arithmetic::sqrt(OFF * self.chain.within));
@@ -192,7 +192,7 @@ impl Attempt<'_> {
         is_trusted.then_some(tally.worst)
     }
 
-    /// Polishes a candidate, and keeps or remembers it.
+    /// Polishes a candidate, and keeps or stores it.
     fn follow(&self, candidate: &Candidate, search: &mut Search, tally: &mut Tally) {
         let (deep, accuracy) = (candidate.depth * candidate.depth, f64::max(tally.worst, UNKNOWN));
         let is_far = deep > FAR_OFF * accuracy;
@@ -228,7 +228,7 @@ impl Attempt<'_> {
         }
     }
 
-    /// Joints that reach the target aside brought to the target: at once, or in stages; the last ones that were reached, and the residual.
+    /// Moves joint values from the displaced target to the target, at once or in stages. Returns the last joint values that were reached, and the residual.
     fn brought(&self, near: [f64; 6]) -> ([f64; 6], [f64; 6], f64) {
         let mut q = near;
         let residual = self.chain.polish(&mut q, self.target).1;
@@ -240,9 +240,9 @@ impl Attempt<'_> {
         (q, last, residual)
     }
 
-    /// Leads joints that reach the target aside to the target in stages, each a quarter of the way from it that the one before was: next to a
-    /// self-motion it is as flat as the target is near, and a step must be no longer. The joints of the last stage that succeeded, and the residual at the
-    /// target.
+    /// Moves joint values from the displaced target to the target in stages, each at a quarter of the distance of the one before. Next to a self-motion the
+    /// curvature grows with the inverse distance from it, and steps must be shorter. Returns the joint values of the last stage that succeeded, and the
+    /// residual at the target.
     fn led(&self, q: &mut [f64; 6]) -> ([f64; 6], f64) {
         let (mut last, mut residual, mut size) = (*q, 1.0, self.size);
         for stage in 0..STAGES {

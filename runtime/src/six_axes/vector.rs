@@ -1,4 +1,4 @@
-//! Three coordinates ([`Vector`]), and six; several angles at once.
+//! Vectors of three coordinates ([`Vector`]) and of six; several angles at once.
 
 use core::array::from_fn;
 use core::f64::consts::FRAC_2_PI;
@@ -36,7 +36,7 @@ pub(super) fn scale(a: &Vector, factor: f64) -> Vector {
     [a[0] * factor, a[1] * factor, a[2] * factor]
 }
 
-/// The angle of a cosine and a sine; nought where both are zero.
+/// The angle of a cosine and a sine; zero where both are zero.
 #[inline(always)]
 pub(super) fn turn(cosine: f64, sine: f64) -> f64 {
     if cosine == 0.0 && sine == 0.0 { 0.0 } else { angle(cosine, sine) }
@@ -52,7 +52,7 @@ pub(super) fn norm(v: &[f64; 6]) -> f64 {
     Arithmetic::sqrt(product(v, v))
 }
 
-/// The largest magnitude in rows that is greater than `least`; what is no number is ignored.
+/// The largest magnitude in rows, or `least` if that is greater; NaN is ignored.
 #[inline(always)]
 pub(super) fn largest<const N: usize>(least: f64, rows: &[[f64; N]]) -> f64 {
     let mut most = [least; N];
@@ -66,17 +66,17 @@ pub(super) fn largest<const N: usize>(least: f64, rows: &[[f64; N]]) -> f64 {
     four.iter().chain(rest).fold(least, |most, entry| if *entry > most { *entry } else { most })
 }
 
-/// The largest magnitude; not a number where one is none.
+/// The largest magnitude; NaN where one component is NaN.
 #[inline(always)]
 pub(super) fn size(v: &[f64; 6]) -> f64 {
     v.iter().fold(0.0, |most, entry| if entry.abs() > most || entry.is_nan() { entry.abs() } else { most })
 }
 
-/// A number to which others are added so that only whole ones are left, the last bits those of the whole number.
+/// Adding this number to another one rounds that one to an integer, which is then in the last bits.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
-/// The cosines and the sines of angles up to a million rad, to the last bit but where an angle is in the middle between two quarter turns those of
-/// [`crate::trigonometry`].
+/// The cosines and the sines of angles up to a million rad. They are bitwise equal to those of [`crate::trigonometry`], except where an angle is half-way
+/// between two quarter turns.
 #[inline(always)]
 pub(crate) fn cosines_and_sines<const N: usize>(angles: &[f64; N]) -> [[f64; N]; 2] {
     let shifted = Lanes(*angles) * FRAC_2_PI + WHOLE;
@@ -91,7 +91,7 @@ pub(crate) fn cosines_and_sines<const N: usize>(angles: &[f64; N]) -> [[f64; N];
     [cosines, sines]
 }
 
-/// Cosines and sines of what is left of angles without so many quarter turns.
+/// Cosines and sines of the angles minus so many quarter turns.
 #[inline(always)]
 fn within_quarter<const N: usize>(angles: Lanes<N>, quarters: Lanes<N>) -> [Lanes<N>; 2] {
     // Products of the first two parts are exact, and so is the first difference.

@@ -75,7 +75,7 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     write(arguments, &output, language, &printed)
 }
 
-/// Fails, before any work, for a robot with too many joints or without mass.
+/// Fails for a robot with too many joints or without mass, before any computation.
 fn check(robot: &Robot) -> Result<()> {
     limits::check_count("joints", robot.joints().len(), limits::PRINTED_BODIES)?;
     if robot.links().iter().any(|link| link.mass.is_some()) {
@@ -84,8 +84,8 @@ fn check(robot: &Robot) -> Result<()> {
     Err(Error::new(ErrorKind::BadValue, "no link has a mass; give masses"))
 }
 
-/// Selects all functions except forward dynamics where bodies without mass would have to move; returns a note for the
-/// output and the code.
+/// Selects all functions. Forward dynamics are excluded if bodies without mass would have to move. Returns a note for
+/// the output and the code.
 fn choose_functions(printed: &mut Printed<'_>) -> Option<String> {
     printed.functions = Function::ALL.to_vec();
     let error = printed.operations(Function::Forward).err()?;

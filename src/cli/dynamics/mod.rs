@@ -58,10 +58,10 @@ pub struct Arguments {
     /// A robot by name, or a description in URDF or TOML; with --symbolic also a chain or a mechanism's folder
     #[arg(value_name = "ROBOT-or-FILE")]
     robot: PathBuf,
-    /// The states, CSV; positions, rates, accelerations, torques [rad, rad/s, rad/s^2, N m, or metres and newtons]
+    /// The states, CSV; positions, velocities, accelerations, torques [rad, rad/s, rad/s^2, N m, or metres and newtons]
     #[arg(long, value_name = "FILE", required_unless_present_any = ["symbolic", "lang"])]
     states: Option<PathBuf>,
-    /// Print polynomials in cosines, sines, masses and moments of the bodies
+    /// Print polynomials in cosines, sines and the inertial parameters of the bodies
     #[arg(long, conflicts_with_all = ["states", "no_friction", "as_given", "json"])]
     symbolic: bool,
     /// Print code in this language
@@ -70,13 +70,13 @@ pub struct Arguments {
     /// With --lang: the functions to print (default: all)
     #[arg(long, value_name = "NAMES", value_delimiter = ',', requires = "lang", value_parser = code::functions())]
     functions: Vec<Function>,
-    /// With --lang: the form of functions [default: straight-line code, and loops where that would be over 100 KB]
+    /// With --lang: the form of functions [default: straight-line code, or loops if it exceeds 100 KB]
     #[arg(long, value_name = "FORM", requires = "lang")]
     form: Option<code::FormName>,
-    /// The root moves freely (floating base)
+    /// Use a floating base: the root moves freely
     #[arg(long, conflicts_with = "symbolic")]
     floating: bool,
-    /// With --symbolic: use the numbers of the description for masses and moments
+    /// With --symbolic: use the inertial parameters of the description as numbers
     #[arg(long, requires = "symbolic")]
     numbers: bool,
     /// With --symbolic: print a page of LaTeX
@@ -87,7 +87,7 @@ pub struct Arguments {
     /// Ignore the friction of joints
     #[arg(long)]
     no_friction: bool,
-    /// Accept masses, inertias and damping that are not physically possible
+    /// Accept masses, inertias and damping that are physically impossible
     #[arg(long, alias = "as-told")]
     as_given: bool,
     /// The output file for the table or code, or the output folder for polynomials (default: standard output); C is

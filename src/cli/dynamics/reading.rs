@@ -12,7 +12,7 @@ const ROOT: (usize, usize) = (7, 6);
 /// The joints of a table's columns, and whether the root moves freely.
 pub struct Reading {
     pub joints: Vec<String>,
-    /// The joints that follow others in the robot, if each joint is independent here.
+    /// The mimic joints of the robot, if each joint is independent here.
     pub followers: Vec<String>,
     pub base: Base,
 }
@@ -58,7 +58,7 @@ impl Reading {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// The independent joints, and all joints taken as independent, each with a fixed root and a free one.
+    /// The independent joints, and all joints as independent ones, each with a fixed root and a floating one.
     fn all(robot: &Robot) -> Vec<Reading> {
         let moving = || robot.moving().into_iter().map(|place| &robot.joints()[place]);
         let follows = |name: &String| moving().any(|joint| joint.name == *name && robot.law(joint).leader != *name);
@@ -98,7 +98,7 @@ impl Reading {
         if self.base == Base::Floating { format!("{joints} of a free root") } else { joints }
     }
 
-    /// A note that follower joints are taken as independent.
+    /// A note that mimic joints are independent here.
     pub fn note(&self) -> Option<String> {
         let text = || {
             format!(

@@ -89,7 +89,7 @@ fn report(
     Ok(Report { format: 1, joints, floating: base == Base::Floating, states, notes })
 }
 
-/// The robot with all joints independent.
+/// The robot with all joints independent, without mimic joints.
 fn without_followers(robot: &Robot) -> Result<Robot> {
     let mut parts = robot.parts().clone();
     parts.joints.iter_mut().for_each(|joint| joint.mimic = None);

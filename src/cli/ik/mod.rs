@@ -1,5 +1,5 @@
-//! `groebot ik`: all joint values that move a tip to a target, by screw theory, without a derivation; or by numeric
-//! search.
+//! `groebot ik`: all joint values that move a tip to a target, by screw theory (Paden-Kahan subproblems) without a
+//! derivation, or by numeric search.
 
 mod page;
 pub mod target;
@@ -41,10 +41,10 @@ pitch, yaw (or roll_deg); dx, dy, dz, phi, and given joints. Other columns that 
 
 A target out of reach is not an error. The output is \"no solution\".";
 
-/// The name of the method that may not find all solutions.
+/// The name of the method without a guarantee that it finds all solutions.
 const NUMERIC: &str = "numeric, maybe not all";
 
-/// Computes all joint values for a target by screw theory, each checked by forward kinematics
+/// Computes all joint values for a target by screw theory (Paden-Kahan subproblems), each checked by forward kinematics
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub struct Arguments {
@@ -56,8 +56,8 @@ pub struct Arguments {
     /// Joint values whose pose is the target (repeatable)
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     q: Vec<String>,
-    /// Search numerically instead, by damped least squares from 300 starts, for any chain: each solution is checked,
-    /// but some may be missing
+    /// Use a numeric search for any chain instead: damped least squares from 300 starts; each solution is checked, but
+    /// some may be missing
     #[arg(long)]
     numeric: bool,
     /// Print JSON: one object per target
@@ -127,7 +127,7 @@ impl Session<'_> {
         console::print(&page)
     }
 
-    /// Solves the targets of a table on standard input, while `mechanism` is read from elsewhere; writes CSV, or one
+    /// Solves the targets of a table on standard input, while `mechanism` is read from another file. Writes CSV, or one
     /// JSON object per line.
     fn stream(&self, mechanism: &Path) -> Outcome {
         targets::is_free(mechanism, "--target or --q")?;

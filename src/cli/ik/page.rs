@@ -194,7 +194,7 @@ fn names(chain: &Chain) -> Vec<&str> {
     chain.joints().iter().map(|joint| joint.name.as_str()).collect()
 }
 
-/// By joint, the joint that it follows.
+/// The leader of each mimic joint.
 fn follows(chain: &Chain) -> impl Iterator<Item = Option<&Mimic>> {
     chain.joints().iter().map(|joint| joint.mimic.as_ref())
 }
@@ -234,7 +234,7 @@ struct Object<'a> {
     given: Option<Value>,
     target: &'a str,
     joints: Vec<&'a str>,
-    /// By joint, the joint that it follows.
+    /// The leader of each mimic joint.
     #[serde(skip_serializing_if = "Option::is_none")]
     follows: Option<Vec<Option<&'a str>>>,
     unit: Vec<&'a str>,

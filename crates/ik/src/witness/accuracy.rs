@@ -1,24 +1,24 @@
-//! How accurate the answers are, by how singular their target is: [`Accuracy`], a table for people.
+//! The accuracy of solutions by distance of their target from singular ones: [`Accuracy`], a table for readers.
 
 use std::fmt;
 
 use super::report::{Kind, Report, Row, Verdict};
 
-/// The targets of one distance from the singular ones.
+/// The targets at one distance from singular ones.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Class {
-    /// What they have in common: `ordinary`, `1e-6 of singular`, ...
+    /// The distance as text, such as `ordinary` or `1e-6 of singular`.
     pub name: String,
-    /// Targets.
+    /// The number of targets.
     pub rows: usize,
-    /// Those that failed.
+    /// The number of targets that failed.
     pub failed: usize,
-    /// Answers in all.
+    /// The number of solutions.
     pub answers: usize,
-    /// The worst residual of each target's answers, ascending.
+    /// The largest residual of each target's solutions, ascending.
     pub residuals: Vec<f64>,
-    /// The distance of the nearest answer from the joints that made each target, ascending.
+    /// The distance between the joints that made each target and the nearest solution, ascending.
     pub distances: Vec<f64>,
 }
 
@@ -26,7 +26,7 @@ pub struct Class {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Accuracy {
-    /// From ordinary to singular, then the rest.
+    /// The classes from ordinary to singular, then the others.
     pub classes: Vec<Class>,
 }
 
@@ -68,24 +68,24 @@ impl Class {
         }
     }
 
-    /// The residual that a share of the targets does not exceed; `None` without answers.
+    /// The quantile `share` of the residuals; `None` without solutions.
     pub fn residual(&self, share: f64) -> Option<f64> {
         quantile(&self.residuals, share)
     }
 
-    /// The distance that a share of the targets does not exceed; `None` when no joints are known.
+    /// The quantile `share` of the distances; `None` if no joints are known.
     pub fn distance(&self, share: f64) -> Option<f64> {
         quantile(&self.distances, share)
     }
 }
 
-/// The least of the ascending values that is not exceeded by `share` of them.
+/// The least of the ascending values such that at least the fraction `share` of all values does not exceed it.
 fn quantile(values: &[f64], share: f64) -> Option<f64> {
     let rank = (share * values.len() as f64).ceil() as usize;
     values.get(rank.clamp(1, values.len().max(1)) - 1).copied()
 }
 
-/// A Markdown table: residuals as shares of the reach or radians, distances in radians or reaches; each to two digits.
+/// A Markdown table. Residuals are fractions of the reach or rad, distances are in rad or fractions of the reach; each with two digits.
 impl fmt::Display for Accuracy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(

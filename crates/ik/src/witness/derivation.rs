@@ -1,4 +1,4 @@
-//! The numeric checks of a derivation of any kind: [`check`], and at round targets alone: [`check_round`].
+//! The numeric checks of any derivation: [`check`], and only at round targets: [`check_round`].
 
 use super::chain::{self, coupled};
 use super::{Check, Draws, Options, Report};
@@ -7,22 +7,23 @@ use crate::solver::Program;
 use crate::{Result, Watch};
 use groebot_robot::kinematics::Chain;
 
-/// How much is checked, by the kind of a derivation.
+/// The extent of the checks by type of derivation.
 struct Amounts {
     equations: Options,
     chain: Options,
-    /// A described robot on which the answers of the ideal one are polished.
+    /// The extent for a described robot on which the solutions of the ideal one are polished.
     polished: Options,
-    /// That ideal one.
+    /// The extent for that ideal robot.
     ideal: Options,
-    /// Chains that share actuators.
+    /// The extent for coupled chains.
     coupled: Options,
 }
 
-/// How many times the tolerance of a target an answer may miss it by: so far is the target from what the ideal robot reaches, and this from the described one.
+/// The factor from the tolerance of a target to the maximum error of a solution. The target differs from the ideal robot's workspace by the tolerance, and so
+/// does the ideal robot from the described one.
 const MISSES: f64 = 2.0;
-/// The numeric checks of a derivation. The joint values that made a target are shown within the limits of the source's chain, where whole turns of
-/// angles do that.
+/// The numeric checks of a derivation. The joint values that made a target are shown within the limits of the source's chain, if whole turns of angles permit
+/// it.
 ///
 /// # Errors
 /// As [`Check::run`], [`chain::Check::run`] and [`coupled::check`].
@@ -42,7 +43,7 @@ pub fn check(source: &Source, derivation: &Derivation, watch: &Watch) -> Result<
     }
 }
 
-/// The same at so many round targets, each of which is searched by the numeric oracle; so many again for an ideal robot.
+/// Same as [`check`], but at `targets` round targets, each of which the numeric oracle searches. An ideal robot gets as many again.
 ///
 /// # Errors
 /// As [`check`].
@@ -67,8 +68,8 @@ fn checked(source: &Source, derivation: &Derivation, amounts: &Amounts, watch: &
     }
 }
 
-/// The checks of a chain's solver, and where that polishes the answers of an ideal chain's solver, those of this one too; `bound` is the most solutions that
-/// the solver of the ideal chain may have.
+/// The checks of a chain's solver. If it polishes the solutions of an ideal chain's solver, the checks of that solver too. `bound` is the maximum number of
+/// solutions of the ideal chain's solver.
 fn check_chain(
     problem: &ChainProblem,
     program: &Program,
@@ -85,7 +86,7 @@ fn check_chain(
     }
 }
 
-/// The checks of a solver that polishes the answers of an ideal robot on the one described: on this one, and those of the ideal robot's own
+/// The checks of a solver that polishes the solutions of an ideal robot on the described one: on the described robot, and those of the ideal robot's own
 /// solver, whose solutions are counted exactly.
 fn check_both(
     described: &Chain,
@@ -95,7 +96,7 @@ fn check_both(
     watch: &Watch,
 ) -> Result<Report> {
     let report = match &polished.described {
-        // What a search finds reaches the target, and answers need only come near.
+        // The search requires that the target is reached exactly, but solutions only need to come near it.
         Some(told) => {
             let options = Options { oracle: 0, ..amounts.polished };
             chain::Check::run_within(described, polished, None, (&options, MISSES * told.within), watch)?

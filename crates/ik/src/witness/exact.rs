@@ -1,8 +1,8 @@
 //! The exact number of distinct real solutions at a rational target.
 //!
-//! A linear form t of the unknowns whose minimal polynomial has the dimension of the quotient ring as its degree takes a
-//! different value at every complex solution (the shape lemma; Cox, Little, O'Shea, "Using Algebraic Geometry", 2.4), and a
-//! real one exactly at the real solutions: Sturm's count of its real roots is theirs.
+//! Let t be a linear form of the unknowns whose minimal polynomial has the dimension of the quotient ring as its degree. It has a different value at every
+//! complex solution (the shape lemma; Cox, Little, O'Shea, "Using Algebraic Geometry", 2.4). Its value is real exactly at the real solutions, so Sturm's count
+//! of the polynomial's real roots is their number.
 
 use crate::derive::{ParameterSource, System};
 use crate::{Result, Watch};
@@ -11,14 +11,14 @@ use groebot_algebra::number::{BigInt, BigRational, Rationals, Ring};
 use groebot_algebra::poly::{Order, PolynomialRing};
 use groebot_algebra::roots::Sturm;
 
-/// Linear forms that are tried.
+/// The number of linear forms that are tried.
 const FORMS: i64 = 3;
 
-/// The number of distinct real solutions of `system` at `target`, whose doubles are taken as the rationals that they are.
-/// `None` when a parameter is not an input itself, solutions are infinitely many, or no tried form separates them.
+/// The number of distinct real solutions of `system` at `target`. Its doubles are converted to exactly equal rationals. `None` if a parameter is not an input
+/// itself, if there are infinitely many solutions, or if no tried form separates them.
 ///
 /// # Errors
-/// What `watch` stops with; [`crate::ErrorKind::Overflow`].
+/// The error of `watch` if it stops the count; [`crate::ErrorKind::Overflow`].
 pub(super) fn count(system: &System, target: &[f64], watch: &Watch) -> Result<Option<usize>> {
     let Some(values) = rational_parameters(system, target) else { return Ok(None) };
     for form in 1..=FORMS {
@@ -69,7 +69,7 @@ fn count_by(system: &System, values: &[Named<'_>], form: i64, watch: &Watch) -> 
     }
 }
 
-/// The count by the last name, if it separates.
+/// The count by the linear form with the last name, if it separates the solutions.
 fn count_separated(graded: &Basis<Rationals>, names: &[&str], watch: &Watch) -> Result<Option<usize>> {
     let quotient = Quotient::new(graded)?;
     let ring = PolynomialRing::new(Rationals, names, Order::Lex)?;

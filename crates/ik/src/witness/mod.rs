@@ -1,5 +1,5 @@
-//! Numeric checks of a derived program by witnesses that share nothing with it: the original equations in floating point, joint
-//! values that made the target, forward kinematics, the exact number of real roots (Sturm), the screw solver, a numeric oracle.
+//! Numeric checks of a derived program by independent witnesses: the original equations in floating point, joint values that made the target, forward
+//! kinematics, the exact number of real roots (Sturm), the screw solver, a numeric oracle.
 
 mod accuracy;
 pub mod chain;
@@ -25,55 +25,55 @@ use model::{EXACT, Model, ORDINARY, RESIDUAL};
 use screws::Screws;
 use targets::{Target, Targets};
 
-/// Two answers nearer than this (rad, or a share of the typical length) are the same answer twice.
+/// The distance (rad, or a fraction of the typical length) below which two solutions are duplicates.
 const DUPLICATE: f64 = 5e-8;
-/// A joint may be called free where the scaled Jacobian's smallest singular value is at most this.
+/// The maximum of the scaled Jacobian's smallest singular value where a joint may be reported as free.
 const SINGULAR: f64 = 1e-5;
-/// Answers are compared with the exact number of solutions where the smallest singular value exceeds this: nearer to a singular
-/// configuration than about its square, rounding decides whether two solutions are one or none.
+/// The smallest singular value above which the number of solutions is compared with the exact one. If the distance to a singular configuration is less than
+/// about its square, rounding decides whether there are two solutions or none.
 const TIE: f64 = 1e-4;
-/// The oracle's answers are this accurate where they are ordinary (rad, or a share of the typical length).
+/// The accuracy of the oracle's ordinary solutions (rad, or a fraction of the typical length).
 const ORACLE: f64 = 1e-6;
-/// Starting points of the oracle: at first, and again before it objects.
+/// The numbers of the oracle's starting points: at first, and again before it reports a fault.
 const SEEDS: [usize; 2] = [60, 600];
-/// A round target is moved by as much as the joints move the tip when each moves by less than this (rad, or a share of the typical length).
+/// The joint displacement by which a round target is moved (rad, or a fraction of the typical length).
 const MOVED: f64 = 1e-7;
-/// An ordinary answer to the moved target is at most this many times `MOVED / sigma` from one to the target itself.
+/// The maximum distance of an ordinary solution of the moved target from one of the target itself, in multiples of `MOVED / sigma`.
 const FOLLOWS: f64 = 10.0;
 
-/// How much is checked.
+/// The extent of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Number of targets.
+    /// The number of targets.
     pub targets: usize,
-    /// Number of rows, from the first, at which the numeric oracle is asked.
+    /// The number of rows, from the first, at which the numeric oracle is used.
     pub oracle: usize,
-    /// Number of rows, from the first, at which real solutions are counted exactly.
+    /// The number of rows, from the first, at which real solutions are counted exactly.
     pub exact: usize,
-    /// Where the random numbers start: the same seed gives the same report.
+    /// The random seed. Equal seeds give equal reports.
     pub seed: u64,
-    /// Which targets are drawn.
+    /// The kinds of targets.
     pub draws: Draws,
 }
 
-/// Which targets are drawn.
+/// The kinds of targets of a check.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Draws {
-    /// Those of all kinds in turn.
+    /// All kinds in turn.
     #[default]
     All,
-    /// Round ones alone; all are searched by the numeric oracle, unless [`Options::oracle`] is zero.
+    /// Only round targets. The numeric oracle searches all of them, unless [`Options::oracle`] is zero.
     Round,
 }
 
 impl Default for Options {
-    /// 500 targets, the oracle at 20, exact counts at 50.
+    /// 500 targets, 20 with the oracle, 50 with exact counts.
     fn default() -> Self {
         Options { targets: 500, oracle: 20, exact: 50, seed: 1, draws: Draws::All }
     }
 }
 
-/// The checks of one program against what it was derived from.
+/// The check of a program against its source.
 pub struct Check<'a> {
     source: &'a Source,
     program: &'a Program,
@@ -85,11 +85,11 @@ pub struct Check<'a> {
 }
 
 impl<'a> Check<'a> {
-    /// Checks `program` at targets of all kinds against `source`, which it was derived from.
+    /// Checks `program` at targets of all kinds against `source`, from which it was derived.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for an invalid program or one with other inputs or joints than the source;
-    /// [`ErrorKind::Unsupported`] when no reachable target is found; what `watch` stops with. Failed checks are in the report.
+    /// [`ErrorKind::BadValue`] for an invalid program, or one with other inputs or joints than the source. [`ErrorKind::Unsupported`] if no reachable target is
+    /// found. The error of `watch` if it stops the check. Failed checks are in the report.
     pub fn run(source: &Source, program: &Program, options: &Options, watch: &Watch) -> Result<Report> {
         program.validate()?;
         let system = equations(source)?;
@@ -97,7 +97,7 @@ impl<'a> Check<'a> {
             let text = "the program has other inputs or joints than its source; derive it again";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        // Where the equations hold no lengths of their own, a program's scale is next to zero.
+        // If the equations contain no lengths, a program's scale is nearly zero.
         let unit = if program.scale > 1e-9 { program.scale } else { 1.0 };
         let model = Model::new(system, unit);
         let screws = source.chain.as_ref().and_then(Screws::new);
@@ -171,7 +171,7 @@ impl<'a> Check<'a> {
         Ok(faults)
     }
 
-    /// Whether each ordinary answer to a reached target that is moved by [`MOVED`] is next to one of these.
+    /// Whether each ordinary solution of a reached target that is moved by [`MOVED`] is next to one of these.
     fn agrees_beside(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
         let Some(q) = &row.joints else { return Ok(true) };
         let sizes = self.model.joint_sizes(&row.target);
@@ -188,7 +188,7 @@ impl<'a> Check<'a> {
         }))
     }
 
-    /// Checks each answer by itself, and records the worst residual.
+    /// Checks each solution alone, and records the largest residual.
     fn each(&self, row: &mut Row, answers: &[Solution]) -> Vec<Fault> {
         let target = row.target.clone();
         faults_of_each(row, answers, |answer| {
@@ -202,7 +202,7 @@ impl<'a> Check<'a> {
         })
     }
 
-    /// Checks the answers as a set.
+    /// Checks the solutions as a set.
     fn together(&self, target: &[f64], answers: &[Solution]) -> Vec<Fault> {
         let twice = |(index, a): (usize, &Solution)| {
             answers[..index].iter().any(|b| self.model.distance(target, &a.q, &b.q) <= DUPLICATE)
@@ -218,12 +218,12 @@ impl<'a> Check<'a> {
         answer.q.iter().enumerate().map(pick).collect()
     }
 
-    /// The distance of `q` from `answer`, free joints left out.
+    /// The distance of `q` from `answer`, without free joints.
     fn gap(&self, target: &[f64], q: &[f64], answer: &Solution) -> f64 {
         self.model.distance(target, q, &Self::member(answer, q))
     }
 
-    /// Whether `q` is `answer`, or a member of the self-motion that it stands for.
+    /// Whether `q` is `answer`, or a member of the self-motion that it represents.
     fn stands_for(&self, target: &[f64], answer: &Solution, q: &[f64]) -> bool {
         if answer.free.is_empty() {
             return self.model.matches(target, q, &answer.q);
@@ -232,18 +232,18 @@ impl<'a> Check<'a> {
         if self.model.misfit(target, &member) <= RESIDUAL {
             return self.model.matches(target, q, &member);
         }
-        // The other joints move with the free ones: all that is known without solving is that `q` lies on some self-motion.
+        // The other joints move with the free ones. Without solving, it is only known that `q` is in some self-motion.
         self.model.sigma(target, q) <= SINGULAR
     }
 
-    /// Whether the number of answers hangs on rounding.
+    /// Whether the number of solutions depends on rounding.
     fn is_tie(&self, row: &Row, answers: &[Solution]) -> bool {
         let known = answers.iter().map(|answer| answer.q.as_slice()).chain(row.joints.as_deref());
         known.into_iter().any(|q| self.model.sigma(&row.target, q) <= TIE)
     }
 
-    /// Whether each answer has its match among those of the screw solver, and the other way round. Answers that hold within a
-    /// solver's tolerance only, out of reach by less than 1e-11, may be missing on the other side.
+    /// Whether the solutions and those of the screw solver match in both directions. Solutions of targets that are out of reach by less than 1e-11 may be
+    /// missing on the other side.
     fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
         let covers = |some: &[Solution], answer: &Solution| {
             let sure = self.model.misfit(target, &answer.q) <= EXACT;
@@ -252,7 +252,7 @@ impl<'a> Check<'a> {
         answers.iter().all(|answer| covers(others, answer)) && others.iter().all(|other| covers(answers, other))
     }
 
-    /// The number of the oracle's answers, and whether its ordinary ones are ours.
+    /// The number of the oracle's solutions, and whether they agree with ours at ordinary configurations.
     fn oracle(&self, target: &[f64], answers: &[Solution]) -> Result<(usize, bool)> {
         let mut verdict = (0, false);
         for seeds in SEEDS {
@@ -265,7 +265,7 @@ impl<'a> Check<'a> {
         Ok(verdict)
     }
 
-    /// The oracle's joint vectors. A plain joint is its typical size times the tangent of half the oracle's angle.
+    /// The oracle's joint vectors. The value of a plain joint is its typical size times the tangent of half the oracle's angle.
     fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>> {
         let sizes = self.model.joint_sizes(target);
         let joints = |angles: &[f64]| -> Vec<f64> {
@@ -288,29 +288,29 @@ impl<'a> Check<'a> {
     }
 }
 
-/// How much of [`MOVED`] joint number so moves by: all differ.
+/// The fraction of [`MOVED`] by which joint `number` moves. All joints have different fractions.
 fn share(number: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     2.0 * (GOLDEN * (number as f64 + 1.0)).fract() - 1.0
 }
 
-/// The equations of a source that is solved as one block.
+/// The equations of a source that is solved as one system.
 fn equations(source: &Source) -> Result<&crate::derive::System> {
     let text = "the source has no equations to be solved together";
     source.system.as_ref().ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(&source.path))
 }
 
-/// What is found of one answer by itself.
+/// The check of a single solution.
 struct Judged {
-    /// The residual that the row tells.
+    /// The residual for the row.
     told: f64,
-    /// Whether the answer misses its target.
+    /// Whether the solution misses its target.
     is_missed: bool,
-    /// Whether it has free joints where the configuration is not singular.
+    /// Whether it has free joints at a regular configuration.
     is_too_free: bool,
 }
 
-/// The faults of answers, each by itself; `judge` gives none for one that is not well formed. Records the worst residual.
+/// The faults of single solutions. `judge` returns `None` for a malformed one. Records the largest residual.
 fn faults_of_each(row: &mut Row, answers: &[Solution], judge: impl Fn(&Solution) -> Option<Judged>) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut add = |wrong: bool, fault: Fault| {

@@ -1,4 +1,4 @@
-//! The original equations in floating point: what every check measures by. Nothing of the program is used here.
+//! The original equations in floating point, the reference of all checks. It uses nothing of the program.
 
 use std::f64::consts::PI;
 
@@ -7,24 +7,24 @@ use crate::derive::{JointKindUnknown, ParameterSource, Quantity, System};
 use groebot_algebra::poly::Expression;
 use groebot_robot::spatial::angle;
 
-/// An answer satisfies an equation when its value is at most this share of the sum of its terms' sizes.
+/// The maximum value of an equation at a solution, as a fraction of the sum of its terms' sizes.
 pub(super) const RESIDUAL: f64 = 1e-11;
-/// A joint vector that satisfies the equations this well is a solution beyond doubt: no solver may miss it.
+/// The value below which a joint vector is certainly a solution, so that no solver may miss it.
 pub(super) const EXACT: f64 = 1e-13;
-/// A joint vector is ordinary when the smallest singular value of the scaled Jacobian exceeds this.
+/// The lower limit of the scaled Jacobian's smallest singular value at an ordinary joint vector.
 pub(super) const ORDINARY: f64 = 1e-3;
 
-/// A name with its value and its size: one for a cosine or sine, whose rounding error does not shrink with it.
+/// A name with its value and its size. A cosine or sine has size one, because its rounding error does not decrease with its value.
 struct Named<'a> {
     name: &'a str,
     value: f64,
     size: f64,
 }
 
-/// The equations of a system, but for the circle relations of its joints, with a typical length.
+/// The equations of a system without the circle relations of its joints, and a typical length.
 pub(super) struct Model<'a> {
     pub system: &'a System,
-    /// A length typical of the mechanism.
+    /// A typical length of the mechanism.
     pub unit: f64,
     equations: Vec<&'a Expression>,
 }
@@ -32,7 +32,7 @@ pub(super) struct Model<'a> {
 impl<'a> Model<'a> {
     /// The model of `system`, whose lengths are about `unit`.
     pub fn new(system: &'a System, unit: f64) -> Self {
-        // The circle relations stand at the end, one for each angle: joint values satisfy them by construction.
+        // The circle relations are the last equations, one for each angle. Joint values satisfy them by construction.
         let circles = system.joints.iter().filter(|joint| matches!(joint.kind, JointKindUnknown::Angle { .. })).count();
         let kept = system.equations.len() - circles;
         let equations = system.equations[..kept].iter().map(|equation| &equation.expression).collect();
@@ -95,14 +95,14 @@ impl<'a> Model<'a> {
         named
     }
 
-    /// The value of each equation at the joint vector `q`, as a share of the sum of its terms' sizes.
+    /// The value of each equation at the joint vector `q`, as a fraction of the sum of its terms' sizes.
     pub fn shares(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
         let named = self.names(target, q);
         let share = |equation: &&Expression| evaluate(equation, &named) / size(equation, &named).max(f64::MIN_POSITIVE);
         self.equations.iter().map(share).collect()
     }
 
-    /// The largest magnitude of [`Model::shares`]; infinite when one is not a number.
+    /// The largest magnitude of [`Model::shares`]; infinite if one of them is NaN.
     pub fn misfit(&self, target: &[f64], q: &[f64]) -> f64 {
         largest(&self.shares(target, q))
     }
@@ -119,18 +119,18 @@ impl<'a> Model<'a> {
         (value, size(factor, &named))
     }
 
-    /// The smallest singular value of the derivative of [`Model::shares`] by the joints in their typical sizes.
+    /// The smallest singular value of the derivative of [`Model::shares`] by the joints in units of their typical sizes.
     pub fn sigma(&self, target: &[f64], q: &[f64]) -> f64 {
         smallest_singular_value(jacobian(q, &self.joint_sizes(target), &|q| self.shares(target, q)))
     }
 
-    /// The determinant of that derivative; `None` when it is not square.
+    /// The determinant of that derivative; `None` if it is not square.
     pub fn determinant(&self, target: &[f64], q: &[f64]) -> Option<f64> {
         let matrix = jacobian(q, &self.joint_sizes(target), &|q| self.shares(target, q));
         matrix.is_square().then(|| matrix.determinant())
     }
 
-    /// The largest difference of two joint vectors: in radians, or as a share of the typical length.
+    /// The largest difference of two joint vectors: in rad, or as a fraction of the typical length.
     pub fn distance(&self, target: &[f64], a: &[f64], b: &[f64]) -> f64 {
         let sizes = self.joint_sizes(target);
         self.differences(a, b).iter().zip(sizes).fold(0.0, |most, (d, size)| most.max(d.abs() / size))
@@ -143,8 +143,8 @@ impl<'a> Model<'a> {
         to.iter().zip(from).enumerate().map(one).collect()
     }
 
-    /// Whether `b` is the same answer as `a`: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), and then
-    /// the equations must hold all the way between the two.
+    /// Whether `b` is the same solution as `a`: within 1e-9 if `a` is ordinary, otherwise within max(1e-7, 1e-13 / sigma). Then the equations must also hold
+    /// everywhere between the two.
     pub fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         let (distance, sigma) = (self.distance(target, a, b), self.sigma(target, a));
         if sigma > ORDINARY {
@@ -161,8 +161,7 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// Inputs near `start` at which the joint vector `q` solves the equations; inputs that are assumed positive stay as they are
-    /// unless there is no other way.
+    /// Inputs near `start` at which the joint vector `q` solves the equations. Inputs that are assumed positive change only if necessary.
     pub fn inputs_at(&self, q: &[f64], start: &[f64]) -> Option<Vec<f64>> {
         let inputs = &self.system.inputs;
         let free: Vec<usize> = (0..inputs.len()).filter(|&input| !inputs[input].positive).collect();

@@ -4,14 +4,13 @@ use nalgebra::{DMatrix, DVector, SVD};
 
 const ITERATIONS: usize = 60;
 const HALVINGS: usize = 8;
-/// Singular values below this share of the largest one count as zero.
+/// Singular values below this fraction of the largest one count as zero.
 const RANK: f64 = 1e-12;
 
-/// Functions of `x` that ought to be zero, without unit.
+/// Dimensionless functions of `x` that are zero at a solution.
 pub(super) type Residual<'a> = dyn Fn(&[f64]) -> Vec<f64> + 'a;
 
-/// The point that the descent from `start` ends in and the largest magnitude of the residual there; `scales` holds the
-/// typical size of each variable.
+/// The final point of the iteration from `start`, and the largest magnitude of the residual there. `scales` contains the typical size of each variable.
 pub(super) fn newton(start: Vec<f64>, scales: &[f64], residual: &Residual<'_>) -> (Vec<f64>, f64) {
     let mut x = start;
     let mut norm = largest(&residual(&x));
@@ -32,12 +31,12 @@ pub(super) fn newton(start: Vec<f64>, scales: &[f64], residual: &Residual<'_>) -
     (x, norm)
 }
 
-/// The largest magnitude; infinite when an entry is NaN.
+/// The largest magnitude; infinite if an entry is NaN.
 pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |largest, value| if value.is_nan() { f64::INFINITY } else { value.abs().max(largest) })
 }
 
-/// Central differences of the residual, column `j` by `x[j] / scales[j]`.
+/// Central differences of the residual; column `j` is by `x[j] / scales[j]`.
 pub(super) fn jacobian(x: &[f64], scales: &[f64], residual: &Residual<'_>) -> DMatrix<f64> {
     // The cube root of the machine precision balances truncation and rounding.
     let width = f64::EPSILON.cbrt();
@@ -54,7 +53,7 @@ pub(super) fn jacobian(x: &[f64], scales: &[f64], residual: &Residual<'_>) -> DM
     DMatrix::from_columns(&columns)
 }
 
-/// The smallest singular value of a matrix that ought to have full column rank; zero when it is wider than high.
+/// The smallest singular value of a matrix with full column rank; zero if it has more columns than rows.
 pub(super) fn smallest_singular_value(matrix: DMatrix<f64>) -> f64 {
     if matrix.nrows() < matrix.ncols() || !matrix.iter().all(|entry| entry.is_finite()) {
         return 0.0;

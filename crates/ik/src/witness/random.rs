@@ -1,4 +1,4 @@
-//! A small random generator, the same on every machine: splitmix64 (Steele, Lea, Flood 2014).
+//! A small random generator with equal results on every machine: SplitMix64 (Steele, Lea, Flood 2014).
 
 /// The state of the generator.
 #[derive(Clone, Debug)]

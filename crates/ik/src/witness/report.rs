@@ -1,36 +1,36 @@
-//! What the checks found: [`Report`], its table `6_check.csv` and its summary.
+//! The results of checks: [`Report`], its table `6_check.csv` and its summary.
 
 use groebot_robot::kinematics::{Chain, Joint, JointKind, Placed, Solution};
 use std::fmt;
 
-/// How a row's target was made.
+/// The origin of a row's target.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// From random joint values.
     Random,
     /// From a singular configuration, or with one angle at 0 or pi.
     Boundary,
-    /// On or near the zero set of factors; the text says which and how near, such as `pz = 1e-7`.
+    /// On or near the zero set of factors. The text names it and the distance, such as `pz = 1e-7`.
     Stratum(String),
-    /// Out of reach: a reachable target times ten, or ten reaches further away.
+    /// Out of reach: a reachable target times ten, or ten reaches away.
     Far,
     /// From joint values whose cosines and sines are rational.
     Rational,
-    /// From one joint at a multiple of a right angle.
+    /// From one joint at a multiple of pi/2.
     Special,
-    /// From joint values in steps of 15 or 30 degrees.
+    /// From joint values in multiples of 15 or 30 degrees.
     Round,
-    /// Axes along those of the base, at a position on a grid.
+    /// Parallel to the base frame, at a position on a grid.
     Aligned,
     /// From a singular configuration of a chain.
     Singular,
-    /// From a configuration 10^-k (rad, or a share of the reach) away from a singular one.
+    /// From a configuration at the distance 10^-k (rad, or a fraction of the reach) from a singular one.
     Near(u32),
-    /// The target of a singular configuration moved by 10^-k where the tip cannot go: to either side of the boundary of the workspace.
+    /// The target of a singular configuration moved by 10^-k in a direction in which the tip cannot move: to both sides of the workspace boundary.
     Edge(u32),
-    /// Any target, reachable or not.
+    /// An arbitrary target, reachable or not.
     Anywhere,
-    /// The same of the ideal robot, where answers are polished on the one described.
+    /// A target of the ideal robot, if solutions are polished on the described one.
     OfIdeal(Box<Kind>),
 }
 
@@ -41,39 +41,39 @@ impl Kind {
     }
 }
 
-/// What is wrong with the answers at a target.
+/// A fault of the solutions at a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
-    /// The joint values that made the target are not among the answers.
+    /// The joint values that made the target are not among the solutions.
     Missing,
-    /// An answer does not satisfy the equations.
+    /// A solution does not satisfy the equations.
     Residual,
-    /// An answer is malformed: not finite, or an angle outside (-pi, pi].
+    /// A solution is malformed: not finite, or an angle outside (-pi, pi].
     Range,
-    /// Two answers are the same.
+    /// Two solutions are equal.
     Duplicate,
-    /// There are more answers than the program's largest case has branches.
+    /// There are more solutions than the program's largest case has branches.
     Bound,
-    /// A joint is called free where the Jacobian is regular.
+    /// A joint is reported as free where the Jacobian is regular.
     Free,
-    /// The joint values that made the target belong to a self-motion, and no answer with a free joint represents it.
+    /// The joint values that made the target belong to a self-motion, and no solution with a free joint represents it.
     SelfMotion,
-    /// The number of answers differs from the exact number of real solutions.
+    /// The number of solutions differs from the exact number of real solutions.
     Count,
-    /// The answers differ from those of the screw solver.
+    /// The solutions differ from those of the screw solver.
     Screw,
-    /// The answers differ from those of the numeric oracle.
+    /// The solutions differ from those of the numeric oracle.
     Oracle,
-    /// The target moved a little has an ordinary answer that is next to none of them.
+    /// The slightly moved target has an ordinary solution that is next to none of them.
     Moved,
 }
 
-/// Whether the answers at a target are right.
+/// The result of the checks at a target.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// All checks passed.
     Pass,
-    /// The target lies on a stratum that the program says it does not cover.
+    /// The target is on a stratum that the program reports as not covered.
     Open,
     /// Some checks failed.
     Fail(Vec<Fault>),
@@ -84,32 +84,32 @@ pub enum Verdict {
 pub struct Row {
     /// The number of the row, from 1.
     pub number: usize,
-    /// How the target was made.
+    /// The origin of the target.
     pub kind: Kind,
-    /// The target: one number an input, in the system's unit or radians.
+    /// The target: one number per input, in the system's unit or rad.
     pub target: Vec<f64>,
-    /// The joint values that it was made from.
+    /// The joint values that made it, if any.
     pub joints: Option<Vec<f64>>,
-    /// The number of the program's answers.
+    /// The number of the program's solutions.
     pub solutions: usize,
-    /// The exact number of distinct real solutions, where it was counted.
+    /// The exact number of distinct real solutions, if it was counted.
     pub exact: Option<usize>,
-    /// The number of the screw solver's answers, where it applies.
+    /// The number of the screw solver's solutions, if it applies.
     pub screw: Option<usize>,
-    /// The number of the oracle's answers, where it was asked.
+    /// The number of the oracle's solutions, if it was used.
     pub oracle: Option<usize>,
-    /// The largest value of an equation at an answer, as a share of the sum of its terms' sizes.
+    /// The largest value of an equation at a solution, as a fraction of the sum of its terms' sizes.
     pub worst_residual: Option<f64>,
-    /// The distance of the nearest answer from `joints`: radians, or a share of the typical length.
+    /// The distance of the nearest solution from `joints`: rad, or a fraction of the typical length.
     pub nearest: Option<f64>,
-    /// Whether the target is singular or next to such: joint values that made it or solve it are.
+    /// Whether the target is singular or next to a singular one, by the joint values that made or solve it.
     pub is_singular: bool,
-    /// Whether all is right.
+    /// The result of the checks.
     pub verdict: Verdict,
 }
 
 impl Row {
-    /// The row with this number from 0, before anything is checked; no answers are a gap of the solver.
+    /// The row number `number`, from 0, before any check. Without solutions, it is a gap of the solver.
     pub(super) fn open(
         number: usize,
         kind: Kind,
@@ -145,35 +145,35 @@ pub struct Report {
     pub rows: Vec<Row>,
 }
 
-/// A report in a few numbers.
+/// The totals of a report.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Summary {
-    /// Targets.
+    /// The number of targets.
     pub rows: usize,
-    /// Rows that failed.
+    /// The number of rows that failed.
     pub failed: usize,
-    /// Targets on a stratum that the program does not cover.
+    /// The number of targets on strata that the program does not cover.
     pub open: usize,
-    /// Targets whose real solutions were counted exactly.
+    /// The number of targets whose real solutions were counted exactly.
     pub exact: usize,
-    /// Targets that the screw solver solved too.
+    /// The number of targets that the screw solver solved too.
     pub screw: usize,
-    /// Targets that the oracle solved too.
+    /// The number of targets that the oracle solved too.
     pub oracle: usize,
     /// The largest residual of all rows.
     pub worst_residual: f64,
 }
 
 impl Row {
-    /// What is wrong, in words, with the target.
+    /// The target and its faults as text.
     pub fn weakness(&self) -> String {
         let target: Vec<String> = self.target.iter().map(|value| format!("{value:?}")).collect();
         let faults: Vec<&str> = self.verdict.faults().iter().map(|fault| fault.sentence()).collect();
         format!("{} ({}): {}", self.kind, target.join(","), faults.join("; "))
     }
 
-    /// Whether something is wrong at a singular target, or next to one: a weak spot of the solver. Anywhere else it is a failure.
+    /// Whether there are faults at or next to a singular target: a weak spot of the solver. Faults elsewhere are failures.
     pub fn is_weak_spot(&self) -> bool {
         self.is_singular && matches!(self.verdict, Verdict::Fail(_))
     }
@@ -185,7 +185,7 @@ impl Report {
         self.rows.iter().filter(|row| matches!(row.verdict, Verdict::Fail(_)))
     }
 
-    /// These rows, and behind them those of the ideal robot.
+    /// These rows, then those of the ideal robot.
     #[must_use]
     pub fn with_ideal(mut self, ideal: Report) -> Report {
         for row in ideal.rows {
@@ -194,12 +194,12 @@ impl Report {
         self
     }
 
-    /// The failures that are singular targets, or next to such.
+    /// The failed rows at or next to singular targets.
     pub fn weak_spots(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| row.is_weak_spot())
     }
 
-    /// The same with the angles that made each target turned into the limits of `chain`, where whole turns do that; given ones stay unchanged.
+    /// Same report, with the angles that made each target moved by whole turns into the limits of `chain`, if possible. Given angles are unchanged.
     pub(super) fn turned(mut self, chain: &Chain) -> Self {
         let given = chain.given();
         let turns = |(place, joint): &(usize, &Joint)| joint.kind == JointKind::Revolute && !given.contains(place);
@@ -211,7 +211,7 @@ impl Report {
         self
     }
 
-    /// The report in a few numbers.
+    /// The totals of the report.
     pub fn summary(&self) -> Summary {
         let count = |holds: fn(&Row) -> bool| self.rows.iter().filter(|row| holds(row)).count();
         Summary {
@@ -225,7 +225,7 @@ impl Report {
         }
     }
 
-    /// The stage file `6_check.csv`: a heading, then one line a row. Residuals and distances are rounded up to a power of ten.
+    /// The stage file `6_check.csv`: a header, then one line per row. Residuals and distances are rounded up to a power of ten.
     pub fn to_csv(&self) -> String {
         let heading = ["kind"].into_iter().chain(self.inputs.iter().chain(&self.joints).map(String::as_str));
         let checks = ["solutions", "exact", "screw", "oracle", "worst_residual", "nearest", "verdict"];
@@ -261,7 +261,7 @@ fn line(cells: impl Iterator<Item = String>) -> String {
     cells.map(quoted).collect::<Vec<_>>().join(",") + "\n"
 }
 
-/// The least power of ten that is not less than `value`: `1e-15`; `0` for zero.
+/// The least power of ten that is not less than `value`, such as `1e-15`; `0` for zero.
 pub(super) fn decade(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
@@ -309,7 +309,7 @@ impl fmt::Display for Fault {
 }
 
 impl Fault {
-    /// What is wrong, in words.
+    /// The fault as text.
     pub fn sentence(self) -> &'static str {
         match self {
             Fault::Missing => "the joint values that made the target are not among them",
@@ -328,7 +328,7 @@ impl Fault {
 }
 
 impl Verdict {
-    /// What is wrong; empty where nothing is.
+    /// The faults; empty if there are none.
     pub fn faults(&self) -> &[Fault] {
         if let Verdict::Fail(faults) = self { faults } else { &[] }
     }

@@ -1,4 +1,4 @@
-//! The witnesses that know the chain: forward kinematics, and the screw solver.
+//! The witnesses of a chain: forward kinematics, and the screw solver.
 
 use nalgebra::{Point3, Vector3};
 
@@ -8,7 +8,7 @@ use groebot_robot::kinematics::screw::two_link::{Solution as Angles, TwoLink};
 use groebot_robot::kinematics::{Chain, JointKind, Plane, Solution, Task};
 use groebot_robot::spatial::Screw;
 
-/// By how much forward kinematics at `q` misses `target`, as a share of the lengths at hand; infinite where it fails.
+/// The error of forward kinematics at `q`, as a fraction of the lengths involved; infinite if it fails.
 pub(super) fn misplacement(chain: &Chain, q: &[f64], target: &[f64]) -> f64 {
     let Ok(base_from_tip) = chain.forward(q) else { return f64::INFINITY };
     let plane = chain.task().plane();
@@ -31,19 +31,19 @@ pub(super) fn misplacement(chain: &Chain, q: &[f64], target: &[f64]) -> f64 {
 
 /// The screw solver of a chain.
 pub(super) enum Screws {
-    /// Two parallel revolute joints that place the tip in a plane.
+    /// Two parallel revolute joints that position the tip in a plane.
     TwoLink(Box<(TwoLink, Chain, Plane)>),
     /// Any other chain that screw theory solves.
     Planned(Box<ScrewSolver>),
 }
 
 impl Screws {
-    /// `None` for a chain that no order of the known subproblems solves.
+    /// `None` for a chain that no sequence of the known subproblems solves.
     pub fn new(chain: &Chain) -> Option<Self> {
         two_link(chain).or_else(|| ScrewSolver::new(chain).ok().map(|solver| Screws::Planned(Box::new(solver))))
     }
 
-    /// The screw solver's answers, a free joint at zero.
+    /// The screw solver's solutions, with a free joint at zero.
     pub fn solve(&self, target: &[f64]) -> Result<Vec<Solution>> {
         match self {
             Screws::TwoLink(parts) => {
@@ -72,7 +72,7 @@ fn two_link(chain: &Chain) -> Option<Screws> {
     Some(Screws::TwoLink(Box::new((solver, chain.clone(), plane))))
 }
 
-/// The point of the tip's plane that `target` names.
+/// The point in the tip's plane with the coordinates `target`.
 fn point(chain: &Chain, plane: Plane, target: &[f64]) -> Point3<f64> {
     let mut point = Point3::from(chain.base_from_tip().translation.vector);
     for (axis, value) in plane.coordinates().into_iter().zip(target) {

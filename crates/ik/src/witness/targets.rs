@@ -1,4 +1,4 @@
-//! Which targets are tried: random reachable ones, the boundary of the workspace, strata and their neighbourhood, and far ones.
+//! The targets of a check: random reachable ones, the boundary of the workspace, strata and their neighbourhood, and far ones.
 
 use std::f64::consts::PI;
 
@@ -11,15 +11,15 @@ use crate::derive::{ParameterSource, Quantity};
 use crate::solver::Program;
 use groebot_algebra::poly::{Expression, parse};
 
-/// Draws after which a kind of target is given up.
+/// The maximum number of draws for a target of one kind.
 const DRAWS: usize = 20;
-/// An unreachable target is a reachable one times this.
+/// The factor from a reachable target to an unreachable one.
 const FAR: f64 = 10.0;
-/// Distances 10^-k from a stratum, k = 1..=DECADES, on both sides.
+/// The number of distances 10^-k from a stratum, k = 1..=DECADES, on both sides.
 const DECADES: usize = 12;
-/// Inputs below this share of their typical size become zero where a sum of squares is to vanish.
+/// The fraction of their typical size below which inputs become zero where a sum of squares must vanish.
 const SNAP: f64 = 1e-6;
-/// What every twelve rows try.
+/// The kinds of targets in every twelve rows.
 const PLAN: [Slot; 12] = {
     use Slot::{Boundary, Far, Random, Round, Stratum};
     [
@@ -38,20 +38,20 @@ const PLAN: [Slot; 12] = {
     ]
 };
 
-/// What is tried in turn where all targets are to be round.
+/// The kinds of round targets, in turn, if only round targets are requested.
 const ROUND: [Slot; 2] = [Slot::Round(15), Slot::Round(30)];
 
 #[derive(Clone, Copy)]
 enum Slot {
     Random,
-    /// Angles in steps of so many degrees.
+    /// Angles in multiples of so many degrees.
     Round(u32),
     Boundary,
     Stratum,
     Far,
 }
 
-/// A target and, where it was made from joint values, these.
+/// A target, and the joint values that made it, if any.
 pub(super) struct Target {
     pub kind: Kind,
     pub inputs: Vec<f64>,
@@ -76,7 +76,7 @@ impl<'a> Targets<'a> {
         Targets { model, random, plan, strata, boundaries_done: 0, strata_done: 0 }
     }
 
-    /// The target of row `number`; `None` when no draw gave one.
+    /// The target of row `number`; `None` if no draw gave one.
     pub fn draw(&mut self, number: usize) -> Option<Target> {
         let special = match self.plan[number % self.plan.len()] {
             Slot::Random => None,
@@ -94,7 +94,7 @@ impl<'a> Targets<'a> {
         (0..model.system.joints.len()).map(|joint| random.between(-limit(joint), limit(joint))).collect()
     }
 
-    /// Where the search for inputs starts: positive ones keep these values.
+    /// The start of the search for inputs. Positive inputs keep these values.
     fn inputs(&mut self) -> Vec<f64> {
         let (model, random) = (self.model, &mut self.random);
         let draw = |(index, input): (usize, &crate::derive::Input)| {
@@ -104,7 +104,7 @@ impl<'a> Targets<'a> {
         model.system.inputs.iter().enumerate().map(draw).collect()
     }
 
-    /// A reachable target, one joint held at a value if asked for.
+    /// A reachable target, optionally with one joint at a given value.
     fn reachable(&mut self, kind: Kind, held: Option<(usize, f64)>) -> Option<Target> {
         (0..DRAWS).find_map(|_| {
             let mut q = self.joints();
@@ -115,7 +115,7 @@ impl<'a> Targets<'a> {
         })
     }
 
-    /// A target of angles in steps of so many degrees.
+    /// A target of angles in multiples of `degrees`.
     fn round(&mut self, degrees: u32) -> Option<Target> {
         let step = PI / f64::from(180 / degrees);
         (0..DRAWS).find_map(|_| {
@@ -167,7 +167,7 @@ impl<'a> Targets<'a> {
         Some(Target { kind: Kind::Boundary, inputs, joints: Some(self.model.wrapped(&q)) })
     }
 
-    /// A reachable target, its lengths and numbers times [`FAR`].
+    /// A reachable target with its lengths and numbers times [`FAR`].
     fn far(&mut self) -> Option<Target> {
         let mut target = self.reachable(Kind::Far, None)?;
         for (value, input) in target.inputs.iter_mut().zip(&self.model.system.inputs) {
@@ -214,7 +214,7 @@ impl<'a> Targets<'a> {
         (allowed && norm <= EXACT).then_some(inputs)
     }
 
-    /// By how much each factor misses `share` of its typical size.
+    /// The difference of each factor from `share` of its typical size, relative to that size.
     fn misses(&self, factors: &[Expression], share: f64, inputs: &[f64]) -> Vec<f64> {
         let miss = |factor: &Expression| {
             let (value, size) = self.model.factor(factor, inputs);
@@ -270,7 +270,7 @@ impl<'a> Targets<'a> {
         Some((inputs, joints))
     }
 
-    /// The input that a factor is, if it is one.
+    /// The input that is equal to a factor, if there is one.
     fn single_input(&self, factor: &Expression) -> Option<usize> {
         let Expression::Name(name) = factor else { return None };
         let parameter = self.model.system.parameters.iter().find(|parameter| parameter.name == *name)?;
@@ -281,7 +281,7 @@ impl<'a> Targets<'a> {
     }
 }
 
-/// The share of a factor's size for a turn, and its text: 0, then plus and minus each 10^-k, large and small mixed.
+/// The fraction of a factor's size for a turn, and its text: 0, then plus and minus each 10^-k, large and small in alternation.
 fn offset(turn: usize) -> (f64, String) {
     if turn == 0 {
         return (0.0, "0".to_owned());
@@ -291,8 +291,8 @@ fn offset(turn: usize) -> (f64, String) {
     (sign * 10.0_f64.powi(-(k as i32)), format!("{text}1e-{k}"))
 }
 
-/// Every factor of a guard by itself, and those that vanish together on a case. Factors that mention what is no parameter of
-/// the system (a symbol that a stratum introduced) are left out.
+/// Every factor of a guard alone, and those that vanish together on a case. Factors with symbols that a stratum introduced are left out, because these are not
+/// parameters of the system.
 fn strata(model: &Model<'_>, program: &Program) -> Vec<(String, Vec<Expression>)> {
     let known = |factor: &Expression| {
         let parameters = &model.system.parameters;

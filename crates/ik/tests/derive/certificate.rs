@@ -1,4 +1,4 @@
-//! A certificate proves its derivation without the engine, and no damaged one does.
+//! A certificate proves its derivation without the Groebner engine, and a damaged certificate does not.
 
 use std::sync::OnceLock;
 
@@ -87,7 +87,7 @@ fn an_open_claim_does_not_pass_for_a_derivation() {
     expect(&error, "it is claimed to be open, and can be derived");
 }
 
-/// Every stratum of the leg, in both orders, can be derived: none may be claimed to be open.
+/// Every stratum of the leg can be derived in both orders, so none may be claimed to be open.
 #[test]
 fn a_stratum_that_can_be_derived_is_not_open() {
     let (_, text) = leg();
@@ -107,7 +107,8 @@ fn a_stratum_that_can_be_derived_is_not_open() {
     assert!(count >= 4, "{count}");
 }
 
-/// Where a divisor vanishes the equations say nothing: the derivation leaves that stratum open, and so may its certificate, for that reason alone.
+/// Where a divisor vanishes, the equations do not determine the joints. The derivation leaves that stratum open. Its certificate may do so too, but only with
+/// that reason.
 #[test]
 fn a_stratum_that_the_derivation_leaves_open_may_be_open() {
     let system = groebot_ik::derive::System::from_toml(
@@ -135,7 +136,7 @@ fn the_certificate_of_another_mechanism_proves_nothing() {
 proptest! {
     #![proptest_config(crate::cases(60))]
 
-    /// One character changed somewhere: either the text means the same, or it is refused; nothing panics.
+    /// After a change of one character, the text either has the same meaning or is refused. Nothing panics.
     #[test]
     fn one_changed_character_never_proves_something_else(place in 0.0..1.0f64, letter in "[ -~]") {
         let (derivation, text) = leg();

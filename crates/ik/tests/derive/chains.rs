@@ -1,4 +1,4 @@
-//! Chains of other shapes: every task that is derived, checked by forward kinematics of known joints.
+//! Chains of other shapes, for every task with a derivation, checked by forward kinematics at known joint values.
 
 use groebot_ik::derive::Derivation;
 use groebot_ik::derive::formulate;
@@ -20,7 +20,7 @@ fn derive(chain: &Chain) -> Derivation {
     Derivation::of_problem(formulate(chain).unwrap(), &Watch::none()).unwrap()
 }
 
-/// Joint values spread over the circle, away from the special angles.
+/// Joint values distributed over the circle, away from special angles.
 fn samples(joints: usize) -> Vec<Vec<f64>> {
     (0..40).map(|k| (0..joints).map(|j| ((k * 7 + j * 13) as f64 * 0.734).sin() * 3.1).collect()).collect()
 }
@@ -97,7 +97,7 @@ fn a_telescope_has_a_prismatic_unknown() {
     assert!((answers[0].q[1] + 0.2).abs() < 1e-12);
 }
 
-/// NAO's hip axis: (0, 1, 1)/sqrt 2, an algebraic number and never a decimal.
+/// NAO's hip axis (0, 1, 1)/sqrt 2: an algebraic number instead of a decimal.
 #[test]
 fn a_slanted_axis_brings_an_exact_root() {
     let joints = [

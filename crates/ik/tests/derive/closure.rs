@@ -1,4 +1,4 @@
-//! Relations of random and real chains: proved over Q, and zero at random joint values by forward kinematics in doubles.
+//! Relations of random and real chains. They are proved over Q, and they vanish at random joint values by forward kinematics in doubles.
 
 use groebot_algebra::number::BigRational;
 use groebot_ik::ErrorKind;
@@ -12,7 +12,7 @@ use num_traits::ToPrimitive;
 
 use super::random_chains::{Draw, Shared, chain, planar_chain};
 
-/// Doubles: no value is known to be zero, but for exact zeros.
+/// Arithmetic in doubles. Only exact zeros are known to be zero.
 struct Doubles;
 
 impl Arithmetic for Doubles {
@@ -38,8 +38,8 @@ impl Arithmetic for Doubles {
     }
 }
 
-/// The numbers of the target at the joint values `q`, from the numeric forward kinematics of the chain. A ray is a pose that is turned
-/// about it, by the last value, from where the tip is at zero.
+/// The numbers of the target at the joint values `q`, from the chain's numeric forward kinematics. A ray becomes a pose: the last value is its rotation about
+/// the ray from the zero configuration.
 fn parameters(chain: &Chain, mechanism: &Mechanism, q: &[f64]) -> Vec<f64> {
     let pose = chain.forward(&q[..chain.joints().len()]).unwrap();
     let (p, mut r) = (pose.translation.vector, pose.rotation.to_rotation_matrix());
@@ -50,7 +50,7 @@ fn parameters(chain: &Chain, mechanism: &Mechanism, q: &[f64]) -> Vec<f64> {
     }
     let length = mechanism.aim().iter().map(|entry| entry.to_f64().unwrap().powi(2)).sum::<f64>().sqrt();
     let aim = pose.rotation * chain.aim().into_inner() * length;
-    // The angle of a planar pose is counted from the zero configuration.
+    // The angle of a planar pose is relative to the zero configuration.
     let turned = pose.rotation * chain.base_from_tip().rotation.inverse();
     let value = |name: &str| -> f64 {
         let axis = |name: &str| "xyz".find(&name[1..]).unwrap();
@@ -84,7 +84,7 @@ fn values(mechanism: &Mechanism, q: &[f64]) -> Vec<JointValue<f64>> {
     joints.map(value).collect()
 }
 
-/// Every relation is proved, and vanishes at three random configurations.
+/// Checks that every relation is proved and vanishes at three random configurations.
 fn assert_hold(chain: &Chain) -> Vec<Relation> {
     let mechanism = Mechanism::new(chain).unwrap();
     let relations = mechanism.relations();
@@ -92,7 +92,7 @@ fn assert_hold(chain: &Chain) -> Vec<Relation> {
         prove(&mechanism, relation).unwrap_or_else(|error| panic!("{}: {error}", chain.name()));
     }
     let mut draw = Draw::new(7);
-    // An axis of irrational length has coprime integers as coordinates.
+    // The direction of an axis of irrational length has coprime integer coordinates.
     let square = mechanism.joints().iter().map(|joint| joint.square.to_f64().unwrap()).fold(1.0, f64::max);
     let size = if mechanism.hidden().is_some() { square } else { 1.0 };
     for _ in 0..3 {
@@ -150,7 +150,7 @@ fn relations_print_and_travel() {
     let mechanism = Mechanism::new(&robots::irb120()).unwrap();
     let relations = mechanism.relations();
     let shown: Vec<String> = relations.iter().map(Relation::to_string).collect();
-    // The wrist centre stays at its distance from the shoulder: only the elbow changes it.
+    // The distance between wrist centre and shoulder depends only on the elbow.
     let elbow = "|E3 (0.302, 0, 0.63) - (0, 0, 0.29)|^2 = |G (0.302, 0, 0.63) - (0, 0, 0.29)|^2";
     let at = shown.iter().position(|text| text == elbow).unwrap_or_else(|| panic!("{shown:#?}"));
     let meaning = "distance between the point (0, 0, 0.29), which joints 1, 2 leave in place, and the point \

@@ -1,6 +1,6 @@
-//! Robots with fewer joints than their tasks ask numbers for, told by rounded angles: they must have the answers that they have with all digits.
+//! Robots with fewer joints than their tasks have numbers, described with rounded angles. They must have the solutions of the exactly described robots.
 //!
-//! The descriptions have the kind and the size of real robots' (their makers' drawings), but are no copies of their files: dimensions are representative.
+//! The descriptions have the structure and size of real robots (after their makers' drawings), but they are not copies of files. Dimensions are representative.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -11,24 +11,24 @@ use nalgebra::DMatrix;
 
 use crate::codegen::random;
 
-/// A joint: its type, its origin's position and roll, pitch, yaw, its axis. `Q` stands for a quarter turn, `H` for a half.
+/// A joint: its type, its origin's position and roll, pitch, yaw, its axis. `Q` is replaced by pi/2 and `H` by pi.
 pub(super) type Link = (&'static str, &'static str, &'static str, &'static str);
 
-/// A SCARA whose slide points down.
+/// A SCARA whose prismatic joint points down.
 pub(super) const SCARA: [Link; 4] = [
     ("revolute", "0 0 0.1", "0 0 0", "0 0 1"),
     ("revolute", "0.3 0 0", "0 0 0", "0 0 1"),
     ("prismatic", "0.25 0 0.133", "H 0 0", "0 0 1"),
     ("revolute", "0 0 0", "0 0 0", "0 0 1"),
 ];
-/// A SCARA with two links of equal length: folded, its tool is on the first joint's axis, and this joint is free.
+/// A SCARA with two links of equal length. When folded, its tool is on the first joint's axis, and this joint is free.
 pub(super) const FOLDING: [Link; 4] = [
     ("revolute", "0 0 0", "0 0 0", "0 0 1"),
     ("revolute", "0.3 0 0", "0 0 0", "0 0 1"),
     ("prismatic", "0.3 0 0.13297", "H 0 0", "0 0 1"),
     ("revolute", "0 0 0", "0 0 0", "0 0 1"),
 ];
-/// An arm of five joints of the kind of a uFactory xArm 5: three parallel axes, and a wrist that turns across them.
+/// An arm of five joints, similar to a uFactory xArm 5: three parallel axes, and a wrist perpendicular to them.
 pub(super) const FIVE: [Link; 5] = [
     ("revolute", "0 0 0.267", "0 0 0", "0 0 1"),
     ("revolute", "0 0 0", "-Q 0 0", "0 0 1"),
@@ -36,7 +36,7 @@ pub(super) const FIVE: [Link; 5] = [
     ("revolute", "0.0775 0.3425 0", "0 0 0", "0 0 1"),
     ("revolute", "0.076 0.097 0", "-Q 0 0", "0 0 1"),
 ];
-/// A palletizer of the kind of a Doosan P3020: five joints, the wrist's two at a right angle, told by several rounded turns.
+/// A palletizer similar to a Doosan P3020: five joints, with two perpendicular wrist joints and several rounded angles.
 const PALLETIZER: [Link; 5] = [
     ("revolute", "0 0 0.1985", "0 0 0", "0 0 1"),
     ("revolute", "0 0.05 0.2", "0 -Q -Q", "0 0 1"),
@@ -44,21 +44,21 @@ const PALLETIZER: [Link; 5] = [
     ("revolute", "0 -0.6 0", "H 0 Q", "0 0 1"),
     ("revolute", "0 0.1 0", "Q 0 0", "0 0 1"),
 ];
-/// An arm of four joints of the kind of a PhantomX Pincher: a waist and three parallel axes.
+/// An arm of four joints, similar to a PhantomX Pincher: a waist and three parallel axes.
 pub(super) const PINCHER: [Link; 4] = [
     ("revolute", "0 0 0.0676", "0 0 0", "0 0 1"),
     ("revolute", "0 0 0.0394", "Q 0 0", "0 0 1"),
     ("revolute", "0 0.107 0", "0 0 0", "0 0 1"),
     ("revolute", "0.107 0 0", "0 0 0", "0 0 1"),
 ];
-/// An arm of four joints of the kind of a Mico 4: the last one turns the hand about the forearm.
+/// An arm of four joints, similar to a Mico 4: the last joint rotates the hand about the forearm.
 const MICO: [Link; 4] = [
     ("revolute", "0 0 0.2755", "H 0 0", "0 0 1"),
     ("revolute", "0 -0.007 0", "-Q 0 H", "0 0 1"),
     ("revolute", "0 0.29 0", "H 0 0", "0 0 1"),
     ("revolute", "0 0.1233 -0.0074", "-Q 0 0", "0 0 1"),
 ];
-/// An arm of five joints of the kind of a Lynxmotion AL5D.
+/// An arm of five joints, similar to a Lynxmotion AL5D.
 pub(super) const LYNX: [Link; 5] = [
     ("revolute", "0 0 0.069", "0 0 0", "0 0 1"),
     ("revolute", "0 0 0", "Q 0 0", "0 0 1"),
@@ -66,7 +66,7 @@ pub(super) const LYNX: [Link; 5] = [
     ("revolute", "0.187 0 0", "0 0 -Q", "0 0 1"),
     ("revolute", "0 0.034 0", "-Q 0 0", "0 0 1"),
 ];
-/// A shoulder of two joints and an elbow, of the kind of an OP2's arm.
+/// A shoulder of two joints and an elbow, similar to an OP2's arm.
 const SHOULDER: [Link; 3] = [
     ("revolute", "0 0.06 0", "-Q 0 0", "0 0 1"),
     ("revolute", "0.019 0 0.0245", "Q 0 Q", "0 0 1"),
@@ -79,17 +79,17 @@ pub(super) const PLANAR: [Link; 3] = [
     ("revolute", "0.25 0 0", "0 0 0", "0 0 1"),
 ];
 
-/// How descriptions round a quarter and a half turn.
+/// Roundings of pi/2 and pi in descriptions.
 pub(super) const ROUNDINGS: [[&str; 2]; 4] = [
     ["1.5707963", "3.14159265"],
     ["1.5708", "3.1416"],
     ["1.57079", "3.14159"],
-    // Of 32 bits.
+    // Single precision.
     ["1.57079637050628662109375", "3.1415927410125732421875"],
 ];
 pub(super) const EXACT: [&str; 2] = ["1.5707963267948966", "3.141592653589793"];
 
-/// The robot with these angles.
+/// The robot with these values of pi/2 and pi.
 pub(super) fn robot(links: &[Link], [quarter, half]: [&str; 2]) -> Chain {
     let mut text = String::from("<robot name=\"rounded\"><link name=\"l0\"/>");
     for (index, (kind, xyz, rpy, axis)) in links.iter().enumerate() {
@@ -115,12 +115,12 @@ pub(super) fn asked(chain: &Chain, task: Task, direction: [i32; 3]) -> Chain {
         .unwrap()
 }
 
-/// The solver of a chain for its pose.
+/// The solver of a chain for its task.
 pub(super) fn derived(chain: &Chain) -> groebot_ik::solver::Program {
     groebot_ik::derive(chain).unwrap().program().clone()
 }
 
-/// Programs of two SCARAs, an arm of five joints and a planar arm as described.
+/// Programs of described robots: two SCARAs, an arm of five joints and a planar arm.
 pub fn programs() -> Vec<groebot_ik::solver::Program> {
     let planar = asked(&robot(&PLANAR, ROUNDINGS[1]), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
     [robot(&SCARA, ROUNDINGS[0]), robot(&FOLDING, ROUNDINGS[1]), robot(&FIVE, ROUNDINGS[1]), planar]
@@ -141,7 +141,7 @@ pub(super) fn distance(chain: &Chain, a: &[f64], b: &[f64]) -> f64 {
     chain.joints().iter().zip(a.iter().zip(b)).map(way).fold(0.0, f64::max)
 }
 
-/// Joint values: random ones, and in steps of 15 degrees.
+/// Joint values: random ones, and multiples of 15 degrees.
 fn joints(chain: &Chain, count: usize) -> Vec<Vec<f64>> {
     let mut between = random();
     let mut vector = |k: usize| {
@@ -155,7 +155,7 @@ fn joints(chain: &Chain, count: usize) -> Vec<Vec<f64>> {
     (0..count).map(&mut vector).collect()
 }
 
-/// Whether each of `some` has one of `others` next to it, as far as the two robots' tips are apart and the configuration makes of that.
+/// Whether each of `some` has a member of `others` nearby. The tolerance is the difference `within` of the robots' tips over the smallest singular value.
 fn covers(chain: &Chain, some: &[Solution], others: &[Solution], within: f64) -> bool {
     let is_near = |a: &Solution, b: &Solution| {
         let least = sigma(chain.task_jacobian(&a.q, &[]));
@@ -164,7 +164,7 @@ fn covers(chain: &Chain, some: &[Solution], others: &[Solution], within: f64) ->
     some.iter().all(|a| others.iter().any(|b| is_near(a, b)))
 }
 
-/// What was compared.
+/// The numbers of compared cases.
 #[derive(Debug, Default)]
 struct Seen {
     ordinary: usize,
@@ -172,7 +172,7 @@ struct Seen {
     answers: usize,
 }
 
-/// Compares the solver of the described robot with that of the robot with all digits, and the screw solver, at poses of both robots.
+/// Compares the solver of the described robot with that of the exactly described robot and the screw solver, at poses of both robots.
 fn compare(described: &Chain, exact: &Chain, count: usize) -> Seen {
     let bound = described.ideal().1.bound();
     let (program, reference) = (derived(described), derived(exact).solver());
@@ -198,7 +198,7 @@ fn compare(described: &Chain, exact: &Chain, count: usize) -> Seen {
                 continue;
             }
             let others = screws.solve(&target).unwrap();
-            // What is out of reach by less than the tolerance has one answer more, at the edge.
+            // A target out of reach by less than the tolerance has one additional solution, at the edge of the workspace.
             let at_edge = |answer: &&Solution| sigma(exact.task_jacobian(&answer.q, &[])) <= 4.0 * bound.sqrt();
             let edges = answers.iter().filter(at_edge).count();
             assert!((wanted.len()..=wanted.len() + edges).contains(&answers.len()), "{q:?}: {wanted:?} {answers:?}");
@@ -241,7 +241,7 @@ fn rays_and_planar_poses_of_rounded_robots_have_the_answers_of_all_digits() {
     }
 }
 
-/// What the ideal robot does not reach within the tolerance has no answer.
+/// A target that the ideal robot does not reach within the tolerance has no solution.
 #[test]
 fn poses_beside_the_robot_are_out_of_reach() {
     let described = robot(&SCARA, ROUNDINGS[0]);
@@ -256,7 +256,7 @@ fn poses_beside_the_robot_are_out_of_reach() {
     }
 }
 
-/// The tolerance is the robot's own: one that is off by more takes targets that are off by more.
+/// The tolerance depends on the robot: a robot with larger rounding errors accepts targets with larger deviations.
 #[test]
 fn tolerances_follow_the_idealisation() {
     let within = |digits| derived(&robot(&SCARA, digits)).described.map(|described| described.within);

@@ -1,4 +1,5 @@
-//! Singular poses of robots told by rounded angles: the self-motions and the answers at the edge that the robots have with all digits.
+//! Singular poses of robots described with rounded angles. They must have the self-motions and the solutions at the edge of the workspace that the exactly
+//! described robots have.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -12,7 +13,7 @@ use nalgebra::{DMatrix, DVector, Translation3};
 use super::described::{EXACT, FOLDING, LYNX, Link, PINCHER, PLANAR, ROUNDINGS, asked, derived, distance, robot};
 use crate::codegen::random;
 
-/// Joint values in steps of a quarter turn, slides in steps of a centimetre; for a folding SCARA, folded.
+/// Joint values in multiples of 90 degrees, prismatic ones in multiples of a centimetre.
 fn round_joints(chain: &Chain, count: usize) -> Vec<Vec<f64>> {
     let mut between = random();
     let mut value = |kind: JointKind| match kind {
@@ -22,7 +23,7 @@ fn round_joints(chain: &Chain, count: usize) -> Vec<Vec<f64>> {
     (0..count).map(|_| chain.joints().iter().map(|joint| value(joint.kind)).collect()).collect()
 }
 
-/// The numbers of a tip's pose: its position in reaches, and its rotation.
+/// The numbers of a tip's pose: its position as a fraction of the reach, and its rotation.
 fn seen(chain: &Chain, q: &[f64]) -> DVector<f64> {
     let pose = chain.forward(q).unwrap();
     let rotation = pose.rotation.to_rotation_matrix();
@@ -30,7 +31,7 @@ fn seen(chain: &Chain, q: &[f64]) -> DVector<f64> {
     DVector::from_iterator(12, position.iter().copied().chain(rotation.matrix().iter().copied()))
 }
 
-/// Where the joints of `member` are when those that are free have gone to their values in `end` in steps, and the others have followed.
+/// The joints of `member` after its free joints have moved in steps to their values in `end`, with the other joints following along the self-motion.
 fn followed(chain: &Chain, member: &Solution, end: &[f64], is_long: bool) -> Vec<f64> {
     const STEPS: usize = 48;
     let (goal, mut q) = (seen(chain, &member.q), member.q.clone());
@@ -55,14 +56,14 @@ fn followed(chain: &Chain, member: &Solution, end: &[f64], is_long: bool) -> Vec
     q
 }
 
-/// Whether the exact robot's self-motion with this member leads to `answer`, up to what the tolerance leaves open next to a double root.
+/// Whether the exact robot's self-motion through this member leads to `answer`, within the tolerance next to a double root.
 fn is_same_self_motion(exact: &Chain, member: &Solution, answer: &Solution, bound: f64) -> bool {
     let is_there = |end: Vec<f64>| distance(exact, &end, &answer.q) <= 4.0 * bound.sqrt();
     member.free == answer.free
         && [false, true].into_iter().any(|is_long| is_there(followed(exact, member, &answer.q, is_long)))
 }
 
-/// Compares the described robot with the exact one at targets of both: round ones, and where `singular` brings the tip; the number of self-motions seen.
+/// Compares the described robot with the exact one at targets of both: round ones, and that of the joints `singular`. Returns the number of self-motions.
 fn compare(links: &[Link], rounding: [&str; 2], singular: &[f64]) -> usize {
     let (described, exact) = (robot(links, rounding), robot(links, EXACT));
     let bound = described.ideal().1.bound();
@@ -79,7 +80,7 @@ fn compare(links: &[Link], rounding: [&str; 2], singular: &[f64]) -> usize {
                 let [position, rotation] = target.missed(&described, &answer.q);
                 assert!(position / described.reach() <= 4.0 * bound && rotation <= 4.0 * bound, "{q:?}: {answer:?}");
             }
-            // Where two self-motions meet, the description may tell them apart.
+            // Where two self-motions meet, the described robot may have both separately.
             let [least, count] = [&wanted, &answers].map(|list| list.iter().filter(is_free).count());
             assert!(count >= least && (count == 0) == (least == 0), "{q:?}: {wanted:?} {answers:?}");
             for member in wanted.iter().filter(is_free) {
@@ -95,7 +96,7 @@ fn compare(links: &[Link], rounding: [&str; 2], singular: &[f64]) -> usize {
 #[test]
 fn self_motions_of_rounded_robots_are_those_of_all_digits() {
     for rounding in ROUNDINGS {
-        // Folded, the hand at the shoulder, and straight up.
+        // Folded, with the hand at the shoulder, and straight up.
         let folded = [0.3, PI, -0.05, 0.4];
         let at_shoulder = [-PI / 3.0, 0.75 * PI, -FRAC_PI_2, -1.3];
         let upright = [FRAC_PI_2, -FRAC_PI_2, 0.0, 0.0, FRAC_PI_2];
@@ -106,7 +107,7 @@ fn self_motions_of_rounded_robots_are_those_of_all_digits() {
     }
 }
 
-/// Next to the folded pose, too: the tool is beside the first joint's axis by less than the tolerance, or by more.
+/// Also next to the folded pose: the distance of the tool from the first joint's axis is below or above the tolerance.
 #[test]
 fn a_pose_within_the_tolerance_of_a_self_motion_has_it() {
     let described = robot(&FOLDING, ROUNDINGS[1]);
@@ -121,7 +122,7 @@ fn a_pose_within_the_tolerance_of_a_self_motion_has_it() {
     }
 }
 
-/// The stretched arm is one answer where it is just out of reach, and none farther out.
+/// The stretched arm is one solution if the target is just out of reach; farther out there is none.
 #[test]
 fn poses_just_out_of_reach_have_the_answer_at_the_edge() {
     let described = robot(&FOLDING, ROUNDINGS[1]);
@@ -140,7 +141,7 @@ fn poses_just_out_of_reach_have_the_answer_at_the_edge() {
     }
 }
 
-/// A member of a self-motion is moved along it to where it is within limits.
+/// A member of a self-motion is moved along it until it is within limits.
 #[test]
 fn self_motions_of_rounded_robots_are_followed_into_limits() {
     let described = robot(&FOLDING, ROUNDINGS[1]);
@@ -157,7 +158,7 @@ fn self_motions_of_rounded_robots_are_followed_into_limits() {
     }
 }
 
-/// A solver that finds all but self-motions.
+/// A solver that finds everything except self-motions.
 struct WithoutSelfMotions(groebot_ik::solver::Program);
 
 impl Solver for WithoutSelfMotions {
@@ -183,7 +184,7 @@ fn the_check_takes_self_motions_within_the_tolerance_and_misses_them() {
     assert!(missing(&WithoutSelfMotions(program)).0 >= 1);
 }
 
-/// Two solvers of a tilted plane come to different joint values that are equally near.
+/// Two solvers of a tilted plane give different joint values that are equally near.
 #[test]
 fn planar_poses_and_yaws_of_rounded_robots_pass_their_checks() {
     for rounding in [ROUNDINGS[0], ROUNDINGS[1]] {

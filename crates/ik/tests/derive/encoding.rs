@@ -1,4 +1,4 @@
-//! URDF in other encodings than UTF-8, and files that are no URDF.
+//! URDF in encodings other than UTF-8, and files that are not URDF.
 
 use std::fs;
 
@@ -8,7 +8,7 @@ use groebot_robot::document::{as_utf8, decode_xml};
 use groebot_robot::model::Robot;
 use tempfile::tempdir;
 
-/// A URDF in Unicode, with a comment and a link's name.
+/// A URDF as Unicode text, with a comment and a link's name.
 fn urdf(declared: &str, comment: &str, link: &str) -> String {
     format!(
         "<?xml version=\"1.0\"{declared}?>\n<!-- {comment} -->\n<robot name=\"r\">\n<link name=\"{link}\"/><link name=\"tip\"/>\n\
@@ -26,7 +26,7 @@ fn wide(text: &str, mark: bool, bytes: fn(u16) -> [u8; 2]) -> Vec<u8> {
     mark.into_iter().chain(text.encode_utf16()).flat_map(bytes).collect()
 }
 
-/// The robot in a file of these bytes, read in both ways, and the text that is kept of it.
+/// The robot in a file of these bytes, read by both readers, and its stored text.
 fn read(bytes: &[u8]) -> groebot_robot::Result<(Robot, String)> {
     let folder = tempdir().unwrap();
     let file = folder.path().join("0_robot.urdf");
@@ -68,7 +68,7 @@ fn declared_encodings_are_read() {
     ] {
         let (robot, text) = read(&bytes).unwrap();
         assert_eq!((robot.root(), robot.parts().notes.len()), (link, 0));
-        // What is kept is UTF-8, and says so: read again it is the same robot.
+        // The stored text is UTF-8 and declares it. Read again, it gives the same robot.
         assert_eq!(read(text.as_bytes()).unwrap().0, robot);
     }
 }
@@ -135,7 +135,7 @@ fn other_files_are_named() {
         (b"t,q0,q1\n0,1,2\n", "this is a table (CSV)"),
         (b"# groebot trajectory 1\n# robot: r\ntime [s],q:a [rad]\n0,1\n", "this is a table (CSV)"),
     ] {
-        // By what they hold, whatever they are called.
+        // The type is detected from the content, independent of the name.
         for name in ["arm.urdf", "arm.toml", "arm.yaml", "arm"] {
             let folder = tempdir().unwrap();
             let file = folder.path().join(name);

@@ -1,4 +1,4 @@
-//! What is asked of a mechanism: the task file of a folder, and what overrides it.
+//! The request for a solver: the task file of a folder, and options that override it.
 
 use std::fs;
 

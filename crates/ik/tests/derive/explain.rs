@@ -1,4 +1,4 @@
-//! `groebot_ik::derive::report::explain`: the formulas that a report prints are true, it leaves no joint out, and its LaTeX is well formed.
+//! `groebot_ik::derive::report::explain`: the formulas of a report are true, all joints occur, and the LaTeX is well formed.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -23,7 +23,7 @@ fn report(derived: &Derivation) -> Document {
     explain(derived).unwrap()
 }
 
-/// The report of a system that is solved together.
+/// The report of equations that are solved as one system.
 fn sagittal() -> Document {
     of_folder("nao_leg_sagittal")
 }
@@ -55,8 +55,8 @@ fn every_joint_has_its_step_and_every_relation_is_shown() {
     }
 }
 
-/// The joints that cancel stand on their own side of the cut: with the elbow between them, the wrist's joint 4 goes through the
-/// shoulder at zero only.
+/// Joints cancel only on their own side of the cut. With the elbow between them, the wrist's joint 4 passes through the shoulder only in the zero
+/// configuration.
 #[test]
 fn only_joints_of_its_own_side_leave_a_thing_in_place() {
     let text = report(&derived(&robots::puma())).to_markdown();
@@ -70,7 +70,7 @@ fn only_joints_of_its_own_side_leave_a_thing_in_place() {
     );
 }
 
-/// Forward kinematics is the other source: at a pose that joints reach, all that a step prints vanishes.
+/// All equations of a step vanish at a reached pose, by forward kinematics.
 #[test]
 fn the_printed_equations_hold_at_reached_poses() {
     for chain in [robots::puma(), robots::ur5()] {
@@ -197,7 +197,7 @@ fn latex_is_well_formed() {
     }
 }
 
-/// Environments nest, braces pair, and special characters stand only where they mean something.
+/// Environments are nested correctly, braces are paired, and special characters are used only with their meaning.
 fn assert_well_formed(text: &str) {
     let (mut open, mut depth, mut math) = (Vec::new(), 0, false);
     let mut rest = text;
@@ -229,7 +229,7 @@ fn assert_well_formed(text: &str) {
     assert!(open.is_empty() && depth == 0 && !math, "{open:?} {depth} {math}");
 }
 
-/// With LaTeX, where it is installed.
+/// Compiles the text with LaTeX, if it is installed.
 fn compile(number: usize, text: &str) {
     if Command::new("pdflatex").arg("--version").output().is_err() {
         println!("pdflatex is not here: the LaTeX is not compiled");
@@ -249,7 +249,7 @@ fn number(value: f64) -> BigRational {
     BigRational::from_float(value).unwrap()
 }
 
-/// The value of an expression; `None` when a name has none.
+/// The value of an expression; `None` if a name has no value.
 fn evaluate(expression: &Expression, values: &Values) -> Option<BigRational> {
     if expression.names().iter().any(|name| !values.contains_key(*name)) {
         return None;

@@ -1,5 +1,5 @@
-//! Chains whose leaders are found with the joints that follow them: palletizers, lifters, fingers, rolling joints, hollow wrists. Expected answers
-//! come from forward kinematics written here and Newton's method from many starts on the independent joints.
+//! Chains whose leaders are found together with their followers: palletizers, lifters, fingers, rolling joints, hollow wrists. Expected solutions come from
+//! independent forward kinematics and Newton's method from many starts on the independent joints.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,13 +15,13 @@ const X: [f64; 3] = [1.0, 0.0, 0.0];
 const Y: [f64; 3] = [0.0, 1.0, 0.0];
 const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// How a joint follows: the place of its leader, the multiplier and the offset.
+/// The law of a follower: the index of its leader, the multiplier and the offset.
 type Law = Option<(usize, f64, f64)>;
 
-/// A joint: whether it turns, its axis, a point of it at zero, its law.
+/// A joint: whether it is revolute, its axis, a point of it in the zero configuration, its law.
 type Link = (bool, [f64; 3], [f64; 3], Law);
 
-/// A mechanism by numbers of this file: by joint whether it turns, its axis and a point of it at zero, and its law.
+/// A mechanism with this file's own kinematics. By joint: whether it is revolute, its axis and a point of it in the zero configuration, and its law.
 struct Mechanism {
     joints: Vec<Link>,
     tip: [f64; 3],
@@ -72,7 +72,7 @@ impl Mechanism {
         (0..self.joints.len()).filter(|place| self.joints[*place].3.is_none()).collect()
     }
 
-    /// The values of all joints by those of the independent ones.
+    /// The values of all joints from those of the independent ones.
     fn whole(&self, values: &[f64]) -> Vec<f64> {
         let mut q = vec![0.0; self.joints.len()];
         self.independent().iter().zip(values).for_each(|(&place, value)| q[place] = *value);
@@ -84,7 +84,7 @@ impl Mechanism {
         q
     }
 
-    /// What the task sees of the tip, as numbers of a target.
+    /// The numbers of the target that the joint values `q` reach.
     fn seen(&self, q: &[f64]) -> Vec<f64> {
         let motion = |(&(turns, axis, point, _), q): (&Link, &f64)| {
             let axis = Unit::new_normalize(Vector3::from(axis));
@@ -125,7 +125,7 @@ impl Mechanism {
         self.slopes(target, values).svd(false, false).singular_values.min()
     }
 
-    /// The joint vectors that Newton's method comes to from many starts, angles in (-pi, pi].
+    /// The joint vectors that Newton's method finds from many starts, angles in (-pi, pi].
     fn searched(&self, target: &[f64], random: &mut Random, starts: usize) -> Vec<Vec<f64>> {
         let mut found: Vec<Vec<f64>> = Vec::new();
         for _ in 0..starts {
@@ -165,7 +165,8 @@ impl Mechanism {
         self.independent().into_iter().zip(a).zip(b).map(one).fold(0.0, f64::max)
     }
 
-    /// The answers of the derived solver, those of the independent joints; each followed by the others, and right by the kinematics of this file.
+    /// The solutions of the derived solver for the independent joints. Checks that followers obey their laws and that all reach the target by this file's
+    /// kinematics.
     fn solved(&self, derived: &Derivation, target: &[f64]) -> Vec<Vec<f64>> {
         let answers = derived.program().solve_numbers(target).unwrap();
         let part = |q: &[f64]| self.independent().into_iter().map(|place| q[place]).collect::<Vec<f64>>();
@@ -186,7 +187,7 @@ impl Mechanism {
             .collect()
     }
 
-    /// At targets of random joint values, and of multiples of 15 degrees, the solver has the answers of the search, and no other.
+    /// Checks at targets of random joint values and multiples of 15 degrees that the solver has exactly the solutions of the search.
     fn agrees(&self, targets: usize, starts: usize) -> Vec<usize> {
         let derived = Derivation::sequentially(&self.chain(), &Watch::none()).unwrap();
         assert_eq!(derived.program().inputs.len(), self.seen(&vec![0.0; self.joints.len()]).len(), "no joint is given");
@@ -214,7 +215,7 @@ impl Mechanism {
     }
 }
 
-/// SplitMix64.
+/// A random generator: SplitMix64.
 struct Random(u64);
 
 impl Random {
@@ -229,7 +230,7 @@ impl Random {
 
 const PLANE: Task = Task::PlanarPosition { plane: Plane::Xz };
 
-/// A base, an arm whose end keeps its direction by two joints that follow, and a wrist that turns about the vertical.
+/// A base, an arm whose end keeps its orientation by two followers, and a wrist about the vertical.
 fn palletizer() -> Mechanism {
     let joints = [
         (true, Z, [0.0; 3], None),
@@ -307,7 +308,7 @@ fn multipliers_and_offsets_are_whole_numbers_and_any_angle() {
 
 #[test]
 fn on_one_axis_each_answer_of_the_sum_is_several_of_the_leader() {
-    // The sum is 2 q, or 3 q: an elbow up and an elbow down, with two or three values of q each.
+    // The sum is 2 q, or 3 q: elbow up and elbow down, with two or three values of q each.
     for (multiplier, count) in [(1.0, 4), (2.0, 6)] {
         let joints = [
             (true, Y, [0.0; 3], None),

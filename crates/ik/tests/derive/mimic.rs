@@ -1,4 +1,4 @@
-//! Solvers of chains in which joints follow others: an arm with a finger whose opening is given, and a finger that is found.
+//! Solvers of chains with joints that follow others: an arm with a finger whose opening is given, and a finger that is found.
 
 use groebot_algebra::number::BigRational;
 use groebot_ik::derive::Derivation;
@@ -28,7 +28,7 @@ fn follows(leader: &str, multiplier: &str, offset: &str) -> Option<Mimic> {
     Some(Mimic { leader: leader.into(), multiplier: exact(multiplier), offset: exact(offset) })
 }
 
-/// The chain's solver at targets of all kinds, by witnesses that share nothing with it; from joint values that follow.
+/// Checks the chain's solver at targets of all kinds by independent witnesses. Generating joint values obey the laws.
 fn holds(chain: &Chain) {
     let derived = Derivation::sequentially(chain, &Watch::none()).unwrap();
     let options = Options { targets: 60, oracle: 2, ..Options::default() };

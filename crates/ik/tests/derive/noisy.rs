@@ -1,5 +1,7 @@
-//! Robots as they come: numbers that are off by rounding, by float32, by a few decimals. The solver of the ideal robot, polished on the one
-//! described, finds the joint values that made each ordinary pose of the described one; poses come from its own exponentials.
+//! Robots with inexact numbers: errors of rounding, of float32, of a few decimals.
+//!
+//! The solver of the ideal robot is polished on the described one. It must find the joint values that made each ordinary pose of the described robot. Poses
+//! come from the described robot's own exponentials.
 
 use groebot_algebra::number::BigRational;
 use groebot_ik::Watch;
@@ -9,12 +11,12 @@ use groebot_robot::robots;
 use nalgebra::DMatrix;
 use proptest::prelude::*;
 
-/// How many poses of each robot are solved.
+/// The number of poses per robot.
 const POSES: usize = 1000;
-/// An ordinary pose has no singular value of the Jacobian, lengths in reaches, below this.
+/// The lower limit of the smallest singular value at an ordinary pose, with lengths as fractions of the reach.
 const ORDINARY: f64 = 1e-3;
 
-/// `chain` with every number off by up to `noise`, angles in radians, lengths in reaches.
+/// `chain` with errors of up to `noise` in every number: angles in radians, lengths as fractions of the reach.
 fn noisy(chain: &Chain, noise: f64, draw: &mut impl FnMut() -> f64) -> Chain {
     let mut off = |vector: &mut ExactVector, size: f64| {
         vector.iter_mut().for_each(|x| *x += BigRational::from_float(noise * size * draw()).unwrap());
@@ -32,7 +34,7 @@ fn sigma(jacobian: DMatrix<f64>) -> f64 {
     jacobian.svd(false, false).singular_values.min()
 }
 
-/// Numbers in [-1, 1], always the same for a seed.
+/// A reproducible sequence of numbers in [-1, 1].
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(2) | 1;
     move || {
@@ -41,7 +43,7 @@ fn numbers(seed: u64) -> impl FnMut() -> f64 {
     }
 }
 
-/// The share of ordinary poses that are lost, of which there are many.
+/// The number of ordinary poses whose joint values are not found, and the number of ordinary poses.
 fn lost(described: &Chain, draw: &mut impl FnMut() -> f64) -> (usize, usize) {
     let problem = ChainProblem::ideal(described.ideal(), described);
     let derived = Derivation::sequentially(problem, &Watch::none()).unwrap();

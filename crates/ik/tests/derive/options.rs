@@ -1,4 +1,4 @@
-//! The derivation in one call, `groebot_ik::derive`, and what its options change.
+//! The derivation in one call, `groebot_ik::derive`, and the effect of its options.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -9,10 +9,10 @@ use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::{Chain, ChainParts, Target, along_z};
 use groebot_robot::robots;
 
-/// Values at which PUMA is not singular.
+/// Joint values at which PUMA is not singular.
 const Q: [f64; 6] = [0.31, -0.42, 0.53, 0.64, 0.75, -0.86];
 
-/// PUMA with its first axis 3e-8 off the vertical.
+/// PUMA with its first axis 3e-8 rad off the vertical.
 fn rounded() -> Chain {
     let mut parts: ChainParts = robots::puma().into();
     parts.joints[0].axis[0] = parse_rational("3e-8").unwrap();

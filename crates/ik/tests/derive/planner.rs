@@ -1,6 +1,6 @@
-//! Plans of robots and of random families. The numbers of solutions are those of the literature: at most 16 for a general 6R chain
-//! (Lee and Liang 1988), 8 with three axes that meet or are parallel (Pieper 1968), 4 for a general 3R arm's positions, and so on;
-//! the planner counts them with a Groebner basis of all equations, and its steps must multiply to the same number.
+//! Plans of robots and of random families. The numbers of solutions are those of the literature: at most 16 for a general 6R chain (Lee and Liang 1988), 8 with
+//! three axes that meet or are parallel (Pieper 1968), 4 for a general 3R arm's positions, and so on. The planner counts them with a Groebner basis of all
+//! equations, and the product of its steps must be equal.
 
 use groebot_algebra::number::BigRational;
 use groebot_ik::derive::closure::{Mechanism, prove};
@@ -18,7 +18,7 @@ fn planned(chain: &Chain, given: &[usize]) -> groebot_ik::Result<(Mechanism, Pla
     Ok((mechanism, plan))
 }
 
-/// Each joint is found once, from relations whose other joints are known or eliminated, all of them proved.
+/// Checks that each joint is found once, from proved relations whose other joints are known or eliminated.
 fn assert_sound(mechanism: &Mechanism, plan: &Plan) {
     let mut known = plan.given.clone();
     for step in &plan.steps {
@@ -36,7 +36,7 @@ fn assert_sound(mechanism: &Mechanism, plan: &Plan) {
     assert!(plan.evidence.iter().all(|evidence| evidence.dimension == plan.dimension), "{:?}", plan.evidence);
 }
 
-/// A sound plan with this number of solutions exists, and its steps give no more.
+/// Checks that a sound plan with this number of solutions exists, and that its steps give no more.
 fn assert_plan(label: &str, chain: &Chain, given: &[usize], dimension: usize) -> Plan {
     let (mechanism, plan) = planned(chain, given).unwrap_or_else(|error| panic!("{label}: {error}"));
     assert_sound(&mechanism, &plan);
@@ -48,7 +48,7 @@ fn refusal(chain: &Chain, given: &[usize]) -> groebot_ik::Error {
     planned(chain, given).expect_err("no plan")
 }
 
-/// Random chains of a geometry, each also from its other end.
+/// Checks random chains of a geometry, each also from tip to base.
 fn assert_family(kinds: &str, shared: &[Shared], task: Task, dimension: usize) {
     for seed in 1..=2 {
         let label = format!("{kinds} {shared:?} {} seed {seed}", task.name());
@@ -158,7 +158,7 @@ fn directions_rotations_and_rays() {
     assert_family("RRRRR", &[Shared::Direction(1, 3)], Task::Ray, 8);
 }
 
-/// Two axes that meet, three that meet, and a ray along the last of them but beside it.
+/// Two axes that meet, three that meet, and a ray parallel to the last of them at a distance.
 #[test]
 fn an_arm_with_a_ray_along_its_last_axis() {
     let arm = chain("RRRRR", &[Shared::Point(0, 1), Shared::Point(2, 4)], Task::Pose, 14);
@@ -172,7 +172,7 @@ fn seven_joints_with_one_given() {
     let spherical = chain("RRRRRRR", &[Shared::Point(0, 2), Shared::Point(4, 6)], Task::Pose, 7);
     assert_plan("anthropomorphic arm", &spherical, &[2], 8);
     assert_plan("one wrist", &chain("RRRRRRR", &[Shared::Point(4, 6)], Task::Pose, 8), &[1], 8);
-    // The elbow's angle follows from the distance of shoulder and wrist: it cannot be given.
+    // The elbow's angle follows from the distance between shoulder and wrist, so it cannot be given.
     let error = refusal(&spherical, &[]);
     assert_eq!(error.kind(), ErrorKind::PositiveDimensional);
     let others = ["joint1", "joint2", "joint3", "joint5", "joint6", "joint7"];
@@ -192,7 +192,7 @@ fn a_general_chain_is_refused_with_its_sixteen() {
     }
 }
 
-/// Three angles among four axes hold together for free coefficients, but not for those of a target: no step comes of them.
+/// Three angles among four axes are independent for free coefficients, but not for those of a target. So no step uses them.
 #[test]
 fn two_slides_between_pairs_are_refused_with_their_eight() {
     let error = refusal(&chain("RRPPRR", &[Shared::Point(0, 1), Shared::Point(4, 5)], Task::Pose, 3), &[]);
@@ -208,7 +208,7 @@ fn more_joints_than_the_task_needs_are_free() {
     let error = refusal(&chain("RRRRRRRRRRRR", &[], Task::Pose, 11), &[]);
     assert_eq!(error.kind(), ErrorKind::PositiveDimensional);
     assert!(error.message().contains("at least 6"), "{error}");
-    // Two parallel slides do the same.
+    // Two parallel prismatic joints give the same result.
     let twice = planar_chain("PPP", Task::PlanarPosition { plane: Plane::Xy }, 12);
     assert_eq!(refusal(&twice, &[]).kind(), ErrorKind::PositiveDimensional);
 }
@@ -236,7 +236,7 @@ fn plans_print_travel_and_stop() {
     assert_eq!(cancelled.kind(), ErrorKind::Cancelled);
 }
 
-/// Of a seven-joint arm, the joint is given whose range has solutions, and with which the others are found by the least degrees.
+/// Of a seven-joint arm, the given joint has solutions on its range, and the others are found by the least degrees.
 #[test]
 fn the_joint_to_give_has_solutions_on_its_range() {
     let seven = Chain::from_toml(include_str!("../../../../derivations/iiwa14/0_chain.toml")).unwrap();
@@ -253,7 +253,7 @@ fn the_joint_to_give_has_solutions_on_its_range() {
     assert_eq!(joints_to_give(&robots::puma(), &Watch::none()).unwrap(), None);
 }
 
-/// Where the others have no order whichever joint is given, the last one is, for the six others are found together.
+/// If the others have no order for any given joint, the last one is given, because the six others can be solved together.
 #[test]
 fn the_last_joint_is_given_where_there_is_no_order() {
     let seven = Chain::from_toml(include_str!("../../../../derivations/gen3_like/0_chain.toml")).unwrap();

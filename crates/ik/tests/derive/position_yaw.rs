@@ -1,4 +1,4 @@
-//! The task `position_yaw`: where the tip is, and at which angle about an axis of the base a direction of it points.
+//! The task `position_yaw`: the position of the tip, and the angle of one of its directions about a base axis.
 
 use groebot_algebra::number::BigRational;
 use groebot_ik::Result;
@@ -36,7 +36,7 @@ fn derived(chain: &Chain) -> Result<Program> {
     Ok(groebot_ik::derive(chain)?.program().clone())
 }
 
-/// By hand: the tip turns by j1 + j2 - j4 about the vertical, for the quill points down.
+/// Derived by hand: the tip rotates by j1 + j2 - j4 about the vertical, because the quill points down.
 #[test]
 fn a_scara_has_two_elbows_at_the_angle_that_is_asked() {
     let chain = asked(&scara("0 0 0"), BaseAxis::Z, [1, 0, 0]);
@@ -59,7 +59,7 @@ fn a_scara_has_two_elbows_at_the_angle_that_is_asked() {
     }
 }
 
-/// On walls: the axis is x or y. The angle about x is counted from y, about y from z; directions may have any length.
+/// A SCARA on a wall: the axis is x or y. The angle about x starts at y, that about y at z. Directions may have any length.
 #[test]
 fn every_axis_counts_from_the_next_one() {
     let (quarter, robots) = (std::f64::consts::FRAC_PI_2, [BaseAxis::X, BaseAxis::Y, BaseAxis::Z]);

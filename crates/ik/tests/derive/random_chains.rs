@@ -1,11 +1,11 @@
-//! Random chains of a given geometry: rational lengths, rational unit axes, nothing aligned with the base or the tool.
+//! Random chains of a given geometry: rational lengths and rational unit axes, not aligned with the base or the tool.
 
 use groebot_algebra::number::BigRational;
 use groebot_robot::kinematics::{
     Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Plane, Task, Tip, along_z,
 };
 
-/// A generator of small numbers: SplitMix64.
+/// A generator of small random numbers: SplitMix64.
 pub struct Draw(u64);
 
 impl Draw {
@@ -20,13 +20,13 @@ impl Draw {
         z ^ (z >> 31)
     }
 
-    /// An integer from -`bound` to `bound`, not zero.
+    /// A nonzero integer from -`bound` to `bound`.
     fn integer(&mut self, bound: i64) -> i64 {
         let magnitude = (self.next() % bound as u64) as i64 + 1;
         if self.next() & 1 == 0 { magnitude } else { -magnitude }
     }
 
-    /// A length from -0.9 to 0.9, not zero.
+    /// A nonzero length from -0.9 to 0.9.
     pub fn length(&mut self) -> BigRational {
         BigRational::new(self.integer(45).into(), 50.into())
     }
@@ -45,7 +45,7 @@ impl Draw {
         self.rotation().turn(&along_z())
     }
 
-    /// A joint value: an angle away from special ones, or a length.
+    /// A joint value: a length, or an angle away from special values.
     pub fn value(&mut self, kind: JointKind) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         match kind {
@@ -55,16 +55,16 @@ impl Draw {
     }
 }
 
-/// What the axes of a chain have in common.
+/// A relation between the axes of a chain.
 #[derive(Clone, Copy, Debug)]
 pub enum Shared {
-    /// These joints, by first and last place, go through one point.
+    /// The axes of these joints, from first to last index, meet in one point.
     Point(usize, usize),
-    /// These joints are parallel.
+    /// The axes of these joints are parallel.
     Direction(usize, usize),
 }
 
-/// A chain of the kinds `R` and `P` with axes that share what is said and nothing else.
+/// A chain of joints `R` and `P` with exactly these relations between its axes.
 pub fn chain(kinds: &str, shared: &[Shared], task: Task, seed: u64) -> Chain {
     let mut draw = Draw::new(seed);
     let mut joints: Vec<Joint> = kinds.chars().enumerate().map(|(place, kind)| joint(&mut draw, place, kind)).collect();
@@ -137,7 +137,7 @@ fn parts(joints: Vec<Joint>, tip: Tip, task: Task, direction: ExactVector) -> Ch
     Chain::new(parts).expect("a chain")
 }
 
-/// The chain from tip to base: the inverse motions in the reverse order, for the tasks that see the whole pose.
+/// The chain from tip to base: the inverse motions in reverse order, for tasks that specify the whole pose.
 pub fn reversed(chain: &Chain) -> Chain {
     let mut parts = chain.parts().clone();
     parts.joints.reverse();

@@ -1,4 +1,4 @@
-//! Nothing knows the two mechanisms by name: systems of the same kind with other names, orders and lengths.
+//! The derivation does not depend on names: systems of the same type with other names, orders and lengths.
 
 use groebot_algebra::number::{BigInt, BigRational, Ring};
 use groebot_algebra::poly::parse;
@@ -6,7 +6,7 @@ use groebot_ik::derive::System;
 
 use super::seed::derive;
 
-/// A small generator of numbers, so that a failure can be repeated.
+/// A small reproducible generator of numbers.
 struct Numbers(u64);
 
 impl Numbers {
@@ -31,7 +31,7 @@ struct Random {
     relative: bool,
 }
 
-/// A two-link system: absolute or relative second angle, any names, any order of unknowns, equations and joints.
+/// A two-link system: absolute or relative second angle, arbitrary names, arbitrary order of unknowns, equations and joints.
 fn random_system(numbers: &mut Numbers) -> Random {
     let letters = ["alpha", "Beta", "u", "v_1", "w", "zz", "k9", "Q", "m2", "theta", "x", "y"];
     let names = numbers.shuffled(letters.to_vec());
@@ -72,7 +72,7 @@ fn twenty_random_systems_are_derived_proved_and_solved() {
     }
 }
 
-/// The law of cosines, derived by hand, lies in the ideal: `2 L1 L2 cos(relative angle) = r^2 - L1^2 - L2^2`.
+/// Checks that the law of cosines, derived by hand, is in the ideal: `2 L1 L2 cos(relative angle) = r^2 - L1^2 - L2^2`.
 fn known_members_vanish(random: &Random, derivation: &groebot_ik::derive::Derivation) {
     let solved = derivation.equations().unwrap().method.requested.solved().unwrap();
     let ring = &solved.triangular.ring;

@@ -1,4 +1,4 @@
-//! The descriptions in `derivations/`: each is read, says where its figures come from, and is the robot of its name.
+//! The descriptions in `derivations/`: each can be read, names the source of its numbers, and is the robot of its name.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use groebot_ik::derive::InputFile;
 use groebot_robot::kinematics::{BaseAxis, Chain, Geometry, Joint, LengthUnit, Task};
 use groebot_robot::robots;
 
-/// Every folder's name and chain, but for the two that state equations or millimetres of the NAO chapter.
+/// Every folder's name and chain, except those with equations or with the NAO chapter's millimetres.
 fn described() -> Vec<(String, Chain)> {
     let folders = std::fs::read_dir(concat!(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), "/derivations")).unwrap();
     let mut folders: Vec<PathBuf> = folders.map(|folder| folder.unwrap().path()).collect();
@@ -32,7 +32,7 @@ fn every_folder_is_described() {
     }
 }
 
-/// A URDF of five decimals: its wrist does not meet, but the ideal robot's does, and is nowhere further off than 0.2 mm.
+/// A URDF with five decimals: its wrist axes do not meet, but those of the ideal robot do. The ideal robot differs by at most 0.2 mm.
 #[test]
 fn a_rounded_robot_is_snapped() {
     let folder = concat!(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), "/derivations/irb4600_rounded");
@@ -55,7 +55,7 @@ fn a_folder_with_the_name_of_a_robot_has_its_mechanism() {
     let mut met = 0;
     for (name, chain) in described() {
         let Some(robot) = robots::by_name(&name) else { continue };
-        // A chain's joints have the names and limits of the whole robot: `LHipYawPitch`, where the chain has `HipYawPitch`.
+        // A chain's joints have the names and limits of the whole robot: `LHipYawPitch` instead of the chain's `HipYawPitch`.
         let told = |joint: &Joint, named: &Joint| Joint {
             name: if named.name.ends_with(&joint.name) { named.name.clone() } else { joint.name.clone() },
             limits: joint.limits.or(named.limits),

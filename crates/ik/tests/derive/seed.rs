@@ -1,7 +1,7 @@
 //! The source's own bases: NAO (6.7.16)-(6.7.19) and (6.7.5)-(6.7.8), coefficient by coefficient.
 //!
-//! Expected polynomials are typed from the printed document; where it prints rounded constants, the exact ones stand here, and
-//! `printed_constants_are_rounded` holds the printed ones against them (docs/errata.md).
+//! Expected polynomials are typed from the printed document. Where it prints rounded constants, this file has the exact ones; `printed_constants_are_rounded`
+//! compares them with the printed ones (docs/errata.md).
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use groebot_ik::derive::{Derivation, Source, System};
 use groebot_ik::{Watch, derive::equations::setting::Unknowns};
 
 const LEG: [&str; 4] = [
-    // (6.7.16), its constant exact: 346226.3281 where 346226.3 is printed
+    // (6.7.16) with its exact constant: 346226.3281 instead of the printed 346226.3
     "40000*(px^2 + pz^2)*s3^2 - 400*(px^3 + px*pz^2)*s3 + 235364*px*s3 + 346226.3281 - 1176.82*px^2 - 41176.82*pz^2
         + px^4 + 2*px^2*pz^2 + pz^4",
     // (6.7.17)
@@ -24,7 +24,7 @@ const LEG: [&str; 4] = [
 ];
 
 const ARM: [&str; 4] = [
-    // (6.7.5), its constant exact: 3620229.2361 where 3620229.3 is printed
+    // (6.7.5) with its exact constant: 3620229.2361 instead of the printed 3620229.3
     "44100*(py^2 + pz^2)*s2^2 - 420*(py^3 + py*pz^2)*s2 + 799129.8*py*s2 + 3620229.2361 - 3805.38*py^2 - 47905.38*pz^2
         + py^4 + 2*py^2*pz^2 + pz^4",
     // (6.7.6)
@@ -43,7 +43,7 @@ pub fn derive(system: System) -> Derivation {
     Derivation::of_problem(system, &Watch::none()).unwrap()
 }
 
-/// Asserts that the generic basis is `expected`, each up to a factor from the field.
+/// Asserts that the generic basis is `expected`, up to a factor from the field for each polynomial.
 fn assert_basis(derivation: &Derivation, expected: &[&str]) {
     let solved = derivation.equations().unwrap().method.requested.solved().unwrap();
     let ring = &solved.triangular.ring;
@@ -69,7 +69,7 @@ fn the_arm_gives_the_source_s_basis() {
     assert_basis(&derivation, &ARM);
 }
 
-/// The cleared polynomials are the source's up to a number, not only up to a rational function.
+/// The cleared polynomials are equal to the source's up to a rational number, not only up to a rational function.
 #[test]
 fn cleared_polynomials_differ_from_the_source_s_by_a_number() {
     for (name, expected) in [("nao_leg_sagittal", LEG), ("nao_arm_planar", ARM)] {
@@ -125,7 +125,7 @@ pub fn symbolic_leg() -> System {
     System::from_toml(&two_links("leg", ["c4", "c3", "s4", "s3"])).unwrap()
 }
 
-/// A leg-like system with any names for its unknowns, in the order `[c4, c3, s4, s3]`.
+/// A leg-like system with given names for its unknowns, in the order `[c4, c3, s4, s3]`.
 pub fn two_links(name: &str, [c4, c3, s4, s3]: [&str; 4]) -> String {
     format!(
         r#"
@@ -184,7 +184,7 @@ fn symbolic_lengths_specialise_to_the_source_s_basis() {
     }
 }
 
-/// What a reader of the source compares: its own decimals.
+/// The report shows the decimals of the source.
 #[test]
 fn the_report_shows_the_source_s_coefficients() {
     let derivation = derive(source("nao_leg_sagittal").system.unwrap());

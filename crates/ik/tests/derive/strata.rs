@@ -1,6 +1,6 @@
-//! Strata of the parameters: what happens where the generic formulas divide by zero.
+//! Strata of the parameters: the solutions where the generic formulas divide by zero.
 //!
-//! Bases marked "Singular" are held against tests/corpus/groebner, which Singular computed.
+//! Bases marked "Singular" are compared with tests/corpus/groebner, which the program Singular computed.
 
 use groebot_algebra::poly::parse;
 use groebot_ik::derive::equations::tree::{Node, Outcome};
@@ -16,7 +16,7 @@ fn find<'a>(tree: &'a Node, label: &str) -> &'a Node {
     found.unwrap_or_else(|| panic!("no stratum {label} among {labels:?}"))
 }
 
-/// The basis that a corpus file records.
+/// The basis in a corpus file.
 fn singular(name: &str) -> Vec<String> {
     let path = format!("{}/tests/corpus/groebner/{name}.toml", concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
     let text = std::fs::read_to_string(path).unwrap();
@@ -106,7 +106,7 @@ fn lengths_assumed_positive_exclude_strata() {
     assert!(without.children.iter().any(|child| child.label == "L1 = 0"));
 }
 
-/// `1e-k` steps over the stratum: the count of solutions and their quality do not change on the way.
+/// Targets at distances `1e-k` on both sides of the stratum: the number of solutions and their quality do not change.
 #[test]
 fn targets_near_a_stratum_are_solved_like_any_other() {
     for (name, free) in [("nao_leg_sagittal", 150.0), ("nao_arm_planar", 150.0)] {
@@ -132,7 +132,7 @@ fn error_of(text: &str) -> groebot_ik::Error {
 const JOINTS: &str = "[[joint]]\nname = \"a\"\ncosine = \"c1\"\nsine = \"s1\"\n\
                       [[joint]]\nname = \"b\"\ncosine = \"c2\"\nsine = \"s2\"\n";
 
-/// One term, and a degree beyond every monomial: it is refused before it is expanded.
+/// One term with a degree beyond every monomial is refused before its expansion.
 #[test]
 fn a_hopeless_degree_is_refused() {
     let text = format!("name = \"x\"\nequations = [\"(c1^1000)^1000 = 1\", \"c2 = s1\"]\n{JOINTS}");

@@ -1,4 +1,4 @@
-//! Systems built by hand: what is checked, what is added, what is printed.
+//! Systems built in code: checks, added relations and printed text.
 
 use groebot_algebra::poly::{parse, parse_equation};
 use groebot_ik::ErrorKind;
@@ -125,7 +125,7 @@ fn refused(parts: SystemParts, kind: ErrorKind, message: &str) {
     );
 }
 
-/// The arm after a change is refused.
+/// Checks that the arm is refused after a change.
 fn changed(change: impl FnOnce(&mut SystemParts), kind: ErrorKind, message: &str) {
     let mut parts = arm();
     change(&mut parts);

@@ -1,11 +1,11 @@
-//! The reader of `system.toml`: the arm, constants and angles, and each mistake with its kind, line and words.
+//! The reader of `system.toml`: the arm, constants and angles, and each mistake with its kind, line and message.
 
 use groebot_algebra::poly::parse;
 use groebot_ik::ErrorKind::{self, *};
 use groebot_ik::derive::*;
 use proptest::prelude::*;
 
-/// Line numbers of the mistakes below count in this text.
+/// The line numbers of the mistakes below refer to this text.
 const ARM: &str = r#"name = "nao_arm_planar"
 description = "two joints in a plane"
 source = "NAO (6.7.1)-(6.7.4)"
@@ -61,7 +61,7 @@ fn the_documented_example_is_this_arm() {
     assert_eq!((&example.equations, &example.order, &example.choice), (&arm.equations, &arm.order, &arm.choice));
 }
 
-/// A pose of the arm, by trigonometry alone, satisfies all equations.
+/// A pose of the arm, computed by trigonometry, satisfies all equations.
 #[test]
 fn a_pose_of_the_arm_satisfies_the_equations() {
     let (q2, q4) = (0.3_f64, -1.1_f64);
@@ -136,7 +136,7 @@ fn an_angle_is_given_by_cosine_and_sine() {
     assert_eq!(system.parameters[3].source, ParameterSource::Input(2));
 }
 
-/// The arm with `from` replaced by `to` once is refused with `kind`, at `line`, in words that contain `message`.
+/// Checks that the arm with one `from` replaced by `to` is refused with `kind`, at `line`, and with a message that contains `message`.
 fn refused(from: &str, to: &str, kind: ErrorKind, line: usize, message: &str) {
     assert!(ARM.contains(from), "{from}");
     let error = System::from_toml(&ARM.replacen(from, to, 1)).expect_err(message);

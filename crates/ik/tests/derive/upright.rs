@@ -1,5 +1,5 @@
-//! A position with pitch and roll, whatever the yaw: the loop that stands for it closes where the arm stands, and solvers of arms whose first axis points
-//! up or down, anywhere, find what made each target.
+//! A position with pitch and roll for any yaw. The loop that replaces the target closes at the arm's joint values. Solvers of arms with a vertical first axis,
+//! up or down and at any point, find the joint values that made each target.
 
 use groebot_algebra::number::{BigRational, parse_rational};
 use groebot_ik::derive::{ChainProblem, Derivation};
@@ -10,7 +10,7 @@ use groebot_robot::kinematics::Target;
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, ChainParts, Task, along_z};
 
-/// An arm of five joints: about a vertical, three that bend, and a roll; its tip is turned and beside the last axis.
+/// An arm of five joints: one about a vertical, three parallel ones, and a roll. Its tip is rotated and not on the last axis.
 fn arm(first: [&str; 3], at: [&str; 3]) -> Chain {
     let joint = |name: &str, axis: [&str; 3], point: [&str; 3]| {
         let quoted = |vector: [&str; 3]| vector.map(|x| format!("\"{x}\"")).join(", ");
@@ -45,7 +45,7 @@ fn the_loop_closes_where_the_arm_stands() {
             let q: Vec<f64> = (0..5).map(|joint| (f64::from(at * 5 + joint) * 0.731).sin() * 3.1).collect();
             let target = Target::reached(&chain, &q).unwrap();
             let (_, given) = upright.asked(&target, &[]).unwrap();
-            // What the loop's turn is does not matter to the arm: it is the one that closes it.
+            // The loop's rotation may have any value that closes the loop.
             let pose = chain.forward(&q).unwrap();
             let (_, _, yaw) = pose.rotation.euler_angles();
             let [x, y] = upright.axis.clone().map(|x| num_traits::ToPrimitive::to_f64(&x).unwrap());

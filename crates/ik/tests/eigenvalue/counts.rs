@@ -1,4 +1,4 @@
-//! The number of real solutions against the exact one: over Q, by Groebner basis and real-root isolation.
+//! The number of real solutions compared with the exact number over Q, by Groebner basis and real-root isolation.
 
 use groebot_algebra::number::BigRational;
 use groebot_ik::derive::eigenvalue::all;
@@ -18,7 +18,7 @@ fn random_links(random: &mut Random) -> [Link<BigRational>; 6] {
     })
 }
 
-/// The exact number of real solutions at random rational targets, and ours.
+/// Compares our number of real solutions with the exact one at random rational targets. Returns how often each number occurs.
 fn compare(count: usize, seed: u64) -> [usize; 17] {
     let mut random = Random::new(seed);
     let mut seen = [0; 17];
@@ -46,7 +46,7 @@ fn counts_equal_the_exact_ones() {
     assert!(seen.iter().filter(|count| **count > 0).count() > 1, "{seen:?}");
 }
 
-/// The figures of issue 9: `cargo test --release two_hundred_counts -- --ignored --nocapture`.
+/// Run by `cargo test --release two_hundred_counts -- --ignored --nocapture`.
 #[test]
 #[ignore = "two hundred exact counts"]
 fn two_hundred_counts_equal_the_exact_ones() {

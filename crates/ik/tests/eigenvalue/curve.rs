@@ -1,4 +1,4 @@
-//! Targets beside a self-motion: isolated answers anywhere along the curve that the self-motion was.
+//! Targets next to a self-motion, whose isolated solutions are anywhere along the curve of the self-motion.
 
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
@@ -12,15 +12,15 @@ fn arm() -> Program {
     Program::from_json(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// Joints with the forearm folded onto the upper arm, but for `off`: axes 1, 2, 4 and 5 all but meet in a point.
+/// Joints with the forearm folded onto the upper arm, up to `off` (rad): axes 1, 2, 4 and 5 nearly meet in a point.
 fn folded(random: &mut Random, off: f64) -> [f64; 6] {
     let mut q = random.angles();
     q[2] = FRAC_PI_2 + off;
     q
 }
 
-/// How many of so many targets lost their joints: by no more than what the distance from the self-motion leaves open, of which the least singular
-/// value is a tenth or less.
+/// The number of targets whose generating joints are not found. The tolerance is the uncertainty at this distance from the self-motion, of which the least
+/// singular value is at most a tenth.
 fn lost(off: f64, targets: usize) -> usize {
     let (program, mut random) = (arm(), Random::new(24));
     let is_lost = |q: &[f64; 6]| {
@@ -50,7 +50,7 @@ fn a_self_motion_is_told() {
     }
 }
 
-/// The figures of `docs/six_axes.md`: `cargo test --release beside_a_self_motion -- --ignored --nocapture`.
+/// Prints the figures of `docs/six_axes.md`: `cargo test --release beside_a_self_motion -- --ignored --nocapture`.
 #[test]
 #[ignore = "thousands of targets beside a self-motion"]
 fn beside_a_self_motion() {
@@ -61,8 +61,8 @@ fn beside_a_self_motion() {
     }
 }
 
-/// A first run that cannot be trusted, by its pivots or its candidates, is followed by others, which hide another joint or halve another
-/// angle: the answers that it loses are found.
+/// A first attempt with untrusted pivots or candidates is followed by others, which hide another joint or halve another angle. They find the solutions that it
+/// loses.
 #[test]
 fn ill_conditioned_runs_are_followed_by_others() {
     let text = std::fs::read_to_string(

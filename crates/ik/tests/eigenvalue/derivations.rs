@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use groebot_ik::Watch;
 use groebot_ik::derive::{Derivation, Source};
 
-/// Their names, and how many complex solutions they have.
+/// The names of the folders, and their numbers of complex solutions.
 const FOLDERS: [(&str, usize); 9] = [
     ("booster_leg_like", 16),
     ("crx_like", 16),
@@ -22,7 +22,7 @@ fn folder(name: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("derivations").join(name)
 }
 
-/// A chain that has no order of joints takes this way by itself.
+/// A chain without an order of joints is derived by eigenvalues automatically.
 #[test]
 fn these_chains_have_so_many_solutions_by_eigenvalues() {
     for (name, dimension) in FOLDERS {

@@ -1,4 +1,4 @@
-//! Hessenberg form and eigenvalues against nalgebra's real Schur form and against known spectra.
+//! Hessenberg form and eigenvalues, compared with nalgebra's real Schur form and with known spectra.
 
 use groebot_runtime::six_axes::{Eigenvalue, Hessenberg, Matrix, SIZE};
 use nalgebra::{DMatrix, Schur};
@@ -9,7 +9,7 @@ fn spectrum(rows: Matrix) -> Vec<(f64, f64)> {
     Hessenberg::reduce(rows).eigenvalues().unwrap().map(|v: Eigenvalue| (v.re, v.im)).to_vec()
 }
 
-/// The largest distance of a value to the nearest one of the other list, both ways.
+/// The largest distance between a value and the nearest one of the other list, in both directions.
 fn gap(a: &[(f64, f64)], b: &[(f64, f64)]) -> f64 {
     let one = |a: &[(f64, f64)], b: &[(f64, f64)]| {
         let nearest = |x: &(f64, f64)| b.iter().map(|y| (x.0 - y.0).hypot(x.1 - y.1)).fold(f64::INFINITY, f64::min);
@@ -22,7 +22,7 @@ fn random_matrix(random: &mut Random) -> Matrix {
     std::array::from_fn(|_| std::array::from_fn(|_| random.number()))
 }
 
-/// The companion matrix of the monic polynomial with these coefficients, constant term first, beside zeros.
+/// The companion matrix of the monic polynomial with these coefficients, constant term first, padded with zeros.
 fn companion<const N: usize>(coefficients: [f64; N]) -> Matrix {
     std::array::from_fn(|i| {
         std::array::from_fn(|j| match (i, j) {
@@ -74,7 +74,7 @@ fn hessenberg_form_is_similar() {
 
 #[test]
 fn even_polynomials_and_multiple_roots_end() {
-    // Zero is an eigenvalue of what stands beside a companion matrix.
+    // The zero padding of a companion matrix adds zero eigenvalues.
     let beside = |mut roots: Vec<(f64, f64)>| {
         roots.push((0.0, 0.0));
         roots

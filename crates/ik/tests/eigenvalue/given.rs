@@ -1,4 +1,4 @@
-//! Seven joints of which the first or the last is given, turning or sliding: the six others are found together for every given value.
+//! Seven joints of which the first or the last is given, revolute or prismatic. The six others are found together for every given value.
 
 use groebot_ik::derive::Derivation;
 use groebot_ik::derive::eigenvalue::fits;
@@ -10,14 +10,14 @@ use groebot_robot::kinematics::{Chain, ChainParts, Joint, Mimic, Task, along_z};
 
 use super::rational;
 
-/// An arm of seven joints whose axes miss each other by millimetres, standing upright.
+/// A vertical arm of seven joints whose axes miss each other by millimetres.
 const ARM: &str = include_str!("../../../../derivations/gen3_like/0_chain.toml");
 
 fn with_given(text: &str, joint: &str) -> Chain {
     Chain::from_toml(text).unwrap().with_task(Task::Pose, along_z(), vec![joint.to_owned()]).unwrap()
 }
 
-/// The same arm on a rail, and with a slide at its end.
+/// Same arm, but on a rail, or with a prismatic joint at its end.
 fn slid(joint: &str) -> String {
     let (head, tail) = ARM.split_at(ARM.find(&format!("name = \"{joint}\"")).unwrap());
     let mut slid = head.to_owned() + &tail.replacen("type = \"revolute\"", "type = \"prismatic\"", 1);
@@ -47,7 +47,7 @@ fn an_end_joint_is_given() {
     }
 }
 
-/// An arm of seven joints that carries a finger, whose pad follows its knuckle: whatever is given by their shares alone leaves no six joints in a row.
+/// An arm of seven joints with a finger, whose pad follows its knuckle. The joints with the best shares alone do not leave six consecutive joints.
 #[test]
 fn joints_at_the_ends_are_chosen_where_no_others_will_do() {
     let mut parts: ChainParts = Chain::from_toml(ARM).unwrap().into();

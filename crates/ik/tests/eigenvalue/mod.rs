@@ -23,7 +23,7 @@ use num_traits::{One, Zero};
 /// Axes with coordinates in tenths of a millimetre and directions in millionths.
 pub type Axes = [([i64; 3], [i64; 3]); 6];
 
-/// A deterministic source of numbers that look random (Steele, Lea and Flood 2014, SplitMix).
+/// A deterministic pseudo-random generator: SplitMix64 (Steele, Lea and Flood 2014).
 pub struct Random(u64);
 
 impl Random {
@@ -58,7 +58,7 @@ pub fn rational(numerator: i64, denominator: i64) -> BigRational {
     BigRational::new(numerator.into(), denominator.into())
 }
 
-/// The largest difference of two joint vectors, by the shorter way round.
+/// The largest difference of two joint vectors, with angles modulo 2 pi.
 pub fn distance(a: &[f64; 6], b: &[f64; 6]) -> f64 {
     let way = |(x, y): (&f64, &f64)| (x - y - TAU * ((x - y) / TAU).round()).abs();
     a.iter().zip(b).map(way).fold(0.0, f64::max)
@@ -69,13 +69,13 @@ pub fn found(answers: &Answers) -> Vec<Answer> {
     answers.as_slice().iter().filter(|answer| !answer.lost).copied().collect()
 }
 
-/// How far the answer that is nearest to `q` is from it.
+/// The distance between `q` and the nearest solution.
 pub fn nearest(answers: &Answers, q: &[f64; 6]) -> f64 {
     found(answers).iter().map(|answer| distance(&answer.q, q)).fold(f64::INFINITY, f64::min)
 }
 
-/// The most that an answer misses the target by, at the last joint's frame: a coordinate's share of the chain's length, but for what rounding leaves of
-/// long ways, or one of the turn (rad).
+/// The largest error of a solution at the last joint's frame: of a coordinate as a fraction of the chain's length, or of the rotation (rad). Rounding of long
+/// displacements is subtracted.
 pub fn residual(solver: &six_axes::Chain, answers: &Answers, target: &[f64; 12]) -> f64 {
     let wanted = last_frame(solver, target);
     let miss = |answer: &Answer| {
@@ -103,7 +103,7 @@ pub fn chain(axes: &[([BigRational; 3], [BigRational; 3])]) -> Chain {
     chain_of(axes, &[])
 }
 
-/// The same, of which these joints slide.
+/// Same as [`chain`], but the joints `sliding` are prismatic.
 pub fn chain_of(axes: &[([BigRational; 3], [BigRational; 3])], sliding: &[usize]) -> Chain {
     let joint = |(index, (axis, point)): (usize, &([BigRational; 3], [BigRational; 3]))| Joint {
         mimic: None,
@@ -138,7 +138,7 @@ pub fn random_chain(random: &mut Random) -> Chain {
     random_chain_of(random, &[])
 }
 
-/// The same, of which these joints slide.
+/// Same as [`random_chain`], but the joints `sliding` are prismatic.
 pub fn random_chain_of(random: &mut Random, sliding: &[usize]) -> Chain {
     let axes: Vec<_> = (0..6)
         .map(|_| {

@@ -1,4 +1,4 @@
-//! Six axes as a program and as a derivation: answers, JSON, certificate.
+//! Six axes as a program and as a derivation: solutions, JSON, certificate.
 
 use groebot_ik::derive::Derivation;
 use groebot_ik::solver::Program;

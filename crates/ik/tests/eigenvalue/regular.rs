@@ -1,4 +1,4 @@
-//! Which formulations are regular, modulo primes.
+//! The regular formulations, modulo primes.
 
 use groebot_algebra::number::{Zp, primes_below};
 use groebot_ik::ErrorKind;
@@ -35,7 +35,7 @@ fn residues_are_a_field() {
     assert!(Residue::image(&rational(1, 101), field).is_none());
 }
 
-/// Three axes through one point and three parallel ones: no formulation that hides a joint of the wrist is regular.
+/// With three axes through one point and three parallel ones, no formulation that hides a joint of the wrist is regular.
 #[test]
 fn special_chains_have_fewer_regular_formulations() {
     let vector = |entries: [i64; 3]| entries.map(|entry| rational(entry, 10));

@@ -1,4 +1,4 @@
-//! Chains that no block solves: wrists and legs with offsets, a calibrated arm.
+//! Chains that no sequence of blocks solves: wrists and legs with offsets, a calibrated arm.
 
 use groebot_ik::Watch;
 use groebot_ik::derive::eigenvalue;
@@ -22,7 +22,7 @@ pub const OFFSET_WRIST: Axes = [
     (X, [5400, -1500, 5400]),
 ];
 
-/// A wrist whose last axis is 76 mm off, as UFACTORY's xArm6 has it.
+/// A wrist whose last axis has an offset of 76 mm, as in UFACTORY's xArm6.
 pub const SIDE_WRIST: Axes = [
     (Z, [0, 0, 2670]),
     (Y, [0, 0, 2670]),
@@ -32,7 +32,7 @@ pub const SIDE_WRIST: Axes = [
     (Z, [2065, 0, 2090]),
 ];
 
-/// A wrist of axes at 55 degrees to each other that do not meet in a point, as Kinova's Jaco 2 has it.
+/// A wrist whose axes have angles of 55 degrees and do not meet in a point, as in Kinova's Jaco 2.
 const SLANTED_WRIST: Axes = [
     (Z, [0, 0, 2755]),
     (Y, [0, 0, 2755]),
@@ -42,7 +42,7 @@ const SLANTED_WRIST: Axes = [
     ([0, 939_693, 342_020], [0, 796, 8861]),
 ];
 
-/// A leg whose hip axes and ankle axes do not meet, like Booster's K1 and T1.
+/// A leg whose hip axes and ankle axes do not meet, similar to Booster's K1 and T1.
 pub const OFFSET_LEG: Axes = [
     (Y, [0, 0, 0]),
     (X, [0, 0, -200]),
@@ -52,7 +52,7 @@ pub const OFFSET_LEG: Axes = [
     (X, [-140, 0, -5070]),
 ];
 
-/// A UR5 with every axis a little off: up to a thousandth of a radian and half a millimetre.
+/// A UR5 with errors in every axis, up to a thousandth of a radian and half a millimetre.
 const CALIBRATED: Axes = [
     ([312, -541, 999_999], [1, -3, 0]),
     ([-713, 999_999, 254], [4, 0, 894]),
@@ -103,7 +103,7 @@ fn robots_without_blocks_are_solved() {
     }
 }
 
-/// The figures of issue 9: `cargo test --release hundred_thousand -- --ignored --nocapture`.
+/// Run by `cargo test --release hundred_thousand -- --ignored --nocapture`.
 #[test]
 #[ignore = "a hundred thousand targets of each robot"]
 fn a_hundred_thousand_targets_of_each_robot() {
@@ -114,8 +114,8 @@ fn a_hundred_thousand_targets_of_each_robot() {
     }
 }
 
-/// An arm as described, axes along y turned by the 3.7e-6 rad that 1.5708 is off a right angle. At its singular targets the ideal robot has two complex
-/// solutions, or two real ones, where the arm has one: the joint values that made each target are found.
+/// A described arm whose y axes are off by 3.7e-6 rad, because 1.5708 stands for pi/2. At its singular targets the ideal robot has two complex or two real
+/// solutions, where the arm has one. The joint values that made each target are found.
 #[test]
 fn singular_targets_of_an_arm_in_rounded_numbers() {
     let rounded = OFFSET_WRIST.map(|(axis, point)| (if axis == Y { [0, 1_000_000, 4] } else { axis }, point));

@@ -1,4 +1,4 @@
-//! Round targets, which people use first: joint values in steps of 15 degrees, orientations along the base's axes.
+//! Round targets, which users try first: joint values in multiples of 15 degrees, orientations along the base's axes.
 
 use std::f64::consts::PI;
 
@@ -13,8 +13,7 @@ const X: [i64; 3] = [1_000_000, 0, 0];
 const Y: [i64; 3] = [0, 1_000_000, 0];
 const Z: [i64; 3] = [0, 0, 1_000_000];
 
-/// Axes along x, y and z, drawn at random: an answer has the doubled joint at -90 degrees, where cosine and sine of half of it are equal
-/// but for their signs.
+/// Axes along x, y and z, drawn at random. One solution has the doubled joint at -90 degrees, where cosine and sine of its half are equal up to their signs.
 const ALONG_AXES: Axes = [
     (X, [0, 2000, 0]),
     (Y, [0, 2500, -1000]),
@@ -24,10 +23,10 @@ const ALONG_AXES: Axes = [
     (X, [-3500, 2500, -500]),
 ];
 
-/// A joint vector is ordinary when the smallest singular value of its Jacobian is larger.
+/// The lower limit of the Jacobian's smallest singular value at an ordinary joint vector.
 const ORDINARY: f64 = 1e-3;
 
-/// How far joint values are from a target: the position, and the rotation as a vector (a half turn has length 2).
+/// The error of joint values at a target: of the position, and of the rotation as a vector (length 2 for 180 degrees).
 fn miss(solver: &six_axes::Chain, q: &[f64; 6], target: &[f64; 12]) -> Vector6<f64> {
     let reached = solver.forward(q);
     let columns = |pose: &[f64; 12]| [0, 1, 2].map(|k| nalgebra::Vector3::new(pose[3 + k], pose[6 + k], pose[9 + k]));
@@ -57,7 +56,7 @@ fn reaches(solver: &six_axes::Chain, q: &[f64; 6], target: &[f64; 12]) -> bool {
     solver.forward(q).iter().zip(target).all(|(a, b)| (a - b).abs() <= 1e-9)
 }
 
-/// Damped least squares from so many random starts: all ordinary joint vectors that are found.
+/// All ordinary joint vectors that damped least squares finds from `starts` random starts.
 fn searched(solver: &six_axes::Chain, target: &[f64; 12], starts: usize) -> Vec<[f64; 6]> {
     let (mut random, mut list) = (Random::new(5), Vec::<[f64; 6]>::new());
     for _ in 0..starts {
@@ -80,7 +79,7 @@ fn searched(solver: &six_axes::Chain, target: &[f64; 12], starts: usize) -> Vec<
     list
 }
 
-/// The pose that takes the base frame's place at zero to where the robot's tip is to be, given its place at zero, which is turned by nothing.
+/// The target of the base frame at zero that brings the robot's tip to `target`, given the tip's position at zero with identity rotation.
 fn carried(target: [f64; 12], tip: [f64; 3]) -> [f64; 12] {
     let mut pose = target;
     for k in 0..3 {
@@ -89,7 +88,7 @@ fn carried(target: [f64; 12], tip: [f64; 3]) -> [f64; 12] {
     pose
 }
 
-/// An offset wrist on a column of 245 mm, its tip 160 mm ahead; the numbers of answers by numpy: Newton's method from several hundred starts.
+/// An offset wrist on a column of 245 mm, its tip 160 mm ahead. The numbers of solutions are from Newton's method in numpy with several hundred starts.
 #[test]
 fn axis_aligned_targets_of_an_offset_wrist_have_all_answers() {
     let raised = OFFSET_WRIST.map(|(axis, [x, y, z])| (axis, [x, y, z + 2450]));
@@ -110,7 +109,7 @@ fn steps_of_fifteen_degrees(random: &mut Random) -> [f64; 6] {
     std::array::from_fn(|_| random.integer(-11, 12) as f64 * PI / 12.0)
 }
 
-/// What a numeric search finds, ordinary answers alone, is found.
+/// All ordinary solutions of a numeric search are found.
 #[test]
 fn round_targets_have_what_a_search_finds() {
     for (name, axes) in [("offset wrist", &OFFSET_WRIST), ("along axes", &ALONG_AXES)] {
@@ -126,7 +125,7 @@ fn round_targets_have_what_a_search_finds() {
     }
 }
 
-/// The joint values that made a target are found where they are ordinary, and no answer misses it, by half a turn either.
+/// The joint values that made a target are found if they are ordinary. All solutions reach the target; none is rotated by 180 degrees.
 #[test]
 fn joint_values_in_steps_of_fifteen_degrees_are_found() {
     for (name, axes) in [
@@ -147,7 +146,7 @@ fn joint_values_in_steps_of_fifteen_degrees_are_found() {
     }
 }
 
-/// Joint values at which one answer was lost, each for another reason: four answers share the hidden angle; half the doubled angle is 135 degrees.
+/// Joint values at which one solution was once lost. Causes: four solutions share the hidden angle; half the doubled angle is 135 degrees.
 #[test]
 fn targets_that_lost_an_answer() {
     let degrees = |q: [f64; 6]| q.map(f64::to_radians);

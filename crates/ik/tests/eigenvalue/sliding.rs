@@ -1,4 +1,4 @@
-//! Chains of six joints of which some slide.
+//! Chains of six joints, some of them prismatic.
 
 use groebot_ik::Watch;
 use groebot_ik::derive::{Derivation, eigenvalue};
@@ -7,7 +7,7 @@ use groebot_runtime::six_axes::{self, Answers};
 
 use super::{Random, found, random_chain_of, residual};
 
-/// How far the answer that is nearest to `q` is from it; ways in metres.
+/// The distance between `q` and the nearest solution; displacements in metres.
 fn nearest(answers: &Answers, q: &[f64; 6], sliding: &[usize]) -> f64 {
     let turn = std::f64::consts::TAU;
     let way = |joint: usize, a: f64, b: f64| match sliding.contains(&joint) {
@@ -24,7 +24,7 @@ fn values(random: &mut Random, sliding: &[usize]) -> [f64; 6] {
     q
 }
 
-/// Misses at random targets, and the largest residual.
+/// The number of generating joint vectors that are not found at random targets, and the largest residual.
 fn misses(solver: &six_axes::Chain, random: &mut Random, sliding: &[usize], targets: usize) -> (usize, f64) {
     let (mut misses, mut worst) = (0, 0.0_f64);
     for _ in 0..targets {
@@ -62,7 +62,7 @@ fn two_joints_may_slide_anywhere() {
     }
 }
 
-/// Rows of `benches/record/*-six-axes-sliding.csv`: `cargo test --release two_sliding_measured -- --ignored --nocapture`.
+/// Prints rows of `benches/record/*-six-axes-sliding.csv`: `cargo test --release two_sliding_measured -- --ignored --nocapture`.
 #[test]
 #[ignore = "a hundred and twenty thousand targets"]
 fn two_sliding_measured() {
@@ -96,7 +96,7 @@ fn two_sliding_measured() {
     }
 }
 
-/// Three joints that slide leave three angles for the rotation: blocks find them, wherever they stand.
+/// Three prismatic joints leave three angles for the rotation. Blocks find them for any position of the prismatic joints in the chain.
 #[test]
 fn blocks_solve_chains_with_three_sliding_joints() {
     let mut random = Random::new(37);
@@ -114,7 +114,7 @@ fn blocks_solve_chains_with_three_sliding_joints() {
     }
 }
 
-/// The figures of issue 9: `cargo test --release sliding -- --ignored --nocapture`.
+/// Run by `cargo test --release sliding -- --ignored --nocapture`.
 #[test]
 #[ignore = "a hundred thousand targets"]
 fn a_hundred_thousand_targets_with_a_sliding_joint() {
@@ -148,7 +148,7 @@ fn answers_reach_the_target_by_the_chains_own_kinematics() {
     }
 }
 
-/// Half a turn and no way at all are values like any other.
+/// An angle of pi and a displacement of zero are not special.
 #[test]
 fn half_a_turn_beside_a_sliding_joint() {
     let mut random = Random::new(34);
@@ -172,7 +172,7 @@ fn derived(chain: &Chain) -> Derivation {
     Derivation::by_eigenvalues(chain, &Watch::none()).unwrap()
 }
 
-/// Sixteen complex solutions, a certificate that proves it again, and a program that is the same after JSON.
+/// Sixteen complex solutions, a certificate that proves the derivation again, and a program that is unchanged after JSON.
 #[test]
 fn a_derivation_with_a_sliding_joint_is_certified() {
     let chain = random_chain_of(&mut Random::new(35), &[3]);

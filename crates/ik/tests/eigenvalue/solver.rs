@@ -1,4 +1,4 @@
-//! The solver against the joints that a target was made from, and the published manipulator with sixteen real solutions.
+//! The solver compared with generating joints, and with the published manipulator that has sixteen real solutions.
 
 use std::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use num_traits::ToPrimitive;
 use super::{Random, distance, found, nearest, random_chain, residual};
 use crate::sixteen;
 
-/// The figures of many random targets.
+/// Statistics of many random targets.
 #[derive(Default)]
 struct Figures {
     misses: usize,
@@ -39,7 +39,7 @@ fn random_targets_give_back_their_joints() {
     assert!(figures.worst <= 1e-12, "{}", figures.worst);
 }
 
-/// The figures of issue 9: `cargo test --release hundred_thousand -- --ignored --nocapture`.
+/// Run by `cargo test --release hundred_thousand -- --ignored --nocapture`.
 #[test]
 #[ignore = "a hundred thousand targets"]
 fn a_hundred_thousand_random_targets() {
@@ -94,7 +94,7 @@ fn a_target_out_of_reach_has_no_answer() {
     assert_eq!(solver.solve(&far).as_slice().len(), 0);
 }
 
-/// The axes of the links in `crates/algebra/tests/real/sixteen.rs`, at zero.
+/// The axes of the links in `crates/algebra/tests/real/sixteen.rs`, in the zero configuration.
 pub fn lines_of(links: &[sixteen::Link<f64>; 6]) -> [Line; 6] {
     let frame = |count: usize| sixteen::chain(&vec![[1.0, 0.0]; count], &links[..count]);
     std::array::from_fn(|joint| match joint {
@@ -115,7 +115,7 @@ pub fn in_doubles(links: &[sixteen::Link<groebot_algebra::number::BigRational>; 
     })
 }
 
-/// The frame of the last link at zero.
+/// The frame of the last link in the zero configuration.
 pub fn tip(links: &[sixteen::Link<f64>; 6]) -> Rigid {
     let frame = sixteen::chain(&[[1.0, 0.0]; 6], links);
     let rotation = std::array::from_fn(|i| std::array::from_fn(|j| frame[i][j]));

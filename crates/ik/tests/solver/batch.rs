@@ -1,4 +1,4 @@
-//! Many targets at once, and the two answers that are one too many.
+//! Many targets at once, and the removal of one excess solution.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,7 @@ use crate::codegen::samples::pan_tilt;
 use groebot_ik::ErrorKind;
 use groebot_ik::solver::{Batch, Program, Solved};
 
-/// Directions all round, every seventh of them no unit vector.
+/// Directions on the sphere; every seventh is not a unit vector.
 fn targets() -> Vec<f64> {
     let direction = |k: usize| {
         let mut direction = pan_tilt::direction(0.37 * k as f64, 1.5 * (0.11 * k as f64).sin());
@@ -84,7 +84,7 @@ fn a_count_that_is_none_of_targets_is_refused() {
     assert_eq!(pan_tilt::program().solve_batch(&[]).unwrap().targets(), 0);
 }
 
-/// The angles come from cosines and sines by our own arc tangent: the C library's is the witness.
+/// Our arc tangent computes the angles from cosines and sines. They are compared with those of the C library.
 #[test]
 fn angles_are_those_of_the_c_library() {
     let program = pan_tilt::program();
@@ -100,7 +100,7 @@ fn angles_are_those_of_the_c_library() {
     assert!(worst <= 1.4e-15, "{worst:e}");
 }
 
-/// Where a target has more isolated answers than the program says, the nearest two are one.
+/// If a target has more isolated solutions than the program's certified number, the nearest two are united.
 #[test]
 fn more_answers_than_there_can_be_are_united() {
     let program = pan_tilt::program();

@@ -21,7 +21,7 @@ fn case(steps: Vec<Step>) -> Case {
     }
 }
 
-/// A slide at `d = x cos(pan)`, with pan given.
+/// A prismatic joint at `d = x cos(pan)`, with pan given.
 fn slide() -> Program {
     let mut code = Code::default();
     let d = code.mul(parameter(2), unknown(0));
@@ -79,7 +79,7 @@ fn the_shared_actuator_stands_once_and_is_no_input() {
     assert_eq!(Program::from_json(&program.to_json()).unwrap(), program);
 }
 
-/// Pan 0 or half a turn, as in the test of the first program alone; the slide at 0.7 or -0.7.
+/// Pan is 0 or pi, as in the test of the first program alone; the displacement is 0.7 or -0.7.
 #[test]
 fn the_second_program_runs_for_each_answer_of_the_first() {
     let answers = both().solve_numbers(&[0.6, 0.0, 0.8, 0.7]).unwrap();
@@ -88,7 +88,7 @@ fn the_second_program_runs_for_each_answer_of_the_first() {
     assert_joints(&answers[1], &[0.0, 0.8_f64.atan2(0.6), 0.7], 1e-15);
 }
 
-/// Straight up, pan is free; the slide follows the member that is shown.
+/// For the direction straight up, pan is free; the displacement follows the reported member.
 #[test]
 fn a_free_shared_joint_stays_free() {
     let answers = both().solve_numbers(&[0.0, 0.0, 1.0, 0.7]).unwrap();
@@ -97,7 +97,7 @@ fn a_free_shared_joint_stays_free() {
     assert_eq!(answers[0].free, [0]);
 }
 
-/// Two slides on one actuator at one `x`.
+/// Two prismatic joints on one actuator with one input `x`.
 #[test]
 fn inputs_of_one_name_are_one_input() {
     let mut next = slide().prefixed("b_");
@@ -112,7 +112,7 @@ fn inputs_of_one_name_are_one_input() {
     assert_joints(&answers[0], &[0.3, reach, reach], 1e-15);
 }
 
-/// Without a shared actuator all answers of one go with all of the other.
+/// Without a shared actuator, all solutions of one program are combined with all of the other.
 #[test]
 fn without_shared_joints_the_answers_are_all_pairs() {
     let program = pan_tilt::program();
@@ -149,7 +149,7 @@ fn what_cannot_be_shared_is_refused() {
     assert!(refused(&odd, &[(0, 0)]).contains("more than a shared joint"));
 }
 
-/// The candidate that comes nearest: the slide in reach of a polar arm whose position is out of the ring that it can reach.
+/// The nearest candidate of a polar arm whose position is outside its reachable ring, with a reachable displacement.
 #[test]
 fn the_nearest_candidate_is_none_where_there_are_only_answers() {
     assert_eq!(slide().nearest(&[0.3, 0.5]).unwrap(), None);

@@ -1,10 +1,10 @@
-//! Damaged files: an error or another program, never a panic.
+//! Damaged files give an error or another program, never a panic.
 
 use crate::codegen::samples::{pan_tilt, wrist};
 use groebot_ik::ErrorKind;
 use groebot_ik::solver::Program;
 
-/// Solves a target where the program takes one; whatever comes out is right for a program that nobody derived.
+/// Solves a target if the program accepts one. Its result is not checked, because the program is arbitrary.
 fn run(text: &str) -> bool {
     match Program::from_json(text) {
         Ok(program) => {

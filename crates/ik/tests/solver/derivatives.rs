@@ -1,10 +1,10 @@
-//! Derivatives that the run time finds from values, beside those that a program was given by differentiating its polynomials.
+//! Derivatives that the run time computes from values, compared with those in a program, which come from differentiated polynomials.
 
 use crate::codegen::random;
 use crate::codegen::stored::{all, joint_values};
 use groebot_ik::solver::{JointValue, Operand, Operation, Program};
 
-/// The values of operands where parameters and unknowns have these values.
+/// The values of operands for these values of parameters and unknowns.
 fn values(program: &Program, parameters: &[f64], unknowns: &[f64], operands: &[Operand]) -> Vec<f64> {
     let mut registers = vec![0.0; program.checks.code.len()];
     let of = |operand: Operand, registers: &[f64]| match operand {

@@ -1,4 +1,4 @@
-//! Paths along poses: continuous where that is possible, and told where and why they jump where it is not.
+//! Paths along poses: continuous if possible, otherwise with a report of the places and causes of jumps.
 
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -13,7 +13,7 @@ use groebot_robot::{ErrorKind, Watch};
 
 static SOLVER: LazyLock<Derivation> = LazyLock::new(|| groebot_ik::derive(&robots::ur5()).unwrap());
 
-/// UR5 with the same limits for all joints.
+/// UR5 with equal limits for all joints.
 fn ur5(limits: Option<(f64, f64)>) -> Chain {
     let mut parts: ChainParts = robots::ur5().into();
     parts.joints.iter_mut().for_each(|joint| joint.limits = limits);
@@ -29,7 +29,7 @@ fn followed(chain: &Chain, poses: &[Pose], solver: &dyn InverseKinematics) -> gr
     follow(chain, &[], solver, poses, &Pace::Every(0.1), &Watch::none())
 }
 
-/// Every pose is reached, within the limits.
+/// Checks that every pose is reached within the limits.
 fn is_along(chain: &Chain, poses: &[Pose], found: &Followed) {
     for (pose, q) in poses.iter().zip(&found.trajectory.q) {
         let off = (chain.forward(q).unwrap().to_homogeneous() - pose.to_homogeneous()).amax();
@@ -66,7 +66,7 @@ fn a_smooth_path_is_followed_without_a_jump() {
     }
 }
 
-/// The base turns by one and a half turns: on within two turns and without limits, and back by a whole turn where one is all there is.
+/// The base rotates by 1.5 turns. It continues within limits of two turns and without limits, and moves back by a full turn within limits of one turn.
 #[test]
 fn turns_go_on_where_limits_let_them() {
     let turning = |share: f64| [-0.6 + 3.0 * PI * share, -1.2, 1.4, -0.5, 1.0, -0.7];

@@ -1,4 +1,4 @@
-//! What a program's blocks, pivots, samples and conditions mean, on programs whose answers are known by hand.
+//! The meaning of a program's blocks, pivots, samples and conditions, on programs with solutions computed by hand.
 
 mod batch;
 mod compose;
@@ -28,7 +28,7 @@ fn assert_joints(answer: &Solution, expected: &[f64], tolerance: f64) {
     assert!(equal && answer.q.len() == expected.len(), "{answer:?} instead of {expected:?}");
 }
 
-/// Pan 0 or half a turn, tilt by a triangle of sides 3, 4, 5; smaller root first.
+/// Pan is 0 or pi, tilt follows from a triangle of sides 3, 4, 5; the smaller root comes first.
 #[test]
 fn each_root_of_the_first_block_goes_through_the_second() {
     let answers = pan_tilt::program().solve_numbers(&[0.6, 0.0, 0.8]).unwrap();
@@ -59,7 +59,7 @@ fn the_wrist_has_two_answers_and_the_generating_joints_are_one() {
     }
 }
 
-/// With the middle joint straight only the sum of the others is known, whatever rounding left in the third column.
+/// With the middle joint straight, only the sum of the other joints is determined, for any rounding in the third column.
 #[test]
 fn a_straight_wrist_is_one_self_motion() {
     let program = wrist::program(false);
@@ -76,7 +76,7 @@ fn a_straight_wrist_is_one_self_motion() {
     }
 }
 
-/// Next to the pole the sample `pan = 0` happens to be an answer: an isolated one, not a member of a self-motion.
+/// Next to the pole, the sample `pan = 0` is a solution by chance. It is isolated, not a member of a self-motion.
 #[test]
 fn an_isolated_answer_at_a_sample_is_no_self_motion() {
     for small in [1e-4, 1e-8, 1e-10] {
@@ -98,8 +98,7 @@ fn close_to_a_straight_wrist_the_two_answers_are_isolated() {
     }
 }
 
-/// Both values of `x` solve `(x - 1) (x - 2) = 0`; which is shown says which case has run. The pivots are the inputs, or their
-/// square roots.
+/// Both values of `x` solve `(x - 1) (x - 2) = 0`; the result shows which case ran. The pivots are the inputs or their square roots.
 fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
     let mut code = Code::default();
     let x = unknown(0);
@@ -175,7 +174,7 @@ fn cases_of_a_pivot_group_share_their_branch_numbers() {
     assert_eq!(arm::program().bound(), 4);
 }
 
-/// `R33 = 1/2`: the last block has a gap there, which no choice before it may hide.
+/// `R33 = 1/2`: the last block has a gap there. Choices of earlier blocks must not hide it.
 #[test]
 fn an_open_case_of_a_later_block_is_an_error() {
     let program = wrist::program(true);
@@ -202,7 +201,7 @@ fn a_target_off_its_conditions_is_refused_by_name_and_measure() {
     assert!(error.message().contains("`dx` to `dz` are no unit vector"), "{error}");
 }
 
-/// Ten digits are not a rotation to the last bit; the nearest one is solved.
+/// A rotation with ten digits is not orthogonal to the last bit. The nearest rotation is solved.
 #[test]
 fn what_rounding_to_ten_digits_leaves_is_removed() {
     let q = [0.2, 0.3, 0.4];
@@ -236,7 +235,7 @@ fn programs_survive_their_json() {
     assert!(wrist::program(false).to_json().contains("\"typical\": \"2.0\""));
 }
 
-/// A sample of a sliding joint takes the lengths that are given.
+/// A sample step of a prismatic joint uses the given lengths.
 #[test]
 fn a_plain_joint_is_sampled_at_its_own_values() {
     let mut program = polar::program();

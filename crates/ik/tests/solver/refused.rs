@@ -1,4 +1,4 @@
-//! Programs that are not well formed, one fault each.
+//! Programs that are not well formed, each with one fault.
 
 use crate::codegen::builder::*;
 use crate::codegen::samples::{pan_tilt, wrist};

@@ -1,4 +1,4 @@
-//! Names of the numbers of tasks: those of derived solvers.
+//! Names of the numbers of a task's target: those of derived solvers.
 
 use std::path::Path;
 

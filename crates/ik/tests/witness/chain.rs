@@ -1,4 +1,4 @@
-//! The check of chains' solvers: the screw solver passes where it is good, damaged solvers do not.
+//! The check of chains' solvers: the screw solver passes where it is accurate, damaged solvers fail.
 
 use std::f64::consts::PI;
 
@@ -25,7 +25,7 @@ fn assert_none_fails(report: &Report, classes: &[&str]) {
     }
 }
 
-/// A solver made of another one and a change of its answers.
+/// A solver whose solutions are those of another one after a change.
 struct Changed<'a, F: Fn(&mut Vec<Solution>)> {
     solver: &'a dyn Solver,
     change: F,
@@ -39,7 +39,7 @@ impl<F: Fn(&mut Vec<Solution>)> Solver for Changed<'_, F> {
     }
 }
 
-/// The numeric search as a solver, for tasks that screw theory does not know. Its equations are written down here again.
+/// The numeric search as a solver, for tasks that screw theory does not solve. It has independent equations.
 struct Search {
     chain: Chain,
     unknowns: Vec<usize>,
@@ -70,7 +70,7 @@ impl Search {
             Task::Position => tip.as_slice().to_vec(),
             Task::Ray => [tip.as_slice(), aim.as_slice()].concat(),
             Task::Direction => aim.as_slice().to_vec(),
-            // Column by column of the transposed matrix: the rows of the matrix.
+            // The columns of the transposed matrix are the rows of the matrix.
             Task::Rotation => matrix.as_slice().to_vec(),
             Task::Pose => [tip.as_slice(), matrix.as_slice()].concat(),
             task => panic!("{task:?}"),
@@ -116,7 +116,7 @@ fn the_screw_solver_passes_at_ordinary_targets_and_near_singular_ones() {
     }
 }
 
-/// Distances that `near` promises, measured by a Jacobian of central differences of forward kinematics alone.
+/// Distances from singular configurations, measured by a Jacobian of central differences of forward kinematics.
 #[test]
 fn singular_targets_are_singular() {
     let chain = robots::puma();
@@ -128,7 +128,7 @@ fn singular_targets_are_singular() {
             Kind::Near(k) => 10.0_f64.powi(-(k as i32)),
             _ => 0.0,
         };
-        // PUMA's determinant is a product of three factors of about one each; differences are good to 1e-9.
+        // PUMA's determinant is a product of three factors of about one each. The error of the differences is 1e-9.
         assert!(determinant <= 2.0 * most + 1e-9, "{row}: {determinant:e}");
     }
 }
@@ -186,7 +186,7 @@ fn damaged_answers_are_found() {
     }
 }
 
-/// A solver that loses an answer where a joint is at a multiple of 15 degrees, and nowhere else: rows with round targets find it without a search.
+/// A solver that loses a solution only where a joint is at a multiple of 15 degrees. Rows with round targets find the fault without a search.
 #[test]
 fn what_is_lost_at_round_targets_alone_is_found() {
     let chain = robots::puma();
@@ -207,7 +207,7 @@ fn what_is_lost_at_round_targets_alone_is_found() {
     }
 }
 
-/// PUMA's straight wrist: joints 4 and 6 turn about one line, their sum counts.
+/// PUMA's straight wrist: joints 4 and 6 rotate about one line, so only their sum is determined.
 #[test]
 fn a_self_motion_must_be_told() {
     let chain = robots::puma();
@@ -222,7 +222,7 @@ fn a_self_motion_must_be_told() {
     assert!(untold > told + 5, "{told} self-motions without a word when they are told, {untold} when they are not");
 }
 
-/// Counts from two other sources: screw theory's answers, for robots whose solutions are known to be real and complete there.
+/// Exact counts compared with the screw solver's, for robots whose solutions are real and complete there.
 #[test]
 fn exact_counts_are_those_of_screw_theory() {
     for robot in [robots::puma, robots::ur5, robots::nao_left_leg, robots::rh0_right_leg, robots::polar] {
@@ -236,8 +236,7 @@ fn exact_counts_are_those_of_screw_theory() {
     }
 }
 
-/// A base that stands turned by angles without exact sines, and a tool held at such an angle, change neither the number of solutions nor
-/// the effort to count them.
+/// A base rotated by angles without rational sines, and a tool at such an angle, change neither the number of solutions nor the time of the count.
 #[test]
 fn a_turned_base_and_a_tool_leave_the_counts() {
     let count = |text: &str| {
@@ -258,7 +257,7 @@ fn a_turned_base_and_a_tool_leave_the_counts() {
 
 #[test]
 fn infinitely_many_solutions_are_not_counted() {
-    // Three joints about one line, for the pose that one joint reaches: joint values are free.
+    // Three joints about one line, for a pose that one joint reaches. Joint values are free.
     let text = "name = \"spin\"\nlength_unit = \"m\"\n[task]\nkind = \"pose\"\n".to_owned()
         + &["a", "b", "c"].map(|name| joint(name, "[0, 0, 1]", "[0, 0, 0]")).concat()
         + "[tip]\npoint = [0.3, 0, 0.2]\n";
@@ -275,7 +274,7 @@ fn along(axis: [i64; 3]) -> [BigRational; 3] {
     axis.map(|x| BigRational::from_integer(x.into()))
 }
 
-/// Rays, directions, rotations and given joints, solved by numeric search: the generating joints, the exact counts.
+/// Rays, directions, rotations and given joints, solved by numeric search: checked with generating joints and exact counts.
 #[test]
 fn other_tasks_are_checked_too() {
     let arm = robots::nao_left_arm();

@@ -1,4 +1,4 @@
-//! Whole reports: derived programs pass, damaged ones fail.
+//! Complete reports: derived programs pass, damaged ones fail.
 
 use groebot_ik::Watch;
 use groebot_ik::derive::equations::compile::compile;
@@ -51,7 +51,7 @@ fn equal_lengths_pass_with_the_self_motion_at_the_base() {
     assert!(at_base.clone().all(|row| row.solutions == 1 && row.screw == Some(1)));
 }
 
-/// NAO (6.7.12), (6.7.13) with the lengths as parameters, assumed positive.
+/// NAO (6.7.12), (6.7.13) with the lengths as parameters that are assumed positive.
 const SYMBOLIC: &str = r#"
 name = "symbolic_leg"
 [[parameter]]
@@ -198,7 +198,7 @@ fn a_lost_root_is_found() {
     for case in &mut program.blocks[0].cases {
         for step in &mut case.steps {
             if let Step::Roots { polynomials, .. } = step {
-                // Without its highest coefficient a quadratic keeps one root, and a wrong one.
+                // Without its highest coefficient, a quadratic has one root, which is wrong.
                 for coefficients in polynomials {
                     coefficients.pop();
                 }
@@ -209,7 +209,7 @@ fn a_lost_root_is_found() {
     assert!(check(&source, &program, 20).failures().count() > 10);
 }
 
-/// Every sign of the equations' code changed, one at a time.
+/// Every sign of the equations' code is changed, one at a time.
 #[test]
 fn a_changed_sign_in_the_equations_is_found() {
     let source = read("nao_leg_sagittal");
@@ -240,7 +240,7 @@ fn swapped(operation: Operation) -> Option<Operation> {
     }
 }
 
-/// Whether register `index` goes into one of the results.
+/// Whether one of the results depends on register `index`.
 fn feeds(code: &[Instruction], index: usize, results: &[Operand]) -> bool {
     let mut tainted = vec![false; code.len()];
     for instruction in code {

@@ -1,4 +1,4 @@
-//! Joints at multiples of a right angle, several at once: poses that are singular in more than one way.
+//! Several joints at multiples of pi/2: poses that are singular for more than one reason.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -8,22 +8,22 @@ use groebot_robot::robots;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 
-/// Joint values of six joints: each anywhere or, more often, at a multiple of a right angle.
+/// Joint values of six joints: arbitrary or, more often, multiples of pi/2.
 fn corners() -> impl Strategy<Value = [f64; 6]> {
     let corner = prop::sample::select(vec![-FRAC_PI_2, 0.0, FRAC_PI_2, PI]);
     prop::array::uniform6(prop_oneof![2 => -PI..PI, 3 => corner])
 }
 
-/// A UR5's arm, its elbow and its wrist straight, with the wrist's offset in line as well: the wrist, which is free elsewhere, has one place
-/// only, from which each joint's motion misses the target by the square of its way at least.
+/// UR5 with elbow and wrist straight and the wrist's offset in line. The wrist, which is free elsewhere, then has only one solution. Any motion of a joint
+/// misses the target by at least its square.
 fn stretched() -> impl Strategy<Value = [f64; 6]> {
     let wrist = prop::sample::select(vec![0.0, PI]);
     (prop::array::uniform3(-PI..PI), wrist)
         .prop_map(|([pan, lift, last], wrist)| [pan, lift, 0.0, -FRAC_PI_2, wrist, last])
 }
 
-/// Solves the poses that so many joint values reach: each pose has an answer, and each answer reaches it; where no joint is free, the joint
-/// values are among the answers.
+/// Solves the poses of `cases` joint values. Each pose must have a solution, and each solution must reach it. If no joint is free, the joint values must be
+/// among the solutions.
 fn answer_all(derived: &Derivation, cases: u32, joints: impl Strategy<Value = [f64; 6]>) {
     let mut runner = TestRunner::new(Config { failure_persistence: None, ..Config::with_cases(cases) });
     let run = |q: [f64; 6]| {
@@ -34,7 +34,7 @@ fn answer_all(derived: &Derivation, cases: u32, joints: impl Strategy<Value = [f
             let reached = derived.reached(&answer.q).unwrap();
             prop_assert!(reached.iter().zip(&target).all(|(a, b)| (a - b).abs() < 1e-11), "{q:?}: {answer:?}");
         }
-        // A miss of 1e-14 moves the joints of a double root by its square root.
+        // An error of 1e-14 moves the joints of a double root by its square root.
         let near = |a: f64, b: f64| (a - b).sin().abs() < 1e-5 && (a - b).cos() > 0.0;
         let is_found = found.iter().any(|answer| answer.q.iter().zip(q).all(|(a, b)| near(*a, b)));
         prop_assert!(is_found || found.iter().any(|answer| !answer.free.is_empty()), "{q:?}: {found:?}");

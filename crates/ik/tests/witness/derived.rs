@@ -1,7 +1,6 @@
 //! The chains of `derivations/`, derived from their descriptions and checked by all witnesses.
 //!
-//! `cargo test --release -- --ignored the_counts_of_the_chains --nocapture` prints the rows of
-//! `benches/record/DATE-derive-chains.csv`.
+//! `cargo test --release -- --ignored the_counts_of_the_chains --nocapture` prints the rows of `benches/record/DATE-derive-chains.csv`.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -18,11 +17,11 @@ use proptest::test_runner::{Config, TestRunner};
 
 use super::read;
 
-/// Folders whose descriptions take other ways: planar formulas as their source prints them, and a robot whose rounded axes must be
-/// made exact first.
+/// Folders whose descriptions need another derivation: planar formulas in the notation of their source, and a robot whose rounded axes must first be made
+/// exact.
 const OTHER_WAYS: [&str; 3] = ["irb4600_rounded", "nao_arm_planar", "nao_leg_sagittal"];
 
-/// Folders of chains that have no order of joints: `tests/eigenvalue`.
+/// Folders of chains without an order of joints: see `tests/eigenvalue`.
 const TOGETHER: [&str; 9] = [
     "booster_leg_like",
     "crx_like",
@@ -35,7 +34,7 @@ const TOGETHER: [&str; 9] = [
     "xarm6_like",
 ];
 
-/// All chains that are committed, by the names of their folders.
+/// All committed chains, with the names of their folders.
 fn chains() -> Vec<(String, Chain)> {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("derivations");
     let mut folders: Vec<PathBuf> = std::fs::read_dir(root).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -88,7 +87,7 @@ fn every_chain_passes_some_of_its_checks() {
     assert!(failed.is_empty(), "{failed:?}");
 }
 
-/// RH0's hand 5e-11 from the axis of the second joint, and the double root of the first: four answers, as by screws.
+/// RH0's hand at 5e-11 m from the axis of the second joint, at the double root of the first: four solutions, as by screw theory.
 #[test]
 fn an_angle_that_hardly_matters_is_found() {
     let (_, chain) = chains().into_iter().find(|(name, _)| name == "rh0_arm").unwrap();
@@ -99,7 +98,7 @@ fn an_angle_that_hardly_matters_is_found() {
     {
         let target = derived.reached(&q).unwrap();
         let found = solver.solve_numbers(&target).unwrap();
-        // The second joint moves the hand by 1e-10 m a radian, and rounding leaves 1e-16 m of the target.
+        // The second joint moves the hand by 1e-10 m per rad, and the target is rounded to 1e-16 m.
         let near = |a: &Solution, q: &[f64]| a.q.iter().zip(q).all(|(a, b)| (a - b).abs() < 1e-5);
         assert!(found.iter().any(|answer| near(answer, &q)), "{q:?}: {found:?}");
         let expected = screws.solve(&target).unwrap();
@@ -113,8 +112,8 @@ fn named(name: &str) -> (Chain, Derivation) {
     (chain, derived)
 }
 
-/// The hip's yaw is free where one ankle pitch brings the roll to a right angle; a tenth of a radian from it the other ankle pitch gives
-/// isolated answers. As many as by screws, and with the joints that made the target as a self-motion.
+/// The hip's yaw is free where one ankle pitch makes the roll a right angle. At a tenth of a radian from it, the other ankle pitch gives isolated solutions.
+/// Their number is that of screw theory, and a self-motion contains the joints that made the target.
 #[test]
 fn a_self_motion_leaves_the_isolated_answers_next_to_it() {
     let (chain, derived) = named("teo_leg");
@@ -133,9 +132,12 @@ fn a_self_motion_leaves_the_isolated_answers_next_to_it() {
     }
 }
 
-/// Isolated answers 0.001 to 0.02 rad beside a self-motion of NAO's arm, for which they were taken, and a branching of a self-motion within a tenth of
-/// a radian, which hid it, and a self-motion of the elbow that meets one of the shoulder: as many answers and self-motions as by screws, whose self-motions
-/// may be told by several members.
+/// Isolated solutions and self-motions next to each other, in NAO's arm. The cases are:
+/// * isolated solutions at 0.001 to 0.02 rad from a self-motion, which were reported as members of it;
+/// * a self-motion with a branching within a tenth of a radian, which hid it;
+/// * a self-motion of the elbow that meets one of the shoulder.
+///
+/// The numbers of solutions and of self-motions are those of screw theory, which may report several members of one self-motion.
 #[test]
 fn answers_beside_a_self_motion_are_told_from_it() {
     let (chain, derived) = named("nao_left_arm");
@@ -157,8 +159,8 @@ fn answers_beside_a_self_motion_are_told_from_it() {
     }
 }
 
-/// NAO's leg with the roll at its singular place and the knee folded to between 1e-4 and 6e-3 rad of half a turn: the hip's yaw is free in
-/// four self-motions, as by screws, and nothing else is told but what these tell.
+/// NAO's leg with the roll at its singular value and the knee at 1e-4 to 6e-3 rad from fully folded. The hip's yaw is free in four self-motions, as by screw
+/// theory. All reported solutions belong to these.
 #[test]
 fn a_self_motion_next_to_a_folded_knee_is_found() {
     let (chain, derived) = named("nao_left_leg");
@@ -199,8 +201,8 @@ fn a_self_motion_next_to_a_folded_knee_is_found() {
     }
 }
 
-/// NAO's leg with the ankle's pitch next to a right angle: self-motions of both bends of the knee, 8e-4 rad apart, which were told as two and
-/// are four, as by screws.
+/// NAO's leg with the ankle's pitch near a right angle. The self-motions of both knee solutions are 8e-4 rad apart. They were reported as two, but there are
+/// four, as by screw theory.
 #[test]
 fn self_motions_next_to_each_other_are_told_apart() {
     let (chain, derived) = named("nao_left_leg");
@@ -219,8 +221,8 @@ fn self_motions_next_to_each_other_are_told_apart() {
     assert_eq!((self_motions(derived.program().solve_numbers(&target).unwrap()), expected), (4, 4));
 }
 
-/// NAO's arm next to where its answers meet in pairs: eight, of which pairs are 4e-7 rad apart in the shoulder and 2e-6 rad in the wrist,
-/// and half-way the equations are missed by 7e-15 only. They were told as four.
+/// NAO's arm next to targets where its solutions meet in pairs: eight solutions. Pairs are 4e-7 rad apart in the shoulder and 2e-6 rad in the wrist, and
+/// between them the equations have errors of only 7e-15. They were reported as four.
 #[test]
 fn answers_that_rounding_tells_apart_are_two() {
     let (chain, derived) = named("nao_left_arm");
@@ -231,8 +233,8 @@ fn answers_that_rounding_tells_apart_are_two() {
     assert_eq!((found.len(), expected.len()), (8, 8), "{found:?}\n{expected:?}");
 }
 
-/// The arm stretched and the wrist parallel to it: self-motions that go round 0.046, 0.006 and 0.001 rad of the last joint's circle, which were
-/// told by several isolated answers, none of them the joint values that made the target.
+/// The arm is stretched and the wrist parallel to it. The self-motions cover 0.046, 0.006 and 0.001 rad of the last joint's circle. They were reported as
+/// several isolated solutions, none of them the joint values that made the target.
 #[test]
 fn a_self_motion_on_a_small_part_of_the_circle_is_found() {
     let (chain, derived) = named("ur5");
@@ -252,8 +254,8 @@ fn a_self_motion_on_a_small_part_of_the_circle_is_found() {
     assert_eq!(report.failures().count(), 0, "{}", told(&report, 6));
 }
 
-/// Where the last axis is parallel to those of the arm, the wrist turns along a part of the circle only, as far as the elbow reaches: from
-/// the first of these joint values on to either side, from the second, the arm stretched, to one.
+/// The last axis is parallel to those of the arm, so the wrist rotates along a part of the circle, within the reach of the elbow. From the first joint values
+/// it rotates in both directions; from the second ones, with the arm stretched, in one.
 #[test]
 fn a_self_motion_along_a_part_of_the_circle_is_found() {
     let (_, derived) = named("offset_wrist");
@@ -271,8 +273,8 @@ fn a_self_motion_along_a_part_of_the_circle_is_found() {
     }
 }
 
-/// The robot as described, whose wrist axes miss each other by 1e-5 m, by the closed form of the ideal one. Near singular poses of the
-/// ideal robot it has more answers than that, at rational poses ten by exact counting, so that no bound is given.
+/// The robot as described, whose wrist axes miss each other by 1e-5 m, solved by the closed form of the ideal one. Near singular poses it may have more
+/// solutions than the ideal robot: ten by exact counting at rational poses. So no bound is given.
 #[test]
 fn a_rounded_robot_is_solved_at_singular_poses_too() {
     let source = read("irb4600_rounded");
@@ -284,7 +286,7 @@ fn a_rounded_robot_is_solved_at_singular_poses_too() {
     assert_eq!(report.failures().count(), 0, "{}\n{}", report.summary(), told(&report, 6));
 }
 
-/// Next to the folded arm the ideal robot has one double root, the robot as described two answers, 0.03 rad from one another.
+/// Next to the folded arm, the ideal robot has one double root. The described robot has two solutions, 0.03 rad apart.
 #[test]
 fn both_answers_of_a_rounded_robot_next_to_its_folded_arm_are_found() {
     let derived = Derivation::of(&read("irb4600_rounded"), &Watch::none()).unwrap();
@@ -307,21 +309,21 @@ fn both_answers_of_a_rounded_robot_next_to_its_folded_arm_are_found() {
     }
 }
 
-/// Next to the stretched and the folded arm the ideal robot has one double root, or none, where the robot as described has two answers.
+/// Next to the stretched and the folded arm, the ideal robot has one double root or none. The described robot has two solutions.
 #[test]
 fn a_rounded_robot_keeps_both_answers_next_to_its_stretched_arm() {
     let derived = Derivation::of(&read("irb4600_rounded"), &Watch::none()).unwrap();
-    // The wrist lies 0.96 m ahead of axis 3 and 0.175 m above it, axis 2 right below.
+    // The wrist is 0.96 m ahead of axis 3 and 0.175 m above it; axis 2 is vertically below axis 3.
     let stretched = 0.175_f64.atan2(0.96) - FRAC_PI_2;
     let solver = derived.program().solver();
     for (straight, width) in [(stretched, 1e-3), (stretched, 1e-2), (stretched + PI, 1e-3), (stretched + PI, 1e-2)] {
         let mut runner = TestRunner::new(Config { failure_persistence: None, ..Config::with_cases(250) });
         let run = |mut q: [f64; 6]| {
             q[2] = straight + width * q[2] / 3.0;
-            // Next to a straight wrist as well, joints 4 and 6 are hardly determined.
+            // Next to a straight wrist, joints 4 and 6 are poorly determined.
             prop_assume!(q[4].sin().abs() > 0.05);
             let found = solver.solve_numbers(&derived.reached(&q).unwrap()).unwrap();
-            // Where both answers all but meet, what rounding leaves of the target tells the joints less well.
+            // Where both solutions nearly meet, rounding of the target gives larger errors of the joints.
             let singular_values =
                 derived.sequential().unwrap().problem.measured().spatial_jacobian(&q).unwrap().singular_values();
             let known = f64::max(1e-6, 1e-13 / singular_values.min());
@@ -333,14 +335,14 @@ fn a_rounded_robot_keeps_both_answers_next_to_its_stretched_arm() {
     }
 }
 
-/// How many targets have so many answers: `4:10 8:990`.
+/// The number of targets by number of solutions, such as `4:10 8:990`.
 fn histogram(report: &Report) -> String {
     let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
     report.rows.iter().for_each(|row| *counts.entry(row.solutions).or_default() += 1);
     counts.iter().map(|(answers, rows)| format!("{answers}:{rows}")).collect::<Vec<_>>().join(" ")
 }
 
-/// The counts of design.md section 5: 100,000 targets of all kinds, and 1,000 exact counts, for each chain, or for those that are named.
+/// For each chain, or for the named ones: 100,000 targets of all kinds, and 1,000 exact counts.
 #[test]
 #[ignore = "hours: GROEBOT_CHAINS=puma,ur5 cargo test --release -- --ignored the_counts_of_the_chains --nocapture"]
 fn the_counts_of_the_chains() {
@@ -352,7 +354,7 @@ fn the_counts_of_the_chains() {
     let asked: Vec<&str> = asked.split(',').filter(|name| !name.is_empty()).collect();
     for (name, chain) in chains().into_iter().filter(|(name, _)| asked.is_empty() || asked.contains(&name.as_str())) {
         let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
-        // A third of the targets are random, and the first of them are counted.
+        // A third of the targets are random, and the first of these are counted.
         for (run, targets, exact) in [("poses", 100_000, 0), ("counts", 2_860, 1_000)] {
             let start = Instant::now();
             let report =

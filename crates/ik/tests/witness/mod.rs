@@ -1,4 +1,4 @@
-//! The checks of derived programs: right programs pass, damaged ones do not.
+//! The checks of derived programs: correct programs pass, damaged ones fail.
 
 mod chain;
 mod chains;
@@ -49,7 +49,7 @@ pub fn assert_passes(source: &Source, program: &Program, targets: usize) -> Repo
     report
 }
 
-/// Two links along z that turn about y, in millimetres; the knee and the tip stand at these heights.
+/// Two links along z with axes along y, in millimetres. `knee` and `tip` are the heights of the knee and the tip.
 pub fn two_link_text(knee: &str, tip: &str) -> String {
     format!(
         r#"

@@ -1,4 +1,4 @@
-//! Arms on bases that are turned by angles whose sines are roots: the axes keep their relations, and the solvers their answers.
+//! Arms on bases that are rotated by angles with irrational sines. The axes keep their relations, and the solvers find all solutions.
 
 use groebot_ik::Watch;
 use groebot_ik::derive::Derivation;
@@ -9,7 +9,7 @@ use groebot_robot::model::Robot;
 
 const KR6: &str = include_str!("../../../../tests/corpus/urdf/kr6_r900.urdf");
 
-/// The arm on a base at this roll, pitch and yaw.
+/// The arm on a base with this roll, pitch and yaw.
 fn mounted(rpy: &str) -> Chain {
     let (first, rest) = KR6.split_once("rpy=\"0 0 0\"").unwrap();
     Robot::from_urdf(&format!("{first}rpy=\"{rpy}\"{rest}")).unwrap().chain(None, None).unwrap()

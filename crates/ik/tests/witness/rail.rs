@@ -20,7 +20,7 @@ joint = [
 ]
 "#;
 
-/// Where the arm looks along the rail, the slide is free; a target at its far end is reached from there only.
+/// Where the arm is parallel to the rail, the prismatic joint is free. A target at the far end is reachable only from there.
 #[test]
 fn an_arm_along_its_rail_is_solved_at_both_ends() {
     let chain = Chain::from_toml(RAIL).unwrap();

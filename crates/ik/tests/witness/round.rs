@@ -1,4 +1,4 @@
-//! Round targets of all kinds of solvers: `cargo test --release --test main -- --ignored round_targets_of_all_robots --nocapture` prints the rows of
+//! Round targets for all kinds of solvers. `cargo test --release --test main -- --ignored round_targets_of_all_robots --nocapture` prints the rows of
 //! `benches/record/DATE-round.csv`.
 
 use std::collections::BTreeMap;
@@ -12,12 +12,12 @@ use groebot_robot::kinematics::Chain;
 
 use crate::eigenvalue::Random;
 
-/// Targets of each robot, unless `GROEBOT_TARGETS` is set: a third each from angles in steps of 15 degrees, from such of 30 degrees, and with axes along
-/// those of the base on a grid.
+/// The number of targets of each robot, unless `GROEBOT_TARGETS` is set. A third each has angles in multiples of 15 degrees, angles in multiples of 30 degrees,
+/// and axis-aligned poses on a grid.
 const TARGETS: usize = 2001;
-/// Random arms.
+/// The number of random arms.
 const ARMS: usize = 20;
-/// Arms with an offset in the wrist, by their makers' dimensions: the shoulder's height, upper arm, forearm, the wrist's offset, the flange (m).
+/// Arms with an offset in the wrist, with dimensions of their makers: shoulder height, upper arm, forearm, wrist offset, flange (m).
 const OFFSET_WRISTS: [(&str, [f64; 5]); 6] = [
     ("FANUC CRX-5iA", [0.185, 0.41, 0.43, -0.13, 0.145]),
     ("FANUC CRX-10iA", [0.245, 0.54, 0.54, -0.15, 0.16]),
@@ -27,10 +27,10 @@ const OFFSET_WRISTS: [(&str, [f64; 5]); 6] = [
     ("Yaskawa HC10DT", [0.275, 0.70, 0.50, -0.162, 0.13]),
 ];
 
-/// A joint that turns: where it stands in the link before (m), and its axis.
+/// A revolute joint: its position in the previous link (m), and its axis.
 type Joint = ([f64; 3], [i8; 3]);
 
-/// A description of links one behind the other.
+/// A description of a serial chain of links.
 fn urdf(joints: &[Joint], tip: [f64; 3]) -> String {
     let mut text = "<robot name=\"arm\">\n<link name=\"link0\"/>\n".to_owned();
     let origin = |[x, y, z]: [f64; 3]| format!("<origin xyz=\"{x} {y} {z}\"/>");
@@ -64,7 +64,7 @@ fn offset_wrist([height, upper, fore, offset, flange]: [f64; 5]) -> String {
     urdf(&joints, [flange, 0.0, 0.0])
 }
 
-/// An arm whose axes are along x, y or z; half of the links are offset, by multiples of 5 cm.
+/// An arm whose axes are along x, y or z. Half of its links have offsets in multiples of 5 cm.
 fn random_arm(random: &mut Random) -> String {
     let mut place = |most: i64| match random.integer(0, 1) {
         0 => [0.0; 3],
@@ -85,7 +85,7 @@ fn source_of(text: &str) -> Source {
     Source::of_chain(chain, &Ends::default()).unwrap()
 }
 
-/// Whether every target has infinitely many answers.
+/// Whether every target has infinitely many solutions.
 fn is_degenerate(chain: &Chain) -> bool {
     let mut random = Random::new(1);
     (0..5).all(|_| chain.body_jacobian(&random.angles()).unwrap().singular_values().min() < 1e-9)
@@ -105,7 +105,7 @@ fn count(report: &Report, holds: impl Fn(&Row) -> bool) -> usize {
     report.rows.iter().filter(|row| holds(row)).count()
 }
 
-/// Derives and checks a robot, prints its row, and tells whether an ordinary answer was missed.
+/// Derives and checks a robot and prints its row. Returns whether all ordinary solutions were found.
 fn is_complete(name: &str, source: &Source) -> Result<bool> {
     let proved = Derivation::of(source, &Watch::none())?;
     let targets = std::env::var("GROEBOT_TARGETS").map_or(TARGETS, |number| number.parse().unwrap());
@@ -138,7 +138,7 @@ fn is_complete(name: &str, source: &Source) -> Result<bool> {
     Ok(missed == 0)
 }
 
-/// Robots whose names contain `GROEBOT_ROBOTS`, if it is set.
+/// Whether the name contains `GROEBOT_ROBOTS`, or that variable is not set.
 fn is_asked(name: &str) -> bool {
     std::env::var("GROEBOT_ROBOTS").is_ok_and(|part| !name.contains(&part)).then_some(()).is_none()
 }

@@ -1,4 +1,4 @@
-//! Derivation programs against the screw solver, with a comparison of their own.
+//! Derived programs compared with the screw solver, by an independent comparison.
 
 use std::f64::consts::PI;
 
@@ -12,13 +12,13 @@ use proptest::prelude::*;
 
 use super::{derive, from_text, read, two_link_text};
 
-/// Two links along z that turn about y.
+/// Two links along z with axes along y.
 struct Links {
     solver: TwoLink,
     lengths: [f64; 2],
 }
 
-/// A joint vector in which a joint may be free.
+/// A joint vector; a free joint is `None`.
 type Answer = [Option<f64>; 2];
 
 impl Links {
@@ -41,7 +41,7 @@ impl Links {
         (tip.x - target[0]).hypot(tip.z - target[1]) / self.solver.reach()
     }
 
-    /// Whether `b` stands for `a`: "matching" as the design has it, and the target is reached all the way between them.
+    /// Whether `b` represents `a`: they match within the tolerance, and all joint vectors between them reach the target.
     fn same(&self, a: Answer, b: Answer, target: [f64; 2]) -> bool {
         let from = [0, 1].map(|j| a[j].or(b[j]).unwrap_or(0.0));
         let way = [0, 1].map(|j| b[j].map_or(0.0, |b| angle::difference(b, from[j])));
@@ -53,7 +53,7 @@ impl Links {
         gap <= tolerance && worst <= 1e-11
     }
 
-    /// Why the two solvers disagree at a target.
+    /// The disagreement of the two solvers at a target, if there is one.
     fn objection(&self, ours: &[Answer], target: [f64; 2]) -> Option<String> {
         let point = Point3::new(target[0], 0.0, target[1]);
         let theirs: Vec<Answer> = self.solver.solve(&point).unwrap().iter().map(|answer| answer.q).collect();
@@ -72,7 +72,7 @@ fn leg_answers(program: &Program, target: [f64; 2]) -> Vec<Answer> {
     answers.iter().map(|a| [0, 1].map(|j| (!a.free.contains(&j)).then_some(a.q[j]))).collect()
 }
 
-/// Targets of two links: anywhere, near the two boundary circles, near the z axis, near the x axis, near the base.
+/// Targets of two links: arbitrary, near the two boundary circles, near the z axis, near the x axis, near the base.
 fn target(lengths: [f64; 2]) -> impl Strategy<Value = [f64; 2]> {
     let [a, b] = lengths;
     let reach = a + b;
@@ -108,7 +108,7 @@ fn the_derived_leg_and_the_screw_solver_agree() {
 
 #[test]
 fn random_two_link_chains_and_the_screw_solver_agree() {
-    // Next to the boundary of links as unequal as 500 to 1 the program may still miss an answer.
+    // For links with a ratio of 500 to 1, the program may miss a solution next to the boundary.
     let lengths = (40..4000_u32, 40..4000_u32, any::<bool>());
     let mut chains = proptest::test_runner::TestRunner::new(config(10));
     let run = chains.run(&lengths, |(a, b, equal)| {
@@ -129,7 +129,7 @@ fn random_two_link_chains_and_the_screw_solver_agree() {
     run.unwrap();
 }
 
-/// NAO's arm as two links along z that turn about y: its q4 is the forearm's absolute angle from the y axis, q2 + relative = pi/2 - q4.
+/// NAO's arm as two links along z with axes along y. Its q4 is the forearm's absolute angle from the y axis, so q2 + relative = pi/2 - q4.
 fn arm_answers(program: &Program, target: [f64; 2]) -> Vec<Answer> {
     let answers = program.solve_numbers(&target).unwrap();
     answers.iter().map(|a| [Some(a.q[0]), Some(angle::wrap(PI / 2.0 - a.q[1] - a.q[0]))]).collect()
@@ -148,7 +148,7 @@ fn the_derived_arm_and_the_screw_solver_agree() {
     run.unwrap();
 }
 
-/// The arm nearly stretched, nearly along y: the two values of s2 differ by less than a discriminant can tell.
+/// The arm is nearly stretched and nearly along y. The two values of s2 differ by less than the accuracy of a discriminant.
 #[test]
 fn the_arm_next_to_a_stratum_and_to_full_stretch_keeps_both_answers() {
     let program = derive(&read("nao_arm_planar")).program().clone();
@@ -169,7 +169,7 @@ fn the_arm_next_to_a_stratum_and_to_full_stretch_keeps_both_answers() {
     }
 }
 
-/// The counts of design.md section 5: 100,000 targets and 1,000 exact counts for each mechanism. Its lines go to benches/record/.
+/// For each mechanism: 100,000 targets and 1,000 exact counts. The printed lines are rows of benches/record/.
 #[test]
 #[ignore = "takes minutes: cargo test --release -- --ignored the_counts_of_the_design"]
 fn the_counts_of_the_design() {

@@ -1,11 +1,11 @@
-//! Self-motions, each told: those of one branch that no motion joins, and those of robots in rounded numbers.
+//! Self-motions are each reported: disconnected ones of one branch, and those of robots with rounded numbers.
 
 use groebot_ik::Watch;
 use groebot_ik::derive::Derivation;
 use groebot_ik::witness::chain::{ByScrews, Solver};
 use groebot_robot::kinematics::{Chain, Solution};
 
-/// The axes of Unitree's Z1: the second, third and fourth are parallel, the others cross them.
+/// The axes of Unitree's Z1. The second, third and fourth are parallel; the others are perpendicular to them.
 const Z1: &str = r#"
 name = "z1"
 source = "z1_description of Unitree Robotics, in example-robot-data"
@@ -21,8 +21,8 @@ joint = [
 ]
 "#;
 
-/// A leg like that of Fourier's GR-2, its hip off by a tenth of a micron: with the knee straight and the ankle's roll at a right angle the
-/// third axis and the last are one line, exactly.
+/// A leg similar to that of Fourier's GR-2, with an error of 0.1 micrometres in its hip. With the knee straight and the ankle's roll at a right angle, the
+/// third axis and the last are exactly one line.
 const LEG: &str = r#"
 name = "leg"
 source = "made for this test after the leg of Fourier's GR-2"
@@ -50,8 +50,8 @@ fn miss(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
-/// With the wrist's centre on the axis of the first joint this one is free on two closed curves, a quarter of the circle each and half a turn apart, of the
-/// same cases and roots. One has the fifth joint to one side, the other to the other, and by screws there are members of both.
+/// With the wrist centre on the axis of the first joint, this joint is free on two closed curves. Each covers a quarter of the circle, and they are pi apart,
+/// with equal cases and roots. They have the fifth joint on different sides, and screw theory finds members of both.
 #[test]
 fn two_self_motions_of_one_branch_are_both_told() {
     let chain = Chain::from_toml(Z1).unwrap();
@@ -79,8 +79,8 @@ fn two_self_motions_of_one_branch_are_both_told() {
     assert!(found.iter().all(|answer| answer.free == [0] && miss(&pose(&chain, &answer.q), &target) < 1e-13));
 }
 
-/// The formulas are those of a leg whose hip axes meet, and lead to single joint vectors of a self-motion that the leg as described has: it is told as one,
-/// and not as many isolated answers. (With its hip turned to the other side the leg is too short, by less than a micron.)
+/// The formulas are those of a leg whose hip axes meet. They give single joint vectors of a self-motion of the described leg, which is reported as one
+/// self-motion instead of many isolated solutions. (With its hip rotated to the other side, the leg is too short by less than a micrometre.)
 #[test]
 fn a_self_motion_of_a_robot_in_rounded_numbers_is_told_as_one() {
     use std::f64::consts::FRAC_PI_2;

@@ -1,4 +1,4 @@
-/* Answers, and what a search for them remembers: answers.rs */
+/* Solutions, and the state of the search for them: see answers.rs */
 
 /* A list of joint vectors. */
 typedef struct {
@@ -6,26 +6,26 @@ typedef struct {
     size_t count;
 } gb_six_list;
 
-/* Answers that differ, each with its residual. */
+/* Distinct solutions, each with its residual. */
 typedef struct {
     gb_real list[GB_SIX_KEPT][6];
     gb_real residual[GB_SIX_KEPT];
     size_t count;
 } gb_six_distinct;
 
-/* What has been found at a target. */
+/* The state of the search at a target. */
 typedef struct {
     gb_six_distinct answers;
-    /* Where candidates were that polishing led nowhere: next to a self-motion some isolated answer may be near them. */
+    /* Candidates from which polishing failed: next to a self-motion an isolated solution may be near them. */
     gb_six_list lost;
-    /* Candidates off the real line, or such that led to no answer, at a target aside: a curve may be next to them. */
+    /* Candidates off the real line, or from which polishing failed at a displaced target: a curve may be next to them. */
     gb_six_list far;
-    /* Whether complex solutions nearly meet, for a robot within `gb_chain.within`, and where such a robot may have answers. */
+    /* Whether complex solutions nearly meet, for a robot within `gb_chain.within`, and joint values near which that robot may have solutions. */
     bool is_meeting;
     gb_six_list meeting;
 } gb_six_search;
 
-/* The size of a way, of an angle's by the shorter way round. */
+/* The magnitude of a displacement; of an angle, reduced to (-pi, pi]. */
 GB_INLINE gb_real gb_six_difference(gb_real way, bool slides)
 {
     const gb_real turns = slides ? R(0.0) : gb_round(way / GB_TAU);
@@ -53,7 +53,7 @@ static bool gb_six_is_within(const gb_real *a, const gb_real *b, const bool *sli
     return true;
 }
 
-/* Adds a joint vector if none is nearly the same, turns counted. */
+/* Adds a joint vector if the list has none close to it. Angles that differ by whole turns are distinct. */
 static void gb_six_remember(gb_six_list *list, const gb_real *q)
 {
     static const bool ways[6] = {true, true, true, true, true, true};
@@ -68,7 +68,7 @@ static void gb_six_remember(gb_six_list *list, const gb_real *q)
     memcpy(list->list[list->count++], q, sizeof list->list[0]);
 }
 
-/* Remembers a candidate that polishing led nowhere. */
+/* Stores a candidate from which polishing failed. */
 static void gb_six_lose(gb_six_search *search, const gb_real *q)
 {
     for (int joint = 0; joint < 6; joint++) {
@@ -79,7 +79,7 @@ static void gb_six_lose(gb_six_search *search, const gb_real *q)
     gb_six_remember(&search->lost, q);
 }
 
-/* Adds an answer, in place of a worse equal one. */
+/* Adds a solution; it replaces an equal one with a larger residual. */
 static void gb_six_keep(gb_six_distinct *answers, const gb_real *q, gb_real residual, const bool *slides)
 {
     size_t at = 0;
@@ -105,7 +105,7 @@ static bool gb_six_is_member(const gb_chain *chain, const gb_real *q)
     return is_member;
 }
 
-/* Takes an isolated answer in place of a member of a self-motion. */
+/* Replaces a member of a self-motion by an isolated solution. */
 static GB_COLD void gb_six_displace(const gb_chain *chain, const gb_real *q, gb_real residual, gb_six_distinct *answers)
 {
     bool is_new = !gb_six_is_member(chain, q);
@@ -121,7 +121,7 @@ static GB_COLD void gb_six_displace(const gb_chain *chain, const gb_real *q, gb_
     }
 }
 
-/* Adds an answer; members of self-motions, of which there may be any number, give way to isolated answers. */
+/* Adds a solution. Isolated solutions replace members of self-motions, of which there may be any number. */
 static void gb_six_keep_answer(const gb_chain *chain, const gb_real *q, gb_real residual, gb_six_search *search)
 {
     if (search->answers.count < GB_SIX_KEPT) {
@@ -139,7 +139,7 @@ static void gb_six_wrap(gb_real *q, const bool *slides)
     }
 }
 
-/* Polishes joints that a walk along a curve has led to, and keeps them if they are an answer that is not known. */
+/* Polishes joint values from a walk along a curve, and keeps the result if it is a new solution. */
 static void gb_six_find(const gb_chain *chain, const gb_rigid *target, const gb_real *from, gb_six_search *search)
 {
     gb_real q[6], start;

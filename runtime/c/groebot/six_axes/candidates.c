@@ -1,20 +1,20 @@
-/* From the pencil to joint angles: eigenvalues, eigenvectors, back-substitution: candidates.rs */
+/* From the matrix pencil to joint angles: eigenvalues, eigenvectors, back-substitution: see candidates.rs */
 
-/* The joint values of a candidate for a solution; that of the joint whose line was used is still missing, and a way may be infinite. */
+/* The joint values of a candidate. That of the joint whose line was used is not computed yet, and a displacement may be infinite. */
 typedef struct {
     gb_real q[6];
-    /* The size of the eigenvalue's imaginary part as a share of 1 + |x|^2: half the way off the real line of the hidden angle. */
+    /* The eigenvalue's imaginary part relative to 1 + |x|^2: half the distance of the hidden angle from the real line. */
     gb_real depth;
 } gb_six_candidate;
 
 /* Candidates for solutions of one formulation. */
 typedef struct {
-    /* Those of single eigenvalues first, and of these the real ones. */
+    /* Candidates of single eigenvalues first, and of these the real ones. */
     gb_six_candidate list[GB_SIX_SIZE];
     size_t count;
-    /* Whether some solutions were not separated, for they share the hidden joint's value and the doubled one's. */
+    /* Whether some solutions were not separated, because both the hidden joint and the doubled one have equal values in them. */
     bool are_crowded;
-    /* The smallest share of a pivot in the largest entry of the matrix that was inverted. */
+    /* The smallest pivot, relative to the largest entry of the inverted matrix. */
     gb_real conditioning;
 } gb_six_candidates;
 
@@ -26,7 +26,7 @@ typedef struct {
     gb_six_pencil pencil;
     gb_six_hessenberg form;
     gb_real origin;
-    /* Eigenvalues closer than this share of 1 + |x|^2 coincide. */
+    /* Eigenvalues closer than this, relative to `1 + |x|^2`, coincide. */
     gb_real coinciding;
 } gb_six_problem;
 
@@ -34,18 +34,18 @@ typedef struct {
 typedef struct {
     gb_six_eigenvalue list[GB_SIX_SIZE];
     size_t count;
-    /* By eigenvalue, the first one that it coincides with: itself, when it is that one. */
+    /* By eigenvalue, the index of the first one that coincides with it, which may be its own. */
     size_t first[GB_SIX_SIZE];
 } gb_six_near_real;
 
-/* Half of the doubled angle, or the arc tangent of its way. */
+/* Half of the doubled angle, or the arc tangent of its displacement. */
 static gb_real gb_six_half_angle(const gb_real *wide, bool is_first)
 {
     const gb_real first = gb_six_dot(wide, wide), last = gb_six_dot(wide + 9, wide + 9);
     return is_first ? gb_six_turn(first, gb_six_dot(wide + 3, wide)) : gb_six_turn(gb_six_dot(wide + 6, wide + 9), last);
 }
 
-/* The products of the far joints; `factor` is what the eigenvector is a multiple by. */
+/* The products of the far joints; `factor` is the factor of the eigenvector. */
 static void gb_six_far(const gb_six_equations *rows, const gb_real *wide, gb_real c, gb_real s, gb_real factor, bool slides, const gb_real *near, gb_real *far)
 {
     const gb_real scale = slides ? factor * (c * c) : factor;
@@ -62,7 +62,7 @@ static void gb_six_far(const gb_six_equations *rows, const gb_real *wide, gb_rea
     memcpy(far, values + GB_SIX_PRODUCTS, GB_SIX_FAR * sizeof *far);
 }
 
-/* 1, c, s of an angle, or 1, d^2, d of a way, times the same of another: the products of the near joints. */
+/* The products of the near joints: 1, c, s of an angle, or 1, d^2, d of a displacement, times the same of another. */
 static void gb_six_near(const bool *slides, const gb_real *values, gb_real *products)
 {
     gb_real factors[2][3], angles[GB_SIX_PADDED(2)] = {R(0.0)}, c[GB_SIX_PADDED(2)], s[GB_SIX_PADDED(2)];
@@ -79,7 +79,7 @@ static void gb_six_near(const bool *slides, const gb_real *values, gb_real *prod
     }
 }
 
-/* The angle or way of the hidden joint, given half of it. */
+/* The angle or displacement of the hidden joint, given half of it. */
 static gb_real gb_six_double(gb_real half, bool slides)
 {
     return slides ? R(2.0) * (gb_sine(half) / gb_cosine(half)) : R(2.0) * half;
@@ -97,7 +97,7 @@ static void gb_six_read(const gb_six_problem *problem, gb_real hidden, const gb_
         slides[steps] = problem->chain->slides[gb_six_joint(formulation, steps)];
     }
     gb_six_widen(&problem->pencil, vector, &wide);
-    /* Whether the greatest monomial is the cube of the half angle's cosine, and not that of its sine; the products of the other near joint there. */
+    /* Whether the greatest monomial is the cube of the half angle's cosine, else that of its sine; the products of the other near joint there. */
     const bool is_first = gb_six_dot(wide.at, wide.at) >= gb_six_dot(wide.at + 9, wide.at + 9);
     const gb_real *head = is_first ? wide.at : wide.at + 9;
     half[0] = gb_six_half_angle(wide.at, is_first);
@@ -116,20 +116,20 @@ static void gb_six_read(const gb_six_problem *problem, gb_real hidden, const gb_
     }
 }
 
-/* Half the hidden angle, or the arc tangent of half the way. */
+/* Half the hidden angle, or the arc tangent of half the displacement. */
 static gb_real gb_six_half(const gb_six_problem *problem, gb_six_eigenvalue value)
 {
     return problem->origin + gb_angle(R(1.0), value.re + value.im);
 }
 
-/* Whether rounding may have parted two eigenvalues. */
+/* Whether rounding may have split the two eigenvalues. */
 static bool gb_six_coincide(gb_six_eigenvalue a, gb_six_eigenvalue b, gb_real coinciding)
 {
     const bool is_close = gb_magnitude(a.re - b.re) <= coinciding * (R(1.0) + a.re * a.re + b.re * b.re);
     return is_close && gb_six_depth(a) <= coinciding && gb_six_depth(b) <= coinciding;
 }
 
-/* The eigenvalues no farther off the real line than `deepest`. */
+/* The eigenvalues at most `deepest` off the real line. */
 static void gb_six_choose(const gb_six_problem *problem, const gb_six_eigenvalue *values, gb_real deepest, gb_six_near_real *near)
 {
     const bool slides = problem->chain->slides[problem->formulation.hidden];
@@ -151,7 +151,7 @@ static void gb_six_choose(const gb_six_problem *problem, const gb_six_eigenvalue
     }
 }
 
-/* How many eigenvalues coincide with the one at an index and with none before it. */
+/* Number of eigenvalues that coincide with the one at an index, if none before it does. */
 static size_t gb_six_size_of(const gb_six_near_real *near, size_t index)
 {
     size_t size = 0;
@@ -161,7 +161,7 @@ static size_t gb_six_size_of(const gb_six_near_real *near, size_t index)
     return size;
 }
 
-/* Adds the candidates of eigenvalues that stand alone. */
+/* Adds the candidates of eigenvalues that coincide with no other one. */
 static void gb_six_add_alone(const gb_six_problem *problem, const gb_six_near_real *near, gb_six_candidates *found)
 {
     gb_six_eigenvalue alone[GB_SIX_SIZE] = {{R(0.0), R(0.0)}};
@@ -178,7 +178,7 @@ static void gb_six_add_alone(const gb_six_problem *problem, const gb_six_near_re
     }
 }
 
-/* Adds the candidates of eigenvalues that coincide; where these are not separated, a single one. */
+/* Adds the candidates of coincident eigenvalues; if these are not separated, a single one. */
 static GB_COLD void gb_six_add_coinciding(const gb_six_problem *problem, const gb_six_near_real *near, gb_six_candidates *found)
 {
     gb_six_cluster cluster;
@@ -201,8 +201,8 @@ static GB_COLD void gb_six_add_coinciding(const gb_six_problem *problem, const g
     }
 }
 
-/* Candidates at a displacement, of eigenvalues no farther off the real line than `deepest`; each attempt begins with another origin of the half angle. False
- * when the pencil is singular for this target, or not finite. */
+/* Candidates at a displacement, for eigenvalues at most `deepest` off the real line. Each attempt has another origin of the half angle. False when the
+ * pencil is singular for this target, or not finite. */
 static bool gb_six_find_candidates(const gb_chain *chain, const gb_rigid *displacement, size_t attempt, gb_real deepest, gb_six_candidates *found)
 {
     gb_six_problem problem;

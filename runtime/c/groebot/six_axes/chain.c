@@ -1,18 +1,18 @@
-/* Chains: chain.rs */
+/* Chains: see chain.rs */
 
-/* The joint that stands so many steps behind the hidden one in the loop. */
+/* The joint `steps` after the hidden one in the loop. */
 GB_INLINE size_t gb_six_joint(gb_formulation formulation, size_t steps)
 {
     return (formulation.hidden + steps) % 6;
 }
 
-/* The joint whose half angle or way the equations are multiplied by. */
+/* The joint by whose half angle or displacement the equations are multiplied. */
 GB_INLINE size_t gb_six_doubled(gb_formulation formulation)
 {
     return gb_six_joint(formulation, formulation.second ? 2 : 1);
 }
 
-/* That of an attempt: after the last the first again. */
+/* The formulation of an attempt; after the last one the first is used again. */
 GB_INLINE gb_formulation gb_six_formulation(const gb_chain *chain, size_t attempt)
 {
     return chain->formulations[attempt % chain->formulation_count];
@@ -28,7 +28,7 @@ static gb_six_figure gb_six_figure_of(const gb_chain *chain, size_t joint)
     return figure;
 }
 
-/* What a joint leaves alone, moved to where the loop is cut behind the target. */
+/* The line or direction that a joint leaves invariant, moved to the other side of the target if `ahead`. */
 static gb_six_figure gb_six_place(const gb_chain *chain, gb_formulation formulation, size_t steps, bool ahead, const gb_rigid *displacement)
 {
     const gb_six_figure figure = gb_six_figure_of(chain, gb_six_joint(formulation, steps));
@@ -44,13 +44,13 @@ static gb_six_figure gb_six_place(const gb_chain *chain, gb_formulation formulat
     return moved;
 }
 
-/* Whether a way stands for an infinite one, which chains with two sliding joints have among their eigenvalues. */
+/* Whether a displacement represents an infinite one. Chains with two prismatic joints have such eigenvalues. */
 static bool gb_six_is_infinite(gb_real way)
 {
     return !(gb_magnitude(way) <= GB_SIX_LONG);
 }
 
-/* Whether a way among joint values stands for an infinite one. */
+/* Whether a displacement among joint values represents an infinite one. */
 static bool gb_six_has_infinite(const gb_chain *chain, const gb_real *q)
 {
     for (int joint = 0; joint < 6; joint++) {

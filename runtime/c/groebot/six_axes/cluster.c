@@ -1,18 +1,18 @@
-/* Eigenvalues that coincide, solutions that share the hidden joint's value, separated by the doubled joint: cluster.rs */
+/* Coincident eigenvalues: solutions with equal values of the hidden joint, separated by the doubled joint: see cluster.rs */
 
-/* The solutions of eigenvalues that coincide: their eigenvectors, in the first rows, and the depths of their tangents. */
+/* The solutions of coincident eigenvalues: their eigenvectors, in the first rows, and the depths of their tangents. */
 typedef struct {
     gb_six_matrix vectors;
     gb_real depths[GB_SIX_SIZE];
 } gb_six_cluster;
 
-/* How far an eigenvalue is off the real line, as a share of 1 + |x|^2. */
+/* The distance of an eigenvalue from the real line, relative to 1 + |x|^2. */
 GB_INLINE gb_real gb_six_depth(gb_six_eigenvalue value)
 {
     return gb_magnitude(value.im) / (R(1.0) + value.re * value.re + value.im * value.im);
 }
 
-/* Gram-Schmidt, twice; false where vectors depend on one another. */
+/* Gram-Schmidt orthonormalisation, applied twice; false where vectors are linearly dependent. */
 static bool gb_six_orthonormalise(gb_six_matrix *basis, size_t count)
 {
     for (size_t j = 0; j < count; j++) {
@@ -34,7 +34,7 @@ static bool gb_six_orthonormalise(gb_six_matrix *basis, size_t count)
     return true;
 }
 
-/* Makes Q y of y. */
+/* Replaces `y` by `Q y`. */
 static void gb_six_turn_back_one(const gb_six_hessenberg *form, gb_real *y)
 {
     for (size_t column = GB_SIX_SIZE - 2; column-- > 0;) {
@@ -92,8 +92,8 @@ static bool gb_six_find_basis(const gb_six_hessenberg *form, gb_real x, size_t c
     return true;
 }
 
-/* The matrix by which the tangent multiplies the monomials, in a basis, by least squares; rows and columns from `count` on are those of zero. False where the
- * monomials do not determine it. */
+/* The matrix, in a basis, of multiplication by the tangent, by least squares. Rows and columns from `count` on are zero. False where the monomials do not
+ * determine it. */
 static bool gb_six_find_tangents(const gb_six_wide *basis, size_t count, gb_six_matrix *tangents)
 {
     const gb_real c = gb_cosine(GB_SIX_CLUSTER_ORIGIN), s = gb_sine(GB_SIX_CLUSTER_ORIGIN);
@@ -119,7 +119,7 @@ static bool gb_six_find_tangents(const gb_six_wide *basis, size_t count, gb_six_
     return true;
 }
 
-/* Whether no two tangents are close to one another. */
+/* Whether all tangents are distinct within the tolerance. */
 static bool gb_six_are_separate(const gb_six_eigenvalue *values, size_t count)
 {
     for (size_t k = 0; k < count; k++) {

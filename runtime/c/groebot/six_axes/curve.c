@@ -1,21 +1,22 @@
-/* Curves all along which the target is nearly reached, as next to a self-motion: curve.rs
+/* Continuation along curves on which the target is nearly reached, as next to a self-motion: see curve.rs
  *
- * Beside a self-motion the isolated answers of a target may stand anywhere on the curve that the self-motion was, and Newton's steps find none of them: the
- * Jacobian has rank five but for a trace. A walk holds the five equations that joints can change and goes along the tangent; what is missed of the sixth one
- * changes its sign at each answer. (Steps along the tangent: E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.) */
+ * Next to a self-motion, the isolated solutions of a target may be anywhere on the curve that remains of the self-motion. Newton steps find none of them,
+ * because the Jacobian has rank five within a small error. A walk keeps the five equations that the joints influence, and follows the tangent. The residual
+ * of the sixth equation changes its sign at each solution. (Steps along the tangent: E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990,
+ * chapter 3.) */
 
-/* A walk along all curves that are found from some joint vectors. */
+/* A walk along all curves found from given joint vectors. */
 typedef struct {
     const gb_chain *chain;
     const gb_rigid *target;
     gb_six_search *search;
-    /* Where walks begin; those that another one has passed are left out. */
+    /* Starts of walks; those that another walk has passed are removed. */
     gb_six_point starts[GB_SIX_KEPT];
     bool is_open[GB_SIX_KEPT];
     size_t count;
 } gb_six_walk;
 
-/* Begins at q too if there is a curve next to it. */
+/* Adds a start at `q` if there is a curve next to it. */
 static void gb_six_begin(gb_six_walk *walk, const gb_real *q)
 {
     if (walk->count == GB_SIX_KEPT) {
@@ -28,7 +29,7 @@ static void gb_six_begin(gb_six_walk *walk, const gb_real *q)
     }
 }
 
-/* The place that steps across the curve lead to from a share of a way behind q; false where there is none. */
+/* The place that steps across the curve lead to from `q` plus a share of `way`; false where there is none. */
 static bool gb_six_advance(const gb_six_walk *walk, const gb_real *q, const gb_real *way, gb_real share, gb_six_point *next)
 {
     for (int k = 0; k < 6; k++) {
@@ -44,7 +45,7 @@ static void gb_six_way(const gb_real *from, const gb_real *to, gb_real *way)
     }
 }
 
-/* Adds the answer between two places where the sixth equation has different signs, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT 11
+/* Adds the solution between two places where the sixth equation has different signs, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT 11
  * (1971) 168-174). */
 static void gb_six_change(const gb_six_walk *walk, const gb_six_point *a, const gb_six_point *b)
 {
@@ -80,7 +81,7 @@ static void gb_six_change(const gb_six_walk *walk, const gb_six_point *a, const 
     gb_six_find(walk->chain, walk->target, gb_magnitude(near.value) <= gb_magnitude(far.value) ? near.q : far.q, walk->search);
 }
 
-/* Where the sixth equation comes near zero and goes away again, there may be two answers, or a double one. */
+/* Searches for two solutions, or a double one, where the sixth equation has an extremum near zero. */
 static void gb_six_dip(const gb_six_walk *walk, const gb_six_point *a, const gb_six_point *b, const gb_six_point *c)
 {
     const gb_real low = a->value, least = b->value, high = c->value, size = gb_magnitude(least);
@@ -101,7 +102,7 @@ static void gb_six_dip(const gb_six_walk *walk, const gb_six_point *a, const gb_
     }
 }
 
-/* A step along the curve, shorter where it bends; false where it ends. */
+/* A step along the curve, shorter where it bends; false where the curve ends. */
 static bool gb_six_pace(const gb_six_walk *walk, const gb_six_point *at, gb_real *stride, gb_six_point *next)
 {
     for (; *stride >= GB_SIX_SHORT * GB_SIX_STRIDE; *stride *= R(0.5)) {
@@ -115,7 +116,7 @@ static bool gb_six_pace(const gb_six_walk *walk, const gb_six_point *at, gb_real
     return false;
 }
 
-/* The last place of a walk that has come home, with the turns of its angles that are nearest to the place before. */
+/* The last place of a closed walk, with its angles shifted by whole turns to be nearest to the place before. */
 static gb_six_point gb_six_beside(const gb_six_point *home, const gb_six_point *at, const bool *slides)
 {
     gb_six_point end = *home;
@@ -127,7 +128,7 @@ static gb_six_point gb_six_beside(const gb_six_point *home, const gb_six_point *
     return end;
 }
 
-/* Walks from `home` until the curve closes or ends; whether it closed. `level` becomes the least and the most that was missed. */
+/* Follows the curve from `home` until it closes or ends. Returns whether it closed. `level` receives the least and the largest residual. */
 static bool gb_six_leads_home(gb_six_walk *walk, const gb_six_point *home, gb_real *level)
 {
     const bool *slides = walk->chain->slides;
@@ -158,8 +159,8 @@ static bool gb_six_leads_home(gb_six_walk *walk, const gb_six_point *home, gb_re
     return false;
 }
 
-/* Walks along the curves, both ways if they do not close, and adds answers where the sixth equation changes its sign; of a curve that misses nothing, a
- * self-motion, one member. */
+/* Follows the curves, in both directions if they are not closed, and adds solutions where the sixth equation changes its sign. If its residual is zero all
+ * along, the curve is a self-motion, and one member is added. */
 static void gb_six_run_walk(gb_six_walk *walk)
 {
     for (size_t index = 0; index < walk->count; index++) {
@@ -184,7 +185,7 @@ static void gb_six_run_walk(gb_six_walk *walk)
     }
 }
 
-/* Walks along the curves next to answers, and to candidates that led to none. */
+/* Follows the curves next to solutions, and next to candidates from which polishing failed. */
 static GB_APART void gb_six_walk_from(const gb_chain *chain, const gb_rigid *target, gb_six_search *search)
 {
     gb_six_walk walk;

@@ -1,14 +1,14 @@
-/* The reduction of a matrix to Hessenberg form by Householder reflections (Golub and Van Loan, Algorithm 7.4.2): hessenberg.rs */
+/* Reduction of a matrix to Hessenberg form by Householder reflections (Golub and Van Loan, Algorithm 7.4.2): see hessenberg.rs */
 
-/* A = Q H Q^T with H zero below its first subdiagonal and Q orthogonal. */
+/* `A = Q H Q^T` with `H` zero below its first subdiagonal and `Q` orthogonal. */
 typedef struct {
-    /* H, by rows. */
+    /* `H`, by rows. */
     gb_six_matrix matrix;
-    /* Q = P_0 P_1 ... with P_k = 1 - v v^T: row k is v, of length sqrt(2), or zero where nothing was to be done. */
+    /* `Q = P_0 P_1 ...` with `P_k = 1 - v v^T`: row `k` is `v`, of length `sqrt(2)`, or zero where no reflection is needed. */
     gb_six_matrix reflectors;
 } gb_six_hessenberg;
 
-/* The scalar product of columns from `first` on, which begins a group of four, in four partial sums that do not wait for one another. */
+/* The scalar product of columns from `first` on, which begins a group of four, in four independent partial sums. */
 GB_INLINE gb_real gb_six_long_dot(const gb_real *a, const gb_real *b, size_t first)
 {
     gb_real sums[4] = {R(0.0), R(0.0), R(0.0), R(0.0)};
@@ -23,7 +23,7 @@ GB_INLINE gb_real gb_six_long_dot(const gb_real *a, const gb_real *b, size_t fir
     return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/* The vector v, of length sqrt(2), whose reflection makes zeros of what stands below the subdiagonal in a column; false where nothing is to be done. */
+/* The vector v, of length sqrt(2), whose reflection eliminates the entries below the subdiagonal in a column; false where no reflection is needed. */
 static bool gb_six_reflector(const gb_six_matrix *h, size_t column, gb_real *v)
 {
     for (size_t k = 0; k < GB_SIX_SIZE; k++) {
@@ -41,7 +41,7 @@ static bool gb_six_reflector(const gb_six_matrix *h, size_t column, gb_real *v)
     return gb_six_is_finite(scale);
 }
 
-/* The sum of rows behind `column`, each times its number in v, in a group of four columns. */
+/* The sum of rows after `column`, each times its number in v, in a group of four columns. */
 GB_INLINE void gb_six_sum_rows(const gb_six_matrix *h, const gb_real *v, size_t column, size_t group, gb_real *sum)
 {
     gb_six_lanes sums[4 / GB_SIX_LANES];
@@ -58,8 +58,8 @@ GB_INLINE void gb_six_sum_rows(const gb_six_matrix *h, const gb_real *v, size_t 
     memcpy(sum + group, sums, sizeof sums);
 }
 
-/* H := P H P, from the left to rows and from the right to columns from `column + 1` on. In groups of four columns the first of which begins at `column` or
- * before: there only `column` itself changes, for all before it is zero. */
+/* `H := P H P`: from the left on rows, and from the right on columns after `column`. The left product acts on groups of four columns, and the first group
+ * begins at `column` or before. There only `column` itself changes, because all columns before it are zero. */
 GB_INLINE void gb_six_reflect(gb_six_matrix *h, const gb_real *v, size_t column)
 {
     const size_t first = column / 4 * 4, behind = (column + 1) / 4 * 4;

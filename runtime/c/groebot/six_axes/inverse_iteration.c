@@ -1,22 +1,22 @@
-/* Eigenvectors of a Hessenberg matrix for known eigenvalues, several at once (Golub and Van Loan, section 7.6.1): inverse_iteration.rs */
+/* Eigenvectors of a Hessenberg matrix for known eigenvalues, several at once (Golub and Van Loan, section 7.6.1): see inverse_iteration.rs */
 
-/* Registers of eigenvectors that are found at once, which do not wait for one another, and how many eigenvectors these are. */
+/* Number of independent registers of eigenvectors that are computed at once, and number of these eigenvectors. */
 #define GB_SIX_PARTS (GB_SIX_LANES < 4 ? 2 : 1)
 #define GB_SIX_WIDTH (GB_SIX_PARTS * GB_SIX_LANES)
 
-/* H - x after Gauss elimination of the subdiagonal with exchange of neighbouring rows. */
+/* `H - x` after Gauss elimination of the subdiagonal with exchange of neighbouring rows. */
 typedef struct {
-    /* What is above the diagonal, by columns. */
+    /* The entries above the diagonal, by columns. */
     gb_six_lanes columns[GB_SIX_SIZE][GB_SIX_SIZE][GB_SIX_PARTS];
-    /* One over the diagonal. */
+    /* Reciprocals of the diagonal. */
     gb_six_lanes inverses[GB_SIX_SIZE][GB_SIX_PARTS];
     /* Whether a row and the next one were exchanged. */
     gb_six_bits exchanged[GB_SIX_SIZE][GB_SIX_PARTS];
-    /* What multiple of the row was subtracted from the next one. */
+    /* The multiple of the row that was subtracted from the next one. */
     gb_six_lanes factors[GB_SIX_SIZE][GB_SIX_PARTS];
 } gb_six_eliminated;
 
-/* Exchanges two numbers where it is so. */
+/* Exchanges two numbers in lanes where `is_so` is true. */
 GB_INLINE void gb_six_exchange_where(gb_six_lanes *a, gb_six_lanes *b, gb_six_bits is_so)
 {
     const gb_six_bits change = (gb_six_bits_of(*a) ^ gb_six_bits_of(*b)) & is_so;
@@ -24,13 +24,13 @@ GB_INLINE void gb_six_exchange_where(gb_six_lanes *a, gb_six_lanes *b, gb_six_bi
     *b = gb_six_of_bits(gb_six_bits_of(*b) ^ change);
 }
 
-/* One over a pivot. */
+/* The reciprocal of a pivot. */
 GB_INLINE gb_six_lanes gb_six_inverted(gb_six_lanes pivot, gb_six_lanes least)
 {
     return R(1.0) / gb_six_pick(least, pivot, gb_six_exceeds(least, gb_six_abs(pivot)));
 }
 
-/* Eliminates, for one register of eigenvalues; pivots are at least a share of the largest entry. */
+/* Eliminates for one register of eigenvalues; pivots have a lower bound relative to the largest entry. */
 GB_INLINE void gb_six_eliminate(gb_six_eliminated *to, const gb_six_matrix *h, gb_real largest, gb_six_lanes x, int part)
 {
     gb_six_lanes size = gb_six_of(largest), upper[GB_SIX_SIZE];
@@ -128,7 +128,7 @@ GB_INLINE void gb_six_turn_back(const gb_six_hessenberg *form, gb_six_lanes y[GB
     }
 }
 
-/* Eigenvectors of A for the real parts of eigenvalues, of any length; not finite only when the matrix is not. */
+/* Eigenvectors of A for the real parts of eigenvalues, not normalised. Not finite only when the matrix is not. */
 static void gb_six_eigenvectors(const gb_six_hessenberg *form, const gb_six_eigenvalue *values, size_t count, gb_six_matrix *vectors)
 {
     const gb_real largest = gb_six_largest(GB_LEAST_POSITIVE, form->matrix.at[0], GB_SIX_SIZE * GB_SIX_SIZE);

@@ -1,4 +1,4 @@
-/* Several numbers at once, each as it would be alone */
+/* Several numbers at once, each bitwise equal to what it would be alone */
 
 #if GB_LANES >= 4
 #define GB_SIX_LANES 4
@@ -7,12 +7,12 @@
 #else
 #define GB_SIX_LANES 1
 #endif
-/* Room for so many numbers in whole registers. */
+/* Number of elements when rounded up to whole registers. */
 #define GB_SIX_PADDED(count) (((count) + GB_SIX_LANES - 1) / GB_SIX_LANES * GB_SIX_LANES)
 
 #if GB_SIX_LANES > 1
 typedef gb_real gb_six_lanes __attribute__((vector_size(sizeof(gb_real) * GB_SIX_LANES)));
-/* Their bits, or where something is so: all bits or none. */
+/* The bits of several numbers, or a truth value per lane: all bits set or none. */
 typedef uint64_t gb_six_bits __attribute__((vector_size(sizeof(gb_real) * GB_SIX_LANES)));
 #else
 typedef gb_real gb_six_lanes;
@@ -22,7 +22,7 @@ typedef uint32_t gb_six_bits;
 typedef uint64_t gb_six_bits;
 #endif
 #endif
-/* The place of the sign among a number's bits. */
+/* The index of the sign bit of a number. */
 #define GB_SIX_SIGN (8 * sizeof(gb_real) - 1)
 
 GB_INLINE gb_six_lanes gb_six_load(const gb_real *from)
@@ -37,7 +37,7 @@ GB_INLINE void gb_six_store(gb_real *to, gb_six_lanes lanes)
     memcpy(to, &lanes, sizeof lanes);
 }
 
-/* The number, everywhere. */
+/* The given number in all lanes. */
 GB_INLINE gb_six_lanes gb_six_of(gb_real number)
 {
     gb_real all[GB_SIX_LANES];
@@ -71,7 +71,7 @@ GB_INLINE gb_six_bits gb_six_exceeds(gb_six_lanes a, gb_six_lanes limit)
 #endif
 }
 
-/* The number where something is so, and another elsewhere. */
+/* Selects the number where `is_so` is true, and the other one elsewhere. */
 GB_INLINE gb_six_lanes gb_six_pick(gb_six_lanes a, gb_six_lanes b, gb_six_bits is_so)
 {
 #if GB_SIX_LANES > 1
@@ -90,13 +90,13 @@ GB_INLINE gb_six_lanes gb_six_abs(gb_six_lanes a)
 #endif
 }
 
-/* The greater of two numbers; the first where one is not a number. */
+/* The greater of two numbers; the first where one is NaN. */
 GB_INLINE gb_six_lanes gb_six_greater(gb_six_lanes a, gb_six_lanes b)
 {
     return gb_six_pick(b, a, gb_six_exceeds(b, a));
 }
 
-/* Takes a multiple of another row from a row, in columns from `first` on, which begins a register. */
+/* Subtracts a multiple of another row, in columns from `first` on, which begins a register. */
 GB_INLINE void gb_six_subtract(gb_real *row, gb_real factor, const gb_real *over, size_t first, size_t end)
 {
     const gb_six_lanes factors = gb_six_of(factor);
@@ -105,7 +105,7 @@ GB_INLINE void gb_six_subtract(gb_real *row, gb_real factor, const gb_real *over
     }
 }
 
-/* The largest magnitude in `count` numbers, whole registers, that is greater than `least`; what is no number is ignored. */
+/* The largest magnitude of `count` numbers, which fill whole registers, or `least` if that is greater; NaN is ignored. */
 GB_INLINE gb_real gb_six_largest(gb_real least, const gb_real *numbers, size_t count)
 {
     gb_real lanes[GB_SIX_LANES], largest = least;

@@ -1,4 +1,4 @@
-/* Dense linear equations of fixed size by Gauss elimination with partial pivoting (Golub and Van Loan, Algorithm 3.4.1): linear.rs */
+/* Dense linear equations of fixed size by Gauss elimination with partial pivoting (Golub and Van Loan, Algorithm 3.4.1): see linear.rs */
 
 /* The row from `k` on with the largest entry in column `k`. */
 GB_INLINE size_t gb_six_pivot(const gb_real *rows, size_t k, size_t size, size_t width)
@@ -22,8 +22,8 @@ GB_INLINE void gb_six_exchange(gb_real *a, gb_real *b, size_t count)
     }
 }
 
-/* Solves L X = R in place, with the `size` columns of L and then those of R in `rows`, `width` altogether, which fill whole registers: R becomes X, L is used
- * up. The smallest pivot as a share of the largest entry of L; zero when L is singular or not finite, and R means nothing then. */
+/* Solves L X = R in place: `rows` has the `size` columns of L, then those of R. All `width` columns fill whole registers. R becomes X, and L is destroyed.
+ * Returns the smallest pivot relative to the largest entry of L. It is zero when L is singular or not finite; R is then undefined. */
 GB_INLINE gb_real gb_six_solve(gb_real *rows, size_t size, size_t width, gb_real largest)
 {
     gb_real least = largest, inverses[GB_SIX_SIZE];
@@ -55,7 +55,7 @@ GB_INLINE gb_real gb_six_solve(gb_real *rows, size_t size, size_t width, gb_real
     return least / largest;
 }
 
-/* B^-1 A for an origin of the half angle; how well B was inverted. */
+/* B^-1 A for an origin of the half angle. Returns the conditioning of B. */
 static gb_real gb_six_invert(const gb_six_pencil *pencil, gb_real origin, gb_real rows[GB_SIX_SIZE][2 * GB_SIX_SIZE])
 {
     const gb_six_lanes c = gb_six_of(gb_cosine(origin)), s = gb_six_of(gb_sine(origin));
@@ -71,7 +71,7 @@ static gb_real gb_six_invert(const gb_six_pencil *pencil, gb_real origin, gb_rea
     return gb_six_solve(rows[0], GB_SIX_SIZE, 2 * GB_SIX_SIZE, largest);
 }
 
-/* The matrix of the first origin whose B can be inverted well, or of the best one, and that origin; how well it was inverted, zero where no one could be. */
+/* The matrix for the first origin whose B is well conditioned, or for the best one, and that origin. Returns the conditioning, zero where all are singular. */
 static gb_real gb_six_standardise(const gb_six_pencil *pencil, size_t attempt, gb_six_matrix *matrix, gb_real *origin)
 {
     gb_real conditioning = R(0.0), rows[GB_SIX_SIZE][2 * GB_SIX_SIZE];

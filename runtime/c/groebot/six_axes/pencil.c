@@ -1,7 +1,7 @@
-/* The eigenvalue problem (A - x B) v = 0 with sixteen rows and columns: pencil.rs
+/* The generalised eigenvalue problem (A - x B) v = 0 with sixteen rows and columns: see pencil.rs
  *
- * Each equation is multiplied by the cosine and by the sine of half of one near joint's angle. In the homogeneous monomials of half that angle (four of
- * degree three instead of three of degree two) there are then as many equations as products, and half a turn is a point like any other. */
+ * Each equation is multiplied by the cosine and by the sine of half of one near joint's angle. There are then as many equations as products. The reason is
+ * that there are four homogeneous monomials of degree three in half that angle, and three of degree two. Half a turn is then an ordinary point. */
 
 typedef struct {
     gb_real at[GB_SIX_ALL];
@@ -11,21 +11,21 @@ typedef struct {
     gb_real at[GB_SIX_SIZE][GB_SIX_SIZE];
 } gb_six_matrix;
 
-/* The pencil, and how its unknowns are found in it. */
+/* The pencil, and how its unknowns are computed from an eigenvector. */
 typedef struct {
     /* A and B. */
     gb_six_matrix constant;
     gb_six_matrix linear;
-    /* The columns that are left, as places in all columns. */
+    /* The remaining columns, as indices among all columns. */
     size_t kept[GB_SIX_SIZE];
-    /* What was solved for: a column, and its equation. */
+    /* The eliminated unknowns: each with its column and its equation. */
     size_t column[GB_SIX_SOLVED];
     gb_six_wide solved[GB_SIX_SOLVED];
     size_t count;
 } gb_six_pencil;
 
-/* A row times the cosine (`power` 0) or the sine (`power` 1) of the half angle: 1 = C^2 + S^2, c = C^2 - S^2, s = 2 C S; for a joint that slides, 1 = C^2,
- * d = C S, d^2 = S^2. */
+/* A row times the cosine (`power` 0) or the sine (`power` 1) of the half angle: `1 = C^2 + S^2`, `c = C^2 - S^2`, `s = 2 C S`. For a prismatic joint, `1 =
+ * C^2`, `d = C S`, `d^2 = S^2`. */
 GB_INLINE void gb_six_multiply(const gb_six_row *row, const gb_six_equations *rows, bool second, bool slides, size_t power, gb_real *wide, size_t count)
 {
     const size_t step = second ? 1 : 3, other = second ? 3 : 1, left = GB_SIX_FAR - rows->solved;
@@ -42,7 +42,7 @@ GB_INLINE void gb_six_multiply(const gb_six_row *row, const gb_six_equations *ro
     }
 }
 
-/* The place of the largest entry from a row on; false when all are zero or one is not finite. */
+/* The indices of the largest entry from a row on; false when all are zero or one is not finite. */
 static bool gb_six_find_wide(const gb_six_pencil *pencil, size_t first, size_t *row_of, size_t *column_of)
 {
     gb_real most = R(0.0);
@@ -59,7 +59,7 @@ static bool gb_six_find_wide(const gb_six_pencil *pencil, size_t first, size_t *
     return most > R(0.0) && gb_six_is_finite(most);
 }
 
-/* Solves the still equations that are left, each for its largest column, and takes these columns out of all others. */
+/* Solves each remaining still equation for its largest column, and eliminates these columns from all others. */
 static bool gb_six_eliminate_wide(gb_six_pencil *pencil, gb_six_wide *constant, gb_six_wide *linear)
 {
     for (size_t index = 0; index < pencil->count; index++) {
@@ -88,7 +88,7 @@ static bool gb_six_eliminate_wide(gb_six_pencil *pencil, gb_six_wide *constant, 
     return true;
 }
 
-/* The columns that are kept. */
+/* The kept columns. */
 static void gb_six_keep_columns(gb_six_pencil *pencil)
 {
     size_t kept = 0;
@@ -103,7 +103,7 @@ static void gb_six_keep_columns(gb_six_pencil *pencil)
     }
 }
 
-/* The pencil where some still equations did not determine far products; false when a column is left that no equation determines. */
+/* The pencil where some still equations did not determine far products; false when no equation determines one of the remaining columns. */
 static GB_APART bool gb_six_make_narrowed(const gb_six_equations *rows, bool second, bool slides, gb_six_pencil *pencil)
 {
     gb_six_wide constant[GB_SIX_SIZE], linear[GB_SIX_SIZE];
@@ -128,7 +128,7 @@ static GB_APART bool gb_six_make_narrowed(const gb_six_equations *rows, bool sec
     return true;
 }
 
-/* The pencil of reduced equations; false when a column is left that no equation determines. */
+/* The pencil of reduced equations; false when no equation determines one of the remaining columns. */
 static bool gb_six_make_pencil(const gb_six_equations *rows, bool second, bool slides, gb_six_pencil *pencil)
 {
     if (rows->solved < GB_SIX_STILL) {

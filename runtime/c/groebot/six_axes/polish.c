@@ -1,18 +1,18 @@
-/* Forward kinematics of the chain, and Newton steps on it: polish.rs */
+/* Forward kinematics of the chain, and its solution by Newton's method: see polish.rs */
 
-/* What a joint vector reaches. */
+/* Forward kinematics of a joint vector. */
 typedef struct {
     gb_real axes[6][3];
     gb_real origins[6][3];
     gb_rigid end;
 } gb_six_reach;
 
-/* A joint vector and what it misses a target by. */
+/* A joint vector and its pose error. */
 typedef struct {
     gb_real q[6];
     gb_six_reach reach;
     gb_real miss[6];
-    /* The largest of it. */
+    /* The largest component of the error. */
     gb_real residual;
 } gb_six_trial;
 
@@ -57,7 +57,8 @@ static void gb_six_find_reach(const gb_chain *chain, const gb_real *q, gb_six_re
     reach->end = frame;
 }
 
-/* For a turn by more than a right angle, given its sine along its axis, which is nought at half a turn, too: two less the sine. */
+/* The error for a rotation by more than a right angle, given its sine along its axis. Its length is two minus the sine, which is not zero at half a turn
+ * either. */
 static GB_COLD void gb_six_make_obtuse(gb_real *turn)
 {
     const gb_real sine = gb_square_root(gb_six_dot(turn, turn));
@@ -66,7 +67,7 @@ static GB_COLD void gb_six_make_obtuse(gb_real *turn)
     }
 }
 
-/* How far the end is from a target: the way, a share of the length scale, and the turn (rad). */
+/* The pose error to a target: translation relative to the length scale, and rotation (rad). */
 GB_INLINE void gb_six_find_miss(const gb_six_reach *reach, const gb_rigid *target, gb_real *miss)
 {
     gb_real turns[3][3], cosines[3];
@@ -91,7 +92,7 @@ GB_INLINE void gb_six_find_miss(const gb_six_reach *reach, const gb_rigid *targe
     }
 }
 
-/* The value of a joint that brings the end nearest to a target, the frame of the last joint, given all others. */
+/* The value of a joint that brings the last joint's frame nearest to a target, given the other joints. */
 static gb_real gb_six_closing(const gb_chain *chain, const gb_real *q, size_t joint, const gb_rigid *target)
 {
     gb_rigid before = chain->steps[0], behind = gb_six_none;
@@ -113,7 +114,7 @@ static gb_real gb_six_closing(const gb_chain *chain, const gb_real *q, size_t jo
     return chain->slides[joint] ? motion.translation[2] : gb_six_turn(c, s);
 }
 
-/* The derivatives of the end's place and turn by a joint. */
+/* The column of the Jacobian for a joint: derivatives of the last frame's position and rotation. */
 GB_INLINE void gb_six_derivatives(const gb_chain *chain, const gb_six_reach *reach, size_t joint, gb_real *column)
 {
     const gb_real *axis = reach->axes[joint];
@@ -130,7 +131,7 @@ GB_INLINE void gb_six_derivatives(const gb_chain *chain, const gb_six_reach *rea
     }
 }
 
-/* A step that makes the miss vanish to first order, no longer than GB_SIX_LONGEST; false where there is none. */
+/* A Newton step, at most GB_SIX_LONGEST long; false where there is none. */
 static bool gb_six_newton(const gb_chain *chain, const gb_six_trial *at, gb_real *step)
 {
     gb_real rows[6][8], largest = R(0.0);
@@ -167,7 +168,7 @@ static void gb_six_try(const gb_chain *chain, const gb_rigid *target, gb_six_tri
     trial->residual = gb_six_size(trial->miss);
 }
 
-/* The end of a step, shortened until it leads nearer to the target. */
+/* The end of a step, shortened until its residual is smaller. */
 static void gb_six_follow_step(const gb_chain *chain, const gb_six_trial *at, const gb_real *step, const gb_rigid *target, int *shortened, gb_six_trial *next)
 {
     gb_real share = R(1.0);
@@ -185,7 +186,7 @@ static void gb_six_follow_step(const gb_chain *chain, const gb_six_trial *at, co
     }
 }
 
-/* Newton steps from q to a target, shortened where they lead away from it; the residual after them, and in `start` before them. */
+/* Takes Newton steps from q to a target, shortened where the residual increases. Returns the residual after them; `start` receives the one before them. */
 static gb_real gb_six_polish(const gb_chain *chain, gb_real *q, const gb_rigid *target, gb_real *start)
 {
     gb_six_trial trials[2], *at = &trials[0], *next = &trials[1];
@@ -214,7 +215,7 @@ static gb_real gb_six_polish(const gb_chain *chain, gb_real *q, const gb_rigid *
     return at->residual;
 }
 
-/* Joints that joints behind them make up for, to first order: their columns of the Jacobian depend on those of the joints behind. */
+/* Joints whose motion the joints after them compensate, to first order: their columns of the Jacobian depend on the later columns. */
 static void gb_six_find_free(const gb_chain *chain, const gb_real *q, bool *is_free)
 {
     gb_six_reach reach;

@@ -1,11 +1,13 @@
-/* What is affine in the cosine and sine of every joint, the functions of Raghavan and Roth: profile.rs
+/* Functions of Raghavan and Roth, affine in the cosine and sine of every joint: see profile.rs
  *
- * Of a line with direction l through a point p, the fourteen functions p, l, p x l, (p.p) l - 2 (p.l) p, p.p and p.l span a space that rigid motions map into
- * itself. When the origin is on the axis of a turn, the part of the four vectors along it and the two scalars stay, six functions; the part of the vectors
- * across it turns. A joint that slides acts on them by polynomials of degree two in its way, 1, d^2, d in the place of 1, c, s. What such a joint leaves
- * alone is its direction l, a direction a across it, and lines along l: a, l, p x l, l x a, p.a and p.(l x a) are fourteen functions of the same kind. */
+ * For a line with direction l through a point p, the fourteen functions p, l, p x l, (p.p) l - 2 (p.l) p, p.p and p.l span a space that rigid motions map
+ * into itself. With the origin on the axis of a rotation, six functions are invariant: the components of the four vectors along the axis, and the two
+ * scalars. The orthogonal components of the vectors rotate. A prismatic joint acts on them by polynomials of degree two in its displacement: 1, d^2, d take
+ * the place of 1, c, s. Such a joint leaves invariant its direction l, a direction a orthogonal to it, and lines along l. Then a, l, p x l, l x a, p.a and
+ * p.(l x a) are fourteen functions with equal properties. */
 
-/* Of each vector the component along the hidden axis, the two scalars, the components along the two directions across; nothing in the last two places. */
+/* Of each vector the component along the hidden axis, then the two scalars, then the components along the two orthogonal directions. The last two places are
+ * unused. */
 #define GB_SIX_FUNCTIONS 16
 
 /* By product, its coefficients in the functions. */
@@ -47,7 +49,7 @@ GB_INLINE void gb_six_functions(const gb_six_figure *hidden, const gb_real acros
     values[14] = values[15] = R(0.0);
 }
 
-/* The functions of a figure that the axis `second` moves first and then the axis `first`. */
+/* The functions of a figure moved first by the axis `second`, then by the axis `first`. */
 static void gb_six_make_profile(const gb_six_figure *hidden, const gb_real across[2][3], const gb_six_figure *first, const gb_six_figure *second,
                                 const gb_six_figure *figure, gb_six_profile *profile)
 {

@@ -1,4 +1,4 @@
-/* Vectors and rigid motions: vector.rs, rigid.rs */
+/* Vectors and rigid motions: see vector.rs, rigid.rs */
 
 GB_INLINE gb_real gb_six_dot(const gb_real *a, const gb_real *b)
 {
@@ -12,7 +12,7 @@ GB_INLINE void gb_six_cross(const gb_real *a, const gb_real *b, gb_real *out)
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* The sum of the products of two lists, which are not empty. */
+/* The scalar product of two lists, which are not empty. */
 GB_INLINE gb_real gb_six_product(const gb_real *a, const gb_real *b, size_t count)
 {
     gb_real sum = a[0] * b[0];
@@ -27,7 +27,7 @@ GB_INLINE gb_real gb_six_norm(const gb_real *v)
     return gb_square_root(gb_six_product(v, v, 6));
 }
 
-/* The largest magnitude among six; not a number where one is none. */
+/* The largest magnitude of six; NaN where one is NaN. */
 GB_INLINE gb_real gb_six_size(const gb_real *v)
 {
     gb_real most = R(0.0);
@@ -46,7 +46,7 @@ GB_INLINE bool gb_six_is_finite(gb_real x)
 
 static const gb_rigid gb_six_none = {{{R(1.0), R(0.0), R(0.0)}, {R(0.0), R(1.0), R(0.0)}, {R(0.0), R(0.0), R(1.0)}}, {R(0.0), R(0.0), R(0.0)}};
 
-/* A direction turned. */
+/* A rotated direction. */
 GB_INLINE void gb_six_turned(const gb_rigid *motion, const gb_real *v, gb_real *out)
 {
     GB_UNROLL
@@ -55,7 +55,7 @@ GB_INLINE void gb_six_turned(const gb_rigid *motion, const gb_real *v, gb_real *
     }
 }
 
-/* A point moved. */
+/* A transformed point. */
 GB_INLINE void gb_six_moved(const gb_rigid *motion, const gb_real *p, gb_real *out)
 {
     GB_UNROLL
@@ -64,7 +64,7 @@ GB_INLINE void gb_six_moved(const gb_rigid *motion, const gb_real *p, gb_real *o
     }
 }
 
-/* The motion back. */
+/* The inverse motion. */
 GB_INLINE gb_rigid gb_six_inverse(const gb_rigid *motion)
 {
     gb_rigid back;
@@ -79,7 +79,7 @@ GB_INLINE gb_rigid gb_six_inverse(const gb_rigid *motion)
     return back;
 }
 
-/* The motion a after b. */
+/* The composition: b first, then a. */
 GB_INLINE gb_rigid gb_six_after(const gb_rigid *a, const gb_rigid *b)
 {
     gb_rigid both;
@@ -95,7 +95,7 @@ GB_INLINE gb_rigid gb_six_after(const gb_rigid *a, const gb_rigid *b)
     return both;
 }
 
-/* Then a turn about the moved z axis, given its cosine and sine. */
+/* Followed by a rotation about the moved z axis, given its cosine and sine. */
 GB_INLINE void gb_six_then_turn(gb_rigid *motion, gb_real c, gb_real s)
 {
     GB_UNROLL
@@ -107,7 +107,7 @@ GB_INLINE void gb_six_then_turn(gb_rigid *motion, gb_real c, gb_real s)
     }
 }
 
-/* Then a slide along the moved z axis. */
+/* Followed by a translation along the moved z axis. */
 GB_INLINE void gb_six_then_slide(gb_rigid *motion, gb_real way)
 {
     GB_UNROLL
@@ -116,7 +116,7 @@ GB_INLINE void gb_six_then_slide(gb_rigid *motion, gb_real way)
     }
 }
 
-/* A small motion by `size` (rad, and shares of the length scale), another for each attempt. */
+/* A small motion by `size` (rad, and relative to the length scale), different for each attempt. */
 static gb_rigid gb_six_aside(gb_real size, size_t attempt)
 {
     const gb_real sign = attempt % 2 == 0 ? size : -size, c = gb_cosine(sign), s = gb_sine(sign), *w = gb_six_direction;

@@ -1,28 +1,28 @@
-/* The equations: rows.rs and reduce.rs */
+/* The equations: see rows.rs and reduce.rs */
 
-/* The coefficients of the near products, 1 among them, and of the far ones; nothing in the last three places. */
+/* Coefficients of the near products, with 1, and of the far ones. The last three places are unused. */
 #define GB_SIX_ROW 20
 typedef struct {
     gb_real at[GB_SIX_ROW];
 } gb_six_row;
 
-/* The equations still = 0 and constant - x linear = 0 with x the tangent of half the hidden angle, or half the way; after elimination in the near products
- * and the far ones that are left. The first `solved` of the still ones each give one far product, the others are left as they are. */
+/* The equations still = 0 and constant - x linear = 0, where x is the tangent of half the hidden angle, or half the displacement. After elimination they are
+ * in the near products and the remaining far ones. The first `solved` still equations each determine one far product; the others are unchanged. */
 typedef struct {
     gb_six_row still[GB_SIX_STILL];
     gb_six_row constant[GB_SIX_MOVING];
     gb_six_row linear[GB_SIX_MOVING];
     size_t solved;
-    /* The far columns: those that are solved for come first, in the order of their equations. */
+    /* Order of the far columns: solved ones first, in the order of their equations. */
     size_t order[GB_SIX_FAR];
 } gb_six_equations;
 
-/* The functions that a slide leaves alone: l, the component of p x l along the axis, those of p across it. The same of the functions a, l, p x l, l x a, p.a
- * and p.(l x a), for a fourth joint that slides: ten stay. */
+/* The functions invariant under a translation: l, the component of p x l along the axis, those of p orthogonal to it. The second row is for the functions a,
+ * l, p x l, l x a, p.a and p.(l x a), with a prismatic fourth joint: ten are invariant. */
 static const unsigned char gb_six_unmoved[2][GB_SIX_STILL] = {{1, 7, 11, 2, 6, 10}, {0, 1, 2, 3, 6, 7}};
-/* The other functions, and which multiple of which function -N makes of each, or the constant -2: N p = w, N (p x l) = w x l,
- * N ((p.p) l - 2 (p.l) p) = -2 w x (p x l) - 2 (p.l) w, N (p.p) = 2 p.w, N (p.l) = l.w. In the second case N (p.a) = w.a, N (p.(l x a)) = w.(l x a), and
- * four of those that stay stand among the moving ones: r = 0 and s = 0 as s - x r = 0 and -r - x s = 0, which say the same for all x but i and -i. */
+/* The other functions, and which multiple of which function -N maps each to, or the constant -2: N p = w, N (p x l) = w x l, N ((p.p) l - 2 (p.l) p) = -2 w
+ * x (p x l) - 2 (p.l) w, N (p.p) = 2 p.w, N (p.l) = l.w. In the second case N (p.a) = w.a, N (p.(l x a)) = w.(l x a). Four of the invariant functions are
+ * then among the moving equations: r = 0 and s = 0 become s - x r = 0 and -r - x s = 0, which are equivalent for all x except i and -i. */
 static const unsigned char gb_six_sliding[2][GB_SIX_MOVING] = {{0, 8, 12, 3, 9, 13, 4, 5}, {10, 9, 13, 11, 8, 12, 4, 5}};
 static const unsigned char gb_six_images[2][GB_SIX_MOVING] = {{0, 11, 7, 5, 12, 8, 0, 1}, {9, 10, 11, 13, 11, 7, 0, 3}};
 static const gb_real gb_six_factors[2][GB_SIX_MOVING] = {
@@ -30,7 +30,7 @@ static const gb_real gb_six_factors[2][GB_SIX_MOVING] = {
     {R(1.0), R(-1.0), R(1.0), R(-1.0), R(1.0), R(-1.0), R(-1.0), R(-1.0)},
 };
 
-/* factor (a + sign b) in both sides' products, whose 1 is the same; a and b the functions of these numbers. */
+/* factor (a + sign b) in the products of both sides, which share the constant 1; a and b are the functions with these numbers. */
 GB_INLINE void gb_six_combine(const gb_six_profile *near, const gb_six_profile *far, size_t function, gb_real sign, gb_real factor, gb_six_row *row)
 {
     row->at[0] = factor * (near->at[0][function] + sign * far->at[0][function]);
@@ -45,7 +45,7 @@ GB_INLINE void gb_six_combine(const gb_six_profile *near, const gb_six_profile *
     }
 }
 
-/* The hidden joint turns: the vectors across its axis w fulfil Rodrigues' equation b - a = x w x (a + b). */
+/* Equations of a revolute hidden joint: the vectors orthogonal to its axis w fulfil Rodrigues' equation b - a = x w x (a + b). */
 static void gb_six_turn_rows(const gb_six_profile *near, const gb_six_profile *far, gb_six_equations *rows)
 {
     for (size_t k = 0; k < GB_SIX_STILL; k++) {
@@ -57,7 +57,7 @@ static void gb_six_turn_rows(const gb_six_profile *near, const gb_six_profile *f
     }
 }
 
-/* The hidden joint slides by 2 x w: this is exp(2 x N) with N^3 = 0, so that b - a = x N (a + b) for all fourteen functions. */
+/* Equations of a prismatic hidden joint: a translation by 2 x w is exp(2 x N) with N^3 = 0, so that b - a = x N (a + b) for all fourteen functions. */
 static void gb_six_slide_rows(const gb_six_profile *near, const gb_six_profile *far, bool is_directed, gb_six_equations *rows)
 {
     const int kind = is_directed ? 1 : 0;
@@ -76,7 +76,7 @@ static void gb_six_slide_rows(const gb_six_profile *near, const gb_six_profile *
     }
 }
 
-/* The equation and the place in the order of the columns with the largest share of its equation's size; false where all are small. */
+/* The equation, and the index in the order of the columns, of the largest coefficient relative to its equation's size; false where all are small. */
 static bool gb_six_find_still(const gb_six_equations *rows, size_t *row_of, size_t *place_of)
 {
     gb_real best = GB_SIX_WEAK;
@@ -96,14 +96,14 @@ static bool gb_six_find_still(const gb_six_equations *rows, size_t *row_of, size
     return is_found;
 }
 
-/* Takes a column, in which `pivot` is one, out of a row. */
+/* Eliminates a column from a row with a pivot row whose entry there is one. */
 GB_INLINE void gb_six_clear(gb_real *row, const gb_real *pivot, size_t column, size_t count)
 {
     gb_six_subtract(row, row[column], pivot, 0, count);
     row[column] = R(0.0);
 }
 
-/* Solves a still equation for the column at a place, and takes it out of all others. */
+/* Solves a still equation for the column at a place, and eliminates it from all others. */
 static void gb_six_eliminate_still(gb_six_equations *rows, size_t row, size_t place)
 {
     const size_t index = rows->solved, column = rows->order[place];
@@ -128,7 +128,7 @@ static void gb_six_eliminate_still(gb_six_equations *rows, size_t row, size_t pl
     rows->solved++;
 }
 
-/* The equations of a formulation, the still ones solved for as many far products as they determine well, by complete pivoting. */
+/* The equations of a formulation. The still ones are solved for as many far products as are well determined, by complete pivoting. */
 static void gb_six_equate(const gb_chain *chain, gb_formulation formulation, const gb_rigid *displacement, gb_six_equations *rows)
 {
     const gb_six_figure hidden = gb_six_figure_of(chain, formulation.hidden);

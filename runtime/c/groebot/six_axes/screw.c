@@ -1,6 +1,7 @@
-/* Lines in space that turn about each other: screw.rs */
+/* Axes of joints, and lines and directions that they move: see screw.rs */
 
-/* The axis of a joint and what the joint leaves alone: the line of its axis; of a joint that slides, directions: along it, and one across it. */
+/* The axis of a joint, and the line or directions that the joint leaves invariant: the line of its axis; for a prismatic joint, its direction and one
+ * orthogonal to it. */
 typedef struct {
     gb_real direction[3];
     gb_real point[3];
@@ -8,13 +9,13 @@ typedef struct {
     bool slides;
 } gb_six_figure;
 
-/* c and s of the turns, or d^2 and d of the slides, at which functions are sampled. */
+/* `c` and `s` of the rotations, or `d^2` and `d` of the translations, at which functions are sampled. */
 static const gb_real gb_six_samples[2][3][2] = {
     {{R(1.0), R(0.0)}, {R(0.0), R(1.0)}, {R(0.0), R(-1.0)}},
     {{R(0.0), R(0.0)}, {R(1.0), R(1.0)}, {R(1.0), R(-1.0)}},
 };
 
-/* A vector turned about a direction, given cosine and sine. */
+/* A vector rotated about a direction, given cosine and sine. */
 GB_INLINE void gb_six_turned_about(const gb_real *w, const gb_real *v, const gb_real *by, gb_real *out)
 {
     const gb_real share = gb_six_dot(w, v);
@@ -27,7 +28,7 @@ GB_INLINE void gb_six_turned_about(const gb_real *w, const gb_real *v, const gb_
     }
 }
 
-/* The figure moved by the joint of an axis, given c and s of its angle, or d^2 and d of its way. */
+/* The figure moved by the joint of an axis, given `c` and `s` of its angle, or `d^2` and `d` of its displacement. */
 GB_INLINE gb_six_figure gb_six_moved_by(const gb_six_figure *figure, const gb_six_figure *axis, const gb_real *by)
 {
     gb_six_figure moved = *figure;
@@ -55,7 +56,7 @@ GB_INLINE gb_six_figure gb_six_moved_by(const gb_six_figure *figure, const gb_si
     return moved;
 }
 
-/* The coefficients of 1, c, s, or of 1, d^2, d, of functions that are affine in them, from their values at the samples. */
+/* The coefficients of 1, c, s, or of 1, d^2, d, of functions affine in them, from their values at the samples. */
 GB_INLINE void gb_six_coefficients(bool slides, gb_six_lanes f, gb_six_lanes g, gb_six_lanes h, gb_six_lanes *out)
 {
     const gb_six_lanes mean = R(0.5) * (g + h);

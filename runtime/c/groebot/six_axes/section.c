@@ -1,33 +1,33 @@
-/* The Jacobian next to a curve all along which the target is nearly reached: section.rs
+/* The Jacobian next to a curve on which the target is nearly reached: see section.rs
  *
  * Bordering: A. Griewank and G. W. Reddien, SIAM J. Numerical Analysis 21 (1984) 176-185. */
 
-/* A place on a curve, and the Jacobian there: five directions that lead to somewhere and one that hardly does. */
+/* A place on a curve, and the Jacobian there, split into five directions that change the pose and one that changes it very little. */
 typedef struct {
     gb_real q[6];
-    /* The shortest step behind which only `value` is missed, to first order. */
+    /* The shortest step after which only `value` remains of the residual, to first order. */
     gb_real step[6];
-    /* The tangent of the curve, of length one. */
+    /* The unit tangent of the curve. */
     gb_real along[6];
-    /* The sum of equations that no joint changes, of length one. */
+    /* The unit combination of equations that no joint changes. */
     gb_real across[6];
-    /* What is missed of it. */
+    /* The residual of that combination. */
     gb_real value;
-    /* By how much joints change it after all, about the least singular value. */
+    /* The derivative of that combination along the tangent, approximately the least singular value. */
     gb_real slope;
 } gb_six_point;
 
-/* The Jacobian after five steps of elimination, the factors below its diagonal, with what is missed. */
+/* The Jacobian after five steps of elimination, with the factors below its diagonal, and the residual. */
 typedef struct {
     gb_real matrix[6][6];
     gb_real right[6];
-    /* The order of the rows, which were moved. */
+    /* The order of the rows, which were exchanged. */
     size_t rows[6];
-    /* The order of the columns, which were not. */
+    /* The order of the columns, which were not moved. */
     size_t columns[6];
 } gb_six_cut;
 
-/* Brings the largest entry to place k; its size. */
+/* Exchanges rows and columns so that the largest entry is at `k`. Returns its magnitude. */
 GB_INLINE gb_real gb_six_bring(gb_six_cut *cut, size_t k)
 {
     gb_real most = R(0.0), row_of[6];
@@ -56,7 +56,7 @@ GB_INLINE gb_real gb_six_bring(gb_six_cut *cut, size_t k)
     return most;
 }
 
-/* Gauss elimination with complete pivoting; false where more than one direction leads nowhere. */
+/* Gauss elimination with complete pivoting; false where more than one direction changes the pose very little. */
 static bool gb_six_eliminate_cut(gb_six_cut *cut)
 {
     gb_real first = R(0.0);
@@ -79,7 +79,7 @@ static bool gb_six_eliminate_cut(gb_six_cut *cut)
     return true;
 }
 
-/* The sum of equations in which no joint is left, the last one's share one. */
+/* The combination of equations that contains no joint; the coefficient of the last one is one. */
 GB_INLINE void gb_six_sum_across(const gb_six_cut *cut, gb_real *across)
 {
     across[cut->rows[5]] = R(1.0);
@@ -92,7 +92,7 @@ GB_INLINE void gb_six_sum_across(const gb_six_cut *cut, gb_real *across)
     }
 }
 
-/* The joints that solve five equations, given the last of them. */
+/* The joint values that solve five equations, given the last joint. */
 GB_INLINE void gb_six_substitute(const gb_six_cut *cut, const gb_real *right, gb_real last, gb_real *x)
 {
     x[cut->columns[5]] = last;
@@ -105,7 +105,7 @@ GB_INLINE void gb_six_substitute(const gb_six_cut *cut, const gb_real *right, gb
     }
 }
 
-/* The section at a place's joints; false where more than one direction leads nowhere. */
+/* The section at a place's joints; false where more than one direction changes the pose very little. */
 static bool gb_six_section(const gb_chain *chain, const gb_rigid *target, gb_six_point *at)
 {
     static const gb_real zero[6] = {R(0.0), R(0.0), R(0.0), R(0.0), R(0.0), R(0.0)};
@@ -147,7 +147,7 @@ static bool gb_six_is_near(const gb_six_point *at)
     return at->slope <= GB_SIX_STEEP && gb_magnitude(at->value) <= GB_SIX_ADRIFT;
 }
 
-/* The directions so that they go on from another place's. */
+/* Makes the signs of the directions consistent with another place's. */
 static void gb_six_align(gb_six_point *at, const gb_six_point *other)
 {
     const bool is_back = gb_six_product(at->along, other->along, 6) < R(0.0), is_under = gb_six_product(at->across, other->across, 6) < R(0.0);
@@ -158,7 +158,7 @@ static void gb_six_align(gb_six_point *at, const gb_six_point *other)
     at->value = is_under ? -at->value : at->value;
 }
 
-/* Steps across the curve from a place's joints, `rounds` at most; whether they lead to it. */
+/* Takes at most `rounds` steps across the curve from a place's joints. Returns whether they converge. */
 static bool gb_six_settle(const gb_chain *chain, const gb_rigid *target, gb_six_point *at, int rounds)
 {
     for (int round = 0; round < rounds; round++) {

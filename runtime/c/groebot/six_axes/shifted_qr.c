@@ -1,6 +1,6 @@
-/* All eigenvalues of a Hessenberg matrix by implicit double-shift QR steps (Golub and Van Loan, Algorithms 7.5.1 and 7.5.2): shifted_qr.rs
+/* All eigenvalues of a Hessenberg matrix by implicit double-shift QR steps (Golub and Van Loan, Algorithms 7.5.1 and 7.5.2): see shifted_qr.rs
  *
- * The eigenvalues only: rows and columns outside the block that is being reduced are left alone. (J. G. F. Francis, The QR transformation, Computer Journal 4
+ * Only eigenvalues are computed, so rows and columns outside the active block are not updated. (J. G. F. Francis, The QR transformation, Computer Journal 4
  * (1961/62) 265-271 and 332-345.) */
 
 /* An eigenvalue of a real matrix; im is exactly zero when it is real. */
@@ -9,7 +9,7 @@ typedef struct {
     gb_real im;
 } gb_six_eigenvalue;
 
-/* The first row of the lowest block that does not fall apart, which ends at row `high`; a negligible subdiagonal entry becomes zero. */
+/* The first row of the irreducible block that ends at row `high`; a negligible subdiagonal entry is set to zero. */
 GB_INLINE size_t gb_six_start_of_block(gb_six_matrix *h, size_t high)
 {
     for (size_t row = high; row > 0; row--) {
@@ -40,8 +40,8 @@ static void gb_six_pair(const gb_six_matrix *h, size_t low, gb_six_eigenvalue *p
     pair[0].im = pair[1].im = R(0.0);
 }
 
-/* The first column of (H - a)(H - b) for two shifts, as far as it is not zero. They are the eigenvalues of the last 2x2 block, or numbers of the size of the
- * last subdiagonal entries. */
+/* The non-zero entries of the first column of (H - a)(H - b) for two shifts. These are the eigenvalues of the last 2x2 block, or numbers of the magnitude of
+ * the last subdiagonal entries. */
 GB_INLINE void gb_six_first_column(const gb_six_matrix *h, size_t low, size_t high, bool is_exceptional, gb_real *column)
 {
     const size_t m = high, i = low;
@@ -57,8 +57,8 @@ GB_INLINE void gb_six_first_column(const gb_six_matrix *h, size_t low, size_t hi
     column[2] = h->at[i + 1][i] * h->at[i + 2][i + 1];
 }
 
-/* Rows from `top` on reflected, `count` of them: by 1 - u w^T. Columns in groups of four, for it is no matter what happens to those behind the block, and
- * those before `top` are set. */
+/* Reflects `count` rows from `top` on by 1 - u w^T, in columns in groups of four. Columns after the block may change freely, and those before `top` are
+ * overwritten. */
 GB_INLINE void gb_six_reflect_rows(gb_six_matrix *h, size_t high, size_t top, size_t count, const gb_real *u, const gb_real *w)
 {
     gb_real *first = h->at[top], *second = h->at[top + 1], *third = h->at[top + count - 1];
@@ -73,7 +73,7 @@ GB_INLINE void gb_six_reflect_rows(gb_six_matrix *h, size_t high, size_t top, si
     }
 }
 
-/* The same of columns. */
+/* Reflects columns in this manner. */
 GB_INLINE void gb_six_reflect_columns(gb_six_matrix *h, size_t low, size_t high, size_t top, size_t count, const gb_real *u, const gb_real *w)
 {
     const size_t last = top + 3 < high ? top + 3 : high;
@@ -89,8 +89,8 @@ GB_INLINE void gb_six_reflect_columns(gb_six_matrix *h, size_t low, size_t high,
     }
 }
 
-/* Reflects rows and columns from `top` on, two or three, so that `column`, which stands left of them, becomes a multiple of its first unit vector: by
- * 1 - u w^T with u that begins with one and w a multiple of it. */
+/* Reflects two or three rows and columns from `top` on so that `column`, which is left of them, becomes a multiple of its first unit vector. The reflection
+ * is 1 - u w^T, where the first entry of u is one, and w is a multiple of u. */
 GB_INLINE void gb_six_chase(gb_six_matrix *h, size_t low, size_t high, size_t top, size_t count, const gb_real *column)
 {
     const gb_real square = gb_six_product(column, column, count), length = gb_signed(gb_square_root(square), column[0]);
@@ -112,7 +112,7 @@ GB_INLINE void gb_six_chase(gb_six_matrix *h, size_t low, size_t high, size_t to
     }
 }
 
-/* One double step on rows and columns `low` to `high`: the bulge that the shifts make at the top is chased out at the bottom. */
+/* One double step on rows and columns `low` to `high`: the bulge that the shifts create at the top is chased to the bottom. */
 static void gb_six_step(gb_six_matrix *h, size_t low, size_t high, bool is_exceptional)
 {
     gb_real column[3];
@@ -128,7 +128,7 @@ static void gb_six_step(gb_six_matrix *h, size_t low, size_t high, bool is_excep
     gb_six_chase(h, low, high, high - 1, 2, column);
 }
 
-/* All eigenvalues, complex ones in conjugate pairs; false when an entry is not finite or the iteration does not end, which is not known to happen. */
+/* All eigenvalues, complex ones in conjugate pairs. False when an entry is not finite or the iteration does not converge, which is not known to happen. */
 static bool gb_six_eigenvalues(const gb_six_hessenberg *form, gb_six_eigenvalue *found)
 {
     gb_six_matrix h = form->matrix;

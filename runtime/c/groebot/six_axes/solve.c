@@ -1,32 +1,33 @@
-/* The solver, formulations in turn until one can be trusted: solve.rs */
+/* The solver: formulations are tried in turn until one is reliable: see solve.rs */
 
-/* A target, and where it is put aside for one attempt. */
+/* A target, and its displaced copy for one attempt. */
 typedef struct {
     const gb_chain *chain;
     size_t number;
-    /* How far aside. */
+    /* Size of the displacement. */
     gb_real size;
-    /* What takes the tip from its place at zero to the target. */
+    /* The rigid motion from the tip's pose at zero to the target. */
     const gb_rigid *goal;
-    /* The frame of the last joint at the target, and at the target aside. */
+    /* The frame of the last joint at the target, and at the displaced target. */
     const gb_rigid *target;
     gb_rigid near;
     /* The joint whose line is used. */
     size_t missing;
 } gb_six_attempt;
 
-/* What an attempt has come to. */
+/* The result of an attempt. */
 typedef struct {
-    /* Its own answers. */
+    /* The solutions of this attempt alone. */
     gb_six_distinct own;
-    /* How many candidates led nowhere. */
+    /* Number of candidates from which polishing failed. */
     size_t lost;
-    /* The most that a candidate missed the target by before it was polished. */
+    /* The largest residual of a candidate before polishing. */
     gb_real worst;
 } gb_six_tally;
 
-/* Leads joints that reach the target aside to the target in stages, each a quarter of the way from it that the one before was: next to a self-motion it is as
- * flat as the target is near, and a step must be no longer. The residual at the target, and in `last` the joints of the last stage that succeeded. */
+/* Moves joint values from the displaced target to the target in stages, each at a quarter of the distance of the one before. Next to a self-motion the
+ * curvature grows with the inverse distance from it, and steps must be shorter. Returns the residual at the target; `last` has the joints of the last stage
+ * that succeeded. */
 static gb_real gb_six_lead(const gb_six_attempt *attempt, gb_real *q, gb_real *last)
 {
     gb_real residual = R(1.0), size = attempt->size, start;
@@ -43,7 +44,8 @@ static gb_real gb_six_lead(const gb_six_attempt *attempt, gb_real *q, gb_real *l
     return residual;
 }
 
-/* Joints that reach the target aside brought to the target: at once, or in stages; the residual, and in `last` the last ones that were reached. */
+/* Moves joint values from the displaced target to the target, at once or in stages. Returns the residual; `last` has the last joint values that were
+ * reached. */
 static GB_APART gb_real gb_six_bring_back(const gb_six_attempt *attempt, gb_real *q, gb_real *last)
 {
     gb_real start;
@@ -56,13 +58,13 @@ static GB_APART gb_real gb_six_bring_back(const gb_six_attempt *attempt, gb_real
     return gb_six_lead(attempt, q, last);
 }
 
-/* The square of the depth of complex solutions that may be real for a robot that is a little off. */
+/* The squared depth of complex solutions that may be real for a robot within the tolerance. */
 static gb_real gb_six_parted(const gb_chain *chain)
 {
     return gb_larger(GB_SIX_OFF * chain->within, gb_smaller(GB_SIX_FAR_OFF * chain->within, GB_SIX_BLURRED * GB_SIX_BLURRED));
 }
 
-/* Polishes a candidate, and keeps or remembers it. */
+/* Polishes a candidate, and keeps or stores it. */
 static void gb_six_follow(const gb_six_attempt *attempt, const gb_six_candidate *candidate, gb_six_search *search, gb_six_tally *tally)
 {
     const gb_chain *chain = attempt->chain;
@@ -99,7 +101,7 @@ static void gb_six_follow(const gb_six_attempt *attempt, const gb_six_candidate 
     }
 }
 
-/* Adds the answers of one formulation; whether it can be trusted to have found all. */
+/* Adds the solutions of one formulation. Returns whether it is reliable. */
 static bool gb_six_run(const gb_six_attempt *attempt, const gb_rigid *displacement, gb_six_search *search)
 {
     const size_t known = search->answers.count;
@@ -125,12 +127,12 @@ static bool gb_six_run(const gb_six_attempt *attempt, const gb_rigid *displaceme
     return is_clear && (is_confirmed || (is_sound && (!is_aside || nothing_lost)));
 }
 
-/* Runs formulations until one can be trusted; their number. What was lost is forgotten then. */
+/* Runs formulations until one is reliable. Returns their number. Lost candidates are then removed. */
 static size_t gb_six_search_all(const gb_chain *chain, const gb_rigid *goal, const gb_rigid *target, gb_six_search *search)
 {
     for (size_t number = 0; number < GB_SIX_ATTEMPTS; number++) {
         gb_six_attempt attempt;
-        /* Each formulation once at the target: again it would only confirm itself. */
+        /* Each formulation runs once at the target itself: a repetition would have the same result. */
         if (!(gb_six_disturbances[number] > R(0.0)) && number >= chain->formulation_count) {
             continue;
         }
@@ -140,7 +142,7 @@ static size_t gb_six_search_all(const gb_chain *chain, const gb_rigid *goal, con
         attempt.goal = goal;
         attempt.target = target;
         attempt.missing = gb_six_joint(gb_six_formulation(chain, number), 3);
-        /* One run aside shows too little of what may be beside it. */
+        /* One run at a displaced target shows too few of the solutions nearby. */
         const bool is_first_aside = number > 0 && attempt.size > R(0.0) && gb_six_disturbances[number - 1] == R(0.0);
         if (is_first_aside) {
             search->lost.count = 0;
@@ -155,8 +157,8 @@ static size_t gb_six_search_all(const gb_chain *chain, const gb_rigid *goal, con
     return GB_SIX_ATTEMPTS;
 }
 
-/* Solves targets next to this one, on both sides: two complex solutions are real there on one. Those that lead to no answer come near one of the robot that is
- * meant. */
+/* Solves targets next to this one, on both sides: on one of them two complex solutions are real. Those that lead to no solution here are near one of the
+ * robot of interest. */
 static GB_APART void gb_six_meet(const gb_chain *chain, const gb_rigid *goal, const gb_rigid *target, gb_six_search *search)
 {
     for (size_t k = 0; k < GB_SIX_MEETINGS; k++) {
@@ -187,7 +189,7 @@ static bool gb_six_is_sorted(const gb_real *a, const gb_real *b)
     return true;
 }
 
-/* Joints in the unit of the target. */
+/* Joint values in the unit of the target. */
 static gb_six_answer gb_six_tell(const gb_chain *chain, const gb_real *q, bool lost)
 {
     gb_six_answer answer;
@@ -199,7 +201,7 @@ static gb_six_answer gb_six_tell(const gb_chain *chain, const gb_real *q, bool l
     return answer;
 }
 
-/* Writes what was found, in the unit of the target; how much it is. */
+/* Writes the solutions, in the unit of the target. Returns their number. */
 static size_t gb_six_tell_all(const gb_chain *chain, const gb_six_search *search, bool is_isolated, gb_six_answer *out)
 {
     size_t count = 0;
@@ -243,6 +245,6 @@ GB_LINKAGE size_t gb_six_axes(const gb_chain *chain, const gb_real *target, gb_s
     if (search.is_meeting) {
         gb_six_meet(chain, &goal, &end, &search);
     }
-    /* A run that can be trusted at once has seen no self-motion. */
+    /* The first run shows a reliable result only where there is no self-motion. */
     return gb_six_tell_all(chain, &search, runs == 1, out);
 }

@@ -1,10 +1,10 @@
-/* Cosines and sines of several angles: vector.rs */
+/* Cosines and sines of several angles: see vector.rs */
 
-/* A number to which others are added so that only whole ones are left, the last bits those of the whole number. */
+/* Adding this number to another one rounds that one to an integer, which is then in the last bits. */
 #define GB_SIX_WHOLE GB_EITHER(6755399441055744.0, 12582912.0)
 
-/* The cosines and the sines of angles up to a million rad, to the last bit but where an angle is in the middle between two quarter turns those of
- * gb_cosine and gb_sine. */
+/* The cosines and the sines of angles up to a million rad. They are bitwise equal to those of gb_cosine and gb_sine, except where an angle is half-way
+ * between two quarter turns. */
 GB_INLINE void gb_six_turns_of(gb_six_lanes angles, gb_six_lanes *cosines, gb_six_lanes *sines)
 {
     const gb_six_lanes shifted = angles * R(0.6366197723675814) + GB_SIX_WHOLE, quarters = shifted - GB_SIX_WHOLE;
@@ -26,7 +26,7 @@ GB_INLINE void gb_six_turns_of(gb_six_lanes angles, gb_six_lanes *cosines, gb_si
     *sines = gb_six_of_bits(((of_s & ~odd) | (of_c & odd)) ^ ((quarter & 2) << (GB_SIX_SIGN - 1)));
 }
 
-/* The same of a list that fills whole registers. */
+/* The cosines and the sines of a list that fills whole registers. */
 GB_INLINE void gb_six_turns(const gb_real *angles, size_t count, gb_real *cosines, gb_real *sines)
 {
     GB_UNROLL
@@ -38,7 +38,7 @@ GB_INLINE void gb_six_turns(const gb_real *angles, size_t count, gb_real *cosine
     }
 }
 
-/* The angle of a cosine and a sine; nought where both are zero. */
+/* The angle of a cosine and a sine; zero where both are zero. */
 static gb_real gb_six_turn(gb_real cosine, gb_real sine)
 {
     return cosine == R(0.0) && sine == R(0.0) ? R(0.0) : gb_angle(cosine, sine);

@@ -1,5 +1,4 @@
-//! The numbers that relations are evaluated with ([`Arithmetic`]), and polynomials of degree one in each unknown over them
-//! ([`Multilinear`]).
+//! The number types with which relations are evaluated ([`Arithmetic`]), and multilinear polynomials over them ([`Multilinear`]).
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -9,7 +8,7 @@ use smallvec::SmallVec;
 use groebot_algebra::number::{BigInt, BigRational, Field, Ring, Zp};
 use groebot_algebra::poly::{Polynomial, PolynomialRing};
 
-/// A commutative ring of values that may keep books on what it is asked for: numbers, polynomials, registers of a program.
+/// A commutative ring of values, such as numbers, polynomials or registers of a program. Operations may change the ring's own state, such as emitted code.
 pub trait Arithmetic {
     /// A value.
     type Value: Clone;
@@ -24,11 +23,11 @@ pub trait Arithmetic {
     fn mul(&mut self, a: &Self::Value, b: &Self::Value) -> Self::Value;
     /// `-a`.
     fn neg(&mut self, a: &Self::Value) -> Self::Value;
-    /// Whether `a` is known to be zero. Terms with such coefficients are left out; numbers that cancel must say so here.
+    /// Whether `a` is known to be zero. Terms with zero coefficients are removed, so exact cancellations must be recognised here.
     fn is_zero(&self, a: &Self::Value) -> bool;
 }
 
-/// Rational numbers.
+/// The rational numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exact;
 
@@ -55,7 +54,7 @@ impl Arithmetic for Exact {
     }
 }
 
-/// Polynomials over a field, whose numbers have images there.
+/// Polynomials over a field. Rational numbers are mapped into the field.
 #[derive(Clone, Copy, Debug)]
 pub struct Polynomials<'a, F: Field>(pub &'a PolynomialRing<F>);
 
@@ -83,17 +82,17 @@ impl<F: Field> Arithmetic for Polynomials<'_, F> {
     }
 }
 
-/// Numbers modulo a prime. The images of rational numbers are kept: the same few come again and again.
+/// Numbers modulo a prime. The images of rational numbers are cached, because only a few different ones occur.
 #[derive(Clone, Debug)]
 pub struct Modular {
     field: Zp,
-    /// By numerator: denominators with the images. (To hash a whole fraction costs more than to reduce it.)
+    /// By numerator: denominators with the images. (Hashing a whole fraction costs more than reducing it.)
     images: HashMap<BigInt, Vec<(BigInt, u64)>>,
     unlucky: bool,
 }
 
 impl Modular {
-    /// GF(p) as the value `field`.
+    /// Arithmetic in GF(p), given by `field`.
     pub fn new(field: Zp) -> Self {
         Modular { field, images: HashMap::new(), unlucky: false }
     }
@@ -103,7 +102,7 @@ impl Modular {
         self.field
     }
 
-    /// Whether a denominator was asked for that is zero modulo the prime: what was computed then means nothing.
+    /// Whether a denominator is zero modulo the prime. The results are then invalid.
     pub fn is_unlucky(&self) -> bool {
         self.unlucky
     }
@@ -142,21 +141,21 @@ impl Arithmetic for Modular {
     }
 }
 
-/// An unknown of a joint, by the joint's place in the chain.
+/// An unknown of a joint, by the joint's index in the chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Factor {
     /// c, the cosine of its angle.
     Cosine(usize),
     /// s', its sine divided by the length of the axis vector.
     Sine(usize),
-    /// d', its shift divided by the length of the axis vector.
+    /// d', its displacement divided by the length of the axis vector.
     Length(usize),
     /// d' d'.
     LengthSquared(usize),
 }
 
 impl Factor {
-    /// The place of the joint.
+    /// The index of the joint.
     pub fn joint(self) -> usize {
         match self {
             Factor::Cosine(joint) | Factor::Sine(joint) | Factor::Length(joint) | Factor::LengthSquared(joint) => joint,
@@ -164,7 +163,7 @@ impl Factor {
     }
 }
 
-/// A product of unknowns, at most one factor a joint, in the order of the joints; empty for 1.
+/// A product of unknowns with at most one factor per joint, in the order of the joints. It is empty for 1.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Factors(SmallVec<[Factor; 4]>);
 
@@ -179,7 +178,7 @@ impl Factors {
         self.0.is_empty()
     }
 
-    /// The product; of two factors of one joint only d' d' exists, and words with each joint once make no other.
+    /// The product. The only product of two factors of one joint is d' d', because each joint occurs at most once in a word.
     fn times(&self, other: &Factors) -> Factors {
         let mut list = self.0.clone();
         for &factor in &other.0 {
@@ -196,8 +195,8 @@ impl Factors {
     }
 }
 
-/// A polynomial of degree one in the cosine and sine of each unknown revolute joint and of degree two at most in the length of
-/// each prismatic one: a coefficient for each product of unknowns.
+/// A polynomial of degree one in the cosine and sine of each unknown revolute joint, and of degree at most two in the length of each prismatic one. It maps
+/// each product of unknowns to its coefficient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Multilinear<V> {
     terms: BTreeMap<Factors, V>,
@@ -218,12 +217,12 @@ impl<V: Clone> Multilinear<V> {
         constant
     }
 
-    /// The products with their coefficients, which are not zero; 1 comes first.
+    /// The products with their nonzero coefficients; 1 comes first.
     pub fn terms(&self) -> impl ExactSizeIterator<Item = (&Factors, &V)> {
         self.terms.iter()
     }
 
-    /// The coefficient of a product of unknowns, given by its factors in the order of the joints; `None` stands for zero.
+    /// The coefficient of a product of unknowns, given by its factors in the order of the joints; `None` for zero.
     pub fn coefficient(&self, factors: &[Factor]) -> Option<&V> {
         self.terms.get(&Factors(SmallVec::from_slice(factors)))
     }
@@ -233,7 +232,7 @@ impl<V: Clone> Multilinear<V> {
         self.coefficient(&[])
     }
 
-    /// Whether it is zero.
+    /// Whether the polynomial is zero.
     pub fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
@@ -247,7 +246,7 @@ impl<V: Clone> Multilinear<V> {
         joints
     }
 
-    /// Puts `change` of each coefficient in its place, with what is zero left out.
+    /// Replaces each coefficient by its image under `change`, and removes zeros.
     fn map<A: Arithmetic<Value = V>>(&self, arithmetic: &mut A, change: impl Fn(&mut A, &V) -> V) -> Self {
         let mut image = Multilinear::zero();
         for (product, value) in &self.terms {
@@ -306,7 +305,7 @@ impl<V: Clone> Multilinear<V> {
         self.map(arithmetic, |arithmetic, value| arithmetic.neg(value))
     }
 
-    /// `self` times a rational number; 0, 1 and -1 cost nothing.
+    /// `self` times a rational number. The factors 0, 1 and -1 need no multiplication.
     #[must_use]
     pub fn scale<A: Arithmetic<Value = V>>(&self, number: &BigRational, arithmetic: &mut A) -> Self {
         if number.is_zero() {
@@ -319,7 +318,7 @@ impl<V: Clone> Multilinear<V> {
         self.map(arithmetic, |arithmetic, value| arithmetic.mul(value, &factor))
     }
 
-    /// `self other`, of two that share no joint but prismatic ones.
+    /// `self other`. The factors may share only prismatic joints.
     #[must_use]
     pub fn mul<A: Arithmetic<Value = V>>(&self, other: &Self, arithmetic: &mut A) -> Self {
         let mut product = Multilinear::zero();
@@ -332,7 +331,7 @@ impl<V: Clone> Multilinear<V> {
         product
     }
 
-    /// `self` times one unknown of a joint that does not occur in it, or d' of a prismatic one.
+    /// `self` times an unknown of a joint that does not occur in it, or times d' of a prismatic joint.
     #[must_use]
     pub(super) fn times_unknown<A: Arithmetic<Value = V>>(&self, factor: Factor, arithmetic: &mut A) -> Self {
         let mut product = Multilinear::zero();

@@ -1,4 +1,4 @@
-//! What relations are evaluated at: the values of the joints and of the target.
+//! The values of the joints and of the target at which relations are evaluated.
 
 use super::arithmetic::Arithmetic;
 use super::mechanism::Mechanism;
@@ -6,10 +6,10 @@ use super::vector;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Task;
 
-/// What is known about a joint.
+/// The known value of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub enum JointValue<V> {
-    /// Nothing: its unknowns stay.
+    /// No known value: the joint's unknowns remain.
     Unknown,
     /// The cosine c of its angle and s', the sine divided by the length of the axis vector.
     Angle {
@@ -18,25 +18,25 @@ pub enum JointValue<V> {
         /// s'.
         sine: V,
     },
-    /// d', its shift divided by the length of the axis vector.
+    /// d', its displacement divided by the length of the axis vector.
     Length(V),
 }
 
-/// The rotation of a target, as far as the task knows it.
+/// The part of the target's rotation that the task specifies.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Turn<V> {
-    /// Not at all.
+    /// No part.
     Nothing,
-    /// Where it takes the direction that the task aims, [`Mechanism::aim`].
+    /// The image of the direction that the task orients, [`Mechanism::aim`].
     Direction([V; 3]),
     /// Its matrix, base_from_tip, by rows.
     Matrix([[V; 3]; 3]),
 }
 
-/// The target T: the position of the tip and its rotation, as far as the task knows them.
+/// The target T: the parts of the tip's position and rotation that the task specifies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target<V> {
-    /// The position of the tip; where the task does not know it, any: that at zero.
+    /// The position of the tip. If the task does not specify it, the position in the zero configuration.
     pub position: [V; 3],
     /// The rotation.
     pub turn: Turn<V>,
@@ -52,10 +52,10 @@ pub struct Assignment<V> {
 }
 
 impl<V: Clone> Target<V> {
-    /// The target of these `parameters`, in the order of [`Mechanism::parameters`].
+    /// The target with these `parameters`, in the order of [`Mechanism::parameters`].
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when there are not as many as the task has.
+    /// [`ErrorKind::BadValue`] if their number differs from that of the task.
     pub fn new<A: Arithmetic<Value = V>>(mechanism: &Mechanism, parameters: &[V], arithmetic: &mut A) -> Result<Self> {
         let wanted = mechanism.parameters().len();
         if parameters.len() != wanted {

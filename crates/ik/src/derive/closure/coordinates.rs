@@ -1,4 +1,4 @@
-//! Vectors of polynomials in the unknown joints: what an evaluation computes with.
+//! Vectors of polynomials in the unknown joints, for evaluations.
 
 use super::arithmetic::{Arithmetic, Multilinear};
 use super::evaluate::{Evaluation, Vector};

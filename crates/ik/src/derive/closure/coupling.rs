@@ -1,7 +1,7 @@
 //! The exact law by which a joint follows another one of its chain (`mimic`): [`Coupling`].
 //!
-//! An angle that follows by a whole number m and an offset b has `c + i s = e^(ib) (C + i S)^m` with C and S of its leader, so that its cosine and
-//! sine are polynomials in those of the leader. A slide that follows a slide is linear in it.
+//! An angle that follows with an integer factor m and an offset b has `c + i s = e^(ib) (C + i S)^m` with C and S of its leader. So its cosine and sine are
+//! polynomials in those of the leader. A prismatic joint that follows a prismatic joint is linear in it.
 
 use num_traits::{One, ToPrimitive, Zero};
 
@@ -10,23 +10,23 @@ use groebot_algebra::number::BigRational;
 use groebot_algebra::poly::rational_root;
 use groebot_robot::kinematics::Mimic;
 
-/// How the unknowns of a joint follow from those of its leader.
+/// The law from the unknowns of a leader to those of a follower.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Coupling {
-    /// The place of the leader.
+    /// The index of the leader.
     pub leader: usize,
     /// The law.
     pub law: Law,
 }
 
-/// The law of a [`Coupling`] in the unknowns of relations: c, s' = s / |w| and d' = d / |w| with the axis vector w of each joint.
+/// The law of a [`Coupling`], in the unknowns of relations: c, s' = s / |w| and d' = d / |w| with the axis vector w of each joint.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Law {
-    /// Both turn.
+    /// Both joints are revolute.
     Turn {
-        /// How many turns it makes in one of its leader: not zero.
+        /// The number of rotations per rotation of the leader: not zero.
         times: i32,
         /// |w| of the leader over |w| of the follower.
         ratio: BigRational,
@@ -35,7 +35,7 @@ pub enum Law {
         /// c and s' of the offset.
         offset: [BigRational; 2],
     },
-    /// Both slide.
+    /// Both joints are prismatic.
     Slide {
         /// d' of the follower for one of the leader.
         factor: BigRational,
@@ -45,9 +45,11 @@ pub enum Law {
 }
 
 impl Coupling {
-    /// The law of `mimic`, by which a joint follows the one at the place `leader`: of both, the follower first, whether they turn, and |w|^2. None
-    /// where the law is no polynomial over Q: a fraction of a turn, a slide that follows a turn or the other way round, or axis vectors whose
-    /// lengths have an irrational ratio.
+    /// The law of `mimic` with the leader at index `leader`. The other arguments are, for the follower and the leader, whether they are revolute, and
+    /// |w|^2.
+    ///
+    /// `None` if the law is not a polynomial over Q. This holds for a fractional factor of an angle, for a prismatic and a revolute joint, and for axis vectors
+    /// whose lengths have an irrational ratio.
     pub(super) fn new(leader: usize, turn: [bool; 2], [own, other]: [&BigRational; 2], mimic: &Mimic) -> Option<Self> {
         let (ratio, square) = (rational_root(&(other / own))?, own.clone());
         let root = square.to_f64().unwrap_or(1.0).sqrt();
@@ -73,7 +75,7 @@ impl Coupling {
         }
     }
 
-    /// The follower's unknowns, c and s' or d', by those of the leader.
+    /// The follower's unknowns, c and s' or d', as functions of those of the leader.
     pub fn follow<A: Arithmetic>(&self, leader: &[A::Value], arithmetic: &mut A) -> Vec<A::Value> {
         match (&self.law, leader) {
             (Law::Turn { times, ratio, square, offset }, [cosine, sine]) => {
@@ -93,7 +95,7 @@ impl Coupling {
         }
     }
 
-    /// By the follower's unknowns, c and s' or d': their coefficients in the leader's, then the constant. Of a linear law.
+    /// The coefficients of a linear law. For each unknown of the follower, c and s' or d': the coefficients of the leader's unknowns, then the constant.
     pub(super) fn coefficients(&self) -> Vec<Vec<BigRational>> {
         let count = if matches!(self.law, Law::Turn { .. }) { 2 } else { 1 };
         let number = |here: bool| BigRational::from_integer(i32::from(here).into());
@@ -104,7 +106,7 @@ impl Coupling {
         (0..count).map(row).collect()
     }
 
-    /// All numbers of the law.
+    /// All constants of the law.
     pub(in crate::derive) fn numbers(&self) -> Vec<&BigRational> {
         match &self.law {
             Law::Turn { ratio, square, offset: [c, s], .. } => vec![ratio, square, c, s],
@@ -113,7 +115,7 @@ impl Coupling {
     }
 }
 
-/// The product of two turns, each by c and s' about axes of the same length.
+/// The product of two rotations, each by c and s' about axes of the same length.
 fn product<A: Arithmetic>(
     a: &[A::Value; 2],
     b: &[A::Value; 2],
@@ -125,7 +127,7 @@ fn product<A: Arithmetic>(
     [arithmetic.sub(&cc, &across), arithmetic.add(&sc, &cs)]
 }
 
-/// c and s' of an angle, as a rational point of `c^2 + n s'^2 = 1` where n is `square`, next to it within rounding.
+/// c and s' of an angle, rounded to a rational point of `c^2 + n s'^2 = 1`, where n is `square`.
 fn turned(angle: f64, square: &BigRational, root: f64) -> [BigRational; 2] {
     let half_turns = (angle / std::f64::consts::PI).round();
     let tangent = ((angle - half_turns * std::f64::consts::PI) / 2.0).tan();
@@ -138,7 +140,7 @@ fn turned(angle: f64, square: &BigRational, root: f64) -> [BigRational; 2] {
     [&sign * (BigRational::one() - bent) / &below, sign * (&tangent + &tangent) / below]
 }
 
-/// `number / root`, where `root` is that of `square`: within rounding where it is irrational.
+/// `number / root`, where `root` is that of `square`. Rounded if the root is irrational.
 fn quotient(number: &BigRational, square: &BigRational, root: f64) -> BigRational {
     if number.is_zero() {
         return BigRational::zero();

@@ -1,8 +1,8 @@
 //! The evaluation of relations with any [`Arithmetic`]: at known joints, or as polynomials in the unknown ones.
 //!
-//! Every letter is a motion x -> o2 + R (x - o1). With y' = o2 + R (y - o1) of a point, its square |y'|^2 = |y|^2 - 2 o1.y + |o1|^2 +
-//! 2 o2.y' - |o2|^2 and the moments of lines go along without a product of two images, so that the joint's cosine and sine
-//! occur to the first degree.
+//! Every letter is a motion x -> o2 + R (x - o1). A point has the image y' = o2 + R (y - o1), whose square is
+//! |y'|^2 = |y|^2 - 2 o1.y + |o1|^2 + 2 o2.y' - |o2|^2. Squares of points and moments of lines are transformed without products of two images.
+//! So the joint's cosine and sine occur only in the first degree.
 
 use super::arithmetic::{Arithmetic, Factor, Multilinear};
 use super::assignment::{Assignment, JointValue, Turn};
@@ -16,7 +16,7 @@ use groebot_robot::kinematics::{ExactMatrix, ExactVector};
 /// Coordinates as polynomials in the unknown joints.
 pub type Vector<V> = [Multilinear<V>; 3];
 
-/// An object with what is carried along for its measure.
+/// An object with the additional data for its measure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Image<V> {
     /// A point.
@@ -25,17 +25,17 @@ pub enum Image<V> {
     PointSquare(Vector<V>, Multilinear<V>),
     /// A direction.
     Direction(Vector<V>),
-    /// The normal v of a plane, and v.x of its points x.
+    /// The normal v of a plane, and v.x for the points x of the plane.
     Plane(Vector<V>, Multilinear<V>),
-    /// The direction v of a line, and x cross v of its points x.
+    /// The direction v of a line, and x cross v for its points x.
     Line(Vector<V>, Vector<V>),
 }
 
-/// The value of `relation`, a polynomial in the joints that `assignment` leaves unknown: zero where the loop is closed.
+/// The value of `relation`: a polynomial in the unknown joints of `assignment`, which is zero where the loop is closed.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when the objects do not fit the measure, a joint occurs twice in a word, or the assignment has other
-/// joints than the mechanism.
+/// [`ErrorKind::BadValue`] if the objects do not fit the measure, a joint occurs twice in a word, or the assignment has another number of joints than the
+/// mechanism.
 pub fn evaluate<A: Arithmetic>(
     mechanism: &Mechanism,
     relation: &Relation,
@@ -51,7 +51,7 @@ pub fn evaluate<A: Arithmetic>(
     Ok(left.sub(&right, arithmetic))
 }
 
-/// `measure(fixed, word moved)`, one side of `relation`.
+/// `measure(fixed, word moved)`: one side of `relation`.
 ///
 /// # Errors
 /// As [`evaluate`].
@@ -65,7 +65,7 @@ pub fn evaluate_side<A: Arithmetic>(
     Evaluation { mechanism, assignment, arithmetic }.side(relation, word)
 }
 
-/// The image of `object` under `word`, with what `measure` needs.
+/// The image of `object` under `word`, with the additional data for `measure`.
 ///
 /// # Errors
 /// As [`evaluate`].
@@ -95,10 +95,10 @@ struct Motion<'a, V> {
     rotation: Rotation<'a, V>,
 }
 
-/// R.
+/// The rotation R of a motion.
 enum Rotation<'a, V> {
     Identity,
-    /// About an axis vector, by the angle of a joint; the other way round when inverse.
+    /// The rotation about an axis vector by the angle of a joint, in the opposite direction if inverse.
     Axis {
         axis: &'a ExactVector,
         dual: &'a ExactVector,
@@ -146,7 +146,7 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
         Ok(())
     }
 
-    /// The object itself, with what its measure needs.
+    /// The object itself, with the additional data for its measure.
     fn start(&mut self, object: &Object, measure: Measure) -> Image<A::Value> {
         match (object, measure) {
             (Object::Point(point), Measure::Distance) => {
@@ -169,7 +169,7 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
         }
     }
 
-    /// The invariant of what is fixed and of a moved image.
+    /// The invariant of the fixed object and the image of the moved one.
     fn measure(&mut self, measure: Measure, fixed: &Object, image: &Image<A::Value>) -> Result<Multilinear<A::Value>> {
         match (measure, fixed, image) {
             (Measure::Angle, Object::Direction(a), Image::Direction(x))
@@ -314,7 +314,7 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
                 let body = columns.each_ref().map(|row| self.dot_values(row, v));
                 mechanism.tip_rotation().each_ref().map(|row| self.dot_number(row, &body))
             }
-            // The other tasks know too little for the inverse, and their relations do not use it.
+            // For other tasks the inverse is undefined, and their relations do not use it.
             Rotation::TargetInverse(_) => std::array::from_fn(|_| Multilinear::zero()),
         }
     }
@@ -322,10 +322,10 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
     fn target_rotation(&mut self, turn: &Turn<A::Value>, v: &Vector<A::Value>) -> Vector<A::Value> {
         let mechanism = self.mechanism;
         match turn {
-            // Only the tip itself is carried, whose arm is zero.
+            // Only the tip itself is transformed; its vector from the tip is zero.
             Turn::Nothing => std::array::from_fn(|_| Multilinear::zero()),
             Turn::Direction(aim) => {
-                // Only multiples of the direction are carried: v = k a with k = a.v / a.a.
+                // Only multiples of the direction are transformed: v = k a with k = a.v / a.a.
                 let own = mechanism.aim();
                 let factor = self.dot_number(&vector::scale(own, &vector::dot(own, own).recip()), v);
                 aim.each_ref().map(|entry| self.times_value(&factor, entry))
@@ -338,7 +338,7 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
         }
     }
 
-    /// The part of `v` along the axis, the part across it, and w cross v.
+    /// The component of `v` along the axis, the component perpendicular to it, and w cross v.
     fn split(&mut self, axis: &ExactVector, dual: &ExactVector, v: &Vector<A::Value>) -> [Vector<A::Value>; 3] {
         let share = self.dot_number(dual, v);
         let along = axis.each_ref().map(|entry| share.scale(entry, self.arithmetic));

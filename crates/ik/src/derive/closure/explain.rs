@@ -1,4 +1,4 @@
-//! Relations in words and formulas, as a student reads them.
+//! Relations as text and formulas, written for students.
 
 use std::fmt;
 
@@ -12,7 +12,8 @@ use groebot_algebra::number::{BigRational, Rationals, Ring, Style};
 use groebot_algebra::poly::{Order, PolynomialRing};
 use groebot_robot::kinematics::ExactVector;
 
-/// `|E3 (0, 1, 0) - (0, 0, 0.29)|^2 = |G (0, 1, 0) - (0, 0, 0.29)|^2`, `(0, 0, 1) . E2 (1, 0, 0) = ...`; of a joint that follows, `c4 by c2, s2`.
+/// Text such as `|E3 (0, 1, 0) - (0, 0, 0.29)|^2 = |G (0, 1, 0) - (0, 0, 0.29)|^2` or `(0, 0, 1) . E2 (1, 0, 0) = ...`. For a joint that follows another one:
+/// `c4 by c2, s2`.
 impl fmt::Display for Relation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some([follower, leader, unknown]) = self.followed() {
@@ -51,7 +52,7 @@ impl Relation {
         }
     }
 
-    /// Of a joint that follows another one, the law as an equation: `c3 = c2^2 - s2^2`.
+    /// The law of a joint that follows another one, as an equation such as `c3 = c2^2 - s2^2`. `None` for other relations.
     pub fn law(&self, mechanism: &Mechanism) -> Option<String> {
         let [follower, leader, unknown] = self.followed()?;
         let coupling = mechanism.joints().get(follower)?.coupling.as_ref()?;
@@ -70,7 +71,7 @@ impl Relation {
         Some(format!("{} = {text}", names(follower)[unknown % 2]))
     }
 
-    /// What it says, in words: which joints leave what in place.
+    /// The geometric statement as text, with the joints under which each object is invariant.
     pub fn meaning(&self, mechanism: &Mechanism) -> String {
         if let Some([follower, leader, _]) = self.followed() {
             let [name, other] = [follower, leader].map(|joint| &mechanism.joints()[joint].name);
@@ -101,8 +102,7 @@ impl Relation {
         format!("{what} {}, and {}", name(&self.fixed, &run), name(&self.moved, &tail))
     }
 
-    /// The joints that do not occur: those of the run, which leave the fixed object in place, and those of the tail, which leave the
-    /// moved one in place.
+    /// The joints that do not occur: those of the run, under which the fixed object is invariant, and those of the tail for the moved object.
     pub fn cancelled(&self, mechanism: &Mechanism) -> [Vec<usize>; 2] {
         let stays = |place: &usize, object: &Object| leaves(&mechanism.joints()[*place], object, self.measure);
         let places = |word: &[Letter]| word.iter().filter_map(|letter| letter.joint()).collect::<Vec<_>>();
@@ -139,13 +139,13 @@ fn leave(joints: &[usize]) -> String {
     }
 }
 
-/// `(0.1, 0, -1)`.
+/// A vector as text, such as `(0.1, 0, -1)`.
 pub(crate) fn show(vector: &ExactVector) -> String {
     let [x, y, z] = vector.each_ref().map(number);
     format!("({x}, {y}, {z})")
 }
 
-/// A decimal where it is short, else a fraction, else a rounded decimal.
+/// A decimal if it is short, else a fraction if it is short, else a rounded decimal.
 fn number(q: &BigRational) -> String {
     let exact = [Style::Decimal, Style::Text].map(|style| Rationals.format(q, style));
     match exact.into_iter().find(|text| text.len() <= 16) {

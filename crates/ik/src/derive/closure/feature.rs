@@ -1,27 +1,27 @@
-//! What joints in a row leave in place: points on all their axes, directions that they share, planes that they move in.
+//! The invariants of neighbouring joints: points on all their axes, common directions, planes in which they move.
 
 use super::mechanism::ScrewJoint;
 use super::relation::{Measure, Object};
 use super::vector;
 use groebot_robot::kinematics::ExactVector;
 
-/// What a row of joints leaves in place.
+/// The invariants of a row of neighbouring joints.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Features {
-    /// Points: the only one, or one of a common axis.
+    /// The invariant point, or one point of a common axis.
     points: Vec<ExactVector>,
-    /// Directions, a basis of them.
+    /// A basis of the invariant directions.
     directions: Vec<ExactVector>,
-    /// Normals of planes, each of which is moved into itself: a basis of them.
+    /// A basis of the normals of planes that are mapped to themselves.
     normals: Vec<ExactVector>,
-    /// The common axis: a point of it and its direction.
+    /// The common axis: one of its points and its direction.
     line: Option<(ExactVector, ExactVector)>,
-    /// A point for planes to go through.
+    /// A point of the planes.
     anchor: ExactVector,
 }
 
 impl Features {
-    /// The features of a row of joints; where there is a choice of directions, they suit the joint with the axis `beside`.
+    /// The invariants of a row of joints. If there is a choice of directions, they are adapted to the joint with the axis `beside`.
     pub fn of(row: &[&ScrewJoint], beside: &ExactVector) -> Self {
         let turns: Vec<&ScrewJoint> = row.iter().copied().filter(|joint| joint.is_revolute()).collect();
         let slides: Vec<&ScrewJoint> = row.iter().copied().filter(|joint| !joint.is_revolute()).collect();
@@ -39,19 +39,19 @@ impl Features {
         }
     }
 
-    /// An empty row leaves everything in place: directions that suit the joint with the axis `beside`, and `points`.
+    /// The invariants of an empty row, which keeps everything fixed: directions adapted to the joint with the axis `beside`, and `points`.
     pub fn of_nothing(beside: &ExactVector, points: Vec<ExactVector>) -> Self {
         let frame = vector::frame(beside).to_vec();
         let anchor = points.first().cloned().unwrap_or_else(vector::zero);
         Features { directions: frame.clone(), normals: frame, points, line: None, anchor }
     }
 
-    /// Whether nothing stays.
+    /// Whether there are no invariants.
     pub fn is_empty(&self) -> bool {
         self.points.is_empty() && self.directions.is_empty() && self.normals.is_empty()
     }
 
-    /// Every measure of something fixed by this row and something moved that `tail` leaves in place.
+    /// All measures between an invariant of this row, fixed, and an invariant of `tail`, moved.
     pub fn pairs(&self, tail: &Features) -> Vec<(Measure, Object, Object)> {
         let each = |measure, fixed: &[Object], moved: &[Object]| -> Vec<(Measure, Object, Object)> {
             let with = |a: &Object| moved.iter().map(|b| (measure, a.clone(), b.clone())).collect::<Vec<_>>();
@@ -74,7 +74,7 @@ impl Features {
     }
 }
 
-/// Whether the joint leaves `object`, as `measure` sees it, in place.
+/// Whether the value that `measure` uses of `object` is invariant under the joint.
 pub fn leaves(joint: &ScrewJoint, object: &Object, measure: Measure) -> bool {
     let along = |direction: &ExactVector| vector::parallel(&joint.axis, direction);
     let across = |direction: &ExactVector| vector::dot(&joint.axis, direction) == Default::default();
@@ -92,13 +92,13 @@ pub fn leaves(joint: &ScrewJoint, object: &Object, measure: Measure) -> bool {
     }
 }
 
-/// The point through which the axes of all `joints` go, the first joint's when they are the same line; `None` when a joint slides.
+/// The common point of the axes of all `joints`: the first joint's point if they are all one line. `None` if a joint is prismatic.
 pub fn common_point_of(joints: &[ScrewJoint]) -> Option<ExactVector> {
     let turns: Vec<&ScrewJoint> = joints.iter().filter(|joint| joint.is_revolute()).collect();
     if turns.len() == joints.len() { common_point(&turns) } else { None }
 }
 
-/// The point of all axes: the only one, or the first joint's when all are the same line.
+/// The common point of all axes: the intersection, or the first joint's point if they are all one line.
 fn common_point(turns: &[&ScrewJoint]) -> Option<ExactVector> {
     let first = turns.first()?;
     let other = turns.iter().find(|joint| !vector::parallel(&joint.axis, &first.axis));
@@ -129,7 +129,7 @@ fn shared_directions(turns: &[&ScrewJoint], beside: &ExactVector) -> Vec<ExactVe
     }
 }
 
-/// Directions along all turning axes and across all sliding ones.
+/// Directions along all revolute axes and perpendicular to all prismatic ones.
 fn normals(turns: &[&ScrewJoint], slides: &[&ScrewJoint], beside: &ExactVector) -> Vec<ExactVector> {
     let candidates = match (turns, slides) {
         ([first, ..], _) => vec![first.axis.clone()],
@@ -146,7 +146,7 @@ fn normals(turns: &[&ScrewJoint], slides: &[&ScrewJoint], beside: &ExactVector) 
     candidates.into_iter().filter(stays).collect()
 }
 
-/// Two directions across `axis`, the first of them also across `beside`.
+/// Two directions perpendicular to `axis`, the first of them also perpendicular to `beside`.
 fn across(axis: &ExactVector, beside: &ExactVector) -> Vec<ExactVector> {
     let first = match vector::cross(axis, beside) {
         cross if vector::is_zero(&cross) => vector::perpendicular(axis),

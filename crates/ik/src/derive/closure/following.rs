@@ -9,10 +9,10 @@ use super::mechanism::Mechanism;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
-/// An unknown of the joint `follower` less what the law by which it follows `leader` gives for it: the numbers of [`super::Relation::followed`].
+/// An unknown of the joint `follower` minus its value by the law of `leader`. The numbers are those of [`super::Relation::followed`].
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when it does not follow, or by a law that is not linear in a leader that is unknown.
+/// [`ErrorKind::BadValue`] if the joint does not follow, or if the leader is unknown and the law is not linear.
 pub(super) fn follow<A: Arithmetic>(
     mechanism: &Mechanism,
     [follower, leader, unknown]: [usize; 3],
@@ -41,7 +41,7 @@ pub(super) fn follow<A: Arithmetic>(
     Ok(own.sub(&law.ok_or_else(unfit)?, arithmetic))
 }
 
-/// The entry of a known law.
+/// An entry of a law with known values.
 fn known<A: Arithmetic>(values: Vec<A::Value>, place: usize, arithmetic: &A) -> Option<Multilinear<A::Value>> {
     values.into_iter().nth(place).map(|value| Multilinear::constant(value, arithmetic))
 }
@@ -63,13 +63,13 @@ fn linear<A: Arithmetic>(coupling: &Coupling, unknown: usize, arithmetic: &mut A
     })
 }
 
-/// One unknown.
+/// The polynomial that is one unknown.
 fn unit<A: Arithmetic>(factor: Factor, arithmetic: &mut A) -> Multilinear<A::Value> {
     let one = arithmetic.rational(&BigRational::one());
     Multilinear::constant(one, arithmetic).times_unknown(factor, arithmetic)
 }
 
-/// An unknown of a joint by its number.
+/// The unknown of a joint with this number.
 fn factor(joint: usize, unknown: usize) -> Factor {
     match unknown {
         0 => Factor::Cosine(joint),

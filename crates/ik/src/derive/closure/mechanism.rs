@@ -1,4 +1,4 @@
-//! A chain as exact screws with its task: what relations are made of. Main type: [`Mechanism`].
+//! A chain as exact screws, with its task. It is the input for relations. Main type: [`Mechanism`].
 
 use super::coupling::Coupling;
 use super::relation::Relation;
@@ -9,28 +9,28 @@ use groebot_robot::document::shown;
 use groebot_robot::kinematics::upright::Upright;
 use groebot_robot::kinematics::{Chain, ExactMatrix, ExactVector, Joint, JointKind, Mimic, TargetNumber, Task};
 
-/// A joint's screw in the base frame at the zero configuration. A revolute joint has the unknowns c, the cosine of its angle, and
-/// s' = s / |w|; a prismatic one d' = d / |w|: so no root enters the algebra.
+/// A joint's screw in the base frame in the zero configuration. A revolute joint has the unknowns c, the cosine of its angle, and s' = s / |w|. A prismatic
+/// joint has d' = d / |w|. So the algebra needs no square root.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ScrewJoint {
     /// The name of the joint.
     pub name: String,
-    /// What follows c, s or d in the names of its unknowns.
+    /// The suffix after c, s or d in the names of its unknowns.
     pub symbol: String,
-    /// How it moves.
+    /// The type of the joint.
     pub kind: JointKind,
-    /// w: along the axis; of length one where that is rational, else of coprime integers while they are short.
+    /// w, along the axis. Its length is one if that is rational; otherwise w consists of coprime integers unless they are long.
     pub axis: ExactVector,
     /// |w|^2, so that c^2 + |w|^2 s'^2 = 1.
     pub square: BigRational,
     /// o: a point of the axis.
     pub point: ExactVector,
-    /// The place of the joint that it follows, the factor and the summand.
+    /// If the joint follows another one: the index of that joint, the factor and the offset.
     pub follows: Option<(usize, [f64; 2])>,
-    /// The same as an exact law, where its leader is not given.
+    /// The same law in exact form, if the leader is not given.
     pub coupling: Option<Coupling>,
-    /// The limits of a slide, if it has two, in the chain's unit.
+    /// The limits of a prismatic joint, if it has both, in the chain's unit.
     pub travel: Option<(f64, f64)>,
     /// w / |w|^2.
     pub(super) dual: ExactVector,
@@ -52,20 +52,20 @@ impl ScrewJoint {
         ScrewJoint { travel, ..ScrewJoint::new(&joint.name, &joint.symbol, joint.kind, &joint.axis, &joint.point) }
     }
 
-    /// Whether it turns.
+    /// Whether the joint is revolute.
     pub fn is_revolute(&self) -> bool {
         self.kind == JointKind::Revolute
     }
 }
 
-/// A chain as exact screws, what is asked of its tip, and which joints the user gives.
+/// A chain as exact screws, with its task and the joints that the user gives.
 ///
-/// With T the pose asked for and M that of the tip at zero, the loop is E1 ... En = G, where G = T M^-1 moves the whole body from
-/// where it is at zero (RH0 2-20).
+/// Let T be the target pose and M the pose of the tip in the zero configuration. The loop is E1 ... En = G, where G = T M^-1 moves the last body from its zero
+/// pose to the target (RH0 2-20).
 ///
-/// A ray does not say how the tip is turned about it. Any turn is chosen, which makes the ray a pose, and a joint behind the last one,
-/// [`Mechanism::hidden`], turns the tip about the ray from where the chain brings it: so the turn is an unknown like the others, and
-/// where the axes behind a point are known but for it, its sphere is met by a circle.
+/// A ray does not specify the rotation of the tip about it. An arbitrary rotation makes the ray a pose. An additional joint after the last one,
+/// [`Mechanism::hidden`], rotates the tip about the ray, so that this angle is an unknown like the others. If it is
+/// the only unknown after a point of the chain, that point moves on a circle, and the joints before it constrain it to a sphere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mechanism {
     joints: Vec<ScrewJoint>,
@@ -74,13 +74,13 @@ pub struct Mechanism {
     aim: ExactVector,
     task: Task,
     given: Vec<usize>,
-    /// Motions of the tip that the task does not see, as joints behind the last one.
+    /// Motions of the tip that the task does not constrain, as joints after the last one.
     unseen: Vec<ScrewJoint>,
-    /// What the joints are of, where they are the loop of the task `position_pitch_roll`.
+    /// The chain and its loop for the task `position_pitch_roll`; the joints are then those of the loop.
     upright: Option<Box<Standing>>,
 }
 
-/// The loop of a [chain that stands upright](Chain::upright), as a mechanism with a target that never changes.
+/// The loop of a [chain with a vertical first axis](Chain::upright), as a mechanism with a constant target.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Standing {
@@ -91,10 +91,10 @@ pub struct Standing {
 }
 
 impl Mechanism {
-    /// The mechanism of `chain`, with its task and the joints that it gives.
+    /// The mechanism of `chain`, with its task and given joints.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a given joint that the chain has not; as [`Chain::check_leaders`].
+    /// [`ErrorKind::BadValue`] for a given joint that the chain does not have; as [`Chain::check_leaders`].
     pub fn new(chain: &Chain) -> Result<Self> {
         if chain.task() != Task::PositionPitchRoll {
             return Mechanism::of_chain(chain);
@@ -107,7 +107,7 @@ impl Mechanism {
         Ok(Mechanism { task: Task::PositionPitchRoll, given, upright: standing, ..closed })
     }
 
-    /// The mechanism of `chain` itself, whatever its task: what forward kinematics takes.
+    /// The mechanism of `chain` itself, without the loop of its task, for forward kinematics.
     ///
     /// # Errors
     /// As [`Chain::check_leaders`].
@@ -115,7 +115,7 @@ impl Mechanism {
         Mechanism::of_joints(chain)?.with_given(&chain.given())
     }
 
-    /// The mechanism of the joints of `chain`, none of them given.
+    /// The mechanism of the joints of `chain`, without given joints.
     fn of_joints(chain: &Chain) -> Result<Self> {
         chain.check_leaders()?;
         let plain: Vec<ScrewJoint> = chain.joints().iter().map(ScrewJoint::of).collect();
@@ -128,7 +128,7 @@ impl Mechanism {
             }
         }
         let task = chain.task();
-        // The angle of a planar pose is counted from the zero configuration, and so are the turns about a ray and about an axis.
+        // The angle of a planar pose is relative to the zero configuration. So are the angles about a ray and about an axis.
         let tip_rotation = match task {
             Task::PlanarPose { .. } | Task::Ray | Task::PositionYaw { .. } => vector::identity(),
             _ => chain.tip().rotation.clone(),
@@ -143,10 +143,10 @@ impl Mechanism {
         Ok(Mechanism { joints, tip_point, tip_rotation, aim, task, given: Vec::new(), unseen, upright: None })
     }
 
-    /// The same mechanism with these joints, by their places, given by the user, and those that follow them.
+    /// Same mechanism, but with these joints (indices) given by the user, together with those that follow them.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a place beyond the last joint.
+    /// [`ErrorKind::BadValue`] for an index beyond the last joint.
     pub fn with_given(mut self, given: &[usize]) -> Result<Self> {
         match &self.upright {
             None => {}
@@ -169,7 +169,7 @@ impl Mechanism {
         Ok(self)
     }
 
-    /// The joints from base to tip, [`Mechanism::hidden`] behind them.
+    /// The joints from base to tip, then [`Mechanism::hidden`].
     pub fn joints(&self) -> &[ScrewJoint] {
         &self.joints
     }
@@ -182,7 +182,7 @@ impl Mechanism {
         }
     }
 
-    /// The chain itself and the loop that these joints are of, for the task `position_pitch_roll`.
+    /// The chain itself and the loop of these joints, for the task `position_pitch_roll`.
     pub fn standing(&self) -> Option<&Standing> {
         self.upright.as_deref()
     }
@@ -192,60 +192,61 @@ impl Mechanism {
         self.standing().map_or(self, |standing| &standing.plain)
     }
 
-    /// The place of the joint that turns the tip about its ray, behind the last one, or about the vertical, when the task leaves that turn open.
-    /// Its angle is found with the others and is no part of an answer.
+    /// The index of the hidden joint, if the task leaves a rotation of the tip open. It rotates the tip about the ray, after the last joint, or about the
+    /// vertical. Its angle is found with the others but is not part of a solution.
     pub fn hidden(&self) -> Option<usize> {
         match self.task {
             Task::Ray => Some(self.joints.len() - 1),
-            // Behind it are the radius, the height and the first joint.
+            // After it come the radius, the height and the first joint.
             Task::PositionPitchRoll => self.upright.as_ref().map(|_| self.joints.len() - 4),
             _ => None,
         }
     }
 
-    /// The origin of the tip at zero, in the base frame.
+    /// The origin of the tip in the zero configuration, in the base frame.
     pub fn tip_point(&self) -> &ExactVector {
         &self.tip_point
     }
 
-    /// The rotation of the tip at zero, base_from_tip; for a planar pose, a ray and an angle about an axis, whose turns are counted from there, the identity.
+    /// The rotation of the tip in the zero configuration, base_from_tip. It is the identity for a planar pose, a ray and an angle about an axis, whose angles
+    /// are relative to the zero configuration.
     pub fn tip_rotation(&self) -> &ExactMatrix {
         &self.tip_rotation
     }
 
-    /// The direction that the tasks `ray` and `direction` aim, at zero in the base frame: of length one where that is rational, else
-    /// of coprime integers while they are short. The parameters dx, dy, dz of the relations are a vector of *this* length.
+    /// The direction that the tasks `ray` and `direction` orient, in the zero configuration and the base frame. Its length is one if that is rational;
+    /// otherwise it consists of coprime integers unless they are long. The parameters dx, dy, dz of the relations are a vector of *this* length.
     pub fn aim(&self) -> &ExactVector {
         &self.aim
     }
 
-    /// What is asked of the tip.
+    /// The task of the tip.
     pub fn task(&self) -> Task {
         self.task
     }
 
-    /// What relations see of the tip: what is asked, and of a ray the pose with the turn that is chosen.
+    /// The task that relations use: the pose for a ray and for `position_pitch_roll`, else the task itself.
     pub fn seen(&self) -> Task {
         if matches!(self.task, Task::Ray | Task::PositionPitchRoll) { Task::Pose } else { self.task }
     }
 
-    /// The places of the joints that the user gives, ascending.
+    /// The indices of the joints that the user gives, ascending.
     pub fn given(&self) -> &[usize] {
         &self.given
     }
 
-    /// The places of the joints that are not given, ascending, that of the hidden one too.
+    /// The indices of the joints that are not given, ascending, including the hidden one.
     pub fn unknown(&self) -> Vec<usize> {
         (0..self.joints.len()).filter(|joint| !self.given.contains(joint)).collect()
     }
 
-    /// The places of the joints that follow others and are not given, ascending, each with its law.
+    /// The indices of the joints that follow others and are not given, ascending, each with its law.
     pub fn followers(&self) -> Vec<(usize, &Coupling)> {
         let coupled = |place: usize| self.joints[place].coupling.as_ref().map(|coupling| (place, coupling));
         self.unknown().into_iter().filter_map(coupled).collect()
     }
 
-    /// The number of joints that are not given and follow no other, the hidden one too.
+    /// The number of joints that are not given and follow no other, including the hidden one.
     pub fn independent(&self) -> usize {
         self.unknown().len() - self.followers().len()
     }
@@ -258,30 +259,29 @@ impl Mechanism {
         self.followers().into_iter().flat_map(each).collect()
     }
 
-    /// Whether the task asks for no more numbers than there are independent joints.
+    /// Whether the task has at most as many numbers as there are independent joints.
     pub fn is_tight(&self) -> bool {
         self.seen().freedoms() <= self.independent()
     }
 
-    /// Whether the steps of a plan must have as many solutions as the loop. Where more is asked than the joints can do, or joints follow others,
-    /// steps may have more: what they leave out is measured at run time.
+    /// Whether the steps of a plan must have as many solutions as the loop. If the task asks for more than the joints can do, or joints follow others, steps
+    /// may have more. The unused equations are then evaluated at run time.
     pub fn counts_exactly(&self) -> bool {
         self.is_tight() && self.followers().is_empty()
     }
 
-    /// The motions that relations do not see, as joints behind the tip: for a position all turns about the tip's point, and so on.
+    /// The motions that the task does not constrain, as joints after the tip. For a position these are all rotations about the tip's point.
     pub(super) fn unseen(&self) -> &[ScrewJoint] {
         &self.unseen
     }
 
-    /// The names of the numbers of the target that relations hold, in the order of [`super::Target::new`]: px, py, pz, r11 ... r33 and
-    /// so on.
+    /// The names of the target's numbers in relations, in the order of [`super::Target::new`]: px, py, pz, r11 ... r33 and so on.
     pub fn parameters(&self) -> Vec<String> {
         numbers(self.seen())
     }
 }
 
-/// The law by which a joint follows another one, which is at the place `leader`.
+/// The law by which a joint follows the joint at index `leader`.
 fn coupling([joint, other]: [&ScrewJoint; 2], leader: usize, mimic: &Mimic) -> Result<Coupling> {
     let turn = [joint, other].map(ScrewJoint::is_revolute);
     Coupling::new(leader, turn, [&joint.square, &other.square], mimic).ok_or_else(|| {
@@ -304,13 +304,13 @@ fn numbers(task: Task) -> Vec<String> {
     task.layout().numbers().iter().flat_map(names).collect()
 }
 
-/// A symbol that no joint has.
+/// A symbol that no joint uses.
 fn hidden_symbol(joints: &[ScrewJoint]) -> String {
     let is_free = |symbol: &String| !joints.iter().any(|joint| joint.symbol == *symbol);
     ["r", "ray"].map(String::from).into_iter().chain((0..).map(|k| format!("ray{k}"))).find(is_free).unwrap_or_default()
 }
 
-/// The motions of the tip that `task` does not see, as joints behind the last one.
+/// The motions of the tip that `task` does not constrain, as joints after the last one.
 fn unseen(task: Task, tip: &ExactVector, aim: &ExactVector) -> Vec<ScrewJoint> {
     let joint = |kind, axis: &ExactVector| ScrewJoint::new("", "", kind, axis, tip);
     let every = |kind| (0..3).map(move |k| joint(kind, &vector::unit(k)));

@@ -1,9 +1,12 @@
-//! The closure of a serial chain's loop, exactly: its screws ([`Mechanism`]), the rigid-motion invariants that hold around it
-//! ([`Relation`], [`Mechanism::relations`]), their values as polynomials in the unknown joints ([`evaluate()`]) and the proof that each
-//! lies in the ideal of the inverse kinematics ([`prove()`]).
+//! The exact closure of a serial chain's loop.
 //!
-//! J. M. Selig, *Geometric Fundamentals of Robotics*, 2nd ed. (2005), chapters 4-6: motions as group elements and their invariants;
-//! D. L. Pieper, *The kinematics of manipulators under computer control* (1968): distances and components in which joints cancel.
+//! * [`Mechanism`]: its screws.
+//! * [`Relation`], [`Mechanism::relations`]: the invariants of rigid motions that hold around the loop.
+//! * [`evaluate()`]: their values as polynomials in the unknown joints.
+//! * [`prove()`]: the proof that each is in the ideal of the inverse kinematics.
+//!
+//! J. M. Selig, *Geometric Fundamentals of Robotics*, 2nd ed. (2005), chapters 4-6: motions as group elements and their invariants. D. L. Pieper, *The
+//! kinematics of manipulators under computer control* (1968): distances and components in which joints cancel.
 
 mod arithmetic;
 mod assignment;

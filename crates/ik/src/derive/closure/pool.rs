@@ -1,4 +1,4 @@
-//! All relations of a loop: every way to cut it as run . A . tail . B, with all that the run and the tail leave in place.
+//! All relations of a loop: every cut of it as run . A . tail . B, with all invariants of the run and the tail.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -10,17 +10,17 @@ use super::vector;
 use groebot_robot::kinematics::ExactVector;
 
 impl Mechanism {
-    /// The relations of joints that follow others, then those of the loop, each once, those with few joints first.
+    /// The relations of joints that follow others, then those of the loop. Each occurs once, and those with few joints come first.
     ///
-    /// For each thing that stays in place only the longest run and tail are taken: the others give the same polynomials. An
-    /// empty run or tail leaves everything in place; three directions adapted to the joint beside it are taken.
+    /// For each invariant only the longest run and tail are used; shorter ones give the same polynomials. An empty run or tail keeps everything fixed; three
+    /// directions adapted to the neighbouring joint are used for it.
     pub fn relations(&self) -> Vec<Relation> {
         let count = self.joints().len();
         let ranges = |from: usize| (from..=count).flat_map(move |start| (start..=count).map(move |end| start..end));
         let mut relations = Vec::new();
         let mut tails = HashMap::new();
         for run in ranges(0) {
-            // Whether there are joints between the run and the tail decides which joint is beside the run.
+            // The neighbour of the run depends on whether there are joints between the run and the tail.
             let fixed = [false, true].map(|between| self.run_features(&run, between));
             for tail in ranges(run.end) {
                 let between = run.end < tail.start;
@@ -39,7 +39,7 @@ impl Mechanism {
         self.joints()[range.clone()].iter().collect()
     }
 
-    /// What the run leaves in place; `between` says whether joints stand between it and the tail.
+    /// The invariants of the run. `between` is whether there are joints between it and the tail.
     fn run_features(&self, run: &Range<usize>, between: bool) -> Features {
         let next = Some(run.end).filter(|&next| between && next < self.joints().len());
         let beside = self.axis(next.or(run.start.checked_sub(1)));
@@ -49,7 +49,7 @@ impl Mechanism {
         }
     }
 
-    /// What the tail leaves in place, together with the motions that the task does not see.
+    /// The invariants of the tail, including the motions that the task does not constrain.
     fn tail_features(&self, tail: &Range<usize>, between: bool) -> Features {
         let count = self.joints().len();
         let mut row = self.row(tail);
@@ -69,7 +69,7 @@ impl Mechanism {
     }
 }
 
-/// Each relation once, those with few joints and short words first.
+/// The relations without duplicates. Those with few joints and short words come first.
 fn sorted(mut relations: Vec<Relation>) -> Vec<Relation> {
     relations.sort_by_cached_key(|relation| {
         let letters = relation.left.0.len() + relation.right.0.len();
@@ -85,7 +85,7 @@ fn sorted(mut relations: Vec<Relation>) -> Vec<Relation> {
     unique
 }
 
-/// A run and a tail behind it. The arc between them holds no target; the other arc does.
+/// A run and a tail after it. The arc between them does not contain the target; the other arc does.
 struct Cut<'a> {
     mechanism: &'a Mechanism,
     run: Range<usize>,
@@ -93,8 +93,7 @@ struct Cut<'a> {
 }
 
 impl Cut<'_> {
-    /// Adds what this cut says. What the task does not see stands behind the last joint and belongs to the tail; sliding does not
-    /// act on directions.
+    /// Adds the relations of this cut. Unconstrained motions come after the last joint and belong to the tail. Prismatic joints do not change directions.
     fn relate(&self, fixed: &Features, moved: &Features, relations: &mut Vec<Relation>) {
         let unseen = self.mechanism.unseen();
         let behind = self.tail.end < self.mechanism.joints().len();
@@ -109,7 +108,7 @@ impl Cut<'_> {
         }
     }
 
-    /// Whether neither the run nor the tail can be made longer.
+    /// Whether neither the run nor the tail can be extended.
     fn is_widest(&self, measure: Measure, fixed: &Object, moved: &Object) -> bool {
         let joints = self.mechanism.joints();
         let stays = |place: usize, object: &Object| leaves(&joints[place], object, measure);
@@ -120,7 +119,7 @@ impl Cut<'_> {
         !(run || tail)
     }
 
-    /// The relation, unless it says nothing: letters that cannot change a direction are left out.
+    /// The relation, unless it is trivial. Letters that cannot change a direction are removed.
     fn relation(&self, measure: Measure, fixed: Object, moved: Object) -> Option<Relation> {
         let joints = self.mechanism.joints();
         let turns = |letter: &Letter| {

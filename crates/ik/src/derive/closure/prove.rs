@@ -1,10 +1,11 @@
 //! The proof that a relation is in the ideal of the loop.
 //!
-//! {G_ij - (E1 ... En)_ij, c_i^2 + |w_i|^2 s'_i^2 - 1} is a Groebner basis in an order with the entries of G first and c_i before s'_i:
-//! its leading terms are coprime. So a polynomial is in the ideal exactly when substituting G := E1 ... En and reducing the squares of
-//! the cosines gives zero. In a word, E E^-1 = 1 holds modulo the circle, so neighbours cancel before anything is multiplied out; each
-//! joint is then left once at most, and the multilinear polynomial is its own normal form. Where joints follow others, these laws are generators too:
-//! what is in the ideal without them is in it with them.
+//! {G_ij - (E1 ... En)_ij, c_i^2 + |w_i|^2 s'_i^2 - 1} is a Groebner basis in an order with the entries of G first and c_i before s'_i, because its leading
+//! terms are coprime. So a polynomial is in the ideal exactly if it becomes zero after the substitution G := E1 ... En and the reduction of the squares of the
+//! cosines.
+//!
+//! In a word, E E^-1 = 1 holds modulo the circle, so neighbours cancel before any multiplication. Each joint then occurs at most once, and the multilinear
+//! polynomial is its own normal form. The laws of joints that follow others are additional generators, which only enlarge the ideal.
 
 use super::arithmetic::Exact;
 use super::assignment::{Assignment, JointValue, Target, Turn};
@@ -15,11 +16,11 @@ use super::relation::{Letter, Measure, Relation, Word};
 use super::vector;
 use crate::{Error, ErrorKind, Result};
 
-/// Proves over Q that `relation` is in the ideal of the loop, and that it asks of the target only what the task sees: that it holds wherever the
+/// Proves over Q that `relation` is in the ideal of the loop, and that it uses only those parts of the target that the task specifies. So it holds wherever the
 /// joints reach the target.
 ///
 /// # Errors
-/// [`ErrorKind::Certificate`] when it is not; as [`evaluate`] when it is no relation of the mechanism.
+/// [`ErrorKind::Certificate`] if the proof fails; as [`evaluate`] if it is not a relation of the mechanism.
 pub fn prove(mechanism: &Mechanism, relation: &Relation) -> Result<()> {
     if relation.measure == Measure::Follow {
         return if mechanism.couplings().contains(relation) {
@@ -46,8 +47,8 @@ fn refused(relation: &Relation, why: &str) -> Error {
     Error::new(ErrorKind::Certificate, format!("`{relation}` does not follow from the loop: {why}"))
 }
 
-/// Whether a relation is the same at all targets that differ by what the task does not see of them, which are motions U behind the last joint: G U in the
-/// place of G. That is so where each U leaves what is moved in place, or where only directions count and U turns nothing.
+/// Whether a relation has equal values at all targets that differ only by motions U that the task does not constrain: G U in place of G. This holds if the
+/// moved object is invariant under each U, or if the relation uses only directions and no U rotates.
 fn sees(mechanism: &Mechanism, relation: &Relation) -> bool {
     let unseen = mechanism.unseen();
     let turns = unseen.iter().any(ScrewJoint::is_revolute);
@@ -63,7 +64,7 @@ fn sees(mechanism: &Mechanism, relation: &Relation) -> bool {
     word(&relation.left) && word(&relation.right)
 }
 
-/// `word` with G := E1 ... En, and E E^-1 cancelled. Sliding joints do not act on directions, which is all that angles see.
+/// `word` after the substitution G := E1 ... En and the cancellation of E E^-1. For angles, prismatic joints are removed; they do not change directions.
 fn closed(mechanism: &Mechanism, measure: Measure, word: &Word) -> Word {
     let joints = mechanism.joints();
     let mut letters: Vec<Letter> = Vec::new();

@@ -1,4 +1,4 @@
-//! The stored proof of a solver of coupled chains: the certificates of the chains, in the order in which they are solved.
+//! The stored proof of a solver of coupled chains: the certificates of the chains, in the order of solution.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,11 +11,11 @@ use crate::derive::sequential::{Simultaneous, StoredSimultaneous, certificate};
 use crate::solver::Program;
 use groebot_robot::document::{Certificate, Proves};
 
-/// What is claimed about coupled chains.
+/// The claims about coupled chains.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Claims {
-    /// How the joints that two chains share are found first, where that is done.
+    /// The derivation of joints that two chains share and that are found first, if there are any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     simultaneous: Option<StoredSimultaneous>,
     chains: Vec<Proof>,
@@ -47,11 +47,11 @@ impl CoupledView<'_> {
 }
 
 impl Coupled {
-    /// Proves the solution of `coupled` anew from the text of its certificate, without search and without the Groebner engine, and composes its solver.
+    /// Proves the solution of `coupled` again from the text of its certificate, and composes its solver. It uses no search and no Groebner engine.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Syntax`] with the line for text that is no certificate; [`crate::ErrorKind::Certificate`] with the chain, the step
-    /// or the form for a claim that does not hold.
+    /// [`crate::ErrorKind::Syntax`] with the line for text that is not a certificate. [`crate::ErrorKind::Certificate`] with the chain, the step or the form
+    /// for a false claim.
     pub(in crate::derive) fn prove(coupled: &CoupledChains, text: &str) -> Result<(Self, Program)> {
         let claims: Claims = Certificate::read(text, Proves::CoupledChains, &coupled.parts().name)?;
         let mut stored = claims.chains.into_iter();
@@ -64,7 +64,7 @@ impl Coupled {
         };
         let simultaneous = match (coupling(coupled)?, &claims.simultaneous) {
             (Some((sides, shared)), Some(stored)) => Some(Simultaneous::again(sides, shared, stored)?),
-            // Where no relations of shared joints fit, the chains are solved one after the other; that they do not fit, a recount tells.
+            // If no relations of shared joints fit, the chains are solved one after the other. A recount checks that none fit.
             (_, None) => None,
             _ => return Err(refused("the proof of the shared joints is missing or left over".to_owned())),
         };

@@ -1,4 +1,4 @@
-//! Why a target of several chains has no solution: [`Explanation`].
+//! The reason why a target of several chains has no solution: [`Explanation`].
 
 use std::fmt;
 
@@ -10,22 +10,22 @@ use crate::{ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Solution;
 use groebot_robot::spatial::angle;
 
-/// The chain at which a target fails.
+/// The chain at which a target fails, and the reason.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Explanation {
-    /// Its name.
+    /// The name of the chain.
     pub member: String,
-    /// In how many ways the chains before it reach their targets.
+    /// The number of solutions of the earlier chains.
     pub before: usize,
-    /// By how much the actuators that it shares would have to differ, where it reaches its target alone.
+    /// The least difference between the values that the chains need for a shared actuator, if the chain reaches its target alone.
     pub disagreement: Option<Disagreement>,
-    /// What comes nearest among the chain's own joints, with the shared joints near where one of these ways has them; none when its
-    /// equations have no real candidate at all, far out of reach.
+    /// The nearest candidate of the chain's own joints, with the shared joints near one of the earlier chains' solutions. `None` if the equations have no real
+    /// candidate, which occurs far outside the workspace.
     pub nearest: Option<Nearest>,
 }
 
-/// A shared actuator that two chains need at different values, of all their ways to reach their targets the two that differ least.
+/// A shared actuator that two chains need at different values. Of all their solutions, it is for the two that differ least.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Disagreement {
@@ -33,14 +33,14 @@ pub struct Disagreement {
     pub actuator: String,
     /// The unit of its values.
     pub unit: Unit,
-    /// Where the chain needs it, to reach its target.
+    /// The value that the chain needs to reach its target.
     pub needed: f64,
-    /// Where the chains before have it.
+    /// The value in a solution of the earlier chains.
     pub found: f64,
 }
 
 impl Disagreement {
-    /// `needed - found`, of angles the way round that is shorter.
+    /// `needed - found`. For angles it is the difference in (-pi, pi].
     pub fn off(&self) -> f64 {
         match self.unit {
             Unit::Radian => angle::difference(self.needed, self.found),
@@ -49,7 +49,7 @@ impl Disagreement {
     }
 }
 
-/// The answers of a program, none where the steps that a target may take did not lead to one: next to a target that is out of reach by little they are many.
+/// The solutions of a program. They are empty if the step limit of a target is reached, which occurs next to targets that are just out of reach.
 fn answers_of(program: &Program, target: &[f64]) -> Result<Vec<Solution>> {
     match program.solve_numbers(target) {
         Err(error) if error.kind() == ErrorKind::Budget => Ok(Vec::new()),
@@ -58,10 +58,10 @@ fn answers_of(program: &Program, target: &[f64]) -> Result<Vec<Solution>> {
 }
 
 impl CoupledView<'_> {
-    /// The first chain that does not reach its part of `target` together with those before it; none when there is a solution.
+    /// The first chain that does not reach its part of `target` together with the earlier chains. `None` if there is a solution.
     ///
     /// # Errors
-    /// As [`crate::solver::Program::solve_numbers`]; what `watch` stops with.
+    /// As [`crate::solver::Program::solve_numbers`]. The error of `watch` if it stops the derivation.
     pub fn explain(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
         if !answers_of(self.program, target)?.is_empty() {
             return Ok(None);
@@ -72,7 +72,7 @@ impl CoupledView<'_> {
         }
     }
 
-    /// Where the chains are solved one after the other.
+    /// The explanation for chains that are solved one after the other.
     fn in_turn(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
         let mut before = vec![Vec::new()];
         for stage in &self.method.stages {
@@ -94,8 +94,8 @@ impl CoupledView<'_> {
         Ok(None)
     }
 
-    /// Where the shared joints are found from both chains at once: which chain does not reach its target alone, or by how much the
-    /// two need a shared joint at different values; both chains when neither can be solved alone.
+    /// The explanation for shared joints that are found from both chains together. It names the chain that does not reach its target alone, or the difference
+    /// between the values of a shared joint. It names both chains if neither can be solved alone.
     fn together(&self, target: &[f64], watch: &Watch) -> Result<Explanation> {
         let mut before: Vec<Vec<f64>> = Vec::new();
         let mut disagreement = None;
@@ -122,8 +122,7 @@ impl CoupledView<'_> {
         })
     }
 
-    /// The solver of a chain that shares joints with those before it, as if it shared none; none where its task does not determine
-    /// them, or the user gives joints.
+    /// The solver of a chain as if it shared no joints. `None` if it shares none, if its task does not determine all its joints, or if the user gives joints.
     fn alone(&self, stage: &ChainStage, watch: &Watch) -> Result<Option<Program>> {
         let chain = &self.problem.chains()[stage.member].chain;
         let is_open = chain.joints().len() > chain.task().freedoms() || !chain.given().is_empty();
@@ -133,8 +132,8 @@ impl CoupledView<'_> {
         Ok(Some(Sequential::derive(&ChainProblem::from(chain), watch)?.1))
     }
 
-    /// How far a chain's own ways `answers` to reach its target are from the ways `before` of the chains before it, by the shared actuators;
-    /// none when there are no such ways.
+    /// The smallest difference in the shared actuators between the chain's own solutions `answers` and the solutions `before` of the earlier chains. `None` if
+    /// there are no solutions.
     fn disagreement(&self, stage: &ChainStage, before: &[Vec<f64>], answers: &[Solution]) -> Option<Disagreement> {
         let shared: Vec<usize> = stage.found().collect();
         let one = |way: &Vec<f64>, answer: &Solution, actuator: usize| Disagreement {

@@ -1,4 +1,4 @@
-//! From chains to one solver: [`Coupled`].
+//! From coupled chains to one solver: [`Coupled`].
 
 use super::model::{CoupledChain, CoupledChains, JointPlace};
 use crate::derive::closure::Mechanism;
@@ -9,27 +9,27 @@ use crate::derive::view::View;
 use crate::solver::{MAX_JOINTS, Program, TipTask};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// A chain's solution, and its place in the solver of all.
+/// The solution of one chain, and its part of the common solver.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ChainStage {
     /// Index of the chain.
     pub member: usize,
-    /// The chain, with the joints given that chains before have found.
+    /// The chain. Joints that earlier chains have found are given.
     pub problem: ChainProblem,
-    /// Its solution.
+    /// The solution of the chain.
     pub method: Sequential,
-    /// Its own solver.
+    /// The solver of this chain alone.
     pub solver: Program,
-    /// The solver of this chain and all before it.
+    /// The solver of this chain and all earlier ones.
     pub program: Program,
-    /// By joint of the chain: its place among the joints of the solver.
+    /// By joint of the chain: its index among the joints of the solver.
     pub joints: Vec<usize>,
-    /// By input of the chain's own solver: where its value comes from.
+    /// By input of the chain's own solver: the source of its value.
     pub(super) inputs: Vec<Origin>,
 }
 
-/// Where the value of a chain's input comes from.
+/// The source of the value of a chain's input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
     /// The input of the whole solver with this index.
@@ -38,30 +38,30 @@ pub(super) enum Origin {
     Joint(usize),
 }
 
-/// Gives the solution of one of the chains, and its solver.
+/// A function that returns the solution of one of the chains, and its solver.
 pub(super) type Derive<'a> = dyn FnMut(usize, &ChainProblem) -> Result<(Sequential, Program)> + 'a;
 
 /// The solution of several chains that share actuators, one chain after the other.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Coupled {
-    /// How the joints that two chains share are found first, where neither chain determines them alone.
+    /// The derivation of joints that two chains share and that neither determines alone. They are found first.
     pub simultaneous: Option<Simultaneous>,
-    /// The chains' solutions, in the order in which they are found.
+    /// The chains' solutions, in the order of solution.
     pub stages: Vec<ChainStage>,
 }
 
-/// Chains that share actuators, solved one after the other.
+/// The view of coupled chains, solved one after the other.
 pub type CoupledView<'a> = View<'a, CoupledChains, Coupled>;
 
 impl Coupled {
-    /// Orders the chains, derives each by itself with the joints given that are found before it, and composes their solvers. Of the
-    /// chains that can be solved next, the first is taken. Where none can, the joints that two chains share are found first.
+    /// Orders the chains, derives each alone with the joints given that are found before it, and composes their solvers.
+    ///
+    /// Of the chains that can be solved next, the first is used. If none can, the joints that two chains share are found first.
     ///
     /// # Errors
-    /// [`ErrorKind::PositiveDimensional`] when the tasks leave joints of the chains that are left undetermined;
-    /// [`ErrorKind::BadValue`] for a given joint that another chain finds; as [`Sequential::derive`], with the chain; as
-    /// [`Simultaneous::derive`].
+    /// [`ErrorKind::PositiveDimensional`] if the tasks do not determine all joints of the remaining chains. [`ErrorKind::BadValue`] for a given joint that
+    /// another chain finds. As [`Sequential::derive`], with the chain; as [`Simultaneous::derive`].
     pub(in crate::derive) fn derive(coupled: &CoupledChains, watch: &Watch) -> Result<(Self, Program)> {
         let simultaneous = match coupling(coupled)? {
             Some((sides, shared)) => found_together(Simultaneous::derive(sides, shared, watch), coupled)?,
@@ -72,7 +72,7 @@ impl Coupled {
         })
     }
 
-    /// Composes the solvers that `derive` gives of the chains, which it gets in their order with their indices.
+    /// Composes the chains' solvers, which `derive` returns for each index in the order of solution.
     pub(super) fn assemble(
         coupled: &CoupledChains,
         simultaneous: Option<Simultaneous>,
@@ -96,14 +96,14 @@ impl Coupled {
         Ok((all, program))
     }
 
-    /// The number of complex solutions at a generic target that the chains can reach: each way of the chains before is continued in as
-    /// many ways as the next chain has.
+    /// The number of complex solutions at a generic target that the chains can reach: the product of the chains' numbers of solutions, each with the earlier
+    /// joints given.
     pub fn dimension(&self) -> usize {
         let shared = self.simultaneous.as_ref().map_or(1, Simultaneous::dimension);
         self.stages.iter().map(|stage| stage.method.plan.dimension).fold(shared, usize::saturating_mul)
     }
 
-    /// The actuators' names in place of the joints'.
+    /// Replaces the joints' names by the actuators' names.
     fn name_actuators(&self, coupled: &CoupledChains, program: &mut Program) {
         program.name.clone_from(&coupled.parts().name);
         for stage in &self.stages {
@@ -128,7 +128,7 @@ impl Coupled {
 }
 
 impl CoupledView<'_> {
-    /// Whether joints that two chains share can be found from both at once, and are not.
+    /// Whether joints that two chains share can be found from both together, but this solution does not do so.
     ///
     /// # Errors
     /// As [`Simultaneous::derive`].
@@ -140,10 +140,10 @@ impl CoupledView<'_> {
         Ok(found_together(Simultaneous::derive(sides, shared, watch), self.problem)?.is_some())
     }
 
-    /// The values of a chain's joints, of the chain's index, in an answer `q` of the solver.
+    /// The values of the joints of chain `member` in a solution `q` of the solver.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for no such chain or another number of joints.
+    /// [`ErrorKind::BadValue`] for a chain that does not exist or another number of joints.
     pub fn joints_of(&self, member: usize, q: &[f64]) -> Result<Vec<f64>> {
         let stage = self.method.stages.iter().find(|stage| stage.member == member);
         match stage {
@@ -158,7 +158,7 @@ impl CoupledView<'_> {
         }
     }
 
-    /// The target, as the solver takes it, that the chains reach with the solver's joints at `q`.
+    /// The target, in the order of the solver's inputs, that the chains reach with the solver's joints at `q`.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for another number of joints.
@@ -186,7 +186,7 @@ impl ChainStage {
         for (joint, _) in chain.joints().iter().zip(&found).filter(|(_, found)| found.is_some()) {
             match (given.contains(&joint.name), before.simultaneous) {
                 (false, _) => given.push(joint.name.clone()),
-                // The user gives it to both chains alike.
+                // The user gives one value for both chains.
                 (true, Some(_)) => {}
                 (true, None) => {
                     let text =
@@ -212,24 +212,24 @@ impl ChainStage {
         Ok(ChainStage { member, problem, method, solver, program, joints, inputs })
     }
 
-    /// The chain by itself.
+    /// The view of the chain alone.
     pub fn view(&self) -> SequentialView<'_> {
         View { problem: &self.problem, method: &self.method, program: &self.solver }
     }
 
-    /// The chain's joints `own` among `count` joints of the solver, others at zero.
+    /// The values `own` of the chain's joints among `count` joints of the solver. Other joints are zero.
     pub(super) fn put(&self, own: &[f64], count: usize) -> Vec<f64> {
         let mut q = vec![0.0; count];
         self.joints.iter().zip(own).for_each(|(&place, &value)| q[place] = value);
         q
     }
 
-    /// The values of the chain's joints among those of the solver.
+    /// The values of the chain's joints, selected from those of the solver.
     pub fn own(&self, q: &[f64]) -> Vec<f64> {
         self.joints.iter().map(|&place| q[place]).collect()
     }
 
-    /// Writes what the chain's own solver is asked into a target of the solver; what other chains find has no place there.
+    /// Writes the chain's own target into a target of the solver. Values that other chains find are not part of it.
     pub fn write(&self, own: &[f64], target: &mut [f64]) {
         for (&value, origin) in own.iter().zip(&self.inputs) {
             if let Origin::Target(index) = *origin {
@@ -238,7 +238,7 @@ impl ChainStage {
         }
     }
 
-    /// The joints of the solver whose values the chain takes from chains before it.
+    /// The joints of the solver that earlier chains find and this chain uses.
     pub fn found(&self) -> impl Iterator<Item = usize> {
         self.inputs.iter().filter_map(|origin| match *origin {
             Origin::Joint(index) => Some(index),
@@ -246,7 +246,7 @@ impl ChainStage {
         })
     }
 
-    /// What the chain is asked in a target of the solver, without the joints that chains before find.
+    /// The chain's own target in a target of the solver, without the joints that earlier chains find.
     pub fn own_target(&self, target: &[f64]) -> Vec<f64> {
         let asked = |origin: &Origin| match *origin {
             Origin::Target(index) => Some(target[index]),
@@ -255,7 +255,7 @@ impl ChainStage {
         self.inputs.iter().filter_map(asked).collect()
     }
 
-    /// What the chain's own solver is asked, for a target of the solver and its joints.
+    /// The inputs of the chain's own solver, from a target of the solver and its joints.
     pub fn target(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
         let value = |origin: &Origin| match *origin {
             Origin::Target(index) => target[index],
@@ -274,7 +274,7 @@ fn origins(own: &Program, places: &[Option<usize>], found: &[Option<usize>]) -> 
     places.iter().enumerate().filter_map(origin).collect()
 }
 
-/// What is derived so far.
+/// The part that is derived so far.
 struct Found<'a> {
     coupled: &'a CoupledChains,
     simultaneous: Option<&'a Simultaneous>,
@@ -282,12 +282,12 @@ struct Found<'a> {
 }
 
 impl Found<'_> {
-    /// The solver so far.
+    /// The solver of that part.
     fn program(&self) -> Option<&Program> {
         self.stages.last().map(|stage| &stage.program).or(self.simultaneous.map(|simultaneous| &simultaneous.program))
     }
 
-    /// The place among the solver's joints of a joint whose actuator is found already.
+    /// The index among the solver's joints of a joint whose actuator is already found.
     fn place(&self, member: usize, joint: usize) -> Option<usize> {
         if let Some(simultaneous) = self.simultaneous.filter(|simultaneous| joint < simultaneous.shared) {
             debug_assert!(simultaneous.program.joints.len() == simultaneous.shared);
@@ -308,7 +308,7 @@ impl Found<'_> {
         (0..chain.joints().len()).filter(|joint| !given.contains(joint) && self.place(member, *joint).is_none()).count()
     }
 
-    /// The first chain whose task can determine what is not found yet of its joints.
+    /// The first chain whose task can determine its remaining joints.
     fn next_member(&self) -> Result<usize> {
         let left = |member: &usize| self.stages.iter().all(|stage| stage.member != *member);
         let freedoms = |member: usize| self.coupled.chains()[member].chain.task().freedoms();
@@ -326,9 +326,10 @@ impl Found<'_> {
     }
 }
 
-/// The solution of one of the chains, of whose given joints the first `least` are the user's. Where joints are given that the task
-/// determines, the plan is the one that finds them, without their steps. The relations of these serve beside those of a joint that
-/// both determine: where one says nothing the other does.
+/// The solution of one of the chains. The first `least` of its given joints are given by the user, the others by earlier chains.
+///
+/// If more joints are given than necessary, the plan is the one that finds the additional joints, without their steps. The relations of these steps are added
+/// to steps of joints that both determine; if one relation is singular, the other determines the joint.
 ///
 /// # Errors
 /// As [`Sequential::derive`].
@@ -354,7 +355,7 @@ fn derived(problem: &ChainProblem, least: usize, watch: &Watch) -> Result<(Seque
     Sequential::of_plan(&mechanism, Plan { steps, ..own }, watch)?.compiled(problem, &mechanism)
 }
 
-/// The steps but those of joints that are known, whose relations stand beside the one relation of a step for the same joint.
+/// The steps without those of known joints. Relations of the removed steps are added to steps with a single relation for the same joint.
 fn without(known: &[usize], steps: Vec<PlanStep>) -> Vec<PlanStep> {
     let (gone, mut kept): (Vec<PlanStep>, Vec<PlanStep>) =
         steps.into_iter().partition(|step| known.contains(&step.joint));
@@ -372,7 +373,7 @@ fn without(known: &[usize], steps: Vec<PlanStep>) -> Vec<PlanStep> {
     kept
 }
 
-/// The derivation of shared joints; none where no relations fit, but a chain determines its joints alone.
+/// The derivation of shared joints. `None` if no relations fit, but a chain determines its joints alone.
 ///
 /// # Errors
 /// Those of the derivation.
@@ -386,11 +387,11 @@ fn found_together(simultaneous: Result<Simultaneous>, coupled: &CoupledChains) -
     }
 }
 
-/// Two chains and the number of joints that stand first in both and are shared, where these joints are found from both chains at once:
-/// two that neither chain determines alone, or one on which both must agree.
+/// Two chains and the number of common joints at the base that both share, if these joints are found from both chains together. This applies to two joints that
+/// neither chain determines alone, or to one on which both must agree.
 ///
 /// # Errors
-/// [`ErrorKind::PositiveDimensional`] when both together do not determine their joints either.
+/// [`ErrorKind::PositiveDimensional`] if both together do not determine their joints.
 pub(super) fn coupling(coupled: &CoupledChains) -> Result<Option<([Side<'_>; 2], usize)>> {
     let found = Found { coupled, simultaneous: None, stages: Vec::new() };
     let [first, second] = coupled.chains() else { return Ok(None) };

@@ -1,10 +1,9 @@
 //! Chains that share actuators, such as two legs on one hip actuator: a solver for the targets of all chains together ([`Coupled`]).
 //!
-//! The chains are derived one after the other, each by itself ([`super::sequential`]); a joint that a chain before has found is given for those
-//! behind it. So no solution is lost: each solution of all chains is one of the first chain, continued by one of the next with the
-//! shared joints held where they are. Shared joints of two chains on which both must agree, or which neither determines alone, are found
-//! first, from both at once ([`super::sequential::Simultaneous`]). The programs are composed into one, which polishes and measures all equations together
-//! ([`crate::solver::Program::followed_by`]).
+//! The chains are derived one after the other, each alone ([`super::sequential`]). A joint that an earlier chain has found is given for later ones. So no
+//! solution is lost: each solution of all chains consists of one of the first chain, one of the next with the shared joints given, and so on. Shared joints of
+//! two chains on which both must agree, or which neither determines alone, are found first, from both together ([`super::sequential::Simultaneous`]). The
+//! programs are composed into one ([`crate::solver::Program::followed_by`]). It polishes and measures all equations together.
 //!
 #![doc = include_str!("../../../docs/coupled_toml.md")]
 

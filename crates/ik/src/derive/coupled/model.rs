@@ -9,11 +9,11 @@ use groebot_robot::kinematics::{Chain, Joint};
 pub struct CoupledChain {
     /// Its name.
     pub name: String,
-    /// The prefix of the names of its inputs and joints.
+    /// The prefix for the names of its inputs and joints.
     pub prefix: String,
-    /// The chain, with its task. Base frame and length unit are those of all chains.
+    /// The chain, with its task. All chains have a common base frame and length unit.
     pub chain: Chain,
-    /// The name of the file that states the chain, in the description's folder; none when the chain is in the description itself.
+    /// The name of the file that defines the chain, in the description's folder. `None` if the description itself contains the chain.
     pub file: Option<String>,
 }
 
@@ -26,11 +26,10 @@ pub struct JointPlace {
     pub joint: usize,
 }
 
-/// An actuator, which moves one joint or several alike.
+/// An actuator that moves one joint, or several joints together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Actuator {
-    /// Its name: of a single joint the joint's with the chain's prefix, of several their common name, or else the first one's with
-    /// its chain's prefix.
+    /// The name. For a single joint: its name with the chain's prefix. For several joints: their common name, or else the first one's with its chain's prefix.
     pub name: String,
     /// Its joints.
     pub joints: Vec<JointPlace>,
@@ -41,24 +40,24 @@ pub struct Actuator {
 pub struct CoupledParts {
     /// The name of the mechanism: letters, digits and `_`.
     pub name: String,
-    /// What it is.
+    /// A description of the mechanism.
     pub description: Option<String>,
-    /// Where its figures come from.
+    /// The source of its numbers.
     pub source: Option<String>,
     /// The chains.
     pub chains: Vec<CoupledChain>,
-    /// Joints that are one actuator: each list has joints of different chains, two or more, and each joint is in one list at most.
+    /// Groups of joints with a common actuator. Each list has two or more joints of different chains, and each joint is in at most one list.
     pub shared: Vec<Vec<JointPlace>>,
 }
 
-/// Validated chains that share actuators. They never change.
+/// Validated, immutable chains that share actuators.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoupledChains {
     parts: CoupledParts,
     actuators: Vec<Actuator>,
 }
 
-/// What an error is about.
+/// The part of the description that an error is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     Whole,
@@ -66,7 +65,7 @@ pub(super) enum Part {
     Shared(usize),
 }
 
-/// An error, and what it is about.
+/// An error, and the part that it is about.
 pub(super) struct Fault {
     pub part: Part,
     pub error: Error,
@@ -76,9 +75,9 @@ impl CoupledChains {
     /// Checks `parts` and makes them coupled chains.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for no chain, a name or prefix that is no word, another length unit, joints of one chain as one actuator, of
-    /// another kind, or more than 16 actuators; [`ErrorKind::DuplicateName`] for chains or actuators of one name, and joints that are shared
-    /// twice; [`ErrorKind::UnknownName`] for shared joints that are not there.
+    /// [`ErrorKind::BadValue`] for no chain, an invalid name or prefix, different length units, joints of one chain with one actuator, joints of different
+    /// kinds with one actuator, or more than 16 actuators. [`ErrorKind::DuplicateName`] for chains or actuators with one name, and joints that are shared
+    /// twice. [`ErrorKind::UnknownName`] for shared joints that do not exist.
     pub fn new(parts: CoupledParts) -> Result<Self> {
         CoupledChains::assemble(parts).map_err(|fault| fault.error)
     }
@@ -101,7 +100,7 @@ impl CoupledChains {
         &self.parts.chains
     }
 
-    /// The actuators: chain by chain, shared ones where their first joint stands.
+    /// The actuators, chain by chain. A shared one is at the position of its first joint.
     pub fn actuators(&self) -> &[Actuator] {
         &self.actuators
     }
@@ -111,12 +110,12 @@ impl CoupledChains {
         self.actuators.iter().position(|actuator| actuator.joints.contains(&place))
     }
 
-    /// The joints that an actuator moves, each as `left.HipRoll`.
+    /// The joints that an actuator moves, each as text such as `left.HipRoll`.
     pub fn moved(&self, actuator: &Actuator) -> Vec<String> {
         actuator.joints.iter().map(|place| self.parts.shown(*place)).collect()
     }
 
-    /// The least and greatest value of an actuator, which all its joints allow; none where no joint says any.
+    /// The least and greatest value of an actuator that all its joints allow. `None` if no joint has limits.
     pub fn limits(&self, actuator: &Actuator) -> Option<(f64, f64)> {
         let own = actuator.joints.iter().filter_map(|place| self.parts.joint(*place)?.limits);
         own.reduce(|(low, high), (least, greatest)| (f64::max(low, least), f64::min(high, greatest)))
@@ -128,7 +127,7 @@ impl CoupledParts {
         self.chains.get(place.member)?.chain.joints().get(place.joint)
     }
 
-    /// `left.HipRoll`.
+    /// A joint as text, such as `left.HipRoll`.
     fn shown(&self, place: JointPlace) -> String {
         let member = self.chains.get(place.member).map_or("?", |member| &member.name);
         format!("{member}.{}", self.joint(place).map_or("?", |joint| &joint.name))
@@ -141,7 +140,7 @@ fn fault(part: Part, kind: ErrorKind, text: String) -> Checked {
     Err(Fault { part, error: Error::new(kind, text) })
 }
 
-/// A word of letters, digits and `_` that starts with no digit.
+/// Whether `text` consists of letters, digits and `_` and does not start with a digit.
 fn is_word(text: &str) -> bool {
     let first = text.bytes().next().is_some_and(|byte| !byte.is_ascii_digit());
     first && text.len() <= 64 && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')

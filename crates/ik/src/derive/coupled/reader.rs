@@ -1,4 +1,4 @@
-//! Reading of chains from TOML: [`CoupledChains::read`], [`CoupledChains::from_toml`].
+//! Reader of coupled chains from TOML: [`CoupledChains::read`], [`CoupledChains::from_toml`].
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ const ROOT_KEYS: [&str; 5] = ["name", "description", "source", "shared", "chain"
 const CHAIN_KEYS: [&str; 5] = ["name", "prefix", "chain", "task", "given"];
 
 impl CoupledChains {
-    /// The coupled chains that the file at `path` describes; files that it names are in its folder.
+    /// Reads the coupled chains in the file at `path`. Files that it names are in its folder.
     ///
     /// # Errors
     /// As [`read_text`] and [`CoupledChains::from_toml`], with the file.
@@ -21,13 +21,12 @@ impl CoupledChains {
         CoupledChains::from_toml(&read_text(path, TEXT_LIMIT)?, folder).map_err(|error| error.in_file(path))
     }
 
-    /// The chains that `text` describes in the format of [`crate::derive::coupled`]; chains that it names by file are in `folder`.
+    /// Reads the coupled chains in `text`, in the format of [`crate::derive::coupled`]. Files that it names are in `folder`.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`], [`ErrorKind::MissingKey`];
-    /// [`ErrorKind::UnknownName`] for a shared joint that is not there; [`ErrorKind::BadValue`] for a wrong type or value; as
-    /// [`Chain::read`] for a chain, [`Chain::with_task`] for its task, and [`CoupledChains::new`]. All have a line, of the chain's file
-    /// where that is wrong.
+    /// [`ErrorKind::Syntax`] for text that is not TOML; [`ErrorKind::UnknownKey`], [`ErrorKind::MissingKey`]; [`ErrorKind::UnknownName`] for a shared joint
+    /// that does not exist; [`ErrorKind::BadValue`] for a wrong type or value. As [`Chain::read`] for a chain, [`Chain::with_task`] for its task, and
+    /// [`CoupledChains::new`]. All have a line: that of the chain's file if the error is there.
     pub fn from_toml(text: &str, folder: &Path) -> Result<CoupledChains> {
         let document = Document::parse(text)?;
         let root = document.root();
@@ -63,7 +62,7 @@ fn read_member(table: Table<'_>, folder: &Path) -> Result<CoupledChain> {
     Ok(CoupledChain { prefix: prefix.unwrap_or_else(|| format!("{name}_")), name, chain, file })
 }
 
-/// A chain in place, or the one in the file that is named.
+/// Reads a chain from the description itself or from the file that it names.
 fn read_chain(node: Node<'_>, folder: &Path) -> Result<Chain> {
     if let Ok(table) = node.table() {
         return Chain::from_table(table);
@@ -77,7 +76,7 @@ fn read_chain(node: Node<'_>, folder: &Path) -> Result<Chain> {
     Chain::read(&folder.join(file))
 }
 
-/// `chain` for what the chain asks of it.
+/// `chain` with the task, the direction and the given joints of its entry.
 fn asked(table: Table<'_>, chain: Chain) -> Result<Chain> {
     let own = || (chain.task(), chain.direction().clone());
     let task = table.optional("task").map(|node| read_task(node.table()?)).transpose()?;
@@ -87,12 +86,12 @@ fn asked(table: Table<'_>, chain: Chain) -> Result<Chain> {
     if is_asked { chain.with_task(task, direction, given) } else { Ok(chain) }
 }
 
-/// Joints that are one actuator.
+/// Reads joints with a common actuator.
 fn read_group(node: &Node<'_>, members: &[CoupledChain]) -> Result<Vec<JointPlace>> {
     node.array()?.iter().map(|joint| read_place(joint, members)).collect()
 }
 
-/// The joint that `chain.joint` names.
+/// Reads a joint in the form `chain.joint`.
 fn read_place(node: &Node<'_>, members: &[CoupledChain]) -> Result<JointPlace> {
     let text = node.text()?;
     let unknown = |name: &str, allowed: Vec<&str>| {

@@ -1,4 +1,4 @@
-//! The numbered files of a derivation of chains, as text: what each chain's own derivation says, chain after chain.
+//! The numbered text files of a derivation of coupled chains: the texts of each chain's own derivation, chain by chain.
 
 use std::fmt::Write;
 
@@ -12,10 +12,10 @@ use groebot_algebra::number::{Ring, Style};
 use groebot_robot::document::word;
 
 impl CoupledView<'_> {
-    /// The stage files with their names: the same bytes at every run.
+    /// The stage files with their names. Every run gives the same bytes.
     ///
     /// # Errors
-    /// When a field cannot be built: never for a derivation that was made by this crate.
+    /// If a field cannot be built. This does not occur for a derivation that this crate made.
     pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
         let mut texts = self.shared_texts()?;
         for stage in &self.method.stages {
@@ -32,7 +32,7 @@ impl CoupledView<'_> {
         Ok(files)
     }
 
-    /// What the stages say of shared joints that are found from both chains at once; nothing where that is not done.
+    /// The texts of the stages on shared joints that are found from both chains together; empty if there are none.
     fn shared_texts(&self) -> Result<[String; 4]> {
         let Some(simultaneous) = &self.method.simultaneous else { return Ok([const { String::new() }; 4]) };
         let chains = self.problem.chains();
@@ -65,13 +65,13 @@ impl CoupledView<'_> {
         Ok([equations, plan, String::new(), triangular])
     }
 
-    /// The names of the unknown joints that are found from both chains at once, in their order.
+    /// The names of the unknown joints that are found from both chains together, in order.
     pub fn simultaneous_names(&self) -> Vec<&str> {
         let steps = self.method.simultaneous.iter().flat_map(|simultaneous| &simultaneous.steps);
         steps.map(|step| self.program.joints[step.joint].name.as_str()).collect()
     }
 
-    /// `chain 2: right, with HipYawPitch where the chains before it have put it`.
+    /// The title of a chain, such as `chain 2: right, with HipYawPitch where the chains before it have put it`.
     pub fn title(&self, stage: &ChainStage) -> String {
         let number =
             self.method.stages.iter().position(|other| other.member == stage.member).map_or(0, |index| index + 1);
@@ -84,12 +84,12 @@ impl CoupledView<'_> {
         format!("chain {number}: {}{shared}", self.problem.chains()[stage.member].name)
     }
 
-    /// The names of the actuators that chains before have found for a chain.
+    /// The names of the actuators that earlier chains have found for a chain.
     fn shared<'a>(&'a self, stage: &'a ChainStage) -> impl Iterator<Item = &'a str> {
         stage.found().map(|joint| self.program.joints[joint].name.as_str())
     }
 
-    /// What the page says of shared joints that are found from both chains at once.
+    /// The text of the README on shared joints that are found from both chains together.
     fn shared_page(&self) -> Result<String> {
         let Some(simultaneous) = &self.method.simultaneous else { return Ok(String::new()) };
         let mut text = format!("## Shared joints: {}\n\n", self.simultaneous_names().join(", "));

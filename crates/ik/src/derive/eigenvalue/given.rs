@@ -1,7 +1,7 @@
-//! Six axes behind and before joints that are given: the target is one that the given joints' motions are taken off.
+//! Six joints with given joints before or after them: the motions of the given joints are removed from the target.
 //!
-//! `E1 E2 .. E7 M = T` with E1 known is `E2 .. E7 M = E1^-1 T`; with E7 known it is `E1 .. E6 M = T (M^-1 E7^-1 M)`. So the six joints
-//! in between are solved by one eigenvalue problem, whatever the given values.
+//! `E1 E2 .. E7 M = T` with known E1 is `E2 .. E7 M = E1^-1 T`. With known E7 it is `E1 .. E6 M = T (M^-1 E7^-1 M)`. So one eigenvalue problem solves the six
+//! joints in between, for all given values.
 
 use crate::derive::equations::assemble::Assembler;
 use crate::solver::Operand;
@@ -12,11 +12,11 @@ use nalgebra::{Matrix3, Vector3};
 
 /// The six joints that are found together, and the given ones.
 pub(super) struct Six {
-    /// The chain of the six joints, the given ones at zero.
+    /// The chain of the six joints, with the given joints at zero.
     pub chain: Chain,
-    /// How many given joints are before the six.
+    /// The number of given joints before the six.
     before: usize,
-    /// The places of the given joints, ascending.
+    /// The indices of the given joints, ascending.
     given: Vec<usize>,
 }
 
@@ -24,7 +24,7 @@ impl Six {
     /// The six joints of `chain`.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for another task than a pose, another number of joints, or a joint given between others.
+    /// [`ErrorKind::Unsupported`] for a task other than a pose, another number of joints, or a given joint between others.
     pub fn of(chain: &Chain) -> Result<Six> {
         let given = chain.given();
         let unknown: Vec<usize> = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();
@@ -39,16 +39,17 @@ impl Six {
         Ok(Six { chain: Chain::new(parts)?, before: unknown[0], given })
     }
 
-    /// The place in the whole chain of each of the six.
+    /// The index of each of the six joints in the whole chain.
     pub fn places(&self) -> [usize; 6] {
         std::array::from_fn(|place| self.before + place)
     }
 
-    /// The target of the six joints: position, then rotation by rows. `target` are the numbers that are asked for, `value` tells of a joint of
-    /// `chain` that is given the cosine and sine, or the length.
+    /// The target of the six joints: position, then rotation by rows.
+    ///
+    /// `target` contains the numbers of the whole chain's target. `value` returns the value of a given joint of `chain`: its cosine and sine, or its length.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for values of another kind.
+    /// [`ErrorKind::Unsupported`] for values of another type.
     pub fn target(
         &self,
         chain: &Chain,
@@ -77,7 +78,7 @@ impl Six {
     }
 }
 
-/// The motion by which a joint goes back: constants, multiples of its cosine (or length), and of its sine.
+/// The inverse motion of a joint: constants, coefficients of its cosine (or length), and coefficients of its sine.
 struct Back {
     rotation: [Matrix3<f64>; 3],
     translation: [Vector3<f64>; 3],
@@ -127,7 +128,7 @@ impl Back {
     }
 }
 
-/// A rigid motion of operands.
+/// A rigid motion whose entries are operands.
 struct Motion {
     rotation: [[Operand; 3]; 3],
     translation: [Operand; 3],

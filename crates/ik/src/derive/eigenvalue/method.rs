@@ -18,22 +18,22 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{Certificate, Proves, head_of};
 use groebot_robot::kinematics::Chain;
 
-/// The solution of a chain of six joints with axes in any place, or of seven of which the first or the last is given, by eigenvalue problems.
+/// The solution by eigenvalue problems of a chain of six joints with arbitrary axes. Further joints at its ends may be given.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Eigenvalue {
-    /// The six joints that are found together, the given ones at zero.
+    /// The six joints that are found together, with the given joints at zero.
     pub six: Chain,
-    /// How many complex solutions random targets modulo primes had.
+    /// The numbers of complex solutions of random targets modulo primes.
     pub evidence: Vec<Evidence>,
-    /// The eigenvalue problems in the order in which they are tried, each proved regular.
+    /// The eigenvalue problems, in the order in which they are tried. Each is proved to be regular.
     pub formulations: Vec<Regular>,
 }
 
-/// A chain that is solved by eigenvalue problems.
+/// The view of a chain that is solved by eigenvalue problems.
 pub type EigenvalueView<'a> = View<'a, ChainProblem, Eigenvalue>;
 
-/// What is claimed about six axes.
+/// The claims about six axes.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Claims {
@@ -49,11 +49,11 @@ struct Entry {
 }
 
 impl Eigenvalue {
-    /// Counts the solutions of `problem`, finds the regular formulations and ranks them, and compiles its solver.
+    /// Counts the solutions of `problem`, finds and ranks the regular formulations, and compiles its solver.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`](super::fits)), with infinitely many solutions, or
-    /// without a formulation that is regular and accurate; what `watch` stops with.
+    /// [`ErrorKind::Unsupported`] for a chain that does not fit the eigenvalue problem ([`fits`](super::fits)), that has infinitely many solutions, or that has
+    /// no regular and accurate formulation. The error of `watch` if it stops the derivation.
     pub(in crate::derive) fn derive(problem: &ChainProblem, watch: &Watch) -> Result<(Self, Program)> {
         let six = Six::of(&problem.chain)?;
         let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
@@ -63,10 +63,10 @@ impl Eigenvalue {
         Eigenvalue { six: six.chain, evidence, formulations }.compiled(problem)
     }
 
-    /// Proves the solution of `problem` anew from the text of its certificate: every determinant is evaluated again.
+    /// Proves the solution of `problem` again from the text of its certificate. Every determinant is evaluated again.
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] with the line for text that is no certificate; [`ErrorKind::Certificate`] for a claim that does not hold.
+    /// [`ErrorKind::Syntax`] with the line for text that is not a certificate; [`ErrorKind::Certificate`] for a false claim.
     pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(Self, Program)> {
         let claims: Claims = Certificate::read(text, Proves::EigenvalueProblem, problem.chain.name())?;
         let six = Six::of(&problem.chain)?.chain;
@@ -79,12 +79,12 @@ impl Eigenvalue {
         Eigenvalue { six, evidence: claims.evidence, formulations }.compiled(problem)
     }
 
-    /// The least number of complex solutions that was counted.
+    /// The least of the counted numbers of complex solutions.
     pub fn dimension(&self) -> usize {
         self.evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(SIZE)
     }
 
-    /// With the solver of `problem`, which polishes its answers on the described chain.
+    /// Adds the solver of `problem`, which polishes its solutions on the described chain.
     fn compiled(self, problem: &ChainProblem) -> Result<(Self, Program)> {
         let mut program = self.unpolished(&problem.chain)?;
         if let Some((truth, report)) = &problem.truth {
@@ -103,7 +103,7 @@ impl Eigenvalue {
 }
 
 impl EigenvalueView<'_> {
-    /// The solver of the ideal chain itself, where the program polishes its answers on another.
+    /// The solver of the ideal chain itself, if the program polishes its solutions on another chain.
     ///
     /// # Errors
     /// As [`Mechanism::new`].

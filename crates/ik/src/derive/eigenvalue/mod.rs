@@ -1,5 +1,5 @@
-//! The solver of any six joints, offline: which formulations of the eigenvalue problem hold for a chain, proved modulo primes,
-//! and which of them are accurate ([`formulations`], [`crate::solver::eigenvalue::SixAxes`]).
+//! The derivation of solvers for any six joints. It finds the formulations of the eigenvalue problem that are regular, proved modulo primes, and those that are
+//! accurate ([`formulations`], [`crate::solver::eigenvalue::SixAxes`]).
 
 mod given;
 mod method;
@@ -29,7 +29,7 @@ use groebot_algebra::number::primes_below;
 use groebot_robot::kinematics::{Chain, JointKind};
 use groebot_robot::spatial::Screw;
 
-/// Primes at each of which a formulation's determinant is evaluated.
+/// The number of primes at which a formulation's determinant is evaluated.
 const PRIMES: usize = 3;
 
 /// A formulation whose equations are independent for a generic target.
@@ -37,14 +37,14 @@ const PRIMES: usize = 3;
 pub struct Regular {
     /// The formulation.
     pub formulation: Formulation,
-    /// One at least is not zero: that proves it.
+    /// Its determinants modulo primes. At least one is not zero, which is the proof.
     pub determinants: Vec<Determinant>,
 }
 
 /// The regular formulations of `chain`.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a chain that the eigenvalue problem is not for ([`fits`]).
+/// [`ErrorKind::Unsupported`] for a chain that does not fit the eigenvalue problem ([`fits`]).
 pub fn formulations(chain: &Chain) -> Result<Vec<Regular>> {
     let chain = &Six::of(chain)?.chain;
     let mut regular = Vec::new();
@@ -64,20 +64,20 @@ pub fn all() -> impl Iterator<Item = Formulation> {
     (0..6).flat_map(|hidden| [false, true].map(|second| Formulation { hidden, second }))
 }
 
-/// Whether the eigenvalue problem is one for `chain`: six joints in a row for a pose, all others given.
+/// Checks that the eigenvalue problem fits `chain`: a pose with six consecutive unknown joints, and all others given.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] that says what it is for.
+/// [`ErrorKind::Unsupported`] with the supported chains.
 pub fn fits(chain: &Chain) -> Result<()> {
     Six::of(chain).map(drop)
 }
 
-/// By joint of a chain of six: whether it slides.
+/// By joint of a chain of six: whether it is prismatic.
 fn slides(chain: &Chain) -> [bool; 6] {
     std::array::from_fn(|joint| chain.joints()[joint].kind == JointKind::Prismatic)
 }
 
-/// The axes of the joints of a chain of six, directions of length one, in the chain's unit of length.
+/// The axes of the joints of a chain of six. Directions have length one; points are in the chain's length unit.
 pub fn layout(chain: &Chain) -> Layout {
     let line = |joint: usize| match &chain.screws()[joint] {
         Screw::Revolute(axis) => {
@@ -92,19 +92,19 @@ pub fn layout(chain: &Chain) -> Layout {
     Layout { lines, slides: slides(chain), length: typical_length(&lines) }
 }
 
-/// The solver of `chain`, its best regular formulations in order.
+/// The solver of `chain`, with its best regular formulations in order.
 ///
 /// # Errors
-/// As [`formulations`]; [`ErrorKind::Unsupported`] when no formulation is regular and accurate.
+/// As [`formulations`]; [`ErrorKind::Unsupported`] if no formulation is regular and accurate.
 pub fn solver(chain: &Chain) -> Result<six_axes::Chain> {
     let best: Vec<Formulation> = ranked(chain)?.into_iter().map(|regular| regular.formulation).collect();
     Ok(layout(chain).chain(&program::tip(chain), &best))
 }
 
-/// The regular formulations that are accurate, the most accurate first; one at least.
+/// The regular formulations that are accurate, the most accurate first. There is at least one.
 ///
 /// # Errors
-/// As [`formulations`]; [`ErrorKind::Unsupported`] when no formulation is regular and accurate.
+/// As [`formulations`]; [`ErrorKind::Unsupported`] if no formulation is regular and accurate.
 pub(super) fn ranked(chain: &Chain) -> Result<Vec<Regular>> {
     let regular = formulations(chain)?;
     let known: Vec<Formulation> = regular.iter().map(|regular| regular.formulation).collect();
@@ -117,7 +117,7 @@ pub(super) fn ranked(chain: &Chain) -> Result<Vec<Regular>> {
     Ok(best.iter().filter_map(proof).collect())
 }
 
-/// The longest way from one axis' point to the next one's; one for a chain that is a point.
+/// The greatest distance between the points of two consecutive axes; one if all points are equal.
 fn typical_length(lines: &[Line; 6]) -> f64 {
     let way = |a: &Line, b: &Line| (0..3).map(|k| (a.point[k] - b.point[k]).powi(2)).sum::<f64>().sqrt();
     let longest = lines.windows(2).map(|pair| way(&pair[0], &pair[1])).fold(0.0, f64::max);

@@ -1,33 +1,36 @@
-//! What is affine in the cosine and sine of every joint ([`Profile`]): the functions of Raghavan and Roth.
+//! Functions that are affine in the cosine and sine of every joint ([`Profile`]), after Raghavan and Roth.
 //!
-//! Of a line with direction `l` through a point `p`, the fourteen functions `p`, `l`, `p x l`, `(p.p) l - 2 (p.l) p`, `p.p` and `p.l`
-//! span a space that rigid motions map into itself, and a turn about an axis acts on it by a matrix that is affine in the cosine and
-//! sine of the angle (M. Raghavan and B. Roth, J. Mechanical Design 115 (1993) 502-508). When the origin is on that axis, the part of
-//! the four vectors along it and the two scalars stay, six functions; the part of the vectors across it turns.
+//! Let a line have the direction `l` and a point `p`. The fourteen functions `p`, `l`, `p x l`, `(p.p) l - 2 (p.l) p`, `p.p` and `p.l` span a space that rigid
+//! motions map to itself. A rotation about an axis acts on it by a matrix that is affine in the cosine and sine of the angle (M. Raghavan and B. Roth, J.
+//! Mechanical Design 115 (1993) 502-508).
 //!
-//! A joint that slides acts on them by polynomials of degree two in its way, 1, d^2, d in the place of 1, c, s. What such a joint leaves
-//! alone is its direction `l`, a direction `a` across it, and lines along `l`: the vectors `a`, `l`, `p x l`, `l x a` and the scalars
-//! `p.a`, `p.(l x a)` are fourteen functions of the same kind.
+//! Let the origin be on that axis. Six functions are then invariant: the components of the four vectors along the axis, and the two scalars. The perpendicular
+//! components of the vectors rotate.
+//!
+//! A prismatic joint acts on them by polynomials of degree two in its displacement d: 1, d^2, d in place of 1, c, s. Its invariants are its direction `l`, a
+//! direction `a` perpendicular to it, and lines along `l`. The vectors `a`, `l`, `p x l`, `l x a` and the scalars `p.a`, `p.(l x a)` are fourteen functions
+//! with the same properties.
 
 use super::residue::Residue;
 use super::screw::{Axis, Figure};
 use super::vector::{Vector, cross, dot, scale, sub};
 
-/// Functions that the motion along the frame's axis leaves alone.
+/// The number of functions that are invariant under the motion along the frame's axis.
 pub(super) const STILL: usize = 6;
-/// Vectors among the functions.
+/// The number of vectors among the functions.
 pub(super) const TURNING: usize = 4;
-/// All functions: of each vector the component along the frame's axis, the two scalars, the components along the two directions across.
+/// The number of functions. They are ordered: of each vector the component along the frame's axis, the two scalars, the components along the two perpendicular
+/// directions.
 const FUNCTIONS: usize = 3 * TURNING + 2;
-/// The products of one of 1, c, s' of a first joint and one of 1, c, s' of a second one: the second changes fastest.
+/// The number of products of one of 1, c, s' of a first joint and one of 1, c, s' of a second one. The factor of the second joint changes fastest.
 pub(super) const PRODUCTS: usize = 9;
 
-/// Coefficients of the products.
+/// The coefficients of the products.
 pub(super) type Products = [Residue; PRODUCTS];
-/// By function, its coefficients: along the axis, the scalars, along `e`, along `w x e`.
+/// The coefficients of each function: components along the axis, scalars, components along `e`, components along `w x e`.
 pub(super) type Profile = [Products; FUNCTIONS];
 
-/// A frame on the axis whose angle or way is hidden.
+/// A frame on the axis of the hidden joint.
 pub(super) struct Frame {
     /// A point on the axis.
     origin: Vector,
@@ -42,12 +45,12 @@ impl Frame {
     pub fn on(axis: &Axis) -> Self {
         let [x, y, z] = axis.direction;
         let zero = axis.units[0];
-        // Of x, y, z one is not zero.
+        // At least one of x, y, z is not zero.
         let e = if x.value != 0 || y.value != 0 { [-y, x, zero] } else { [z, zero, zero] };
         Frame { origin: axis.point, axis: axis.direction, across: [e, cross(&axis.direction, &e)] }
     }
 
-    /// The functions of `figure`, which the axis `second` moves first and then the axis `first`.
+    /// The functions of `figure`, which is moved first by the axis `second` and then by the axis `first`.
     pub fn profile(&self, first: &Axis, second: &Axis, figure: &Figure) -> Profile {
         let inner = second.samples().map(|by| figure.moved(second, by));
         let table = first.samples().map(|by| inner.map(|figure| self.functions(&figure.moved(first, by))));

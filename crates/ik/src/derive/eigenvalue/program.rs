@@ -21,7 +21,7 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
     let frame = frame_of(chain, &mechanism);
     let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
     let Layout { lines, slides, length } = layout(&six.chain);
-    // The parameters of a given joint are what its block sets its unknowns to.
+    // The operands of a given joint are those that its block assigns to its unknowns.
     let value = |joint: usize| {
         let block = mechanism.given().iter().position(|given| *given == joint);
         block.map_or_else(Vec::new, |block| set_to(&frame.blocks[block]))
@@ -55,7 +55,7 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
     Ok(program)
 }
 
-/// The same for a robot on which answers are polished, and which is so far from this one (shares of the reach, and rad).
+/// Sets the distance from this robot to the one on which solutions are polished: in rad, and as a fraction of the reach.
 ///
 /// # Errors
 /// As [`SixAxes::new`].
@@ -68,14 +68,14 @@ pub(super) fn within(program: &mut Program, within: f64) -> Result<()> {
     Ok(())
 }
 
-/// What a block sets unknowns to.
+/// The operands that a block assigns to unknowns.
 fn set_to(block: &Block) -> Vec<Operand> {
     let steps = block.cases.iter().flat_map(|case| &case.steps);
     let value = |step: &Step| if let Step::Set { value, .. } = step { Some(*value) } else { None };
     steps.filter_map(value).collect()
 }
 
-/// The tip in the base frame at zero.
+/// The tip in the base frame in the zero configuration.
 pub(super) fn tip(chain: &Chain) -> Rigid {
     let pose = chain.base_from_tip();
     let rotation = pose.rotation.to_rotation_matrix();

@@ -1,8 +1,8 @@
-//! Why a formulation finds every solution of a generic target: its pencil is regular ([`Determinant`]).
+//! The proof that a formulation finds every solution of a generic target: its pencil is regular ([`Determinant`]).
 //!
-//! The equations are polynomials in the target's coordinates, the hidden half angle and the chain's constants. If the determinant of all of
-//! them is not zero at one target and one half angle modulo a prime, it is no zero polynomial over Q: at a generic target only finitely
-//! many half angles make it vanish, sixteen at most, and that of every solution is among them.
+//! The equations are polynomials in the target's coordinates, the hidden half angle and the chain's constants. Suppose that their determinant is nonzero at one
+//! target and one half angle modulo a prime. Then it is not the zero polynomial over Q. At a generic target it vanishes for at most sixteen half angles, and
+//! that of every solution is among them.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,28 +17,28 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::Zp;
 use groebot_robot::kinematics::{Chain, JointKind};
 
-/// Rows and columns of a pencil before elimination.
+/// The number of rows and columns of a pencil before elimination.
 const ALL: usize = 2 * (STILL + MOVING);
-/// Columns of the near joints.
+/// The number of columns of the near joints.
 const NEAR: usize = ALL - 2 * FAR;
 
-/// The determinant of a formulation's equations at a random reachable target and a random half angle modulo a prime.
+/// The determinant of a formulation's equations at a random reachable target and a random half angle, modulo a prime.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Determinant {
     /// The prime.
     pub prime: u64,
-    /// What the target and the half angle were drawn with.
+    /// The random seed of the target and the half angle.
     pub seed: u64,
-    /// The determinant's image.
+    /// The determinant modulo the prime.
     pub value: u64,
 }
 
 impl Determinant {
-    /// Evaluates the determinant of `formulation` for `chain`, which has six joints, for which it is a valid one ([`Formulation::is_valid`]).
+    /// Evaluates the determinant of `formulation` for `chain`, which has six joints. The formulation must be valid ([`Formulation::is_valid`]).
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] when the prime divides a denominator of the chain, or where a random number is zero.
+    /// [`ErrorKind::Unsupported`] if the prime divides a denominator of the chain, or if a random number is zero.
     pub fn evaluate(chain: &Chain, formulation: Formulation, prime: u64, seed: u64) -> Result<Self> {
         let field = Zp::new(prime)?;
         let unlucky = || Error::new(ErrorKind::Unsupported, format!("{prime} is unlucky for the chain's constants"));
@@ -88,7 +88,7 @@ fn axes(chain: &Chain, field: Zp) -> Option<[Axis; 6]> {
     axes?.try_into().ok()
 }
 
-/// `c` and `s'` of the turn about `axis` whose half angle has the tangent `t sqrt n`; or the way `t` and its square.
+/// `c` and `s'` of the rotation about `axis` whose half angle has the tangent `t sqrt n`. For a prismatic joint, the square of the displacement `t` and `t`.
 fn point_of_circle(axis: &Axis, t: Residue) -> Option<[Residue; 2]> {
     if axis.slides {
         return Some([t * t, t]);
@@ -100,7 +100,7 @@ fn point_of_circle(axis: &Axis, t: Residue) -> Option<[Residue; 2]> {
 
 type Matrix = [[Residue; ALL]; ALL];
 
-/// All equations at the half angle `x`, given zero and `x`, each times the cosine and the sine of half the doubled angle.
+/// All equations at the half angle `x`, each times the cosine and the sine of half the doubled angle. The arguments are zero and `x`.
 fn matrix(rows: &Rows, doubled: &Doubled, [zero, x]: [Residue; 2]) -> Matrix {
     let mut matrix = [[zero; ALL]; ALL];
     let moving = rows

@@ -1,11 +1,11 @@
-//! Numbers modulo a prime as plain operands ([`Residue`]).
+//! Numbers modulo a prime with arithmetic operators ([`Residue`]).
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use groebot_algebra::number::{BigRational, Field, Ring, Zp};
 use groebot_robot::kinematics::ExactVector;
 
-/// An element of a prime field that knows its field.
+/// An element of a prime field, stored with its field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residue {
     /// The element.
@@ -14,12 +14,12 @@ pub struct Residue {
 }
 
 impl Residue {
-    /// The element `value`, which is below the modulus.
+    /// The element `value`, which must be less than the modulus.
     pub fn new(value: u64, field: Zp) -> Self {
         Residue { value, field }
     }
 
-    /// The image of a rational number; `None` when the prime divides its denominator.
+    /// The image of a rational number. `None` if the prime divides its denominator.
     pub fn image(number: &BigRational, field: Zp) -> Option<Self> {
         field.from_rational(number).map(|value| Residue { value, field })
     }

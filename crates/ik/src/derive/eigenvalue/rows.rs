@@ -1,19 +1,19 @@
-//! The equations of a formulation as rows of coefficients modulo a prime ([`Rows`]), and how a row is multiplied by half an angle.
+//! The equations of a formulation as rows of coefficients modulo a prime ([`Rows`]), and the multiplication of a row by half an angle.
 //!
-//! Whichever joint is called first, the loop says `E1 E2 ... E6 = G`, with the axes behind the target moved to the other side of it. The
-//! line of the fourth axis is left alone by `E4`, so `E1` takes `E2 E3 (line 4)` to `G E6^-1 E5^-1 (line 4)`: two joints on each side of
-//! the hidden one. Each joint may turn or slide.
+//! The loop is `E1 E2 ... E6 = G` with any joint as the first one; the axes after the target are then moved to its other side. The line of the fourth axis is
+//! invariant under `E4`. So `E1` maps `E2 E3 (line 4)` to `G E6^-1 E5^-1 (line 4)`, with two joints on each side of the hidden one. Each joint may be revolute
+//! or prismatic.
 
 use super::profile::{Frame, PRODUCTS, Products, Profile, STILL, TURNING};
 use super::residue::Residue;
 use super::screw::{Axis, Figure};
 use crate::solver::eigenvalue::Formulation;
 
-/// Products of the joints on the far side, without 1.
+/// The number of products of the joints on the far side, without 1.
 pub(super) const FAR: usize = PRODUCTS - 1;
-/// Products of the joints on the near side, 1 among them, then those on the far side.
+/// The number of columns: products of the joints on the near side, including 1, then those on the far side.
 const COLUMNS: usize = PRODUCTS + FAR;
-/// Equations in which the hidden angle stands.
+/// The number of equations that contain the hidden angle.
 pub(super) const MOVING: usize = 2 * TURNING;
 
 /// The coefficients of the near products and of the far ones.
@@ -21,17 +21,16 @@ pub(super) type Row = [Residue; COLUMNS];
 
 /// The equations: `still = 0` and `constant - x linear = 0` with `x sqrt n` the tangent of half the hidden angle.
 pub(super) struct Rows {
-    /// Free of the hidden angle.
+    /// The rows without the hidden angle.
     pub still: [Row; STILL],
-    /// Without `x`.
+    /// The constant coefficients in `x`.
     pub constant: [Row; MOVING],
-    /// What `x` is multiplied by.
+    /// The coefficients of `-x`.
     pub linear: [Row; MOVING],
 }
 
 impl Rows {
-    /// The rows of a formulation: `figures` are what the axes leave alone, `moved` these moved by the target, `back` those moved by its
-    /// inverse.
+    /// The rows of a formulation. `figures` are the invariants of the axes, `moved` these after the target's motion, `back` after its inverse.
     pub fn of(formulation: Formulation, axes: &[Axis; 6], [figures, moved, back]: [&[Figure; 6]; 3]) -> Self {
         let place = |steps: usize, ahead: bool| {
             let joint = formulation.joint(steps);
@@ -56,7 +55,7 @@ impl Rows {
         }
     }
 
-    /// The vectors across the hidden axis `w` fulfil Rodrigues' equation `b - a = x w x (a + b)`.
+    /// The vectors perpendicular to the hidden axis `w` fulfil Rodrigues' equation `b - a = x w x (a + b)`.
     fn of_turn(near: &Profile, far: &Profile, square: Residue) -> Self {
         Rows {
             still: std::array::from_fn(|k| difference(&near[k], &far[k])),
@@ -68,9 +67,9 @@ impl Rows {
         }
     }
 
-    /// A slide by `2 x w` is `exp(2 x N)` with `N^3 = 0`, so that `b - a = x N (a + b)` for all fourteen functions. Of directions it leaves
-    /// ten alone. Four of them stand among the moving ones: `r = 0` and `s = 0` as `s - x r = 0` and `-r - x s = 0`, which say the same for
-    /// all `x` but `i` and `-i`.
+    /// A displacement of `2 x w` is `exp(2 x N)` with `N^3 = 0`, so `b - a = x N (a + b)` for all fourteen functions. Ten functions of directions are
+    /// invariant. Four of these are among the moving rows: `r = 0` and `s = 0` are written as `s - x r = 0` and `-r - x s = 0`, which are equivalent for all
+    /// `x` except `i` and `-i`.
     fn of_slide(
         near: &Profile,
         far: &Profile,
@@ -104,10 +103,10 @@ impl Rows {
     }
 }
 
-/// The functions that a slide leaves alone: `l`, the component of `p x l` along the axis, those of `p` across it.
+/// The invariant functions of a prismatic joint: `l`, the component of `p x l` along the axis, the perpendicular components of `p`.
 const UNMOVED: [usize; STILL] = [1, STILL + 1, STILL + TURNING + 1, 2, STILL, STILL + TURNING];
 
-/// What a slide multiplies a function by.
+/// The factor by which the motion of a prismatic joint multiplies a function.
 #[derive(Clone, Copy, PartialEq)]
 enum Factor {
     One,
@@ -115,15 +114,15 @@ enum Factor {
     MinusTwo,
     MinusSquare,
     TwoSquares,
-    /// Both functions stay; of `StillBack` the first one's sign changes.
+    /// Both functions are invariant. For `StillBack`, the sign of the first one changes.
     Still,
     StillBack,
-    /// Whatever the function is, the image is the constant `-w.w`, from both sides.
+    /// The image is the constant `-w.w` from both sides, independent of the function.
     Constant,
 }
 
-/// The other functions, and which multiple of which function `-N` makes of each: `N p = w`, `N (p x l) = w x l`,
-/// `N ((p.p) l - 2 (p.l) p) = -2 w x (p x l) - 2 (p.l) w`, `N (p.p) = 2 p.w`, `N (p.l) = l.w`.
+/// The other functions, each with the function and the factor in its image under `-N`: `N p = w`, `N (p x l) = w x l`, `N ((p.p) l - 2 (p.l) p) = -2 w x (p x
+/// l) - 2 (p.l) w`, `N (p.p) = 2 p.w`, `N (p.l) = l.w`.
 const SLIDING: [(usize, usize, Factor); MOVING] = [
     (0, 0, Factor::Constant),
     (STILL + 2, STILL + TURNING + 1, Factor::One),
@@ -135,10 +134,10 @@ const SLIDING: [(usize, usize, Factor); MOVING] = [
     (TURNING + 1, 1, Factor::Minus),
 ];
 
-/// The same of the functions `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x a)`, for a fourth joint that slides: directions stay.
+/// Same as [`UNMOVED`], but for a prismatic fourth joint, with the functions `a`, `l`, `p x l`, `l x a`, `p.a` and `p.(l x a)`. Directions are invariant.
 const UNMOVED_DIRECTED: [usize; STILL] = [0, 1, 2, 3, STILL, STILL + 1];
 
-/// `N (p x l) = w x l`, `N (p.a) = w.a`, `N (p.(l x a)) = w.(l x a)`; the first four stay.
+/// Same as [`SLIDING`], but for a prismatic fourth joint: `N (p x l) = w x l`, `N (p.a) = w.a`, `N (p.(l x a)) = w.(l x a)`. The first four are invariant.
 const SLIDING_DIRECTED: [(usize, usize, Factor); MOVING] = [
     (STILL + TURNING, STILL + 3, Factor::Still),
     (STILL + 3, STILL + TURNING, Factor::StillBack),
@@ -150,12 +149,12 @@ const SLIDING_DIRECTED: [(usize, usize, Factor); MOVING] = [
     (TURNING + 1, 3, Factor::Minus),
 ];
 
-/// `a + b` in both sides' products.
+/// `a + b` in the products of both sides.
 fn sum(a: &Products, b: &Products) -> Row {
     difference(a, &b.map(|entry| -entry))
 }
 
-/// `a - b` in both sides' products, whose 1 is the same.
+/// `a - b` in the products of both sides, which have the product 1 in common.
 fn difference(a: &Products, b: &Products) -> Row {
     std::array::from_fn(|column| match column {
         0 => a[0] - b[0],
@@ -164,19 +163,19 @@ fn difference(a: &Products, b: &Products) -> Row {
     })
 }
 
-/// The near joint whose half angle or way the equations are multiplied by.
+/// The near joint by whose half angle or displacement the equations are multiplied.
 pub(super) struct Doubled {
-    /// Whether it is the second one.
+    /// Whether it is the second joint after the hidden one.
     pub second: bool,
-    /// Whether it slides.
+    /// Whether it is prismatic.
     pub slides: bool,
     /// `n` of its axis.
     pub square: Residue,
 }
 
 impl Doubled {
-    /// The near products of a row in the monomials `C^2, C S, S^2` of half the angle of the joint, each with 1, c, s of the other one:
-    /// `1 = C^2 + n S^2`, `c = C^2 - n S^2`, `s' = 2 C S`; for a joint that slides, `1 = C^2`, `d' = C S`, `d'^2 = S^2`.
+    /// The near products of a row in the monomials `C^2, C S, S^2` of the joint's half angle, each with 1, c, s of the other joint. `1 = C^2 + n S^2`, `c = C^2
+    /// - n S^2`, `s' = 2 C S`. For a prismatic joint, `1 = C^2`, `d' = C S`, `d'^2 = S^2`.
     pub fn monomials(&self, row: &Row) -> [[Residue; 3]; 3] {
         let (step, other) = if self.second { (1, 3) } else { (3, 1) };
         let mut table = [[row[0]; 3]; 3];

@@ -1,31 +1,31 @@
-//! Lines in space that turn about each other ([`Axis`], [`Figure`]), modulo a prime.
+//! The axes of joints ([`Axis`]) and their invariants ([`Figure`]), modulo a prime.
 
 use super::residue::Residue;
 use super::vector::{Vector, add, cross, dot, scale, sub};
 
-/// The axis of a joint: its line with what moving by it needs.
+/// The axis of a joint: its line, with precomputed numbers for its motion.
 ///
-/// With `n = w.w` a turn by `q` has the coordinates `c = cos q` and `s' = sin q / sqrt n`, which fulfil `c^2 + n s'^2 = 1`: no
-/// square root is needed for a direction of any length. A joint that slides by `d' w` has the coordinates `d'^2` and `d'` in their place.
+/// With `n = w.w`, a rotation by `q` has the coordinates `c = cos q` and `s' = sin q / sqrt n`, which fulfil `c^2 + n s'^2 = 1`. So a direction of any length
+/// needs no square root. A prismatic joint with displacement `d' w` has the coordinates `d'^2` and `d'` instead.
 #[derive(Clone, Copy)]
 pub(super) struct Axis {
     /// `w`; not zero, of any length.
     pub direction: Vector,
     /// Any point of the line.
     pub point: Vector,
-    /// Whether the joint slides along it.
+    /// Whether the joint is prismatic.
     pub slides: bool,
     /// `n`.
     pub square: Residue,
     /// `1 / n`.
     pub inverse_square: Residue,
-    /// `1 / (1 + n)`, for the turns at which functions of the angle are sampled.
+    /// `1 / (1 + n)`, for the rotations at which functions of the angle are sampled.
     pub sample: Residue,
-    /// Nought, one and a half.
+    /// The numbers 0, 1 and 1/2.
     pub units: [Residue; 3],
 }
 
-/// What a joint leaves alone: the line of its axis; of a joint that slides, directions: along it, and one across it.
+/// The invariants of a joint: the line of its axis. For a prismatic joint, its direction and a perpendicular direction.
 #[derive(Clone, Copy)]
 pub(super) struct Figure {
     pub direction: Vector,
@@ -34,12 +34,12 @@ pub(super) struct Figure {
 }
 
 impl Figure {
-    /// What the joint of `axis` leaves alone; `across` is perpendicular to it.
+    /// The invariants of the joint of `axis`; `across` is perpendicular to the axis.
     pub fn of(axis: &Axis, across: Vector) -> Self {
         Figure { direction: axis.direction, point: axis.point, side: axis.slides.then_some(across) }
     }
 
-    /// The figure moved by the joint of `axis`, given `c` and `s'`, or `d'^2` and `d'`.
+    /// The figure moved by the joint of `axis` with the coordinates `c` and `s'`, or `d'^2` and `d'`.
     pub fn moved(&self, axis: &Axis, by: [Residue; 2]) -> Figure {
         if axis.slides {
             return Figure { point: add(&self.point, &scale(&axis.direction, by[1])), ..*self };
@@ -54,15 +54,15 @@ impl Figure {
 }
 
 impl Axis {
-    /// A vector turned about the direction of the axis.
+    /// A vector rotated about the direction of the axis.
     fn turned(&self, v: &Vector, [c, s]: [Residue; 2]) -> Vector {
         let along = scale(&self.direction, dot(&self.direction, v) * self.inverse_square);
         let across = sub(v, &along);
         add(&along, &add(&scale(&across, c), &scale(&cross(&self.direction, v), s)))
     }
 
-    /// `c` and `s'` of the three turns that functions are sampled at: half-angle tangents 0, `sqrt n` and `-sqrt n`; or the slides by
-    /// 0, 1 and -1.
+    /// `c` and `s'` of the three rotations at which functions are sampled, with half-angle tangents 0, `sqrt n` and `-sqrt n`. For a prismatic joint, the
+    /// displacements 0, 1 and -1.
     pub fn samples(&self) -> [[Residue; 2]; 3] {
         let [zero, one, _] = self.units;
         if self.slides {
@@ -72,7 +72,7 @@ impl Axis {
         [[one, zero], [c, s], [c, -s]]
     }
 
-    /// The coefficients of 1, `c` and `s'`, or of 1, `d'^2` and `d'`, of a function that is affine in them, from its values at the samples.
+    /// The coefficients of 1, `c` and `s'`, or of 1, `d'^2` and `d'`, of an affine function of these, from its values at the samples.
     pub fn coefficients(&self, [f, g, h]: [Residue; 3]) -> [Residue; 3] {
         let [_, one, half] = self.units;
         let (mean, wide) = (half * (g + h), one + self.square);

@@ -1,4 +1,4 @@
-//! The numbered files of the derivation of six axes, and its page, written for a student.
+//! The numbered text files of the derivation of six axes, and its README, written for students.
 
 use std::fmt::Write;
 
@@ -11,7 +11,7 @@ use groebot_algebra::escape::markdown;
 use groebot_robot::document::word;
 use groebot_robot::kinematics::JointKind;
 
-/// How the equations come about, line by line.
+/// The origin of the equations, line by line.
 const EQUATIONS: [&str; 7] = [
     "The loop E1 E2 E3 E4 E5 E6 = G, seen from a joint h: E_h (E_h+1 E_h+2 L) = G' E_h+5^-1 E_h+4^-1 L, where L is the line of the axis \
      of joint h+3, which E_h+3 leaves alone; joints count on behind joint 6 at joint 1, and axes behind the target are moved by it.",
@@ -30,7 +30,7 @@ const EQUATIONS: [&str; 7] = [
      polishes each, and the equations of the loop measure it.",
 ];
 
-/// What is different for joints that slide.
+/// The differences for prismatic joints.
 const SLIDING: [&str; 3] = [
     "Of a joint that slides by d the functions are polynomials of degree two in d: 1, d^2, d take the places of 1, c, s, and with \
      d = sin(r/2) / cos(r/2) the equations are multiplied by cos(r/2)^2.",
@@ -41,7 +41,7 @@ const SLIDING: [&str; 3] = [
 ];
 
 impl EigenvalueView<'_> {
-    /// The stage files with their names: the same bytes at every run.
+    /// The stage files with their names. Every run gives the same bytes.
     pub fn stage_files(&self) -> Vec<(String, Vec<u8>)> {
         let [equations, plan, .., program, certificate] = STAGES;
         let files = [
@@ -62,7 +62,7 @@ impl EigenvalueView<'_> {
         text
     }
 
-    /// How the equations come about, and what is different for joints that slide if there are any.
+    /// The origin of the equations, and the differences for prismatic joints if there are any.
     fn told_equations(&self) -> impl Iterator<Item = &'static str> {
         let slides = self.method.six.joints().iter().any(|joint| joint.kind == JointKind::Prismatic);
         EQUATIONS.into_iter().chain(SLIDING.into_iter().filter(move |_| slides))
@@ -76,7 +76,7 @@ impl EigenvalueView<'_> {
         text
     }
 
-    /// What is done with the joint that is given.
+    /// Text on the treatment of given joints.
     pub fn given(&self) -> Option<String> {
         let given = self.problem.chain.given();
         let names: Vec<&str> = given.iter().map(|&joint| self.problem.chain.joints()[joint].name.as_str()).collect();
@@ -90,7 +90,7 @@ impl EigenvalueView<'_> {
         Some(format!("{text}, and what is left is the target of the six others."))
     }
 
-    /// What random targets modulo primes showed.
+    /// The counts of random targets modulo primes, as text.
     pub fn counts(&self) -> Vec<String> {
         let line = |evidence: &crate::derive::planner::Evidence| {
             let degrees: Vec<String> = evidence.degrees.iter().map(usize::to_string).collect();
@@ -105,7 +105,7 @@ impl EigenvalueView<'_> {
         self.method.evidence.iter().map(line).collect()
     }
 
-    /// The formulations with their proofs.
+    /// The formulations with their proofs, as text.
     pub fn choices(&self) -> Vec<String> {
         let value = |determinant: &Determinant| format!("{} modulo {}", determinant.value, determinant.prime);
         let line = |(index, regular): (usize, &super::Regular)| {
@@ -120,7 +120,7 @@ impl EigenvalueView<'_> {
         self.method.formulations.iter().enumerate().map(line).collect()
     }
 
-    /// What a formulation hides and doubles.
+    /// The hidden and the doubled joint of a formulation, as text.
     fn told(&self, formulation: Formulation) -> String {
         let name = |joint: usize| self.method.six.joints()[joint].name.as_str();
         let (hidden, doubled) = (formulation.hidden, formulation.doubled());
@@ -163,7 +163,7 @@ impl EigenvalueView<'_> {
         text
     }
 
-    /// The report for a student.
+    /// The report for students.
     pub fn document(&self) -> Document {
         let mut page = Document::new(&format!("{}: its inverse kinematics, explained", self.problem.chain.name()));
         self.told_equations().for_each(|line| page.say(line));

@@ -1,25 +1,25 @@
-//! Which formulations of a chain are accurate ([`survey`]): tried at random targets.
+//! Selection of a chain's accurate formulations ([`survey`]), by tests at random targets.
 
 use groebot_runtime::six_axes::Rigid;
 
 use crate::derive::samples::specimen::Random;
 use crate::solver::eigenvalue::{Formulation, Layout};
 
-/// Random targets that each formulation is tried at.
+/// The number of random targets for each formulation.
 const TARGETS: usize = 100;
-/// What the targets are drawn with.
+/// The random seed of the targets.
 const SEED: u64 = 11;
-/// The most formulations that are kept.
+/// The maximum number of formulations that are kept.
 const MOST: usize = 6;
-/// The share of targets at which a formulation must be trusted.
+/// The minimum fraction of targets at which a formulation must give a trusted result.
 const LEAST: f64 = 0.1;
-/// The same for chains with two sliding joints or more, some of whose formulations find but half of the answers.
+/// Same as [`LEAST`], but for chains with at least two prismatic joints. Some of their formulations find only half of the solutions.
 const LEAST_OF_SLIDING: f64 = 0.25;
-/// How much worse than any miss a target counts at which the formulation is not trusted, in decades.
+/// The accuracy, in decades, of a target at which the formulation is not trusted. It is worse than any error.
 const DISTRUST: f64 = 4.0;
 
-/// Of these formulations the best ones, most accurate first: by the mean order of magnitude of what their candidates miss before they are
-/// polished. The best of each hidden joint come before all others.
+/// The best of these formulations, the most accurate first. The criterion is the mean order of magnitude of their candidates' errors before polishing. The best
+/// formulation of each hidden joint comes before all others.
 pub fn survey(layout: &Layout, formulations: &[Formulation]) -> Vec<Formulation> {
     let mut ranked: Vec<(f64, Formulation)> = formulations.iter().filter_map(|f| rank(layout, *f)).collect();
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -28,7 +28,7 @@ pub fn survey(layout: &Layout, formulations: &[Formulation]) -> Vec<Formulation>
     first.into_iter().chain(second).take(MOST).map(|index| ranked[index].1).collect()
 }
 
-/// The mean order of magnitude; `None` for a formulation that can hardly ever be trusted.
+/// The mean order of magnitude of the errors. `None` for a formulation that is rarely trusted.
 fn rank(layout: &Layout, formulation: Formulation) -> Option<(f64, Formulation)> {
     let solver = layout.chain(&Rigid::NONE, &[formulation]);
     let mut random = Random::new(SEED);

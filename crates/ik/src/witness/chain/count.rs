@@ -1,9 +1,10 @@
 //! The exact number of distinct real solutions at rational targets: [`Counter`].
 //!
-//! The equations' Groebner basis is learned once modulo a prime; for each target F4 repeats the arithmetic modulo further primes
-//! (Traverso 1988), where the minimal polynomial of a linear form of the unknowns is read off (Wiedemann 1986). Rebuilt over
-//! Q, it has as many real roots as there are real solutions when its degree is the number of all solutions (the shape lemma; Cox,
-//! Little, O'Shea, "Using Algebraic Geometry", 2.4): Descartes' rule of signs counts them.
+//! The equations' Groebner basis is learned once modulo a prime. For each target, F4 repeats the arithmetic modulo further primes (Traverso 1988). There the
+//! minimal polynomial of a linear form of the unknowns is computed (Wiedemann 1986) and rebuilt over Q.
+//!
+//! If its degree is the number of all solutions, it has as many real roots as there are real solutions (the shape lemma; Cox, Little, O'Shea, "Using Algebraic
+//! Geometry", 2.4). Descartes' rule of signs counts them.
 
 use std::cell::Cell;
 
@@ -20,29 +21,29 @@ use groebot_algebra::poly::{Monomial, Order, Polynomial, PolynomialRing, Term};
 use groebot_algebra::roots::isolate_square_free;
 use groebot_robot::kinematics::Chain;
 
-/// Primes that a replay takes at once.
+/// The number of primes in one replay.
 const LANES: usize = 4;
-/// Bits of certainty of each rebuilt fraction.
+/// The number of additional bits that confirm a rebuilt fraction.
 const SURPLUS: u32 = 30;
-/// Batches of primes after which a target is given up.
+/// The maximum number of batches of primes per target.
 const BATCHES: usize = 400;
-/// A target that takes more batches than this takes long: lengths and angles of many digits make all of them so.
+/// The number of batches from which a target is slow. With lengths and angles of many digits, all targets are slow.
 const LONG: usize = 128;
-/// So many targets that take long are counted or given up, and no more.
+/// The maximum number of slow targets that are counted or given up.
 const FEW: usize = 3;
-/// Batches of primes between two attempts to rebuild.
+/// The number of batches of primes between two attempts to rebuild.
 const PATIENCE: usize = 4;
-/// Linear forms that are tried.
+/// The number of linear forms that are tried.
 const FORMS: u64 = 3;
 
-/// The exponents of a monomial, one an unknown.
+/// The exponents of a monomial, one for each unknown.
 type Exponents = Vec<u32>;
 /// A polynomial with integer coefficients.
 type Integral = Vec<(Exponents, BigInt)>;
 /// The polynomials of one target.
 type System = Vec<Integral>;
 
-/// A basis modulo a prime with the way to it.
+/// A basis modulo a prime, with the learned computation.
 struct Learned {
     trace: Trace,
     /// The terms of each generator, greatest first.
@@ -62,7 +63,7 @@ struct Image {
 /// A chain whose joints are actuators of a mechanism.
 struct Part {
     exact: ExactChain,
-    /// By joint: its actuator.
+    /// By joint: the index of its actuator.
     actuators: Vec<usize>,
 }
 
@@ -73,7 +74,7 @@ pub(super) struct Counter {
     /// The unknowns of each actuator; `None` where it is given.
     unknowns: Vec<Option<Value>>,
     learned: Option<Learned>,
-    /// How many targets have taken long.
+    /// The number of slow targets so far.
     long: Cell<usize>,
 }
 
@@ -84,8 +85,8 @@ impl Counter {
         Counter::of_parts(vec![Part { exact, actuators }], given)
     }
 
-    /// For chains whose joints have these actuators; `None` where the axes of an actuator's joints are vectors of different lengths, so that
-    /// it has no common unknowns.
+    /// The counter of chains whose joints have these actuators. `None` if the axis vectors of an actuator's joints have different lengths, because the joints
+    /// then have no common unknowns.
     pub fn of_coupled(members: &[(&Chain, &[usize])], given: &[usize]) -> Option<Self> {
         let part = |(chain, actuators): &(&Chain, &[usize])| Part {
             exact: ExactChain::new(chain),
@@ -118,7 +119,7 @@ impl Counter {
         Counter { parts, names, unknowns, learned: None, long: Cell::new(0) }
     }
 
-    /// The value of an actuator at the rational point that `t` stands for, as [`ExactChain::value`].
+    /// The value of an actuator at the rational point with parameter `t`, as [`ExactChain::value`].
     pub fn value(&self, actuator: usize, t: &BigRational) -> Option<Value> {
         joints_of(&self.parts, actuator).next().map(|(part, joint)| part.exact.value(joint, t))
     }
@@ -128,11 +129,11 @@ impl Counter {
         joints_of(&self.parts, actuator).next().map_or(f64::NAN, |(part, joint)| part.exact.double(joint, value))
     }
 
-    /// The number of distinct real solutions with the tip where it is at the joint values `values`; `None` when there are
-    /// infinitely many, or multiple ones, or the count takes too many primes.
+    /// The number of distinct real solutions for the target that the joint values `values` reach. `None` if there are infinitely many or multiple ones, or if
+    /// the count needs too many primes.
     ///
     /// # Errors
-    /// What `watch` stops with.
+    /// The error of `watch` if it stops the count.
     pub fn count(&mut self, values: &[Value], watch: &Watch) -> Result<Option<usize>> {
         let before = self.long.get();
         if before >= FEW {
@@ -149,7 +150,7 @@ impl Counter {
         }
     }
 
-    /// The eliminant where the computation goes another way than that of the targets before.
+    /// The eliminant with a newly learned computation, for a target that does not follow the previous one.
     fn eliminant_afresh(&mut self, system: &System, watch: &Watch) -> Result<Option<Vec<BigInt>>> {
         if !self.learn(system, watch)? {
             return Ok(None);
@@ -184,7 +185,7 @@ impl Counter {
         system
     }
 
-    /// The primitive multiple of an equation.
+    /// The primitive integer multiple of an equation.
     fn integral(&self, form: &Form) -> Integral {
         let denominator = form.terms().fold(BigInt::one(), |lcm, (_, c)| lcm.lcm(c.denom()));
         let exponents = |set: u32| (0..self.names.len()).map(|v| set >> v & 1).collect::<Exponents>();
@@ -195,7 +196,7 @@ impl Counter {
         terms
     }
 
-    /// `c^2 + n s^2 = 1`, where `c` has number `first`.
+    /// `c^2 + n s^2 = 1`, where `c` has the index `first`.
     fn circle(&self, first: usize, square: &BigRational) -> Integral {
         let power = |v: Option<usize>| (0..self.names.len()).map(|w| if v == Some(w) { 2 } else { 0 }).collect();
         let (n, d) = (square.numer().clone(), square.denom().clone());
@@ -219,7 +220,7 @@ impl Counter {
         Ok((ring, generators))
     }
 
-    /// Learns the way to the basis at a target; whether there are finitely many solutions.
+    /// Learns the computation of the basis at a target. Returns whether there are finitely many solutions.
     fn learn(&mut self, system: &System, watch: &Watch) -> Result<bool> {
         let prime = primes().next().ok_or_else(no_primes)?;
         let (ring, generators) = self.image(system, prime)?;
@@ -239,8 +240,8 @@ impl Counter {
         Ok(true)
     }
 
-    /// The minimal polynomial over Z of linear form number `form`; `None` when nothing is learned, the target goes another way than
-    /// the learned one, or the form takes a value twice.
+    /// The minimal polynomial over Z of linear form number `form`. `None` if nothing is learned, if the target does not follow the learned computation, or if
+    /// the form has equal values at two solutions.
     fn eliminant(&self, system: &System, form: u64, watch: &Watch) -> Result<Option<Vec<BigInt>>> {
         let Some(learned) = &self.learned else { return Ok(None) };
         let Some(lanes) = lanes(system, &learned.terms) else { return Ok(None) };
@@ -267,7 +268,7 @@ impl Counter {
         Ok(None)
     }
 
-    /// The minimal polynomials modulo several primes, by the learned way; less those that go another.
+    /// The minimal polynomials modulo several primes, by the learned computation. Primes that do not follow it are left out.
     fn images(
         &self,
         learned: &Learned,
@@ -288,7 +289,7 @@ impl Counter {
         Ok(images)
     }
 
-    /// Whether F4 without the learned way comes to the same polynomial.
+    /// Whether F4 without the learned computation gives the same polynomial.
     fn confirms(
         &self,
         system: &System,
@@ -307,7 +308,7 @@ impl Counter {
         Ok(afresh.as_ref() == Some(polynomial))
     }
 
-    /// The minimal polynomial of a linear form, constant term first; `None` when its degree is not `dimension`.
+    /// The minimal polynomial of a linear form, constant term first. `None` if its degree is not `dimension`.
     fn minimal_polynomial(
         &self,
         basis: &Basis<Zp>,
@@ -350,7 +351,7 @@ fn no_primes() -> Error {
     Error::new(ErrorKind::Budget, "no primes below 2^31 are left")
 }
 
-/// The coefficients of the learned terms; `None` when a polynomial has others.
+/// The coefficients of the learned terms. `None` if a polynomial has other terms.
 fn lanes(system: &System, terms: &[Vec<Exponents>]) -> Option<Vec<Vec<BigInt>>> {
     if system.len() != terms.len() {
         return None;
@@ -364,7 +365,7 @@ fn lanes(system: &System, terms: &[Vec<Exponents>]) -> Option<Vec<Vec<BigInt>>> 
     system.iter().zip(terms).map(row).collect()
 }
 
-/// The integer polynomial whose monic images are given, rebuilt from all but the last, which confirms it.
+/// The integer polynomial with these monic images. It is rebuilt from all images but the last, which confirms it.
 fn rebuilt(images: &[Image]) -> Result<Option<Vec<BigInt>>> {
     let Some((last, used)) = images.split_last() else { return Ok(None) };
     let primes: Vec<u32> = used.iter().map(|image| image.prime).collect();

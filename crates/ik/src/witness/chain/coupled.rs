@@ -1,7 +1,8 @@
-//! The check of a solver of chains that share actuators, by the witnesses of a chain: forward kinematics of every chain, the joint values
-//! that made the targets, the exact number of solutions of all equations together, and the screw solver and the numeric oracle
-//! chain by chain, each with the shared actuators where the chains before it have put them. Where shared joints are found from both chains
-//! at once, no chain can be solved first: these two are not asked then.
+//! The check of a solver of coupled chains, by the witnesses of a chain: forward kinematics of every chain, the joint values that made the targets, the exact
+//! number of solutions of all equations together, the screw solver and the numeric oracle.
+//!
+//! The screw solver and the oracle solve chain by chain, each with the shared actuators at the values from earlier chains. If shared joints are found from both
+//! chains together, no chain can be solved first, and these two witnesses are not used.
 
 use nalgebra::DMatrix;
 
@@ -16,7 +17,7 @@ use crate::witness::{Options, Report};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::{Chain, Solution};
 
-/// Checks the solver of `derived` at targets that are of all kinds for one chain in turn.
+/// Checks the solver of `derived`. One chain at a time gets targets of all kinds.
 ///
 /// # Errors
 /// As [`Check::run`].
@@ -25,7 +26,7 @@ pub fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) -> Resu
     let leading = derived.method.stages.iter().map(|stage| leading(derived, stage)).collect::<Result<Vec<Chain>>>()?;
     let leading: Vec<Model<'_>> = leading.iter().map(Model::new).collect();
     let mut targets = Sources::new(&model, &leading, options);
-    // Two shared joints more than a chain determines make the equations of both chains too large to be counted by.
+    // With two shared joints more than a chain determines, the equations of both chains are too large for the exact count.
     let counts = derived.method.simultaneous.as_ref().is_none_or(|simultaneous| simultaneous.steps.len() < 2);
     let counter = if counts { model.counter() } else { None };
     let mut rationals = counter.map(|counter| Rationals::new(counter, options.seed));
@@ -47,8 +48,8 @@ pub fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) -> Resu
     Ok(Report { inputs: inputs.collect(), joints: joints.collect(), rows })
 }
 
-/// The chain of a stage with joints given so that its task determines the others: those that chains before it find, but where both chains find
-/// them together as few as that takes.
+/// The chain of a stage with joints given such that its task determines the others. These are the joints that earlier chains find. If both chains find them
+/// together, as few as necessary.
 fn leading(derived: CoupledView<'_>, stage: &ChainStage) -> Result<Chain> {
     let chain = &stage.problem.chain;
     let mut given = chain.parts().given.clone();
@@ -59,19 +60,19 @@ fn leading(derived: CoupledView<'_>, stage: &ChainStage) -> Result<Chain> {
     chain.with_task(chain.task(), chain.direction().clone(), given)
 }
 
-/// Gives the joint vectors of a chain that reach its target.
+/// A function that returns the joint vectors of a chain that reach its target.
 type Solve<'a, 'b> = dyn Fn(&Member<'a>, &[f64]) -> Result<Vec<Solution>> + 'b;
 
 /// A chain in floating point.
 struct Member<'a> {
     stage: &'a ChainStage,
-    /// With all joints unknown but those that the user gives.
+    /// The chain with all joints unknown except those that the user gives.
     whole: Model<'a>,
-    /// With the joints given that chains before it find.
+    /// The chain with the joints given that earlier chains find.
     own: Model<'a>,
 }
 
-/// Chains that share actuators; the joints are those of their solver.
+/// Coupled chains in floating point. The joints are those of their solver.
 struct CoupledModel<'a> {
     derived: CoupledView<'a>,
     members: Vec<Member<'a>>,
@@ -101,12 +102,12 @@ impl<'a> CoupledModel<'a> {
         Counter::of_coupled(&parts, &given)
     }
 
-    /// A chain that an actuator moves, and its joint.
+    /// One of the chains that an actuator moves, and its joint.
     fn joint(&self, actuator: usize) -> Option<(&Member<'a>, usize)> {
         self.members.iter().find_map(|member| Some((member, member.joint(actuator)?)))
     }
 
-    /// All joint vectors that `solve` finds chain by chain, from a chain's target.
+    /// All joint vectors that `solve` finds chain by chain. It takes the target of a chain.
     fn continued(&self, target: &[f64], solve: &Solve<'a, '_>) -> Result<Vec<Solution>> {
         let start = Solution { q: vec![0.0; self.count], ..Solution::default() };
         let mut ways = vec![start];
@@ -216,12 +217,12 @@ impl Configuration for CoupledModel<'_> {
 /// The screw solvers of chains, one after the other.
 struct ByScrews<'a> {
     coupled: &'a CoupledModel<'a>,
-    /// One for each chain.
+    /// The screw solver of each chain.
     screws: Vec<Screws>,
 }
 
 impl<'a> ByScrews<'a> {
-    /// `None` when screw theory does not solve each chain, one after the other.
+    /// `None` if screw theory does not solve each chain, one after the other.
     fn new(coupled: &'a CoupledModel<'a>) -> Option<Self> {
         if coupled.derived.method.simultaneous.is_some() {
             return None;
@@ -237,7 +238,7 @@ impl<'a> ByScrews<'a> {
 }
 
 impl Solver for ByScrews<'_> {
-    /// A chain's free joint stands at one value, with which the chains behind it cannot be said to go on: no answer then.
+    /// A free joint of a chain has only one sample here, which later chains may not fit. No solution is returned then.
     fn solve(&self, inputs: &[f64]) -> Result<Vec<Solution>> {
         let found = self.coupled.continued(inputs, &|member, target| self.of(member, target))?;
         let shared = |actuator: &usize| {
@@ -250,11 +251,11 @@ impl Solver for ByScrews<'_> {
     }
 }
 
-/// The source of targets: those of one chain in turn, with random joints of the others.
+/// The source of targets: those of one chain at a time, with random joints of the others.
 struct Sources<'a> {
     coupled: &'a CoupledModel<'a>,
     leading: &'a [Model<'a>],
-    /// One for each chain.
+    /// The source of each chain.
     sources: Vec<Targets<'a>>,
 }
 

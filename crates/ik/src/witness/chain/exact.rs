@@ -1,10 +1,10 @@
-//! A chain over Q: forward kinematics at rational joint values, and the equations of all joint vectors with the same tip.
+//! A chain over Q: forward kinematics at rational joint values, and the equations of all joint vectors with the same target.
 //!
-//! The base frame is moved so that the numbers become simple, and where all of the last link's pose counts, any point and frame of it
-//! stand for the tip: a base turned by 0.3 rad, or a tool, does not change the number of solutions.
+//! The base frame is moved so that the numbers become simple. If the task uses the whole pose of the last link, any point and frame of it may replace the tip.
+//! So a base rotated by 0.3 rad, or a tool, does not change the number of solutions.
 //!
-//! Rodrigues' formula about an axis `w` of any length with `n = |w|^2`: the unknowns of a revolute joint are `c = cos q` and
-//! `s = sin q / sqrt(n)` with `c^2 + n s^2 = 1`, that of a prismatic one `d / sqrt(n)`. No root enters.
+//! Rodrigues' formula is used with an axis `w` of any length, `n = |w|^2`. The unknowns of a revolute joint are `c = cos q` and `s = sin q / sqrt(n)` with `c^2
+//! + n s^2 = 1`. That of a prismatic one is `d / sqrt(n)`. No square root is needed.
 
 use num_traits::{One, ToPrimitive, Zero};
 
@@ -13,7 +13,7 @@ use groebot_algebra::number::BigRational;
 use groebot_algebra::poly::rational_root;
 use groebot_robot::kinematics::{Chain, ExactVector, Joint, JointKind, Task};
 
-/// What the unknowns of a joint are.
+/// The values of a joint's unknowns.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
     /// `c` and `s`.
@@ -22,14 +22,14 @@ pub(super) enum Value {
     Slide(Form),
 }
 
-/// A thing that the joints move.
+/// The type of an object that the joints move.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Moved {
     Point,
     Direction,
 }
 
-/// The direction of a word of joints.
+/// The direction of a product of joint motions.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Sense {
     Forward,
@@ -47,11 +47,11 @@ struct Axis {
 /// A chain over Q.
 pub(super) struct ExactChain {
     axes: Vec<Axis>,
-    /// What the task looks at, at the zero configuration.
+    /// The objects of the task, in the zero configuration.
     objects: Vec<(Moved, ExactVector)>,
 }
 
-/// Where a task's objects are: one vector each.
+/// The positions of a task's objects: one vector each.
 pub(super) type Reached = Vec<ExactVector>;
 
 impl ExactChain {
@@ -68,13 +68,12 @@ impl ExactChain {
         self.axes.len()
     }
 
-    /// Whether joint `index` turns.
+    /// Whether joint `index` is revolute.
     pub fn turns(&self, index: usize) -> bool {
         self.axes[index].kind == JointKind::Revolute
     }
 
-    /// The joint at the rational point of its circle (or of its line) that `t` stands for: `t = tan(q/2) / sqrt(n)`, or
-    /// `d / sqrt(n)`.
+    /// The joint at the rational point of its circle (or line) with parameter `t`: `t = tan(q/2) / sqrt(n)`, or `d / sqrt(n)`.
     pub fn value(&self, index: usize, t: &BigRational) -> Value {
         if !self.turns(index) {
             return Value::Slide(Form::constant(t.clone()));
@@ -85,7 +84,7 @@ impl ExactChain {
         Value::Turn([Form::constant(c), Form::constant(s)])
     }
 
-    /// The unknowns of joint `index`, the first of them with number `first`.
+    /// The unknowns of joint `index`. The first of them has the index `first`.
     pub fn unknown(&self, index: usize, first: usize) -> Value {
         if !self.turns(index) {
             return Value::Slide(Form::unknown(first));
@@ -107,7 +106,7 @@ impl ExactChain {
         }
     }
 
-    /// Where the task's objects are at known joint values.
+    /// The positions of the task's objects at known joint values.
     pub fn reached(&self, values: &[Value]) -> Reached {
         let order: Vec<usize> = (0..self.joints()).collect();
         let place = |(kind, zero): &(Moved, ExactVector)| {
@@ -116,7 +115,7 @@ impl ExactChain {
         self.objects.iter().map(place).collect()
     }
 
-    /// The equations `E_k^-1 .. E_1^-1 (reached) = E_(k+1) .. E_n (zero)` of all objects, both cuts next to the middle.
+    /// The equations `E_k^-1 .. E_1^-1 (reached) = E_(k+1) .. E_n (zero)` of all objects, for both cuts next to the middle.
     pub fn equations(&self, reached: &Reached, values: &[Value]) -> Vec<Form> {
         let n = self.joints();
         let cuts = if n.is_multiple_of(2) { vec![n / 2] } else { vec![n / 2, n / 2 + 1] };
@@ -135,7 +134,7 @@ impl ExactChain {
         equations
     }
 
-    /// `x` moved by the joints `joints` (ascending): from the last to the first, or back from the first to the last.
+    /// `x` moved by the joints `joints` (ascending): from the last to the first, or by the inverse motions from the first to the last.
     fn moved(&self, joints: &[usize], values: &[Value], sense: Sense, kind: Moved, x: Forms) -> Forms {
         let step = |x: Forms, &joint: &usize| self.axes[joint].apply(&values[joint], sense, kind, x);
         match sense {
@@ -168,7 +167,7 @@ impl Axis {
     }
 }
 
-/// What the task of `chain` looks at, where it is at the zero configuration, in `frame`.
+/// The objects of the task of `chain` in the zero configuration, in `frame`.
 fn objects(chain: &Chain, frame: &Frame) -> Vec<(Moved, ExactVector)> {
     let tip = chain.tip();
     let points = |point: &ExactVector| vec![(Moved::Point, frame.point(point))];
@@ -184,22 +183,22 @@ fn objects(chain: &Chain, frame: &Frame) -> Vec<(Moved, ExactVector)> {
             let last = chain.joints().iter().rfind(|joint| joint.kind == JointKind::Revolute);
             [points(last.map_or(&tip.point, |joint| &joint.point)), columns()].concat()
         }
-        // What a task sees from the tip is not counted.
+        // Tasks without the whole pose need the tip itself.
         Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => [points(&tip.point), aim()].concat(),
         Task::Direction => aim(),
         Task::Rotation => columns(),
     }
 }
 
-/// A frame over Q: where its origin is, and its axes, of length one.
+/// A frame over Q: its origin, and its unit axes.
 struct Frame {
     origin: ExactVector,
     axes: [ExactVector; 3],
 }
 
 impl Frame {
-    /// At the first axis that turns and along two axes of `chain` at right angles, if their directions have rational lengths; else
-    /// along those of the base.
+    /// The frame at the first revolute axis, along two perpendicular axes of `chain` with directions of rational length. Without such axes, it is parallel to
+    /// the base frame.
     fn of(chain: &Chain) -> Frame {
         let joints = chain.joints();
         let origin = joints.iter().find(|joint| joint.kind == JointKind::Revolute);
@@ -220,7 +219,7 @@ impl Frame {
     }
 }
 
-/// The base's own axes.
+/// The axes of the base frame.
 fn axes() -> [ExactVector; 3] {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| BigRational::from_integer(i64::from(i == j).into())))
 }
@@ -237,7 +236,7 @@ fn cross_exact(a: &ExactVector, b: &ExactVector) -> ExactVector {
     [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &a[i] * &b[j] - &a[j] * &b[i])
 }
 
-/// The vector made as long as one; `None` where its length is no fraction.
+/// The vector scaled to length one. `None` if its length is irrational.
 fn unit(v: &ExactVector) -> Option<ExactVector> {
     let length = rational_root(&square(v)).filter(|length| !length.is_zero())?;
     Some(v.each_ref().map(|x| x / &length))

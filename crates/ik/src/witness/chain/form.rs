@@ -1,4 +1,4 @@
-//! Polynomials over Q in which no unknown has an exponent above one: what a word of joints makes of a point.
+//! Polynomials over Q with exponents of at most one, for points that joints move.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use num_traits::{One, Zero};
 
 use groebot_algebra::number::BigRational;
 
-/// A polynomial by its sets of unknowns: bit `v` of a key stands for unknown `v`.
+/// A polynomial by its sets of unknowns: bit `v` of a key is set for unknown `v`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Form(BTreeMap<u32, BigRational>);
 
@@ -70,12 +70,12 @@ impl Form {
     }
 }
 
-/// `a . x` for numbers `a`.
+/// `a . x` for a constant vector `a`.
 pub(super) fn dot(a: &[BigRational; 3], x: &Forms) -> Form {
     a.iter().zip(x).fold(Form::default(), |sum, (a, x)| sum.with_multiple(x, a))
 }
 
-/// `a x b` for numbers `a`.
+/// `a x b` for a constant vector `a`.
 pub(super) fn cross(a: &[BigRational; 3], x: &Forms) -> Forms {
     [[1, 2], [2, 0], [0, 1]].map(|[i, j]| Form::default().with_multiple(&x[j], &a[i]).with_multiple(&x[i], &-&a[j]))
 }

@@ -1,8 +1,7 @@
-//! The check of a chain's solver by witnesses that share nothing with it: forward kinematics of the chain, joint values that made
-//! the target, the exact number of real solutions, the screw solver, a numeric oracle. Main type: [`Check`].
+//! The check of a chain's solver by independent witnesses: forward kinematics of the chain, joint values that made the target, the exact number of real
+//! solutions, the screw solver, a numeric oracle. Main type: [`Check`].
 //!
-//! What counts as an answer, a match and an ordinary configuration: lengths in reaches, angles in radians; see
-//! [`Fault`] for what can be wrong.
+//! Differences of solutions use lengths as fractions of the reach and angles in radians. See [`Fault`] for the possible faults.
 
 mod count;
 pub mod coupled;
@@ -27,17 +26,17 @@ use rational::Rationals;
 use self_motion::{MEMBER, STEPS, SelfMotions};
 use targets::{Target, Targets};
 
-/// Round targets among so many rows, from the first, are searched numerically too.
+/// The number of rows, from the first, whose round targets are also searched numerically.
 const SEARCHED: usize = 48;
 
-/// What is checked: anything that solves targets given as numbers.
+/// A solver under check, with targets given as numbers.
 ///
 /// Inputs are in the order of a derived program: position, then rotation by rows or direction, then the given joints.
 pub trait Solver {
     /// All joint vectors of the target, with or without the given joints.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] where the solver says that it has a gap; anything else ends the check.
+    /// [`ErrorKind::Unsupported`] if the target is in a known gap of the solver. Other errors end the check.
     fn solve(&self, inputs: &[f64]) -> Result<Vec<Solution>>;
 }
 
@@ -47,11 +46,11 @@ impl Solver for Program {
     }
 }
 
-/// The screw solver of a chain, as one to be checked.
+/// The screw solver of a chain as a [`Solver`].
 pub struct ByScrews(Screws);
 
 impl ByScrews {
-    /// `None` for a chain that screw theory does not solve.
+    /// `None` if screw theory does not solve the chain.
     pub fn new(chain: &Chain) -> Option<Self> {
         Screws::new(chain).map(ByScrews)
     }
@@ -63,25 +62,24 @@ impl Solver for ByScrews {
     }
 }
 
-/// The checks of one solver of a chain.
+/// The check of one solver of a chain.
 pub struct Check<'a> {
     model: &'a dyn Configuration,
     solver: &'a dyn Solver,
     bound: Option<usize>,
     screws: Option<Box<dyn Solver + 'a>>,
     options: Options,
-    /// How far answers may miss their targets, which ask for more than the joints can do: shares of the reach, and radians.
+    /// The maximum error of a solution, for tasks that ask for more than the joints can do: a fraction of the reach, and rad.
     tolerance: f64,
     watch: &'a Watch,
 }
 
 impl<'a> Check<'a> {
-    /// Checks `solver`, which is for `chain` and its task, at targets of all kinds; `bound` is the certified number of complex
-    /// solutions, if it is known. Of the random targets the first [`Options::exact`] come from rational joint values, where solutions
-    /// are counted exactly.
+    /// Checks `solver`, which solves `chain` for its task, at targets of all kinds. `bound` is the certified number of complex solutions, if it is known. The
+    /// first [`Options::exact`] random targets come from rational joint values, where solutions are counted exactly.
     ///
     /// # Errors
-    /// Those of the solver but for gaps; what `watch` stops with. Failed checks are in the report.
+    /// Those of the solver, except for gaps. The error of `watch` if it stops the check. Failed checks are in the report.
     pub fn run(
         chain: &Chain,
         solver: &dyn Solver,
@@ -92,8 +90,8 @@ impl<'a> Check<'a> {
         Check::run_within(chain, solver, bound, (options, RESIDUAL), watch)
     }
 
-    /// The same of a chain as described, whose answers may miss their targets by `tolerance` (shares of the reach, radians): the chain that it means decides
-    /// which there are.
+    /// Same as [`Check::run`], but for a chain as described, whose ideal chain decides which solutions exist. Its solutions may miss their targets by
+    /// `tolerance` (a fraction of the reach, and rad).
     ///
     /// # Errors
     /// As [`Check::run`].
@@ -108,7 +106,7 @@ impl<'a> Check<'a> {
         let screws = ByScrews::new(chain).map(|screws| Box::new(screws) as Box<dyn Solver>);
         let mut rationals = Rationals::new(Counter::new(chain, &model.given), options.seed);
         let mut targets = Targets::new(&model, options.draws, options.seed);
-        // The angle of a joint that follows another by an odd factor is no rational point of the circle.
+        // The angle of a joint that follows another one is not always at a rational point of the circle.
         let follows = chain.joints().iter().any(|joint| joint.mimic.is_some());
         let is_counted = !follows && chain.task() != Task::PositionPitchRoll;
         let exact = if is_counted { options.exact } else { 0 };
@@ -121,7 +119,7 @@ impl<'a> Check<'a> {
         })
     }
 
-    /// The rows of the targets that `draw` gives for their numbers, each with its exact number of solutions if that was counted.
+    /// The rows of the targets that `draw` returns for their numbers, each with its exact number of solutions if that was counted.
     fn rows(&self, draw: &mut dyn FnMut(usize) -> Result<(Target, Option<usize>)>) -> Result<Vec<Row>> {
         let mut rows = Vec::with_capacity(self.options.targets);
         for number in 0..self.options.targets {
@@ -183,7 +181,7 @@ impl<'a> Check<'a> {
         Ok(faults)
     }
 
-    /// What a search of a round target finds, and what the target next to it has, beyond these answers. Each has been checked by itself.
+    /// Faults of the set of solutions at a round target: solutions of a search, and of a slightly moved target, that are not among them.
     fn round(&self, number: usize, row: &mut Row, answers: &[Solution]) -> Result<Vec<Fault>> {
         let mut faults = Vec::new();
         let is_early = number < SEARCHED || self.options.draws == Draws::Round;
@@ -197,7 +195,7 @@ impl<'a> Check<'a> {
         Ok(faults)
     }
 
-    /// Whether each ordinary answer to a reached target that is moved by [`MOVED`] is next to one of these.
+    /// Whether each ordinary solution of a reached target that is moved by [`MOVED`] is next to one of these.
     fn agrees_beside(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
         let Some(mut q) = row.joints.clone().or_else(|| answers.first().map(|answer| answer.q.clone())) else {
             return Ok(true);
@@ -225,7 +223,7 @@ impl<'a> Check<'a> {
         answers.iter().any(|answer| self.model.distance(q, &answer.q) <= within)
     }
 
-    /// Checks each answer by itself, and records the worst residual.
+    /// Checks each solution alone, and records the largest residual.
     fn each(&self, row: &mut Row, answers: &[Solution]) -> Vec<Fault> {
         let target = row.target.clone();
         faults_of_each(row, answers, |answer| {
@@ -237,19 +235,19 @@ impl<'a> Check<'a> {
         })
     }
 
-    /// Checks the answers as a set.
+    /// Checks the solutions as a set.
     fn together(&self, answers: &[Solution]) -> Vec<Fault> {
         let twice = |(index, a): (usize, &Solution)| {
             answers[..index].iter().any(|b| self.model.distance(&a.q, &b.q) <= DUPLICATE)
         };
         let duplicate = answers.iter().enumerate().any(twice).then_some(Fault::Duplicate);
-        // A self-motion may be told by several of its members.
+        // Several members may represent one self-motion.
         let single = answers.iter().filter(|answer| answer.free.is_empty()).count();
         let bound = self.bound.is_some_and(|bound| single > bound).then_some(Fault::Bound);
         duplicate.into_iter().chain(bound).collect()
     }
 
-    /// Whether the joint values that made the target are among the answers, and told as a self-motion where they are of one.
+    /// The fault if the joint values that made the target are not among the solutions, or if a self-motion with them is not reported.
     fn known(&self, row: &mut Row, answers: &[Solution]) -> Option<Fault> {
         let (q, target) = (row.joints.as_ref()?, &row.target);
         let gap = |answer: &Solution| self.model.distance(q, &answer.q);
@@ -267,8 +265,8 @@ impl<'a> Check<'a> {
         (!answers.iter().any(is_same)).then_some(Fault::Missing)
     }
 
-    /// Whether joint values of a chain as described are one answer with `b` because a pose at which two answers meet is within the tolerance: between them all joint
-    /// values are as near to the target as an answer may be.
+    /// Whether `q` and `b` are one solution of a chain as described. This holds if a pose at which two solutions meet is within the tolerance. All joint values
+    /// between them then reach the target within the tolerance.
     fn are_one_in_tolerance(&self, target: &[f64], q: &[f64], b: &[f64]) -> bool {
         let open = self.tolerance.sqrt();
         self.is_described()
@@ -277,13 +275,13 @@ impl<'a> Check<'a> {
             && self.model.is_joined(target, q, b, self.tolerance)
     }
 
-    /// Whether answers may miss their targets: those of a chain as described, of which the chain that it means decides which there are.
+    /// Whether the chain is described inexactly, so that solutions may miss their targets. The ideal chain decides which solutions exist.
     fn is_described(&self) -> bool {
         self.tolerance > RESIDUAL
     }
 
-    /// Whether `q` is of a self-motion that one of the answers stands for. A chain as described may miss the target along the path from one to the other by as
-    /// much as each answer may: the chain that it means has the self-motion.
+    /// Whether `q` is a member of a self-motion that one of the solutions represents. On the path between them, a described chain may miss the target by the
+    /// tolerance of a solution, because only the ideal chain has the self-motion.
     fn is_member(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> bool {
         let self_motions = || answers.iter().filter(|answer| !answer.free.is_empty());
         let missed = if self.is_described() { self.tolerance } else { MEMBER };
@@ -293,16 +291,17 @@ impl<'a> Check<'a> {
             || self_motions().any(|answer| self.model.runs_to(target, q, &answer.q))
     }
 
-    /// Whether the number of answers hangs on rounding.
+    /// Whether the number of solutions depends on rounding.
     fn is_tie(&self, row: &Row, answers: &[Solution]) -> bool {
         let known = answers.iter().map(|answer| answer.q.as_slice()).chain(row.joints.as_deref());
         known.into_iter().any(|q| self.model.sigma(q) <= TIE)
     }
 
-    /// Whether each answer of the screw solver has its match among ours, and each ordinary one of ours among its. Answers that hold
-    /// within a solver's tolerance only, out of reach by less than that, may be missing on the other side; next to singular
-    /// configurations, and where the task asks more than the joints can do, the screw solver loses answers, and one that it lacks is judged by
-    /// forward kinematics alone.
+    /// Whether the solutions agree with those of the screw solver.
+    ///
+    /// Each of its solutions must match one of ours, and each ordinary one of ours must match one of its. Solutions of targets that are only within a solver's
+    /// tolerance of the workspace may be missing on the other side. The screw solver loses solutions next to singular configurations and for tasks that ask for
+    /// more than the joints can do. There, forward kinematics alone checks ours.
     fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
         let covers = |some: &[Solution], answer: &Solution| {
             let least = if self.model.sigma(&answer.q) > ORDINARY { EXACT } else { SHARP };
@@ -320,14 +319,13 @@ impl<'a> Check<'a> {
         answers.iter().all(ours) && others.iter().all(|other| covers(answers, other))
     }
 
-    /// Whether `b` is the same answer as `a`. Two solvers of a chain as described may come to different joint values that are as near to the target as it may be
-    /// missed.
+    /// Whether `b` is the same solution as `a`. For a chain as described, two solvers may give different joint values with errors within the tolerance.
     fn are_same(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         let open = 2.0 * self.tolerance / self.model.sigma(a).max(self.tolerance.sqrt());
         self.model.is_same(target, a, b) || (self.is_described() && self.model.distance(a, b) <= open)
     }
 
-    /// The number of the oracle's answers, and whether its ordinary ones are ours.
+    /// The number of the oracle's solutions, and whether they agree with ours at ordinary configurations.
     fn oracle(&self, target: &[f64], answers: &[Solution]) -> Result<(usize, bool)> {
         let mut verdict = (0, false);
         for seeds in SEEDS {
@@ -349,7 +347,7 @@ impl<'a> Check<'a> {
     }
 }
 
-/// The exact number of distinct real solutions with the tip where rational joint values bring it, and these.
+/// Targets from rational joint values with the exact number of distinct real solutions.
 pub use rational::{Counted, count_exactly};
 
 fn is_random(kind: &Kind) -> bool {

@@ -1,5 +1,5 @@
-//! A chain and its task in floating point: what every check measures by. Only forward kinematics is used here. Main types:
-//! [`Configuration`], what checks need to know, and [`Model`], that of one chain.
+//! A chain and its task in floating point, the reference of all checks. It uses only forward kinematics. Main types: [`Configuration`], the interface for
+//! checks, and [`Model`], that of one chain.
 
 use std::f64::consts::PI;
 
@@ -11,21 +11,21 @@ use groebot_robot::kinematics::oracle::{Oracle, Unknown};
 use groebot_robot::kinematics::{Chain, JointKind, Solution, Target, TargetNumber, Task};
 use groebot_robot::spatial::{Pose, angle, vertical};
 
-/// An answer reaches its target when it misses it by no more than this share of the reach, or this angle \[rad\].
+/// The maximum error of a solution: a fraction of the reach, and an angle \[rad\].
 pub(super) const RESIDUAL: f64 = 1e-11;
-/// An ordinary joint vector that misses by no more is a solution beyond doubt.
+/// The error below which an ordinary joint vector is certainly a solution.
 pub(super) const EXACT: f64 = 1e-13;
-/// One next to a singular configuration that misses by no more: there a target 1e-13 away may have other solutions, or a self-motion.
+/// Same as [`EXACT`], but next to a singular configuration. There, a target at a distance of 1e-13 may have other solutions, or a self-motion.
 pub(super) const SHARP: f64 = 1e-14;
-/// A joint vector is ordinary when the smallest singular value of the scaled Jacobian exceeds this.
+/// The lower limit of the scaled Jacobian's smallest singular value at an ordinary joint vector.
 pub(super) const ORDINARY: f64 = 1e-3;
 
 /// The chain, its task, and which of its joints are unknown.
 pub(super) struct Model<'a> {
     pub chain: &'a Chain,
-    /// The reach, or one for a chain that only turns its tip.
+    /// The reach, or one for a chain that only rotates its tip.
     pub length: f64,
-    /// The joints that are asked for, but for those that follow others.
+    /// The unknown joints, without those that follow others.
     pub unknown: Vec<usize>,
     /// The joints whose values are given.
     pub given: Vec<usize>,
@@ -38,13 +38,13 @@ impl<'a> Model<'a> {
         Model { chain, length: if reach > 0.0 { reach } else { 1.0 }, unknown: chain.independent(), given }
     }
 
-    /// Whether joint `index` turns.
-    /// The values that a joint which slides may have: its limits, or the reach to either side.
+    /// The range of a prismatic joint: its limits, or the reach in both directions.
     pub fn slide(&self, joint: usize) -> (f64, f64) {
         let limits = self.chain.joints()[joint].limits.filter(|(low, high)| low < high);
         limits.unwrap_or((-self.length, self.length))
     }
 
+    /// Whether joint `index` is revolute.
     pub fn turns(&self, index: usize) -> bool {
         self.chain.joints()[index].kind == JointKind::Revolute
     }
@@ -56,12 +56,12 @@ impl<'a> Model<'a> {
         names
     }
 
-    /// The number of a target's numbers that are lengths, all in front.
+    /// The number of lengths among a target's numbers. They come first.
     pub fn lengths(&self) -> usize {
         self.chain.task().layout().lengths()
     }
 
-    /// The target that joint values reach, as the numbers that a program takes.
+    /// The target that joint values reach, as inputs of a program.
     pub fn target(&self, q: &[f64]) -> Vec<f64> {
         let mut target = self.seen(&self.forward(q));
         target.extend(self.chain.given_inputs().iter().map(|&joint| q[joint]));
@@ -73,13 +73,13 @@ impl<'a> Model<'a> {
         steps.fold(self.chain.base_from_tip(), |pose, (screw, &q)| screw.exp(q) * pose)
     }
 
-    /// What the task sees of a pose.
+    /// The numbers of the task for a pose.
     pub fn seen(&self, pose: &Pose) -> Vec<f64> {
         let target = Target::of_pose(self.chain, pose);
         self.chain.task().layout().values(&target).expect("the target is of the chain's task")
     }
 
-    /// By how much joint values miss each number of a target: shares of the reach, then plain numbers or radians.
+    /// The error of joint values in each number of a target: fractions of the reach, then plain numbers or radians.
     pub fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
         let seen = self.compared(&self.seen(&self.forward(q)));
         let target = &self.compared(target)[..];
@@ -92,12 +92,12 @@ impl<'a> Model<'a> {
             _ => seen - wanted,
         };
         let misses = seen.iter().zip(target).enumerate().map(miss);
-        // Where no joint follows another this is no number of the task's.
+        // Without followers, the task has no such number.
         let strays = self.chain.joints().iter().any(|joint| joint.mimic.is_some()).then(|| self.chain.strays(q));
         misses.chain(strays).collect()
     }
 
-    /// A target's numbers as they are compared: in place of pitch and roll, which jump, where the vertical is, seen from the tip.
+    /// A target's numbers for comparison. Pitch and roll are discontinuous; the vertical direction in the tip frame replaces them.
     fn compared(&self, target: &[f64]) -> Vec<f64> {
         match (self.chain.task(), target) {
             (Task::PositionPitchRoll, &[x, y, z, pitch, roll, ref rest @ ..]) => {
@@ -107,26 +107,26 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// The reach with the slides of `q` added.
+    /// The reach plus the displacements of the prismatic joints in `q`.
     fn size(&self, q: &[f64]) -> f64 {
         let slides = q.iter().enumerate().filter(|(joint, _)| !self.turns(*joint));
         self.length + slides.map(|(_, q)| q.abs()).sum::<f64>()
     }
 
-    /// The residual of joint values: the larger of the position's share of the reach and the angle of the orientation \[rad\].
+    /// The residual of joint values: the larger of the position error (a fraction of the reach) and the orientation error \[rad\].
     pub fn residual(&self, target: &[f64], q: &[f64]) -> f64 {
         let misses = self.misses(target, q);
         let (position, turn) = misses.split_at(self.lengths());
         let norm = |part: &[f64]| part.iter().map(|miss| miss * miss).sum::<f64>().sqrt();
-        // A small turn by an angle moves the nine entries of a matrix by its root of two in all.
+        // A small rotation by an angle changes the nine entries of a matrix by sqrt(2) times the angle in all (Frobenius norm).
         let whole = matches!(self.chain.task(), Task::Pose | Task::Rotation);
         let turn = norm(turn) / if whole { 2.0_f64.sqrt() } else { 1.0 };
         let worst = norm(position).max(turn);
         if worst.is_nan() { f64::INFINITY } else { worst }
     }
 
-    /// The derivative of what the task sees, by the unknown joints, with which others move: lengths in reaches, angles in radians. As many rows
-    /// as the task has freedoms.
+    /// The derivative of the task's numbers by the unknown joints, with which their followers move: lengths as fractions of the reach, angles in radians. It
+    /// has as many rows as the task has freedoms.
     pub fn jacobian(&self, q: &[f64]) -> DMatrix<f64> {
         let mut q = q.to_vec();
         self.chain.follow(&mut q);
@@ -134,43 +134,43 @@ impl<'a> Model<'a> {
     }
 }
 
-/// What checks need to know of a mechanism and its task: its joints, and by how much they miss a target.
+/// The interface of a mechanism and its task for checks: its joints, and the errors of joint values at a target.
 pub(super) trait Configuration {
-    /// The number of joints, given ones too.
+    /// The number of joints, including given ones.
     fn count(&self) -> usize;
 
-    /// The joints that are asked for.
+    /// The unknown joints.
     fn unknown(&self) -> &[usize];
 
-    /// Whether a joint turns.
+    /// Whether a joint is revolute.
     fn turns(&self, joint: usize) -> bool;
 
-    /// A length typical of the mechanism.
+    /// A typical length of the mechanism.
     fn length(&self) -> f64;
 
-    /// The target that joint values reach, as the numbers that a program takes.
+    /// The target that joint values reach, as inputs of a program.
     fn target(&self, q: &[f64]) -> Vec<f64>;
 
-    /// By how much joint values miss each number of a target: shares of the reach, then plain numbers or radians.
+    /// The error of joint values in each number of a target: fractions of the reach, then plain numbers or radians.
     fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64>;
 
-    /// The residual of joint values: the larger of the position's share of the reach and the angle of the orientation \[rad\].
+    /// The residual of joint values: the larger of the position error (a fraction of the reach) and the orientation error \[rad\].
     fn residual(&self, target: &[f64], q: &[f64]) -> f64;
 
-    /// The derivative of what the task sees, by the unknown joints: lengths in reaches, angles in radians. As many rows as the
-    /// task has freedoms.
+    /// The derivative of the task's numbers by the unknown joints: lengths as fractions of the reach, angles in radians. It has as many rows as the task has
+    /// freedoms.
     fn jacobian(&self, q: &[f64]) -> DMatrix<f64>;
 
-    /// The joint vectors that the numeric oracle finds from a number of starting points.
+    /// The joint vectors that the numeric oracle finds from `seeds` starting points.
     ///
     /// # Errors
     /// As [`Oracle::search`].
     fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>>;
 
-    /// An answer with the values of all joints.
+    /// A solution with the values of all joints.
     fn completed(&self, target: &[f64], answer: Solution) -> Solution;
 
-    /// Brings joints that follow others to where these bring them.
+    /// Sets joints that follow others to the values of their laws.
     fn settle(&self, _q: &mut [f64]) {}
 
     /// One radian, or the reach.
@@ -183,13 +183,13 @@ pub(super) trait Configuration {
         smallest_singular_value(self.jacobian(q))
     }
 
-    /// The largest difference of two joint vectors: radians, or shares of the reach.
+    /// The largest difference of two joint vectors: rad, or a fraction of the reach.
     fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
         let one = |&joint: &usize| self.difference(joint, a[joint], b[joint]).abs() / self.unit(joint);
         self.unknown().iter().map(one).fold(0.0, f64::max)
     }
 
-    /// `a - b`, of angles the way round that is shorter.
+    /// `a - b`; for angles the difference modulo 2 pi in (-pi, pi].
     fn difference(&self, joint: usize, a: f64, b: f64) -> f64 {
         if self.turns(joint) { angle::difference(a, b) } else { a - b }
     }
@@ -259,8 +259,7 @@ impl Configuration for Model<'_> {
         self.chain.follow(q);
     }
 
-    /// An answer with the values of all joints, the given ones taken from the target, in the chain's numbering. Of a joint that follows another
-    /// one and is free, that one is.
+    /// A solution with the values of all joints, in the chain's order. Given values are taken from the target. A free follower is replaced by its leader.
     fn completed(&self, target: &[f64], answer: Solution) -> Solution {
         let count = self.chain.joints().len();
         let open: Vec<usize> = (0..count).filter(|joint| !self.given.contains(joint)).collect();

@@ -11,7 +11,7 @@ use crate::{Result, Watch};
 use groebot_algebra::number::{BigInt, BigRational};
 use groebot_robot::kinematics::Chain;
 
-/// Numerators and denominators of the half-angle tangents.
+/// The maximum numerator and denominator of the half-angle tangents.
 const HEIGHT: f64 = 7.0;
 
 /// A target from rational joint values with its exact number of real solutions.
@@ -20,16 +20,16 @@ const HEIGHT: f64 = 7.0;
 pub struct Counted {
     /// The target's numbers, rounded.
     pub inputs: Vec<f64>,
-    /// The joint values that made it, rounded.
+    /// The joint values that made the target, rounded.
     pub joints: Vec<f64>,
-    /// The number of distinct real solutions; `None` when there are infinitely many or multiple ones.
+    /// The number of distinct real solutions; `None` if there are infinitely many or multiple ones.
     pub solutions: Option<usize>,
 }
 
-/// Counted targets of `chain`, `number` of them; the same seed gives the same ones.
+/// `number` counted targets of `chain`. Equal seeds give equal targets.
 ///
 /// # Errors
-/// What `watch` stops with.
+/// The error of `watch` if it stops the count.
 pub fn count_exactly(chain: &Chain, number: usize, seed: u64, watch: &Watch) -> Result<Vec<Counted>> {
     let model = Model::new(chain);
     let mut rationals = Rationals::new(Counter::new(chain, &model.given), seed);
@@ -48,7 +48,7 @@ impl Rationals {
         Rationals { counter, random: Random::new(seed ^ 0x5eed), done: 0 }
     }
 
-    /// A counted target instead of a random one while fewer than `wanted` were counted; any other target as it is.
+    /// A counted target in place of a random one, while fewer than `wanted` were counted. Other targets are returned unchanged.
     pub fn in_place_of(
         &mut self,
         model: &dyn Configuration,
@@ -72,7 +72,7 @@ impl Rationals {
         Ok(Counted { inputs: model.target(&joints), joints, solutions })
     }
 
-    /// A fraction of small height, neither zero nor one; of a slide a share of the reach.
+    /// A fraction with small numerator and denominator, neither zero nor one. For a prismatic joint, it is multiplied by a part of the reach.
     fn value(&mut self, model: &dyn Configuration, joint: usize) -> Option<Value> {
         let mut whole = |low: f64, high: f64| BigInt::from(self.random.between(low - 1.0, high).ceil() as i64);
         let (mut numerator, denominator) = (whole(1.0, HEIGHT), whole(2.0, HEIGHT));
@@ -86,7 +86,7 @@ impl Rationals {
         if model.turns(joint) {
             return self.counter.value(joint, &share);
         }
-        // Not a round share: lengths of robots are round, and would meet singular values.
+        // Not a round part: lengths of robots are round, and round displacements would give singular values.
         let thousandths = BigInt::from((model.length() * 237.1).round() as i64);
         self.counter.value(joint, &(share * BigRational::new(thousandths, 1000.into())))
     }

@@ -1,4 +1,4 @@
-//! Round targets, which people use first: joint values in steps of 15 or 30 degrees, orientations along the base's axes at positions on a grid.
+//! Round targets, which users try first: joint values in multiples of 15 or 30 degrees, and axis-aligned orientations at positions on a grid.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -8,9 +8,9 @@ use super::model::Model;
 use crate::witness::random::Random;
 use groebot_robot::spatial::Pose;
 
-/// The grid's width is the round number (1, 2 or 5 times a power of ten) next to this share of the reach.
+/// The approximate width of the grid as a fraction of the reach. It is rounded to 1, 2 or 5 times a power of ten.
 const FINENESS: f64 = 0.05;
-/// Numbers of an orientation, or shares of the reach, that are this near to a whole number are one.
+/// The tolerance within which entries of an orientation, or fractions of the reach, are rounded to integers.
 const ROUNDING: f64 = 1e-14;
 
 /// The source of round targets for one chain.
@@ -24,7 +24,7 @@ impl<'a> RoundTargets<'a> {
         RoundTargets { model, random: Random::new(seed ^ 0x0072_6f75_6e64) }
     }
 
-    /// The joint values: angles in steps of so many degrees, slides on the grid and within their limits.
+    /// Joint values: angles in multiples of `degrees`, displacements on the grid and within their limits.
     pub fn joints(&mut self, degrees: u32) -> Vec<f64> {
         let half_turn = f64::from(180 / degrees);
         let mut q: Vec<f64> = (0..self.model.chain.joints().len())
@@ -42,7 +42,7 @@ impl<'a> RoundTargets<'a> {
         q
     }
 
-    /// The target's numbers for a pose whose axes are those of the base, at a position on the grid next to one that is reached; in two of three cases y or x is zero.
+    /// The target's numbers for a pose parallel to the base frame, at a grid position next to a reachable one. In two of three cases y or x is zero.
     pub fn aligned(&mut self, number: usize) -> Vec<f64> {
         let q = self.joints(15);
         let grid = grid(self.model.length);
@@ -70,7 +70,7 @@ impl<'a> RoundTargets<'a> {
     }
 }
 
-/// The width of a grid on something so long.
+/// The width of a grid for this length.
 fn grid(length: f64) -> f64 {
     let fine = FINENESS * length;
     let power = 10.0_f64.powf(fine.log10().floor());

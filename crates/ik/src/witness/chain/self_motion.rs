@@ -1,5 +1,5 @@
-//! Self-motions of one parameter at singular targets: whether there is one, whether a path in it leads to an answer, and which answers
-//! are the same up to one.
+//! Self-motions of one parameter at singular targets: whether there is one, whether a path in it leads to a solution, and which solutions are equal up to a
+//! self-motion.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,43 +8,43 @@ use super::singular::{least_squares, null_vector};
 use crate::solver::BLUR;
 use groebot_robot::kinematics::Solution;
 
-/// A self-motion's own configurations are at most this ordinary.
+/// The maximum sigma of a configuration in a self-motion.
 const SINGULAR: f64 = 1e-12;
-/// How far along the null vector a self-motion is looked for.
+/// The distance along the null vector at which a self-motion is tested.
 const PROBE: f64 = 0.05;
 /// The residual of a member of a self-motion, after correction.
 pub(super) const MEMBER: f64 = 1e-12;
-/// That of the member by which a self-motion is found: where an isolated answer is singular and another singularity is 1e-6 away, joint vectors
-/// 0.05 off miss by no more than 1e-12 and yet are no solutions.
+/// Same as [`MEMBER`], but for the detection of a self-motion. An isolated solution may be singular with another singularity at a distance of 1e-6. Then joint
+/// vectors 0.05 away miss by at most 1e-12, although they are no solutions.
 const ROUNDED: f64 = 1e-14;
-/// How many times that far a self-motion goes on: where two axes are off one line by 1e-6 rad there is a double solution instead, which misses by 1e-12 times
-/// the square of the way, less than rounding at first.
+/// The number of such distances over which a self-motion must continue. If two axes are out of line by 1e-6 rad, there is a double solution instead. Its error
+/// is 1e-12 times the square of the distance, which is initially less than rounding.
 const PROBES: usize = 4;
-/// Steps \[rad, or reaches\] of a path: shorter ones where longer ones do not arrive.
+/// Steps of a path \[rad, or fractions of the reach\]. Shorter ones are used if longer ones fail.
 pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
-/// Corrections of one member at most.
+/// The maximum number of corrections of one member.
 const CORRECTIONS: usize = 20;
-/// Singular values below this share of the largest are taken as zero.
+/// Singular values below this fraction of the largest one count as zero.
 const RANK: f64 = 1e-8;
-/// A way between two joint vectors bends by at most this share of its length, or of the square of its length when that is more.
+/// The maximum bend of a path between two joint vectors, as a fraction of its length, or of the square of its length if that is greater.
 const STRAIGHT: f64 = 1e-2;
-/// The longest and the shortest step along a curve, and how many there are at most.
+/// The longest and the shortest step along a curve, and the maximum number of steps.
 const LONGEST: f64 = 0.1;
 const SHORTEST: f64 = 1e-6;
 const PACES: usize = 2000;
-/// The cosine of the angle between a curve's directions before and behind a step is more than this.
+/// The minimum cosine of the angle between a curve's directions before and after a step.
 const STEADY: f64 = 0.9;
-/// How near a path must come to the answer it leads to.
+/// The maximum distance between the end of a path and its solution.
 const ARRIVED: f64 = 1e-6;
 
 /// Paths of joint vectors with the same target.
 pub(super) trait SelfMotions: Configuration {
-    /// Whether `q` is one of a curve of joint vectors with the same target.
+    /// Whether `q` is on a curve of joint vectors with the same target.
     fn is_in_self_motion(&self, target: &[f64], q: &[f64]) -> bool {
         self.tangent(q).is_some_and(|tangent| self.goes_on(target, q, tangent))
     }
 
-    /// Whether the curve goes on from `q` to the side of `ahead`.
+    /// Whether the curve continues from `q` in the direction `ahead`.
     fn goes_on(&self, target: &[f64], q: &[f64], mut ahead: DVector<f64>) -> bool {
         let mut at = q.to_vec();
         (0..PROBES).all(|_| {
@@ -61,8 +61,7 @@ pub(super) trait SelfMotions: Configuration {
         if self.sigma(q) > SINGULAR { None } else { null_vector(self.jacobian(q)) }
     }
 
-    /// The member beside `q` moved by `way` along the unit vector `ahead`, and no farther along it; it misses the target by no more than
-    /// `tolerance`.
+    /// The member next to `q` moved by `way` along the unit vector `ahead`, and no farther along it. Its error is at most `tolerance`.
     fn beside(&self, target: &[f64], q: &[f64], ahead: &DVector<f64>, way: f64, tolerance: f64) -> Option<Vec<f64>> {
         let mut moved = q.to_vec();
         for (&joint, share) in self.unknown().iter().zip(ahead.iter()) {
@@ -72,14 +71,15 @@ pub(super) trait SelfMotions: Configuration {
         self.corrected(target, moved, self.unknown(), &across, tolerance)
     }
 
-    /// Whether `b` is the same answer as `a`, and no farther from it than a solver merges answers.
+    /// Whether `b` is the same solution as `a`, and within the distance at which a solver merges solutions.
     fn is_same(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         self.distance(a, b) <= BLUR && self.matches(target, a, b)
     }
 
-    /// Whether `b` is the same answer as `a`, or of its self-motion: within 1e-9 where `a` is ordinary, else within max(1e-7, 1e-13 / sigma), or four times what
-    /// `a` misses the target by over sigma where that is more, and then a path must lead from one to the other that reaches the target
-    /// all the way.
+    /// Whether `b` is the same solution as `a`, or a member of its self-motion.
+    ///
+    /// The distance is at most 1e-9 if `a` is ordinary, otherwise max(1e-7, 1e-13 / sigma). It may also be up to four times the error of `a` over sigma, but
+    /// then a path between the two must reach the target everywhere.
     fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         let (distance, sigma) = (self.distance(a, b), self.sigma(a));
         if sigma > ORDINARY {
@@ -89,7 +89,7 @@ pub(super) trait SelfMotions: Configuration {
         distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b, RESIDUAL)
     }
 
-    /// Whether joint vectors next to the straight way from `a` to `b` reach the target, within `missed`.
+    /// Whether joint vectors next to the straight line from `a` to `b` reach the target, within `missed`.
     fn is_joined(&self, target: &[f64], a: &[f64], b: &[f64], missed: f64) -> bool {
         let none = |_: &[f64]| DMatrix::zeros(0, self.unknown().len());
         let width = self.distance(a, b);
@@ -101,9 +101,10 @@ pub(super) trait SelfMotions: Configuration {
         })
     }
 
-    /// Whether the free joints of `answer` can be led from their values in `q` to those in `answer`, either way round, while the
-    /// others keep the tip at the target, within `missed`, and end at the answer; in such steps. What is missed leaves the others open by its square
-    /// root, next to a double root.
+    /// Whether the free joints of `answer` can move from their values in `q` to those in `answer`, in either direction, along a self-motion.
+    ///
+    /// The other joints keep the tip at the target, within `missed`, and end at the solution. The path has steps of `step`. Next to a double root, `missed`
+    /// allows an error of its square root in the other joints.
     fn leads_to(&self, target: &[f64], q: &[f64], answer: &Solution, (step, missed): (f64, f64)) -> bool {
         let Solution { q: end, free, .. } = answer;
         let short: Vec<f64> = free.iter().map(|&joint| self.difference(joint, end[joint], q[joint])).collect();
@@ -117,7 +118,7 @@ pub(super) trait SelfMotions: Configuration {
         })
     }
 
-    /// The end of the path on which the free joints go `way` in such steps.
+    /// The end of the path on which the free joints move by `way` in such steps.
     fn led(
         &self,
         target: &[f64],
@@ -138,14 +139,14 @@ pub(super) trait SelfMotions: Configuration {
         })
     }
 
-    /// Whether the curve of joint vectors with the same target that `q` is on runs through `answer`, to one side or the other. It goes on
-    /// where a free joint comes to the end of its part of the circle and turns back while the others take another branch.
+    /// Whether the curve of joint vectors with the same target through `q` also contains `answer`, in either direction. It continues where a free joint reaches
+    /// the end of its part of the circle and turns back while the others change to another branch.
     fn runs_to(&self, target: &[f64], q: &[f64], answer: &[f64]) -> bool {
         let tangent = self.tangent(q);
         tangent.is_some_and(|ahead| [ahead.clone(), -ahead].into_iter().any(|way| self.runs(target, q, way, answer)))
     }
 
-    /// The same to the side of `ahead`, in steps as long as the curve's bends allow.
+    /// Same as [`SelfMotions::runs_to`], but only in the direction `ahead`. The curve's bends limit the steps.
     fn runs(&self, target: &[f64], q: &[f64], mut ahead: DVector<f64>, answer: &[f64]) -> bool {
         let (mut at, mut pace) = (q.to_vec(), LONGEST);
         for _ in 0..PACES {
@@ -161,15 +162,14 @@ pub(super) trait SelfMotions: Configuration {
         false
     }
 
-    /// Whether the curve that goes on from `at` along `ahead` has `answer`, a little on.
+    /// Whether `answer` is on the curve from `at` along `ahead`, within a small distance.
     fn passes(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, answer: &[f64]) -> bool {
         let apart = |&joint: &usize| self.difference(joint, answer[joint], at[joint]) / self.unit(joint);
         let way = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
         self.beside(target, at, ahead, way, MEMBER).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
     }
 
-    /// The point of the curve beside `at` moved by `way` along the unit vector `ahead`, which misses the target by no more than `tolerance`, and the curve's
-    /// direction there.
+    /// The point of the curve next to `at` moved by `way` along the unit vector `ahead`, and the curve's direction there. Its error is at most `tolerance`.
     fn stepped(
         &self,
         target: &[f64],
@@ -183,8 +183,8 @@ pub(super) trait SelfMotions: Configuration {
         Some((next, tangent * side))
     }
 
-    /// The member next to `q` with all but the joints `moving` held, by Gauss-Newton; `across` gives directions (rows, one column
-    /// a moving joint) in which it must not go.
+    /// The member next to `q`, by Gauss-Newton in the joints `moving` only. The rows of `across` (one column for each moving joint) are directions in which it
+    /// must not move.
     fn corrected(
         &self,
         target: &[f64],
@@ -214,7 +214,7 @@ pub(super) trait SelfMotions: Configuration {
         (self.residual(target, &q) <= tolerance).then_some(q)
     }
 
-    /// Central differences of the misses by the joints `moving` in their units.
+    /// Central differences of the errors by the joints `moving`, in their units.
     fn slopes(&self, target: &[f64], q: &[f64], moving: &[usize]) -> DMatrix<f64> {
         let width = f64::EPSILON.cbrt();
         let column = |&joint: &usize| {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SVD};
 
-/// Sweeps over all pairs of columns; a handful is enough.
+/// The maximum number of sweeps over all pairs of columns; usually few are sufficient.
 const SWEEPS: usize = 30;
 
 /// The smallest singular value; zero for a matrix with more columns than rows.
@@ -27,7 +27,7 @@ pub(super) fn smallest_singular_value(mut a: DMatrix<f64>) -> f64 {
     a.column_iter().map(|column| column.norm()).fold(f64::INFINITY, f64::min)
 }
 
-/// Makes two columns orthogonal; whether there was something to do.
+/// Makes two columns orthogonal. Returns whether they were changed.
 fn rotate(a: &mut DMatrix<f64>, i: usize, j: usize) -> bool {
     let (x, y) = (a.column(i).norm_squared(), a.column(j).norm_squared());
     let product = a.column(i).dot(&a.column(j));
@@ -42,7 +42,7 @@ fn rotate(a: &mut DMatrix<f64>, i: usize, j: usize) -> bool {
     true
 }
 
-/// The unit vector that a matrix shrinks most.
+/// The unit vector with the smallest image under a matrix.
 pub(super) fn null_vector(a: DMatrix<f64>) -> Option<DVector<f64>> {
     let columns = a.ncols();
     let rows = a.nrows().max(columns);
@@ -51,7 +51,7 @@ pub(super) fn null_vector(a: DMatrix<f64>) -> Option<DVector<f64>> {
     Some(svd.v_t?.row(least).transpose())
 }
 
-/// The least-squares solution of `a x = b`, singular values below `rank` times the largest taken as zero.
+/// The least-squares solution of `a x = b`. Singular values below `rank` times the largest count as zero.
 pub(super) fn least_squares(a: DMatrix<f64>, b: &DVector<f64>, rank: f64) -> Option<DVector<f64>> {
     let svd = SVD::try_new(a, true, true, f64::EPSILON, 200)?;
     let cut = rank * svd.singular_values.max();

@@ -1,5 +1,5 @@
-//! Which targets are tried: from random joints, from singular configurations and next to them, at and beyond the boundary of the
-//! workspace, anywhere. Singular configurations are found where the Jacobian's determinant changes its sign while one joint moves.
+//! The targets of a check: from random joints, from singular configurations and next to them, at and beyond the boundary of the workspace, arbitrary ones. A
+//! singular configuration is where the Jacobian's determinant changes its sign while one joint moves.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -13,22 +13,22 @@ use crate::witness::random::Random;
 use crate::witness::report::Kind;
 use groebot_robot::spatial::Pose;
 
-/// Draws after which a kind of target is given up.
+/// The maximum number of draws for a target of one kind.
 const DRAWS: usize = 12;
-/// Places at which a determinant is looked at while a joint goes round.
+/// The number of samples of the determinant over the range of a joint.
 const PLACES: usize = 48;
-/// Two configurations share a critical joint value when they have it within this \[rad, or reaches\].
+/// The tolerance of equal critical joint values in two configurations \[rad, or fractions of the reach\].
 const SHARED: f64 = 1e-9;
-/// A critical value so near to a multiple of a right angle is one.
+/// The tolerance within which a critical value is rounded to a multiple of pi/2.
 const RIGHT: f64 = 1e-10;
-/// A singular configuration is one up to this.
+/// The maximum sigma of a singular configuration.
 const SINGULAR: f64 = 1e-10;
-/// An unreachable target is this many reaches away.
+/// The distance of an unreachable target, in reaches.
 const FAR: f64 = 10.0;
-/// Distances 10^-k from singular configurations.
+/// The exponents k of the distances 10^-k from singular configurations.
 const NEAR: [u32; 3] = [3, 6, 9];
 
-/// What every 24 rows try.
+/// The kinds of targets in every 24 rows.
 const PLAN: [Slot; 24] = {
     use Slot::{Aligned, Anywhere, Edge, Far, Near, Random, Round, Singular, Special};
     [
@@ -59,7 +59,7 @@ const PLAN: [Slot; 24] = {
     ]
 };
 
-/// What is tried in turn where all targets are to be round.
+/// The kinds of round targets, in turn, if only round targets are requested.
 const ROUND: [Slot; 3] = [Slot::Round(15), Slot::Round(30), Slot::Aligned];
 
 #[derive(Clone, Copy)]
@@ -75,7 +75,7 @@ enum Slot {
     Far,
 }
 
-/// A target and, where it was made from joint values, these.
+/// A target, and the joint values that made it, if any.
 pub(super) struct Target {
     pub kind: Kind,
     pub inputs: Vec<f64>,
@@ -93,7 +93,7 @@ pub(super) struct Targets<'a> {
     done: usize,
 }
 
-/// A singular configuration, and the joint that leads out of it.
+/// A singular configuration, and the joint that moves out of it.
 struct Singularity {
     q: Vec<f64>,
     way: usize,
@@ -146,7 +146,7 @@ impl<'a> Targets<'a> {
         q
     }
 
-    /// A random value: an angle in (-pi, pi], a slide within its limits, or within the reach to either side.
+    /// A random value: an angle in (-pi, pi], or a displacement within its limits, or within the reach in both directions.
     fn joint(&mut self, joint: usize) -> f64 {
         if self.model.turns(joint) {
             return self.random.between(-PI, PI);
@@ -155,7 +155,7 @@ impl<'a> Targets<'a> {
         self.random.between(low, high)
     }
 
-    /// Single joint values that are critical whatever the other joints are, as two configurations tell.
+    /// Single joint values that are critical for all values of the other joints, determined from two configurations.
     fn critical_values(&mut self) -> Vec<(usize, f64)> {
         let (a, b) = (self.joints(), self.joints());
         let mut found = Vec::new();
@@ -168,7 +168,7 @@ impl<'a> Targets<'a> {
         found
     }
 
-    /// The values of one joint at which the determinant changes its sign while the others stay as in `q`.
+    /// The values of one joint at which the determinant changes its sign while the others are as in `q`.
     fn sign_changes(&self, q: &[f64], joint: usize) -> Vec<f64> {
         let (low, high) = if self.model.turns(joint) { (-PI, PI) } else { self.model.slide(joint) };
         let place = |k: usize| low + (high - low) * (k as f64 + 0.37) / PLACES as f64;
@@ -200,7 +200,7 @@ impl<'a> Targets<'a> {
         (self.model.sigma(&at) <= SINGULAR).then_some(snapped)
     }
 
-    /// In turn: one critical joint, two critical joints, and a configuration that is singular by several joints together.
+    /// In turn: one critical joint, two critical joints, and a configuration that several joints together make singular.
     fn singular(&mut self) -> Option<Singularity> {
         self.done += 1;
         let critical = self.critical.clone();
@@ -222,7 +222,7 @@ impl<'a> Targets<'a> {
         Some(Singularity { q, way: held.first()?.0 })
     }
 
-    /// A sign change of the determinant at a value that is not critical by itself.
+    /// A sign change of the determinant at a value that is not critical alone.
     fn mixed(&mut self) -> Option<Singularity> {
         (0..DRAWS).find_map(|draw| {
             let mut q = self.joints();
@@ -237,20 +237,20 @@ impl<'a> Targets<'a> {
         })
     }
 
-    /// Next to a singular configuration: the joint that leads out of it has moved by 10^-k.
+    /// A target next to a singular configuration, whose joint that moves out of it has moved by 10^-k.
     fn near(&mut self, k: u32) -> Option<Target> {
         let distance = 10.0_f64.powi(-(k as i32));
         let q = (0..DRAWS).find_map(|_| {
             let Singularity { mut q, way } = self.singular()?;
             let side = if self.done.is_multiple_of(2) { 1.0 } else { -1.0 };
             q[way] += side * distance * self.model.unit(way);
-            // It may be singular for another reason still.
+            // It may still be singular for another reason.
             (self.model.sigma(&q) >= 1e-3 * distance).then_some(q)
         })?;
         Some(self.reached(Kind::Near(k), q))
     }
 
-    /// One joint at a multiple of a right angle.
+    /// A target with one joint at a multiple of pi/2.
     fn special(&mut self) -> Target {
         self.done += 1;
         let mut q = self.joints();
@@ -260,8 +260,8 @@ impl<'a> Targets<'a> {
         self.reached(Kind::Special, q)
     }
 
-    /// A singular target moved by 10^-k reaches, or radians, in the direction in which the tip cannot go: to either side of the
-    /// boundary, where it is one.
+    /// A singular target moved by 10^-k (reaches, or rad) in the direction in which the tip cannot move. If it is on the boundary, this gives targets on both
+    /// sides.
     fn edge(&mut self) -> Option<Target> {
         let found = (0..DRAWS).find_map(|_| self.mixed()).or_else(|| self.singular())?;
         self.done += 1;
@@ -275,7 +275,7 @@ impl<'a> Targets<'a> {
         Some(Target { kind: Kind::Edge(k), inputs, joints: None })
     }
 
-    /// What the task sees after a small motion of the tip, told as a row of the Jacobian is.
+    /// The task's numbers after a small motion of the tip, which is given like a row of the Jacobian.
     fn shifted(&self, q: &[f64], rows: &[f64]) -> Option<Vec<f64>> {
         use groebot_robot::kinematics::Task;
         let pose = self.model.forward(q);
@@ -304,7 +304,7 @@ impl<'a> Targets<'a> {
         Some(self.model.seen(&Pose::from_parts(translation, turn)))
     }
 
-    /// Any position within two reaches and any orientation.
+    /// A target with any position within two reaches and any orientation.
     fn anywhere(&mut self) -> Target {
         let size = 2.0 * self.model.length;
         let given: Vec<f64> = self.joints();
@@ -324,7 +324,7 @@ impl<'a> Targets<'a> {
         Target { kind: Kind::Anywhere, inputs, joints: None }
     }
 
-    /// A reachable target moved by many reaches; `None` where nothing is out of reach by its position.
+    /// A reachable target moved by many reaches; `None` if the task has no position.
     fn far(&mut self) -> Option<Target> {
         let q = self.joints();
         let mut inputs = self.model.target(&q);

@@ -1,4 +1,4 @@
-//! NAO's legs, whose hips one actuator turns: eleven actuators.
+//! NAO's legs, whose hips have one common actuator: eleven actuators.
 
 use std::fs;
 use std::path::Path;
@@ -14,7 +14,7 @@ use groebot_robot::robots;
 
 use super::{Random, distance};
 
-/// The left foot's pose; of the right foot the position and where the sole's normal points.
+/// The left foot's pose. For the right foot: the position and the direction of the sole's normal.
 const POSE_AND_RAY: &str = r#"
 name = "legs"
 shared = [["left.HipYawPitch", "right.HipYawPitch"]]
@@ -43,7 +43,7 @@ fn derive(text: &str) -> Derivation {
 
 static LEGS: LazyLock<Derivation> = LazyLock::new(|| derive(POSE_AND_RAY));
 
-/// Both feet's poses: twelve numbers for eleven actuators.
+/// The poses of both feet: twelve numbers for eleven actuators.
 static BOTH_POSES: LazyLock<Derivation> =
     LazyLock::new(|| derive(&POSE_AND_RAY.replace("task = { kind = \"ray\", direction = [0, 0, 1] }", "")));
 
@@ -76,7 +76,7 @@ fn the_solver_has_eleven_joints_and_the_inputs_of_both_feet() {
     assert_eq!(members, ["left", "right"], "the ray alone does not determine six joints");
 }
 
-/// The largest miss of a foot: its position as a share of the leg's length, and its rotation or its sole's normal.
+/// The largest error of a foot: of its position as a fraction of the leg's length, and of its rotation or its sole's normal.
 fn miss(chain: &Chain, reached: &[f64], asked: &[f64]) -> f64 {
     let reached = chain.forward(reached).unwrap();
     let asked = chain.forward(asked).unwrap();
@@ -86,7 +86,7 @@ fn miss(chain: &Chain, reached: &[f64], asked: &[f64]) -> f64 {
     position.max(if chain.task() == Task::Ray { turn.column(2).amax() } else { turn.amax() })
 }
 
-/// The number of answers by screw theory: of the left leg, and for each of the right leg with its hip where the left leg has it.
+/// The number of solutions by screw theory: for each solution of the left leg, those of the right leg with its hip at the left leg's value.
 fn counted(left: &ScrewSolver, right: &ScrewSolver, q: [&[f64]; 2]) -> usize {
     let answers = left.solve(&Target::reached(left.chain(), q[0]).unwrap()).unwrap();
     let target = Target::reached(right.chain(), q[1]).unwrap();
@@ -149,8 +149,8 @@ fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
     }
 }
 
-/// Each foot can be reached, but not with one value of the hip's actuator: the left leg's is 0.01 off. The hip's values differ by that,
-/// but where two other ways of the legs come nearer by chance.
+/// Each foot is reachable, but not with a common value of the hip's actuator: the left leg's value is 0.01 rad off. The reported values differ by that amount,
+/// unless two other solutions of the legs are nearer by chance.
 #[test]
 fn two_poses_that_disagree_are_refused_by_the_actuator_and_by_how_much() {
     let mut random = Random(13);
@@ -161,9 +161,9 @@ fn two_poses_that_disagree_are_refused_by_the_actuator_and_by_how_much() {
         let mut other = q.clone();
         other[0] += 0.01;
         let mut target = BOTH_POSES.reached(&q).unwrap();
-        // The right foot's pose stands first.
+        // The target of the right foot comes first.
         target[12..].copy_from_slice(&BOTH_POSES.reached(&other).unwrap()[12..]);
-        // Some of these take all steps that a target may take: then none is found, either.
+        // Some of these targets reach the step limit. Then no solution is found either.
         let found = solver.solve_numbers(&target);
         assert!(found.map_or_else(|error| error.kind() == ErrorKind::Budget, |answers| answers.is_empty()));
         let explained = BOTH_POSES.coupled().unwrap().explain(&target, &Watch::none()).unwrap().unwrap();
@@ -176,7 +176,7 @@ fn two_poses_that_disagree_are_refused_by_the_actuator_and_by_how_much() {
     assert!(exact >= 7, "{exact} of 8");
 }
 
-/// Both feet below the hips, soles level, knees bent: the foot's x axis and that of the hip's roll are parallel.
+/// Both feet below the hips, soles level, knees bent. The foot's x axis is parallel to that of the hip's roll.
 #[test]
 fn the_standing_robot_is_found() {
     let leg = [0.0, -0.4, 0.8, -0.4, 0.0];
@@ -186,11 +186,11 @@ fn the_standing_robot_is_found() {
     assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{answers:?}");
 }
 
-/// Where one hip's axes are in line its leg leaves the actuator open; the other leg says where it stands.
+/// If one hip's axes are in line, its leg does not determine the actuator; the other leg does.
 #[test]
 fn a_hip_that_one_leg_leaves_open_is_found_from_the_other() {
     let mut random = Random(15);
-    // The first and the third axis are in line where the roll turns the third into the first: by 45 and 135 degrees to either side.
+    // The first and third axes are in line if the roll rotates the third onto the first: by 45 and 135 degrees to either side.
     let solver = BOTH_POSES.program().solver();
     for (member, roll) in [(1, 2.356_194_490_192_345), (0, -2.356_194_490_192_345)] {
         let roll_place =

@@ -1,4 +1,4 @@
-//! Planar chains on one shoulder actuator, by the law of cosines; which chain is solved first.
+//! Planar chains on one shoulder actuator, compared with the law of cosines, and the order of solution of the chains.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::distance;
 
 const Z: &str = "type = \"revolute\"\naxis = [0, 0, 1]";
 
-/// A chain of links of length one in the plane.
+/// A planar chain of links of length one.
 fn member(name: &str, joints: usize, task: &str) -> String {
     let joint = |k: usize| format!("[[chain.chain.joint]]\nname = \"j{k}\"\n{Z}\npoint = [{k}, 0, 0]\n");
     let joints: String =
@@ -28,9 +28,9 @@ fn derive(shared: &str, members: &[String]) -> Result<Derivation, Error> {
 const POSITION: &str = "kind = \"planar_position\"";
 const POSE: &str = "kind = \"planar_pose\"";
 
-/// The first arm has two links; the second three, of which the first arm turns the first one. At q = (0, pi/2) the first arm's tip
-/// is (1, 1), also reached at (pi/2, -pi/2); the second arm's tip at (0, 0, pi/2) is (2, 1). With j0 = 0 its elbow is at (1, 0) or,
-/// for the tip at (1, 1) as seen from there, at (1, 1); with j0 = pi/2 it is at (0, 1), and the tip (2, 1) is just in reach.
+/// The first arm has two links, the second three; both share the first joint. At q = (0, pi/2) the first arm's tip is at (1, 1), which (pi/2, -pi/2) also
+/// reaches. The second arm's tip at (0, 0, pi/2) is (2, 1). With j0 = 0 its elbow is at (1, 0) or, for the relative tip (1, 1), at (1, 1). With j0 = pi/2 the
+/// elbow is at (0, 1), and the tip (2, 1) is just in reach.
 #[test]
 fn each_way_of_the_first_chain_is_continued_by_the_second() {
     let members = [member("b", 3, POSITION), member("a", 2, POSITION)];
@@ -41,7 +41,7 @@ fn each_way_of_the_first_chain_is_continued_by_the_second() {
     let half = std::f64::consts::FRAC_PI_2;
     let target = [1.0, 1.0, 1.9, 1.0];
     let answers = arms.program().solve_numbers(&target).unwrap();
-    // The second arm from (1, 0) to (1.9, 1) and from (0, 1) to (1.9, 1): two elbows each.
+    // The second arm reaches (1.9, 1) from (1, 0) and from (0, 1), with two elbows each.
     assert_eq!(answers.len(), 4, "{answers:?}");
     for hip in [0.0, half] {
         let count = answers.iter().filter(|answer| distance(&answer.q[..1], &[hip]) < 1e-12).count();
@@ -56,7 +56,7 @@ fn each_way_of_the_first_chain_is_continued_by_the_second() {
     }
 }
 
-/// Three chains on one actuator: the angle of the first is that of all.
+/// Three chains on one actuator: its angle occurs once among the joints.
 #[test]
 fn an_actuator_of_three_chains_stands_once() {
     let members = [member("a", 2, POSITION), member("b", 2, POSITION), member("c", 3, POSITION)];
@@ -67,14 +67,13 @@ fn an_actuator_of_three_chains_stands_once() {
         let target = arms.reached(&q).unwrap();
         let answers = solver.solve_numbers(&target).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-12), "{q:?}: {answers:?}");
-        // b has one joint for two numbers: only the hip that made the target fits.
+        // b has one joint for two numbers, so only the hip value of the target's joints fits.
         assert!(answers.iter().all(|answer| distance(&answer.q[..1], &q[..1]) < 1e-12), "{answers:?}");
         assert_eq!(answers.len(), 2, "{answers:?}");
     }
 }
 
-/// Two arms of two links on one shoulder: four numbers for three actuators. The first arm's elbow is at (1, 0) or (0, 1) for its tip at
-/// (1, 1).
+/// Two arms of two links on one shoulder: four numbers for three actuators. The first arm's elbow is at (1, 0) or (0, 1) for its tip at (1, 1).
 #[test]
 fn two_arms_that_must_agree_on_the_shoulder() {
     let arms = derive("[[\"a.j0\", \"b.j0\"]]", &[member("a", 2, POSITION), member("b", 2, POSITION)]).unwrap();
@@ -84,7 +83,7 @@ fn two_arms_that_must_agree_on_the_shoulder() {
         let answers = solver.solve_numbers(&arms.reached(&q).unwrap()).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-7), "{q:?}: {answers:?}");
     }
-    // The second arm's shoulder at 0.25, or mirrored at the line to its tip at 0.85; the first one's at 0 or a right angle.
+    // The second arm's shoulder is at 0.25 or, mirrored at the line to its tip, at 0.85. The first one's is at 0 or pi/2.
     let (near, far) = (0.25_f64, 0.85_f64);
     let target = [1.0, 1.0, near.cos() + far.cos(), near.sin() + far.sin()];
     assert!(solver.solve_numbers(&target).unwrap().is_empty());
@@ -110,7 +109,7 @@ fn a_joint_that_is_found_before_is_not_given_too() {
     assert!(error.message().contains("`b`: `j0` is given"), "{error}");
 }
 
-/// The hip is given to the first chain, and so to the second.
+/// A hip value given to the first chain is also given to the second.
 #[test]
 fn a_given_shared_joint_is_given_once() {
     let given = |text: String| text.replace("\n[chain.chain]\n", "\ngiven = [\"j0\"]\n[chain.chain]\n");

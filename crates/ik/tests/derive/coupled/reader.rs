@@ -1,4 +1,4 @@
-//! The format `0_coupled.toml`: what is read, and how mistakes are told.
+//! The format `0_coupled.toml`: accepted descriptions, and error messages for mistakes.
 
 use std::fs;
 use std::path::Path;

@@ -1,5 +1,7 @@
-//! NAO on both feet with the torso's yaw unknown: `derivations/nao_legs_yaw`. The witness goes round with the yaw and solves each leg
-//! by screw theory in the torso's frame: where the hips of a way of each leg meet there is an answer.
+//! NAO on both feet with unknown yaw of the torso: `derivations/nao_legs_yaw`.
+//!
+//! The witness samples the yaw and solves each leg by screw theory in the torso's frame. There is a solution where both legs have solutions with equal hip
+//! values.
 
 use std::path::Path;
 use std::sync::LazyLock;
@@ -21,10 +23,10 @@ static STANDING: LazyLock<Derivation> = LazyLock::new(|| {
     Derivation::of_problem(CoupledChains::read(Path::new(file)).unwrap(), &Watch::none()).unwrap()
 });
 
-/// Places of the yaw at which the legs are solved.
+/// The number of yaw samples at which the legs are solved.
 const PLACES: usize = 1500;
 
-/// The pose of the torso that is turned by roll, pitch and yaw.
+/// The pose of the torso from its yaw, pitch and roll.
 fn torso(q: &[f64]) -> Pose {
     Pose::from_parts(Translation3::identity(), UnitQuaternion::from_euler_angles(q[2], q[1], q[0]))
 }
@@ -36,7 +38,7 @@ fn feet(q: &[f64]) -> [Pose; 2] {
         .map(|leg| torso(q) * legs[leg].forward(&STANDING.coupled().unwrap().joints_of(leg, q).unwrap()[3..]).unwrap())
 }
 
-/// The largest miss of two poses (m, and of the rotation's entries).
+/// The largest difference of two poses (m, and rotation entries).
 fn miss(a: &Pose, b: &Pose) -> f64 {
     let turn = a.rotation.to_rotation_matrix().matrix() - b.rotation.to_rotation_matrix().matrix();
     (a.translation.vector - b.translation.vector).amax().max(turn.amax())
@@ -81,7 +83,7 @@ fn the_joints_that_made_a_target_are_found_and_every_answer_reaches_it() {
     println!("at most {most} answers, {:?} each", running / 12);
 }
 
-/// Both feet below the hips, soles level, knees bent, upright or bowed; one foot ahead, and turned out.
+/// Both feet below the hips, soles level, knees bent. Cases: upright or leaning, one foot ahead, feet turned out.
 #[test]
 fn the_standing_robot_is_found() {
     let solver = STANDING.program().solver();
@@ -95,7 +97,7 @@ fn the_standing_robot_is_found() {
     }
 }
 
-/// The ways of both legs with the torso at a yaw.
+/// The solutions of both legs for one yaw of the torso.
 fn ways(legs: &[ScrewSolver; 2], asked: &[Pose; 2], tilt: &[f64], yaw: f64) -> [Vec<Vec<f64>>; 2] {
     let world_from_torso = torso(&[yaw, tilt[0], tilt[1]]);
     [0, 1].map(|leg| {
@@ -104,13 +106,13 @@ fn ways(legs: &[ScrewSolver; 2], asked: &[Pose; 2], tilt: &[f64], yaw: f64) -> [
     })
 }
 
-/// The way that goes on from `way`.
+/// The solution that continues `way` at the next sample.
 fn next<'a>(ways: &'a [Vec<f64>], way: &[f64]) -> Option<&'a Vec<f64>> {
     let nearest = ways.iter().min_by(|a, b| distance(a, way).total_cmp(&distance(b, way)))?;
     (distance(nearest, way) < 0.2).then_some(nearest)
 }
 
-/// All yaws, with the legs' joints, at which the hips of a way of each leg meet; those where a way begins or ends are left out.
+/// All yaws, with the legs' joints, at which solutions of both legs have equal hip values. Solutions that begin or end between two samples are skipped.
 fn meetings(legs: &[ScrewSolver; 2], asked: &[Pose; 2], tilt: &[f64]) -> Vec<(f64, [Vec<f64>; 2])> {
     let place = |k: usize| std::f64::consts::TAU * (k as f64 + 0.123) / PLACES as f64 - std::f64::consts::PI;
     let off = |a: &[f64], b: &[f64]| angle::difference(a[0], b[0]);

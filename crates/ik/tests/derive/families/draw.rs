@@ -1,14 +1,14 @@
-//! Random joints with rational coordinates: axes of any direction, length and sign, points anywhere.
+//! Random joints with rational coordinates: axes of any direction, length and sign, and arbitrary points.
 
 use groebot_algebra::number::BigRational;
 use groebot_robot::kinematics::{
     Chain, ChainParts, ExactRotation, ExactVector, Joint, JointKind, LengthUnit, Task, Tip, along_z,
 };
 
-/// A stream of small numbers: splitmix64 (Steele, Lea and Flood 2014).
+/// A stream of small random numbers, by SplitMix64 (Steele, Lea and Flood 2014).
 pub struct Draw(u64);
 
-/// A joint by its kind, axis and a point.
+/// A joint: its type, axis and a point.
 #[derive(Clone)]
 pub struct Placed {
     kind: JointKind,
@@ -17,7 +17,7 @@ pub struct Placed {
 }
 
 impl Placed {
-    /// Makes it slide along its axis.
+    /// Makes the joint prismatic.
     pub fn slides(&mut self) {
         self.kind = JointKind::Prismatic;
     }
@@ -41,7 +41,7 @@ impl Draw {
         [0; 3].map(|_| self.integer(-100, 100))
     }
 
-    /// An axis of small integers, its norm in general no rational number.
+    /// An axis of small integers. Its norm is in general irrational.
     fn axis(&mut self) -> [i64; 3] {
         loop {
             let axis = [0; 3].map(|_| self.integer(-5, 5));
@@ -51,12 +51,12 @@ impl Draw {
         }
     }
 
-    /// Joints that turn (`R`) or slide (`P`), anywhere.
+    /// Revolute (`R`) or prismatic (`P`) joints with arbitrary axes.
     pub fn anywhere(&mut self, kinds: &str) -> Vec<Placed> {
         kinds.chars().map(|kind| Placed { kind: kind_of(kind), axis: self.axis(), point: self.point() }).collect()
     }
 
-    /// `count` joints that turn about axes through one point, neighbours not parallel.
+    /// `count` revolute joints whose axes meet in one point. Neighbouring axes are not parallel.
     pub fn meeting(&mut self, count: usize) -> Vec<Placed> {
         let centre = self.point();
         let mut joints: Vec<Placed> = Vec::new();
@@ -72,7 +72,7 @@ impl Draw {
         joints
     }
 
-    /// `count` joints that turn about parallel axes, some of them the other way round.
+    /// `count` revolute joints with parallel axes, some of them in the opposite direction.
     pub fn parallel(&mut self, count: usize) -> Vec<Placed> {
         let axis = self.axis();
         let joint = |draw: &mut Draw| {
@@ -82,7 +82,7 @@ impl Draw {
         (0..count).map(|_| joint(self)).collect()
     }
 
-    /// Joints in the plane xy: `R` turns about z, `P` slides along it.
+    /// Planar joints in xy: `R` rotates about z, `P` is prismatic in the plane.
     pub fn planar(&mut self, kinds: &str) -> Vec<Placed> {
         let joint = |(draw, kind): (&mut Draw, char)| {
             let sign = if draw.integer(0, 1) == 0 { 1 } else { -1 };
@@ -93,7 +93,7 @@ impl Draw {
         kinds.chars().map(|kind| joint((self, kind))).collect()
     }
 
-    /// A chain of these joints; its tip is anywhere and turned, as is what it aims.
+    /// A chain of these joints. The tip has an arbitrary position, rotation and direction.
     pub fn chain(&mut self, joints: &[Placed], task: Task, given: &[usize]) -> Chain {
         let joint = |(place, placed): (usize, &Placed)| Joint {
             mimic: None,
@@ -125,8 +125,8 @@ impl Draw {
     }
 }
 
-/// Whether every unknown joint moves what the task sees in a way of its own, at joint values like any others. Slides in one plane to a
-/// point in space do not, nor do four turns about parallel axes to a pose: such chains have self-motions everywhere.
+/// Whether the unknown joints move the tip independently, as the task measures it, at generic joint values. Prismatic joints in one plane for a point in space
+/// do not, nor do four parallel axes for a pose. Such chains have self-motions everywhere.
 pub fn moves_freely(chain: &Chain) -> bool {
     let given = chain.given();
     let unknown: Vec<usize> = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();
@@ -143,7 +143,7 @@ pub fn moves_freely(chain: &Chain) -> bool {
     seen.nrows() >= seen.ncols() && values.min() > 1e-9 * values.max()
 }
 
-/// The same chain asked for a ray along the axis of its last joint.
+/// Same chain, but with the task of a ray along the axis of its last joint.
 pub fn along_the_last_axis(chain: &Chain) -> Chain {
     let axis = &chain.joints()[chain.joints().len() - 1].axis;
     let rotation = &chain.tip().rotation;
@@ -159,7 +159,7 @@ fn hundredths(vector: &[i64; 3]) -> ExactVector {
     vector.map(|x| BigRational::new(x.into(), 100.into()))
 }
 
-/// Whether two directions are at least some degrees apart.
+/// Whether the angle between two directions is at least some degrees.
 fn apart(a: &[i64; 3], b: &[i64; 3]) -> bool {
     let dot = |a: &[i64; 3], b: &[i64; 3]| a.iter().zip(b).map(|(x, y)| x * y).sum::<i64>();
     10 * dot(a, b).pow(2) < 9 * dot(a, a) * dot(b, b)

@@ -1,17 +1,17 @@
-//! The families: what the axes have in common, and the task.
+//! The families: relations between axes, and tasks.
 
 use groebot_robot::kinematics::{Chain, Plane, Task};
 
 use super::draw::{Draw, Placed, along_the_last_axis, moves_freely};
 
-/// Random chains of one kind.
+/// Random chains of one family.
 pub struct Family {
     pub name: &'static str,
     make: fn(&mut Draw) -> Chain,
 }
 
 impl Family {
-    /// Chain `number` of those that `seed` draws, the redundant ones left out.
+    /// Chain `number` of the sequence of `seed`, without the redundant chains.
     pub fn chain(&self, number: usize, seed: u64) -> Chain {
         let mut draw = Draw::new(1000 * number as u64 + seed);
         std::iter::repeat_with(|| (self.make)(&mut draw)).find(moves_freely).expect("most chains move freely")
@@ -29,7 +29,7 @@ fn joined(parts: &[&[Placed]]) -> Vec<Placed> {
     parts.concat()
 }
 
-/// Some joints anywhere before, three that meet or are parallel, some joints anywhere behind.
+/// Joints with arbitrary axes, three joints that meet or are parallel, then joints with arbitrary axes.
 fn around(draw: &mut Draw, before: &str, three: fn(&mut Draw, usize) -> Vec<Placed>, behind: &str) -> Chain {
     let joints = joined(&[&draw.anywhere(before), &three(draw, 3), &draw.anywhere(behind)]);
     draw.chain(&joints, Task::Pose, &[])
@@ -45,7 +45,7 @@ fn planar(draw: &mut Draw, kinds: &str, task: Task) -> Chain {
     draw.chain(&joints, task, &[])
 }
 
-/// A humanoid's arm: two axes that meet in the shoulder, two in the elbow, and that of the forearm through the elbow too.
+/// A humanoid's arm: two axes that meet in the shoulder, two in the elbow, and the forearm's axis through the elbow.
 fn arm(draw: &mut Draw) -> Vec<Placed> {
     let (shoulder, elbow) = (draw.meeting(2), draw.meeting(3));
     joined(&[&shoulder, &elbow])

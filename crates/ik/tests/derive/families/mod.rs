@@ -1,7 +1,6 @@
-//! Random chains of every family that is to be derived: each from its description alone, then checked as a robot is.
+//! Random chains of every family with a derivation. Each is derived from its description alone and checked like a robot.
 //!
-//! `cargo test --release -- --ignored fifty_chains_of_each_family --nocapture` prints the rows of
-//! `benches/record/DATE-derive-families.csv`.
+//! `cargo test --release -- --ignored fifty_chains_of_each_family --nocapture` prints the rows of `benches/record/DATE-derive-families.csv`.
 
 mod draw;
 mod list;
@@ -17,11 +16,11 @@ use groebot_robot::kinematics::Chain;
 
 use list::{FAMILIES, Family};
 
-/// What became of the chains of one family.
+/// The results for the chains of one family.
 #[derive(Default)]
 struct Tally {
     chains: usize,
-    /// How many chains have so many complex solutions.
+    /// The number of chains by number of complex solutions.
     dimensions: BTreeMap<usize, usize>,
     targets: usize,
     counted: usize,
@@ -69,7 +68,7 @@ impl Tally {
         self.residuals.extend(ordinary.flat_map(|class| class.residuals));
     }
 
-    /// The residual that `share` of the ordinary targets do not exceed.
+    /// The quantile `share` of the residuals at ordinary targets.
     fn residual(&self, share: f64) -> f64 {
         let last = self.residuals.len().saturating_sub(1);
         self.residuals.get((last as f64 * share).ceil() as usize).copied().unwrap_or(0.0)
@@ -113,7 +112,7 @@ fn a_chain_of_each_family() {
 
 #[test]
 fn a_straight_wrist_is_found_behind_an_arm_whose_quartic_costs_digits() {
-    // Of this chain's arm the cosines and sines are off by up to 1e-9, and with them what the wrist's double root is zero by.
+    // The cosines and sines of this chain's arm have errors up to 1e-9. The wrist's double root has a corresponding error.
     let family = FAMILIES.iter().find(|family| family.name == "three joints, spherical wrist").expect("it is listed");
     let chain = family.chain(40, 12);
     let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();

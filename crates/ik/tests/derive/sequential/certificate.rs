@@ -1,4 +1,4 @@
-//! The certificate of a chain: proved again without search, refused where it is forged.
+//! The certificate of a chain: proved again without search, refused if forged.
 
 use groebot_ik::ErrorKind;
 use groebot_ik::derive::Derivation;
@@ -62,7 +62,7 @@ fn a_forged_relation_or_basis_is_refused() {
     assert!(text.contains("the bases are not those of the steps' forms"), "{text}");
 }
 
-/// A position says nothing of where other points of the tip are: an equation about one of these holds in the loop, but not for all poses with that position.
+/// A position does not specify other points of the tip. An equation about such a point holds in the loop, but not for all poses with that position.
 #[test]
 fn an_equation_about_what_the_task_does_not_see_is_refused() {
     let chain = Chain::from_toml(include_str!("../../../../../derivations/polar/0_chain.toml")).unwrap();

@@ -1,4 +1,4 @@
-//! Families of random chains: rational lengths and axes, nothing aligned with the base or the tool.
+//! Families of random chains: rational lengths and axes, not aligned with the base or the tool.
 
 use std::time::Instant;
 
@@ -15,7 +15,7 @@ use crate::derive::random_chains::{Shared, chain, planar_chain, reversed};
 const SEEDS: u64 = 3;
 const POSES: usize = 25;
 
-/// The joints that made a pose are among its answers, all of which reach it; as many as the screw solver's where that one applies.
+/// Checks that the joints that made a pose are among its solutions, and that all solutions reach it. Their number is that of the screw solver, if it applies.
 fn check(name: &str, chain: &Chain) -> Derivation {
     let start = Instant::now();
     let derived = derive(chain);
@@ -112,7 +112,7 @@ fn other_tasks() {
     }
 }
 
-/// Seven joints, one of them given: its value comes back as it was told.
+/// Seven joints, one of them given: its value is returned unchanged.
 #[test]
 fn a_given_joint_stays_where_it_is() {
     for seed in 0..SEEDS {

@@ -9,7 +9,7 @@ fn form_basis(form: Form) -> FormBasis {
     FormBasis::derive(form, &Watch::none()).unwrap()
 }
 
-/// Found by hand: the line A c + B s + C = 0 has distance |C| / sqrt(A^2 + B^2) from the centre of the circle.
+/// Derived by hand: the line A c + B s + C = 0 has the distance |C| / sqrt(A^2 + B^2) from the centre of the circle.
 #[test]
 fn an_angle_divides_by_the_square_of_a_length_only() {
     let angle = form_basis(Form::Angle);
@@ -21,7 +21,7 @@ fn an_angle_divides_by_the_square_of_a_length_only() {
     assert_eq!(labels, ["generic", "A = 0, B = 0", "A = 0, B = 0, C = 0"]);
 }
 
-/// Only the determinant of a pair has a zero set without description: there, each equation is solved alone.
+/// Only the determinant of a pair has a zero set without description. On it, each equation is solved alone.
 #[test]
 fn every_stratum_is_derived_but_that_of_the_determinant() {
     for form in [Form::Angle, Form::Turn, Form::Pair, Form::Linear, Form::Quadratic] {

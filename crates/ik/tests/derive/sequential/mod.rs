@@ -38,7 +38,7 @@ impl Random {
     }
 }
 
-/// The largest difference of two joint vectors: radians or a length, joints in `free` left out.
+/// The largest difference of two joint vectors (rad or length), without the joints in `free`.
 fn distance(chain: &Chain, a: &[f64], b: &[f64], free: &[usize]) -> f64 {
     let one = |joint: usize| {
         let difference = a[joint] - b[joint];
@@ -50,7 +50,7 @@ fn distance(chain: &Chain, a: &[f64], b: &[f64], free: &[usize]) -> f64 {
     (0..a.len()).filter(|joint| !free.contains(joint)).map(one).fold(0.0, |most: f64, d| most.max(d.abs()))
 }
 
-/// The distance of the answer's tip from the target, lengths as shares of the reach.
+/// The distance between the solution's tip and the target, lengths as fractions of the reach.
 fn miss(derived: &Derivation, target: &[f64], answer: &Solution) -> f64 {
     let reached = derived.reached(&answer.q).unwrap();
     let size = |name: &str| if name.starts_with('p') && name != "phi" { derived.program().scale } else { 1.0 };

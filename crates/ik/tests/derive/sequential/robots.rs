@@ -1,4 +1,4 @@
-//! All robots of `groebot_robot::robots` at random poses, against the joints that made them and against the screw solver.
+//! All robots of `groebot_robot::robots` at random poses, compared with the generating joints and with the screw solver.
 
 use std::time::{Duration, Instant};
 

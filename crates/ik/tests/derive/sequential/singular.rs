@@ -1,4 +1,4 @@
-//! Singular poses: wrist straight, arm stretched, wrist above the shoulder; exactly, and near.
+//! Singular poses, exact and near: wrist straight, arm stretched, wrist above the shoulder.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -17,7 +17,7 @@ fn chain_of(derived: &Derivation) -> &Chain {
     derived.sequential().unwrap().problem.measured()
 }
 
-/// The answers at the pose of `q`, all of which reach it.
+/// The solutions at the pose of `q`. Checks that all of them reach it.
 fn answers(derived: &Derivation, q: &[f64]) -> Vec<Solution> {
     let target = derived.reached(q).unwrap();
     let answers = derived.program().solve_numbers(&target).unwrap();
@@ -27,7 +27,7 @@ fn answers(derived: &Derivation, q: &[f64]) -> Vec<Solution> {
     answers
 }
 
-/// The robot, the joint between two axes that it makes one line at this angle, and the joints of these axes.
+/// The robot, the joint that aligns two axes at this angle, and the joints of these axes.
 const WRISTS: [(&str, usize, f64, [usize; 2]); 5] = [
     ("puma", 4, FRAC_PI_2, [3, 5]),
     ("irb120", 4, FRAC_PI_2, [3, 5]),
@@ -63,7 +63,7 @@ fn nothing_is_lost_near_a_straight_wrist() {
             let mut q = random.joints(chain_of(&derived));
             q[joint] = angle + 10f64.powi(-k);
             let found = answers(&derived, &q);
-            // sigma is about 10^-k: the joints of the pair are only as certain as rounding over sigma.
+            // sigma is about 10^-k. The joints of the pair have an error of rounding over sigma.
             let ignored = if k > 6 { pair.to_vec() } else { Vec::new() };
             let nearest = found.iter().map(|a| distance(chain_of(&derived), &a.q, &q, &ignored)).fold(9.0, f64::min);
             assert!(nearest < 1e-7, "{name} 1e-{k} {q:?} {nearest:e}: {found:?}");
@@ -73,7 +73,7 @@ fn nothing_is_lost_near_a_straight_wrist() {
     }
 }
 
-/// The elbow straight: two answers become one, and none is lost by rounding.
+/// With a straight elbow, two solutions become one. It is not lost by rounding.
 #[test]
 fn a_stretched_arm_keeps_its_answer() {
     for (name, elbow) in [("puma", 2), ("irb120", 2), ("rh0_right_leg", 3), ("nao_left_leg", 3), ("ur5", 2)] {
@@ -84,7 +84,7 @@ fn a_stretched_arm_keeps_its_answer() {
                 let mut q = random.joints(chain_of(&derived));
                 q[elbow] = bend;
                 let found = answers(&derived, &q);
-                // A double root is uncertain by the square root of rounding.
+                // A double root has an error of the square root of rounding.
                 let nearest = found.iter().map(|a| distance(chain_of(&derived), &a.q, &q, &a.free)).fold(9.0, f64::min);
                 assert!(nearest < 1e-6, "{name} {bend} {q:?} {nearest:e}: {found:?}");
             }
@@ -92,7 +92,7 @@ fn a_stretched_arm_keeps_its_answer() {
     }
 }
 
-/// PUMA's wrist on the axis of its first joint, which turns it about itself.
+/// PUMA's wrist is on the axis of its first joint, which does not move it.
 #[test]
 fn the_wrist_above_the_shoulder_leaves_the_shoulder_free() {
     let derived = derived("puma");
@@ -109,8 +109,8 @@ fn the_wrist_above_the_shoulder_leaves_the_shoulder_free() {
     }
 }
 
-/// NAO's arm is singular where the elbow stands on the axis of ShoulderPitch (ShoulderRoll 1.4289 left, 1.7127 right, by
-/// atan(105/15)) and where the elbow is straight. Next to that all coefficients of the quartic are small.
+/// NAO's arm is singular where the elbow is on the axis of ShoulderPitch (ShoulderRoll 1.4289 left, 1.7127 right, from atan(105/15)) and where the elbow is
+/// straight. Near these poses all coefficients of the quartic are small.
 #[test]
 fn rays_of_nao_next_to_singular_ones_keep_the_joints_that_made_them() {
     let on_axis = (105.0f64 / 15.0).atan();
@@ -126,7 +126,7 @@ fn rays_of_nao_next_to_singular_ones_keep_the_joints_that_made_them() {
     for (name, q, tolerance) in poses {
         let derived = derived(name);
         let found = answers(&derived, &q);
-        // What rounding leaves of the target, 1e-16, divided by the distance from the singular one, moves the joints.
+        // The joints have an error of the target's rounding, 1e-16, over the distance to the singular pose.
         let nearest = found.iter().map(|a| distance(chain_of(&derived), &a.q, &q, &a.free)).fold(9.0, f64::min);
         assert!(nearest < tolerance, "{name} {q:?} {nearest:e}: {found:?}");
         assert!(found.len() <= derived.dimension().unwrap(), "{name} {q:?}: {found:?}");
