@@ -202,3 +202,25 @@ fn the_default_tip_is_told() {
     let leg = refused(&[&["derive", &urdf("three_joint_leg.urdf")], &task[..]].concat());
     assert!(leg.contains("choose a tip link, such as `foot`\n"), "{leg}");
 }
+
+/// A given joint with the name of a coordinate: each has its own column.
+#[test]
+fn a_given_joint_may_have_the_name_of_a_number_of_the_task() {
+    let chain = fs::read_to_string(root("derivations/nao_left_arm_position/0_chain.toml")).unwrap();
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("chain.toml");
+    fs::write(&file, chain.replace("ElbowYaw", "px")).unwrap();
+    let poses = pipe(&["fk", text(&file)], "0.3,0.2,0.7,-0.6\n");
+    let x = table(&poses)[0]["x_m"];
+    let mut answers = pipe(&["ik", text(&file)], &poses);
+    for _ in 0..2 {
+        let rows: Vec<Vec<&str>> = answers.lines().map(|line| line.split(',').collect()).collect();
+        let places: Vec<usize> = (0..rows[0].len()).filter(|place| rows[0][*place] == "px").collect();
+        assert_eq!((places.len(), places[0], rows.len() > 1), (3, 1, true), "{answers}");
+        for row in &rows[1..] {
+            let [number, given, joint] = [0, 1, 2].map(|k| row[places[k]].parse::<f64>().unwrap());
+            assert!((number - x).abs() < 1e-12 && (given, joint) == (0.7, 0.7), "{answers}");
+        }
+        answers = pipe(&["ik", text(&file)], &answers);
+    }
+}
