@@ -36,20 +36,27 @@ pub struct Field {
     pub name: String,
     /// Its quantity.
     pub quantity: Quantity,
-    /// Another name of its column, without unit: `x` for `px`.
-    pub short: Option<&'static str>,
+    /// The number of a target that it is; `None` for a joint and others.
+    pub number: Option<TargetNumber>,
 }
 
 impl Field {
     /// The field with this name and quantity.
     pub fn new(name: &str, quantity: Quantity) -> Field {
-        Field { name: name.to_owned(), quantity, short: None }
+        Field { name: name.to_owned(), quantity, number: None }
     }
 
     /// The field of a number of a target.
     pub fn of_target(number: TargetNumber) -> Field {
-        let short = if let TargetNumber::Position(axis) = number { Some(axis.name()) } else { None };
-        Field { short, ..Field::new(&number.name(), number.quantity()) }
+        Field { number: Some(number), ..Field::new(&number.name(), number.quantity()) }
+    }
+
+    /// Another name of its column, without unit: `x` for `px`.
+    fn short(&self) -> Option<&'static str> {
+        match self.number {
+            Some(TargetNumber::Position(axis)) => Some(axis.name()),
+            _ => None,
+        }
     }
 }
 
@@ -144,25 +151,34 @@ impl Columns {
     }
 
     /// The column of a number of a form: the one with its own name, else the first with its name in some unit. Of
-    /// several numbers with one name each has a column, in order. If a joint has the name too, a column with the short
-    /// name comes first, because `fk` writes joints before poses.
+    /// several numbers with one name each has a column, in order. `fk` writes joints before poses: in its tables a
+    /// number of a target with the name of a joint has the last column with its name in some unit.
     fn place(&self, form: &[Field], index: usize, names: &StringRecord) -> Option<(usize, Scale)> {
         let field = &form[index];
-        let rank = form[..index].iter().filter(|before| before.name == field.name).count();
+        let with_name = |fields: &[Field]| fields.iter().filter(|other| other.name == field.name).count();
+        let (rank, twins) = (with_name(&form[..index]), with_name(form));
         let own: Vec<usize> = (0..names.len()).filter(|place| names[*place] == field.name).collect();
-        let own = own.get(rank).or(own.last()).map(|place| (*place, Scale::Same));
-        let scaled = |(place, name): (usize, &str)| Some((place, self.scale(field, name)?));
-        let is_short = |name: &str| field.short == Some(split(name).0);
-        let short = || names.iter().enumerate().filter(|(_, name)| is_short(name)).find_map(scaled);
+        let all: Vec<(usize, &str)> = names.iter().enumerate().collect();
+        let scaled = |&(place, name): &(usize, &str)| Some((place, self.scale(field, name)?));
+        let has = |name: &str| names.iter().any(|own| own == name);
         let is_joint = self.joints.iter().any(|joint| *joint == field.name);
-        let first = if is_joint { short() } else { None };
-        first.or(own).or_else(|| names.iter().enumerate().find_map(scaled))
+        if field.number.is_some() && is_joint && has("outside_limits") && !has("solutions") {
+            return all.iter().rev().find_map(scaled);
+        }
+        let own = if own.len() >= twins {
+            return Some((own[rank], Scale::Same));
+        } else if field.number.is_some() {
+            own.first()
+        } else {
+            own.last()
+        };
+        all.iter().find_map(scaled).or(own.map(|place| (*place, Scale::Same)))
     }
 
     /// The conversion of the numbers under `name`, if they are those of `field`.
     fn scale(&self, field: &Field, name: &str) -> Option<Scale> {
         let (bare, unit) = split(name);
-        let position = field.short == Some(bare);
+        let position = field.short() == Some(bare);
         if bare != field.name && !position || unit.is_empty() && self.joints.iter().any(|joint| joint == name) {
             return None;
         }

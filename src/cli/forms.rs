@@ -114,7 +114,7 @@ fn fields(program: &Program) -> Vec<Field> {
         program.inputs.iter().map(|input| Field::new(&input.name, quantity(input.unit))).collect();
     if let Some(tip) = program.tip() {
         for (input, number) in tip.inputs().zip(tip.layout().numbers()) {
-            fields[input].short = Field::of_target(*number).short;
+            fields[input].number = Some(*number);
         }
     }
     fields
