@@ -6,6 +6,7 @@ mod groebner;
 mod number;
 mod poly;
 mod real;
+mod random;
 mod roots;
 mod watch;
 

@@ -7,7 +7,6 @@ mod derivation;
 mod exact;
 mod model;
 mod newton;
-mod random;
 mod report;
 mod screws;
 mod targets;

@@ -8,11 +8,11 @@ use crate::derive::closure::{Factor, Mechanism};
 use crate::derive::samples::echelon::Echelon;
 use crate::derive::samples::evidence::Space;
 use crate::derive::samples::sights::{Sample, Sight, Sights, is_number, members, set};
-use crate::derive::samples::specimen::Random;
 use crate::{Result, Watch};
 use groebot_algebra::groebner::{basis_modulo_prime, normal_form};
 use groebot_algebra::number::Ring;
 use groebot_algebra::poly::Polynomial;
+use groebot_algebra::random::SplitMix64;
 
 /// The maximum degree of a step.
 const GREATEST: usize = 4;
@@ -210,7 +210,7 @@ fn freed_degrees(
     if !degrees(sights, actual, &space, places, watch)?.iter().any(is_allowed) {
         return Ok((vec![0; places.len()], 0));
     }
-    let mut random = Random::new(some.iter().fold(1, |seed, (index, _)| seed * 1009 + *index as u64));
+    let mut random = SplitMix64::new(some.iter().fold(1, |seed, (index, _)| seed * 1009 + *index as u64));
     let (polynomials, symbols) = freed(sights, some, &space, &mut random)?;
     let free = degrees(sights, polynomials, &space, places, watch)?;
     if free.iter().any(is_allowed) {
@@ -244,7 +244,7 @@ fn degrees(
     let basis = basis_modulo_prime(&space.ring, &generators, watch)?;
     match basis.quotient_dimension() {
         None | Some(0) => Ok(vec![0; places.len()]),
-        Some(_) => space.degrees(&basis, places, &mut Random::new(sights.field().modulus()), watch),
+        Some(_) => space.degrees(&basis, places, &mut SplitMix64::new(sights.field().modulus()), watch),
     }
 }
 
@@ -253,7 +253,7 @@ fn freed(
     sights: &Sights<'_>,
     some: &[Seen],
     space: &Space,
-    random: &mut Random,
+    random: &mut SplitMix64,
 ) -> Result<(Vec<Polynomial<u64>>, usize)> {
     let field = sights.field();
     let mut symbols: Vec<(Sample, u64)> = Vec::new();
@@ -266,7 +266,7 @@ fn freed(
                 return field.mul(&ratio, value);
             }
         }
-        let value = random.below(field.modulus());
+        let value = random.unit(field.modulus());
         symbols.push((*sample, value));
         value
     };

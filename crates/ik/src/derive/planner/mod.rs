@@ -24,8 +24,8 @@ pub use types::{Evidence, Plan, PlanStep, Way};
 use crate::derive::closure::{Mechanism, Relation, prove};
 use crate::derive::samples;
 use crate::derive::samples::sights::Sights;
-use crate::derive::samples::specimen::Random;
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_algebra::random::SplitMix64;
 use search::{Reach, Search};
 
 /// The extents of elimination, in the order in which they are tried. The first that gives the right number of solutions is used.
@@ -72,7 +72,7 @@ fn sights<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) -> Result<Sig
     let lucky = samples::evidence::lucky_primes(mechanism)?.into_iter().next();
     let (_, arithmetic) =
         lucky.ok_or_else(|| Error::new(ErrorKind::Unsupported, "no prime suits the chain's constants"))?;
-    Sights::new(mechanism, relations, arithmetic, &mut Random::new(SEED))
+    Sights::new(mechanism, relations, arithmetic, &mut SplitMix64::new(SEED))
 }
 
 /// The steps of the best plan, if its number of solutions is acceptable.
