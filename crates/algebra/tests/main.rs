@@ -5,8 +5,8 @@ mod escape;
 mod groebner;
 mod number;
 mod poly;
-mod real;
 mod random;
+mod real;
 mod roots;
 mod watch;
 

@@ -1,11 +1,10 @@
 //! The parts of a serial chain in exact numbers: joints, tip and task. Main type: [`ChainParts`].
 
-use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
 
 use super::task::Task;
 use super::{ExactMatrix, ExactVector, LengthUnit, Mimic, exact_serde};
-use groebot_algebra::number::BigRational;
+use crate::spatial::exact::vector::unit;
 
 /// Default tolerance of the idealisation: radians, and fractions of the reach.
 pub const TOLERANCE: f64 = 1e-6;
@@ -130,7 +129,7 @@ pub struct ChainParts {
 
 /// The default direction: the tip's z axis.
 pub fn along_z() -> ExactVector {
-    [BigRational::zero(), BigRational::zero(), BigRational::one()]
+    unit(2)
 }
 
 impl Meant {

@@ -2,12 +2,10 @@
 
 use std::fmt;
 
-use num_traits::{One, Zero};
 use serde::{Deserialize, Serialize};
 
 use super::ExactVector;
-use crate::spatial::exact::vector::show;
-use groebot_algebra::number::BigRational;
+use crate::spatial::exact::vector::{show, unit};
 
 /// A coordinate plane of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -137,7 +135,7 @@ impl Task {
     /// The default direction in the tip frame: z, or the axis from which an angle about an axis is measured.
     pub fn usual_direction(self) -> ExactVector {
         let along = self.axis().map_or(2, |axis| axis.across()[0]);
-        std::array::from_fn(|i| if i == along { BigRational::one() } else { BigRational::zero() })
+        unit(along)
     }
 
     /// The number of independent values: the maximum number of joints that the task determines.

@@ -15,6 +15,7 @@ use groebot_algebra::number::{BigRational, Rationals, Ring};
 use groebot_algebra::poly::{Expression, Fractions, Order, PolynomialRing, rational_root};
 use groebot_robot::document::{shown, word};
 use groebot_robot::kinematics::{Chain, ExactVector, Joint, JointKind, Plane, TargetNumber, Task};
+use groebot_robot::spatial::exact::vector::{dot, unit};
 
 /// The equations of `chain` for its task.
 ///
@@ -108,10 +109,6 @@ fn oriented_axes(plane: Plane) -> (usize, usize) {
     ((normal + 1) % 3, (normal + 2) % 3)
 }
 
-fn unit(axis: usize) -> ExactVector {
-    std::array::from_fn(|k| if k == axis { BigRational::one() } else { BigRational::zero() })
-}
-
 /// A square root of an integer, in the length of an axis.
 #[derive(Clone, Debug, PartialEq)]
 struct Root {
@@ -167,7 +164,7 @@ impl Model {
 
     /// The unit vector `u / |u|` of an axis. `1 / |u|` is a rational, or a rational times a square root.
     fn direction(&self, axis: &ExactVector) -> [Poly; 3] {
-        let square = square_length(axis);
+        let square = dot(axis, axis);
         let scale = match axis_root(axis) {
             None => self.number(&rational_root(&square).unwrap_or_else(BigRational::one).recip()),
             Some(root) => {
@@ -237,13 +234,9 @@ fn unit_zero(ring: &Unknowns) -> [Poly; 3] {
     std::array::from_fn(|_| ring.zero())
 }
 
-fn square_length(axis: &ExactVector) -> BigRational {
-    axis.iter().map(|entry| entry * entry).sum()
-}
-
 /// The square root in the length of an axis: that of the square-free part of `n` when `|u|^2` is `n` times a square.
 fn axis_root(axis: &ExactVector) -> Option<Root> {
-    let square = square_length(axis);
+    let square = dot(axis, axis);
     let product = square.numer() * square.denom();
     let radicand = square_free_part(product.abs());
     (!radicand.is_one()).then_some(Root { radicand })

@@ -1,10 +1,25 @@
-//! Exact vectors: sums, products and lines, for exact zero tests.
+//! Exact vectors: sums, products and lines, for exact zero tests. The vector type is [`ExactVector`].
 
-use num_traits::{ToPrimitive, Zero};
+use num_traits::{One, ToPrimitive, Zero};
 
-use super::ExactVector;
 use super::rotation::over_common;
+use super::{ExactMatrix, ExactVector};
 use groebot_algebra::number::{BigInt, BigRational};
+
+/// The vector of zeros.
+pub fn zero() -> ExactVector {
+    std::array::from_fn(|_| BigRational::zero())
+}
+
+/// The unit vector along a coordinate axis: 0, 1, 2 for x, y, z.
+pub fn unit(axis: usize) -> ExactVector {
+    std::array::from_fn(|k| if k == axis { BigRational::one() } else { BigRational::zero() })
+}
+
+/// The identity matrix.
+pub fn identity() -> ExactMatrix {
+    std::array::from_fn(unit)
+}
 
 /// `a + b`.
 pub fn add(a: &ExactVector, b: &ExactVector) -> ExactVector {
@@ -32,6 +47,11 @@ pub fn cross(a: &ExactVector, b: &ExactVector) -> ExactVector {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         &a[j] * &b[k] - &a[k] * &b[j]
     })
+}
+
+/// The matrix, given by rows, times `a`.
+pub fn turn(matrix: &ExactMatrix, a: &ExactVector) -> ExactVector {
+    matrix.each_ref().map(|row| dot(row, a))
 }
 
 /// Whether all entries are zero.
