@@ -10,7 +10,7 @@ use groebot_robot::document::{JsonFormat, json_text};
 use groebot_robot::kinematics::{ExactVector, Stated, Task};
 
 const FORMAT: JsonFormat =
-    JsonFormat { what: "program", oldest: 2, number: 3, renew: "`groebot derive` on its folder writes it anew" };
+    JsonFormat { what: "program", oldest: 2, number: 3, renew: "`groebot derive` on its folder writes it again" };
 
 impl Program {
     /// Reads a program from JSON of format 2 or 3 and validates it.

@@ -145,7 +145,7 @@ impl TargetInputs {
     }
 
     fn refusal(&self, what: &str) -> Error {
-        Error::new(ErrorKind::BadValue, format!("{what}; the solver asks for {}", self.names.join(", ")))
+        Error::new(ErrorKind::BadValue, format!("{what}; the solver needs {}", self.names.join(", ")))
     }
 }
 

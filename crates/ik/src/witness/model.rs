@@ -154,9 +154,9 @@ impl<'a> Model<'a> {
     }
 
     fn holds_between(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
-        let way = self.differences(b, a);
+        let differences = self.differences(b, a);
         [0.25, 0.5, 0.75].iter().all(|share| {
-            let point: Vec<f64> = a.iter().zip(&way).map(|(a, way)| a + share * way).collect();
+            let point: Vec<f64> = a.iter().zip(&differences).map(|(a, difference)| a + share * difference).collect();
             self.misfit(target, &point) <= RESIDUAL
         })
     }

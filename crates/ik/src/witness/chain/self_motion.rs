@@ -26,7 +26,7 @@ pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
 const CORRECTIONS: usize = 20;
 /// Singular values below this fraction of the largest one count as zero.
 const RANK: f64 = 1e-8;
-/// The maximum bend of a path between two joint vectors, as a fraction of its length, or of the square of its length if that is greater.
+/// The maximum bend of a path between two joint vectors: a fraction of its length, or of the square of its length if that is greater.
 const STRAIGHT: f64 = 1e-2;
 /// The longest and the shortest step along a curve, and the maximum number of steps.
 const LONGEST: f64 = 0.1;
@@ -61,11 +61,18 @@ pub(super) trait SelfMotions: Configuration {
         if self.sigma(q) > SINGULAR { None } else { null_vector(self.jacobian(q)) }
     }
 
-    /// The member next to `q` moved by `way` along the unit vector `ahead`, and no farther along it. Its error is at most `tolerance`.
-    fn beside(&self, target: &[f64], q: &[f64], ahead: &DVector<f64>, way: f64, tolerance: f64) -> Option<Vec<f64>> {
+    /// The member next to `q` moved by `distance` along the unit vector `ahead`, and no farther along it. Its error is at most `tolerance`.
+    fn moved_along(
+        &self,
+        target: &[f64],
+        q: &[f64],
+        ahead: &DVector<f64>,
+        distance: f64,
+        tolerance: f64,
+    ) -> Option<Vec<f64>> {
         let mut moved = q.to_vec();
         for (&joint, share) in self.unknown().iter().zip(ahead.iter()) {
-            moved[joint] += way * share * self.unit(joint);
+            moved[joint] += distance * share * self.unit(joint);
         }
         let across = |_: &[f64]| DMatrix::from_row_slice(1, ahead.len(), ahead.as_slice());
         self.corrected(target, moved, self.unknown(), &across, tolerance)
@@ -108,32 +115,32 @@ pub(super) trait SelfMotions: Configuration {
     fn leads_to(&self, target: &[f64], q: &[f64], answer: &Solution, (step, missed): (f64, f64)) -> bool {
         let Solution { q: end, free, .. } = answer;
         let short: Vec<f64> = free.iter().map(|&joint| self.difference(joint, end[joint], q[joint])).collect();
-        let round = |(way, &joint): (&f64, &usize)| {
-            if self.turns(joint) { way - std::f64::consts::TAU.copysign(*way) } else { *way }
+        let round = |(angle, &joint): (&f64, &usize)| {
+            if self.turns(joint) { angle - std::f64::consts::TAU.copysign(*angle) } else { *angle }
         };
         let long: Vec<f64> = short.iter().zip(free).map(round).collect();
-        [short, long].iter().any(|way| {
-            let led = self.led(target, q, (free, way), (step, missed));
+        [short, long].iter().any(|displacements| {
+            let led = self.led(target, q, (free, displacements), (step, missed));
             led.is_some_and(|led| self.distance(&led, end) <= missed.sqrt())
         })
     }
 
-    /// The end of the path on which the free joints move by `way` in such steps.
+    /// The end of the path on which the free joints move by `displacements` in such steps.
     fn led(
         &self,
         target: &[f64],
         q: &[f64],
-        (free, way): (&[usize], &[f64]),
+        (free, displacements): (&[usize], &[f64]),
         (step, missed): (f64, f64),
     ) -> Option<Vec<f64>> {
         let others: Vec<usize> = self.unknown().iter().copied().filter(|joint| !free.contains(joint)).collect();
         let units = free.iter().map(|&joint| self.unit(joint));
-        let longest = way.iter().zip(units).map(|(way, unit)| way.abs() / unit).fold(0.0, f64::max);
+        let longest = displacements.iter().zip(units).map(|(value, unit)| value.abs() / unit).fold(0.0, f64::max);
         let steps = (longest / step).ceil().max(1.0);
         let none = |_: &[f64]| DMatrix::zeros(0, others.len());
         (1..=steps as usize).try_fold(q.to_vec(), |mut at, step| {
-            for (&joint, way) in free.iter().zip(way) {
-                at[joint] = q[joint] + way * step as f64 / steps;
+            for (&joint, displacement) in free.iter().zip(displacements) {
+                at[joint] = q[joint] + displacement * step as f64 / steps;
             }
             self.corrected(target, at, &others, &none, missed)
         })
@@ -143,7 +150,9 @@ pub(super) trait SelfMotions: Configuration {
     /// the end of its part of the circle and turns back while the others change to another branch.
     fn runs_to(&self, target: &[f64], q: &[f64], answer: &[f64]) -> bool {
         let tangent = self.tangent(q);
-        tangent.is_some_and(|ahead| [ahead.clone(), -ahead].into_iter().any(|way| self.runs(target, q, way, answer)))
+        tangent.is_some_and(|ahead| {
+            [ahead.clone(), -ahead].into_iter().any(|direction| self.runs(target, q, direction, answer))
+        })
     }
 
     /// Same as [`SelfMotions::runs_to`], but only in the direction `ahead`. The curve's bends limit the steps.
@@ -165,19 +174,21 @@ pub(super) trait SelfMotions: Configuration {
     /// Whether `answer` is on the curve from `at` along `ahead`, within a small distance.
     fn passes(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, answer: &[f64]) -> bool {
         let apart = |&joint: &usize| self.difference(joint, answer[joint], at[joint]) / self.unit(joint);
-        let way = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
-        self.beside(target, at, ahead, way, MEMBER).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
+        let distance = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
+        self.moved_along(target, at, ahead, distance, MEMBER)
+            .is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
     }
 
-    /// The point of the curve next to `at` moved by `way` along the unit vector `ahead`, and the curve's direction there. Its error is at most `tolerance`.
+    /// The point of the curve next to `at` moved by `distance` along the unit vector `ahead`, and the curve's direction there. Its error is at most
+    /// `tolerance`.
     fn stepped(
         &self,
         target: &[f64],
         at: &[f64],
         ahead: &DVector<f64>,
-        (way, tolerance): (f64, f64),
+        (distance, tolerance): (f64, f64),
     ) -> Option<(Vec<f64>, DVector<f64>)> {
-        let next = self.beside(target, at, ahead, way, tolerance)?;
+        let next = self.moved_along(target, at, ahead, distance, tolerance)?;
         let tangent = null_vector(self.jacobian(&next))?;
         let side = tangent.dot(ahead).signum();
         Some((next, tangent * side))

@@ -96,7 +96,7 @@ pub(super) struct Targets<'a> {
 /// A singular configuration, and the joint that moves out of it.
 struct Singularity {
     q: Vec<f64>,
-    way: usize,
+    joint: usize,
 }
 
 impl<'a> Targets<'a> {
@@ -205,13 +205,13 @@ impl<'a> Targets<'a> {
         self.done += 1;
         let critical = self.critical.clone();
         let turn = self.done % 5;
-        let Some(&(way, value)) = critical.get(self.done / 5 % critical.len().max(1)) else { return self.mixed() };
+        let Some(&(joint, value)) = critical.get(self.done / 5 % critical.len().max(1)) else { return self.mixed() };
         match turn {
-            0 | 4 => self.mixed().or_else(|| self.with(&[(way, value)])),
+            0 | 4 => self.mixed().or_else(|| self.with(&[(joint, value)])),
             1 | 3 => self.with(&[critical[self.done % critical.len()]]),
             _ => {
                 let other = critical[(self.done / 5 + self.done) % critical.len()];
-                self.with(&[(way, value), other])
+                self.with(&[(joint, value), other])
             }
         }
     }
@@ -219,7 +219,7 @@ impl<'a> Targets<'a> {
     fn with(&mut self, held: &[(usize, f64)]) -> Option<Singularity> {
         let mut q = self.joints();
         held.iter().for_each(|&(joint, value)| q[joint] = value);
-        Some(Singularity { q, way: held.first()?.0 })
+        Some(Singularity { q, joint: held.first()?.0 })
     }
 
     /// A sign change of the determinant at a value that is not critical alone.
@@ -233,7 +233,7 @@ impl<'a> Targets<'a> {
             };
             let value = self.sign_changes(&q, joint).into_iter().find(|&value| !known(value))?;
             q[joint] = value;
-            Some(Singularity { q, way: joint })
+            Some(Singularity { q, joint })
         })
     }
 
@@ -241,9 +241,9 @@ impl<'a> Targets<'a> {
     fn near(&mut self, k: u32) -> Option<Target> {
         let distance = 10.0_f64.powi(-(k as i32));
         let q = (0..DRAWS).find_map(|_| {
-            let Singularity { mut q, way } = self.singular()?;
+            let Singularity { mut q, joint } = self.singular()?;
             let side = if self.done.is_multiple_of(2) { 1.0 } else { -1.0 };
-            q[way] += side * distance * self.model.unit(way);
+            q[joint] += side * distance * self.model.unit(joint);
             // It may still be singular for another reason.
             (self.model.sigma(&q) >= 1e-3 * distance).then_some(q)
         })?;
