@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::program::{Input, Program};
+use super::target::condition;
 use super::tips::{GivenJoint, TipTask};
 use crate::Result;
 use groebot_algebra::number::parse_rational;
@@ -107,7 +108,7 @@ impl Program {
         let is_number = |(input, number): (&Input, String)| is_named(&input.name, &number);
         let named = inputs.iter().zip(layout.names()).all(is_number);
         let tip = TipTask { chain: None, task, direction: None, first_input: first };
-        named && tip.condition().is_none_or(|condition| self.conditions.contains(&condition))
+        named && condition(&tip).is_none_or(|condition| self.conditions.contains(&condition))
     }
 }
 

@@ -20,6 +20,7 @@ mod prepared;
 mod program;
 mod prune;
 mod rule;
+mod target;
 mod tips;
 mod tolerant;
 mod validate;

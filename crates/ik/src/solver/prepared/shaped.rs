@@ -17,7 +17,7 @@ use super::spare::with_spare;
 use super::storage::SixJoints;
 use crate::solver::condition::conform;
 use crate::solver::program::{Case, Condition, Input};
-use crate::solver::tips::TargetInputs;
+use crate::solver::target::TargetInputs;
 use crate::solver::{Facts, Layout, Operand, Pairs};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Solution;
