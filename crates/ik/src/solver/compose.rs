@@ -40,27 +40,15 @@ impl Program {
     pub(crate) fn joined(&self, next: &Program, shared: &[(usize, usize)]) -> Result<(Program, Vec<Option<usize>>)> {
         let places = Places::new(self, next, shared)?;
         let mut program = self.clone();
-        for tip in next.tasks.iter().map(|tip| places.tip(tip)).collect::<Result<Vec<_>>>()? {
-            if !program.tasks.contains(&tip) {
-                program.tasks.push(tip);
-            }
-        }
-        for given in next.given_joints.iter().filter_map(|given| places.given(*given)) {
-            if !program.given_joints.contains(&given) {
-                program.given_joints.push(given);
-            }
-        }
+        add_new(&mut program.tasks, next.tasks.iter().map(|tip| places.tip(tip)).collect::<Result<_>>()?);
+        add_new(&mut program.given_joints, next.given_joints.iter().filter_map(|given| places.given(*given)).collect());
         program.given_joints.sort_by_key(|given| given.input);
         program
             .inputs
             .extend(own(&next.inputs, |index| places.inputs[index].is_some_and(|place| place >= self.inputs.len())));
         program.unknowns.extend(own(&next.unknowns, |index| places.unknowns[index] >= self.unknowns.len()));
-        for &condition in &next.conditions {
-            let condition = places.condition(condition)?;
-            if !program.conditions.contains(&condition) {
-                program.conditions.push(condition);
-            }
-        }
+        let conditions = next.conditions.iter().map(|&condition| places.condition(condition)).collect::<Result<_>>()?;
+        add_new(&mut program.conditions, conditions);
         let is_new = |index: usize| matches!(places.parameters[index], Operand::Parameter(place) if place >= self.parameters.len());
         for parameter in own(&next.parameters, is_new) {
             program.parameters.push(places.parameter(parameter)?);
@@ -81,6 +69,15 @@ impl Program {
     /// Whether the user gives the value of a joint by an input.
     fn is_given_by(&self, input: usize) -> bool {
         self.given_joints.iter().any(|given| given.input == input)
+    }
+}
+
+/// Adds those members to a list that it does not have.
+fn add_new<T: PartialEq>(list: &mut Vec<T>, members: Vec<T>) {
+    for member in members {
+        if !list.contains(&member) {
+            list.push(member);
+        }
     }
 }
 
