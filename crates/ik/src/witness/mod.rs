@@ -12,7 +12,6 @@ mod derivation;
 mod exact;
 mod model;
 mod newton;
-mod random;
 mod report;
 mod screws;
 mod targets;
