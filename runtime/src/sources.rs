@@ -1,7 +1,7 @@
 //! Source text of the run time, from which single-file solvers are assembled.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 36] = [
+pub const RUST: [(&str, &str); 37] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -13,6 +13,7 @@ pub const RUST: [(&str, &str); 36] = [
     ("derivatives", include_str!("derivatives.rs")),
     ("described", include_str!("described.rs")),
     ("double", include_str!("double.rs")),
+    ("effort", include_str!("effort.rs")),
     ("exactly", include_str!("exactly.rs")),
     ("freedom", include_str!("freedom.rs")),
     ("joints", include_str!("joints.rs")),
