@@ -129,8 +129,7 @@ pub struct Eigenvalues {
 }
 
 /// Tolerances of real roots.
-pub const ROOTS: Roots =
-    Roots { tangent: 1e-10, close: 1e-5, pivot: 1e-9, zero: 1e-290, distinct: 2e-3 };
+pub const ROOTS: Roots = Roots { tangent: 1e-10, close: 1e-5, pivot: 1e-9, zero: 1e-290, distinct: 2e-3 };
 /// Tolerances of strata.
 pub const STRATA: Strata = Strata { near: 1e-3, beside: 1e-7, denominator: 1e-30 };
 /// Tolerances of acceptance.

@@ -12,7 +12,7 @@ use super::pencil::{ALL, Matrix, NEAR, Pencil, SIZE, Wide};
 use super::shifted_qr::Eigenvalue;
 use super::vector::product;
 use crate::arithmetic::Arithmetic;
-use crate::tolerances::{EIGENVALUES, MERGING, ROOTS};
+use crate::tolerances::{EIGENVALUES, MERGING, PIVOTS};
 use crate::trigonometry::{cosine, sine};
 
 /// Number of simultaneous iterations.
@@ -104,7 +104,7 @@ fn tangents(basis: &[Wide]) -> Option<Matrix> {
             }
         }
     }
-    let is_determined = solve(&mut rows) >= ROOTS.pivot;
+    let is_determined = solve(&mut rows) >= PIVOTS.singular;
     is_determined.then(|| rows.map(|row| from_fn(|k| row[SIZE + k])))
 }
 

@@ -108,7 +108,8 @@ pub(super) fn quartic(half_angles: &HalfAngles, place: &Place, assembler: &Assem
     }
     let mut free = Builder::new(Form::Quartic, place, assembler, &[]);
     for (symbol, name) in place.symbols.iter().zip(Form::Quartic.symbols()) {
-        let scale = free.assembler.mul(Operand::Constant(place.slack.share(DERIVED_STRATA.close) / STRATA.near), symbol.size);
+        let scale =
+            free.assembler.mul(Operand::Constant(place.slack.share(DERIVED_STRATA.close) / STRATA.near), symbol.size);
         free.guards.push(Guard { text: (*name).to_owned(), value: symbol.value, scale, near: true });
     }
     list.push(free.free("A = B = C = D = E = 0"));
@@ -270,7 +271,8 @@ impl<'a> Builder<'a> {
         let size = self.assembler.horner(&terms, &sizes);
         let degree = ground.degree(factor) as i32;
         let close = self.place.slack.share(DERIVED_STRATA.close);
-        let share = if near { close.powi(degree) / STRATA.near } else { DERIVED_STRATA.lost.powi(degree) / STRATA.denominator };
+        let share =
+            if near { close.powi(degree) / STRATA.near } else { DERIVED_STRATA.lost.powi(degree) / STRATA.denominator };
         let scale = self.assembler.mul(Operand::Constant(share), size);
         self.guards.push(Guard { text: ground.format(factor, Style::Text), value, scale, near });
         Ok(true)

@@ -5,8 +5,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::model::{Configuration, ORDINARY, RESIDUAL};
 use super::singular::{least_squares, null_vector};
-use crate::solver::BLUR;
+
 use groebot_robot::kinematics::Solution;
+use groebot_runtime::tolerances::MERGING;
 
 /// The maximum sigma of a configuration in a self-motion.
 const SINGULAR: f64 = 1e-12;
@@ -73,7 +74,7 @@ pub(super) trait SelfMotions: Configuration {
 
     /// Whether `b` is the same solution as `a`, and within the distance at which a solver merges solutions.
     fn is_same(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
-        self.distance(a, b) <= BLUR && self.matches(target, a, b)
+        self.distance(a, b) <= MERGING.blur && self.matches(target, a, b)
     }
 
     /// Whether `b` is the same solution as `a`, or a member of its self-motion.
