@@ -28,7 +28,7 @@ fn main() {
         for joint in parts.joints.iter_mut().filter(|joint| held.contains(&joint.name.as_str())) {
             (joint.kind, joint.limits) = (JointType::Fixed, None);
         }
-        let equations = Equations::as_told(&Robot::new(parts).unwrap(), base).unwrap();
+        let equations = Equations::unchecked(&Robot::new(parts).unwrap(), base).unwrap();
         let (remarks, functions) = (Vec::new(), Function::ALL.to_vec());
         let printed = Printed { name, equations: &equations, remarks, functions, form: Form::Shorter };
         let rust: String = printed

@@ -35,7 +35,7 @@ pub(super) static SOLVER: LazyLock<Program> = LazyLock::new(|| {
 /// The equations of motion of one joint.
 pub(super) static HINGE: LazyLock<Equations> = LazyLock::new(|| {
     let robot = Robot::from_urdf(include_str!("../../tests/corpus/dynamics/faults/hinge.urdf"));
-    Equations::as_told(&robot.expect("is committed"), Base::Fixed).expect("is committed")
+    Equations::unchecked(&robot.expect("is committed"), Base::Fixed).expect("is committed")
 });
 
 /// The sources of derivations of three kinds: equations, a chain, an eigenvalue problem.

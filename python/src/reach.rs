@@ -1,7 +1,7 @@
 //! Reach maps of a solver over a grid: `groebot.reach_map`.
 
 use groebot::kinematics::Solution;
-use groebot::reach::{Ask, Axis, Entry, Grid, Measure, ReachMap, Solves, Survey};
+use groebot::reach::{Axis, Entry, Grid, Measure, ReachMap, Request, Solves, Survey};
 use groebot::solver::Solved;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -46,7 +46,7 @@ pub fn reach<'py>(
     let stored = &solver.0;
     let is_described = limits.is_some_and(|limits| limits.extract::<bool>().is_ok_and(|is_asked| is_asked));
     let limits = if is_described {
-        Some(Ask::described(&stored.program).map_err(|error| raised(&error))?)
+        Some(Request::described(&stored.program).map_err(|error| raised(&error))?)
     } else {
         solver.bounds(limits)?
     };
@@ -56,9 +56,10 @@ pub fn reach<'py>(
     if start > stop || stop > grid.places() {
         return Err(bad_value(format!("places from {start} to {stop}; the grid has {}", grid.places())));
     }
-    let ask = Ask { orientations, seed, given, measure, limits, ..Ask::new(grid) };
+    let request = Request { orientations, seed, given, measure, limits, ..Request::new(grid) };
     let solving = Solving(&*stored.kernel);
-    let survey = Survey::new(&solving, &stored.program, stored.chain.as_ref(), &ask).map_err(|error| raised(&error))?;
+    let survey =
+        Survey::new(&solving, &stored.program, stored.chain.as_ref(), &request).map_err(|error| raised(&error))?;
     let entries = watched(py, progress, crate::work::threads(threads), |watch| survey.entries(start..stop, watch))?;
     let columns = PyDict::new(py);
     let wholes = |number: fn(&Entry) -> u32| PyArray1::from_iter(py, entries.iter().map(number));

@@ -93,7 +93,7 @@ pub(crate) fn solve_widest<M: Mechanism, A: Answer<M>>(
     if M::IS_SINGLE {
         return solve_singly(mechanism, targets, out, counts);
     }
-    if M::IS_TOLD {
+    if M::INTERPRETED {
         return if mechanism.facts().runs.is_empty() {
             solve_singly(mechanism, targets, out, counts)
         } else {

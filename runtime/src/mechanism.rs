@@ -30,7 +30,7 @@ pub trait Mechanism: Sized {
     /// Whether targets of a batch are solved one after the other.
     const IS_SINGLE: bool = false;
     /// Whether sixteen targets are solved at once, because the interpreter spends more time on decoding an operation than on computing it.
-    const IS_TOLD: bool = false;
+    const INTERPRETED: bool = false;
 
     /// Constants that hold for all targets.
     fn facts(&self) -> Facts<'_>;

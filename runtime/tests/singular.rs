@@ -74,7 +74,7 @@ fn too_few_steps_leave_answers_that_are_not_settled() {
             match puma::Solver.solve_bounded(&target, steps, &mut out) {
                 Err(error) => without += usize::from(error == Error::Unsettled),
                 Ok(count) => {
-                    assert!(count > 0, "{q:?}: no answer with {steps} steps, and no word of it");
+                    assert!(count > 0, "{q:?}: no solution with {steps} steps, and no error");
                     let found = &out[..count];
                     assert!(found.iter().all(|answer| !answer.settled), "{steps} {q:?}: {found:?}");
                     assert!(

@@ -1,4 +1,4 @@
-"""Shortest paths of crates/humanoid/tests/nav/shortest_ways.csv, by a visibility graph of all corners in shapely.
+"""Shortest paths of crates/humanoid/tests/nav/shortest_paths.csv, by a visibility graph of all corners in shapely.
 
     python3 -m venv /tmp/navigation && /tmp/navigation/bin/pip install -r scripts/navigation/requirements.txt
     /tmp/navigation/bin/python scripts/navigation/visibility.py
@@ -14,7 +14,7 @@ from pathlib import Path
 import shapely
 from shapely import LineString, Point, box
 
-TABLE = Path(__file__).resolve().parents[2] / "crates/humanoid/tests/nav/shortest_ways.csv"
+TABLE = Path(__file__).resolve().parents[2] / "crates/humanoid/tests/nav/shortest_paths.csv"
 # Obstacles are shrunk by this number of cells, so that a path that touches them does not intersect them.
 LESS = 1e-9
 

@@ -77,13 +77,13 @@ impl IdealEndArguments {
     /// Sets the task of `chain`, whose source is not a URDF.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for links; as [`Ends::ask`].
+    /// [`ErrorKind::BadValue`] for links; as [`Ends::apply_to`].
     pub fn ask(&self, chain: Chain) -> Result<Chain> {
         if self.plain.base.is_some() || self.plain.tip.is_some() {
             let text = "--base and --tip need a URDF with links; omit them";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        self.plain.ends()?.ask(chain)
+        self.plain.ends()?.apply_to(chain)
     }
 }
 

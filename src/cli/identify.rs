@@ -108,8 +108,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let output = output.expects([arguments.out.as_ref()])?;
     let (robot, _) = described(&arguments.robot)?;
     let (robot, gravity) = arguments.part.of(&robot)?;
-    let equations =
-        Equations::as_told(&robot, Base::Fixed).map_err(|error| error.in_file(&arguments.robot))?.with_gravity(gravity);
+    let equations = Equations::unchecked(&robot, Base::Fixed)
+        .map_err(|error| error.in_file(&arguments.robot))?
+        .with_gravity(gravity);
     let log = read(arguments, &equations)?;
     let found = equations.identify(&log, arguments.friction).map_err(|error| error.in_file(&arguments.log))?;
     let names = equations.parameter_names();

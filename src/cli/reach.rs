@@ -12,7 +12,7 @@ use super::solve::read_program;
 use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result};
 use groebot_ik::derive::{Ends, InputFile};
-use groebot_ik::reach::{Ask, Axis, Grid, Measure, ReachMap, Survey};
+use groebot_ik::reach::{Axis, Grid, Measure, ReachMap, Request, Survey};
 use groebot_ik::solver::Program;
 use groebot_robot::document::shown;
 use groebot_robot::kinematics::{Chain, Joint, JointKind};
@@ -89,10 +89,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([file.as_path()]);
     let output = output.expects([arguments.out.as_ref(), arguments.plot.as_ref()])?;
     let (program, chain) = (read_program(file)?, chain(file)?);
-    let ask = arguments.ask(&program, chain.as_ref()).map_err(|error| error.in_file(file))?;
+    let request = arguments.request(&program, chain.as_ref()).map_err(|error| error.in_file(file))?;
     let session = Session::start(arguments.budget.limits())?;
     let (start, solver) = (Instant::now(), program.solver());
-    let map = Survey::new(&solver, &program, chain.as_ref(), &ask)
+    let map = Survey::new(&solver, &program, chain.as_ref(), &request)
         .map_err(|error| error.in_file(file))?
         .map(&session.watch)?;
     drop(session);
@@ -108,7 +108,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 impl Arguments {
-    fn ask(&self, program: &Program, chain: Option<&Chain>) -> Result<Ask> {
+    fn request(&self, program: &Program, chain: Option<&Chain>) -> Result<Request> {
         let asked = |name: &str| program.inputs.iter().any(|input| input.name == name);
         let around = chain.and_then(around);
         let axis = |told: Option<Axis>, place: usize| match (told, &around) {
@@ -124,13 +124,13 @@ impl Arguments {
             }
         };
         let grid = Grid::new([axis(self.x, 0)?, axis(self.y, 1)?, axis(self.z, 2)?])?;
-        Ok(Ask {
+        Ok(Request {
             orientations: self.orientations,
             seed: self.seed,
             given: self.given.clone(),
             measure: self.measure,
-            limits: self.limits.then(|| Ask::described(program)).transpose()?,
-            ..Ask::new(grid)
+            limits: self.limits.then(|| Request::described(program)).transpose()?,
+            ..Request::new(grid)
         })
     }
 }

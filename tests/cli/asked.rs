@@ -217,7 +217,7 @@ fn what_the_robot_does_not_have_is_refused() {
         (derive(&[]), &["several ends", "choose a tip link"]),
         (with(&["--free", "LElbow"]), &["`LElbow`", "`LElbowYaw`"]),
         (with(&["--free", "LElbowYaw", "--free", "LElbowYaw"]), &["`LElbowYaw`", "twice"]),
-        (with(&["--direction", "1,0,0"]), &["`pose`", "aims no direction"]),
+        (with(&["--direction", "1,0,0"]), &["`pose`", "orients no direction"]),
         (with(&["--task", "ray", "--direction", "0,0,0"]), &["direction"]),
         (with(&["--task", "planar_pose"]), &["--plane xy, xz or yz"]),
         (with(&["--plane", "xy"]), &["--plane belongs to a planar task"]),
@@ -253,5 +253,5 @@ fn only_a_urdf_has_links_and_a_system_has_its_own_task() {
     assert!(error.contains("only a URDF has links"), "{error}");
     let arm = root("derivations/nao_arm_planar");
     let error = refused(&["derive", text(&arm), "--task", "position"]);
-    assert!(error.contains("a system of equations states its own"), "{error}");
+    assert!(error.contains("a system of equations has its own"), "{error}");
 }

@@ -134,7 +134,10 @@ fn solve_finds_all_ways_and_says_which_chain_fails() {
     let far = succeed(&["solve", text(folder.path()), "--target", "1,1.25,9,1", "--target", "5,1,1,1"]);
     has(
         &far,
-        &["no solution: the equations of chain `b` fail in each of the 2 ways", "the equations of chain `a` fail;"],
+        &[
+            "no solution: the equations of chain `b` fail for each of the 2 solutions",
+            "the equations of chain `a` fail;",
+        ],
     );
     let far: Value =
         serde_json::from_str(&succeed(&["solve", text(folder.path()), "--json", "--target", "1,1.25,9,1"])).unwrap();

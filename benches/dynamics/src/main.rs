@@ -299,7 +299,7 @@ fn main() {
     println!("robot,freedoms,function,who,median_ns,share_of_pinocchio");
     for case in &cases {
         let robot = robot(case);
-        let equations = Equations::as_told(&robot, case.base).unwrap().without_friction();
+        let equations = Equations::unchecked(&robot, case.base).unwrap().without_friction();
         let states = states(&equations, case.base);
         let mut contenders = pinocchio::contenders(case, equations.freedoms());
         contenders.extend(library(&equations, &states));

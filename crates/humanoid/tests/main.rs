@@ -11,7 +11,7 @@ mod walkers;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 
-/// So many cases of a property; inputs that fail are kept in `tests/regressions/` and come first from then on.
+/// Configuration of a property with `count` cases. Failing inputs are stored in `tests/regressions/` and are run first from then on.
 fn cases(count: u32) -> Config {
     let kept = FileFailurePersistence::SourceParallel("tests/regressions");
     Config { cases: count, failure_persistence: Some(Box::new(kept)), ..Config::default() }

@@ -199,7 +199,7 @@ static void joints_come_back_from_forward_kinematics(void)
     CHECK(lost <= GB_EITHER_COUNT(0, 20));
 }
 
-static void free_joints_are_told(void)
+static void free_joints_are_reported(void)
 {
     const gb_real q[PUMA_JOINTS] = {R(0.3), R(-0.4), R(0.9), R(0.7), GB_PI / R(2.0), R(0.2)};
     gb_real target[PUMA_INPUTS];
@@ -318,7 +318,7 @@ int main(void)
     rotations_are_checked_and_mended();
     targets_that_are_none_are_refused();
     joints_come_back_from_forward_kinematics();
-    free_joints_are_told();
+    free_joints_are_reported();
     pairs_are_cosines_and_sines_of_solutions();
     batches_hold_what_single_targets_do();
     turns_are_counted_and_taken();

@@ -112,11 +112,11 @@ impl Arguments {
     /// The equations of motion of a robot. Its parameters are checked unless `--as-given` is set.
     fn equations(&self, robot: &Robot, base: Base) -> Result<Equations> {
         if self.as_given {
-            return Equations::as_told(robot, base).map_err(|error| error.in_file(&self.robot));
+            return Equations::unchecked(robot, base).map_err(|error| error.in_file(&self.robot));
         }
         let checked = Equations::new(robot, base).map_err(|error| error.in_file(&self.robot));
         checked.map_err(|error| match error.kind() {
-            ErrorKind::BadValue if Equations::as_told(robot, base).is_ok() => {
+            ErrorKind::BadValue if Equations::unchecked(robot, base).is_ok() => {
                 error.with_advice("`--as-given` takes the numbers unchanged")
             }
             _ => error,

@@ -1,5 +1,4 @@
-//! Balance of a motion: the zero moment point (ZMP), the support polygon and the stability margins of RH0 3.1.1 at each
-//! sample. Main type: [`Balance`].
+//! Balance of a motion at each sample: the zero moment point (ZMP), the support polygon and the stability margins of RH0 3.1.1. Main type: [`Balance`].
 
 use nalgebra::{Point2, Vector3};
 
@@ -15,7 +14,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::dynamics::Momentum;
 use groebot_robot::spatial::Pose;
 
-/// Corners of a standing sole within this height of its lowest corner count as contacts \[m\].
+/// Corners of a supporting sole within this height of its lowest corner count as contacts \[m\].
 const TOUCH: f64 = 1e-6;
 
 /// The balance at one sample.
@@ -92,12 +91,12 @@ pub(super) fn realised(
 
 /// The support polygon of a reference.
 pub fn support(biped: &Biped, reference: &Reference) -> Polygon {
-    let standing: Vec<(Side, Pose)> = [Side::Left, Side::Right]
+    let supporting: Vec<(Side, Pose)> = [Side::Left, Side::Right]
         .into_iter()
         .filter(|side| reference.stands[*side as usize])
         .map(|side| (side, reference.world_from_soles[side as usize]))
         .collect();
-    biped.support(&standing, TOUCH)
+    biped.support(&supporting, TOUCH)
 }
 
 /// The momenta between consecutive samples, with rest before the first and after the last: one more than there are

@@ -246,7 +246,7 @@ impl Route {
     }
 
     /// A route without steps.
-    pub fn standing(feet: [Footprint; 2]) -> Self {
+    pub fn at_rest(feet: [Footprint; 2]) -> Self {
         Route { start: feet, steps: Vec::new(), rests: vec![feet[0].middle(&feet[1])] }
     }
 

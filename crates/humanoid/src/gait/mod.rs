@@ -1,10 +1,10 @@
-//! Biped walking of NAO, RH0, TEO and other robots: footsteps, centre of mass, joint angles by the derived solvers, and
-//! a check of balance. Sources: NAO 6.4 and 6.8; RH0 3.1 to 3.5.
+//! Biped walking of NAO, RH0, TEO and other robots: footsteps, centre of mass, joint angles by the derived solvers, and a check of balance by the zero moment
+//! point (ZMP). The centre of mass moves by a sine law, by preview control ([`Preview`]), or by one step goal ([`OneStep`]). Inverse dynamics (RNEA) gives the
+//! forces ([`Forces`]). Sources: NAO 6.4 and 6.8; RH0 3.1 to 3.5.
 //!
-//! A [`Route`] of footsteps becomes a [`Schedule`] of phases. That becomes a [`Reference`] for feet and centre of mass
-//! at each sample, and then a [`Motion`] of joint angles with its [`Balance`]. [`plan`] does all these steps, and slows
-//! down or refuses a walk that would fall. Its result is a [`Walk`], which prints as CSV, JSON and SVG and has a
-//! [`Summary`]. The world has z up and the floor at 0; metres, seconds, radians.
+//! A [`Route`] of footsteps becomes a [`Schedule`] of phases. That becomes a [`Reference`] for feet and centre of mass at each sample, and then a [`Motion`] of
+//! joint angles with its [`Balance`]. [`plan`] does all these steps, and slows down or rejects a walk that would fall. Its result is a [`Walk`], which prints
+//! as CSV, JSON and SVG and has a [`Summary`]. The world has z up and the floor at 0; metres, seconds, radians.
 
 mod balance;
 mod biped;

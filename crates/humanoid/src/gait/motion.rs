@@ -1,4 +1,5 @@
-//! Joint angles from the references of feet and centre of mass, sample by sample. Main type: [`Motion`].
+//! Joint angles from the references of feet and centre of mass, sample by sample: inverse kinematics of the legs, and a quasi-Newton search (Broyden) for the
+//! torso. Main type: [`Motion`].
 
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 

@@ -27,7 +27,7 @@ pub(super) fn in_parts<T: Send, I: Iterator<Item = Result<T>>>(
     let (done, size) = (AtomicUsize::new(0), count.div_ceil(PARTS).max(1));
     let part = |start: usize| {
         let end = (start + size).min(count);
-        let told = solve(start..end).enumerate().map(|(sample, solved)| {
+        let results = solve(start..end).enumerate().map(|(sample, solved)| {
             if sample % REPORTED == 0 {
                 watch.check()?;
                 let done = done.fetch_add(REPORTED.min(end - start - sample), Ordering::Relaxed);
@@ -35,7 +35,7 @@ pub(super) fn in_parts<T: Send, I: Iterator<Item = Result<T>>>(
             }
             solved
         });
-        told.collect::<Result<Vec<T>>>()
+        results.collect::<Result<Vec<T>>>()
     };
     let starts = (0..count).step_by(size);
     // In the browser there are no threads.

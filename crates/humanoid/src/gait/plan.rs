@@ -1,5 +1,4 @@
-//! Planning of a walk, from a request to checked joint angles. Phases that would fall are slowed down; infeasible walks
-//! are refused. Main type: [`Walk`].
+//! Planning of a walk, from a request to checked joint angles. Phases that would fall are slowed down; infeasible walks are rejected. Main type: [`Walk`].
 
 use nalgebra::Point2;
 
@@ -112,12 +111,12 @@ fn references(biped: &Biped, request: &Request, schedule: &Schedule) -> Vec<Refe
         if let Gait::OneStep(one_step) = &request.gait {
             return one_step.reference(style, schedule, phase, &feet, share, ankle_height);
         }
-        let (world_from_soles, standing) = soles(style, schedule, action, &feet, share);
+        let (world_from_soles, supporting) = soles(style, schedule, action, &feet, share);
         let centre: Point2<f64> = sine_centre(style, schedule, action, &feet, share);
         let [left, right] = world_from_soles.each_ref().map(|sole| sole.rotation.euler_angles().2);
         let heading = left + angle::difference(right, left) / 2.0;
         let torso_height = style.torso_height;
-        Reference { phase, world_from_soles, stands: standing, centre, torso_height, heading }
+        Reference { phase, world_from_soles, stands: supporting, centre, torso_height, heading }
     };
     schedule.instants().map(reference).collect()
 }

@@ -1,6 +1,5 @@
-//! Preview control of the zero moment point (Kajita and others 2003; Katayama and others 1985). The centre of mass of
-//! the cart-table model moves so that its zero moment point follows a reference whose future is known. Main type:
-//! [`Preview`].
+//! Preview control of the zero moment point (ZMP; Kajita and others 2003; Katayama and others 1985). The centre of mass of the cart-table model, a linear
+//! inverted pendulum (LIPM), moves so that its ZMP follows a reference with a known future. Main type: [`Preview`].
 
 use nalgebra::{Matrix4, Point2, RowVector4, Vector2, Vector3, Vector4};
 

@@ -21,11 +21,11 @@ pub(super) fn of(biped: &Biped, schedule: &Schedule, request: &Request, found: &
     let time = found.sample as f64 * request.tick;
     let text = match &found.fault {
         Fault::Static { margin } => {
-            let asked = request.margin;
+            let required = request.margin;
             format!(
                 "the centre of mass is {} the border of the support polygon, {:.1} mm inside it are required; {}",
                 measured(*margin),
-                1e3 * asked,
+                1e3 * required,
                 feasible(biped, request)
             )
         }

@@ -111,8 +111,8 @@ impl Map {
         let columns = lines.first().map_or(0, |(_, line)| line.chars().count());
         for (place, line) in head {
             let count = match line.split_once(' ') {
-                Some(("height", told)) if told.trim() != lines.len().to_string() => lines.len(),
-                Some(("width", told)) if told.trim() != columns.to_string() => columns,
+                Some(("height", value)) if value.trim() != lines.len().to_string() => lines.len(),
+                Some(("width", value)) if value.trim() != columns.to_string() => columns,
                 _ => continue,
             };
             let text = format!("the header gives `{}`; the rows give {count}", shown(line));
@@ -129,7 +129,7 @@ impl Map {
                     '#' | '@' | 'O' | 'T' | 'W' => Cell::Occupied,
                     _ => {
                         let text = format!(
-                            "`{}` is no cell; give . or G or S, ?, or # or @ or O or T or W",
+                            "`{}` is not a cell; give . or G or S, ?, or # or @ or O or T or W",
                             shown(&character.to_string())
                         );
                         return Err(bad(text));

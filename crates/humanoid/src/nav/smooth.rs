@@ -7,7 +7,7 @@ use nalgebra::{Point2, Rotation2, Vector2};
 
 use super::map::Map;
 use super::path::Path;
-use super::sight::time;
+use super::traversal::time;
 use crate::{Error, ErrorKind, Result};
 
 /// The length of the chords of an arc for collision checks, in cells.

@@ -4,7 +4,7 @@ use nalgebra::{Point2, Vector2};
 
 use super::map::Map;
 use super::path::Path;
-use super::sight::time;
+use super::traversal::time;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// Tolerance for lengths in cells and for their squares.

@@ -10,7 +10,7 @@ use super::exact::Guide;
 use super::field::{Field, Method};
 use super::map::Map;
 use super::path::{Enclosure, Path};
-use super::sight::{pieces, time};
+use super::traversal::{pieces, time};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The greatest number of rounds, and of sweeps over all points in each round.

@@ -65,7 +65,7 @@ pub fn entries(text: &str) -> Result<Vec<Entry>> {
             (Event::MappingStart(..), _) => return reader.mapping(),
             (Event::StreamEnd, _) => return Ok(Vec::new()),
             (_, line) => {
-                let text = "this is no mapping; give `image: FILE` and `resolution: METRES`, a line each";
+                let text = "this is not a mapping; give `image: FILE` and `resolution: METRES`, one per line";
                 return Err(Error::new(ErrorKind::Syntax, text).at_line(line));
             }
         }

@@ -77,11 +77,10 @@ impl Links {
         Ok(Links { names: robot.links().iter().map(|link| link.name.clone()).collect(), parts, feet })
     }
 
-    /// The least distance of each link from each object of a room and from the floor over postures, nearest first;
-    /// samples are numbered from `first`.
+    /// The least distance of each link from each object of a room and from the floor over postures, nearest first. Samples are numbered from `first`.
     ///
     /// # Errors
-    /// As [`groebot_robot::dynamics::Model::place`]; [`Watch::check`].
+    /// Same as [`groebot_robot::dynamics::Model::place`]; [`Watch::check`].
     pub fn clearances(
         &self,
         biped: &Biped,
@@ -145,13 +144,13 @@ fn things(room: &Room) -> Vec<Solids> {
         let bounds = shape.compute_aabb(&ParryPose::IDENTITY);
         (shape, bounds)
     };
-    let standing =
+    let solids =
         prisms(room).into_iter().map(|(thing, parts)| Solids { thing, parts: parts.iter().map(part).collect() });
     let half_space = SharedShape::new(HalfSpace::new(Vector::new(0.0, 0.0, 1.0)));
     let far = Vector::new(f64::MAX, f64::MAX, f64::MAX);
     let below = Aabb::new(-far, Vector::new(f64::MAX, f64::MAX, 0.0));
     let floor = Solids { thing: Thing::Floor, parts: vec![(half_space, below)] };
-    standing.chain([floor]).collect()
+    solids.chain([floor]).collect()
 }
 
 impl Prism {

@@ -60,7 +60,7 @@ impl Destination {
         let distance = |goal: &&Goal| (goal.place - from).norm();
         let near = places.iter().filter(|goal| free(&core, goal).is_some());
         near.min_by(|a, b| distance(a).total_cmp(&distance(b))).copied().ok_or_else(|| {
-            let text = format!("there is no room to stand in front of `{}`; give a place", shown(name));
+            let text = format!("the robot has no room in front of `{}`; give a place", shown(name));
             Error::new(ErrorKind::BadValue, text)
         })
     }

@@ -133,7 +133,7 @@ impl Performed {
             from: self.walk.time(own.first),
             steps: own.steps,
             goal: own.course.goal.numbers(),
-            way: own.course.path.points.iter().map(|point| [point.x, point.y]).collect(),
+            path: own.course.path.points.iter().map(|point| [point.x, point.y]).collect(),
             pieces: Interior::of(&own.room).pieces,
             milliseconds: own.milliseconds,
         };

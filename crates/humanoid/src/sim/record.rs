@@ -24,7 +24,8 @@ pub struct RecordedStage {
     /// Its goal: x, y \[m\], and the heading \[rad\] if one is requested.
     pub goal: Vec<f64>,
     /// Its corners \[m\].
-    pub way: Vec<[f64; 2]>,
+    #[serde(rename = "way")]
+    pub path: Vec<[f64; 2]>,
     /// The furniture at that time.
     pub pieces: Vec<Piece>,
     /// The time to find it \[ms\].

@@ -48,7 +48,7 @@ impl Body {
             }
         }
         if parts.is_empty() {
-            let text = format!("{}: nothing but the soles has a shape; give the body's size (--body)", robot.name());
+            let text = format!("{}: only the soles have a shape; give the body's size (--body)", robot.name());
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         Ok(Body { parts })

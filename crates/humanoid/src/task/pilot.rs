@@ -121,8 +121,7 @@ impl Pilot {
         Polygon::hull(&middle.carry_all(self.outline.corners()))
     }
 
-    /// The areas that the body covers while it steps on the spot, and during its greatest steps and turns, in the frame
-    /// of the middle of the feet.
+    /// The areas that the body covers, in the frame of the middle of the feet: while it steps on the spot, and during its greatest steps and turns.
     pub(super) fn outlines(&self) -> [&Polygon; 2] {
         [&self.outline, &self.stride]
     }
@@ -157,7 +156,7 @@ impl Pilot {
     /// # Errors
     /// As [`crate::gait::plan`].
     pub fn stand(&self, feet: [Footprint; 2], action: Action, watch: &Watch) -> Result<Walk> {
-        self.walk(Route::standing(feet), &[action], watch)
+        self.walk(Route::at_rest(feet), &[action], watch)
     }
 
     /// Same as [`Pilot::stand`], but with another height of the upright trunk \[m\].
@@ -168,15 +167,15 @@ impl Pilot {
         action: Action,
         watch: &Watch,
     ) -> Result<Walk> {
-        let mut request = self.request(Route::standing(feet));
+        let mut request = self.request(Route::at_rest(feet));
         if let Gait::OneStep(one_step) = &mut request.gait {
             one_step.upright = height;
         }
         plan_actions(&self.walker.biped, &self.walker.legs, &request, &[action], watch)
     }
 
-    /// The area that the body covers while both feet, one after the other, make the step of the lead, in the moving
-    /// frame of the middle of the feet. Infeasible steps are ignored.
+    /// The area that the body covers while both feet make the step of the lead, one after the other. It is in the moving frame of the middle of the feet.
+    /// Infeasible steps are ignored.
     fn covered(&self, step: &Footprint, watch: &Watch) -> Result<Polygon> {
         let mut corners = Vec::new();
         for first in [Side::Left, Side::Right] {

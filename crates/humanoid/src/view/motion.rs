@@ -24,9 +24,9 @@ pub fn motion(robot: &Robot, trajectory: &Trajectory, record: Option<&WalkRecord
     if let Some(record) = record {
         record.check(trajectory.times.len())?;
     }
-    let told = record.map(|record| record.soles(trajectory)).unwrap_or_default();
+    let recorded = record.map(|record| record.soles(trajectory)).unwrap_or_default();
     let corners = |name: &str| -> &[Point2<f64>] {
-        let sole = told.iter().chain(soles).find(|sole| sole.contact == name);
+        let sole = recorded.iter().chain(soles).find(|sole| sole.contact == name);
         sole.map_or(&[], |sole| &sole.corners)
     };
     let poses = |poses: &[Pose]| bytes::columns(&poses.iter().map(pose_numbers).collect::<Vec<_>>());
@@ -89,8 +89,8 @@ fn supports<'s>(trajectory: &Trajectory, corners: &impl Fn(&str) -> &'s [Point2<
         return None;
     }
     let hull = |sample: usize| {
-        let standing = contacts.iter().filter(|(own, _)| own.stands[sample]);
-        let points: Vec<Point2<f64>> = standing
+        let supporting = contacts.iter().filter(|(own, _)| own.stands[sample]);
+        let points: Vec<Point2<f64>> = supporting
             .flat_map(|(own, outline)| outline.iter().map(|at| own.poses[sample] * Point3::new(at.x, at.y, 0.0)))
             .map(|point| point.xy())
             .collect();

@@ -95,8 +95,8 @@ impl Page {
     ///
     /// # Errors
     /// As [`crate::nav::Room::from_toml`], [`crate::sim::Start::of_robot`] and [`crate::sim::Run::new`].
-    pub fn with_run(mut self, asked: &RunRequest<'_>) -> Result<Self> {
-        self.data.run = Some(run(asked)?);
+    pub fn with_run(mut self, request: &RunRequest<'_>) -> Result<Self> {
+        self.data.run = Some(run(request)?);
         self.data.wasm = Some(bytes::file(WASM));
         Ok(self)
     }
@@ -165,11 +165,10 @@ impl Page {
         let mut html = String::with_capacity(SHELL.len() + SCRIPT.len());
         let mut rest = SHELL;
         for (place, text) in parts {
-            let (before, behind) =
-                rest.split_once(place).expect("the page's frame has a place for each, in this order");
+            let (before, after) = rest.split_once(place).expect("the page's frame has a place for each, in this order");
             html.push_str(before);
             html.push_str(text);
-            rest = behind;
+            rest = after;
         }
         html + rest
     }

@@ -26,8 +26,8 @@ pub struct RunRequest<'a> {
 ///
 /// # Errors
 /// As [`super::Page::with_run`].
-pub fn run(asked: &RunRequest<'_>) -> Result<Run> {
-    let RunRequest { robot, room: text, start, goal, apart } = asked;
+pub fn run(request: &RunRequest<'_>) -> Result<Run> {
+    let RunRequest { robot, room: text, start, goal, apart } = request;
     let room = Room::from_toml(text)?;
     let [x, y, yaw] = *start;
     let begun = Start::of_robot(robot, room.clone(), Footprint { x, y, yaw }, Goal::of(goal)?.into(), *apart)?;

@@ -1,4 +1,4 @@
-//! Whatever is asked for: a walk that keeps what it promises, or a refusal that says when and why.
+//! Arbitrary requests: the result is a walk that fulfils all conditions, or an error with the time and the reason.
 
 use groebot_humanoid::gait::{Durations, Gait, Laws, Measures, Regular, Route, Side, Style, Usual, plan};
 use groebot_humanoid::walkers::{NAO_ONE_STEP, RH0_GENERIC, TEO_ONE_STEP};
@@ -11,7 +11,7 @@ use proptest::test_runner::TestRunner;
 use super::nao::feet_are_where_they_should_be;
 use super::{request, robot, walk};
 
-/// So many values of a strategy, the same in every run: that many walks succeed is a part of the promise.
+/// This number of values of a strategy, equal in every run, so that the number of successful walks can be tested.
 fn values<S: Strategy>(strategy: S, count: usize) -> impl Iterator<Item = S::Value> {
     let mut runner = TestRunner::deterministic();
     (0..count).map(move |_| strategy.new_tree(&mut runner).unwrap().current())
@@ -28,12 +28,12 @@ fn a_walk_keeps_its_promises_or_is_refused() {
     {
         let (nao, _) = robot();
         let first = if right { Side::Right } else { Side::Left };
-        let mut asked = request(&Regular { steps: 4, length, aside: 0.0, turn, half_width: 0.05, first });
-        asked.style = Style { lift, amplitude, ahead, torso_height, half_width: 0.05 };
-        asked.margin = margin;
-        asked.durations = Durations { rest: if preview { 1.5 } else { 0.2 }, shift, swing, lower: None };
-        asked.gait = if preview { Gait::Preview } else { Gait::Sine };
-        match walk(&asked) {
+        let mut requested = request(&Regular { steps: 4, length, aside: 0.0, turn, half_width: 0.05, first });
+        requested.style = Style { lift, amplitude, ahead, torso_height, half_width: 0.05 };
+        requested.margin = margin;
+        requested.durations = Durations { rest: if preview { 1.5 } else { 0.2 }, shift, swing, lower: None };
+        requested.gait = if preview { Gait::Preview } else { Gait::Sine };
+        match walk(&requested) {
             Err(error) => {
                 assert_eq!(error.kind(), ErrorKind::BadValue);
                 assert!(error.message().contains(" (t = "), "{}", error);
@@ -48,7 +48,7 @@ fn a_walk_keeps_its_promises_or_is_refused() {
                         let value = postures[sample].q[joint];
                         assert!(range.limits.0 <= value && value <= range.limits.1);
                         let before = postures[sample.saturating_sub(1)].q[joint];
-                        assert!((value - before).abs() / 0.01 <= range.speed * asked.speed_share + 1e-12);
+                        assert!((value - before).abs() / 0.01 <= range.speed * requested.speed_share + 1e-12);
                     }
                 }
                 let Route { steps, .. } = &walk.schedule.route;
@@ -61,13 +61,13 @@ fn a_walk_keeps_its_promises_or_is_refused() {
 
 type OneStepCase = ((usize, bool, f64, f64), (f64, f64, f64, f64), (f64, f64, f64, bool));
 
-/// Goals beside the robot: where the arc to them would miss, the walk turns on the spot.
+/// Goals beside the robot: the arc to them would miss, so the walk turns on the spot.
 const ONCE_FAILED: [OneStepCase; 2] = [
     ((2, false, 1.0, 0.0), (0.0, -0.13493199218350077, 0.03, 0.0), (0.3, 0.0, 1.0, false)),
     ((0, false, 1.0, 0.0), (0.0, 0.02898547189591927, 0.04, 0.0), (0.3, 0.0, 2.869413256592946, false)),
 ];
 
-/// The same of one step goal, for all robots that walk by it, by both versions of its laws.
+/// The test for walks by one step goal, for all robots that have them, with both versions of its laws.
 #[test]
 fn one_step_goal_keeps_its_promises_or_is_refused() {
     let laws = (0usize..3, any::<bool>(), 1.0..5.0f64, 0.0..0.01f64);
@@ -85,11 +85,11 @@ fn one_step_goal_keeps_its_promises_or_is_refused() {
             one_step.laws = Laws::Rh0 { power };
         }
         let amplitude = share * usual.amplitude;
-        let asked = Usual { gait: Gait::OneStep(one_step), length, lift, amplitude, period, ..usual.clone() };
-        let asked = if crouched { asked } else { asked.from_upright(&humanoid) };
+        let requested = Usual { gait: Gait::OneStep(one_step), length, lift, amplitude, period, ..usual.clone() };
+        let requested = if crouched { requested } else { requested.from_upright(&humanoid) };
         let measures = Measures { length, half_width: humanoid.half_width(), most_turn: usual.most_turn };
         let route = Route::towards(&Point2::new(x, y), None, Side::Right, &measures).unwrap();
-        let request = asked.request(&humanoid, route, usual.hip_heights[0] - lower);
+        let request = requested.request(&humanoid, route, usual.hip_heights[0] - lower);
         match plan(&humanoid, &legs, &request, &Watch::none()) {
             Err(error) => {
                 assert_eq!(error.kind(), ErrorKind::BadValue);

@@ -1,4 +1,4 @@
-//! The picture of a walk, read back: what its axes say is what the table says.
+//! The picture of a walk, parsed again: its axes agree with the table.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use quick_xml::events::Event;
 
 use super::{regular, request, robot, walk};
 
-/// An element of a picture: its name, its attributes, its text.
+/// An element of a picture: name, attributes, text.
 #[derive(Clone, Debug, Default)]
 struct Element {
     name: String,
@@ -34,7 +34,7 @@ impl Element {
     }
 }
 
-/// The elements of a picture in turn; fails when it is no XML.
+/// The elements of a picture in order. Fails if it is not XML.
 fn elements(svg: &str) -> Vec<Element> {
     let mut reader = quick_xml::Reader::from_str(svg);
     let mut all: Vec<Element> = Vec::new();
@@ -67,7 +67,7 @@ fn panel<'e>(all: &'e [Element], from: &str) -> &'e [Element] {
     &rest[..rest.iter().position(|element| element.is("title")).unwrap_or(rest.len())]
 }
 
-/// The value at a pixel of an axis, by the first and the last of its ticks: `along` is `x` or `y`.
+/// Maps a pixel of an axis to its value, by the first and the last of its ticks. `along` is `x` or `y`.
 fn axis(panel: &[Element], along: &str) -> impl Fn(f64) -> f64 {
     let ticks: Vec<(f64, f64)> = panel
         .iter()
@@ -81,7 +81,7 @@ fn axis(panel: &[Element], along: &str) -> impl Fn(f64) -> f64 {
     move |pixel: f64| low + (pixel - (from - lower)) / (to - from) * (high - low)
 }
 
-/// The margins of a walk's table by their times \[m\], \[s\].
+/// The margins in a walk's table with their times \[m\], \[s\].
 fn margins_of_table(humanoid: &Biped, walk: &Walk) -> Vec<(f64, f64)> {
     let read = Trajectory::from_csv(&walk.to_csv(humanoid)).unwrap();
     let margin = read.figures.iter().find(|figure| figure.name == "margin").unwrap();
@@ -150,7 +150,7 @@ fn the_times_on_one_foot_are_shaded() {
         .collect();
     assert_eq!(shaded.len(), 4);
     for (place, area) in shaded.iter().enumerate() {
-        // Left, the first to step, leaves the right foot standing.
+        // When the left foot swings first, the right foot supports.
         assert!(area.is(["right-stands", "left-stands"][place % 2]));
         let (from, to) = (time(area.number("x")), time(area.number("x") + area.number("width")));
         let start = 0.3 + 0.96 + 1.5 * place as f64;
@@ -175,7 +175,7 @@ fn the_axes_of_the_view_are_in_metres() {
     }
 }
 
-/// The steps whose numbers are written, by the centres of the boxes that they take.
+/// The steps whose numbers are drawn, with the centres of their boxes.
 fn numbers(svg: &str) -> Vec<(String, (f64, f64))> {
     let all = elements(svg);
     let written = panel(&all, "steps from above").iter().filter(|element| element.is("number"));

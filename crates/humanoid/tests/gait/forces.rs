@@ -1,4 +1,4 @@
-//! What floor and motors give in a walk, beside the zero moment point of the gait and beside statics.
+//! Ground reactions and joint torques of a walk, compared with the zero moment point (ZMP) and with statics.
 
 use groebot_humanoid::gait::{GRAVITY, Regular, Request, zero_moment_point};
 use groebot_robot::dynamics::Momentum;
@@ -7,18 +7,18 @@ use nalgebra::Vector3;
 use super::{regular, request, robot, walk};
 
 #[test]
-fn the_floor_gives_what_momentum_asks_for() {
+fn ground_reactions_equal_the_rate_of_momentum() {
     let (biped, _) = robot();
     let weight = Vector3::new(0.0, 0.0, biped.model.mass() * GRAVITY);
-    let asked = request(&Regular { steps: 3, ..regular() });
+    let requested = request(&Regular { steps: 3, ..regular() });
     let mut apart = Vec::new();
     for tick in [0.02, 0.01] {
-        let walk = walk(&Request { tick, ..asked.clone() }).unwrap();
+        let walk = walk(&Request { tick, ..requested.clone() }).unwrap();
         let forces = walk.forces(biped);
         assert_eq!(forces.len(), walk.balances.len());
         let mut most = 0.0_f64;
         for (sample, (forces, balance)) in forces.iter().zip(&walk.balances).enumerate() {
-            // The centre of the wrench is the zero moment point of the momentum's rate that it makes.
+            // The centre of pressure of the wrench is the ZMP for the rate of change of momentum that it causes.
             let centre = &walk.motion.centres[sample];
             let rate = Momentum {
                 linear: forces.ground.f - weight,
@@ -26,9 +26,9 @@ fn the_floor_gives_what_momentum_asks_for() {
             };
             let own = zero_moment_point(biped.model.mass(), centre, &rate).unwrap();
             assert!((own - forces.centre).norm() < 1e-9, "{sample}");
-            // That of differences of momentum is another one, by the square of the time between samples.
+            // The ZMP from differences of momentum deviates by the square of the time between samples.
             most = most.max((forces.centre - balance.zmp).norm());
-            // Both feet together give all, and one that swings gives nothing.
+            // The reactions of both feet have the total as their sum, and that of a swing foot is zero.
             let soles = walk.references[sample].world_from_soles;
             let sum: Vector3<f64> = forces.feet.iter().map(|foot| foot.f).sum();
             let moment: Vector3<f64> = forces
@@ -43,7 +43,7 @@ fn the_floor_gives_what_momentum_asks_for() {
             }
         }
         apart.push(most);
-        // At rest the floor bears the weight below the centre of mass, and a knee the moment of what is above it.
+        // At rest the floor supports the weight below the centre of mass, and the knee torque balances the bodies above it.
         let (first, centre) = (&forces[0], walk.motion.centres[0]);
         assert!((first.ground.f - weight).norm() < 1e-3 * weight.z && (first.centre - centre.xy()).norm() < 1e-4);
     }
@@ -52,7 +52,7 @@ fn the_floor_gives_what_momentum_asks_for() {
 }
 
 #[test]
-fn forces_stand_in_the_table_and_greatest_torques_are_told() {
+fn forces_are_in_the_table_and_greatest_torques_are_reported() {
     let (biped, _) = robot();
     let walk = walk(&request(&Regular { steps: 2, ..regular() })).unwrap();
     let forces = walk.forces(biped);
@@ -66,11 +66,11 @@ fn forces_stand_in_the_table_and_greatest_torques_are_told() {
     let greatest = walk.greatest_torques(biped, &forces);
     let own = forces.iter().map(|forces| forces.torques[place].abs()).fold(0.0, f64::max);
     assert!(greatest[place].torque == own && greatest[place].joint == "LKneePitch");
-    // Of 5 kg on a thigh and a shank of 0.1 m each, bent: some newton metres.
+    // 5 kg on a bent thigh and shank of 0.1 m each: some newton metres.
     assert!((0.3..5.0).contains(&own), "{own}");
 }
 
-/// RH0 (3-40), (3-41): with what goes through the trunk two chains are the whole, and without it they are not, once a foot swings.
+/// RH0 (3-40), (3-41): with the wrench through the trunk, the two chains equal the whole multibody. Without it, they differ when a foot swings.
 #[test]
 fn two_chains_are_the_whole_with_what_goes_through_the_trunk() {
     let (biped, _) = robot();
@@ -79,14 +79,14 @@ fn two_chains_are_the_whole_with_what_goes_through_the_trunk() {
     let chains = walk.chains(biped, &forces);
     let difference = walk.difference(biped, &forces, &chains);
     assert!(difference.rounding < 1e-10, "{difference:?}");
-    // Of a foot that swings a half of the robot is asked for, and a hip that bears it alone feels it.
+    // Alone, a chain with a swing foot would need half of the robot's weight on it, and the hip would have a corresponding torque.
     let half = 0.5 * biped.model.mass() * GRAVITY;
     assert!((difference.swinging / half - 1.0).abs() < 0.1 && (difference.between[0] / half - 1.0).abs() < 0.1);
     assert!(difference.torque > 1.0 && difference.joint.contains("Hip") || difference.joint.contains("Ankle"));
     for ((forces, chains), reference) in forces.iter().zip(&chains).zip(&walk.references) {
         let up = chains.alone.map(|alone| alone.f.z);
         assert!((up[0] + up[1] - forces.ground.f.z).abs() < 1e-9);
-        // What goes through the trunk is what the floor does not give to the chain that it stands on.
+        // The wrench through the trunk is the difference between the actual ground reaction and that of the supporting chain alone.
         let swings = reference.stands.iter().position(|stands| !stands);
         if let Some(side) = swings {
             let sign = if side == 0 { 1.0 } else { -1.0 };

@@ -1,11 +1,11 @@
-//! Goals with headings: each is reached by a walk that keeps its promises.
+//! Goals with headings: each is reached by a walk that fulfils all conditions.
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::gait::{Measures, Route, Side, Walk, Walker, plan_at};
 use groebot_humanoid::walkers::{self, Outline};
 use nalgebra::Point2;
 
-/// A goal within five metres, by a fixed sequence (Knuth's linear congruence).
+/// Random goals within five metres, by a fixed sequence (Knuth's linear congruential generator).
 struct Goals(u64);
 
 impl Iterator for Goals {
@@ -55,7 +55,7 @@ fn goals_with_headings_are_reached() {
     arrives("teo", 2);
 }
 
-/// 200 goals for each robot, none refused.
+/// 200 goals for each robot, none of which is rejected.
 #[test]
 #[ignore = "minutes: 600 walks of up to five metres"]
 fn two_hundred_goals_with_headings_are_reached_by_each_robot() {

@@ -1,4 +1,4 @@
-//! Walking: polygons and zero moment points against their definitions, walks against forward kinematics and against the documents.
+//! Walking: polygons and zero moment points (ZMP) against their definitions, walks against forward kinematics and against the source documents.
 
 mod any;
 mod drawing;
@@ -22,13 +22,13 @@ use groebot_humanoid::Watch;
 use groebot_humanoid::gait::{Biped, Durations, Gait, Legs, Regular, Request, Route, Side, Style, TICK, Walk, plan};
 use groebot_humanoid::walkers::Outline;
 
-/// A robot on its measured soles, and its legs.
+/// A robot with its measured soles, and its legs.
 pub fn built(name: &str) -> (Biped, Legs) {
     let walker = groebot_humanoid::walkers::walker(name, Outline::Measured).unwrap().unwrap();
     (walker.biped, walker.legs)
 }
 
-/// NAO on its measured soles.
+/// NAO with its measured soles.
 fn robot() -> &'static (Biped, Legs) {
     static ROBOT: OnceLock<(Biped, Legs)> = OnceLock::new();
     ROBOT.get_or_init(|| built("nao"))

@@ -1,4 +1,4 @@
-//! What a walk commands, seen by forward kinematics and by the derived solver of both legs at once.
+//! Joint angles of a walk, checked by forward kinematics and by the derived solver for both legs together.
 
 use groebot_humanoid::gait::{Gait, Regular, TICK, Walk};
 use groebot_robot::kinematics::Chain;
@@ -35,7 +35,7 @@ fn forward_kinematics_puts_the_feet_on_their_prints() {
     feet_are_where_they_should_be(&walk(&request(&Regular { turn: 0.3, length: 0.02, ..regular() })).unwrap());
 }
 
-/// The solver of both legs on one actuator, derived with the torso's heading as an unknown, has the walk's posture among its answers.
+/// The derived solver for both legs with one shared actuator has the torso's heading as an unknown. The walk's posture is among its solutions.
 #[test]
 fn turning_agrees_with_the_derived_solver_of_both_legs() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations/nao_legs_yaw");

@@ -1,4 +1,4 @@
-//! One step goal for any humanoid, RH0 3.3; walks in words and towards a goal.
+//! One step goal for any humanoid, RH0 3.3; walks given in words and walks to a goal.
 
 use groebot_humanoid::gait::{Action, Measures, Route, Side, Summary, Usual, Walk, Word, plan_at, words};
 use groebot_humanoid::walkers::{NAO_ONE_STEP, RH0_GENERIC, TEO_ONE_STEP};
@@ -24,7 +24,7 @@ fn walk(walker: &str, usual: &Usual, goal: (f64, f64)) -> Walk {
     walk
 }
 
-/// By forward kinematics of the whole robot.
+/// Checks the footprints by forward kinematics of the whole robot.
 pub fn feet_are_on_their_prints(robot: &groebot_humanoid::gait::Biped, walk: &Walk) {
     for (sample, reference) in walk.references.iter().enumerate() {
         let posture = &walk.motion.postures[sample];
@@ -53,8 +53,8 @@ fn three_robots_step_towards_a_goal() {
     }
 }
 
-/// RH0 3.3.2: while a foot is in the air, the centre of mass is on the circle about the middle of the other sole, on the line to the foot that
-/// moves; it starts half-way between the feet and ends there. The key points are the ends of the phases.
+/// RH0 3.3.2: while a foot swings, the centre of mass is on the circle about the middle of the supporting sole, on the line to the swing foot. Each step starts
+/// and ends half-way between the feet. The key points are the ends of the phases.
 #[test]
 fn the_centre_of_mass_keeps_to_the_circle() {
     let walk = walk("rh0", &RH0_GENERIC, (0.6, -0.3));
@@ -118,9 +118,9 @@ fn half_a_walk_ends_with_one_foot_ahead() {
 proptest! {
     #![proptest_config(crate::cases(256))]
 
-    /// A way to a goal ends there with level feet, turns by no more than it may, and no step leads further than a length.
+    /// A route to a goal ends there with feet side by side. No step turns more than permitted or is longer than one length.
     #[test]
-    fn ways_to_a_goal_arrive(x in -2.0..3.0f64, y in -2.0..2.0f64, right: bool) {
+    fn routes_to_a_goal_arrive(x in -2.0..3.0f64, y in -2.0..2.0f64, right: bool) {
         let goal = Point2::new(x, y);
         let first = if right { Side::Right } else { Side::Left };
         let route = Route::towards(&goal, None, first, &MEASURES).unwrap();
@@ -128,7 +128,7 @@ proptest! {
         let between = left.middle(&right);
         prop_assert!((between.point() - goal).norm() < 1e-3);
         prop_assert!((nalgebra::distance(&left.point(), &right.point()) - 0.224).abs() < 1e-9);
-        // Half a turn on the spot, the way, and twice that for the arcs.
+        // Half a turn on the spot, the distance, and twice that for the arcs.
         prop_assert!(route.steps.len() < 2 * ((3.15 / 0.2) as usize + (goal.coords.norm() / 0.16) as usize) + 6);
         let mut side = first;
         let mut yaw = 0.0;
@@ -140,8 +140,8 @@ proptest! {
     }
 }
 
-/// TEO's right leg is solved as the mirror image of its left one: its walk is the mirror image of the other side's, but for what the
-/// maker's table of masses has unlike.
+/// TEO's right leg is solved as the mirror image of its left one. Its walk is the mirror image of the walk on the other side, except where the manufacturer's
+/// table of masses is asymmetric.
 #[test]
 fn teo_is_solved_on_both_sides() {
     let (robot, legs) = super::built("teo");

@@ -1,4 +1,4 @@
-//! Preview control, Kajita 2003.
+//! Preview control of the zero moment point (ZMP), Kajita 2003.
 
 use groebot_humanoid::gait::{Durations, GRAVITY, Gait, Preview, Regular, Request, Summary};
 
@@ -33,7 +33,7 @@ fn a_step_of_the_reference_is_followed_from_before_it_happens() {
 #[test]
 fn who_is_to_stay_stays() {
     let preview = Preview::new(0.3, 0.01).unwrap();
-    // What lies beyond the horizon of 2 s is forgotten, a share of e^(-2 w) with w^2 = g / h.
+    // The reference beyond the horizon of 2 s is neglected: a relative error of e^(-2 w) with w^2 = g / h.
     let forgotten = 0.07 * (-2.0 * (GRAVITY / 0.3).sqrt()).exp();
     assert!(preview.follow(&[0.07; 300]).iter().all(|x| (x - 0.07).abs() < 2.0 * forgotten));
     assert!(preview.follow(&[]).is_empty());

@@ -1,4 +1,4 @@
-//! RH0's walks with the figures that the thesis prints: 5.3.1, 5.3.2, 6.2.1, 6.2.2.
+//! RH0's walks with the parameters printed in the thesis: 5.3.1, 5.3.2, 6.2.1, 6.2.2.
 
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -13,7 +13,7 @@ use groebot_robot::kinematics::screw::ScrewSolver;
 use groebot_robot::spatial::Pose;
 use nalgebra::{Point3, Vector3};
 
-/// Four steps straight ahead.
+/// Four steps straight forward.
 pub const LINE: &str = "out right, stride left, stride right, in left";
 /// 25 rpm \[rad/s\], RH0 5.3.1.
 const ACTUATOR: f64 = 25.0 * 2.0 * PI / 60.0;
@@ -37,7 +37,7 @@ fn walk(usual: &Usual, text: &str, from_upright: bool) -> Walk {
     plan_at((robot, legs), None, &usual.hip_heights, at, &Watch::none()).unwrap()
 }
 
-/// All joints within their limits and slower than 25 rpm, the zero moment point inside the support polygon, no phase slowed down.
+/// All joints are within their limits and slower than 25 rpm, the zero moment point (ZMP) is inside the support polygon, and no phase is slowed down.
 fn keeps_what_the_thesis_promises(walk: &Walk) {
     let (robot, _) = walker();
     let summary = Summary::of(robot, walk);
@@ -48,7 +48,7 @@ fn keeps_what_the_thesis_promises(walk: &Walk) {
         let q = &walk.motion.postures[sample].q;
         let before = &walk.motion.postures[sample.saturating_sub(1)].q;
         for (joint, range) in robot.joints.iter().enumerate() {
-            // The knee stands at its limit while the leg is straight.
+            // The knee is at its limit while the leg is straight.
             assert!((range.limits.0 - 1e-6..=range.limits.1 + 1e-6).contains(&q[joint]), "{sample} {}", range.name);
             assert!((q[joint] - before[joint]).abs() / walk.schedule.tick < ACTUATOR, "{sample} {}", range.name);
         }
@@ -90,7 +90,7 @@ fn a_quarter_turn_takes_six_pairs_of_steps_and_less_than_36_s() {
     assert!(last.world_from_torso.translation.vector.xy().norm() < 1e-9, "on the spot");
 }
 
-/// RH0 6.2.1: with RA_AS = 0.03 m, H_CM = 0.58 m is out of reach of legs of 0.28 + 0.28 m by a millimetre or two; see docs/rh0.md.
+/// RH0 6.2.1: with RA_AS = 0.03 m, H_CM = 0.58 m is out of reach of legs of 0.28 + 0.28 m by one or two millimetres; see docs/rh0.md.
 #[test]
 fn the_experiment_straight_ahead_has_323_samples_a_step() {
     let (robot, legs) = walker();
@@ -106,7 +106,7 @@ fn the_experiment_straight_ahead_has_323_samples_a_step() {
     assert!(margin > 0.039, "half of the sole's 140 mm less RA_AS: {margin}");
 }
 
-/// RH0 6.2.2: eight pairs of 10 degrees are 80 degrees; nine make the 90 of its title.
+/// RH0 6.2.2: eight pairs of 10 degrees are 80 degrees; nine pairs are the 90 degrees of its title.
 #[test]
 fn the_experiment_turns_by_10_degrees_a_pair() {
     for (text, pairs) in [("turn left 80", 8), ("turn left 90", 9), ("turn right 85", 9)] {
@@ -117,7 +117,7 @@ fn the_experiment_turns_by_10_degrees_a_pair() {
     }
 }
 
-/// Where the trunk is in the thesis' axes, seen from S of the reference configuration, and the foot's motion since then.
+/// The trunk in the thesis' axes, relative to S of the reference configuration, and the foot's motion since then.
 fn in_thesis_frames(walk: &Walk, sample: usize, side: Side) -> (Pose, Pose) {
     let (robot, _) = walker();
     let ours_from_thesis = nalgebra::UnitQuaternion::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(
@@ -132,8 +132,8 @@ fn in_thesis_frames(walk: &Walk, sample: usize, side: Side) -> (Pose, Pose) {
     (trunk, world_from_s.inverse() * moved * world_from_s)
 }
 
-/// Both manipulators of the sagittal division reach the trunk, by (3-13) and (3-28), with the walk's joints; the derived solver and the
-/// thesis' plan of screws find the same, up to eight, with the walk's among them.
+/// Both manipulators of the sagittal division reach the trunk with the walk's joints, by (3-13) and (3-28). The derived solver and the thesis' method by screws
+/// find equal sets of up to eight solutions, and the walk's is among them.
 #[test]
 fn both_halves_are_solved_by_two_witnesses() {
     let (robot, _) = walker();
@@ -176,7 +176,7 @@ fn both_halves_are_solved_by_two_witnesses() {
     }
 }
 
-/// RH0 (3-23), (3-38): the arms take values of the other side's leg; the hand of a half is where forward kinematics of the whole puts it.
+/// RH0 (3-23), (3-38): the arms have values of the opposite leg. The hand of a half is where forward kinematics of the whole robot places it.
 #[test]
 fn arms_are_coordinated_with_the_other_leg() {
     let (robot, _) = walker();
@@ -206,7 +206,7 @@ fn arms_are_coordinated_with_the_other_leg() {
     }
 }
 
-/// RH0 (3-47), (3-49): the foot's way is a cosine in space, pitched by 20 degrees at its top; the trunk is lowest at lift-off and landing.
+/// RH0 (3-47), (3-49): the foot's path is a cosine in space, with a pitch of 20 degrees at its highest point. The trunk is lowest at lift-off and landing.
 #[test]
 fn foot_and_trunk_follow_the_laws() {
     let walk = walk(&RH0_SIMULATION, LINE, true);

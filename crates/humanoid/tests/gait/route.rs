@@ -29,7 +29,7 @@ fn a_turn_is_shared_by_the_steps() {
 proptest! {
     #![proptest_config(crate::cases(256))]
 
-    /// The prints of a regular route stand at both sides of a way of equal sides, and end closed.
+    /// The prints of a regular route are on both sides of a polygon with equal sides, and the last step closes the feet.
     #[test]
     fn regular_routes_close(steps in 1usize..30, length in -0.1..0.1f64, turn in -2.0..2.0f64, right: bool) {
         let first = if right { Side::Right } else { Side::Left };
@@ -45,17 +45,17 @@ proptest! {
 }
 
 #[test]
-fn side_steps_lead_aside_and_close() {
+fn side_steps_move_sideways_and_close() {
     for (aside, first) in [(0.01, Side::Left), (-0.01, Side::Right), (0.01, Side::Right)] {
         let route = Route::regular(&Regular { steps: 8, length: 0.0, aside, first, ..regular() }).unwrap();
         let [left, right] = route.stands().pop().unwrap();
         let leading = route.steps[..7].iter().filter(|step| step.side.sign() == aside.signum()).count();
         let total = leading as f64 * aside;
         assert!((left.y - 0.05 - total).abs() < 1e-12 && (right.y + 0.05 - total).abs() < 1e-12, "{aside}");
-        // The swinging foot's AnkleRoll is near its limit with the published 50 mm; 40 mm leave it room.
-        let mut asked = groebot_humanoid::gait::Request { route, ..request(&regular()) };
-        asked.style.amplitude = 0.04;
-        super::nao::feet_are_where_they_should_be(&walk(&asked).unwrap());
+        // With the published 50 mm the AnkleRoll of the swing foot is near its limit; 40 mm leave a margin.
+        let mut requested = groebot_humanoid::gait::Request { route, ..request(&regular()) };
+        requested.style.amplitude = 0.04;
+        super::nao::feet_are_where_they_should_be(&walk(&requested).unwrap());
     }
 }
 

@@ -1,4 +1,4 @@
-//! The gait of NAO 6.8.1.
+//! The sine gait of NAO 6.8.1.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use groebot_humanoid::gait::{Action, Regular, Side, Walk, arch, smooth};
 
 use super::{regular, request, robot, walk};
 
-/// How far the centre of mass may be from the law \[m\]: the motion is solved to half of it.
+/// The permitted distance of the centre of mass from the law \[m\]: the motion is solved to half of it.
 const MICROMETRE: f64 = 1e-6;
 
 /// Samples with the action of their phase.
@@ -16,7 +16,7 @@ fn actions(walk: &Walk) -> impl Iterator<Item = (usize, Action)> + '_ {
 
 /// "When y reaches 50 mm over the right foot, the left foot begins its swing, and the other way round."
 #[test]
-fn feet_stand_until_the_centre_of_mass_is_50_mm_aside() {
+fn feet_rest_until_the_centre_of_mass_is_displaced_by_50_mm() {
     let walk = walk(&request(&regular())).unwrap();
     let mut swings = 0;
     for (sample, action) in actions(&walk) {
@@ -37,7 +37,7 @@ fn feet_stand_until_the_centre_of_mass_is_50_mm_aside() {
     assert!(swings > 100);
 }
 
-/// (6.8.1): y = A sin(pi x / x_d), x from -x_d/2 to x_d/2 about the middle of the feet; from the right foot to the left one.
+/// (6.8.1): y = A sin(pi x / x_d), with x from -x_d/2 to x_d/2 about the middle of the feet, from the right foot to the left one.
 #[test]
 fn on_both_feet_the_centre_of_mass_follows_the_sine() {
     let walk = walk(&request(&regular())).unwrap();
@@ -45,7 +45,7 @@ fn on_both_feet_the_centre_of_mass_follows_the_sine() {
     for (sample, action) in actions(&walk) {
         let Action::Shift(step @ 1..4) = action else { continue };
         let centre = walk.motion.centres[sample];
-        // Before step 1 the feet stand at 0 and 40 mm: the middle is at 20 mm; and so on.
+        // Before step 1 the feet are at 0 and 40 mm, so that their middle is at 20 mm; and so on.
         let x = centre.x - 0.005 - (0.02 + 0.04 * (step as f64 - 1.0));
         let sign = walk.schedule.route.steps[step].side.other().sign();
         assert!((centre.y - sign * 0.05 * (PI * x / 0.04).sin()).abs() < 5.0 * MICROMETRE, "{sample}: {centre}");
@@ -77,8 +77,8 @@ fn feet_are_lifted_and_land_where_they_should() {
     );
 }
 
-/// A walk that starts with the right foot is the mirror image of one that starts with the left foot, as far as NAO itself is: its knees,
-/// ankles and inertias differ by the maker's measurements of both sides.
+/// A walk that starts with the right foot is the mirror image of one that starts with the left foot, within NAO's own asymmetry: the manufacturer measured
+/// knees, ankles and inertias on both sides.
 #[test]
 fn left_and_right_are_mirror_images() {
     let (nao, _) = robot();
@@ -98,7 +98,7 @@ fn left_and_right_are_mirror_images() {
     }
 }
 
-/// Position, velocity and acceleration of the profiles are those of rest at both ends.
+/// Velocity and acceleration of the profiles are zero at both ends.
 #[test]
 fn profiles_start_and_end_in_rest() {
     let h = 1e-3;
@@ -110,7 +110,7 @@ fn profiles_start_and_end_in_rest() {
     assert_eq!((smooth(0.5), arch(0.5)), (0.5, 1.0));
 }
 
-/// No joint jumps, in position or in velocity, at the borders of phases less than anywhere else.
+/// At the borders of phases, positions and velocities of joints change no more abruptly than elsewhere.
 #[test]
 fn joints_move_without_jumps() {
     let walk = walk(&request(&Regular { turn: 0.2, length: 0.02, ..regular() })).unwrap();
@@ -121,7 +121,7 @@ fn joints_move_without_jumps() {
         border += phase.samples;
         for joint in 0..24 {
             let rate = |sample: usize| (q(sample + 1, joint) - q(sample, joint)) / 0.01;
-            // Third differences of the profiles bound what a border may add: rest on both sides of it.
+            // Third differences of the profiles bound the change at a border, where both sides are at rest.
             assert!(
                 rate(border - 1).abs() < 0.05 && rate(border).abs() < 0.05,
                 "{border} {joint}: {} {}",

@@ -1,4 +1,4 @@
-//! Zero moment points of motions whose dynamics is known on paper.
+//! Zero moment points (ZMP) of motions with known closed-form dynamics.
 
 use std::f64::consts::TAU;
 
@@ -17,7 +17,7 @@ fn wheel() -> Model {
     model(Some(&inertia(2.0, 0.01)), &[wheel])
 }
 
-/// The zero moment point at time 0 of poses and joint values as functions of time.
+/// The zero moment point at time 0, for poses and joint values as functions of time.
 fn zmp(body: &Model, tick: f64, at: impl Fn(f64) -> (Pose, f64)) -> nalgebra::Point2<f64> {
     let [before, now, after] = [-tick, 0.0, tick].map(&at);
     let between = |a: &(Pose, f64), b: &(Pose, f64)| {
@@ -46,7 +46,7 @@ fn a_swinging_mass_has_that_of_the_pendulum() {
     let at = |time: f64| (Pose::translation(0.2, a * (w * time + p).sin(), h), 0.0);
     let expected = (1.0 + h * w * w / GRAVITY) * a * p.sin();
     let error = |tick: f64| (zmp(&wheel(), tick, at).y - expected).abs();
-    // The second difference of a sine is off by w^2 tick^2 / 12 of the acceleration.
+    // The relative error of the second difference of a sine is w^2 tick^2 / 12.
     let share = (w * 0.01_f64).powi(2) / 12.0;
     assert!(error(0.01) < 1.1 * share * expected && error(0.01) > 0.5 * share * expected * 0.5, "{}", error(0.01));
     assert!((error(0.01) / error(0.005) - 4.0).abs() < 0.05, "second order");
@@ -55,7 +55,7 @@ fn a_swinging_mass_has_that_of_the_pendulum() {
     assert!((pendulum.y - expected).abs() < 1e-15 && pendulum.x == 0.2);
 }
 
-/// A wheel of inertia I about y that speeds up at b needs the moment I b: the point goes back by I b / (m g).
+/// A wheel of inertia I about y with the angular acceleration b needs the moment I b: the ZMP moves back by I b / (m g).
 #[test]
 fn a_wheel_that_speeds_up_moves_it() {
     let b = 30.0;
@@ -64,7 +64,7 @@ fn a_wheel_that_speeds_up_moves_it() {
     assert!((point.x - expected).abs() < 1e-12 && point.y.abs() < 1e-15, "{}", point.x);
 }
 
-/// A base that turns about y with its wheel: the moment is that of both inertias.
+/// A base that rotates about y with its wheel: the moment is that of both inertias.
 #[test]
 fn a_turning_base_carries_its_links() {
     let b = 4.0;

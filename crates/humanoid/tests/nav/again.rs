@@ -1,4 +1,4 @@
-//! Fields marched again in part, beside fields from nothing.
+//! Fields that are updated incrementally, compared with fields computed anew.
 
 use groebot_humanoid::nav::{Cell, Field, Map, Method, Shape, Window};
 use groebot_humanoid::{ErrorKind, Watch};
@@ -19,7 +19,7 @@ fn assert_same(found: &Field, expected: &Field) {
     }
 }
 
-/// The same map with cells that changed and, if it has speeds, another disc of them.
+/// The map with some cells changed and, if it has speeds, with another disc of them.
 fn changed(map: &Map, goals: &[usize], random: &mut Random) -> Map {
     let mut cells = map.cells().to_vec();
     for _ in 0..1 + random.below(8) {
@@ -61,7 +61,7 @@ fn what_changed_is_marched_again() {
     }
 }
 
-/// A door far from the goal changes little, and nothing is marched where nothing changed.
+/// A door far from the goal changes few cells, and without a change no cell is updated.
 #[test]
 fn only_what_changed_is_marched() {
     let map = Map::new(120, 120, 0.05).unwrap();
@@ -98,7 +98,7 @@ fn a_window_of_a_field_is_the_field() {
     }
 }
 
-/// With an obstacle in the window: its equation holds inside, and nothing has changed outside.
+/// With a new obstacle in the window: the equation holds inside, and the values outside are unchanged.
 #[test]
 fn a_window_sees_a_new_obstacle() {
     let map = Map::new(60, 60, 0.05).unwrap();
@@ -115,7 +115,7 @@ fn a_window_sees_a_new_obstacle() {
             } else if !walled.is_free(cell) {
                 assert_eq!(time, f64::INFINITY);
             } else {
-                // Values are those of the two nearest neighbours by (4-15) and (4-17).
+                // The value of each cell follows from its two nearest neighbours by (4-15) or (4-17).
                 let near = |across: bool| {
                     let own = walled
                         .beside(cell)
@@ -157,6 +157,6 @@ fn what_cannot_be_marched_again_is_refused() {
     let walled = Map::from_text(".#.\n...\n", 1.0).unwrap();
     let again = second.after(&walled, &watch).unwrap();
     assert_eq!((again.field, again.marched), (new(&walled, &[0], Method::FastMarching(2)), 5));
-    // All of a map is a window of it.
+    // The whole map is a valid window.
     assert_same(&field.clone().within(&map, &Window::of(&map), &watch).unwrap(), &field);
 }

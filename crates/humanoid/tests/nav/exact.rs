@@ -1,4 +1,4 @@
-//! Shortest ways beside a graph of all corners that see one another, made by trying every pair against every obstacle.
+//! Shortest paths, compared with the visibility graph of all corners. The graph tests every pair of corners against every obstacle.
 
 use groebot_humanoid::nav::{Distances, Field, Guide, Map, Method, Shortest};
 use groebot_humanoid::{ErrorKind, Watch};
@@ -6,12 +6,12 @@ use nalgebra::Point2;
 
 use super::{Random, random_map};
 
-/// Parts of a cell: all that the graph compares is whole numbers of them.
+/// Number of parts of a cell: all comparisons of the graph use integers of this unit.
 pub(super) const PARTS: i64 = 1 << 20;
 
 type Spot = (i64, i64);
 
-/// What brute force knows of a map: which cells are obstacles, with those around it.
+/// The map in the brute-force search: which cells are obstacles, with a border around them.
 struct Floor<'a> {
     map: &'a Map,
 }
@@ -22,7 +22,7 @@ impl Floor<'_> {
         is_on && self.map.is_free(y as usize * self.map.columns() + x as usize)
     }
 
-    /// Whether the cells about a lattice point are free: lower left, lower right, upper left, upper right.
+    /// Whether the cells around a lattice point are free: lower left, lower right, upper left, upper right.
     fn about(&self, x: i64, y: i64) -> [bool; 4] {
         [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)].map(|(x, y)| self.is_free(x, y))
     }
@@ -37,7 +37,7 @@ impl Floor<'_> {
         self.points().filter(is_corner).map(|(x, y)| (x * PARTS, y * PARTS)).collect()
     }
 
-    /// Lattice points where two obstacles meet diagonally.
+    /// Lattice points at which two obstacles meet diagonally.
     fn pinches(&self) -> Vec<Spot> {
         let is_pinch = |(x, y): &Spot| {
             let about = self.about(*x, *y);
@@ -46,7 +46,7 @@ impl Floor<'_> {
         self.points().filter(is_pinch).map(|(x, y)| (x * PARTS, y * PARTS)).collect()
     }
 
-    /// Whether one sees the other: no inside of an obstacle is between, no two obstacles that share a side or a corner there.
+    /// Whether two points are visible from each other: no interior of an obstacle, and no side or corner shared by two obstacles, is between them.
     fn sees(&self, a: Spot, b: Spot, pinches: &[Spot]) -> bool {
         let (low, high) = ((a.0.min(b.0), a.1.min(b.1)), (a.0.max(b.0), a.1.max(b.1)));
         let cells = |low: i64, high: i64| low.div_euclid(PARTS) - 1..=high.div_euclid(PARTS) + 1;
@@ -55,7 +55,7 @@ impl Floor<'_> {
         !is_hit && !self.is_between_walls(a, b) && !pinches.iter().any(|pinch| self.slips(a, b, *pinch))
     }
 
-    /// Along the side that two obstacles share.
+    /// Whether the segment is along a side that two obstacles share.
     fn is_between_walls(&self, a: Spot, b: Spot) -> bool {
         let along = |from: i64, to: i64| from.min(to).div_euclid(PARTS)..(from.max(to) + PARTS - 1).div_euclid(PARTS);
         let (x, y) = (a.0.div_euclid(PARTS), a.1.div_euclid(PARTS));
@@ -65,7 +65,8 @@ impl Floor<'_> {
             || (on_column && along(a.1, b.1).any(|y| !self.is_free(x, y) && !self.is_free(x - 1, y)))
     }
 
-    /// Through a pinch, or from one into the cell that the place does not belong to: it belongs to the upper right one.
+    /// Whether the segment passes through a pinch point, or starts at one and enters the cell to which that point does not belong: it belongs to the upper
+    /// right one.
     fn slips(&self, a: Spot, b: Spot, pinch: Spot) -> bool {
         if a == b || cross(a, b, pinch) != 0 {
             return false;
@@ -78,7 +79,7 @@ impl Floor<'_> {
         within(pinch.0, a.0, b.0) && within(pinch.1, a.1, b.1)
     }
 
-    /// The length of the shortest way, in cells (E. W. Dijkstra, Numerische Mathematik 1, 1959).
+    /// The length of the shortest path, in cells (E. W. Dijkstra, Numerische Mathematik 1, 1959).
     fn shortest(&self, start: Spot, goal: Spot) -> f64 {
         let pinches = self.pinches();
         let spots: Vec<Spot> = [start, goal].into_iter().chain(self.corners()).collect();
@@ -108,7 +109,7 @@ fn cross(a: Spot, b: Spot, c: Spot) -> i64 {
     (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
 }
 
-/// Whether a straight line has points inside of a cell: no axis of either parts them.
+/// Whether a straight segment intersects the interior of a cell: no axis of either separates them.
 fn enters(a: Spot, b: Spot, (x, y): Spot) -> bool {
     let (low, high) = ((x * PARTS, y * PARTS), ((x + 1) * PARTS, (y + 1) * PARTS));
     let apart = |a: i64, b: i64, low: i64, high: i64| a.max(b) <= low || a.min(b) >= high;
@@ -117,7 +118,7 @@ fn enters(a: Spot, b: Spot, (x, y): Spot) -> bool {
     !apart(a.0, b.0, low.0, high.0) && !apart(a.1, b.1, low.1, high.1) && !parts
 }
 
-/// A place in a free cell: anywhere, in parts of eight, on its border or its lower left corner.
+/// A random point of a free cell: anywhere, in eighths, on its border or at its lower left corner.
 pub(super) fn place(map: &Map, numbers: &mut Random) -> Spot {
     let free: Vec<usize> = (0..map.cells().len()).filter(|cell| map.is_free(*cell)).collect();
     let cell = free[(numbers.number() * free.len() as f64) as usize];
@@ -153,11 +154,11 @@ fn shortest(map: &Map, ends: [Spot; 2], guide: &Guide) -> Option<Shortest> {
     }
 }
 
-/// Compares one way with brute force; whether there is one.
+/// Compares one path with brute force. Returns whether there is one.
 fn agrees(map: &Map, ends: [Spot; 2], guide: &Guide) -> bool {
     let expected = Floor { map }.shortest(ends[0], ends[1]) * map.resolution();
     let Some(found) = shortest(map, ends, guide) else {
-        assert!(expected.is_infinite(), "{ends:?}: a way of {expected}");
+        assert!(expected.is_infinite(), "{ends:?}: a path of {expected}");
         return false;
     };
     let length = found.path.length();
@@ -167,7 +168,7 @@ fn agrees(map: &Map, ends: [Spot; 2], guide: &Guide) -> bool {
 }
 
 #[test]
-fn ways_are_those_of_all_corners_that_see_one_another() {
+fn paths_agree_with_the_visibility_graph() {
     let mut numbers = Random(7);
     let (mut reached, mut enclosed) = (0, 0);
     for seed in 0..240 {
@@ -185,7 +186,8 @@ fn ways_are_those_of_all_corners_that_see_one_another() {
     assert!(reached > 500 && enclosed > 100, "{reached} {enclosed}");
 }
 
-/// A field shows a way sooner, and an effort that does not last leaves a bound; neither is ever on the wrong side.
+/// With a field a path is found earlier, and with a bounded effort a lower bound remains. The path is never shorter than the optimum, and the bound never
+/// longer.
 #[test]
 fn a_field_and_a_bounded_effort_leave_what_is_true() {
     let mut numbers = Random(8);
@@ -215,9 +217,9 @@ fn a_field_and_a_bounded_effort_leave_what_is_true() {
     assert!(proved > 20 && open > 20, "{proved} {open}");
 }
 
-/// From all over a map to one goal.
+/// From points all over a map to one goal.
 #[test]
-fn distances_of_all_corners_lead_the_same_way() {
+fn distances_of_all_corners_give_equal_paths() {
     let mut numbers = Random(11);
     let (mut reached, mut enclosed) = (0, 0);
     for seed in 0..60 {
@@ -255,19 +257,19 @@ fn spot(map: &Map, point: &Point2<f64>) -> Spot {
     ((own.x * PARTS as f64).round() as i64, (own.y * PARTS as f64).round() as i64)
 }
 
-/// Where a map stands in the world changes its ways as little as anything else that it has.
+/// The pose of a map in the world does not change the lengths of its paths.
 #[test]
-fn a_turned_map_has_the_same_ways() {
+fn a_rotated_map_has_equal_paths() {
     let map = random_map(30, 20, 0.25, 5);
     let turned = map.clone().placed(Point2::new(3.7, -1.2), 0.6).unwrap();
     let free: Vec<usize> = (0..600).filter(|cell| map.is_free(*cell)).collect();
     let mut reached = 0;
     for pair in free.windows(90).step_by(7) {
         let (start, goal) = (pair[0], pair[89]);
-        let way = |map: &Map| {
+        let path = |map: &Map| {
             map.shortest_path(&map.centre(start), &map.centre(goal), &Guide::default(), &Watch::none()).unwrap()
         };
-        let (Ok(one), Ok(other)) = (way(&map), way(&turned)) else { continue };
+        let (Ok(one), Ok(other)) = (path(&map), path(&turned)) else { continue };
         assert!((one.path.length() - other.path.length()).abs() < 1e-9);
         reached += 1;
     }
@@ -283,7 +285,7 @@ fn a_small_enclosure_is_found_from_either_side() {
     }
     let (inside, outside) = (Point2::new(20.0, 21.0), Point2::new(60.0, 40.0));
     for (start, goal) in [(inside, outside), (outside, inside)] {
-        // One that looked at the floor outside would ask its watch more than once.
+        // A search that visited the floor outside would query its watch more than once.
         let patience = std::sync::Arc::new(std::sync::atomic::AtomicUsize::new(1));
         let watch = Watch::none().with_patience(patience);
         let enclosure = map.shortest_path(&start, &goal, &Guide::default(), &watch).unwrap().unwrap_err();
@@ -293,7 +295,7 @@ fn a_small_enclosure_is_found_from_either_side() {
 }
 
 #[test]
-fn what_cannot_be_asked_is_refused() {
+fn invalid_queries_are_refused() {
     let map = Map::from_text("..#\n...\n", 1.0).unwrap();
     let (start, goal) = (Point2::new(0.5, 0.5), Point2::new(1.5, 1.5));
     let ask = |start: &Point2<f64>, guide: &Guide| map.shortest_path(start, &goal, guide, &Watch::none());
@@ -313,9 +315,9 @@ fn what_cannot_be_asked_is_refused() {
     assert_eq!(error.kind(), ErrorKind::Cancelled);
 }
 
-/// What `scripts/navigation/visibility.py` checks by a geometry of its own.
+/// A record that `scripts/navigation/visibility.py` verifies with an independent geometry.
 const RECORD: &str =
-    concat!(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), "/crates/humanoid/tests/nav/shortest_ways.csv");
+    concat!(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), "/crates/humanoid/tests/nav/shortest_paths.csv");
 
 #[test]
 fn the_record_that_python_checks_is_up_to_date() {
@@ -326,7 +328,7 @@ fn the_record_that_python_checks_is_up_to_date() {
         let map = random_map(columns, rows, [0.1, 0.25, 0.4][seed as usize % 3], 3000 + seed);
         let ends = [(); 2].map(|()| {
             let (x, y) = place(&map, &mut numbers);
-            // In parts of 64, which text holds.
+            // In parts of 64, which are exact in the text.
             (x / 16_384 * 16_384, y / 16_384 * 16_384)
         });
         let length = shortest(&map, ends, &Guide::default()).map(|found| found.path.length() / map.resolution());

@@ -1,4 +1,4 @@
-//! Fields: the thesis' own beside shortest ways, fast marching beside distances and its own equation.
+//! Arrival-time fields: M3R of the thesis compared with shortest paths, fast marching compared with distances and with its own equation.
 
 use groebot_humanoid::nav::{Enclosure, Field, Map, Method, Shape};
 use groebot_humanoid::{ErrorKind, Watch};
@@ -11,12 +11,12 @@ fn field(map: &Map, goals: &[usize], method: Method) -> Field {
     Field::new(map, &goals, method, &Watch::none()).unwrap()
 }
 
-/// Free cells beside a cell.
+/// Free neighbours of a cell.
 fn beside(map: &Map, cell: usize) -> Vec<usize> {
     map.beside(cell).filter(|cell| map.is_free(*cell)).collect()
 }
 
-/// Half of the floor, and a disc on it, are slower.
+/// A map with lower speeds on half of the floor and on a disc.
 fn with_speeds(map: Map) -> Map {
     let reach = map.columns() as f64 * map.resolution();
     let half = Shape::rectangle(Point2::origin(), reach, 100.0, 0.0);
@@ -24,7 +24,7 @@ fn with_speeds(map: Map) -> Map {
     map.with_speed(&half, 0.3).unwrap().with_speed(&disc, 2.7).unwrap()
 }
 
-/// Bellman's and Ford's rounds until nothing changes: T = min(T_nb + G / F).
+/// Bellman-Ford iterations until nothing changes: T = min(T_nb + G / F).
 fn shortest(map: &Map, goals: &[usize]) -> Vec<f64> {
     let mut times = vec![f64::INFINITY; map.cells().len()];
     goals.iter().for_each(|goal| times[*goal] = 0.0);
@@ -43,7 +43,7 @@ fn shortest(map: &Map, goals: &[usize]) -> Vec<f64> {
 }
 
 #[test]
-fn m3r_is_the_shortest_way_over_four_neighbours() {
+fn m3r_is_the_shortest_path_over_four_neighbours() {
     for (share, seed) in [(0.0, 1), (0.2, 2), (0.35, 3)] {
         for map in [random_map(41, 29, share, seed), with_speeds(random_map(41, 29, share, seed))] {
             let free: Vec<usize> = (0..map.cells().len()).filter(|cell| map.is_free(*cell)).collect();
@@ -56,7 +56,7 @@ fn m3r_is_the_shortest_way_over_four_neighbours() {
     }
 }
 
-/// RH0 (4-17) does not come nearer to the distance however small the cells: along a diagonal it stays 1.41 of it.
+/// RH0 (4-17) does not converge to the distance with smaller cells: along a diagonal the ratio stays 1.41.
 #[test]
 fn m3r_is_the_distance_along_rows_and_columns() {
     for cells in [21, 81, 161] {
@@ -69,7 +69,7 @@ fn m3r_is_the_distance_along_rows_and_columns() {
     }
 }
 
-/// Fast marching comes nearer to the distance with smaller cells, by the second order sooner.
+/// Fast marching converges to the distance with smaller cells, faster with the second order.
 #[test]
 fn fast_marching_comes_near_to_the_distance() {
     let worst = |cells: usize, order: u8| {
@@ -110,7 +110,7 @@ fn fast_marching_solves_its_equation() {
     }
 }
 
-/// Fast marching as Sethian tells it: of all trial values the least one is accepted, and only accepted ones count.
+/// Fast marching in Sethian's form: the least of all trial values is accepted, and only accepted values are used.
 fn tidy(map: &Map, goals: &[usize]) -> Vec<f64> {
     let mut times = vec![f64::INFINITY; map.cells().len()];
     let mut open: Vec<usize> = goals.to_vec();
@@ -137,7 +137,7 @@ fn tidy(map: &Map, goals: &[usize]) -> Vec<f64> {
     times
 }
 
-/// The order in which a front marches does not show: it ends where a tidy one does, however much speeds differ.
+/// The result does not depend on the order in which cells are processed: it equals that of an ordered front, for any ratio of speeds.
 #[test]
 fn fast_marching_ends_where_a_tidy_front_does() {
     let extreme = |map: Map, speeds: [f64; 2]| {
@@ -179,9 +179,9 @@ fn what_has_no_field_is_refused() {
     assert_eq!(found.times()[5], f64::INFINITY);
 }
 
-/// A field has no other lowest places than its goals: from every cell that it reaches the way down ends in one, as far along as it should be.
+/// A field has no local minima except its goals: the descent from every reached cell ends at one, with the expected length.
 #[test]
-fn every_way_down_ends_in_a_goal() {
+fn every_descent_ends_in_a_goal() {
     for method in [Method::M3r, Method::FastMarching(1), Method::FastMarching(2)] {
         let map = random_map(33, 27, 0.25, 9);
         let free: Vec<usize> = (0..map.cells().len()).filter(|cell| map.is_free(*cell)).collect();
@@ -190,13 +190,13 @@ fn every_way_down_ends_in_a_goal() {
         let mut enclosed = 0;
         for start in free.iter().copied() {
             match found.descend(&map, &map.centre(start)).unwrap() {
-                Ok(way) => {
-                    let last = map.cell_at(way.points.last().unwrap()).unwrap();
+                Ok(path) => {
+                    let last = map.cell_at(path.points.last().unwrap()).unwrap();
                     assert!(goals.contains(&last) && found.times()[start].is_finite());
-                    let cells: Vec<usize> = way.points.iter().map(|point| map.cell_at(point).unwrap()).collect();
+                    let cells: Vec<usize> = path.points.iter().map(|point| map.cell_at(point).unwrap()).collect();
                     assert!(cells.windows(2).all(|pair| found.times()[pair[1]] < found.times()[pair[0]]));
-                    // No way is shorter than that over eight neighbours allows.
-                    assert!(way.length() >= (way.points[0] - way.points[way.points.len() - 1]).norm() - 1e-12);
+                    // No path is shorter than the straight distance.
+                    assert!(path.length() >= (path.points[0] - path.points[path.points.len() - 1]).norm() - 1e-12);
                 }
                 Err(enclosure) => {
                     enclosed += 1;
@@ -204,7 +204,7 @@ fn every_way_down_ends_in_a_goal() {
                     let goal = goals[0];
                     let (inside, outside) = if is_in { (start, goal) } else { (goal, start) };
                     assert!(enclosure.parts(&map, inside, outside));
-                    // A set that lacks a cell is none.
+                    // A set from which a cell is removed is no enclosure.
                     if enclosure.cells.len() > 1 {
                         let less = Enclosure { cells: enclosure.cells[1..].to_vec() };
                         assert!(!less.parts(&map, inside, outside) || !is_in || enclosure.cells[0] == start);

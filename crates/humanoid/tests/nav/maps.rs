@@ -1,4 +1,4 @@
-//! Maps as they are read, and what stands on them.
+//! Readers of maps, and obstacles on maps.
 
 use groebot_humanoid::ErrorKind;
 use groebot_humanoid::nav::{Cell, Map, Meaning, Mode, Shape};
@@ -32,12 +32,12 @@ fn characters_and_pixels_are_the_same_room() {
 }
 
 #[test]
-fn a_description_tells_where_its_image_stands() {
+fn a_description_names_its_image_file() {
     let folder = tempfile::tempdir().unwrap();
     let yaml = folder.path().join("room.yaml");
     std::fs::write(folder.path().join("room.pgm"), b"P5 2 1 255\n\xff\x00").unwrap();
-    let told = "image: room.pgm # beside it\nresolution: 0.05\norigin: [-1.0, 2.0, 0.5]\nnegate: 1\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
-    std::fs::write(&yaml, told).unwrap();
+    let description = "image: room.pgm # beside it\nresolution: 0.05\norigin: [-1.0, 2.0, 0.5]\nnegate: 1\noccupied_thresh: 0.65\nfree_thresh: 0.2\n";
+    std::fs::write(&yaml, description).unwrap();
     let map = Map::read(&yaml, 1.0).unwrap();
     assert_eq!((map.cells(), map.resolution()), (&[Cell::Occupied, Cell::Free][..], 0.05));
     let middle = map.centre(1);
@@ -56,7 +56,7 @@ fn a_description_tells_where_its_image_stands() {
         ("negate: 1", "mode: tri", ErrorKind::BadValue, "line 4: `mode` is `tri`; give one of trinary, scale, raw"),
         ("room.pgm", "hall.pgm", ErrorKind::Io, "hall.pgm"),
     ] {
-        std::fs::write(&yaml, told.replacen(from, to, 1)).unwrap();
+        std::fs::write(&yaml, description.replacen(from, to, 1)).unwrap();
         let error = Map::read(&yaml, 1.0).unwrap_err();
         assert!(error.kind() == kind && error.to_string().contains(words), "{error}");
     }
@@ -64,7 +64,7 @@ fn a_description_tells_where_its_image_stands() {
 
 const YAML: &str = "image: a.pgm\nresolution: 0.05\norigin: [-1.5, 2.0, 0.25]\nnegate: 1\noccupied_thresh: 0.7\nfree_thresh: 0.2\nmode: scale\n";
 
-/// What PyYAML's `safe_dump` and `map_saver` write, and what people write by hand: all of it says the same.
+/// YAML as written by PyYAML's `safe_dump`, by `map_saver` and by hand: all texts have equal meaning.
 #[test]
 fn yaml_is_read_as_any_program_writes_it() {
     let expected = (
@@ -121,12 +121,12 @@ fn yaml_that_is_none_has_a_line() {
     }
     for text in ["- image: a.pgm\n", "a map\n", "[1, 2]"] {
         let error = Meaning::from_yaml(text).unwrap_err();
-        assert!(error.kind() == ErrorKind::Syntax && error.message().contains("this is no mapping"), "{error}");
+        assert!(error.kind() == ErrorKind::Syntax && error.message().contains("this is not a mapping"), "{error}");
     }
     assert_eq!(Meaning::from_yaml("# nothing\n").unwrap_err().kind(), ErrorKind::MissingKey);
 }
 
-/// A hundred thousand bytes, the most that a description has, made to grow, to nest or to look far ahead.
+/// Texts of a hundred thousand bytes, the largest permitted description, with expansion, nesting or long look-ahead.
 #[test]
 fn no_yaml_takes_long() {
     let most = 100_000;
@@ -162,7 +162,7 @@ fn no_yaml_takes_long() {
     }
 }
 
-/// What `map_server` gives for each value of a byte, by the formulas in its documentation (`nav2_map_server`, `map_io.cpp`).
+/// The state for each value of a byte by the formulas in the documentation of `map_server` (`nav2_map_server`, `map_io.cpp`).
 #[test]
 fn modes_are_those_of_map_server() {
     let image: Vec<u8> = b"P5 256 1 255\n".iter().copied().chain(0..=255).collect();
@@ -186,7 +186,7 @@ fn modes_are_those_of_map_server() {
             }
         }
     }
-    // What `map_saver` writes in the mode raw: 0 free, 100 occupied, 255 unknown.
+    // Output of `map_saver` in the mode raw: 0 is free, 100 occupied, 255 unknown.
     let saved = Map::from_pgm(b"P2 3 1 255 0 100 255", &Meaning { mode: Mode::Raw, ..Meaning::new(0.1) }).unwrap();
     assert_eq!(saved.cells(), [Cell::Free, Cell::Occupied, Cell::Unknown]);
     let bits = Map::from_pgm(b"P2 3 1 65535 0 25700 65535", &Meaning { mode: Mode::Raw, ..Meaning::new(0.1) }).unwrap();
@@ -212,7 +212,7 @@ fn what_is_no_map_is_refused() {
         assert!(error.message().contains(words), "{error}");
     }
     let error = Map::from_text("..\n.x\n", 0.1).unwrap_err();
-    assert!(error.place().line == Some(2) && error.message().contains("`x` is no cell"), "{error}");
+    assert!(error.place().line == Some(2) && error.message().contains("`x` is not a cell"), "{error}");
     let error = Map::from_text("..\n...\n", 0.1).unwrap_err();
     assert!(error.place().line == Some(2) && error.message().contains("3 cells"), "{error}");
     let error = Map::from_text("type octile\nheight 9\nwidth 2\nmap\n..\n..\n", 0.1).unwrap_err();
@@ -236,7 +236,7 @@ fn clearances_are_those_of_brute_force() {
             assert!(*found == expected || (found - expected).abs() < 1e-12, "{cell}: {found} {expected}");
         }
         let grown = map.grown(0.12).unwrap();
-        // What is off the map is an obstacle, too.
+        // The outside of the map counts as an obstacle too.
         let inside = |place: usize, count: usize| place.min(count - 1 - place) as f64 + 0.5 >= 0.12 / 0.05;
         let is_far = |cell: usize| inside(cell % columns, columns) && inside(cell / columns, rows);
         let expected = |cell: usize| clearances[cell] >= 0.12 && is_far(cell);
@@ -255,18 +255,18 @@ fn furniture_covers_the_cells_that_it_touches() {
     ];
     let covered = map.with(&shapes).unwrap();
     for cell in 0..400 {
-        // Points all over the cell.
+        // Sample points all over the cell.
         let corner = map.centre(cell) - nalgebra::Vector2::repeat(0.05);
         let grid = (1..40).flat_map(|i| (1..40).map(move |j| (f64::from(i), f64::from(j))));
         let mut inside = grid.map(|(i, j)| Point2::new(corner.x + 0.0025 * i, corner.y + 0.0025 * j));
         let holds = inside.any(|point| shapes.iter().any(|shape| shape.holds(&point)));
-        // A touch may be smaller than the points are apart.
+        // The area of contact may be smaller than the distance of the sample points.
         assert!(!holds || !covered.is_free(cell), "{cell}");
     }
     let free = (0..400).filter(|cell| covered.is_free(*cell)).count();
     let area: f64 = 0.1 + std::f64::consts::PI * 0.17 * 0.17 + 0.05;
     assert!((400 - free) as f64 * 0.01 < 2.5 * area);
-    // It was put there on another map.
+    // The original map is unchanged.
     assert!((0..400).all(|cell| map.is_free(cell)));
     let error = covered.free_cell_at(&Point2::new(0.03, 0.02)).unwrap_err();
     assert!(error.message().contains("occupied; the nearest free place is ("), "{error}");

@@ -1,4 +1,4 @@
-//! Navigation: maps as they are read, distances beside brute force, fields and ways beside what they solve.
+//! Navigation: readers of maps, distances compared with brute force, fields and paths checked against their equations.
 
 mod again;
 mod exact;
@@ -16,7 +16,7 @@ use groebot_humanoid::nav::{Cell, Map};
 struct Random(u64);
 
 impl Random {
-    /// From nought to below one.
+    /// A random number in [0, 1).
     fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -24,13 +24,13 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Below a count.
+    /// A random integer below `count`.
     fn below(&mut self, count: usize) -> usize {
         (self.number() * count as f64) as usize
     }
 }
 
-/// Cells that are occupied with this likelihood.
+/// A map whose cells are occupied with this probability.
 fn random_map(columns: usize, rows: usize, share: f64, seed: u64) -> Map {
     let mut random = Random(seed);
     let mut cell = || if random.number() < share { Cell::Occupied } else { Cell::Free };

@@ -1,4 +1,4 @@
-//! Ways over eight neighbours beside rounds over all cells until nothing changes.
+//! Paths over eight neighbours, compared with iterations over all cells until nothing changes.
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::nav::{Guide, Map};
@@ -6,7 +6,7 @@ use nalgebra::Vector2;
 
 use super::random_map;
 
-/// Lengths from a cell in cells, by Bellman's and Ford's rounds.
+/// Path lengths from a cell, in cells, by Bellman-Ford iterations.
 fn lengths(map: &Map, start: usize) -> Vec<f64> {
     let (columns, rows) = (map.columns() as i64, map.rows() as i64);
     let free =
@@ -31,7 +31,7 @@ fn lengths(map: &Map, start: usize) -> Vec<f64> {
 }
 
 #[test]
-fn octile_ways_are_shortest_and_cut_no_corner() {
+fn octile_paths_are_shortest_and_cut_no_corner() {
     let mut reached = 0;
     for (seed, share) in [(1, 0.0), (2, 0.1), (3, 0.2), (4, 0.3), (5, 0.4)] {
         let map = random_map(67, 31, share, seed);
@@ -40,22 +40,22 @@ fn octile_ways_are_shortest_and_cut_no_corner() {
         let expected = lengths(&map, goal);
         for start in free.iter().copied().step_by(13) {
             let [from, to] = [start, goal].map(|cell| map.centre(cell) + Vector2::new(0.01, -0.02));
-            let Ok(way) = map.octile_path(&from, &to, &Watch::none()).unwrap() else {
+            let Ok(path) = map.octile_path(&from, &to, &Watch::none()).unwrap() else {
                 assert!(expected[start].is_infinite());
                 continue;
             };
-            assert!((way.length() / map.resolution() - expected[start]).abs() < 1e-9);
-            assert!(way.points[0] == map.centre(start) && *way.points.last().unwrap() == map.centre(goal));
-            check_steps(&map, &way.points);
+            assert!((path.length() / map.resolution() - expected[start]).abs() < 1e-9);
+            assert!(path.points[0] == map.centre(start) && *path.points.last().unwrap() == map.centre(goal));
+            check_steps(&map, &path.points);
             let exact = map.shortest_path(&map.centre(start), &map.centre(goal), &Guide::default(), &Watch::none());
-            assert!(exact.unwrap().unwrap().path.length() <= way.length() + 1e-12);
+            assert!(exact.unwrap().unwrap().path.length() <= path.length() + 1e-12);
             reached += 1;
         }
     }
     assert!(reached > 400, "{reached}");
 }
 
-/// Each step leads over free cells, along a row, a column or a diagonal, whose neighbours on both sides are free.
+/// Each move is along a row, a column or a diagonal over free cells; for a diagonal the cells on both sides are free.
 fn check_steps(map: &Map, points: &[nalgebra::Point2<f64>]) {
     for pair in points.windows(2) {
         let away = (pair[1] - pair[0]) / map.resolution();
@@ -72,7 +72,7 @@ fn check_steps(map: &Map, points: &[nalgebra::Point2<f64>]) {
 }
 
 #[test]
-fn what_has_no_octile_way_is_enclosed() {
+fn without_an_octile_path_there_is_an_enclosure() {
     let map = Map::from_text(".#.\n#..\n...\n", 1.0).unwrap();
     let [start, goal] = [6, 2].map(|cell| map.centre(cell));
     let enclosure = map.octile_path(&start, &goal, &Watch::none()).unwrap().unwrap_err();

@@ -32,12 +32,12 @@ fn a_room_is_walls_and_furniture() {
     let map = room.map().unwrap();
     assert_eq!((map.columns(), map.rows()), (60, 50));
     let is_free = |x: f64, y: f64| map.is_free(map.cell_at(&Point2::new(x, y)).unwrap());
-    // The sofa lies along y, the walls stand inside of the borders.
+    // The sofa is parallel to y, and the walls are inside of the borders.
     assert!(!is_free(2.35, 0.5) && !is_free(2.0, 1.35) && is_free(2.45, 0.5) && is_free(2.0, 1.45));
     assert!(!is_free(-0.95, 0.0) && !is_free(4.95, 0.0) && is_free(-0.85, 0.0) && !is_free(0.5, 1.7));
     let speed = |x: f64, y: f64| map.speeds().unwrap()[map.cell_at(&Point2::new(x, y)).unwrap()];
     assert_eq!((speed(3.5, 1.5), speed(2.95, 1.5)), (0.5, 1.0));
-    // 58 x 48 cells within the walls, less 18 x 8 of the sofa, and the lamp's.
+    // 58 x 48 cells within the walls, minus 18 x 8 cells of the sofa and those of the lamp.
     let free = map.cells().iter().filter(|cell| **cell == Cell::Free).count();
     let lamp = 58 * 48 - 18 * 8 - free;
     assert!((20..=36).contains(&lamp), "{lamp}");
@@ -72,7 +72,7 @@ fn what_is_no_room_is_refused() {
     }
 }
 
-/// A PNG of eight bits by hand: stored blocks, with the sums that its chunks ask for.
+/// A PNG with eight bits per channel, written by hand: stored blocks, with the checksums of its chunks.
 fn png(columns: u32, colour: u8, rows: &[&[u8]]) -> Vec<u8> {
     fn crc(bytes: &[u8]) -> u32 {
         !bytes.iter().fold(!0u32, |sum, byte| {
@@ -108,7 +108,7 @@ fn images_of_other_colours_are_the_same_map() {
     let threefold = |row: &[u8]| row.iter().flat_map(|value| [*value; 3]).collect::<Vec<u8>>();
     let colours = png(3, 2, &[&threefold(&[254, 254, 0]), &threefold(&[254, 0, 205])]);
     assert_eq!(Map::from_png(&colours, &meaning).unwrap().cells(), lower_first);
-    // What is transparent has not been seen, whatever its colour, in the mode `scale` and where nobody tells a mode.
+    // Transparent pixels are unknown, whatever their colour, in the mode `scale` and without a mode.
     let through = png(3, 4, &[&[254, 255, 254, 255, 0, 255], &[254, 255, 0, 255, 0, 0]]);
     let scale = Meaning { mode: Mode::Scale, ..meaning.clone() };
     assert_eq!(Map::from_png(&through, &scale).unwrap().cells(), lower_first);
@@ -134,7 +134,7 @@ fn images_of_other_colours_are_the_same_map() {
     assert!(Map::from_png(&huge, &meaning).is_err());
 }
 
-/// Where the outline may be, by putting it there.
+/// The feasible positions of an outline, by testing each of them.
 #[test]
 fn obstacles_grown_by_an_outline_are_those_that_it_touches() {
     let corners = [(0.1, -0.05), (0.12, 0.06), (-0.07, 0.08), (0.0, 0.0), (-0.09, -0.06)];

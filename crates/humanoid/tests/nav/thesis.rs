@@ -1,4 +1,4 @@
-//! The thesis' own cases: two media (Fig. 4-11), the trap (4-12, 4-13), ten starts of one field (4-14), and what it claims of M3R.
+//! The examples of the thesis: two media (Fig. 4-11), the trap (4-12, 4-13), ten starts in one field (4-14), and its claims about M3R.
 
 use groebot_humanoid::nav::{Field, Forces, Map, Method, Path, Potential, Shape};
 use groebot_humanoid::{ErrorKind, Watch};
@@ -10,18 +10,18 @@ fn field(map: &Map, goal: &Point2<f64>, method: Method) -> Field {
     Field::new(map, &[*goal], method, &Watch::none()).unwrap()
 }
 
-/// Asserts that a way leads from cell to cell, over free ones only, to a goal.
-fn assert_leads(map: &Map, way: &Path, start: &Point2<f64>, goal: &Point2<f64>) {
-    let cells: Vec<usize> = way.points.iter().map(|point| map.free_cell_at(point).unwrap()).collect();
+/// Asserts that a path leads from cell to cell, over free cells only, to a goal.
+fn assert_leads(map: &Map, path: &Path, start: &Point2<f64>, goal: &Point2<f64>) {
+    let cells: Vec<usize> = path.points.iter().map(|point| map.free_cell_at(point).unwrap()).collect();
     assert_eq!((cells[0], cells[cells.len() - 1]), (map.cell_at(start).unwrap(), map.cell_at(goal).unwrap()));
-    assert!(way.points.windows(2).all(|pair| (pair[1] - pair[0]).norm() < 1.5 * map.resolution()));
+    assert!(path.points.windows(2).all(|pair| (pair[1] - pair[0]).norm() < 1.5 * map.resolution()));
 }
 
-/// How long a way takes, each step half in the one and half in the other cell.
-fn duration(map: &Map, way: &Path) -> f64 {
+/// The duration of a path; half of each move is in each of the two cells.
+fn duration(map: &Map, path: &Path) -> f64 {
     let slowness = |point: &Point2<f64>| 1.0 / f64::from(map.speeds().unwrap()[map.cell_at(point).unwrap()]);
     let step = |pair: &[Point2<f64>]| (pair[1] - pair[0]).norm() * 0.5 * (slowness(&pair[0]) + slowness(&pair[1]));
-    way.points.windows(2).map(step).sum()
+    path.points.windows(2).map(step).sum()
 }
 
 /// Snow on the left, a dry floor on the right.
@@ -31,7 +31,7 @@ fn two_media() -> (Map, Point2<f64>, Point2<f64>) {
     (map, Point2::new(0.62, 0.42), Point2::new(3.38, 3.58))
 }
 
-/// Where the quickest way between two places crosses from the one medium into the other, by trying all places (Fermat), and how long it takes.
+/// The point at which the quickest path between two places crosses the border of the media, by a search over all points (Fermat), and its duration.
 fn fermat(start: &Point2<f64>, goal: &Point2<f64>) -> (f64, f64) {
     let time = |y: f64| {
         let middle = Point2::new(2.0, y);
@@ -41,9 +41,9 @@ fn fermat(start: &Point2<f64>, goal: &Point2<f64>) -> (f64, f64) {
     (y, time)
 }
 
-/// Fig. 4-11, left: the quickest way bends where the floor changes and is not the shortest one.
+/// Fig. 4-11, left: the quickest path bends at the border of the media and is not the shortest one.
 #[test]
-fn a_way_over_two_media_bends() {
+fn a_path_over_two_media_bends() {
     let (map, start, goal) = two_media();
     let (crossing, least) = fermat(&start, &goal);
     let time = |method: Method| field(&map, &goal, method).times()[map.cell_at(&start).unwrap()];
@@ -51,25 +51,25 @@ fn a_way_over_two_media_bends() {
         let found = time(Method::FastMarching(order));
         assert!((found / least - 1.0).abs() < bound, "{found} {least}");
     }
-    // M3R's lies between that and sqrt(2) of it.
+    // The time of M3R is between that and sqrt(2) of it.
     let ratio = time(Method::M3r) / least;
     assert!(ratio > 1.0 && ratio < 2f64.sqrt(), "{ratio}");
-    let way = field(&map, &goal, Method::FastMarching(2)).descend(&map, &start).unwrap().unwrap();
-    assert_leads(&map, &way, &start, &goal);
+    let path = field(&map, &goal, Method::FastMarching(2)).descend(&map, &start).unwrap().unwrap();
+    assert_leads(&map, &path, &start, &goal);
     let straight = start.y + (goal.y - start.y) * (2.0 - start.x) / (goal.x - start.x);
-    let across = way.points.iter().find(|point| point.x > 2.0).unwrap().y;
+    let across = path.points.iter().find(|point| point.x > 2.0).unwrap().y;
     assert!((across - crossing).abs() < 0.5 * (straight - crossing).abs(), "{across} {crossing} {straight}");
-    // The straight line takes longer than the way, which takes longer than none of its kind.
+    // The straight line takes longer than the path, and the path takes at least the optimal time.
     let line = (goal - start).norm();
     let share = (2.0 - start.x) / (goal.x - start.x);
     let straight = line * (share / 0.25 + (1.0 - share));
-    let found = duration(&map, &way);
-    assert!(way.length() > line && found < straight && found > 0.999 * least, "{found} {straight} {least}");
+    let found = duration(&map, &path);
+    assert!(path.length() > line && found < straight && found > 0.999 * least, "{found} {straight} {least}");
 }
 
-/// Fig. 4-11, right: with obstacles, too.
+/// Fig. 4-11, right: with obstacles.
 #[test]
-fn a_way_over_two_media_goes_around_obstacles() {
+fn a_path_over_two_media_goes_around_obstacles() {
     let (map, start, goal) = two_media();
     let obstacles = [
         Shape::rectangle(Point2::new(2.4, 1.3), 0.4, 2.2, 0.0),
@@ -78,18 +78,18 @@ fn a_way_over_two_media_goes_around_obstacles() {
     let with = map.with(&obstacles).unwrap();
     for method in [Method::M3r, Method::FastMarching(1), Method::FastMarching(2)] {
         let found = field(&with, &goal, method);
-        let way = found.descend(&with, &start).unwrap().unwrap();
-        assert_leads(&with, &way, &start, &goal);
+        let path = found.descend(&with, &start).unwrap().unwrap();
+        assert_leads(&with, &path, &start, &goal);
         let cell = map.cell_at(&start).unwrap();
         let without = field(&map, &goal, method).times()[cell];
-        // Along rows and columns there are many ways, some of them past both.
+        // For M3R there are many shortest paths along rows and columns, some of which avoid both obstacles.
         assert!(found.times()[cell] > without || (method == Method::M3r && found.times()[cell] >= without - 1e-9));
-        // Above the wall, which reaches to y = 2.4.
-        assert!(way.points.iter().find(|point| point.x > 2.4).unwrap().y > 2.4);
+        // Above the wall, which extends to y = 2.4.
+        assert!(path.points.iter().find(|point| point.x > 2.4).unwrap().y > 2.4);
     }
 }
 
-/// Five joined cylinders that form a bay, open to the start.
+/// Five adjacent cylinders that form a bay, open towards the start.
 fn bay() -> (Map, Point2<f64>, Point2<f64>) {
     let cylinder = |angle: f64| {
         let (sine, cosine) = angle.to_radians().sin_cos();
@@ -102,28 +102,28 @@ fn bay() -> (Map, Point2<f64>, Point2<f64>) {
 
 const FORCES: Forces = Forces { attraction: 1.0, reach: 1.0, repulsion: 0.02, influence: 0.5 };
 
-/// Fig. 4-12: the potential field ends in the bay, from wherever it enters, and says so.
+/// Fig. 4-12: the descent of the potential field ends in the bay from all starts, which is reported.
 #[test]
 fn a_potential_field_is_stuck_in_the_bay() {
     let (map, start, goal) = bay();
     let potential = Potential::new(&map, &goal, &FORCES).unwrap();
     let stuck = potential.descend(&map, &start).unwrap().unwrap_err();
-    // Between the cylinders, short of the goal.
+    // Between the cylinders, before the goal.
     assert!((stuck.place - Point2::new(3.0, 2.5)).norm() < 1.1, "{}", stuck.place);
     assert_leads(&map, &stuck.path, &start, &stuck.place);
     let text = format!("({:.3}, {:.3})", stuck.place.x, stuck.place.y);
     assert!(stuck.to_string().contains("local minimum") && stuck.to_string().contains(&text), "{stuck}");
-    // A local minimum: no neighbour is lower.
+    // A local minimum: no neighbour has a lower value.
     let cell = map.cell_at(&stuck.place).unwrap();
     let around = [-121, -120, -119, -1, 1, 119, 120, 121].map(|step: isize| cell.checked_add_signed(step).unwrap());
     assert!(around.iter().all(|other| potential.values()[*other] >= potential.values()[cell]));
-    // Where nothing stands in the way it leads to the goal.
+    // Without obstacles between it leads to the goal.
     let clear = Point2::new(0.52, 4.72);
-    let way = Potential::new(&map, &Point2::new(5.52, 4.72), &FORCES).unwrap().descend(&map, &clear).unwrap().unwrap();
-    assert_leads(&map, &way, &clear, &Point2::new(5.52, 4.72));
+    let path = Potential::new(&map, &Point2::new(5.52, 4.72), &FORCES).unwrap().descend(&map, &clear).unwrap().unwrap();
+    assert_leads(&map, &path, &clear, &Point2::new(5.52, 4.72));
 }
 
-/// Fig. 4-13: a field gets out of it.
+/// Fig. 4-13: a field leads out of the bay.
 #[test]
 fn m3r_leaves_the_bay() {
     let (map, start, goal) = bay();
@@ -131,15 +131,15 @@ fn m3r_leaves_the_bay() {
         let found = field(&map, &goal, method);
         let inside = Point2::new(3.02, 2.52);
         for start in [start, inside] {
-            let way = found.descend(&map, &start).unwrap().unwrap();
-            assert_leads(&map, &way, &start, &goal);
-            // Around an end of the bay, which no line through it does.
-            assert!(way.points.iter().any(|point| (point.y - 2.5).abs() > 1.4));
+            let path = found.descend(&map, &start).unwrap().unwrap();
+            assert_leads(&map, &path, &start, &goal);
+            // Around an end of the bay, which no line through the bay does.
+            assert!(path.points.iter().any(|point| (point.y - 2.5).abs() > 1.4));
         }
     }
 }
 
-/// The potential is that of its definition: by the distances to all cells that are occupied.
+/// The potential has the values of its definition, computed from the distances to all occupied cells.
 #[test]
 fn a_potential_is_attraction_and_repulsion() {
     let map = random_map(17, 13, 0.1, 3);
@@ -169,9 +169,9 @@ fn a_potential_is_attraction_and_repulsion() {
     }
 }
 
-/// Fig. 4-14: ten starts of one field, among obstacles that are round, hollow and irregular.
+/// Fig. 4-14: ten starts in one field, among round, hollow and irregular obstacles.
 #[test]
-fn ten_starts_have_ways_in_one_field() {
+fn ten_starts_have_paths_in_one_field() {
     let polygon = |corners: &[(f64, f64)]| Shape::Polygon(corners.iter().map(|(x, y)| Point2::new(*x, *y)).collect());
     let obstacles = [
         Shape::Circle { centre: Point2::new(3.0, 7.0), radius: 0.8 },
@@ -189,22 +189,23 @@ fn ten_starts_have_ways_in_one_field() {
     for method in [Method::M3r, Method::FastMarching(1), Method::FastMarching(2)] {
         let found = field(&map, &goal, method);
         for start in &starts {
-            let way = found.descend(&map, start).unwrap().unwrap();
-            assert_leads(&map, &way, start, &goal);
+            let path = found.descend(&map, start).unwrap().unwrap();
+            assert_leads(&map, &path, start, &goal);
             let time = found.times()[map.cell_at(start).unwrap()];
-            assert!(way.length() >= (goal - start).norm() - 0.1 && time >= (goal - start).norm() - 0.2);
+            assert!(path.length() >= (goal - start).norm() - 0.1 && time >= (goal - start).norm() - 0.2);
         }
     }
 }
 
-/// RH0 (4-17) is said to approximate (4-11): it is the distance along rows and columns, up to sqrt(2) of the distance, however small the cells.
+/// The thesis presents RH0 (4-17) as an approximation of (4-11). In fact it is the distance along rows and columns: up to sqrt(2) times the distance, for cells
+/// of any size.
 #[test]
 fn m3r_does_not_converge() {
     let worst = |cells: usize| {
         let map = Map::new(cells, cells, 4.0 / cells as f64).unwrap();
         let goal = map.centre(0);
         let [along, near] = [Method::M3r, Method::FastMarching(2)].map(|method| field(&map, &goal, method));
-        // Away from the goal, where the second order is exact to its own error.
+        // Away from the goal, where the error of the second order applies.
         let far = (0..cells * cells).filter(|cell| (map.centre(*cell) - goal).norm() > 0.5);
         let ratio = |cell: usize| {
             let distance = (map.centre(cell) - goal).norm();

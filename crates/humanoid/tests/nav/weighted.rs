@@ -1,4 +1,4 @@
-//! Quickest ways beside Snell's law, solved by minimising over the points where borders are crossed.
+//! Quickest paths, compared with Snell's law, solved by minimisation over the points at which borders are crossed.
 
 use groebot_humanoid::nav::{Map, Path, Quickest, Shape};
 use groebot_humanoid::{ErrorKind, Watch};
@@ -14,7 +14,7 @@ fn quickest(map: &Map, start: Point2<f64>, goal: Point2<f64>) -> Quickest {
     found
 }
 
-/// The least of a convex function.
+/// The minimum of a convex function.
 fn least(low: f64, high: f64, of: &dyn Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (low, high);
     for _ in 0..200 {
@@ -24,29 +24,29 @@ fn least(low: f64, high: f64, of: &dyn Fn(f64) -> f64) -> f64 {
     of(low)
 }
 
-/// A floor of 4 m x 3 m in cells of 5 cm, left of x slow.
+/// A floor of 4 m x 3 m in cells of 5 cm, with a lower speed left of `x`.
 fn floor() -> Map {
     Map::new(80, 60, 0.05).unwrap()
 }
 
 #[test]
-fn two_half_planes_bend_a_way_by_snells_law() {
+fn two_half_planes_bend_a_path_by_snells_law() {
     for speed in [0.2, 0.5, 0.8, 3.0] {
         let map = floor().with_speed(&Shape::rectangle(Point2::new(0.0, 1.5), 4.0, 10.0, 0.0), speed).unwrap();
         for (start, goal) in [((0.33, 0.21), (3.71, 2.8)), ((1.9, 0.1), (2.6, 2.9)), ((0.5, 2.0), (3.5, 2.0))] {
             let time = |y: f64| (2.0f64 - start.0).hypot(y - start.1) / speed + (goal.0 - 2.0f64).hypot(goal.1 - y);
-            // A speed of the map is an f32.
+            // Speeds of the map are single precision.
             let expected = least(0.0, 3.0, &time);
             let found = quickest(&map, Point2::new(start.0, start.1), Point2::new(goal.0, goal.1));
             assert!((found.time / expected - 1.0).abs() < 1e-5, "{speed} {start:?}: {} {expected}", found.time);
-            // Where the way would run along the border, the layers do not tell as much.
+            // Where the path is along the border, the bound by layers is less tight.
             assert!(found.bound <= expected * (1.0 + 1e-6) && found.bound > 0.75 * expected, "{found:?} {expected}");
         }
     }
 }
 
 #[test]
-fn a_strip_bends_a_way_twice() {
+fn a_strip_bends_a_path_twice() {
     for speed in [0.3, 0.6, 2.5] {
         let map = floor().with_speed(&Shape::rectangle(Point2::new(2.0, 1.5), 1.0, 10.0, 0.0), speed).unwrap();
         for (start, goal) in [((0.2, 0.3), (3.8, 2.7)), ((1.0, 0.1), (3.0, 2.9))] {
@@ -61,7 +61,7 @@ fn a_strip_bends_a_way_twice() {
     }
 }
 
-/// A way by a fast road along the lower wall leaves and joins it at the critical angle: `sin a = v / v_road`.
+/// A path along a fast road at the lower wall leaves and enters it at the critical angle: `sin a = v / v_road`.
 #[test]
 fn a_road_is_worth_a_detour() {
     let map = floor().with_speed(&Shape::rectangle(Point2::new(2.0, 0.0), 10.0, 1.0, 0.0), 4.0).unwrap();
@@ -73,7 +73,7 @@ fn a_road_is_worth_a_detour() {
     assert!(found.time < 0.7 * width);
 }
 
-/// Without speeds the quickest way is the shortest one, and obstacles are respected with them.
+/// Without speeds the quickest path is the shortest one. With speeds it does not cross obstacles.
 #[test]
 fn no_obstacle_is_passed() {
     let mut numbers = Random(3);
@@ -102,11 +102,11 @@ fn no_obstacle_is_passed() {
     assert!(reached > 8);
 }
 
-fn samples_are_free(map: &Map, way: &Path) {
-    for pair in way.points.windows(2) {
+fn samples_are_free(map: &Map, path: &Path) {
+    for pair in path.points.windows(2) {
         for part in 0..=1000 {
             let own = map.in_map(&(pair[0] + (pair[1] - pair[0]) * (f64::from(part) / 1000.0)));
-            // On a border one of the cells beside is free.
+            // On a border at least one of the adjacent cells is free.
             let near = |x: f64| [(x - 1e-6).floor(), (x + 1e-6).floor()];
             let is_free = |x: f64, y: f64| {
                 let is_on = (0.0..map.columns() as f64).contains(&x) && (0.0..map.rows() as f64).contains(&y);
@@ -124,10 +124,10 @@ fn times_are_integrals_over_cells() {
     let time =
         |points: &[(f64, f64)]| Path { points: points.iter().map(|(x, y)| Point2::new(*x, *y)).collect() }.time(&map);
     assert_eq!(time(&[(0.0, 1.0), (6.0, 1.0)]), Some(2.0 / 0.5 + 4.0));
-    // Along the border of the slow cell the faster one counts.
+    // Along the border of the slow cell the higher speed counts.
     assert_eq!(time(&[(0.0, 2.0), (2.0, 2.0)]), Some(2.0));
     assert_eq!(time(&[(1.0, 1.0), (5.0, 3.0)]), None);
-    // It may touch an obstacle, but not slip between two.
+    // It may touch an obstacle, but not pass between two that meet at a corner.
     assert_eq!(time(&[(3.0, 2.0), (6.0, 2.0)]), Some(3.0));
     let pinched = Map::from_text("#.\n.#\n", 1.0).unwrap();
     let through = Path { points: vec![Point2::new(0.5, 0.5), Point2::new(1.5, 1.5)] };

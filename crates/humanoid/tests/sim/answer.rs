@@ -1,4 +1,4 @@
-//! `sim::Comparison` on answers that are made by hand.
+//! `sim::Comparison` with simulation results made by hand.
 
 use groebot_humanoid::ErrorKind;
 use groebot_humanoid::sim::{Comparison, Quantity};
@@ -10,7 +10,8 @@ fn pose(x: f64, y: f64, yaw: f64) -> Pose {
     Pose::from_parts(Translation3::new(x, y, 0.0), UnitQuaternion::from_axis_angle(&Vector3::z_axis(), yaw))
 }
 
-/// Two feet 0.2 m apart; the left one steps from the first to the third sample, `ahead` and turned. The ZMP is `aside` of the right foot.
+/// Two feet 0.2 m apart. The left one steps from the first to the third sample, by `ahead` and with a turn. The zero moment point (ZMP) is at `aside` of the
+/// right foot.
 fn walk(ahead: f64, aside: f64, knee: f64, torque: f64) -> Trajectory {
     let contact = |name: &str, poses: [Pose; 3], stands: [bool; 3]| Contact {
         name: name.to_owned(),
@@ -58,7 +59,7 @@ fn an_answer_is_seen_beside_its_plan() {
     near(knee.time, 0.1);
     near(knee.rms, (0.0004_f64 / 3.0).sqrt());
     near(knee.torque, 12.0);
-    // 10 N m on 500 N m/rad.
+    // 10 N m at a stiffness of 500 N m/rad.
     near(knee.sag.unwrap(), -0.02);
     near(knee.unpredicted.unwrap(), 0.0);
     near(compared.planned.ahead, 0.1);
@@ -67,14 +68,14 @@ fn an_answer_is_seen_beside_its_plan() {
     near(compared.off(), 0.02);
     assert_eq!(compared.landings, [1, 1]);
     near(compared.lift, 0.02);
-    // Seen from the left foot in the last sample the planned place is 0.2 m behind it, the answer's 0.16 m.
+    // Relative to the left foot in the last sample, the planned ZMP is 0.2 m behind it, and the simulated one 0.16 m.
     assert!(compared.zmp[0] > 0.03 && compared.zmp[1] < compared.zmp[0], "{:?}", compared.zmp);
     let picture = Quantity::Torque.picture(&plan, &answer, &[vec!["Knee".to_owned()], vec!["Neck".to_owned()]]);
     assert_eq!(picture.matches("class=\"right-path\"").count(), 3, "two lines and the legend's");
 }
 
 #[test]
-fn what_an_answer_lacks_is_told() {
+fn missing_tracks_are_reported() {
     let plan = walk(0.2, 0.0, 0.5, 10.0);
     let of = |answer: &Trajectory| Comparison::of(&plan, answer, 500.0).unwrap_err();
     let mut lame = plan.clone();

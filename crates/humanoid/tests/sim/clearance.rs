@@ -1,4 +1,4 @@
-//! Distances of links from furniture beside those of points along the axes of their capsules.
+//! Distances of links from furniture, compared with those of points along the axes of their capsules.
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::nav::Room;
@@ -10,7 +10,7 @@ use nalgebra::{Point2, Point3};
 use super::full_task::start_of;
 use super::{goal, run_in};
 
-/// An L, a box that is turned, and something low.
+/// An L-shaped piece, a rotated box, and a low one.
 const ROOM: &str = r#"
 size = [4.0, 3.0]
 wall = 0.05
@@ -32,7 +32,7 @@ at = [3.3, 2.5]
 height = 0.02
 "#;
 
-/// How far a point is from all that is over a polygon up to a height, by its sides one by one.
+/// The distance of a point from a prism over a polygon, computed side by side.
 fn from_prism(point: &Point3<f64>, corners: &[Point2<f64>], height: f64) -> f64 {
     let at = point.xy();
     let sides = || corners.iter().zip(corners.iter().cycle().skip(1));
@@ -90,20 +90,21 @@ fn distances_are_those_of_points_along_capsules() {
                 }
             }
         }
-        // Points along an axis are at most 1 mm from the nearest one of it, so their distances are too great by a few micrometres at most; parry's are good to 1e-7.
+        // Each axis point is at most 1 mm from the nearest sample point, so that the sampled distances are too great by at most a few micrometres. The error of
+        // parry3d is 1e-7.
         assert!(own.distance <= least + 1e-7 && own.distance >= least - 2e-5, "{own:?} {least}");
         assert!(own.sample == at || (own.distance - least).abs() < 2e-5, "{own:?} {at}");
         compared += 1;
     }
-    // Five links are capsules; two pieces have corners.
+    // Five links are capsules, and two pieces have corners.
     assert!(compared >= 10, "{compared}");
-    // Walls and the floor, which feet stand on, are there, too.
+    // The result includes walls, and the floor without the feet.
     assert!(found.iter().any(|own| own.thing == Thing::Wall));
     let floor: Vec<_> = found.iter().filter(|own| own.thing == Thing::Floor).collect();
     assert!(floor.len() >= 5 && floor.iter().all(|own| own.distance > 0.02), "{floor:?}");
 }
 
-/// Where a link stands in furniture the distance is nought, and no check holds.
+/// Where a link is inside furniture the distance is zero, and no check succeeds.
 #[test]
 fn what_meets_is_at_no_distance() {
     let watch = Watch::none();
@@ -116,6 +117,6 @@ fn what_meets_is_at_no_distance() {
     let links = Links::of(&robot, biped, &Meshes::default()).unwrap();
     let found = links.clearances(biped, &[posture], 7, &on_it, &watch).unwrap();
     assert!(found[0].distance == 0.0 && found[0].thing.to_string() == "box" && found[0].sample == 7);
-    // The box is 0.3 m high: the arms are over it.
+    // The box is 0.3 m high: the arms are above it.
     assert!(found.iter().any(|own| own.thing.to_string() == "box" && own.distance > 0.1));
 }

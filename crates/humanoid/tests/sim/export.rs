@@ -1,4 +1,4 @@
-//! Files of scenes by a reader that stands here; how other programs read them is tested in `viewer/tests/export.test.mjs`.
+//! Scene files, checked with a reader in this module. `viewer/tests/export.test.mjs` tests how other programs read them.
 
 use groebot_humanoid::ErrorKind;
 use groebot_humanoid::sim::export::{Body, Material, Node, Scene};
@@ -15,7 +15,7 @@ fn finger() -> Robot {
     Robot::from_urdf(FINGER).unwrap()
 }
 
-/// The finger's three joints that lead, and a base that goes far away and turns.
+/// The three leading joints of the finger, and a base that moves far away and rotates.
 fn tumble(away: f64) -> Trajectory {
     let samples = 12;
     let wave = |sample: usize, place: usize| (1.3 * sample as f64 + 2.1 * place as f64).sin();
@@ -32,7 +32,7 @@ fn tumble(away: f64) -> Trajectory {
     }
 }
 
-/// Where the tip is at a sample, with y up.
+/// The pose of the tip at a sample, with y up.
 fn tip(trajectory: &Trajectory, sample: usize) -> Pose {
     let chain = finger().chain(None, Some("tip")).unwrap();
     let mut q = [&trajectory.q[sample][..], &[0.0, 0.0]].concat();
@@ -41,7 +41,7 @@ fn tip(trajectory: &Trajectory, sample: usize) -> Pose {
     y_from_z * trajectory.base[sample] * chain.forward(&q).unwrap()
 }
 
-/// A file of glTF taken apart.
+/// The parts of a glTF file.
 struct Glb {
     json: Value,
     binary: Vec<u8>,
@@ -63,18 +63,18 @@ impl Glb {
         self.json[name].as_array().map_or(&[], Vec::as_slice)
     }
 
-    /// The rows of an accessor of singles.
+    /// The rows of an accessor of 32-bit floats.
     fn rows(&self, accessor: &Value) -> Vec<Vec<f64>> {
-        let told = &self.list("accessors")[accessor.as_u64().unwrap() as usize];
-        let view = &self.list("bufferViews")[told["bufferView"].as_u64().unwrap() as usize];
+        let object = &self.list("accessors")[accessor.as_u64().unwrap() as usize];
+        let view = &self.list("bufferViews")[object["bufferView"].as_u64().unwrap() as usize];
         let number = |of: &Value, key: &str| of[key].as_u64().unwrap() as usize;
-        let width = match told["type"].as_str().unwrap() {
+        let width = match object["type"].as_str().unwrap() {
             "SCALAR" => 1,
             kind => kind[3..].parse().unwrap(),
         };
         let from = number(view, "byteOffset");
         let bytes = &self.binary[from..from + number(view, "byteLength")];
-        assert_eq!((told["componentType"].as_u64(), bytes.len()), (Some(5126), 4 * width * number(told, "count")));
+        assert_eq!((object["componentType"].as_u64(), bytes.len()), (Some(5126), 4 * width * number(object, "count")));
         let single = |four: &[u8]| f64::from(f32::from_le_bytes(four.try_into().unwrap()));
         bytes.chunks(4 * width).map(|row| row.chunks(4).map(single).collect()).collect()
     }
@@ -99,7 +99,7 @@ impl Glb {
 
     fn own(&self, node: usize, sample: usize) -> Pose {
         let animation = &self.json["animations"][0];
-        let told = |path: &str, usual: &[f64]| -> Vec<f64> {
+        let field = |path: &str, usual: &[f64]| -> Vec<f64> {
             let channels = animation["channels"].as_array().into_iter().flatten();
             let mut own = channels.filter(|one| one["target"]["node"] == node && one["target"]["path"] == path);
             match (own.next(), &self.list("nodes")[node][path]) {
@@ -112,14 +112,14 @@ impl Glb {
                 (None, fixed) => serde_json::from_value(fixed.clone()).unwrap(),
             }
         };
-        let [at, turn] = [told("translation", &[0.0; 3]), told("rotation", &[0.0, 0.0, 0.0, 1.0])];
+        let [at, turn] = [field("translation", &[0.0; 3]), field("rotation", &[0.0, 0.0, 0.0, 1.0])];
         let turn = UnitQuaternion::from_quaternion(Quaternion::new(turn[3], turn[0], turn[1], turn[2]));
         Pose::from_parts(Translation3::new(at[0], at[1], at[2]), turn)
     }
 }
 
 #[test]
-fn links_of_glb_are_where_kinematics_says_near_and_far() {
+fn links_of_glb_agree_with_kinematics_near_and_far() {
     for away in [0.0, 30.0, 400.0] {
         let trajectory = tumble(away);
         let scene = Scene::of_robot(&finger(), None, Some(&trajectory)).unwrap();
@@ -149,11 +149,11 @@ fn glb_has_a_node_a_link_and_bounds_that_hold() {
     let mut seen = 0;
     for primitive in glb.list("meshes").iter().flat_map(|mesh| mesh["primitives"].as_array().unwrap()) {
         let points = glb.rows(&primitive["attributes"]["POSITION"]);
-        let told = &glb.list("accessors")[primitive["attributes"]["POSITION"].as_u64().unwrap() as usize];
+        let object = &glb.list("accessors")[primitive["attributes"]["POSITION"].as_u64().unwrap() as usize];
         for axis in 0..3 {
             let all = || points.iter().map(|point| point[axis]);
-            assert_eq!(told["min"][axis].as_f64(), all().reduce(f64::min));
-            assert_eq!(told["max"][axis].as_f64(), all().reduce(f64::max));
+            assert_eq!(object["min"][axis].as_f64(), all().reduce(f64::min));
+            assert_eq!(object["max"][axis].as_f64(), all().reduce(f64::max));
         }
         let normals = primitive["attributes"].get("NORMAL").map(|normals| glb.rows(normals));
         for normal in normals.iter().flatten() {
@@ -164,7 +164,7 @@ fn glb_has_a_node_a_link_and_bounds_that_hold() {
     assert!(seen > 20);
 }
 
-/// Triangles face outwards: what they enclose has a volume above zero, that of the body as far as it is round.
+/// Triangles face outwards: the enclosed volume is positive and equals that of the body, within the error of the approximation by flat faces.
 #[test]
 fn solids_are_closed() {
     let text = r#"<robot name="r"><link name="a"><visual><geometry><GEOMETRY/></geometry></visual></link></robot>"#;
@@ -213,7 +213,7 @@ fn names_become_legal_and_stay_apart() {
     }
     assert!(x3d.contains("<TimeSensor DEF='Clock_2'") && wrl.contains("ROUTE Clock_2.fraction_changed TO"));
     assert!(x3d.contains("title='it\\&apos;s &lt;a> \\\"scene\\\" &amp; more'"), "{x3d}");
-    // glTF takes them as they are.
+    // glTF uses them without change.
     let glb = Glb::of(&scene);
     assert!(glb.list("nodes").iter().zip(names).all(|(node, name)| node["name"] == name));
 }
@@ -254,7 +254,7 @@ fn what_cannot_be_shown_is_refused() {
     refused(&|own| own.nodes[1].turns.truncate(11), "node `palm`: it moves at another number of samples than 12");
     refused(&|own| own.times[3] = own.times[2], "sample 4: its time is not after the previous one");
     refused(&|own| own.times[0] = -1.0, "begin at zero");
-    // Singles are what glTF has, and it alone.
+    // Only glTF has 32-bit floats.
     let mut near = scene.clone();
     near.times.iter_mut().for_each(|time| *time = 1e6 + 1e-3 * *time);
     assert!(near.to_glb().unwrap_err().message().contains("single precision") && near.to_x3d().is_ok());
@@ -263,9 +263,9 @@ fn what_cannot_be_shown_is_refused() {
     assert!(large.to_glb().unwrap_err().message().contains("too large for single precision"));
 }
 
-/// What is not read of a mesh is told, and the rest is shown.
+/// A mesh that cannot be read is reported, and the rest is shown.
 #[test]
-fn a_mesh_that_is_missing_is_told() {
+fn a_missing_mesh_is_reported() {
     let text = r#"<robot name="r"><link name="a"><visual><geometry><mesh filename="package://r/gone.stl"/></geometry></visual></link>
         <link name="b"><visual><geometry><box size="1 1 1"/></geometry><material name="m"><color rgba="1 0 0 0.5"/></material></visual></link>
         <joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint></robot>"#;
@@ -300,7 +300,7 @@ fn meshes_are_put_in() {
     assert!(wrl.contains("coord Coordinate { point [ 0 0 0 1 0 0 0 0.5 0 ] }"), "{wrl}");
 }
 
-/// One sample, or the same one again and again, is a robot that stands.
+/// With one sample, or with identical samples, the robot does not move.
 #[test]
 fn what_does_not_move_has_no_clock() {
     let mut still = tumble(0.0);
@@ -337,7 +337,7 @@ mod vrml {
         let turn = UnitQuaternion::from_axis_angle(&-Vector3::x_axis(), angle);
         assert!((outer.pose.rotation.angle_to(&turn)) < 1e-12 && outer.scale == [0.001; 3] && outer.parts.is_empty());
         assert!(scene.to_wrl().unwrap().contains("geometry Box { size 0.02 0.25 0.02 }"));
-        // A whole file, its children in brackets, a remark and commas say the same.
+        // A complete file, with its children in brackets, a comment and commas, has equal meaning.
         let whole = FIGURE.replace("children DEF Shape Shape {", "children [ DEF Shape Shape { # the box");
         let whole = whole.replacen("    }\n}\n", "    }]\n}\n", 1).replace("0.8 0.8 0", "0.8, 0.8, 0");
         assert_eq!(Scene::from_vrml(&format!("#VRML V2.0 utf8\n{whole}")).unwrap(), scene);
@@ -347,8 +347,8 @@ mod vrml {
     fn children_hang_on_their_parents() {
         let text = "Transform { translation 1 0 0 children [ DEF a Transform { children Shape { geometry Box { } } } Transform { } ] } Shape { }";
         let scene = Scene::from_vrml(text).unwrap();
-        let told: Vec<_> = scene.nodes.iter().map(|node| (&node.name[..], node.parent, node.parts.len())).collect();
-        assert_eq!(told, [("Transform", None, 0), ("a", Some(0), 1), ("Transform", Some(0), 0), ("Shape", None, 0)]);
+        let nodes: Vec<_> = scene.nodes.iter().map(|node| (&node.name[..], node.parent, node.parts.len())).collect();
+        assert_eq!(nodes, [("Transform", None, 0), ("a", Some(0), 1), ("Transform", Some(0), 0), ("Shape", None, 0)]);
         assert!(scene.check().is_ok());
     }
 
@@ -366,7 +366,7 @@ mod vrml {
             (&deep, Unsupported, 1, "deeper than 64"),
             ("Transform {\ncenter 0 0 0 }", UnknownKey, 2, "Transform has no field `center` here"),
             ("Transform { scale 1 1 1\n scale 1 1 1 }", DuplicateName, 2, "`scale` is given twice"),
-            ("Transform {\ntranslation 1 2 }", Syntax, 2, "`}` is no number; give 3 here"),
+            ("Transform {\ntranslation 1 2 }", Syntax, 2, "`}` is not a number; give 3 here"),
             ("Transform { translation 1 nan 0 }", BadValue, 1, "give a finite number"),
             ("Transform { scale 1 0 1 }", BadValue, 1, "give a positive number"),
             ("Transform { rotation 0 0 0 1 }", BadValue, 1, "no direction"),
@@ -398,7 +398,7 @@ mod vrml {
         assert_eq!(Glb::of(&scene).list("nodes").len(), 90_000);
     }
 
-    /// Whatever is cut out of the figure, or put into it, is read or refused.
+    /// Any text removed from the figure, or inserted into it, is read or rejected.
     #[test]
     fn damaged_figures_do_no_harm() {
         for at in (0..FIGURE.len()).filter(|at| FIGURE.is_char_boundary(*at)) {

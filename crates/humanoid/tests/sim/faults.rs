@@ -1,4 +1,4 @@
-//! What is wrong with one part: refused where the part is used, a note elsewhere.
+//! A fault in one part is an error where the part is used, and a note elsewhere.
 
 use groebot_humanoid::sim::export::Scene;
 use groebot_humanoid::view::Page;
@@ -6,7 +6,7 @@ use groebot_robot::ErrorKind;
 use groebot_robot::dynamics::{Base, Equations, Model};
 use groebot_robot::model::{Part, Robot};
 
-/// An arm of two joints, and a camera on a branch of its own with `pan` and `cam` in place of its joint and link.
+/// An arm with two joints, and a camera on a separate branch, with `pan` and `cam` in place of its joint and link.
 fn robot(pan: &str, cam: &str) -> String {
     format!(
         "<robot name=\"arm\">\n<link name=\"base\"/>\n<link name=\"upper\"/>\n<link name=\"tip\"/>\n{cam}\n\
@@ -22,7 +22,7 @@ const PAN: &str = "<joint name=\"pan\" type=\"revolute\"><parent link=\"base\"/>
 const CAM: &str =
     "<link name=\"cam\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial></link>";
 
-/// Faults of the camera: what is replaced in its joint or link, and what is said about it.
+/// Faults of the camera: the replacement in its joint or link, and the message.
 const FAULTS: [(&str, &str, ErrorKind, &str); 15] = [
     (
         "lower=\"-1\"",
@@ -117,7 +117,7 @@ fn a_fault_in_the_chain_or_in_the_whole_robot_is_refused() {
     }
 }
 
-/// As urdfdom reads it; mani_skill's TriFinger is so described.
+/// As in urdfdom; mani_skill's TriFinger has such a description.
 #[test]
 fn of_two_inertials_the_first_is_taken() {
     let twice = CAM.replacen("</inertial>", "</inertial><inertial><mass value=\"7\"/></inertial>", 1);
@@ -136,7 +136,7 @@ fn faults_survive_what_makes_a_robot_of_another_one() {
     let read = Robot::from_urdf(&robot(&PAN.replace("upper=\"1\"", "upper=\"-9\""), CAM)).unwrap();
     let meant = read.as_meant().unwrap();
     assert_eq!(meant.faults(), read.faults());
-    // A joint that mimics itself follows nobody then; that it is at fault is not forgotten.
+    // A joint that mimics itself then follows no joint, and the fault remains recorded.
     let turned = PAN.replace("</joint>", "<mimic joint=\"pan\"/></joint>");
     let read = Robot::from_urdf(&robot(&turned, CAM)).unwrap();
     assert!(Robot::new(read.parts().clone()).is_err() && read.as_meant().unwrap().check().is_err());
@@ -149,10 +149,13 @@ fn each_part_has_its_fault_in_the_order_of_the_file() {
         .replace("0 0 1", "0 0 0")
         .replace("</joint>", "<mimic joint=\"gone\"/></joint>");
     let read = Robot::from_urdf(&robot(&pan, &CAM.replace("value=\"1\"", "value=\"much\""))).unwrap();
-    let told: Vec<String> = read.faults().iter().map(|fault| fault.error.to_string()).collect();
-    assert_eq!(told.len(), 3, "{told:?}");
-    assert!(told[0].starts_with("line 5: link `cam`") && told[1].starts_with("line 8: joint `pan`: axis"), "{told:?}");
-    assert!(told[2].contains("mimics `gone`"), "{told:?}");
+    let messages: Vec<String> = read.faults().iter().map(|fault| fault.error.to_string()).collect();
+    assert_eq!(messages.len(), 3, "{messages:?}");
+    assert!(
+        messages[0].starts_with("line 5: link `cam`") && messages[1].starts_with("line 8: joint `pan`: axis"),
+        "{messages:?}"
+    );
+    assert!(messages[2].contains("mimics `gone`"), "{messages:?}");
 }
 
 #[test]

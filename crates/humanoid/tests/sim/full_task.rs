@@ -1,4 +1,4 @@
-//! The full task of RH0 5.5: from the start of Fig. 5-25, when furniture has been moved, and out of the near-encirclement of Fig. 5-27.
+//! The full task of RH0 5.5: from the start of Fig. 5-25, with furniture that was moved, and out of the near-encirclement of Fig. 5-27.
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::gait::Footprint;
@@ -34,7 +34,7 @@ fn moved(name: &str, x: f64, y: f64, after: usize) -> Change {
     Change { after, what: What::Furniture(name.to_owned(), Some(Footprint { x, y, yaw: 0.0 })) }
 }
 
-/// All checks hold, and their figures are those that the thesis asks for.
+/// All checks succeed, and the figures are those that the thesis requires.
 fn is_done(checks: &Checks) {
     assert!(checks.hold(), "{:?} {:?}", checks.clearances.first(), checks.findings);
     assert!(
@@ -45,7 +45,7 @@ fn is_done(checks: &Checks) {
     assert!(checks.samples_per_step.0 == 81, "{:?}", checks.samples_per_step);
 }
 
-/// Before the sofa, looking at it.
+/// In front of the sofa, facing it.
 #[test]
 fn rh0_gets_to_the_sofa_past_a_piano_that_was_moved() {
     let room = known("living-room").with_moved("piano", Point2::new(2.6, 2.6), 0.4).unwrap();
@@ -53,16 +53,16 @@ fn rh0_gets_to_the_sofa_past_a_piano_that_was_moved() {
     is_done(&checks);
     let [left, right] = performed.walk.schedule.route.end();
     let at = left.middle(&right);
-    // Half a metre ahead is the sofa, 2 m by 0.9 m about (4, 0.7).
+    // The sofa, 2 m by 0.9 m about (4, 0.7), is half a metre in front.
     let ahead = at.point() + at.ahead() * 0.5;
     let inside = |at: Point2<f64>| (at.x - 4.0).abs() < 1.0 && (at.y - 0.7).abs() < 0.45;
     assert!(inside(ahead) && !inside(at.point()), "{at:?}");
     assert!(performed.stages.len() == 1 && performed.stages[0].course.path.points.len() > 2);
 }
 
-/// Furniture and goal change on the way; the way is found anew from where the robot is, and what held before does not count any more.
+/// Furniture and goal change during the walk. The path is computed anew from the robot's position, and earlier obstacles no longer count.
 #[test]
-fn what_changes_on_the_way_is_obeyed() {
+fn changes_during_the_walk_take_effect() {
     let room = known("living-room");
     let changes = [
         moved("chair", 3.1, 2.7, 6),
@@ -75,7 +75,7 @@ fn what_changes_on_the_way_is_obeyed() {
     assert_eq!(stages.iter().map(|stage| stage.steps).collect::<Vec<_>>(), [0, 6, 12]);
     assert!(stages[1].room.piece("chair").unwrap().place == Point2::new(3.1, 2.7));
     assert!(stages[2].room.piece("planetary ball").is_err() && stages[1].room.piece("planetary ball").is_ok());
-    // Where the robot rests is where the next way begins.
+    // The next path begins where the robot rests.
     for stage in &stages[1..] {
         let rest = performed.walk.schedule.route.rests[stage.steps];
         assert!((stage.course.path.points[0] - rest.point()).norm() < 1e-9);
@@ -83,7 +83,7 @@ fn what_changes_on_the_way_is_obeyed() {
     let [left, right] = performed.walk.schedule.route.end();
     let lamp = room.piece("lamp").unwrap().place;
     assert!((left.middle(&right).point() - lamp).norm() < 1.0);
-    // What was taken away is asked about only while it stood; the chair where it was and where it is.
+    // An object that was removed is checked only while it was present; the chair is checked at both positions.
     let ball = checks.clearances.iter().find(|own| own.thing.to_string() == "planetary ball").unwrap();
     assert!(ball.sample <= stages[2].first && checks.clearances.iter().any(|own| own.thing.to_string() == "chair"));
     let record = performed.record();
@@ -91,9 +91,9 @@ fn what_changes_on_the_way_is_obeyed() {
 }
 
 #[test]
-fn rh0_leaves_what_nearly_encloses_it_and_is_told_when_it_is_shut_in() {
+fn rh0_leaves_a_near_enclosure_and_a_full_one_is_reported() {
     let room = known("encirclement");
-    // Behind the fourth step the gap is closed.
+    // After the fourth step the gap is closed.
     let closed = [moved("chair", 1.6, 3.0, 4), moved("planetary ball", 1.6, 3.5, 4)];
     let blocked = does(&room, goal(7.0, 3.0).into(), &closed).unwrap_err();
     let [inside, outside] = [Point2::new(3.0, 3.0), Point2::new(7.0, 3.0)];

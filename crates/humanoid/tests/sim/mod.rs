@@ -1,4 +1,4 @@
-//! A run of the simulator: goal, furniture and figures change between two steps, and the next step obeys.
+//! A run of the simulator: goal, furniture and parameters change between two steps, and the next step takes them into account.
 
 mod answer;
 #[cfg(feature = "clearance")]
@@ -31,7 +31,7 @@ box = [0.3, 0.3]
 at = [3.6, 0.4]
 "#;
 
-/// How far bodies keep away from obstacles \[m\].
+/// The least distance of bodies from obstacles \[m\].
 const APART: f64 = 0.02;
 
 fn goal(x: f64, y: f64) -> Goal {
@@ -64,13 +64,13 @@ fn middle(walk: &Walk) -> Footprint {
     left.middle(&right)
 }
 
-/// The longest way from one rest of the feet to the next.
+/// The longest distance from one rest of the feet to the next.
 fn longest(walk: &Walk, from: usize) -> f64 {
     let rests = walk.schedule.route.rests[from..].windows(2);
     rests.map(|pair| (pair[1].point() - pair[0].point()).norm()).fold(0.0, f64::max)
 }
 
-/// No joint jumps, and none leaves its limits.
+/// Joints do not jump, and stay within their limits.
 fn is_one_motion(run: &Run) {
     let (walk, biped) = (run.walk(), &run.pilot().walker().biped);
     for pair in walk.motion.postures.windows(2) {
@@ -90,18 +90,18 @@ fn the_next_step_obeys_goal_furniture_and_figures() {
         assert!(matches!(run.step(&watch).unwrap(), Next::Step(samples) if !samples.is_empty()));
     }
     assert!((middle(run.walk()).y - 1.2).abs() < 1e-9 && longest(run.walk(), 0) > 0.1);
-    // A box on the way.
+    // A box on the path.
     let room = run.room().clone().with_moved("box", Point2::new(2.0, 1.2), 0.3).unwrap();
     run.refurnish(room, &watch).unwrap();
     assert!(run.course().as_ref().unwrap().path.length() > 3.0 - middle(run.walk()).x + 0.02);
-    // Steps half as long.
+    // Steps of half the length.
     let (samples, steps) = (run.set("Lp", 0.07, &watch).unwrap(), run.walk().schedule.route.steps.len());
     assert!(samples.end == run.walk().references.len() && run.pilot().reach().ahead <= 0.07);
     for _ in 0..4 {
         run.step(&watch).unwrap();
     }
     assert!(longest(run.walk(), steps + 1) < 0.08);
-    // The trunk lower, the foot, too; then another goal.
+    // A lower trunk and a lower foot lift, then another goal.
     let height = |run: &Run| run.walk().motion.postures.last().unwrap().world_from_torso.translation.z;
     let (before, own) = (height(&run), run.figures().values[4]);
     run.set("Hcm", own - 0.015, &watch).unwrap();
@@ -140,7 +140,7 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     assert!(run.room().pieces[0].place == Point2::new(3.6, 0.4) && arrive(&mut run) > 10);
 }
 
-/// Walled in it stands and says why; once the wall is away it goes on.
+/// If it is enclosed, the robot stops and reports the reason; when the wall is removed, it continues.
 #[test]
 fn a_run_that_is_walled_in_waits_until_it_is_not() {
     let watch = Watch::none();
@@ -155,13 +155,13 @@ fn a_run_that_is_walled_in_waits_until_it_is_not() {
     assert!(arrive(&mut run) > 10);
 }
 
-/// The figures of the thesis' sections are those of RH0's own gait, and NAO's and TEO's put into theirs change nothing.
+/// The parameters in the thesis' sections are those of RH0's own gait. Setting NAO's and TEO's own parameters changes nothing.
 #[test]
-fn figures_are_told_in_their_units() {
+fn figures_have_their_units() {
     let rh0 = run("rh0", (0.6, 1.2), (3.0, 1.2));
     let (own, thesis) = (rh0.figures().values, PRESETS[0].figures.values);
     for ((figure, own), thesis) in FIGURES.iter().zip(own).zip(thesis) {
-        // The height is the first of those that can be walked; the cadence is 1 / (81 * 0.036 s).
+        // The height is the first feasible one; the cadence is 1 / (81 * 0.036 s).
         let most = if figure.name == "Hcm" { 0.0031 } else { 1e-4 };
         assert!(own.is_nan() || (own - thesis).abs() <= most, "{figure:?}: {own} {thesis}");
     }

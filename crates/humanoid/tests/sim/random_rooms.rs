@@ -1,4 +1,5 @@
-//! Rooms from seeds: in each the robot does its task with all checks, or a search of its own over the places and headings of its footprint says that there is no way.
+//! Rooms from seeds. In each, the robot does its task with all checks. Otherwise an independent search over positions and headings of its footprint proves that
+//! no path exists.
 
 use std::collections::{BinaryHeap, HashSet};
 use std::f64::consts::TAU;
@@ -18,7 +19,7 @@ use super::{APART, goal, run_in};
 struct Random(u64);
 
 impl Random {
-    /// In \[low, high).
+    /// A random number in \[low, high).
     fn between(&mut self, low: f64, high: f64) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -28,7 +29,7 @@ impl Random {
     }
 }
 
-/// Four to eleven boxes, discs and corners on 5 to 8 m by 4 to 6 m.
+/// A room of 5 to 8 m by 4 to 6 m with four to eleven boxes, discs and polygons.
 fn room(random: &mut Random) -> Room {
     let size = [random.between(5.0, 8.0), random.between(4.0, 6.0)].map(|side| (20.0 * side).round() / 20.0);
     let piece = |count: usize, random: &mut Random| {
@@ -55,17 +56,18 @@ fn room(random: &mut Random) -> Room {
     Room { pieces, ..Room::from_toml(&format!("size = [{:?}, {:?}]\nwall = 0.1\n", size[0], size[1])).unwrap() }
 }
 
-/// A place where the robot has room however it is turned.
+/// A place at which the robot has room at every heading.
 fn place(random: &mut Random, room: &Room, free: &Map) -> Option<Point2<f64>> {
     let at = |random: &mut Random| Point2::new(random.between(0.0, room.size[0]), random.between(0.0, room.size[1]));
     (0..200).map(|_| at(random)).find(|at| free.cell_at(at).is_ok_and(|cell| free.is_free(cell)))
 }
 
-/// So many headings has the search.
+/// Number of headings in the search.
 const HEADINGS: usize = 16;
 
-/// Whether the footprint, body and soles side by side, gets from a place to another one: an A* over the middles of cells and headings, by steps to the eight cells around it and turns to the next heading.
-fn has_way(pilot: &Pilot, floor: &Floor, from: &Footprint, to: &Point2<f64>) -> bool {
+/// Whether a path exists for the footprint: body, and soles side by side. It is an A* search over the middles of cells and headings, with moves to the eight
+/// neighbouring cells and turns to the next heading.
+fn has_path(pilot: &Pilot, floor: &Floor, from: &Footprint, to: &Point2<f64>) -> bool {
     let map = floor.map();
     let [start, goal] = [from.point(), *to].map(|at| map.cell_at(&at).unwrap());
     let columns = map.columns();
@@ -98,13 +100,13 @@ fn has_way(pilot: &Pilot, floor: &Floor, from: &Footprint, to: &Point2<f64>) -> 
         };
         go(cell, (turned + 1) % HEADINGS, 0.5);
         go(cell, (turned + HEADINGS - 1) % HEADINGS, 0.5);
-        for way in [(0, 1), (1, 0), (1, 1), (1, -1), (0, -1), (-1, 0), (-1, -1), (-1, 1)] {
-            let at = Vector2::new(column as i64 + way.1, row as i64 + way.0);
+        for offset in [(0, 1), (1, 0), (1, 1), (1, -1), (0, -1), (-1, 0), (-1, -1), (-1, 1)] {
+            let at = Vector2::new(column as i64 + offset.1, row as i64 + offset.0);
             if at.x >= 0 && at.y >= 0 && at.x < columns as i64 && at.y < map.rows() as i64 {
                 go(
                     at.y as usize * columns + at.x as usize,
                     turned,
-                    f64::from(way.0 as i32).hypot(f64::from(way.1 as i32)),
+                    f64::from(offset.0 as i32).hypot(f64::from(offset.1 as i32)),
                 );
             }
         }
@@ -112,7 +114,7 @@ fn has_way(pilot: &Pilot, floor: &Floor, from: &Footprint, to: &Point2<f64>) -> 
     false
 }
 
-/// What came of a room, as a line of the record; `None` where it has no two places for the robot.
+/// The result for a room, as a line of the record. `None` if it has no two places for the robot.
 fn outcome(seed: u64) -> Option<(bool, String)> {
     let watch = Watch::none();
     let mut random = Random(seed);
@@ -150,14 +152,14 @@ fn outcome(seed: u64) -> Option<(bool, String)> {
             );
             (checks.hold(), format!("solved,{line}"))
         }
-        Ok(Err(_)) => (!has_way(&pilot, &floor, &start, &to), "enclosed,,,,,".to_owned()),
+        Ok(Err(_)) => (!has_path(&pilot, &floor, &start, &to), "enclosed,,,,,".to_owned()),
         Err(error) => {
-            (!has_way(&pilot, &floor, &start, &to), format!("no steps,,,,,{}", error.message().replace(',', ";")))
+            (!has_path(&pilot, &floor, &start, &to), format!("no steps,,,,,{}", error.message().replace(',', ";")))
         }
     })
 }
 
-/// How many rooms of some seeds are solved; what came of each is told as soon as it is known.
+/// Number of solved rooms for a range of seeds; each result is printed when it is known.
 fn tried(seeds: std::ops::Range<u64>) -> usize {
     let (mut solved, mut failed) = (0, Vec::new());
     for seed in seeds {

@@ -1,4 +1,4 @@
-//! Goal and obstacles that change on the way, RH0 5.4.3.
+//! Goals and obstacles that change during the walk, RH0 5.4.3.
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::gait::{Footprint, Walk};
@@ -24,14 +24,14 @@ fn the_next_step_obeys_a_new_obstacle_and_a_new_goal() {
         assert!(journey.step(&floors[0], &course, &watch).unwrap());
     }
     let changed = journey.walk().references.len();
-    // Straight ahead until then.
+    // Until then straight forward.
     assert!((journey.middle().y - 1.0).abs() < 1e-9 && journey.middle().x > start.x + 1.5 * pilot.reach().ahead);
     journey.turn_to_new_course();
     let course = Course::find(&pilot, &floors[1], &journey.middle(), first, Method::M3r, &watch).unwrap().unwrap();
     for _ in 0..6 {
         let before = journey.middle();
         assert!(journey.step(&floors[1], &course, &watch).unwrap());
-        // It never turns back to where the course begins.
+        // It never returns to the start of the course.
         assert!(journey.middle().x > before.x - 0.02);
     }
     journey.turn_to_new_course();
@@ -44,7 +44,7 @@ fn the_next_step_obeys_a_new_obstacle_and_a_new_goal() {
     keeps_away(&robot, &pilot, &walk, &after, changed - 1..walk.references.len());
 }
 
-/// Shorter and lower steps with the trunk lower, from the fourth on.
+/// Shorter and lower steps with a lower trunk, from the fourth step on.
 #[test]
 fn the_next_step_obeys_other_figures_of_the_gait() {
     let (robot, own) = pilot("rh0");

@@ -1,4 +1,4 @@
-//! Walks around obstacles, of known robots by all methods, and through a passage in which they cannot turn.
+//! Walks around obstacles, by known robots with all methods, and through a passage in which they cannot turn.
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::gait::Footprint;
@@ -21,7 +21,7 @@ fn rh0_walks_around_a_wall() {
         is_walked(&pilot, &found.walk);
         keeps_away(&robot, &pilot, &found.walk, &map, 0..found.walk.references.len());
         lengths.push(found.course.path.length());
-        // As long as steps are, no fewer lead there; turning on the spot takes some more.
+        // At least the path length divided by the step length; turns on the spot need some more.
         let least = (lengths[lengths.len() - 1] / pilot.reach().ahead) as usize;
         let steps = found.walk.schedule.route.steps.len();
         assert!(steps >= least && steps < 2 * least + 30, "{steps} {least}");
@@ -44,7 +44,7 @@ fn other_robots_walk_there_too() {
     }
 }
 
-/// The passage is wide enough to walk through, not to turn in.
+/// The passage is wide enough to walk through, but not to turn in it.
 #[test]
 fn rh0_walks_through_a_passage_in_which_it_cannot_turn() {
     let (robot, pilot) = pilot("rh0");
@@ -69,7 +69,8 @@ at = [1.35, 1.4]
     keeps_away(&robot, &pilot, &found.walk, &map, 0..found.walk.references.len());
 }
 
-/// A course that was made by hand leads along a box where soles have room and the body has not: as far as the robot gets, it leaves it, and where it does not get on it says why.
+/// A course made by hand leads along a box, with room for soles but not for the body. The robot keeps its distance from the box. Where it cannot continue, the
+/// error has the reason.
 #[test]
 fn a_body_keeps_away_where_its_course_does_not() {
     let (robot, pilot) = pilot("rh0");
@@ -97,6 +98,6 @@ fn a_body_keeps_away_where_its_course_does_not() {
     let walk = journey.walk();
     is_walked(&pilot, walk);
     keeps_away(&robot, &pilot, walk, &map, 0..walk.references.len());
-    // It passed by the near side of the box.
+    // It passed the near side of the box.
     assert!(walk.schedule.route.rests.iter().any(|rest| rest.x > 1.2 && rest.y > 1.02));
 }

@@ -1,4 +1,4 @@
-//! The room with furniture of RH0 5.4: global (Fig. 5-25, 5-26), nearly enclosed (5-27), local (5-29), and walled in.
+//! The furnished room of RH0 5.4: global (Fig. 5-25, 5-26), nearly enclosed (5-27), local (5-29), and completely enclosed.
 
 use std::fs::read_to_string;
 use std::path::Path;
@@ -16,7 +16,7 @@ fn living_room() -> Room {
     Room::from_toml(&read_to_string(file).unwrap()).unwrap()
 }
 
-/// Fig. 5-27: the furniture stands around the robot but for one gap, away from the goal.
+/// Fig. 5-27: the furniture is around the robot with one gap, on the side away from the goal.
 fn encirclement() -> Room {
     let places = [
         ("sofa", 3.0, 1.6),
@@ -49,13 +49,13 @@ fn rh0_leaves_what_nearly_encloses_it() {
     let (robot, pilot) = pilot("rh0");
     let map = encirclement().map().unwrap();
     let goal = goal(7.0, 3.0, None);
-    // A potential field is stuck within: its force leads to the piano.
+    // The descent of a potential field ends inside: its force points to the piano.
     let grown = map.grown(pilot.radius()).unwrap();
     let potential = Potential::new(&grown, &goal.place, &Forces::default()).unwrap();
     let stuck = potential.descend(&grown, &INSIDE.point()).unwrap().unwrap_err();
     assert!((stuck.place - INSIDE.point()).norm() < 1.2, "{stuck}");
     let found = super::plan(&pilot, &map, INSIDE, goal, task::Method::Exact);
-    // Out on the left, and around.
+    // The path leaves on the left and goes around.
     let leftmost = found.course.path.points.iter().map(|point| point.x).fold(f64::INFINITY, f64::min);
     assert!(found.course.is_wide && leftmost < 1.35 && found.course.path.length() > 8.0);
     arrives(&pilot, &found.walk, &goal);
@@ -64,7 +64,7 @@ fn rh0_leaves_what_nearly_encloses_it() {
 }
 
 #[test]
-fn rh0_walled_in_by_furniture_is_told_so() {
+fn an_enclosure_of_rh0_by_furniture_is_reported() {
     let (_, pilot) = pilot("rh0");
     let room = encirclement().with_moved("chair", Point2::new(1.6, 3.0), 0.0).unwrap();
     let map = room.with_moved("planetary ball", Point2::new(1.6, 3.5), 0.0).unwrap().map().unwrap();
@@ -76,7 +76,7 @@ fn rh0_walled_in_by_furniture_is_told_so() {
     assert!(blocked.enclosure.parts(&blocked.map, inside, outside));
 }
 
-/// Fig. 5-29: what is near changes, and the field is marched again in part, or in a window alone.
+/// Fig. 5-29: nearby obstacles change, and the field is updated incrementally, or only in a window.
 #[test]
 fn a_field_follows_a_chair_that_is_moved() {
     let (_, pilot) = pilot("rh0");
@@ -92,11 +92,11 @@ fn a_field_follows_a_chair_that_is_moved() {
         let off = |(a, b): (&f64, &f64)| if a == b { 0.0 } else { (a - b).abs() };
         assert!(again.field.times().iter().zip(anew.times()).map(off).all(|off| off < 1e-9));
         assert!(again.marched < anew.times().iter().filter(|time| time.is_finite()).count());
-        // In a window about the robot the way down leads around the chair.
+        // In a window around the robot the descent leads around the chair.
         let window = Window { columns: 20..75, rows: 30..85 };
         let local = field.within(&after, &window, &watch).unwrap();
-        let way = local.descend(&after, &Point2::new(1.3, 2.8)).unwrap().unwrap();
-        assert!(way.points.iter().all(|point| after.is_free(after.cell_at(point).unwrap())));
-        assert!((way.points[way.points.len() - 1] - goals[0]).norm() < 0.06);
+        let path = local.descend(&after, &Point2::new(1.3, 2.8)).unwrap().unwrap();
+        assert!(path.points.iter().all(|point| after.is_free(after.cell_at(point).unwrap())));
+        assert!((path.points[path.points.len() - 1] - goals[0]).norm() < 0.06);
     }
 }

@@ -1,5 +1,5 @@
-//! The whole task: from a map to joint angles. Every walk is looked at again by other means: points all over soles and bodies beside the cells of the map that is not grown, soles by forward
-//! kinematics, the balance of the walk as a whole.
+//! The whole task: from a map to joint angles. Every walk is verified independently: sample points of soles and bodies against the cells of the original map,
+//! soles by forward kinematics, and the balance (ZMP) of the walk as a whole.
 
 mod changes;
 mod journeys;
@@ -15,7 +15,7 @@ use groebot_robot::model::{Meshes, Robot, Solid};
 use groebot_robot::robots::{self};
 use nalgebra::{Point2, Point3};
 
-/// Two walls to walk around.
+/// Two walls between start and goal.
 const ROOM: &str = r#"
 size = [3.6, 2.6]
 wall = 0.05
@@ -25,7 +25,7 @@ box = [0.1, 1.5]
 at = [1.6, 0.8]
 "#;
 
-/// How far bodies keep away from obstacles \[m\].
+/// The least distance of bodies from obstacles \[m\].
 const APART: f64 = 0.02;
 
 fn room(text: &str) -> Map {
@@ -62,7 +62,7 @@ fn arrives(pilot: &Pilot, walk: &Walk, goal: &Goal) {
     assert!((left.yaw - right.yaw).abs() < 1e-9);
 }
 
-/// Joints within their limits and speeds, soles where forward kinematics has them, and the zero moment point of the walk as a whole within its margin.
+/// Joints are within their limits and rates, soles agree with forward kinematics, and the zero moment point of the whole walk is within its margin.
 fn is_walked(pilot: &Pilot, walk: &Walk) {
     let biped = &pilot.walker().biped;
     let tick = walk.schedule.tick;
@@ -78,21 +78,21 @@ fn is_walked(pilot: &Pilot, walk: &Walk) {
         for side in [Side::Left, Side::Right] {
             let foot = &biped.feet[side as usize];
             let sole = placed.motion(foot.body) * foot.torso_from_sole;
-            let asked = walk.references[sample].world_from_soles[side as usize];
-            assert!((sole.to_homogeneous() - asked.to_homogeneous()).norm() < 1e-6, "{sample}");
+            let reference = walk.references[sample].world_from_soles[side as usize];
+            assert!((sole.to_homogeneous() - reference.to_homogeneous()).norm() < 1e-6, "{sample}");
         }
     }
     let again = balance(biped, &walk.references, &walk.motion, tick).unwrap();
     let least = again.iter().map(|own| own.margin).fold(f64::INFINITY, f64::min);
     assert!(least >= walk.request.margin - 1e-4, "{least}");
     for pair in walk.schedule.route.rests.windows(2) {
-        // A turn moves the middle of the feet, too.
+        // A turn also moves the middle of the feet.
         let most = pilot.reach().ahead + pilot.half_width() * pilot.reach().turn;
         assert!((pair[1].point() - pair[0].point()).norm() <= most + 1e-9);
     }
 }
 
-/// Points all over soles and bodies keep away from the cells of a map that are not free, at every fourth sample from one to another one.
+/// Sample points of soles and bodies keep their distance from cells that are not free, at every fourth sample of a range.
 fn keeps_away(robot: &Robot, pilot: &Pilot, walk: &Walk, map: &Map, samples: std::ops::Range<usize>) {
     let biped = &pilot.walker().biped;
     let soles = [biped.feet[0].body, biped.feet[1].body];
@@ -139,7 +139,7 @@ fn capsules(robot: &Robot, pilot: &Pilot, soles: &[usize; 2]) -> Vec<(usize, [Po
     shapes.filter_map(capsule).collect()
 }
 
-/// How far a place is from the nearest cell that is not free, as far as `most`.
+/// The distance of a place from the nearest cell that is not free, at most `most`.
 fn nearest(map: &Map, at: &Point2<f64>, most: f64) -> f64 {
     let own = map.in_map(at);
     let reach = most / map.resolution() + 1.0;

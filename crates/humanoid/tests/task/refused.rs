@@ -1,4 +1,4 @@
-//! What has no way, and bad input.
+//! Goals without a path, and invalid input.
 
 use groebot_humanoid::gait::Footprint;
 use groebot_humanoid::nav::Map;
@@ -9,7 +9,7 @@ use nalgebra::Point2;
 use super::{APART, ROOM, goal, pilot, room};
 
 #[test]
-fn a_robot_that_is_walled_in_is_told_by_what() {
+fn the_enclosure_of_a_robot_is_reported() {
     let (_, pilot) = pilot("rh0");
     // The gap beside the wall is narrower than the robot's core.
     let map = room(&ROOM.replace("box = [0.1, 1.5]", "box = [0.1, 2.4]").replace("at = [1.6, 0.8]", "at = [1.6, 1.2]"));
@@ -24,7 +24,7 @@ fn a_robot_that_is_walled_in_is_told_by_what() {
         let [inside, outside] = if blocked.enclosure.cells.contains(&ends[0]) { ends } else { [ends[1], ends[0]] };
         assert!(blocked.enclosure.parts(&blocked.map, inside, outside));
         assert!(blocked.to_string().starts_with("there is no path: "), "{blocked}");
-        // Its cells are those where the core's middle may be: all others are nearer to an obstacle.
+        // Its cells are the possible positions of the core's middle: all others are nearer to an obstacle.
         let clearances = map.clearances();
         let half_cell = map.resolution() * std::f64::consts::FRAC_1_SQRT_2;
         let holds = |cell: usize| clearances[cell] >= pilot.core() + APART - half_cell;
@@ -71,9 +71,9 @@ fn bad_input_is_refused() {
     assert!(error.kind() == ErrorKind::Unsupported && error.message().contains("one step goal"), "{error}");
 }
 
-/// A body that is wider than every passage gets nowhere, and is told so; on a floor without walls it does not step off the map.
+/// For a body wider than every passage no path exists, which is reported. On a floor without walls it does not leave the map.
 #[test]
-fn a_body_wider_than_every_passage_gets_nowhere() {
+fn a_body_wider_than_every_passage_has_no_path() {
     let walker =
         groebot_humanoid::walkers::walker("rh0", groebot_humanoid::walkers::Outline::Measured).unwrap().unwrap();
     let usual = walker.gaits[0].1.clone();

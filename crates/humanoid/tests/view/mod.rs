@@ -1,4 +1,4 @@
-//! The data of a page against what they were made of; how the page shows them is tested in Chromium: `viewer/tests`.
+//! The data of a page compared with their sources. Tests in Chromium (`viewer/tests`) check how the page shows them.
 
 use groebot_humanoid::ErrorKind;
 use groebot_humanoid::view::{Page, RunRequest, Sole, WalkRecord};
@@ -24,7 +24,7 @@ fn track(name: &str, slides: bool) -> JointTrack {
     JointTrack { name: name.to_owned(), slides, limits: None, speed: None }
 }
 
-/// Three samples; the feet stand one after the other.
+/// Three samples in which the feet support one after the other.
 fn motion() -> Trajectory {
     let sole = |name: &str, y: f64, stands: [bool; 3]| {
         let pose =
@@ -52,7 +52,7 @@ fn data(page: &Page) -> Value {
     serde_json::from_str(&page.data()).unwrap()
 }
 
-/// The doubles of a packed text: zlib in base64, of all first bytes, then all second ones and so on.
+/// The doubles of a packed text: zlib in base64, first all first bytes, then all second ones and so on.
 fn doubles(text: &Value) -> Vec<f64> {
     let digit = |letter: u8| match letter {
         b'A'..=b'Z' => letter - b'A',
@@ -74,8 +74,8 @@ fn doubles(text: &Value) -> Vec<f64> {
 
 #[test]
 fn joints_stand_with_frames_axes_limits_and_leaders() {
-    let told = data(&Page::of_robot(&arm(), None).unwrap());
-    let joints = told["robot"]["joints"].as_array().unwrap();
+    let page_data = data(&Page::of_robot(&arm(), None).unwrap());
+    let joints = page_data["robot"]["joints"].as_array().unwrap();
     let (sine, cosine) = 0.5f64.sin_cos();
     let origin: Vec<f64> = serde_json::from_value(joints[0]["origin"].clone()).unwrap();
     let expected = [cosine, -sine, 0.0, 0.1, sine, cosine, 0.0, 0.2, 0.0, 0.0, 1.0, 0.3];
@@ -85,43 +85,43 @@ fn joints_stand_with_frames_axes_limits_and_leaders() {
     assert_eq!((&joints[0]["kind"], &joints[1]["limits"]), (&json!("continuous"), &json!([0.0, 0.5])));
     assert_eq!(joints[2]["follows"], json!({ "joint": 0, "factor": 2.0, "offset": 0.25 }));
     assert_eq!((&joints[2]["parent"], &joints[2]["child"]), (&json!(2), &json!(3)));
-    assert!(joints[0].get("follows").is_none() && told.get("motion").is_none());
+    assert!(joints[0].get("follows").is_none() && page_data.get("motion").is_none());
 }
 
 #[test]
 fn numbers_are_exact_and_what_does_not_change_stands_once() {
     let page = Page::of_robot(&arm(), None).unwrap().with_motion(&motion(), None, &soles()).unwrap();
-    let told = &data(&page)["motion"];
-    assert_eq!(doubles(&told["times"]), [0.0, 0.1, 0.3]);
-    assert_eq!((&told["joints"], &told["q"][0]), (&json!([1, 0]), &json!(0.2)));
-    assert_eq!(doubles(&told["q"][1]), [1.0 / 3.0, -1e-300, 2.0]);
-    assert_eq!(doubles(&told["figures"][0]["values"]), [0.1, 0.2, 0.3]);
-    // A negative zero is another number, and stays one.
-    assert!(told["points"][0]["at"][1].as_f64().unwrap().is_sign_negative());
-    assert_eq!((&told["contacts"][0]["stands"], told.get("base")), (&json!("110"), None));
-    assert_eq!(told["contacts"][1]["outline"].as_array().unwrap().len(), 4);
+    let page_data = &data(&page)["motion"];
+    assert_eq!(doubles(&page_data["times"]), [0.0, 0.1, 0.3]);
+    assert_eq!((&page_data["joints"], &page_data["q"][0]), (&json!([1, 0]), &json!(0.2)));
+    assert_eq!(doubles(&page_data["q"][1]), [1.0 / 3.0, -1e-300, 2.0]);
+    assert_eq!(doubles(&page_data["figures"][0]["values"]), [0.1, 0.2, 0.3]);
+    // A negative zero is preserved.
+    assert!(page_data["points"][0]["at"][1].as_f64().unwrap().is_sign_negative());
+    assert_eq!((&page_data["contacts"][0]["stands"], page_data.get("base")), (&json!("110"), None));
+    assert_eq!(page_data["contacts"][1]["outline"].as_array().unwrap().len(), 4);
 }
 
 #[test]
 fn support_is_the_hull_of_the_soles_that_stand() {
     let page = Page::of_robot(&arm(), None).unwrap().with_motion(&motion(), None, &soles()).unwrap();
-    let told = &data(&page)["motion"]["support"];
-    assert_eq!((doubles(&told["starts"]), doubles(&told["counts"])), (vec![0.0, 2.0], vec![6.0, 4.0]));
-    let corners = doubles(&told["corners"]);
-    // The right sole alone: its corners turned by 0.3 rad about (1, -0.1).
+    let page_data = &data(&page)["motion"]["support"];
+    assert_eq!((doubles(&page_data["starts"]), doubles(&page_data["counts"])), (vec![0.0, 2.0], vec![6.0, 4.0]));
+    let corners = doubles(&page_data["corners"]);
+    // The right sole alone: its corners rotated by 0.3 rad about (1, -0.1).
     let (sine, cosine) = 0.3f64.sin_cos();
     for (x, y) in [(0.1, 0.05), (-0.1, 0.05), (-0.1, -0.05), (0.1, -0.05)] {
         let (x, y) = (1.0 + cosine * x - sine * y, -0.1 + sine * x + cosine * y);
         let is_there = corners[12..].chunks(2).any(|corner| (corner[0] - x).hypot(corner[1] - y) < 1e-15);
         assert!(is_there, "({x}, {y}) is not in {corners:?}");
     }
-    // Outlines are not known: no polygon.
+    // If outlines are not known, there is no polygon.
     let page = Page::of_robot(&arm(), None).unwrap().with_motion(&motion(), None, &soles()[..1]).unwrap();
     assert!(data(&page)["motion"].get("support").is_none());
 }
 
 #[test]
-fn a_walks_record_tells_polygons_soles_steps_and_phases() {
+fn a_walks_record_has_polygons_soles_steps_and_phases() {
     let right = json!([[1.1, -0.2], [1.1, 0.0], [0.9, 0.0], [0.9, -0.2]]);
     let both = json!([[1.1, -0.2], [1.1, 0.2], [0.9, 0.2], [0.9, -0.2]]);
     let record = json!({ "walk": {
@@ -133,18 +133,18 @@ fn a_walks_record_tells_polygons_soles_steps_and_phases() {
     }});
     let record = WalkRecord::from_json(&record.to_string()).unwrap().unwrap();
     let page = Page::of_robot(&arm(), None).unwrap().with_motion(&motion(), Some(&record), &[]).unwrap();
-    let told = &data(&page)["motion"];
-    assert_eq!(doubles(&told["support"]["starts"]), [0.0, 2.0]);
-    assert_eq!(doubles(&told["support"]["corners"])[8..], [1.1, -0.2, 1.1, 0.0, 0.9, 0.0, 0.9, -0.2]);
-    assert_eq!(told["steps"].as_array().unwrap().len(), 3);
-    assert_eq!(told["steps"][2], json!({ "foot": "left", "x": 1.0, "y": 0.1, "yaw": 0.3 }));
-    assert_eq!(told["phases"], json!([{ "action": "swing", "step": 1, "from": 0.0, "to": 0.3 }]));
-    // The right foot stands alone at the last sample: back in its frame the polygon is its sole.
-    let corner = &told["contacts"][1]["outline"][0];
+    let page_data = &data(&page)["motion"];
+    assert_eq!(doubles(&page_data["support"]["starts"]), [0.0, 2.0]);
+    assert_eq!(doubles(&page_data["support"]["corners"])[8..], [1.1, -0.2, 1.1, 0.0, 0.9, 0.0, 0.9, -0.2]);
+    assert_eq!(page_data["steps"].as_array().unwrap().len(), 3);
+    assert_eq!(page_data["steps"][2], json!({ "foot": "left", "x": 1.0, "y": 0.1, "yaw": 0.3 }));
+    assert_eq!(page_data["phases"], json!([{ "action": "swing", "step": 1, "from": 0.0, "to": 0.3 }]));
+    // The right foot supports alone at the last sample: in its frame the polygon is its sole.
+    let corner = &page_data["contacts"][1]["outline"][0];
     let (x, y) = (corner[0].as_f64().unwrap(), corner[1].as_f64().unwrap());
     let (sine, cosine) = 0.3f64.sin_cos();
     assert!((x - (0.1 * cosine - 0.1 * sine)).abs() < 1e-15 && (y - (-0.1 * sine - 0.1 * cosine)).abs() < 1e-15);
-    assert!(told["contacts"][0].get("outline").is_none());
+    assert!(page_data["contacts"][0].get("outline").is_none());
 
     assert!(WalkRecord::from_json("{}").unwrap().is_none());
     assert_eq!(WalkRecord::from_json(r#"{"walk": {"support": 3}}"#).unwrap_err().kind(), ErrorKind::Syntax);
@@ -194,17 +194,17 @@ fn shapes_are_what_is_seen_else_what_collides() {
         shape("collision", bar)
     );
     let robot = Robot::from_urdf(&text).unwrap();
-    let told = data(&Page::of_robot(&robot, None).unwrap());
+    let page_data = data(&Page::of_robot(&robot, None).unwrap());
     let kinds = ["a", "b"].map(|name| {
-        let links = told["robot"]["links"].as_array().unwrap();
+        let links = page_data["robot"]["links"].as_array().unwrap();
         links.iter().find(|link| link["name"] == name).unwrap()["shapes"][0].clone()
     });
     assert_eq!((&kinds[0]["kind"], &kinds[0]["radius"]), (&json!("sphere"), &json!(0.1)));
     assert_eq!((&kinds[1]["kind"], &kinds[1]["size"]), (&json!("box"), &json!([1.0, 2.0, 3.0])));
     assert_eq!(kinds[1]["pose"][11], json!(1.0));
-    // The mesh is asked for, and lost.
-    let told = data(&Page::of_robot(&robot, Some(&Meshes::default())).unwrap());
-    assert!(told["robot"]["notes"][0].as_str().unwrap().contains("`lost.stl` is not found"), "{told}");
+    // The mesh is requested, but missing.
+    let page_data = data(&Page::of_robot(&robot, Some(&Meshes::default())).unwrap());
+    assert!(page_data["robot"]["notes"][0].as_str().unwrap().contains("`lost.stl` is not found"), "{page_data}");
 }
 
 #[test]
@@ -216,20 +216,20 @@ fn the_page_is_one_file_that_its_data_cannot_end() {
     assert!(html.contains("<title>{{data}} &amp; {{script}} &lt;b></title>"));
     assert_eq!(html.matches("</script>").count(), 2);
     assert!(html.contains("default-src 'none'") && html.trim_end().ends_with("</html>"));
-    // What is bundled stands in the page with its licence.
+    // Bundled code is in the page with its licence.
     assert!(html.contains("three.js authors") && html.contains("Permission is hereby granted, free of charge"));
     assert!(html.len() < 800_000, "{}", html.len());
 }
 
-/// The frames and axes of a chain's page, multiplied in turn by Rodrigues' formula, against the chain's own product of exponentials.
+/// The frames and axes of a chain's page, composed with Rodrigues' formula, agree with the chain's own product of exponentials.
 #[test]
 fn a_chain_stands_with_its_axes_in_turn() {
     for name in ["ur5", "puma", "rrp", "nao_left_leg"] {
         let folder = std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("derivations").join(name);
         let chain = Chain::read(&folder.join("0_chain.toml")).unwrap();
-        let told = data(&Page::of_chain(&chain, "{}".to_owned(), Some("abc")));
+        let page_data = data(&Page::of_chain(&chain, "{}".to_owned(), Some("abc")));
         let metres = chain.length_unit().metres();
-        let limb = &told["limbs"][0];
+        let limb = &page_data["limbs"][0];
         // The SHA-256 of "abc": FIPS 180-4, appendix B.1.
         assert_eq!(limb["certificate"], "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
         assert_eq!(limb["metres"], metres);
@@ -237,7 +237,7 @@ fn a_chain_stands_with_its_axes_in_turn() {
             let q: Vec<f64> =
                 (0..chain.joints().len()).map(|joint| (1.7 * f64::from(k) + joint as f64).sin()).collect();
             let mut pose = nalgebra::Matrix4::<f64>::identity();
-            for (place, joint) in told["robot"]["joints"].as_array().unwrap().iter().enumerate() {
+            for (place, joint) in page_data["robot"]["joints"].as_array().unwrap().iter().enumerate() {
                 let numbers: Vec<f64> = serde_json::from_value(joint["origin"].clone()).unwrap();
                 let axis: [f64; 3] = serde_json::from_value(joint["axis"].clone()).unwrap();
                 let mut origin = nalgebra::Matrix4::identity();
@@ -269,21 +269,21 @@ fn a_run_holds_its_room_with_furniture_from_above() {
     let robot = groebot_robot::robots::robot("rh0").unwrap();
     let room = "size = [3, 2]\nwall = 0.1\n[[furniture]]\nname = \"ball\"\ncircle = 0.3\nat = [2, 1, 90]\nheight = 0.6\n[[furniture]]\nname = \"box\"\nbox = [0.4, 0.2]\nat = [0.5, 0.5]\n";
     let page = |robot_name: &str, room: &str| {
-        let asked = RunRequest { robot: robot_name, room, start: [1.0, 1.0, 0.0], goal: &[2.0, 0.4], apart: 0.02 };
-        Page::of_robot(&robot, None).unwrap().with_run(&asked)
+        let request = RunRequest { robot: robot_name, room, start: [1.0, 1.0, 0.0], goal: &[2.0, 0.4], apart: 0.02 };
+        Page::of_robot(&robot, None).unwrap().with_run(&request)
     };
-    let told = data(&page("rh0", room).unwrap());
-    let scene = &told["run"]["scene"];
+    let page_data = data(&page("rh0", room).unwrap());
+    let scene = &page_data["run"]["scene"];
     assert_eq!((&scene["size"], &scene["wall"]), (&json!([3.0, 2.0]), &json!(0.1)));
     let ball = &scene["pieces"][0];
     assert_eq!((&ball["at"], &ball["height"]), (&json!([2.0, 1.0, std::f64::consts::FRAC_PI_2]), &json!(0.6)));
     for corner in ball["outline"].as_array().unwrap() {
-        // The corners of a polygon of 48 sides around it.
+        // The corners of a polygon with 48 sides around the circle.
         let away = corner[0].as_f64().unwrap().hypot(corner[1].as_f64().unwrap());
         assert!((away * (std::f64::consts::PI / 48.0).cos() - 0.3).abs() < 1e-12);
     }
     assert_eq!(scene["pieces"][1]["outline"].as_array().unwrap().len(), 4);
-    assert!(told["wasm"].as_str().unwrap().len() > 100_000);
+    assert!(page_data["wasm"].as_str().unwrap().len() > 100_000);
     assert_eq!(page("ur5", room).unwrap_err().kind(), ErrorKind::UnknownName);
     assert_eq!(
         page("rh0", "size = [3, 2]\n[[furniture]]\nname = \"a\"\ncircle = 1\nheight = 0\n").unwrap_err().kind(),

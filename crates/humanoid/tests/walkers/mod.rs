@@ -1,4 +1,4 @@
-//! The humanoids as whole robots, against the figures of their sources.
+//! The humanoids as whole robots, compared with the figures of their sources.
 
 use groebot_humanoid::walkers::{self, Outline, nao_walker, rh0_walker};
 use groebot_robot::dynamics::Model;
@@ -8,7 +8,7 @@ use groebot_robot::spatial::Pose;
 use nalgebra::{Matrix4, Vector3, Vector4};
 
 #[test]
-fn nao_has_24_joints_and_weighs_what_its_documentation_says() {
+fn nao_has_24_joints_and_its_documented_mass() {
     let nao = nao_v5();
     assert!((nao.mass() - 5.305).abs() < 5e-4, "{}", nao.mass());
     let names: Vec<&str> = nao.moving().iter().map(|joint| nao.joints()[*joint].name.as_str()).collect();
@@ -20,7 +20,7 @@ fn nao_has_24_joints_and_weighs_what_its_documentation_says() {
     );
 }
 
-/// Masses and centres of mass are mirrored, inertias nearly so: the maker measured both sides of its drawings.
+/// Masses and centres of mass are mirror images; inertias are nearly so, because the manufacturer measured both sides in its drawings.
 #[test]
 fn left_and_right_are_mirror_images() {
     let nao = nao_v5();
@@ -53,7 +53,7 @@ fn left_and_right_are_mirror_images() {
     assert!((x - 0.16).abs() < 1e-15 && (y - 0.09).abs() < 1e-15, "NAO 6.8");
 }
 
-/// Forward kinematics of a robot on a base at the origin: the frame `name`, with the joints that are named at values.
+/// Forward kinematics of a robot whose base is at the origin: the frame `name`, with the given values of named joints.
 fn at(robot: &Robot, values: &[(&str, f64)], name: &str) -> Pose {
     let model = Model::new(robot).unwrap();
     let mut q = vec![0.0; model.joints().len()];
@@ -67,7 +67,7 @@ fn close(a: &Pose, b: &Pose) -> bool {
     (a.to_homogeneous() - b.to_homogeneous()).amax() < 1e-12
 }
 
-/// RH0's data in the thesis' axes, turned into ours, against the chains of its legs, which lead from the foot to the trunk.
+/// RH0's data in the thesis' axes, rotated into ours, agree with the chains of its legs, which lead from the foot to the trunk.
 #[test]
 fn rh0_as_a_whole_is_its_legs() {
     let robot = rh0();
@@ -82,7 +82,7 @@ fn rh0_as_a_whole_is_its_legs() {
     );
     let q = [0.1, -0.2, 0.5, -0.4, 0.15, 0.3];
     for (chain, side, prefix) in [(robots::rh0_left_leg(), 1.0, "L"), (robots::rh0_right_leg(), -1.0, "R")] {
-        // The trunk seen from S, by the chain; S and the trunk seen from the base, by the whole.
+        // The trunk relative to S, by the chain; S and the trunk relative to the base, by the whole robot.
         let values: Vec<(&str, f64)> = chain.joints().iter().map(|joint| joint.name.as_str()).zip(q).collect();
         let foot = at(&robot, &values, &format!("{prefix}S"));
         let trunk = at(&robot, &values, "Trunk");
@@ -93,7 +93,7 @@ fn rh0_as_a_whole_is_its_legs() {
     }
 }
 
-/// TEO's legs: the left one as its chain, the right one as the maker's table of the right leg has it.
+/// TEO's legs: the left one agrees with its chain, the right one with the manufacturer's table of the right leg.
 #[test]
 fn teo_as_a_whole_is_its_legs() {
     let robot = teo();
@@ -108,13 +108,13 @@ fn teo_as_a_whole_is_its_legs() {
     };
     let left = named("L", q);
     assert!(close(&left, &chain.forward(&q).unwrap()));
-    // Pitches keep their sense in the mirror, yaw and rolls turn round.
+    // Pitches keep their sign in the mirror image; yaw and rolls change it.
     let right = named("R", [-q[0], -q[1], q[2], q[3], q[4], -q[5]]);
     let mirror = Matrix4::from_diagonal(&Vector4::new(1.0, -1.0, 1.0, 1.0));
     assert!((right.to_homogeneous() - mirror * left.to_homogeneous() * mirror).amax() < 1e-12);
 }
 
-/// Each walker's solvers bring its soles where forward kinematics says that they were, the joint values among the answers.
+/// The solvers of each walker reach the sole poses of forward kinematics, with the original joint values among the solutions.
 #[test]
 fn the_legs_of_all_walkers_are_solved() {
     for name in ["nao", "rh0", "teo"] {

@@ -1,4 +1,4 @@
-//! The header comment of a printed file about the program's source, and the joints' limits.
+//! The header comment of a printed file about the source of the program, and the joint limits.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ use crate::solver::{About, Program};
 pub(super) struct AboutText {
     /// Lines such as `Task: pose`.
     lines: Vec<String>,
-    /// By joint: its least and greatest value.
+    /// By joint: its least and its greatest value.
     limits: Vec<[String; 2]>,
 }
 

@@ -44,7 +44,7 @@ impl Scene<'_> {
         (lines, rows)
     }
 
-    /// Declarations of the parameters that are computed.
+    /// Declarations of the computed parameters.
     pub fn parameters(&self, demand: &ParameterDemand) -> Vec<String> {
         let mut lines = Vec::new();
         let mut registers = 0;
@@ -69,7 +69,7 @@ impl Scene<'_> {
         lines
     }
 
-    /// The expression of a value that follows an input.
+    /// The expression of a joint value that is an affine function of an input.
     fn following(&self, law: &Following) -> String {
         let Following { input, factor, offset } = *law;
         format!("{} * target[{input}] + {}", self.language.literal(factor), self.language.literal(offset))

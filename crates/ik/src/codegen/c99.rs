@@ -299,7 +299,7 @@ impl Dialect for C {
     }
 }
 
-/// Numbers as a C initialiser, from Rust's notation in brackets.
+/// Formats numbers as a C initialiser, from Rust's notation in brackets.
 fn braces(numbers: &impl std::fmt::Debug) -> String {
     let text = format!("{numbers:?}").replace('[', "{").replace(']', "}");
     let mut out = String::with_capacity(text.len() * 2);

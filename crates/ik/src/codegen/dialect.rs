@@ -29,15 +29,15 @@ pub(super) trait Dialect: Expressions {
     fn chain(&self, six: &SixAxes) -> String;
     /// The value of a joint in that loop, typed.
     fn six_axes_joint(&self, number: usize, joint: usize) -> String;
-    /// The condition that all of these hold.
+    /// The condition that all guards hold.
     fn guard(&self, guards: &[GuardText]) -> String;
     /// The head of the block in which a case applies.
     fn open_case(&self, applies: &Applies) -> String;
-    /// Reports a stratum that could not be derived.
+    /// Reports a stratum for which no derivation exists.
     fn is_open(&self, number: usize, condition: &str) -> String;
-    /// Computes a case's claim to be the best conditioned of its group.
+    /// Computes a case's claim in its pivot group: the magnitude of its pivot.
     fn claim(&self, number: usize, lines: Vec<String>, pivot: &str, condition: Option<&str>) -> Vec<String>;
-    /// Runs the case that is elected by these claims: one body per claim.
+    /// Runs the case with the greatest of these claims: one body per claim.
     fn elect(&self, claims: &[usize], bodies: Vec<Vec<String>>) -> Vec<String>;
     /// Lines that declare `magnitude`, the greatest of a positive number and the magnitudes of names.
     fn magnitude(&self, least: f64, names: &[String]) -> Vec<String>;
@@ -45,11 +45,11 @@ pub(super) trait Dialect: Expressions {
     fn row(&self, numbers: &[f64]) -> String;
     /// The number of candidates so far.
     fn count(&self, number: usize) -> String;
-    /// Declares the code of the choices so far, under a number, combined with an earlier one.
+    /// Declares the record of the choices so far, under a number, combined with an earlier one.
     fn found(&self, before: usize, number: usize, how: &[How]) -> String;
-    /// Calls the function of a block, with the code of the choices so far and the known values.
+    /// Calls the function of a block, with the record of the choices so far and the known values.
     fn go_on(&self, block: usize, found: usize, is_rare: bool, known: &[String]) -> Vec<String>;
-    /// Reports a candidate with the code of its choices.
+    /// Reports a candidate with the record of its choices.
     fn finish(&self, found: usize, at: &[String]) -> Vec<String>;
     /// Whether the names of one case must not be visible in another.
     fn needs_scopes(&self) -> bool {
@@ -72,16 +72,15 @@ pub(super) struct GuardText {
 pub(super) enum Applies {
     /// The case applies at almost all targets.
     Usually(String),
-    /// The case applies at very few targets.
+    /// The case applies only at singular targets.
     Rarely(String),
-    /// The case applies near a stratum, and otherwise if the candidates since a count with this number have not
-    /// sufficed.
+    /// The case applies near a stratum. Elsewhere it applies if the candidates since the count with this number lost a solution.
     Near { count: usize, guard: String },
 }
 
-/// A part of the code of a choice.
+/// A part of the record of a choice.
 pub(super) enum How {
-    /// A choice of the first block's case whose numbers end at `last`.
+    /// A choice of the first block's case whose branch numbers end at `last`.
     First { branch: String, last: usize },
     /// A choice of a later block.
     Next { radix: usize, branch: String },
@@ -91,6 +90,6 @@ pub(super) enum How {
     Pair(usize),
     /// Free joints: bit `j` for joint `j`.
     Free(u32),
-    /// A solution of six axes, whose joints have these indices.
+    /// A solution for six axes, whose joints have these indices.
     SixAxes { number: usize, joints: Vec<Option<usize>> },
 }

@@ -34,23 +34,21 @@ pub struct Options {
 /// Prints the solver of a valid program ([`Program::validate`]) as one C++11 file that needs only `ikfast.h`.
 ///
 /// # Errors
-/// As [`emit_beside`].
+/// Same as [`emit_beside`].
 pub fn emit(program: &Program, options: &Options) -> Result<String> {
     file(program, options, None)
 }
 
-/// Prints only the interface, for `ikfast.h` and the solver in C whose files have the name `stem`
-/// ([`super::c99::Pair`]).
+/// Prints only the interface, for `ikfast.h` and the C solver whose files have the name `stem` ([`super::c99::Pair`]).
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] for a program without forward kinematics, with more than one given joint, with a task
-/// that IKFast has no type for, or in single precision with equations that accept no rounded target.
-/// [`ErrorKind::BadValue`] for a namespace that is not a word.
+/// [`ErrorKind::Unsupported`] in these cases: the program has no forward kinematics, more than one given joint, or a task without a type in IKFast; or the
+/// interface is in single precision and the equations accept no rounded target. [`ErrorKind::BadValue`] for a namespace that is not a word.
 pub fn emit_beside(program: &Program, options: &Options, stem: &str) -> Result<String> {
     file(program, options, Some(stem))
 }
 
-/// The file: for a solver with this stem, or including it.
+/// The text of the file: it includes the solver, or the header of a solver with this stem.
 fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<String> {
     let refuse = |text: String| Error::new(ErrorKind::Unsupported, format!("`{}`: {text}", program.name));
     let forward = program.forward().filter(|_| program.cases().any(|case| !case.open)).ok_or_else(|| {
@@ -140,7 +138,7 @@ const PLANAR_POSE: Type = Type {
     usage: "x y angle",
 };
 
-/// By coordinate of the axis of the angle.
+/// The task types by coordinate of the rotation axis.
 const ABOUT: [Type; 3] = [
     Type {
         name: "TranslationYAxisAngleXNorm4D",
@@ -165,7 +163,7 @@ const ABOUT: [Type; 3] = [
     },
 ];
 
-/// The type of a program, and the joint that the user gives.
+/// The type of a program, and the joint whose value the user provides.
 struct Kind {
     ikfast: &'static Type,
     /// The given joint, and the input that is its value.
@@ -231,7 +229,7 @@ struct File<'a> {
     single: bool,
     kind: KindText,
     free_joint: Option<usize>,
-    /// The number of the equations' length units per metre.
+    /// Number of length units of the equations per metre.
     units: String,
     reading: Vec<String>,
     writing: Vec<String>,
@@ -318,7 +316,7 @@ fn in_millimetres(program: &Program) -> bool {
     inputs.chain(program.joints.iter().map(|joint| joint.unit)).any(|unit| unit == Unit::Millimetre)
 }
 
-/// A line for each number of the target, from its index, IKFast's name for it, and the factor of a length.
+/// A line for each target number, from its index, IKFast's name for it, and its unit factor if it is a length.
 fn transfers(program: &Program, kind: &Kind, line: impl Fn(usize, String, &str) -> String) -> Vec<String> {
     let [translation, rotation] = kind.ikfast.numbers;
     let own = (0..translation + rotation).map(|index| match index.checked_sub(translation) {
@@ -330,7 +328,7 @@ fn transfers(program: &Program, kind: &Kind, line: impl Fn(usize, String, &str) 
     own.chain(free).map(|(index, name)| line(index, name, if is_length(index) { " * UNITS" } else { "" })).collect()
 }
 
-/// By joint, the base of its digit of the branch number, the first joint's being the lowest; 0 for the given one.
+/// By joint, the base of its digit of the branch number, the first joint's being the lowest. 0 for the given joint.
 fn bases(program: &Program, free: Option<usize>) -> Vec<usize> {
     let mut left = program.blocks.iter().map(|block| block.branches()).fold(1, usize::saturating_mul);
     let mut base = |joint: usize| {

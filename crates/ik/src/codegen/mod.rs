@@ -32,12 +32,12 @@ use serde::Serialize;
 
 use crate::solver::Program;
 
-/// Whether a step of `program` solves six joints together, as an eigenvalue problem.
+/// Whether a step of `program` solves six joints together by an eigenvalue problem.
 pub fn has_six_axes(program: &Program) -> bool {
     !six_axes::steps(program).is_empty()
 }
 
-/// Fills the skeleton with the outline's values. Both are part of the crate and fit each other.
+/// Fills the skeleton with the outline's values. Both are part of this crate, so that filling cannot fail.
 fn fill(skeleton: &str, outline: &impl Serialize) -> String {
     let mut environment = minijinja::Environment::new();
     environment.set_trim_blocks(true);

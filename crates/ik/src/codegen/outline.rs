@@ -28,7 +28,7 @@ pub(super) struct Outline {
     target: Vec<String>,
     joints: Vec<Quantity>,
     pub facts: Facts,
-    /// The strata that could not be derived.
+    /// The strata for which no derivation exists.
     open: Vec<String>,
     samples: Vec<TableText>,
     degree: usize,
@@ -41,7 +41,7 @@ pub(super) struct Outline {
     tip: Option<Body>,
     /// The equations' values, unless all of them are comparisons with the tip.
     values: Option<Body>,
-    /// The values as described, where the equations are those of the ideal mechanism, and the tolerance.
+    /// The values of the mechanism as described, if the equations are those of the ideal mechanism, and the tolerance.
     described: Option<Body>,
     within: Option<String>,
     sizes: Body,
@@ -87,7 +87,7 @@ struct Body {
 }
 
 impl Outline {
-    /// The outline of a valid program. The printer `plain` is for code that computes with a single number.
+    /// The outline of a valid program. The language `plain` is for code that computes with a single number.
     pub fn new(program: &Program, dialect: &dyn Dialect, plain: &dyn Expressions) -> Self {
         let (names, tables) = (Names::new(program, dialect), Table::all(program));
         let scene = Scene { program, layout: Layout::new(program), language: dialect, names, tables };
@@ -172,7 +172,7 @@ impl Body {
     }
 }
 
-/// Declarations of the computed parameters; the target's numbers together, if all are parameters.
+/// Declarations of the computed parameters. The target numbers are declared together if all are parameters.
 fn target_lines(scene: &Scene<'_>, demand: &ParameterDemand) -> Vec<String> {
     let rules = scene.program.parameters.iter().enumerate();
     let are_inputs =
@@ -184,7 +184,7 @@ fn target_lines(scene: &Scene<'_>, demand: &ParameterDemand) -> Vec<String> {
     scene.parameters(demand)
 }
 
-/// The parameters in order, each if lines read it; none if they read none.
+/// By parameter, its name if the lines read it. Empty if they read none.
 fn read_of(parameters: &[String], lines: &[String]) -> Vec<Option<String>> {
     let read: Vec<Option<String>> = parameters.iter().map(|name| reads(lines, name).then(|| name.clone())).collect();
     if read.iter().all(Option::is_none) { Vec::new() } else { read }

@@ -19,7 +19,7 @@ const LINE: usize = 96;
 /// One level of indentation.
 pub(super) const INDENT: &str = "    ";
 
-/// The precedence of a text, which decides about parentheses.
+/// The precedence of a text, which determines whether it needs parentheses.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Binding {
     Sum,
@@ -77,13 +77,13 @@ pub(super) fn packed_lines(items: Vec<String>, lead: &str) -> String {
 /// Prints the code of one function.
 pub(super) struct Printer<'a> {
     language: &'a dyn Expressions,
-    /// By parameter and by unknown.
+    /// Identifiers of the parameters and the unknowns.
     parameters: &'a [String],
     unknowns: &'a [String],
     demand: Demand,
     /// The number of register 0.
     first_register: usize,
-    /// Registers that are read once, until they are read.
+    /// Registers that are read once and have not been read yet.
     waiting: HashMap<usize, Expression>,
 }
 
@@ -99,7 +99,7 @@ impl<'a> Printer<'a> {
         Printer { language, parameters, unknowns: &[], demand, first_register: 0, waiting: HashMap::new() }
     }
 
-    /// By unknown.
+    /// Identifiers of the unknowns.
     pub fn unknowns(&self) -> &'a [String] {
         self.unknowns
     }
@@ -126,7 +126,7 @@ impl<'a> Printer<'a> {
         lines
     }
 
-    /// Declarations of all registers that still wait to become part of an expression.
+    /// Declarations of all registers that have not become part of an expression yet.
     pub fn settle(&mut self) -> Vec<String> {
         let mut waiting: Vec<(usize, Expression)> = self.waiting.drain().collect();
         waiting.sort_by_key(|(index, _)| *index);

@@ -24,7 +24,7 @@ pub(super) fn is_reserved(word: &str) -> bool {
         || PREFIXES.iter().any(|prefix| word.starts_with(prefix))
 }
 
-/// Whether a file of this name would replace one of the run time.
+/// Whether a file with this name would overwrite one of the run time.
 pub fn is_run_time(stem: &str) -> bool {
     RUN_TIME_FILES.iter().any(|own| stem.eq_ignore_ascii_case(own))
 }

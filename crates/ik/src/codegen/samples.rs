@@ -1,4 +1,4 @@
-//! Tables of sample values of free joints: cases with the same values share one.
+//! Tables of sample values of free joints. Cases with equal values share one.
 
 use crate::solver::{JointValue, Program, Step};
 

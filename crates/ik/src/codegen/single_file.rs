@@ -1,5 +1,4 @@
-//! Run time and robot in one file: in Rust the modules of the crate `groebot-runtime` inside a module of that name, in
-//! C the text of its files.
+//! Run time and robot in one file. In Rust it has the modules of the crate `groebot-runtime` inside a module of that name, in C the text of its files.
 
 use groebot_runtime::sources::{C, C_HEADER, C_PARTS, C_SIX_AXES, C_SIX_AXES_HEADER, ROOT, RUST, SIX_AXES};
 
@@ -31,9 +30,8 @@ pub fn rust(program: &Program) -> String {
     text + "}\n\nuse " + &body
 }
 
-/// Prints the solver of a valid program ([`Program::validate`]) as one C99 file, a translation unit to be linked with
-/// `-lm`; with `single` all numbers are `float`. The text includes itself by the name `file`, or by the value of
-/// `GB_FILE`. With `NAME_DECLARATIONS_ONLY` defined it is its own header.
+/// Prints the solver of a valid program ([`Program::validate`]) as one C99 file, a translation unit to be linked with `-lm`. With `single` all numbers are
+/// `float`. The text includes itself by the name `file`, or by the value of `GB_FILE`. With `NAME_DECLARATIONS_ONLY` defined it is its own header.
 pub fn c(program: &Program, file: &str, single: bool) -> String {
     let Pair { header, source } = Pair::new(program, "");
     let name = super::reserved::prefix(&program.name).to_ascii_uppercase();
@@ -67,13 +65,13 @@ fn whole(text: &str) -> String {
     text.lines().map(|line| format!("{}\n", part(line).unwrap_or(line))).collect()
 }
 
-/// C without its comments and empty lines.
+/// C code without comments and empty lines.
 fn without_comments(text: &str) -> String {
     let mut kept = String::with_capacity(text.len());
     let mut rest = text;
-    while let Some((code, behind)) = rest.split_once("/*") {
+    while let Some((code, after)) = rest.split_once("/*") {
         kept += code;
-        rest = behind.split_once("*/").map_or("", |(_, behind)| behind);
+        rest = after.split_once("*/").map_or("", |(_, after)| after);
     }
     kept += rest;
     kept.lines().map(str::trim).filter(|line| !line.is_empty()).map(|line| format!("{line}\n")).collect()
@@ -90,7 +88,7 @@ fn root() -> String {
     inner(ROOT, "self").lines().filter(|line| line.starts_with("pub use ")).map(|line| format!("{line}\n")).collect()
 }
 
-/// A module's text without comments and declarations of modules, for a crate whose root has this name.
+/// The text of a module without comments and module declarations, for a crate whose root has this name.
 fn inner(text: &str, root: &str) -> String {
     let is_kept = |line: &&str| {
         let line = line.trim_start();

@@ -283,14 +283,14 @@ fn about(source: &Source, program: &Program) -> About {
     let joints = source.chain.as_ref().map_or(&[][..], Chain::joints);
     let follows = |name: &str| joints.iter().find(|joint| joint.name == name).and_then(|joint| joint.mimic.clone());
     let follows: Vec<_> = program.joints.iter().map(|joint| follows(&joint.name)).collect();
-    let asked = source.task_file().map_or_else(Vec::new, |(_, text)| text);
+    let request = source.task_file().map_or_else(Vec::new, |(_, text)| text);
     let [base, tip] = source.links.clone().map_or([None, None], |links| links.map(Some));
     About {
         task: task(source),
         base,
         tip,
         solutions: None,
-        hash: format!("{:016x}", hash(source.text.bytes().chain(asked))),
+        hash: format!("{:016x}", hash(source.text.bytes().chain(request))),
         limits: if limits.iter().all(Option::is_none) { Vec::new() } else { limits },
         follows: if follows.iter().all(Option::is_none) { Vec::new() } else { follows },
     }
@@ -301,8 +301,8 @@ fn task(source: &Source) -> String {
     match (&source.chain, &source.coupled) {
         (Some(chain), _) => chain.asked(),
         (None, Some(coupled)) => {
-            let asked = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.asked()));
-            asked.collect::<Vec<_>>().join("; ")
+            let tasks = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.asked()));
+            tasks.collect::<Vec<_>>().join("; ")
         }
         (None, None) => "its equations".to_owned(),
     }

@@ -18,32 +18,32 @@ use crate::solver::Program;
 use crate::witness::{self, Report};
 use crate::{Error, ErrorKind, Result, Watch};
 
-/// The shortest line of our page by which it is recognised, in bytes.
+/// The shortest line of a generated page by which it is recognised, in bytes.
 const TELLING: usize = 40;
 
-/// What a check found, and what it proved again.
+/// Result of a check, and the derivation that was proved again.
 #[derive(Clone, Debug)]
 pub struct Checked {
-    /// One finding for each file, the input's and the certificate's first.
+    /// One finding per file; those of the input and the certificate are first.
     pub findings: Vec<Finding>,
-    /// The derivation with its numeric checks, where the certificate proves it.
+    /// The derivation with its numeric checks, if the certificate proves it.
     pub derivation: Option<(Derivation, Report)>,
 }
 
-/// Checks every file of a folder that holds the derivation of `source`, or equations of motion of its chain, or both: each file that groebot
-/// writes follows from the certificate, byte by byte, and the certificate claims as much as the derivation of the input does. A file that
-/// groebot writes and that follows from nothing fails; others are named as not checked.
+/// Checks every file of a folder with the derivation of `source`, or equations of motion of its chain, or both. Each file that groebot writes must follow from
+/// the certificate, byte by byte. The certificate must claim as much as the derivation of the input does. A file with a name that groebot writes must follow
+/// from the certificate; other files are reported as not checked.
 ///
 /// # Errors
-/// Those of the numeric checks; what `watch` stops with. What is wrong with a file is a finding.
+/// Those of the numeric checks, and those of `watch`. Faults of a file are findings, not errors.
 pub fn check(source: &Source, stored: &Stored, watch: &Watch) -> Result<Checked> {
     check_by(source, stored, watch, |proved| witness::check(source, proved, watch))
 }
 
-/// Same as [`check`], but with the numeric checks that `measure` makes, for a caller that has made those of this derivation before.
+/// Same as [`check`], but with the numeric checks that `measure` makes, for a caller that has already made those of this derivation.
 ///
 /// # Errors
-/// As [`check`], and those of `measure`.
+/// Same as [`check`], and those of `measure`.
 pub fn check_by(
     source: &Source,
     stored: &Stored,
@@ -55,7 +55,7 @@ pub fn check_by(
     let moving = motion::check(source, stored);
     let is_derived = stored.written().any(|name| !names::MOTION.contains(&name));
     let mut derivation = None;
-    // A folder may hold equations of motion alone.
+    // A folder may contain equations of motion alone.
     if is_derived || moving.is_empty() {
         match prove(source, stored, &mut Recount::new(watch)) {
             Ok(proved) => {
@@ -73,10 +73,10 @@ pub fn check_by(
     Ok(Checked { findings, derivation })
 }
 
-/// The derivation that the stored certificate proves, which claims as much as that of the input.
+/// The derivation that the stored certificate proves. It must claim as much as that of the input.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] where there is no certificate; as [`Derivation::again`] and [`Recount::check`]; with the file.
+/// [`ErrorKind::Io`] if there is no certificate. Otherwise those of [`Derivation::again`] and [`Recount::check`], with the name of the file.
 pub fn prove(source: &Source, stored: &Stored, recount: &mut Recount) -> Result<Derivation> {
     let at_file = |error: Error| error.in_file(&stored.folder.join(CERTIFICATE));
     let missing = || {
@@ -87,17 +87,17 @@ pub fn prove(source: &Source, stored: &Stored, recount: &mut Recount) -> Result<
     prove_text(source, &String::from_utf8_lossy(bytes), recount).map_err(at_file)
 }
 
-/// The derivation that the text of a certificate proves, which claims as much as that of the input.
+/// The derivation that the text of a certificate proves. It must claim as much as that of the input.
 ///
 /// # Errors
-/// As [`Derivation::again`] and [`Recount::check`].
+/// Same as [`Derivation::again`] and [`Recount::check`].
 pub fn prove_text(source: &Source, certificate: &str, recount: &mut Recount) -> Result<Derivation> {
     let proved = Derivation::again(source, certificate)?;
     recount.check(&proved)?;
     Ok(proved.about(source))
 }
 
-/// Compares the files of a derivation with those that are stored, or in a thin folder with their hashes; `proof` says what the certificate proves.
+/// Compares the stored files with those of a derivation, or in a thin folder with their hashes. `proof` describes what the certificate proves.
 pub fn compare(stored: &Stored, written: &[Written], proof: &str, checked: &Report) -> Vec<Finding> {
     let first = written.iter().filter(|file| file.name == CERTIFICATE);
     let rest = written.iter().filter(|file| file.name != CERTIFICATE);
@@ -117,7 +117,7 @@ pub fn compare(stored: &Stored, written: &[Written], proof: &str, checked: &Repo
     findings
 }
 
-/// What holds of a file that was printed again and has the stored hash.
+/// The finding for a file that was printed again and has the stored hash.
 fn hashed_words(name: &str, checked: &Report) -> String {
     match name {
         CHECKS => check_words(checked) + "; its words and counts have the stored hash",
@@ -138,15 +138,13 @@ fn compared(stored: &Stored, file: &Written, proof: &str, checked: &Report) -> F
     if name == PAGE && !has_mark(bytes) {
         return match is_by_hand(bytes, &file.bytes) {
             true => Finding::not_checked(name, "a page that groebot did not write"),
-            false => refused(&format!(
-                "the page lacks what follows from the proof, and `{MARK}`; `groebot derive` writes it"
-            )),
+            false => refused(&format!("the page has neither the proved text nor `{MARK}`; `groebot derive` writes it")),
         };
     }
     let equal = if bytes == file.bytes { "" } else { ", equal up to rounding" };
     match differing(bytes, file) {
         Some(line) => {
-            let text = "this line is not what the certificate proves; `groebot derive` writes the right one";
+            let text = "this line does not follow from the certificate; `groebot derive` writes the correct one";
             let error = Error::new(ErrorKind::Certificate, text).at_line(line);
             Finding::fails(&stored.folder, name, error)
         }
@@ -156,7 +154,7 @@ fn compared(stored: &Stored, file: &Written, proof: &str, checked: &Report) -> F
     }
 }
 
-/// The first line in which a stored file differs from what is written; none where it does not.
+/// The first line in which a stored file differs from the written one. `None` if it does not.
 fn differing(stored: &[u8], file: &Written) -> Option<usize> {
     if stored == file.bytes {
         return None;
@@ -172,7 +170,7 @@ fn differing(stored: &[u8], file: &Written) -> Option<usize> {
     differs(own, &String::from_utf8_lossy(measured)).map(|line| lines(proved) + line)
 }
 
-/// Whether a page without our mark is somebody's own: it says something, and none of our longer lines.
+/// Whether a page without groebot's mark was written by the user: it is not empty and has none of the longer lines of the generated page.
 fn is_by_hand(stored: &[u8], ours: &[u8]) -> bool {
     let (stored, ours) = (String::from_utf8_lossy(stored), String::from_utf8_lossy(ours));
     let telling = |line: &&str| line.len() >= TELLING;
@@ -180,8 +178,8 @@ fn is_by_hand(stored: &[u8], ours: &[u8]) -> bool {
     !stored.trim().is_empty() && !stored.lines().any(|line| own.contains(line))
 }
 
-/// The files of a folder that are not `known`: those of names that groebot gives fail, printed solvers of another name have to follow from the
-/// program, others are not checked.
+/// Findings for files that are not `known`. Files with names that groebot gives fail. Printed solvers with other names must follow from the program. All others
+/// are not checked.
 fn strays(stored: &Stored, known: &BTreeSet<String>, program: Option<&Program>) -> Vec<Finding> {
     let ours: BTreeSet<&str> = stored.written().collect();
     let names = stored.files.keys().chain(&stored.others).filter(|name| !known.contains(*name));
@@ -204,7 +202,7 @@ fn strays(stored: &Stored, known: &BTreeSet<String>, program: Option<&Program>) 
     names.map(finding).collect()
 }
 
-/// Whether `groebot derive` or `groebot codegen`, without further options, prints these bytes of `program` into a file `name`.
+/// Whether `groebot derive` or `groebot codegen`, without further options, prints these bytes for `program` into a file `name`.
 fn prints(program: &Program, name: &str, bytes: &[u8]) -> bool {
     let (stem, end) = name.rsplit_once('.').unwrap_or((name, ""));
     let is = |text: String| text.as_bytes() == bytes;
@@ -222,9 +220,9 @@ fn prints(program: &Program, name: &str, bytes: &[u8]) -> bool {
     }
 }
 
-/// The files that a derivation reads: they are what it is about.
+/// The input files of a derivation.
 fn inputs(source: &Source) -> impl Iterator<Item = &str> {
-    [source.name, TASK_NAME].into_iter().chain(source.beside())
+    [source.name, TASK_NAME].into_iter().chain(source.referenced_files())
 }
 
 fn described(source: &Source) -> String {

@@ -1,31 +1,31 @@
-//! What a check finds of one file. Main type: [`Finding`].
+//! Result of the check of one file. Main type: [`Finding`].
 
 use std::path::Path;
 
 use crate::{Error, ErrorKind};
 
-/// One thing that was looked at, a file or what it describes, and what was found.
+/// The result for one item: a file, or what it describes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// What was looked at.
+    /// The name of the item.
     pub what: String,
-    /// What was found.
+    /// The result.
     pub verdict: Verdict,
 }
 
-/// What was found of a file.
+/// The result for one item.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// It holds; how that is known.
+    /// The item is correct; the text gives the proof.
     Holds(String),
-    /// It is damaged, forged, missing, or nothing proves it.
+    /// The item is damaged, forged, missing, or unproved.
     Fails(Error),
-    /// It is not groebot's; why.
+    /// The item was not written by groebot; the text gives the reason.
     NotChecked(String),
 }
 
 impl Finding {
-    /// Something holds.
+    /// The item is correct.
     pub fn holds(what: &str, text: impl Into<String>) -> Self {
         Finding { what: what.to_owned(), verdict: Verdict::Holds(text.into()) }
     }
@@ -40,12 +40,12 @@ impl Finding {
         Finding::fails(folder, what, Error::new(ErrorKind::Certificate, text.into()))
     }
 
-    /// Something is not groebot's.
+    /// The item was not written by groebot.
     pub fn not_checked(what: &str, text: &str) -> Self {
         Finding { what: what.to_owned(), verdict: Verdict::NotChecked(text.to_owned()) }
     }
 
-    /// The error, where it fails.
+    /// The error, if the item fails.
     pub fn error(&self) -> Option<&Error> {
         match &self.verdict {
             Verdict::Fails(error) => Some(error),

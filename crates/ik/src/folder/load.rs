@@ -9,10 +9,10 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 use groebot_robot::document::read_text;
 
-/// The solver in `folder`: its `5_program.json`, or without that file (in a thin folder) the solver that its certificate proves.
+/// The solver in `folder`: its `5_program.json`, or in a thin folder without that file, the solver that its certificate proves.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] for a folder with neither of the two files; as [`Program::from_json`] and [`reprove`], with the file.
+/// [`ErrorKind::Io`] for a folder with neither of the two files. Otherwise those of [`Program::from_json`] and [`reprove`], with the name of the file.
 pub fn program(folder: &Path) -> Result<Program> {
     let file = folder.join(PROGRAM);
     if file.exists() {
@@ -29,7 +29,7 @@ pub fn program(folder: &Path) -> Result<Program> {
 /// The derivation of `source` that the certificate in `folder` proves.
 ///
 /// # Errors
-/// As [`Derivation::again`], and when the certificate cannot be read.
+/// Same as [`Derivation::again`], and [`ErrorKind::Io`] if the certificate cannot be read.
 pub fn reprove(folder: &Path, source: &Source) -> Result<Derivation> {
     let path = folder.join(CERTIFICATE);
     let text = read_text(&path, limits::STAGE_BYTES)?;

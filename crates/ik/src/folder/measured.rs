@@ -1,14 +1,11 @@
-//! What was measured, compared with what is measured again: words to the letter, numbers up to the rounding of another mathematical library.
+//! Comparison of stored measurements with repeated ones: words must be equal, numbers may differ by the rounding of another mathematical library.
 
-/// Coordinates and distances of joints, which next to a singular configuration are known less well than poses, are the same up to this share of
-/// their size, or of one.
-const NEAR: f64 = 1e-6;
-/// Residuals up to this are rounding.
-const ROUNDING: f64 = 1e-12;
-/// Greater residuals are the same up to this factor.
+use crate::tolerances::WITNESS;
+
+/// Allowed ratio of two larger residuals.
 const FACTOR: f64 = 1e3;
 
-/// The first line, from 1, in which a table of checks differs; none where it says the same.
+/// The first line, from 1, in which a table of checks differs. `None` if all lines agree.
 pub fn table_differs(stored: &str, measured: &str) -> Option<usize> {
     differs(stored, measured, |a, b| {
         let (a, b): (Vec<&str>, Vec<&str>) = (a.split(',').collect(), b.split(',').collect());
@@ -17,7 +14,7 @@ pub fn table_differs(stored: &str, measured: &str) -> Option<usize> {
     })
 }
 
-/// The first line, from 1, in which the measured part of a page differs; none where it says the same.
+/// The first line, from 1, in which the measured part of a page differs. `None` if all lines agree.
 pub fn page_differs(stored: &str, measured: &str) -> Option<usize> {
     differs(stored, measured, |a, b| {
         if b.starts_with('|') {
@@ -25,7 +22,7 @@ pub fn page_differs(stored: &str, measured: &str) -> Option<usize> {
             let (a, b): (Vec<&str>, Vec<&str>) = (a.split('|').collect(), b.split('|').collect());
             return same_cells(&a, &b, |column| column + 3 < b.len());
         }
-        // A weak spot with its target, or a summary that ends in a residual.
+        // A weak spot with its target, or a summary that ends with a residual.
         let words = |line| -> Vec<&str> {
             str::split(line, [' ', ',', '(', ')']).map(|word| word.trim_end_matches('.')).collect()
         };
@@ -34,7 +31,7 @@ pub fn page_differs(stored: &str, measured: &str) -> Option<usize> {
     })
 }
 
-/// Whether two lists of cells are the same, where a column is a residual or any other.
+/// Whether two lists of cells agree. `is_residual` says which columns are residuals.
 fn same_cells(a: &[&str], b: &[&str], is_residual: impl Fn(usize) -> bool) -> bool {
     let space = |cell: &str| [cell.len() - cell.trim_start().len(), cell.len() - cell.trim_end().len()];
     let same = |(column, (a, b)): (usize, (&&str, &&str))| {
@@ -44,7 +41,7 @@ fn same_cells(a: &[&str], b: &[&str], is_residual: impl Fn(usize) -> bool) -> bo
     a.len() == b.len() && a.iter().zip(b).enumerate().all(same)
 }
 
-/// A table of checks with `*` in place of each number that rounding decides: the kinds of targets, the counts and the verdicts.
+/// A table of checks with `*` in place of each number that depends on rounding. The kinds of targets, the counts and the verdicts remain.
 pub fn without_numbers(table: &str) -> String {
     let cell = |cell: &str| if numbers(cell, cell).is_some() { "*".to_owned() } else { cell.to_owned() };
     table.split('\n').map(|line| line.split(',').map(cell).collect::<Vec<_>>().join(",")).collect::<Vec<_>>().join("\n")
@@ -56,7 +53,7 @@ fn differs(stored: &str, measured: &str, same: impl Fn(&str, &str) -> bool) -> O
     (common < stored.len().max(measured.len())).then_some(common + 1)
 }
 
-/// Two numbers with exponents; counts and words have to be equal.
+/// Two numbers with exponents. Counts and words must be equal.
 fn numbers(a: &str, b: &str) -> Option<[f64; 2]> {
     let number = |text: &str| text.parse::<f64>().ok().filter(|number| number.is_finite());
     let pair = [number(a)?, number(b)?];
@@ -64,10 +61,10 @@ fn numbers(a: &str, b: &str) -> Option<[f64; 2]> {
 }
 
 fn same_place(a: &str, b: &str) -> bool {
-    a == b || numbers(a, b).is_some_and(|[x, y]| (x - y).abs() <= NEAR * (1.0 + y.abs()))
+    a == b || numbers(a, b).is_some_and(|[x, y]| (x - y).abs() <= WITNESS.near * (1.0 + y.abs()))
 }
 
 fn same_residual(a: &str, b: &str) -> bool {
-    let same = |[x, y]: [f64; 2]| x.min(y) >= 0.0 && (x.max(y) <= ROUNDING || x.max(y) <= FACTOR * x.min(y));
+    let same = |[x, y]: [f64; 2]| x.min(y) >= 0.0 && (x.max(y) <= WITNESS.member || x.max(y) <= FACTOR * x.min(y));
     a == b || numbers(a, b).is_some_and(same)
 }

@@ -1,6 +1,6 @@
-//! A mechanism's folder: the one list of the files that `derive` and `dynamics --symbolic` write ([`derived`], [`motion`]), and the check of a stored
-//! folder against that list ([`check`]). The writer and the check share the list, so that no file is written that nothing checks. A
-//! thin folder has a hash of each output instead of the output itself ([`Outputs`]).
+//! The folder of a mechanism: the list of files that `derive` and `dynamics --symbolic` write ([`derived`], [`motion`]), and the check of a stored folder
+//! against that list ([`check`]). The writer and the check share the list, so that every written file is checked. A thin folder has a hash of each output
+//! instead of the output itself ([`Outputs`]).
 
 mod check;
 mod finding;

@@ -1,4 +1,4 @@
-//! Equations of motion in a mechanism's folder: what tells them, what proves them ([`files`]), and the check of both ([`check`]).
+//! Equations of motion in a mechanism's folder: the files and their proof ([`files`]), and the check of both ([`check`]).
 
 use super::finding::Finding;
 use super::names::{DYNAMICS, DYNAMICS_TEXT, MOTION};
@@ -11,14 +11,14 @@ use groebot_robot::kinematics::Chain;
 use groebot_robot::model::Robot;
 use groebot_robot::spatial::exact::ExactVector;
 
-/// A chain that moves, and what its bodies weigh.
+/// A chain with the masses of its bodies.
 #[derive(Clone, Debug)]
 pub struct Moving {
     /// The chain.
     pub chain: Chain,
-    /// The robot that it is a part of, if there is one: only robots tell masses.
+    /// The robot that contains it, if there is one: only robots have masses.
     pub robot: Option<Robot>,
-    /// Between which of its links.
+    /// The first and the last link of the chain in the robot.
     pub ends: Ends,
 }
 
@@ -30,15 +30,15 @@ impl Moving {
     pub fn of(input: &InputFile, source: &Source) -> Result<Self> {
         let robot = if let Description::Robot(robot) = &input.description { Some(robot.clone()) } else { None };
         let ideal = source.ideal.as_ref().map(|(chain, _)| chain).or(source.chain.as_ref());
-        let text = "this describes no chain of joints; give a chain or a robot";
+        let text = "this file describes no chain of joints; give a chain or a robot";
         let chain = ideal.ok_or_else(|| Error::new(ErrorKind::BadValue, text).in_file(&input.path))?;
         Ok(Moving { chain: chain.clone(), robot, ends: source.ends.clone() })
     }
 
-    /// What the bodies weigh, ten numbers each.
+    /// The mass parameters of the bodies, ten numbers each.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a chain without masses; as [`masses`].
+    /// [`ErrorKind::BadValue`] for a chain without masses. Otherwise those of [`masses`].
     pub fn numbers(&self) -> Result<Vec<[BigRational; 10]>> {
         let text = "this chain's description has no masses; leave --numbers out";
         let robot = self.robot.as_ref().ok_or_else(|| Error::new(ErrorKind::BadValue, text))?;
@@ -47,10 +47,10 @@ impl Moving {
     }
 }
 
-/// The files of equations of motion under this gravity, proved.
+/// The files of the equations of motion with this gravity, proved.
 ///
 /// # Errors
-/// As [`Certificate::prove`].
+/// Same as [`Certificate::prove`].
 pub fn files(
     chain: &Chain,
     symbolic: &Symbolic,
@@ -64,7 +64,7 @@ pub fn files(
         .map(|(name, text)| (name.to_owned(), text.into_bytes())))
 }
 
-/// Checks the equations of motion of a folder; nothing where it has none.
+/// Checks the equations of motion of a folder. No findings if it has none.
 pub fn check(source: &Source, stored: &Stored) -> Vec<Finding> {
     let folder = &stored.folder;
     let missing = |name: &str, other: &str| {
@@ -103,13 +103,13 @@ fn checked(source: &Source, stored: &Stored, text: &str, json: &str) -> Vec<Find
     }
 }
 
-/// The certificate of a folder's equations of motion, and the chain that it is about.
+/// The certificate of a folder's equations of motion, and the chain of that certificate.
 fn read(source: &Source, json: &str) -> Result<(Certificate, Moving)> {
     let moving = Moving::of(&InputFile::read(&source.path)?, source)?;
     let certificate = Certificate::from_json(json, moving.chain.name())?;
     let refused = |text: &str| Err(Error::new(ErrorKind::Certificate, text));
     if certificate.has_numbers() && !certificate.has(&moving.numbers()?) {
-        return refused("its numbers are not what the bodies of the description weigh");
+        return refused("its mass parameters differ from those of the description");
     }
     if certificate.to_json() != json {
         return refused("it is not written as `groebot dynamics --symbolic` writes it, which writes it anew");

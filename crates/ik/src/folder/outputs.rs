@@ -43,14 +43,14 @@ impl Outputs {
     /// Reads [`OUTPUTS`].
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] with the line for a line that is no hash with a file's name, and for a name that is listed twice.
+    /// [`ErrorKind::Syntax`] with the line number for a line that is not a hash with the name of a file, and for a name that occurs twice.
     pub fn read(text: &str) -> Result<Self> {
         let mut hashes = BTreeMap::new();
         for (number, line) in (1..).zip(text.lines()).filter(|(_, line)| !line.starts_with('#')) {
             let wrong = |text: String| Error::new(ErrorKind::Syntax, text).at_line(number);
             let (hash, name) = entry(line).ok_or_else(|| {
                 wrong(format!(
-                    "`{}` is no hash of a file; give 64 digits 0-9, a-f, two spaces and the file's name",
+                    "`{}` is not a hash with a file name; give 64 digits 0-9, a-f, two spaces and the file's name",
                     shown(line)
                 ))
             })?;
@@ -61,7 +61,7 @@ impl Outputs {
         Ok(Outputs { hashes })
     }
 
-    /// The text that [`Outputs::read`] reads: the form of the program `sha256sum`.
+    /// The text that [`Outputs::read`] reads, in the format of the program `sha256sum`.
     pub fn to_text(&self) -> String {
         let lines: String = self.hashes.iter().map(|(name, hash)| format!("{hash}  {name}\n")).collect();
         HEAD.to_owned() + &lines
@@ -87,19 +87,19 @@ pub fn thin(written: Vec<Written>) -> Vec<Written> {
     files
 }
 
-/// Whether a folder is thin: groebot wrote hashes of a derivation's outputs into it.
+/// Whether a folder is thin: it contains hashes, written by groebot, of a derivation's outputs.
 pub fn is_thin(folder: &Path) -> bool {
     let (path, mut head) = (folder.join(OUTPUTS), Vec::new());
     let read = |file: fs::File| file.take(HEAD.len() as u64).read_to_end(&mut head);
     path.is_file() && fs::File::open(&path).and_then(read).is_ok() && is_marked(&head)
 }
 
-/// Whether a thin folder has a file of this name itself.
+/// Whether a thin folder contains the file with this name itself.
 fn is_kept(name: &str) -> bool {
     name == PAGE || name == CERTIFICATE
 }
 
-/// The hash of a file that is written. That of measured numbers is of what rounding cannot change.
+/// The hash of a written file. For measured numbers it covers only the parts that do not depend on rounding.
 fn hash(file: &Written) -> String {
     let digest = if file.name == CHECKS {
         Sha256::digest(without_numbers(&String::from_utf8_lossy(&file.bytes)))
@@ -112,7 +112,7 @@ fn hash(file: &Written) -> String {
     })
 }
 
-/// The hash and the name in a line.
+/// The hash and the name in a line. `None` for other text.
 fn entry(line: &str) -> Option<(&str, &str)> {
     let (hash, name) = line.split_once("  ")?;
     let is_hash = hash.len() == DIGITS && hash.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'a'..=b'f'));
@@ -121,7 +121,7 @@ fn entry(line: &str) -> Option<(&str, &str)> {
 
 /// The hashes of a thin folder, compared with those of the files that its certificate proves.
 pub(super) struct Hashes {
-    /// The text of the stored file, and what it says.
+    /// The text of the stored file, and the hashes in it.
     text: String,
     stored: Result<Outputs>,
     proved: Outputs,
@@ -138,7 +138,7 @@ impl Hashes {
         self.proved.get(name).is_some()
     }
 
-    /// Why the hash of a file is refused; nothing where it is right, and for a file that has none.
+    /// The reason why the hash of a file is rejected. `None` if it is correct, and for a file without a hash.
     pub fn refusal(&self, name: &str) -> Option<String> {
         let proved = self.proved.get(name)?;
         let stored = self.stored.as_ref().ok().and_then(|stored| stored.get(name));
@@ -151,7 +151,7 @@ impl Hashes {
         }
     }
 
-    /// What is found of the file of the hashes itself.
+    /// The finding for the file of the hashes itself.
     pub fn finding(&self, stored: &Stored) -> Finding {
         let own = match &self.stored {
             Ok(own) => own,

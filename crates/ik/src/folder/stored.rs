@@ -1,4 +1,4 @@
-//! A folder as it is on the disk. Main type: [`Stored`].
+//! The content of a folder on disk. Main type: [`Stored`].
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,28 +9,28 @@ use crate::derive::report::stages::{MARK, PAGE};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::read_bytes;
 
-/// The longest file that is read, in bytes.
+/// The largest file that is read, in bytes.
 const LIMIT: u64 = groebot_algebra::limits::STAGE_BYTES;
 
-/// The entries of a folder: the files that a check looks into with their content, the others by name.
+/// The entries of a folder: files that a check reads, with their content, and the names of the others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stored {
-    /// Where it is.
+    /// The path of the folder.
     pub folder: PathBuf,
     /// Files that groebot writes or may have written, with their bytes.
     pub files: BTreeMap<String, Vec<u8>>,
-    /// Everything else: folders, and files of other names.
+    /// All other entries: folders, and files with other names.
     pub others: BTreeSet<String>,
 }
 
 impl Stored {
-    /// Reads a folder. Files of names that groebot never gives are not opened, and neither is what is no regular file.
+    /// Reads a folder. Files with names that groebot never gives are not opened. Entries that are not regular files are not opened either.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for what is no folder; [`ErrorKind::Io`], also for a file of more than 256 MB.
+    /// [`ErrorKind::BadValue`] if the path is not a folder. [`ErrorKind::Io`] if a file cannot be read or is larger than 256 MB.
     pub fn read(folder: &Path) -> Result<Self> {
         if !folder.is_dir() {
-            let text = "this is no folder; give the folder that `groebot derive` wrote";
+            let text = "this is not a folder; give a folder that `groebot derive` wrote";
             return Err(Error::new(ErrorKind::BadValue, text).in_file(folder));
         }
         let io = |error: std::io::Error| Error::io(folder, &error);
@@ -52,7 +52,7 @@ impl Stored {
         self.files.get(name).map(Vec::as_slice)
     }
 
-    /// The files that a derivation has written, by their names or by what they say of themselves.
+    /// The files that a derivation has written, recognised by their names or their content.
     pub fn written(&self) -> impl Iterator<Item = &str> {
         let is_written = |(name, bytes): &(&String, &Vec<u8>)| {
             is_written_name(name) || is_printed_solver(bytes) || name.as_str() == PAGE && has_mark(bytes)
@@ -61,13 +61,13 @@ impl Stored {
     }
 }
 
-/// Whether a file of this name is opened.
+/// Whether a file with this name is opened.
 fn may_be_ours(name: &str) -> bool {
     let end = name.rsplit_once('.').map(|(_, end)| end);
     is_written_name(name) || name == PAGE || end.is_some_and(|end| CODE.contains(&end))
 }
 
-/// Whether a page says that groebot wrote it.
+/// Whether a page has the mark of pages that groebot writes.
 pub(super) fn has_mark(bytes: &[u8]) -> bool {
     String::from_utf8_lossy(bytes).contains(MARK)
 }

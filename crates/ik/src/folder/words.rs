@@ -1,11 +1,11 @@
-//! What a certificate proves, in words.
+//! Text that describes what a certificate proves.
 
 use crate::derive::coupled::ChainStage;
 use crate::derive::equations::Equations;
 use crate::derive::sequential::Sequential;
 use crate::derive::{AnyView, Derivation};
 
-/// How many steps, bases or eigenvalue problems were proved again.
+/// The number of steps, bases or eigenvalue problems that were proved again, as text.
 pub fn proof_words(derivation: &Derivation) -> String {
     match derivation.view() {
         AnyView::Equations(equations) => proved_equations(equations.method),

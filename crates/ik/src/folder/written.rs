@@ -9,29 +9,29 @@ use crate::solver::Program;
 use crate::witness::Report;
 use groebot_robot::document::word;
 
-/// A file that is written.
+/// A file with its content.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
     /// Its name.
     pub name: String,
     /// Its content.
     pub bytes: Vec<u8>,
-    /// The number of bytes that follow from the proof and are the same everywhere; what comes after them was measured, and rounding decides
-    /// its last digits.
+    /// Number of bytes that follow from the proof and are equal on all machines. The bytes after them are measurements, whose last digits depend on rounding.
     pub proved: usize,
 }
 
 impl Written {
-    /// A file of which everything follows from the proof.
+    /// A file whose whole content follows from the proof.
     fn proved((name, bytes): (String, Vec<u8>)) -> Self {
         Written { name, proved: bytes.len(), bytes }
     }
 }
 
-/// Every file that a derivation writes beside its input, by name: the stages with the certificate, the page, the printed solvers, the numeric checks.
+/// Every file that a derivation writes in addition to its input, by name: the stages with the certificate, the page, the printed solvers, and the numeric
+/// checks.
 ///
 /// # Errors
-/// As [`Derivation::stage_files`].
+/// Same as [`Derivation::stage_files`].
 pub fn derived(source: &Source, derivation: &Derivation, checked: &Report) -> Result<Vec<Written>> {
     let mut files: Vec<Written> = derivation.stage_files()?.into_iter().map(Written::proved).collect();
     if let Some(page) = files.iter_mut().find(|file| file.name == stages::PAGE) {
@@ -43,7 +43,7 @@ pub fn derived(source: &Source, derivation: &Derivation, checked: &Report) -> Re
     Ok(files)
 }
 
-/// What the page tells of the numeric checks.
+/// The part of the page with the numeric checks.
 fn measured(derivation: &Derivation, checked: &Report) -> String {
     match derivation.method() {
         Method::Equations(_) => String::new(),
@@ -54,7 +54,7 @@ fn measured(derivation: &Derivation, checked: &Report) -> String {
     }
 }
 
-/// What the page of a chain or of coupled chains says about measured accuracy, behind what follows from the proof.
+/// The part of the page of a chain or of coupled chains with the measured accuracy. It comes after the proved part.
 fn accuracy(checked: &Report) -> String {
     format!(
         "\n## Accuracy, measured\n\nResiduals by forward kinematics (shares of the reach, radians), and how far the joints that made the \
@@ -64,7 +64,7 @@ fn accuracy(checked: &Report) -> String {
     )
 }
 
-/// What the page says about targets at which answers are wrong or missing; nothing where there are none.
+/// The part of the page with targets at which solutions are wrong or missing. Empty if there are none.
 fn weak_spots(checked: &Report) -> String {
     let rows: String = checked.weak_spots().map(|row| format!("* row {}, {}\n", row.number, row.weakness())).collect();
     if rows.is_empty() {
@@ -75,7 +75,8 @@ fn weak_spots(checked: &Report) -> String {
     )
 }
 
-/// The program as source code, one file a language but C's two, named as `source` asks; IKFast's only where it has a type for the task.
+/// The program as source code: one file per language, and two for C. The names are those that `source` specifies. IKFast's file is omitted if IKFast has no
+/// type for the task.
 pub fn printed_solvers(program: &Program, source: &Source) -> Vec<(String, Vec<u8>)> {
     let named = source.ends.name.as_deref().map(word);
     let [solver, ikfast] = named.map_or([SOLVER.into(), IKFAST.into()], |stem| [stem.clone(), stem + IKFAST_END]);

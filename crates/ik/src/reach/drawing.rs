@@ -1,26 +1,27 @@
-//! Slices of a map as a picture, SVG.
+//! Slices of a map as an SVG picture.
 
 use std::fmt::Write;
 
-use super::ask::Measure;
 use super::map::ReachMap;
+use super::request::Measure;
 use groebot_robot::drawing::frame::{BELOW, Frame};
 use groebot_robot::drawing::svg::Svg;
 
-/// The most slices of a picture, and how many stand beside one another.
+/// Maximal number of slices in a picture, and number of slices in a row.
 const MOST: usize = 12;
 const ABREAST: usize = 4;
-/// The greatest side of a slice, what is left of it and above it, and between two of them \[px\].
+/// Maximal side of a slice, margins on its left and above it, and the distance between slices \[px\].
 const SIDE: f64 = 300.0;
 const LEFT: f64 = 56.0;
 const ABOVE: f64 = 22.0;
 const APART: f64 = 14.0;
-/// Title and legend \[px\].
+/// Height of the title and the legend \[px\].
 const TOP: f64 = 76.0;
-/// The legend \[px\].
+/// Size of the legend \[px\].
 const BAR: (f64, f64) = (240.0, 12.0);
 
-/// From least to greatest: viridis of matplotlib (N. Smith and S. van der Walt, 2015), whose lightness grows evenly and which colour-blind eyes tell apart.
+/// Colours from the least to the greatest value: viridis of matplotlib (N. Smith and S. van der Walt, 2015). Its lightness increases evenly, and it is suitable
+/// for colour-blind readers.
 const COLOURS: [(u8, u8, u8); 9] = [
     (68, 1, 84),
     (71, 44, 122),
@@ -32,13 +33,14 @@ const COLOURS: [(u8, u8, u8); 9] = [
     (170, 220, 50),
     (253, 231, 37),
 ];
-/// So many colours are told apart.
+/// Number of distinct colours.
 const SHADES: usize = 33;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl ReachMap {
-    /// Slices of the map across an axis (0, 1, 2 for x, y, z), at most twelve evenly chosen, as SVG. Coloured is the share of orientations that are reached, or where it was measured the mean manipulability; where nothing
-    /// is reached there is no colour. Without an axis: the first one with a single place, else z.
+    /// Slices of the map orthogonal to an axis (0, 1, 2 for x, y, z), at most twelve at even distances, as SVG. The colour is the share of reached
+    /// orientations, or the mean manipulability if it was measured. Places without reached orientations have no colour. Without an axis, the first one with a
+    /// single place is used, else z.
     pub fn to_svg(&self, across: Option<usize>) -> String {
         let axes = self.grid.axes();
         let normal = across.unwrap_or_else(|| axes.iter().position(|axis| axis.count == 1).unwrap_or(2)).min(2);
@@ -56,7 +58,7 @@ impl ReachMap {
             let corner = (LEFT + (slot % ABREAST) as f64 * wide, TOP + ABOVE + (slot / ABREAST) as f64 * high);
             let [along, above] = spans;
             let frame = Frame { corner, size: (size[0], size[1]), low: (along.0, above.0), high: (along.1, above.1) };
-            // No negative zero.
+            // Avoids a negative zero.
             let at = (1e3 * axes[normal].at(*slice)).round() / 1e3 + 0.0;
             let label = format!("{} = {at:.3} {}", AXES[normal], self.unit);
             svg.text("", (corner.0, corner.1 - 6.0), label.trim_end());
@@ -74,7 +76,7 @@ impl ReachMap {
         format!("{}, {}: {} orientations{counted}", self.solver, self.task, self.orientations)
     }
 
-    /// What an axis covers, with half a step on both sides.
+    /// The interval that an axis covers, with half a step on both sides.
     fn span(&self, axis: usize) -> (f64, f64) {
         let own = &self.grid.axes()[axis];
         let others = self.grid.axes().iter().map(|axis| axis.step()).filter(|step| *step > 0.0);
@@ -83,14 +85,14 @@ impl ReachMap {
         (own.from - half, own.to + half)
     }
 
-    /// What is coloured at a place; `None` where nothing is reached.
+    /// The value that determines the colour of a place. `None` if nothing is reached there.
     fn value(&self, place: usize) -> Option<f64> {
         let entry = &self.entries[place];
         let value = if self.measure == Measure::Manipulability { entry.mean.into() } else { self.index(place) };
         (entry.reached > 0).then_some(value)
     }
 
-    /// Draws the legend: the greatest value, which the last colour stands for.
+    /// Draws the legend. Returns the greatest value, which has the last colour.
     fn draw_legend(&self, svg: &mut Svg) -> f64 {
         let is_measured = self.measure == Measure::Manipulability;
         let values = (0..self.entries.len()).filter_map(|place| self.value(place));
@@ -105,7 +107,7 @@ impl ReachMap {
         greatest
     }
 
-    /// Draws the places of a slice, neighbours of one colour at once.
+    /// Draws the places of a slice. Neighbours with equal colours are one rectangle.
     fn draw_slice(&self, [normal, right, up]: [usize; 3], slice: usize, greatest: f64, frame: &Frame, svg: &mut Svg) {
         let [columns, rows] = [right, up].map(|axis| self.grid.axes()[axis].count);
         let (wide, high) = (frame.size.0 / columns as f64, frame.size.1 / rows as f64);
@@ -134,10 +136,10 @@ impl ReachMap {
     }
 }
 
-/// At most [`MOST`] numbers below a count, evenly chosen.
+/// At most [`MOST`] indices below a count, at even distances.
 fn chosen(count: usize) -> Vec<usize> {
     let shown = count.min(MOST);
-    // Those in the middle of as many parts.
+    // The indices in the middle of equal parts.
     (0..shown).map(|slot| (2 * slot + 1) * count / (2 * shown)).collect()
 }
 

@@ -4,28 +4,32 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Error, ErrorKind, Result};
 
-/// The most places of a grid.
+/// Maximal number of places in a grid.
 const MOST: usize = groebot_algebra::limits::GRID_PLACES;
 
 /// Places on an axis, evenly spaced.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
-    /// The first one, in the solver's unit of length.
+    /// The first place, in the solver's unit of length.
     pub from: f64,
-    /// The last one.
+    /// The last place.
     pub to: f64,
-    /// How many there are.
+    /// Number of places.
     pub count: usize,
 }
 
 impl Axis {
     /// # Errors
-    /// [`ErrorKind::BadValue`] for none, for ends that are not finite or in the wrong order, and for one place with two ends.
+    /// [`ErrorKind::BadValue`] for no places, for ends that are not finite or in the wrong order, and for one place with two different ends.
     pub fn new(from: f64, to: f64, count: usize) -> Result<Self> {
         let text = match count {
-            _ if !(from.is_finite() && to.is_finite()) => format!("from {from} to {to} is no axis; give finite ends"),
+            _ if !(from.is_finite() && to.is_finite()) => {
+                format!("an axis from {from} to {to} is invalid; give finite ends")
+            }
             0 => "an axis without places; give 1 or more".to_owned(),
-            1 if from != to => format!("one place cannot be at {from} and at {to}; give 2 or more, or one end"),
+            1 if from != to => {
+                format!("an axis with one place cannot extend from {from} to {to}; give 2 or more places, or one end")
+            }
             _ if from > to || (from == to && count > 1) => {
                 format!("{count} places from {from} to {to}: the first end is to be the lesser one")
             }
@@ -34,7 +38,7 @@ impl Axis {
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
-    /// The place with this number.
+    /// The coordinate of the place with this index.
     pub fn at(&self, number: usize) -> f64 {
         if self.count == 1 {
             return self.from;
@@ -43,13 +47,13 @@ impl Axis {
         self.from * (1.0 - share) + self.to * share
     }
 
-    /// How far two places are apart; nothing where there is one.
+    /// The distance between neighbouring places; zero if there is only one.
     pub fn step(&self) -> f64 {
         if self.count == 1 { 0.0 } else { (self.to - self.from) / (self.count - 1) as f64 }
     }
 }
 
-/// Places by x, y and z; that of z changes first from one number to the next.
+/// Places by x, y and z. The index of z changes fastest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
     axes: [Axis; 3],
@@ -57,7 +61,7 @@ pub struct Grid {
 
 impl Grid {
     /// # Errors
-    /// As [`Axis::new`], with the axis; [`ErrorKind::BadValue`] for more places than 10^8.
+    /// Same as [`Axis::new`], with the name of the axis. [`ErrorKind::BadValue`] for more than 10^8 places.
     pub fn new(axes: [Axis; 3]) -> Result<Self> {
         for (axis, name) in axes.iter().zip(["x", "y", "z"]) {
             Axis::new(axis.from, axis.to, axis.count).map_err(|error| error.with_context(format!("`{name}`")))?;
@@ -73,28 +77,28 @@ impl Grid {
         }
     }
 
-    /// x, y and z.
+    /// The axes x, y and z.
     pub fn axes(&self) -> &[Axis; 3] {
         &self.axes
     }
 
-    /// How many places there are.
+    /// Number of places.
     pub fn places(&self) -> usize {
         self.axes.iter().map(|axis| axis.count).product()
     }
 
-    /// By axis, the number of a place.
+    /// The indices of a place by axis.
     pub fn numbers(&self, place: usize) -> [usize; 3] {
         let [_, y, z] = self.axes.map(|axis| axis.count);
         [place / (y * z), place / z % y, place % z]
     }
 
-    /// The place with these numbers by axis.
+    /// The place with these indices by axis.
     pub fn place(&self, [x, y, z]: [usize; 3]) -> usize {
         (x * self.axes[1].count + y) * self.axes[2].count + z
     }
 
-    /// Where a place is.
+    /// The coordinates of a place.
     pub fn at(&self, place: usize) -> [f64; 3] {
         let numbers = self.numbers(place);
         std::array::from_fn(|axis| self.axes[axis].at(numbers[axis]))

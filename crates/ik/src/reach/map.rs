@@ -1,80 +1,80 @@
-//! A map of what a solver reaches. Main type: [`ReachMap`].
+//! Reachability map of a solver. Main type: [`ReachMap`].
 
-use super::ask::{Ask, Measure};
 use super::grid::Grid;
 use super::poses::POSITION;
+use super::request::{Measure, Request};
 use crate::solver::{Program, Unit};
 
-/// What was found at a place.
+/// The counts at one place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Entry {
-    /// How many orientations have an answer that counts.
+    /// Number of orientations with a solution that counts.
     pub reached: u32,
-    /// How many answers count.
+    /// Number of solutions that count.
     pub answers: u32,
-    /// How many orientations lie on strata that could not be derived; they count as if they had no answers.
+    /// Number of orientations on strata for which no derivation exists. They count as if they had no solutions.
     pub open: u32,
-    /// The greatest manipulability of an answer; nought where it is not measured, or nothing is reached.
+    /// The greatest manipulability of a solution. Zero if it is not measured, or nothing is reached.
     pub best: f32,
-    /// The mean, over the orientations that are reached, of the greatest manipulability of each.
+    /// The mean, over the reached orientations, of the greatest manipulability at each orientation.
     pub mean: f32,
 }
 
-/// What a solver reaches, place by place.
+/// Reachability of all places.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReachMap {
     /// The solver's name.
     pub solver: String,
-    /// What is asked of its tip.
+    /// The task of the solver.
     pub task: String,
-    /// The unit of the grid: `m`, `mm`, or nothing where a length has none.
+    /// The unit of the grid: `m`, `mm`, or empty if lengths have no unit.
     pub unit: String,
     /// The places.
     pub grid: Grid,
-    /// How many orientations there are at each of them.
+    /// Number of orientations at each place.
     pub orientations: usize,
-    /// By what they are turned, see [`Ask::seed`].
+    /// The seed of the rotations of the orientations, see [`Request::seed`].
     pub seed: Option<u64>,
-    /// What was counted.
+    /// The quantities that were counted.
     pub measure: Measure,
-    /// Whether only answers within limits were counted.
+    /// Whether only solutions within joint limits were counted.
     pub limited: bool,
-    /// One for each place.
+    /// One entry per place.
     pub entries: Vec<Entry>,
 }
 
 impl ReachMap {
-    /// What was found of all that is asked of a program, with so many orientations.
+    /// The map of a program with these options, number of orientations, and entries.
     ///
     /// # Panics
-    /// For another number of entries than places.
-    pub fn of(program: &Program, ask: &Ask, orientations: usize, entries: Vec<Entry>) -> Self {
-        assert_eq!(entries.len(), ask.grid.places(), "an entry for each place");
+    /// If the number of entries is not that of the places.
+    pub fn of(program: &Program, request: &Request, orientations: usize, entries: Vec<Entry>) -> Self {
+        assert_eq!(entries.len(), request.grid.places(), "an entry for each place");
         let unit = program.inputs.iter().find(|input| POSITION.contains(&input.name.as_str())).map(|input| input.unit);
         ReachMap {
             solver: program.name.clone(),
             task: program.about.as_ref().map_or_else(|| "its equations".to_owned(), |about| about.task.clone()),
             unit: unit.map_or("", Unit::symbol).to_owned(),
-            grid: ask.grid,
+            grid: request.grid,
             orientations,
-            seed: ask.seed,
-            measure: ask.measure,
-            limited: ask.limits.is_some() || ask.measure == Measure::Limits,
+            seed: request.seed,
+            measure: request.measure,
+            limited: request.limits.is_some() || request.measure == Measure::Limits,
             entries,
         }
     }
 
-    /// The share of orientations that are reached at a place.
+    /// The share of reached orientations at a place (reachability index).
     pub fn index(&self, place: usize) -> f64 {
         f64::from(self.entries[place].reached) / self.orientations as f64
     }
 
-    /// How many targets have an answer that counts.
+    /// Number of targets with a solution that counts.
     pub fn reached(&self) -> usize {
         self.entries.iter().map(|entry| entry.reached as usize).sum()
     }
 
-    /// How many targets lie on strata that could not be derived.
+    /// Number of targets on strata for which no derivation exists.
     pub fn open(&self) -> usize {
         self.entries.iter().map(|entry| entry.open as usize).sum()
     }

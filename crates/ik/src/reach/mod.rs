@@ -1,18 +1,19 @@
-//! What a solver reaches: over a grid of places and orientations spread evenly over all, how many answers there are, how many within limits, and how well the arm moves there. Main type: [`ReachMap`].
+//! Reachability maps. Targets are the places of a grid with evenly spread orientations. For each place, a map has the number of solutions, those within joint
+//! limits, and the manipulability. Main type: [`ReachMap`].
 //!
-//! A pose is made from its number and forgotten when its answers are counted (F. Zacharias, C. Borst and G. Hirzinger, Capturing robot workspace
-//! structure: representing robot capabilities, IROS 2007).
+//! A pose is computed from its index and not stored (F. Zacharias, C. Borst and G. Hirzinger, Capturing robot workspace structure: representing robot
+//! capabilities, IROS 2007).
 
-mod ask;
 mod drawing;
 mod grid;
 mod map;
 mod orientations;
 mod poses;
+mod request;
 mod stored;
 mod survey;
 
-pub use ask::{Ask, Measure};
 pub use grid::{Axis, Grid};
 pub use map::{Entry, ReachMap};
+pub use request::{Measure, Request};
 pub use survey::{Solves, Survey};

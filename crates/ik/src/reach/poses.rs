@@ -1,65 +1,68 @@
-//! Targets by their numbers. Main type: [`Poses`].
+//! Targets by their indices. Main type: [`Poses`].
 
 use std::f64::consts::TAU;
 use std::ops::Range;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::ask::Ask;
 use super::grid::Grid;
 use super::orientations::{Turn, direction, rotation};
+use super::request::Request;
 use crate::solver::{Condition, Program};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 use groebot_robot::kinematics::Ball;
 
-/// The most orientations at a place.
+/// Maximal number of orientations at a place.
 pub(super) const MOST: usize = limits::ORIENTATIONS;
-/// How the inputs of a position are called.
+/// The names of the inputs of a position.
 pub(super) const POSITION: [&str; 3] = ["px", "py", "pz"];
 
-/// What is asked of a solver's tip at each place of a grid: the place, and orientations that are spread evenly over all that the task tells apart.
+/// Targets for a solver's tip at each place of a grid: the place, and orientations spread evenly over all that the task distinguishes.
 #[derive(Clone, Debug)]
 pub(super) struct Poses {
-    /// How many numbers a target has.
+    /// Number of target numbers.
     inputs: usize,
     grid: Grid,
     /// The inputs of the position, by axis.
     position: [Option<usize>; 3],
     spread: Spread,
-    /// Inputs that are the same in all targets.
+    /// Inputs with equal values in all targets.
     given: Vec<(usize, f64)>,
     seed: Option<u64>,
-    /// A ball that a point of the tip does not leave, and by orientation where that point is from the tip.
+    /// A ball that a point of the tip cannot leave, and by orientation the vector from the tip to that point.
     wrist: Option<(Ball, Vec<Vector3<f64>>)>,
 }
 
-/// What a task asks of the orientation, with the inputs that tell it.
+/// The orientations of a task, with the inputs that they set.
 #[derive(Clone, Debug)]
 enum Spread {
     Nothing,
     Angles(usize, Vec<f64>),
     /// Three numbers of a unit vector.
     Directions(usize, Vec<Vector3<f64>>),
-    /// Pitch and roll: where the base's z axis points in the frame of the tip.
+    /// Pitch and roll, given by the direction of the base's z axis in the frame of the tip.
     Tilts([usize; 2], Vec<Vector3<f64>>),
     /// Nine numbers, by rows.
     Rotations(usize, Vec<Matrix3<f64>>),
 }
 
 impl Poses {
-    /// Those that are asked of a solver.
+    /// The targets for a solver.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a task without a position, or with inputs that are neither that, an orientation, nor given joints; [`ErrorKind::BadValue`] for no orientations or more than 10^6, for another
-    /// number of given values than joints, and for several places on an axis that the task does not ask for.
-    pub(super) fn new(program: &Program, ask: &Ask) -> Result<Self> {
-        let Ask { orientations, ref given, .. } = *ask;
+    /// [`ErrorKind::Unsupported`] for a task without a position, or with inputs that are neither that, an orientation, nor given joints.
+    /// [`ErrorKind::BadValue`]:
+    /// - there are no orientations, or more than 10^6
+    /// - the number of given values is not that of the given joints
+    /// - there are several places on an axis without a coordinate in the task
+    pub(super) fn new(program: &Program, request: &Request) -> Result<Self> {
+        let Request { orientations, ref given, .. } = *request;
         if !(1..=MOST).contains(&orientations) {
             let text = format!("{orientations} orientations at a place; 1 to {MOST} are allowed");
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let targets = ask.grid.places().saturating_mul(orientations);
+        let targets = request.grid.places().saturating_mul(orientations);
         limits::check_count("targets, places times orientations,", targets, limits::REACH_TARGETS)?;
         let position = POSITION.map(|name| input(program, name));
         let spread = Spread::of(program, orientations);
@@ -76,21 +79,31 @@ impl Poses {
         }
         if others.len() != given.len() || !given.iter().all(|value| value.is_finite()) {
             let names: Vec<&str> = program.inputs[others.clone()].iter().map(|input| input.name.as_str()).collect();
-            let asked = if names.is_empty() { "none are".to_owned() } else { names.join(", ") };
-            let text =
-                format!("{} finite values of given joints are needed ({asked}); {given:?} are told", others.len());
+            let required = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            let text = format!(
+                "{} finite values of given joints are required ({required}); {given:?} are specified",
+                others.len()
+            );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let idle = position.iter().zip(ask.grid.axes()).zip(["x", "y", "z"]);
+        let idle = position.iter().zip(request.grid.axes()).zip(["x", "y", "z"]);
         if let Some(((_, axis), name)) = idle.into_iter().find(|((input, axis), _)| input.is_none() && axis.count > 1) {
-            let text = format!("the task asks for no {name}; leave one of the {} places on that axis", axis.count);
+            let text = format!("the task has no {name}; use 1 place instead of {} on that axis", axis.count);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let given = others.zip(given.iter().copied()).collect();
-        Ok(Poses { inputs: program.inputs.len(), grid: ask.grid, position, spread, given, seed: ask.seed, wrist: None })
+        Ok(Poses {
+            inputs: program.inputs.len(),
+            grid: request.grid,
+            position,
+            spread,
+            given,
+            seed: request.seed,
+            wrist: None,
+        })
     }
 
-    /// How many orientations there are at each place.
+    /// Number of orientations at each place.
     pub(super) fn orientations(&self) -> usize {
         match &self.spread {
             Spread::Nothing => 1,
@@ -100,17 +113,17 @@ impl Poses {
         }
     }
 
-    /// Whether all three numbers of a position are asked for.
+    /// Whether the task has all three coordinates of a position.
     pub(super) fn are_in_space(&self) -> bool {
         self.position.iter().all(Option::is_some)
     }
 
-    /// How many numbers a target has.
+    /// Number of target numbers.
     pub(super) fn inputs(&self) -> usize {
         self.inputs
     }
 
-    /// Leaves out what would bring a point of the tip out of its ball, where targets tell the tip's whole pose.
+    /// Omits targets that would move a point of the tip out of its ball, if targets are complete poses of the tip.
     pub(super) fn within(mut self, ball: Ball) -> Self {
         if let (Spread::Rotations(_, all), true) = (&self.spread, self.are_in_space()) {
             self.wrist = Some((ball, all.iter().map(|rotation| rotation * ball.point.coords).collect()));
@@ -118,26 +131,27 @@ impl Poses {
         self
     }
 
-    /// Writes the targets with these numbers, the orientations of the first place, then those of the next one, and the numbers of those that are not left out.
+    /// Writes the targets with these indices, and the indices of those that are not omitted. The orientations of the first place come first, then those of the
+    /// next one.
     pub(super) fn write(&self, numbers: Range<usize>, targets: &mut Vec<f64>, kept: &mut Vec<usize>) {
         targets.clear();
         targets.resize(numbers.len() * self.inputs, 0.0);
         kept.clear();
         let orientations = self.orientations();
         let (mut here, mut at, mut turn) = (None, [0.0; 3], Turn::none());
-        let (mut way, mut room) = (Vector3::zeros(), f64::INFINITY);
+        let (mut offset, mut room) = (Vector3::zeros(), f64::INFINITY);
         for number in numbers {
             let (place, orientation) = (number / orientations, number % orientations);
             if here != Some(place) {
                 (here, at) = (Some(place), self.grid.at(place));
                 turn = self.seed.map_or(Turn::none(), |seed| Turn::by_chance(seed, place));
                 if let Some((ball, _)) = &self.wrist {
-                    // |w + o|^2 <= r^2, with w from the ball's middle to the tip, and o from there to the point.
-                    way = turn.back(&(Vector3::from(at) - ball.middle.coords));
-                    room = (ball.radius.powi(2) - way.norm_squared() - ball.point.coords.norm_squared()) / 2.0;
+                    // |w + o|^2 <= r^2, with w from the ball's centre to the tip, and o from there to the point.
+                    offset = turn.back(&(Vector3::from(at) - ball.middle.coords));
+                    room = (ball.radius.powi(2) - offset.norm_squared() - ball.point.coords.norm_squared()) / 2.0;
                 }
             }
-            if self.wrist.as_ref().is_some_and(|(_, offsets)| way.dot(&offsets[orientation]) > room) {
+            if self.wrist.as_ref().is_some_and(|(_, offsets)| offset.dot(&offsets[orientation]) > room) {
                 continue;
             }
             let target = &mut targets[kept.len() * self.inputs..][..self.inputs];
@@ -154,7 +168,7 @@ impl Poses {
     }
 }
 
-/// The input of that name which is no given joint.
+/// The input with this name, unless it is a given joint.
 fn input(program: &Program, name: &str) -> Option<usize> {
     program.inputs[..program.given().start].iter().position(|input| input.name == name)
 }
@@ -177,7 +191,7 @@ impl Spread {
         }
     }
 
-    /// The inputs that tell it.
+    /// The inputs of the orientation.
     fn inputs(&self) -> Vec<usize> {
         match self {
             Spread::Nothing => Vec::new(),
@@ -188,7 +202,7 @@ impl Spread {
         }
     }
 
-    /// Writes the orientation with this number, turned.
+    /// Writes the rotated orientation with this index.
     fn write(&self, number: usize, turn: &Turn, target: &mut [f64]) {
         match self {
             Spread::Nothing => {}

@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use serde::{Deserialize, Serialize};
 
-use super::ask::Measure;
 use super::grid::{Axis, Grid};
 use super::map::{Entry, ReachMap};
 use super::poses::MOST;
+use super::request::Measure;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::JsonFormat;
 
@@ -38,8 +38,8 @@ struct Written {
 }
 
 impl ReachMap {
-    /// The map as JSON: `format` (1), `solver`, `task`, `unit`, the axes `x`, `y` and `z` (from, to, count), `orientations`, `seed`, `measure`, `limited`, and by place, of which z changes
-    /// first, `reached`, `answers`, where some are `open`, and where manipulability was measured `best` and `mean`.
+    /// The map as JSON, with the keys `format` (1), `solver`, `task`, `unit`, `x`, `y` and `z` (axes: from, to, count), `orientations`, `seed`, `measure`,
+    /// `limited`. By place, with z changing fastest: `reached`, `answers`, `open` if there are any, and `best` and `mean` if manipulability was measured.
     pub fn to_json(&self) -> String {
         let [x, y, z] = *self.grid.axes();
         let numbers = |number: fn(&Entry) -> f32| match self.measure {
@@ -64,15 +64,17 @@ impl ReachMap {
             best: numbers(|entry| entry.best),
             mean: numbers(|entry| entry.mean),
         };
-        // Numbers and strings are always JSON.
+        // The map contains only numbers and strings, which are always valid JSON.
         serde_json::to_string(&written).unwrap_or_default() + "\n"
     }
 
-    /// Reads what [`ReachMap::to_json`] writes.
+    /// Reads the output of [`ReachMap::to_json`].
     ///
     /// # Errors
-    /// [`ErrorKind::Syntax`] with the line, [`ErrorKind::Unsupported`] for another format, [`ErrorKind::UnknownName`] for another measure, and [`ErrorKind::BadValue`] for axes that are none, columns of another length than the grid,
-    /// counts beyond the orientations, and numbers below nought.
+    /// - [`ErrorKind::Syntax`] with the line number.
+    /// - [`ErrorKind::Unsupported`] for another format.
+    /// - [`ErrorKind::UnknownName`] for another measure.
+    /// - [`ErrorKind::BadValue`] for invalid axes, columns whose length is not that of the grid, counts that exceed the orientations, and negative numbers.
     pub fn from_json(text: &str) -> Result<Self> {
         let Written {
             solver,
@@ -136,7 +138,8 @@ impl ReachMap {
         Ok(ReachMap { solver, task, unit, grid, orientations, seed, measure, limited, entries })
     }
 
-    /// The map as CSV with a line of names: `x`, `y`, `z`, `reached`, `answers`, `open`, and where manipulability was measured `best` and `mean`; a line a place, of which z changes first.
+    /// The map as CSV with a header: `x`, `y`, `z`, `reached`, `answers`, `open`, and `best` and `mean` if manipulability was measured. There is one line per
+    /// place, with z changing fastest.
     pub fn to_csv(&self) -> String {
         let is_measured = self.measure == Measure::Manipulability;
         let mut text = String::from("x,y,z,reached,answers,open");

@@ -1,4 +1,4 @@
-//! Counting answers, place by place. Main type: [`Survey`].
+//! Counting of solutions, place by place. Main type: [`Survey`].
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -7,30 +7,30 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
-use super::ask::{Ask, Measure};
 use super::map::{Entry, ReachMap};
 use super::poses::Poses;
+use super::request::{Measure, Request};
 use crate::solver::{JointValue, Program, Solved, Solver};
 use crate::tolerances::REACH;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::{Ball, Chain, Solution};
 use groebot_runtime::tolerances::ACCEPTANCE;
 
-/// So many targets are solved at once.
+/// Number of targets that are solved at once.
 const PIECE: usize = 2048;
 
-/// What solves many targets.
+/// A solver for many targets.
 pub trait Solves: Sync {
-    /// Hands over the answers for targets one after the other, each target's followed by its end.
+    /// Passes the solutions for targets to `take`, one after the other. The solutions of each target are followed by its end.
     ///
     /// # Errors
-    /// As [`Solver::solve_each`].
+    /// Same as [`Solver::solve_each`].
     fn each(&self, targets: &[f64], take: &mut dyn FnMut(Solved<'_>)) -> Result<()>;
 
-    /// The answers within limits, as [`Solver::solve_within`].
+    /// The solutions within limits, as [`Solver::solve_within`].
     ///
     /// # Errors
-    /// As there.
+    /// Same as [`Solver::solve_within`].
     fn within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>>;
 }
 
@@ -44,39 +44,48 @@ impl Solves for Solver {
     }
 }
 
-/// A question to a solver.
+/// The computation of a map.
 pub struct Survey<'a> {
     solver: &'a dyn Solves,
     program: &'a Program,
-    /// Whose manipulability is measured.
+    /// The chain whose manipulability is measured.
     chain: Option<&'a Chain>,
-    /// What the tip never leaves.
+    /// A ball that the tip cannot leave.
     ball: Option<Ball>,
-    ask: &'a Ask,
+    request: &'a Request,
     poses: Poses,
-    /// By joint, whether it turns.
+    /// By joint, whether it is revolute.
     turns: Vec<bool>,
     limits: Option<Vec<[f64; 2]>>,
 }
 
-/// What is known of a target's answers while they come.
+/// Intermediate results for one target.
 #[derive(Default)]
 struct Target {
     answers: u32,
-    /// Whether a member of a self-motion was beyond the limits: another one of it may be within.
+    /// Whether a member of a self-motion was beyond the limits: another member may be within.
     strides: bool,
     is_open: bool,
     best: f64,
 }
 
 impl<'a> Survey<'a> {
-    /// What is asked of a solver, the program that it solves by, and the chain that this was derived from where there is one.
+    /// Prepares a map from a solver, its program, the chain of the program if there is one, and the options.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a task without a position, for targets that are more than one tip's place, orientation and given joints, and for a manipulability without a chain; [`ErrorKind::BadValue`] for no
-    /// orientations or more than 10^6, for another number of given values than joints, for several places on an axis that the task does not ask for, and for limits that are none, or are not described.
-    pub fn new(solver: &'a dyn Solves, program: &'a Program, chain: Option<&'a Chain>, ask: &'a Ask) -> Result<Self> {
-        let poses = Poses::new(program, ask)?;
+    /// [`ErrorKind::Unsupported`] for a task without a position, for inputs other than one tip's position, orientation and given joints, and for manipulability
+    /// without a chain. [`ErrorKind::BadValue`]:
+    /// - there are no orientations, or more than 10^6
+    /// - the number of given values is not that of the given joints
+    /// - there are several places on an axis without a coordinate in the task
+    /// - limits are invalid, or missing in the description
+    pub fn new(
+        solver: &'a dyn Solves,
+        program: &'a Program,
+        chain: Option<&'a Chain>,
+        request: &'a Request,
+    ) -> Result<Self> {
+        let poses = Poses::new(program, request)?;
         let turns: Vec<bool> =
             program.joints.iter().map(|joint| matches!(joint.value, JointValue::Angle { .. })).collect();
         if let Some(chain) = chain.filter(|chain| chain.joints().len() != turns.len()) {
@@ -91,35 +100,35 @@ impl<'a> Survey<'a> {
             Some(wrist) => poses.within(wrist),
             None => poses,
         };
-        let chain = chain.filter(|_| ask.measure == Measure::Manipulability);
-        if ask.measure == Measure::Manipulability && chain.is_none() {
-            let text = "a manipulability is that of a chain, and none is known here; give the folder of its derivation";
+        let chain = chain.filter(|_| request.measure == Measure::Manipulability);
+        if request.measure == Measure::Manipulability && chain.is_none() {
+            let text = "manipulability requires the chain of the solver; give the folder of its derivation";
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
-        let limits = match (&ask.limits, ask.measure) {
-            (None, Measure::Limits) => Some(Ask::described(program)?),
+        let limits = match (&request.limits, request.measure) {
+            (None, Measure::Limits) => Some(Request::described(program)?),
             (limits, _) => limits.clone(),
         };
         if let Some(limits) = &limits {
             check(limits, program)?;
         }
-        Ok(Survey { solver, program, chain, ball, ask, poses, turns, limits })
+        Ok(Survey { solver, program, chain, ball, request, poses, turns, limits })
     }
 
-    /// How many orientations there are at each place.
+    /// Number of orientations at each place.
     pub fn orientations(&self) -> usize {
         self.poses.orientations()
     }
 
-    /// Counts the answers at the places with these numbers, on rayon's threads. The result depends neither on their number nor on what other places are asked for.
+    /// Counts the solutions at the places with these indices, on rayon's threads. The result depends neither on the number of threads nor on other places.
     ///
     /// # Errors
-    /// [`Watch::check`], and as [`Solves::each`].
+    /// [`Watch::check`], and those of [`Solves::each`].
     ///
     /// # Panics
-    /// For places that the grid does not have.
+    /// If the grid does not have these places.
     pub fn entries(&self, places: Range<usize>, watch: &Watch) -> Result<Vec<Entry>> {
-        assert!(places.end <= self.ask.grid.places(), "the grid has {} places", self.ask.grid.places());
+        assert!(places.end <= self.request.grid.places(), "the grid has {} places", self.request.grid.places());
         let share = (PIECE / self.orientations()).max(1);
         let done = AtomicUsize::new(0);
         let mut entries = vec![Entry::default(); places.len()];
@@ -136,19 +145,19 @@ impl<'a> Survey<'a> {
     /// The map of all places.
     ///
     /// # Errors
-    /// As [`Survey::entries`].
+    /// Same as [`Survey::entries`].
     pub fn map(&self, watch: &Watch) -> Result<ReachMap> {
-        let entries = self.entries(0..self.ask.grid.places(), watch)?;
-        Ok(ReachMap::of(self.program, self.ask, self.orientations(), entries))
+        let entries = self.entries(0..self.request.grid.places(), watch)?;
+        Ok(ReachMap::of(self.program, self.request, self.orientations(), entries))
     }
 
-    /// Counts at the places from `first` on.
+    /// Counts at the places from index `first` on.
     fn fill(&self, first: usize, entries: &mut [Entry], watch: &Watch) -> Result<()> {
         let mut sums = vec![0.0; entries.len()];
         let (mut targets, mut kept) = (Vec::new(), Vec::new());
         let mut place = 0;
         while place < entries.len() {
-            // Places one after the other that may be reached.
+            // A run of consecutive places that may be reached.
             let run = (place..entries.len()).take_while(|place| !self.is_beyond(first + place)).count();
             let numbers = (first + place) * self.orientations()..(first + place + run) * self.orientations();
             for start in numbers.clone().step_by(PIECE) {
@@ -172,13 +181,13 @@ impl<'a> Survey<'a> {
         Ok(())
     }
 
-    /// Whether a place is farther away than the chain gets.
+    /// Whether a place is out of reach of the chain.
     fn is_beyond(&self, place: usize) -> bool {
-        let at = Point3::from(self.ask.grid.at(place));
+        let at = Point3::from(self.request.grid.at(place));
         self.ball.is_some_and(|ball| !ball.holds(&at))
     }
 
-    /// Solves targets; each is handed over with its number.
+    /// Solves targets. Each result is passed to `take` with its index.
     fn piece(&self, targets: &[f64], mut take: impl FnMut(usize, &Target)) -> Result<()> {
         let inputs = self.poses.inputs();
         let (mut number, mut target, mut failed) = (0, Target::default(), None);
@@ -217,7 +226,7 @@ impl<'a> Survey<'a> {
         }
     }
 
-    /// A target whose self-motions are walked along to get within the limits.
+    /// The result for a target whose self-motions are followed to find members within the limits.
     fn stride(&self, numbers: &[f64]) -> Result<Target> {
         let mut target = Target::default();
         for solution in self.solver.within(numbers, self.limits.as_deref().unwrap_or_default())? {
@@ -227,7 +236,7 @@ impl<'a> Survey<'a> {
     }
 }
 
-/// Whether there is a pair of limits for each joint, the lesser one first.
+/// Checks that there is a pair of limits for each joint, the lesser one first.
 fn check(limits: &[[f64; 2]], program: &Program) -> Result<()> {
     let joints = &program.joints;
     let text = match limits.iter().position(|[low, high]| low.is_nan() || high.is_nan() || low > high) {
@@ -243,7 +252,7 @@ fn check(limits: &[[f64; 2]], program: &Program) -> Result<()> {
     Err(Error::new(ErrorKind::BadValue, text))
 }
 
-/// Whether each joint is within its limits, an angle with some of its turns.
+/// Whether each joint is within its limits, an angle with at least one of its turns.
 fn has_turn_within(turns: &[bool], q: &[f64], limits: &[[f64; 2]]) -> bool {
     turns.iter().zip(q).zip(limits).all(|((turns, value), [low, high])| {
         let (low, high) = (low - ACCEPTANCE.input, high + ACCEPTANCE.input);

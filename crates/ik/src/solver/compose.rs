@@ -266,7 +266,10 @@ fn unknowns_of(value: JointValue) -> Vec<usize> {
 fn paired(first: &Joint, next: &Joint) -> Result<Vec<(usize, usize)>> {
     let (mine, theirs) = (unknowns_of(first.value), unknowns_of(next.value));
     if first.unit != next.unit || mine.len() != theirs.len() {
-        let text = format!("`{}` and `{}` are shared; both must turn, or slide in one unit", first.name, next.name);
+        let text = format!(
+            "`{}` and `{}` are shared; both must be revolute, or prismatic with one unit",
+            first.name, next.name
+        );
         return Err(refuse(text));
     }
     Ok(mine.into_iter().zip(theirs).collect())
@@ -297,9 +300,9 @@ fn mapped(operation: Operation, place: &dyn Fn(Operand) -> Operand) -> Operation
 fn both(first: &Checks, next: Checks, joints: usize) -> Checks {
     let (mine, theirs, length) = (measured(first), measured(&next), first.code.len());
     let ahead = |index: usize| if index < mine { index } else { index + theirs };
-    let behind = |index: usize| if index < theirs { index + mine } else { index + length };
+    let renumbered = |index: usize| if index < theirs { index + mine } else { index + length };
     let mut checks = moved(first, &ahead);
-    let next = moved(&next, &behind);
+    let next = moved(&next, &renumbered);
     checks.jacobian.iter_mut().for_each(|row| row.resize(joints, Operand::Constant(0.0)));
     checks.code.extend(next.code);
     checks.code.sort_by_key(|line| line.target);

@@ -70,7 +70,7 @@ impl Facts {
         let is_abreast = is_solved_abreast(program);
         Facts {
             inputs: program.inputs.len(),
-            joints: layout.stands(),
+            joints: layout.joint_places(),
             last_first: layout.last_first(),
             places: places.len(),
             has_extras: !layout.extra.is_empty(),
@@ -204,9 +204,9 @@ pub(crate) fn is_solved_abreast(program: &Program) -> bool {
 
 /// The case of a block that runs at ordinary targets, if there is only one and guards detect the others.
 fn usual(block: &Block) -> Option<&Case> {
-    let is_told = |case: &Case| !case.open && case.pivot.is_none() && !(case.is_rare() && case.guards.is_empty());
+    let is_detected = |case: &Case| !case.open && case.pivot.is_none() && !(case.is_rare() && case.guards.is_empty());
     let mut usual = block.cases.iter().filter(|case| !case.is_rare());
-    let first = usual.next().filter(|_| usual.next().is_none() && block.cases.iter().all(is_told))?;
+    let first = usual.next().filter(|_| usual.next().is_none() && block.cases.iter().all(is_detected))?;
     let samples = first.steps.iter().any(|step| matches!(step, Step::Sample { .. }));
     (!samples).then_some(first)
 }
@@ -223,6 +223,6 @@ pub(crate) fn run(layout: &Layout<'_>, joint: usize) -> usize {
     let unknowns = program.joints[joint].value.unknowns();
     let later = candidates(program, block + 1);
     let is_mirrored = usual(&program.blocks[block]).is_some_and(|case| mirror::turns(program, case, &unknowns));
-    let is_behind = layout.mirror.as_ref().is_some_and(|mirror| mirror.block < block);
-    if is_mirrored || is_behind { 2 * later } else { later }
+    let is_after_mirror = layout.mirror.as_ref().is_some_and(|mirror| mirror.block < block);
+    if is_mirrored || is_after_mirror { 2 * later } else { later }
 }

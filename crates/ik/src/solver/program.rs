@@ -237,14 +237,14 @@ fn is_false(value: &bool) -> bool {
 }
 
 const FORMAT: JsonFormat =
-    JsonFormat { what: "program", number: 2, renew: "`groebot derive` on its folder writes it anew" };
+    JsonFormat { what: "program", number: 2, renew: "`groebot derive` on its folder writes it again" };
 
 impl Program {
     /// By joint, the least and the greatest value in its source, in the joint's unit; infinite where it has none.
     pub fn limits(&self) -> Vec<[f64; 2]> {
-        let told = self.about.as_ref().map(|about| about.limits.as_slice()).unwrap_or_default();
+        let limits = self.about.as_ref().map(|about| about.limits.as_slice()).unwrap_or_default();
         let of = |joint: usize| {
-            told.get(joint).copied().flatten().map_or([f64::NEG_INFINITY, f64::INFINITY], |(low, high)| [low, high])
+            limits.get(joint).copied().flatten().map_or([f64::NEG_INFINITY, f64::INFINITY], |(low, high)| [low, high])
         };
         (0..self.joints.len()).map(of).collect()
     }

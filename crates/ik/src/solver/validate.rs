@@ -20,8 +20,9 @@ const MOST_UNKNOWNS: usize = groebot_algebra::limits::PROGRAM_UNKNOWNS;
 const MOST_BRANCHES: usize = usize::MAX >> usize::BITS.saturating_sub(53);
 
 impl Program {
-    /// Checks that every index is in range, registers are written once and before they are read, every unknown is set
-    /// once along every path through the blocks, and sizes agree: a valid program never panics.
+    /// Checks that a program is well formed; a valid program never panics.
+    ///
+    /// Every index is in range. Registers are written once, before they are read. Every unknown is set once along every path through the blocks. Sizes agree.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] with the wrong part.
@@ -175,7 +176,7 @@ impl Context<'_> {
         for block in blocks {
             self.block(block)?;
             let ends = !block.cases.iter().any(|case| !case.open);
-            ensure(!ends || blocks.len() == 1, &format!("block `{}` has no case that goes on", block.label))?;
+            ensure(!ends || blocks.len() == 1, &format!("block `{}` has only open cases", block.label))?;
             if ends {
                 return Ok(());
             }
@@ -278,7 +279,10 @@ impl Context<'_> {
             && checks.jacobian.iter().all(|row| row.len() == self.program.joints.len())
             && checks.short.iter().all(|short| short.derivatives.len() == self.program.joints.len());
         ensure(square && equations > 0, "checks: sizes differ")?;
-        ensure(!self.program.nearby || !checks.short.is_empty(), "checks: what is polished needs a short way")?;
+        ensure(
+            !self.program.nearby || !checks.short.is_empty(),
+            "checks: a program that polishes needs `short` equations",
+        )?;
         let operands = checks.residuals.iter().chain(&checks.scales).chain(checks.jacobian.iter().flatten());
         let operands = operands.chain(checks.short.iter().flat_map(Short::operands));
         operands.copied().try_for_each(|operand| self.operand(operand, "checks"))

@@ -97,9 +97,9 @@ fn check_both(
 ) -> Result<Report> {
     let report = match &polished.described {
         // The search requires that the target is reached exactly, but solutions only need to come near it.
-        Some(told) => {
+        Some(inexact) => {
             let options = Options { oracle: 0, ..amounts.polished };
-            chain::Check::run_within(described, polished, None, (&options, MISSES * told.within), watch)?
+            chain::Check::run_within(described, polished, None, (&options, MISSES * inexact.within), watch)?
         }
         None => chain::Check::run(described, polished, None, &amounts.polished, watch)?,
     };

@@ -313,7 +313,7 @@ impl Fault {
     pub fn sentence(self) -> &'static str {
         match self {
             Fault::Missing => "the joint values that made the target are not among them",
-            Fault::Residual => "one does not bring the tip to the target",
+            Fault::Residual => "one does not reach the target",
             Fault::Range => "one is not finite, or has an angle outside (-pi, pi]",
             Fault::Duplicate => "two are the same",
             Fault::Bound => "there are more than the certified number of complex solutions",

@@ -1,4 +1,4 @@
-//! Batches in printed Rust and in the library: each answer is that of one target alone, to the last bit.
+//! Batches in printed Rust and in the library: each solution is bitwise equal to that of a single target.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
@@ -11,13 +11,13 @@ use super::harness::{feed, rustc};
 use super::stored::named;
 use super::{odd, random};
 
-/// What random joints reach; at and next to singular places, out of reach, where numbers of the target are zero, and what is no target.
+/// Poses of random joints, some at or next to singular configurations. Some targets are out of reach, have numbers that are zero, or are invalid.
 fn targets(program: &Program, count: usize) -> Vec<Vec<f64>> {
     let solver = program.solver();
     let mut next = random();
     let mut targets = odd(program.inputs.len());
     for k in 0..count {
-        // Few of the singular ones: they take a thousand times as long.
+        // Only a few singular ones: they take a thousand times as long.
         let kind = if k % 10 == 0 { k / 10 % 20 } else { 20 + k % 10 };
         let joint = |_| if kind == 1 { next(-2.0, 2.0).round() * FRAC_PI_2 } else { next(-3.2, 3.2) };
         let mut q: Vec<f64> = (0..program.joints.len()).map(joint).collect();
@@ -39,8 +39,8 @@ fn targets(program: &Program, count: usize) -> Vec<Vec<f64>> {
     targets
 }
 
-/// The printed file's batches in lanes of every width against its single targets, and the printed answers against those of the program, bit for bit;
-/// `None` when the compiler is missing.
+/// Compares the printed file's batches in lanes of every width with its single targets, and the printed solutions bitwise with those of the program. `None`
+/// when the compiler is missing.
 pub fn check(program: &Program, count: usize) -> Option<()> {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();

@@ -1,4 +1,4 @@
-//! Writing programs by hand: operands as expressions, and the smallest parts of a program.
+//! Helpers to write programs by hand: operands as expressions, and the smallest parts of a program.
 
 use groebot_ik::solver::{
     Block, Case, Guard, Input, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Rule, Step, Unit,
@@ -7,13 +7,13 @@ use groebot_ik::solver::{
 /// Code under construction.
 #[derive(Default)]
 pub struct Code {
-    /// Instructions so far that were not taken yet.
+    /// Instructions since the last call of `take`.
     lines: Vec<Instruction>,
     registers: usize,
 }
 
 impl Code {
-    /// Code that goes on behind a number of registers.
+    /// Code that follows after a number of registers.
     pub fn after(registers: usize) -> Self {
         Code { lines: vec![], registers }
     }
@@ -109,12 +109,12 @@ pub fn away(text: &str, value: Operand, scale: Operand) -> Guard {
     Guard { text: text.into(), value, scale, near: false }
 }
 
-/// Cases that number their branches themselves, as one block.
+/// Cases with their own branch numbers, as one block.
 pub fn one_block(cases: Vec<Case>) -> Vec<Block> {
     vec![Block { label: "all".into(), code: vec![], cases }]
 }
 
-/// A root step of an unknown of usual size.
+/// A root step of an unknown with typical size one.
 pub fn roots(unknown: usize, polynomials: Vec<Vec<Operand>>) -> Step {
     Step::Roots { unknown, polynomials, typical: None, half_angle: false }
 }

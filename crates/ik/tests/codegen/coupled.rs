@@ -1,4 +1,4 @@
-//! The solvers of chains that share actuators: printed from their programs, compiled, and answering like them.
+//! Solvers of chains that share actuators: printed from their programs, compiled, and compared with them.
 
 use std::path::Path;
 
@@ -9,10 +9,10 @@ use super::harness::compare_hosted;
 use super::random;
 use super::stored::reached;
 
-/// The joints of a leg that the other one does not share: the last ones of its chain.
+/// Number of joints of a leg that the other leg does not share: the last ones of its chain.
 const OWN: usize = 5;
 
-/// The poses of both feet that joint values in (-1, 1) reach, by the chains' own forward kinematics; given joints are at zero.
+/// The poses of both feet for joint values in (-1, 1), by the chains' own forward kinematics. Given joints are zero.
 fn target(folder: &Path) -> Vec<f64> {
     let [left, right] = ["left.toml", "right.toml"].map(|file| Chain::read(&folder.join(file)).unwrap());
     let mut between = random();

@@ -1,4 +1,4 @@
-//! The committed mechanisms: their files are what a derivation writes today, and their printed solvers answer like the program.
+//! The committed mechanisms: their files are up to date with derivations, and their printed solvers agree with the program.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fs;
@@ -20,24 +20,30 @@ fn folder(name: &str) -> PathBuf {
 }
 
 #[test]
-fn a_program_says_what_it_comes_from() {
+fn a_program_names_its_source() {
     for (name, task) in [("planar_2r", "planar_position in xy"), ("nao_head", "direction of [1, 0, 0]")] {
         let mut source = Source::read(&folder(name)).unwrap();
         let about = |source: &Source| {
             Derivation::of(source, &Watch::none()).unwrap().about(source).program().about.clone().unwrap()
         };
-        let told = about(&source);
-        assert_eq!((told.task.as_str(), told.base.as_deref()), (task, None), "{name}");
+        let about_source = about(&source);
+        assert_eq!((about_source.task.as_str(), about_source.base.as_deref()), (task, None), "{name}");
         let limits: Vec<_> = source.chain.as_ref().unwrap().joints().iter().map(|joint| joint.limits).collect();
-        assert!(told.limits == limits || limits.iter().all(Option::is_none) && told.limits.is_empty(), "{told:?}");
-        assert!(told.hash.len() == 16 && told.hash.bytes().all(|byte| byte.is_ascii_hexdigit()), "{told:?}");
+        assert!(
+            about_source.limits == limits || limits.iter().all(Option::is_none) && about_source.limits.is_empty(),
+            "{about_source:?}"
+        );
+        assert!(
+            about_source.hash.len() == 16 && about_source.hash.bytes().all(|byte| byte.is_ascii_hexdigit()),
+            "{about_source:?}"
+        );
         source.text.push(' ');
         source.links = Some(["torso".into(), "hand".into()]);
         let other = about(&source);
         let links = (other.base.as_deref(), other.tip.as_deref());
-        assert!(other.hash != told.hash && links == (Some("torso"), Some("hand")), "{other:?}");
+        assert!(other.hash != about_source.hash && links == (Some("torso"), Some("hand")), "{other:?}");
     }
-    // From the root of a URDF to its only leaf, which nobody asked for by name.
+    // From the root of a URDF to its only leaf, without names in the input.
     for text in ["5_solver.h", "5_solver.rs", "5_ikfast.cpp"]
         .map(|file| fs::read_to_string(folder("irb4600_rounded").join(file)))
     {
@@ -46,7 +52,7 @@ fn a_program_says_what_it_comes_from() {
     }
 }
 
-/// Reachable, unreachable, boundary and degenerate targets, and what is no target.
+/// Reachable, unreachable, boundary, degenerate and invalid targets.
 fn targets(reach: f64) -> Vec<Vec<f64>> {
     let mut targets = Vec::new();
     for k in 0..2500 {
@@ -78,7 +84,7 @@ fn printed_solvers_answer_like_the_program() {
     }
 }
 
-/// The C file of every stored program is C99 to the letter; its Rust file is a module of a crate. Warnings are errors.
+/// The C file of every stored program conforms strictly to C99, and its Rust file is a module of a crate. Warnings are errors.
 #[test]
 fn every_stored_solver_compiles() {
     let folder = tempfile::tempdir().unwrap();
@@ -104,7 +110,7 @@ fn every_stored_solver_compiles() {
     rustc(folder.path(), &library);
 }
 
-/// Targets that a chain reaches, singular ones among them, and some out of reach or no target.
+/// Targets that a chain reaches, some of them singular, and some that are out of reach or invalid.
 pub fn targets_of(program: &Program, count: usize) -> Vec<Vec<f64>> {
     let mut targets: Vec<Vec<f64>> =
         joint_values(program, count, random()).iter().filter_map(|q| program.reached(q)).collect();
@@ -129,7 +135,7 @@ fn printed_solvers_of_chains_answer_like_the_program() {
     }
 }
 
-/// A UR5 with its elbow and wrist straight and the wrist's offset in line, where the last step of polishing differs most, and poses next to that.
+/// A UR5 with a stretched elbow and wrist and the wrist's offset in line, and poses next to that. The last polishing step differs most there.
 #[test]
 fn printed_solvers_answer_poses_that_are_singular_twice() {
     let [ur5] = &named(&["ur5"])[..] else { panic!("it is stored") };

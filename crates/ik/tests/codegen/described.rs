@@ -1,4 +1,4 @@
-//! Robots told by rounded numbers, for tasks that ask for more than their joints can do: printed solvers against the evaluator.
+//! Robots described with rounded numbers, for tasks with more conditions than joints: printed solvers against the evaluator.
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,4 +1,4 @@
-//! Printed equations of motion in both languages, beside the library, at random states.
+//! Printed equations of motion in both languages, compared with the library at random states.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -11,7 +11,7 @@ use groebot_robot::model::{Mimic, Robot};
 use super::harness::{compile_c, feed, rustc};
 use crate::dynamics_samples::{Random, floating};
 
-/// Reads the number of states and, of each, configuration, velocity, acceleration; prints what all functions say of it, as bits.
+/// Reads the number of states, and for each its configuration, velocity and acceleration. Prints the results of all functions as bits.
 const RUST_DRIVER: &str = r#"
 #[path = "motion.rs"]
 mod motion;
@@ -90,7 +90,7 @@ int main(void)
 }
 "#;
 
-/// What the library says, in the order of the drivers.
+/// The results of the library, in the order of the drivers.
 fn expected(equations: &Equations, [q, v, a]: [&[f64]; 3]) -> Vec<Vec<f64>> {
     let (mut room, state) = (equations.workspace(), State::new(q, v));
     let by_rows = |matrix: &nalgebra::DMatrix<f64>| matrix.transpose().as_slice().to_vec();
@@ -107,7 +107,7 @@ fn expected(equations: &Equations, [q, v, a]: [&[f64]; 3]) -> Vec<Vec<f64>> {
     all
 }
 
-/// Compares both languages with each other, to the last bit, and with the library.
+/// Compares both languages with each other bitwise, and with the library.
 fn compare(description: &str, base: Base, rate: f64) {
     [Form::Straight, Form::Recursive].into_iter().for_each(|form| compare_form(description, base, rate, form));
 }
@@ -115,14 +115,14 @@ fn compare(description: &str, base: Base, rate: f64) {
 fn compare_form(description: &str, base: Base, rate: f64, form: Form) {
     let robot = Robot::from_urdf(description).unwrap().as_meant().unwrap();
     let mut parts = robot.parts().clone();
-    // Rotors and a joint that is told another way.
+    // A joint with an armature (inertia of a rotor).
     parts.joints[0].armature = 0.3;
     let robot = Robot::new(parts).unwrap();
     compare_robot(&robot, base, rate, form);
 }
 
 fn compare_robot(robot: &Robot, base: Base, rate: f64, form: Form) {
-    let equations = Equations::as_told(robot, base).unwrap().without_friction();
+    let equations = Equations::unchecked(robot, base).unwrap().without_friction();
     let functions = Function::ALL.to_vec();
     let printed = Printed { name: robot.name(), equations: &equations, remarks: Vec::new(), functions, form };
     let folder = tempfile::tempdir().unwrap();
@@ -158,7 +158,7 @@ fn compare_robot(robot: &Robot, base: Base, rate: f64, form: Form) {
         for (which, list) in expected(&equations, [q, v, a]).iter().enumerate() {
             let size = list.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
             let miss = list.iter().fold(0.0, |miss: f64, x| miss.max((x - numbers.next().unwrap()).abs()));
-            // Accelerations are solved for.
+            // Accelerations are the solution of a linear system.
             let least = if which == 4 { 1e-8 } else { 1e-11 };
             assert!(miss <= least * size, "{} {base:?} {form:?}, {which}: off by {miss:e} of {size:e}", robot.name());
         }
@@ -177,7 +177,7 @@ fn printed_motion_of_joints_that_slide_is_that_of_the_library() {
     compare(include_str!("../../../../tests/corpus/dynamics/rrp.urdf"), Base::Floating, 2.0);
 }
 
-/// Loops over tables: of joints that follow others, and of a humanoid whose straight-line code would be long.
+/// Loops over tables: for joints that follow others, and for a humanoid with long straight-line code.
 #[test]
 fn recursive_code_is_that_of_the_library() {
     let panda =
@@ -192,7 +192,7 @@ fn recursive_code_is_that_of_the_library() {
     compare_robot(&humanoid, Base::Floating, 1.0, Form::Recursive);
 }
 
-/// Angles beyond a million rad lose whole turns first, each of which is off by 2e-16 rad.
+/// Angles beyond a million rad are first reduced by whole turns, each with an error of 2e-16 rad.
 #[test]
 fn far_angles_lose_whole_turns() {
     for angle in [3e6, -2e7, 1e9, 0.4] {
@@ -202,7 +202,7 @@ fn far_angles_lose_whole_turns() {
     }
 }
 
-/// Of a polar arm little is left that gravity's torques ask for.
+/// The gravity torques of a polar arm need few operations.
 #[test]
 fn what_is_known_beforehand_is_not_printed() {
     let robot = Robot::from_urdf(include_str!("../../../../tests/corpus/dynamics/rrp.urdf")).unwrap();
@@ -212,7 +212,7 @@ fn what_is_known_beforehand_is_not_printed() {
     assert!(printed.operations(Function::Gravity).unwrap() < 20);
 }
 
-/// Straight-line code, too, where joints follow others: the matrix is solved.
+/// Also as straight-line code, where joints follow others: the linear system of the mass matrix is solved.
 #[test]
 fn forward_dynamics_of_joints_that_follow_others_is_printed() {
     let mut parts =
@@ -225,13 +225,13 @@ fn forward_dynamics_of_joints_that_follow_others_is_printed() {
     compare_robot(&Robot::new(parts).unwrap(), Base::Fixed, 2.0, Form::Straight);
 }
 
-/// Of bodies without mass all is printed but forward dynamics.
+/// Forward dynamics is the only function that is not printed for bodies without mass.
 #[test]
 fn what_cannot_be_printed_is_refused() {
     let mut parts =
         Robot::from_urdf(include_str!("../../../../tests/corpus/dynamics/ur5.urdf")).unwrap().parts().clone();
     parts.links.iter_mut().for_each(|link| link.mass = None);
-    let equations = Equations::as_told(&Robot::new(parts).unwrap(), Base::Fixed).unwrap();
+    let equations = Equations::unchecked(&Robot::new(parts).unwrap(), Base::Fixed).unwrap();
     for function in Function::ALL {
         let functions = vec![function];
         let printed =

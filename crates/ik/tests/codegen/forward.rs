@@ -1,4 +1,4 @@
-//! Forward kinematics that a program's equations hold, against those of the chain.
+//! Forward kinematics by the equations of a program, compared with that of the chain.
 
 use std::fs;
 
@@ -9,12 +9,12 @@ use super::samples::{arm, leg, polar, wrist};
 use super::stored::{all, joint_values, reached};
 
 #[test]
-fn every_stored_chain_reaches_what_its_forward_kinematics_say() {
+fn every_stored_chain_reaches_its_forward_kinematics() {
     let mut chains = 0;
     for stored in all() {
         let Some(chain) = stored.chain else { continue };
         if stored.program.forward().is_none() {
-            // The equations of the first are those of a system; pitch and roll of the other are no parameters of its equations.
+            // The equations of the first are those of a system. In the second, pitch and roll are not parameters of its equations.
             assert!(["nao_leg_sagittal", "upright_arm"].contains(&stored.name.as_str()), "{}", stored.name);
             continue;
         }
@@ -39,7 +39,7 @@ fn every_stored_chain_reaches_what_its_forward_kinematics_say() {
 }
 
 #[test]
-fn the_joint_that_is_given_is_told_from_the_target() {
+fn a_given_joint_is_distinguished_from_the_target() {
     for stored in all() {
         let Some(chain) = &stored.chain else { continue };
         let Some(forward) = stored.program.forward() else { continue };
@@ -62,7 +62,7 @@ fn equations_that_mix_target_and_joints_have_none() {
     assert!(wrist::program(false).reached(&[0.0; 2]).is_none(), "three joints");
 }
 
-/// The stored programs are read without the field that tells about their source, and with it.
+/// The stored programs can be read with and without the field about their source.
 #[test]
 fn what_is_known_of_the_source_is_optional_and_checked() {
     let text =

@@ -1,4 +1,4 @@
-//! Base and tool given at run time, in C and Rust, against products of isometries.
+//! Base and tool frames given at run time, in C and Rust, compared with products of isometries.
 
 use std::fmt::Write as _;
 use std::fs;

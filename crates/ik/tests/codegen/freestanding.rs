@@ -1,4 +1,4 @@
-//! Printed C where there is neither an operating system nor a C library: the compiler's own headers and `freestanding/math.h`.
+//! Printed C without an operating system or a C library: with the compiler's own headers and `freestanding/math.h`.
 
 use std::fs;
 use std::path::Path;
@@ -11,13 +11,13 @@ use super::stored::all;
 
 const STRICT: &str = "-std=c99 -Wall -Wextra -Werror -pedantic -Wconversion -ffreestanding -nostdinc";
 
-/// What makes the compiler for Arm build for a Cortex-M4, whose floating-point unit is for single precision, or an M7, whose is for both.
+/// Compiler options for a Cortex-M4, whose floating-point unit is for single precision, and for an M7, whose unit is for both.
 const CORTEX: [&str; 2] = [
     "-O2 -c -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16",
     "-O2 -c -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-d16",
 ];
 
-/// Compiles a file with the headers of the compiler alone; `None` when there is no such compiler (an error with `GROEBOT_REQUIRE_TOOLS=1`).
+/// Compiles a file with only the headers of the compiler. `None` if that is not installed (an error with `GROEBOT_REQUIRE_TOOLS=1`).
 fn compile(compiler: &str, options: &str, file: &Path) -> Option<()> {
     build(Command::new(compiler).arg("--version"))?;
     let own = Command::new(compiler).arg("-print-file-name=include").output().unwrap();

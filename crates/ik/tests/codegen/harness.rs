@@ -1,4 +1,4 @@
-//! Compiles the printed solvers of a program, runs them, and compares each answer with [`Program::solve`].
+//! Compiles the printed solvers of a program, runs them, and compares each solution with [`Program::solve`].
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -13,26 +13,26 @@ use groebot_ik::codegen::{self, c99::Pair};
 use groebot_ik::solver::{Condition, Program};
 use groebot_robot::kinematics::Solution;
 
-/// Joint values may differ by this, absolutely: the languages' elementary functions need not round alike.
+/// Absolute tolerance for joint values, because elementary functions of the languages may round differently.
 const TOLERANCE: f64 = 1e-12;
 
-/// What a comparison saw.
+/// Results of a comparison.
 #[derive(Debug, Default)]
 pub struct Report {
-    /// Answers of the evaluator.
+    /// Number of solutions of the evaluator.
     pub answers: usize,
-    /// Those of them with a free joint.
+    /// Number of these with a free joint.
     pub self_motions: usize,
-    /// Targets that are an error.
+    /// Number of targets that are an error.
     pub refused: usize,
     /// The largest difference of a joint value in any language.
     pub largest: f64,
-    /// Answers, over all languages, with a joint value that is not the same double.
+    /// Number of solutions, over all languages, with a joint value that is not bitwise equal.
     pub unequal: usize,
 }
 
-/// Compares the C99 file and both variants of the Rust file with the evaluator at every target. Panics where they differ;
-/// `None` when a compiler is missing (an error with `GROEBOT_REQUIRE_TOOLS=1`).
+/// Compares the C99 file and both variants of the Rust file with the evaluator at every target. Panics if they differ. `None` when a compiler is missing (an
+/// error with `GROEBOT_REQUIRE_TOOLS=1`).
 pub fn compare(program: &Program, targets: &[Vec<f64>]) -> Option<Report> {
     let folder = tempfile::tempdir().unwrap();
     let mut executables = hosted(program, folder.path())?;
@@ -40,7 +40,7 @@ pub fn compare(program: &Program, targets: &[Vec<f64>]) -> Option<Report> {
     answers_are_equal(program, targets, &executables)
 }
 
-/// As [`compare`], without the variant for targets that have no standard library.
+/// Same as [`compare`], without the variant that needs no standard library.
 pub fn compare_hosted(program: &Program, targets: &[Vec<f64>]) -> Option<Report> {
     let folder = tempfile::tempdir().unwrap();
     let executables = hosted(program, folder.path())?;
@@ -68,13 +68,13 @@ fn answers_are_equal(program: &Program, targets: &[Vec<f64>], executables: &[Exe
             let place = format!("{} in {language} at {target:?}", program.name);
             check(program, target, expected, &mut numbers, &place, &mut report);
         }
-        assert_eq!(numbers.next(), None, "{language} says more than it was asked");
+        assert_eq!(numbers.next(), None, "{language} prints more numbers than expected");
     }
     println!("{}: {} targets, {report:?}", program.name, targets.len());
     Some(report)
 }
 
-/// One target's answers, read from a solver's output.
+/// Compares the solutions of one target, read from a solver's output.
 fn check(
     program: &Program,
     target: &[f64],
@@ -100,7 +100,7 @@ fn check(
         let (residual, again) = (next(), next());
         let slack = 1e-13 * program.scale.max(1.0) + 8.0 * answer.residual;
         assert!(residual <= slack, "{place}: residual {residual}, {}", answer.residual);
-        // That of the answer is measured at its cosines and sines, the other at its joint values.
+        // The solver measures the residual at cosines and sines, the test at joint values.
         assert!((residual - again).abs() <= slack, "{place}: residual {residual} of the answer, {again} of its joints");
         let free: Vec<usize> = (0..answer.q.len()).filter(|_| next() == 1.0).collect();
         assert_eq!(free, answer.free, "{place}: free joints");
@@ -112,7 +112,7 @@ fn check(
     }
 }
 
-/// The codes that the printed solvers may return where the evaluator has an error.
+/// The codes that the printed solvers may return for an error of the evaluator.
 fn codes(program: &Program, target: &[f64], error: &groebot_ik::Error) -> Vec<f64> {
     if error.kind() != ErrorKind::BadValue {
         return vec![-2.0];
@@ -133,7 +133,7 @@ fn run(executable: &Path, targets: &[Vec<f64>]) -> String {
     feed(executable, text)
 }
 
-/// What a program prints that reads this text.
+/// The output of a program with this text as input.
 pub fn feed(executable: &Path, text: String) -> String {
     let mut child = Command::new(executable).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let mut input = child.stdin.take().unwrap();
@@ -158,7 +158,7 @@ pub fn compile_solver(program: &Program, folder: &Path, flags: &[&str], name: &s
     compile_c(folder, &[flags, &["main.c", "5_solver.c"], &objects, &["-lm", "-o", name]].concat())
 }
 
-/// A file of the run time in C, compiled once for each choice of flags.
+/// The object file of a part of the C run time, compiled once for each set of flags.
 fn runtime_object(part: &str, flags: &[&str]) -> Option<String> {
     static FOLDER: LazyLock<tempfile::TempDir> = LazyLock::new(|| tempfile::tempdir().unwrap());
     static KNOWN: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
@@ -173,12 +173,12 @@ fn runtime_object(part: &str, flags: &[&str]) -> Option<String> {
     known.get(&own).cloned()
 }
 
-/// The folder of the run time in C.
+/// The folder of the C run time.
 pub fn c_runtime() -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("runtime/c")
 }
 
-/// Writes a solver in C, and `main.c`, which answers the targets that it reads.
+/// Writes a solver in C, and `main.c`, which solves the targets that it reads.
 pub fn write_c(program: &Program, folder: &Path) {
     let pair = Pair::new(program, "5_solver");
     write_pair(folder, &pair);
@@ -186,16 +186,16 @@ pub fn write_c(program: &Program, folder: &Path) {
     fs::write(folder.join("main.c"), c_driver(&program.name, has_extra)).unwrap();
 }
 
-/// A compiled solver with its language's name.
+/// A compiled solver with the name of its language.
 type Executable = (&'static str, PathBuf);
 
-/// A program in Rust that reads targets and prints the answers of a solver.
+/// A Rust program that reads targets and prints the solutions.
 fn rust_driver(program: &Program) -> String {
     let has_extra = codegen::rust::emit(program).contains("has_extras: true");
     RUST_DRIVER.replace("AGAIN", if has_extra { "answer.residual" } else { "Solver.residual(&target, &answer.q)" })
 }
 
-/// The solver in Rust as a module beside the run time, and in C; `None` when a compiler is missing.
+/// The Rust solver as a module next to the run time, and the C solver. `None` when a compiler is missing.
 fn hosted(program: &Program, folder: &Path) -> Option<Vec<Executable>> {
     fs::write(folder.join("5_solver.rs"), codegen::rust::emit(program)).unwrap();
     let driver = rust_driver(program);
@@ -206,7 +206,7 @@ fn hosted(program: &Program, folder: &Path) -> Option<Vec<Executable>> {
     Some(vec![("Rust", folder.join("module")), ("C99", folder.join("c99"))])
 }
 
-/// The solver in one file of Rust that has no standard library; `None` when the compiler is missing.
+/// The solver in one Rust file without the standard library. `None` when the compiler is missing.
 fn without_std(program: &Program, folder: &Path) -> Option<Executable> {
     fs::write(folder.join("single.rs"), codegen::single_file::rust(program)).unwrap();
     fs::write(folder.join("root.rs"), "#![no_std]\n#[path = \"single.rs\"]\npub mod solver;\n").unwrap();
@@ -216,7 +216,7 @@ fn without_std(program: &Program, folder: &Path) -> Option<Executable> {
     Some(("Rust without std", folder.join("crate")))
 }
 
-/// Compiles all files of a solver without warnings, and links none.
+/// Compiles all files of a solver without warnings and does not link them.
 pub fn compiles(program: &Program) {
     program.validate().unwrap();
     let folder = tempfile::tempdir().unwrap();
@@ -246,7 +246,7 @@ fn runtime() -> Option<&'static Path> {
     compiled.as_ref().map(|(_, library)| library.as_path())
 }
 
-/// Compiles Rust, without optimisation where nothing else is asked: that is quick, and overflow is checked.
+/// Compiles Rust, by default without optimisation: that is fast, and overflow is checked.
 pub fn rustc(folder: &Path, arguments: &[&str]) -> Option<()> {
     let name = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let mut command = Command::new(name);
@@ -265,17 +265,17 @@ pub fn compile_c(folder: &Path, arguments: &[&str]) -> Option<()> {
     build(command.args(arguments).current_dir(folder))
 }
 
-/// What makes a C or C++ program stop at the first access out of bounds or undefined operation.
+/// Options with which a C or C++ program stops at the first access out of bounds or undefined operation.
 pub const SANITIZERS: [&str; 2] = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
 
-/// Whether the C compiler has the sanitizers' libraries.
+/// Whether the C compiler has the libraries of the sanitizers.
 pub fn has_sanitizers(folder: &Path) -> bool {
     fs::write(folder.join("empty.c"), "int main(void) { return 0; }\n").unwrap();
     let command = Command::new("cc").args(SANITIZERS).args(["empty.c", "-o", "empty"]).current_dir(folder).output();
     command.is_ok_and(|output| output.status.success())
 }
 
-/// Runs a compiler, which must succeed; `None` when there is none.
+/// Runs a compiler, which must succeed. `None` if it is not installed.
 pub fn build(command: &mut Command) -> Option<()> {
     match command.output() {
         Ok(output) => {
@@ -292,7 +292,7 @@ pub fn build(command: &mut Command) -> Option<()> {
     }
 }
 
-/// Reads the number of targets and the targets; prints for each the count or error code, and each answer.
+/// Reads the number of targets and the targets. For each it prints the number of solutions or the error code, then each solution.
 const RUST_DRIVER: &str = r#"
 use solver::{Solve, Solver};
 use std::io::Read;

@@ -1,4 +1,4 @@
-//! C++ for IKFast's callers: included as MoveIt's plugin includes it, built as OpenRAVE builds it, and compared with the program.
+//! C++ with the interface of IKFast: included like by MoveIt's plugin, built like by OpenRAVE, and compared with the program.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -16,7 +16,7 @@ use super::random;
 use super::samples::{leg, wrist};
 use super::stored::{Stored, all, joint_values, named, reached};
 
-/// A folder with the printed file, the stand-in for the header, and the plugin.
+/// A folder with the printed file, a replacement of the header, and the plugin.
 pub fn folder(program: &Program, options: &Options) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     let options = Options { file: Some("5_ikfast.cpp".into()), ..options.clone() };
@@ -35,13 +35,13 @@ pub fn compile(folder: &Path, arguments: &[&str]) -> Option<()> {
     build(command.current_dir(folder))
 }
 
-/// The plugin of a program; none when there is no compiler.
+/// The plugin of a program. `None` when the compiler is missing.
 fn plugin(folder: &Path, flags: &[&str]) -> Option<PathBuf> {
     compile(folder, &[flags, &["-std=c++11", "plugin.cpp", "-o", "plugin"]].concat())?;
     Some(folder.join("plugin"))
 }
 
-/// Numbers as IKFast's callers give them, in metres: position, rotation by rows, free value.
+/// Target numbers in the format of IKFast's callers, in metres: position, rotation by rows, free value.
 fn line(stored: &Stored, target: &[f64]) -> [f64; 13] {
     let given = stored.chain.as_ref().map_or(0, |chain| chain.given().len());
     let (own, free) = target.split_at(target.len() - given);
@@ -58,14 +58,14 @@ fn line(stored: &Stored, target: &[f64]) -> [f64; 13] {
     line
 }
 
-/// One solution as the plugin told it.
+/// One solution in the plugin's output.
 struct Answer {
     branch: usize,
     q: Vec<f64>,
     reached: Vec<f64>,
 }
 
-/// The plugin's answers at each line.
+/// The plugin's solutions at each line.
 fn ask(executable: &Path, joints: usize, lines: &[[f64; 13]]) -> (i64, i64, Vec<Vec<Answer>>) {
     let mut text = String::new();
     for line in lines {
@@ -150,7 +150,7 @@ fn a_plugin_answers_like_the_program() {
     }
 }
 
-/// Six joints in any place, turning and sliding.
+/// Six joints at general positions, revolute and prismatic.
 #[test]
 fn a_plugin_of_six_axes_answers_like_the_program() {
     for stored in named(&["crx_like", "general_4r2p", "general_5r1p", "general_6r", "jaco_like"]) {
@@ -159,7 +159,7 @@ fn a_plugin_of_six_axes_answers_like_the_program() {
     }
 }
 
-/// PUMA without its last joint aims its tool.
+/// PUMA without its last joint points its tool along a ray.
 #[test]
 fn a_ray_is_a_translation_and_a_direction() {
     let text =
@@ -174,7 +174,7 @@ fn a_ray_is_a_translation_and_a_direction() {
     assert!(total >= 400, "{total}");
 }
 
-/// Callers speak in metres where the equations are in millimetres.
+/// Callers use metres, and the equations millimetres.
 #[test]
 fn lengths_are_metres() {
     let mut program = wrist::carried();
@@ -194,7 +194,7 @@ fn lengths_are_metres() {
     }
 }
 
-/// Parameters and unknowns may be called by words that C++ keeps for itself.
+/// Parameters and unknowns may have names that C++ reserves.
 #[test]
 fn words_of_cpp_are_possible_names() {
     let mut program = named(&["puma"]).remove(0).program;
@@ -231,7 +231,8 @@ fn bad_and_unreachable_targets_have_no_solution() {
     assert_eq!(counts, [8, 0, 0, 0, 0, 0, 8], "the rotation of the last one is rounded to five decimals");
 }
 
-/// Every stored solver is C++11 and C++17, alone and as a library of C functions in a namespace; its head is as MoveIt's script reads it.
+/// Every stored solver is valid C++11 and C++17, alone and as a library of C functions in a namespace. Its first line has the format that MoveIt's script
+/// reads.
 #[test]
 fn every_stored_solver_is_cpp() {
     let mut printed = 0;
@@ -242,7 +243,7 @@ fn every_stored_solver_is_cpp() {
         assert!(head.starts_with("/// ikfast version 0x1000004a generated ") && head.matches("generated").count() == 1);
         let folder = folder(&stored.program, &Options::default());
         let alone = ["-std=c++17", "-fsyntax-only", "-x", "c++", "5_ikfast.cpp"];
-        // One of each kind is read twice.
+        // One of each kind is compiled as both versions.
         let is_one = ["puma", "general_6r", "scara"].contains(&stored.name.as_str());
         if is_one && compile(folder.path(), &alone).is_none() {
             return;
@@ -300,8 +301,8 @@ fn what_ikfast_has_no_words_for_is_refused() {
     }
 }
 
-/// A SCARA's tool stays upright: a pose that is rounded to single precision is tilted by 1e-8 rad, which no joints reach. The answers are those of the
-/// nearest pose that they reach, whether the description has all digits or rounded ones.
+/// The tool of a SCARA stays upright. A pose rounded to single precision is tilted by 1e-8 rad, which is unreachable. The solutions are those of the nearest
+/// reachable pose, both for a description with all digits and for a rounded one.
 #[test]
 fn rounded_targets_of_a_task_that_asks_too_much_have_all_answers() {
     let mut programs = vec![named(&["scara"]).remove(0).program];
@@ -313,7 +314,7 @@ fn rounded_targets_of_a_task_that_asks_too_much_have_all_answers() {
         }
         let solver = program.solver();
         for (k, q) in joint_values(program, 30, random()).iter().enumerate() {
-            // Every third may be singular.
+            // Every third configuration may be singular.
             if k % 3 == 2 {
                 continue;
             }
@@ -334,7 +335,7 @@ fn rounded_targets_of_a_task_that_asks_too_much_have_all_answers() {
 #[test]
 fn single_precision_of_a_task_that_asks_too_much_without_a_comparison_is_refused() {
     let mut scara = named(&["scara"]).remove(0).program;
-    // A product of two numbers of one joint: what a rounded target is compared with is not affine in them.
+    // A product of two numbers of one joint: the comparison with a rounded target is then not affine in them.
     let last = scara.checks.code.len();
     let (Operand::Register(register), unknown) = (scara.checks.residuals[0], Operand::Unknown(0)) else { panic!() };
     scara.checks.code.push(Instruction { target: last, operation: Operation::Mul(unknown, unknown) });

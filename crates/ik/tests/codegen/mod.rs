@@ -26,14 +26,14 @@ use harness::compare;
 use proptest::test_runner::{RngAlgorithm, TestRng};
 use samples::{arm, leg, pan_tilt, polar, quartic, wrist};
 
-/// Numbers that are the same in every run.
+/// Random numbers that are equal in every run.
 pub fn random() -> impl FnMut(f64, f64) -> f64 {
     use proptest::prelude::Rng;
     let mut source = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
     move |low, high| low + (high - low) * (source.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Targets with numbers that no solver takes, and the zero target.
+/// Targets with invalid numbers, and the zero target.
 fn odd(inputs: usize) -> Vec<Vec<f64>> {
     let mut targets = vec![vec![0.0; inputs], vec![-0.0; inputs], vec![1e300; inputs], vec![1e-300; inputs]];
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {

@@ -1,4 +1,4 @@
-//! Any names: words of the languages, of their libraries and of the printed files themselves.
+//! Arbitrary names: reserved words of the languages, of their libraries and of the printed files.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,7 +12,7 @@ use groebot_ik::solver::{Case, Checks, Joint, JointValue, Program, Rule, Step, U
 use groebot_robot::dynamics::{Base, Equations};
 use groebot_robot::model::Robot;
 
-/// Every word of a printed file, comments included.
+/// Every word of a printed file, including comments.
 fn words(text: &str) -> BTreeSet<String> {
     text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')
         .filter(|word| !word.is_empty())
@@ -20,7 +20,7 @@ fn words(text: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// A program whose parameters and unknowns have these names, all of which the equation reads: `t + sum x_i - sum p_i = 0`.
+/// A program whose parameters and unknowns have these names. Its equation reads all of them: `t + sum x_i - sum p_i = 0`.
 fn named(names: &[String]) -> Program {
     let mut code = Code::default();
     let count = names.len();
@@ -90,7 +90,7 @@ fn names_that_are_words_stay() {
     assert!(text.contains("let KneeCosine_ = KneeCosine;"), "unknowns are apart from parameters: {text}");
 }
 
-/// Names of robots that C, C++, Rust, their libraries or the run time keep for themselves or begin theirs with, and some that are no words.
+/// Names of robots that C, C++, Rust, their libraries or the run time reserve, or whose prefix is reserved, and some that are not words.
 const ROBOTS: &str =
     "class new int _x std main fn Self NULL M errno gb Gb groebot Groebot groebot_six_axes groebot_dynamics 9 r\u{f6}b";
 
@@ -120,7 +120,7 @@ fn a_robot_may_have_any_name() {
     }
 }
 
-/// The same of equations of motion, whose joints have such names, too.
+/// The same test for equations of motion, whose joints have such names too.
 #[test]
 fn a_robot_of_equations_of_motion_may_have_any_name() {
     let names: Vec<&str> = ROBOTS.split_whitespace().collect();
@@ -135,7 +135,7 @@ fn a_robot_of_equations_of_motion_may_have_any_name() {
             .for_each(|(joint, own)| own.name = names[(place + joint) % names.len()].to_owned());
         parts.actuators.clear();
         let robot = Robot::new(parts).unwrap();
-        let equations = Equations::as_told(&robot, Base::Fixed).unwrap().without_friction();
+        let equations = Equations::unchecked(&robot, Base::Fixed).unwrap().without_friction();
         let functions = vec![dynamics::Function::Inverse];
         let form = dynamics::Form::Straight;
         let printed =

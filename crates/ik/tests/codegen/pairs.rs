@@ -1,4 +1,4 @@
-//! Cosines and sines of answers: those of the evaluator, to the last bit, and of the angles that it finds.
+//! Cosines and sines of solutions: bitwise equal to those of the evaluator, and consistent with its angles.
 
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
@@ -11,7 +11,7 @@ use super::harness::{compile_solver, feed, rustc, write_c};
 use super::stored::named;
 use super::{odd, random};
 
-/// Targets that random joints reach, and joints that are multiples of a quarter turn.
+/// Poses of random joints, and of joints at multiples of a quarter turn.
 fn targets(program: &Program) -> Vec<Vec<f64>> {
     let mut next = random();
     let mut targets = odd(program.inputs.len());
@@ -24,7 +24,7 @@ fn targets(program: &Program) -> Vec<Vec<f64>> {
     targets
 }
 
-/// The printed solvers' numbers for all targets: counts, and of each answer branch, residual and pairs.
+/// Output of the printed solvers for all targets: the number of solutions, and for each its branch, residual and pairs.
 fn printed(program: &Program, targets: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: String| fs::write(folder.path().join(name), text).unwrap();

@@ -1,4 +1,4 @@
-//! C in single precision: compiled without a silent promotion, run, and compared with the program in double precision.
+//! C in single precision: compiled without implicit promotion, run, and compared with the program in double precision.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -11,16 +11,16 @@ use super::harness::{compile_solver, feed, write_pair};
 use super::random;
 use super::stored::{joint_values, named};
 
-/// What a comparison saw.
+/// Results of a comparison.
 #[derive(Debug, Default)]
 pub struct Seen {
-    /// Answers of the program that have an answer in single precision near them.
+    /// Number of solutions of the program with a solution in single precision near them.
     pub found: usize,
-    /// Answers of the program.
+    /// Number of solutions of the program.
     pub expected: usize,
-    /// Answers in single precision.
+    /// Number of solutions in single precision.
     pub answers: usize,
-    /// The farthest that an answer's target is from what was asked, as a share of the scale.
+    /// The largest distance between a solution's target and the requested one, relative to the scale.
     pub farthest: f64,
 }
 

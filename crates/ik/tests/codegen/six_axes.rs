@@ -1,4 +1,4 @@
-//! Printed solvers of six axes by one eigenvalue problem: compiled, run, compared with the evaluator.
+//! Printed solvers for six axes by one eigenvalue problem: compiled, run, and compared with the evaluator.
 
 use super::derivations::targets_of;
 use super::harness::{SANITIZERS, compare, compile_solver, feed, has_sanitizers, write_c};
@@ -23,7 +23,7 @@ fn folders() -> Vec<Stored> {
     stored
 }
 
-/// The arithmetic is the same in all languages, and so are the answers: not one joint is another double.
+/// The arithmetic is equal in all languages, so that all joint values are bitwise equal.
 #[test]
 fn printed_eigenvalue_problems_answer_like_the_program() {
     for stored in named(&["gen3_like", "general_6r"]) {
@@ -34,7 +34,7 @@ fn printed_eigenvalue_problems_answer_like_the_program() {
     }
 }
 
-/// Next to self-motions too, where walks along curves find the answers: the targets of the derivation's check.
+/// Also next to self-motions, where solutions are found along curves: the targets of the derivation's check.
 #[test]
 fn printed_walks_along_curves_answer_like_the_program() {
     for stored in named(&["jaco_like", "general_5r1p"]) {
@@ -60,7 +60,7 @@ fn every_printed_eigenvalue_problem_answers_like_the_program() {
     }
 }
 
-/// No access out of bounds and no undefined operation, targets that are none among the targets.
+/// There is no access out of bounds and no undefined operation, also for invalid targets.
 #[test]
 fn the_c_file_runs_under_sanitizers() {
     for stored in named(&["crx_like"]) {
@@ -81,7 +81,7 @@ fn the_c_file_runs_under_sanitizers() {
     }
 }
 
-/// In single precision eigenvalues are known to about a thousandth: some answers are lost, none is wrong.
+/// In single precision eigenvalues have errors of about a thousandth: some solutions are lost, none is wrong.
 #[test]
 fn single_precision_finds_most_answers() {
     for stored in named(&["general_6r", "xarm6_like"]) {

@@ -9,7 +9,7 @@ use groebot_ik::folder;
 use groebot_ik::solver::{JointValue, Program};
 use groebot_robot::kinematics::{Chain, Task};
 
-/// A program and its chain; none for a system of equations.
+/// A program and its chain; `None` for a system of equations.
 pub struct Stored {
     pub name: String,
     pub program: Program,
@@ -38,7 +38,7 @@ fn stored(folder: &Path) -> Stored {
     Stored { name: folder.file_name().unwrap().to_str().unwrap().to_owned(), program, chain }
 }
 
-/// Joint values: anywhere, and, for every third, with some at places where configurations are singular.
+/// Random joint values. In every third set, some joints have values at which configurations are singular.
 pub fn joint_values(program: &Program, count: usize, mut between: impl FnMut(f64, f64) -> f64) -> Vec<Vec<f64>> {
     let mut vector = |k: usize| {
         let mut q: Vec<f64> = program
@@ -59,7 +59,7 @@ pub fn joint_values(program: &Program, count: usize, mut between: impl FnMut(f64
     (0..count).map(&mut vector).collect()
 }
 
-/// The target that joint values reach by the chain's own forward kinematics, which shares nothing with the program's.
+/// The target of joint values by the chain's own forward kinematics, which shares no code with the program's.
 pub fn reached(chain: &Chain, q: &[f64]) -> Vec<f64> {
     let tip = chain.forward(q).unwrap();
     let (p, r) = (tip.translation, tip.rotation.to_rotation_matrix());

@@ -1,4 +1,4 @@
-//! What a printed file says and leaves out.
+//! Text that a printed file contains, and text that it must not contain.
 
 use super::builder::{one_block, roots};
 use super::harness::compiles;

@@ -1,5 +1,5 @@
-//! What printed solvers offer beside all solutions, in C and Rust: forward kinematics, solutions within limits and their whole turns, and
-//! the nearest solution; against a search of all turns.
+//! Further functions of printed solvers in C and Rust: forward kinematics, solutions within limits and their whole turns, and the nearest solution. They are
+//! compared with a search over all turns.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
@@ -18,7 +18,7 @@ use super::stored::{joint_values, named};
 const C_DRIVER: &str = include_str!("drivers/turns.c.txt");
 const RUST_DRIVER: &str = include_str!("drivers/turns.rs.txt");
 
-/// What a solver is asked.
+/// Inputs of a solver.
 struct Question {
     target: Vec<f64>,
     limits: Vec<[f64; 2]>,
@@ -26,7 +26,7 @@ struct Question {
     weights: Vec<f64>,
 }
 
-/// The numbers of whole turns of a joint's value that lie within its limits, by a search; none stands for an endless list.
+/// The numbers of whole turns with which a joint's value is within its limits, by a search. Empty represents an infinite list.
 fn turns(program: &Program, joint: usize, value: f64, [low, high]: [f64; 2]) -> Vec<i32> {
     let inside = |turn: &i32| {
         let place = value + TAU * f64::from(*turn);
@@ -48,7 +48,7 @@ fn least(turns: &[i32], measure: impl Fn(i32) -> f64) -> i32 {
     *turns.iter().min_by(|a, b| measure(**a).total_cmp(&measure(**b))).unwrap()
 }
 
-/// All answers of one solver, read from its output.
+/// All results of one solver, read from its output.
 struct Output<'a> {
     numbers: Box<dyn Iterator<Item = f64> + 'a>,
     joints: usize,
@@ -146,7 +146,7 @@ fn check_nearest(program: &Program, question: &Question, answers: &[Solution], o
     }
 }
 
-/// Limits of all kinds: none, on one side, narrow, several turns, at the answer itself.
+/// Limits of all kinds: none, on one side, narrow, several turns, and at the solution itself.
 fn limits(kind: usize, q: f64) -> [f64; 2] {
     match kind % 6 {
         0 => [f64::NEG_INFINITY, f64::INFINITY],
@@ -189,7 +189,7 @@ fn text(questions: &[Question]) -> String {
     text
 }
 
-/// The C program that answers questions; none without a compiler.
+/// The compiled C driver. `None` without a compiler.
 fn c_program(program: &Program, folder: &Path, flags: &[&str]) -> Option<()> {
     let upper = program.name.to_ascii_uppercase();
     write_c(program, folder);
@@ -205,7 +205,7 @@ fn executables(program: &Program, folder: &Path) -> Option<Vec<(&'static str, Pa
     Some(vec![("C99", folder.join("c99")), ("Rust", folder.join("module"))])
 }
 
-/// Asks printed solvers of a program; none without a compiler.
+/// Checks the printed solvers of a program. `None` without a compiler.
 pub fn check_program(program: &Program) -> Option<()> {
     let folder = tempfile::tempdir().unwrap();
     let (solver, questions) = (program.solver(), questions(program));
@@ -230,7 +230,7 @@ fn turns_limits_and_nearest_solutions_are_those_of_a_search() {
     }
 }
 
-/// Where a joint of the wrist is free, a member of the self-motion is found within limits that the listed one is not within.
+/// Where a joint of the wrist is free, a member of the self-motion is within the limits, although the listed one is not.
 #[test]
 fn self_motions_reach_into_limits() {
     for (name, q, joint) in
@@ -276,7 +276,7 @@ fn self_motions_reach_into_limits() {
     }
 }
 
-/// Questions as above, and targets and limits that make no sense: no access out of bounds, no undefined operation.
+/// The inputs above, and invalid targets and limits: there is no access out of bounds and no undefined operation.
 #[test]
 fn sanitizers_find_nothing() {
     let program = named(&["puma"]).remove(0).program;

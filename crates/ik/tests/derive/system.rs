@@ -175,7 +175,7 @@ fn equations_are_checked() {
 fn order_and_choice_are_checked() {
     use ErrorKind::{BadValue, DuplicateName, UnknownName};
     changed(|p| p.order = names(&["c4", "c2", "s4"]), BadValue, "`s2` is missing");
-    changed(|p| p.order = names(&["c4", "c2", "s4", "s2", "py"]), UnknownName, "`py` is no unknown");
+    changed(|p| p.order = names(&["c4", "c2", "s4", "s2", "py"]), UnknownName, "`py` is not an unknown");
     changed(|p| p.order = names(&["c4", "c2", "s4", "s2", "s2"]), DuplicateName, "`s2` is given twice");
     changed(|p| p.choice.as_mut().unwrap().unknown = "py".into(), UnknownName, "choice: `py`");
 }
@@ -188,7 +188,7 @@ fn sources_of_parameters_are_checked() {
     };
     changed(add(ParameterSource::Input(2), None), BadValue, "refers to input 2");
     changed(add(ParameterSource::Input(0), None), BadValue, "source of an earlier parameter");
-    changed(add(ParameterSource::Cosine(0), None), BadValue, "no angle");
+    changed(add(ParameterSource::Cosine(0), None), BadValue, "not an angle");
     changed(add(ParameterSource::SquareRoot, None), BadValue, "needs its `square`");
     changed(add(ParameterSource::SquareRoot, Some("w")), UnknownName, "`w`");
     changed(add(ParameterSource::SquareRoot, Some("v + 1")), UnknownName, "`v`");

@@ -187,7 +187,7 @@ fn expressions_and_names_are_checked() {
     refused("55.95 + 57.75", "L2 + 1", UnknownName, 8, "`L2`");
     refused("55.95 + 57.75", "1/(L1 - 105)", BadValue, 8, "division");
     refused("55.95 + 57.75", "(9^1000)^1000", Overflow, 8, "bits");
-    refused("L1 = 105", "\"L 1\" = 105", BadValue, 7, "no name");
+    refused("L1 = 105", "\"L 1\" = 105", BadValue, 7, "not a valid name");
     refused("L1 = 105", "L1 = { square = -2 }", BadValue, 7, "not positive");
     refused("L1 = 105", "L1 = { square = 0 }", BadValue, 7, "not positive");
     refused("L2 = \"55.95 + 57.75\"", "a = { square = 2 }\nL2 = { square = 8 }", BadValue, 9, "4/2*a");
@@ -202,8 +202,8 @@ fn expressions_and_names_are_checked() {
     refused("\"nao_arm_planar\"", "\"nao arm\"", BadValue, 1, "the system");
     refused("\"s4\", \"s2\"]", "\"s4\"]", BadValue, 5, "`s2` is missing");
     refused("\"s4\", \"s2\"]", "\"s4\", \"s4\"]", DuplicateName, 5, "twice");
-    refused("\"s4\", \"s2\"]", "\"s4\", \"py\"]", UnknownName, 5, "`py` is no unknown");
-    refused("unknown = \"s2\"", "unknown = \"s9\"", UnknownName, 29, "`s9` is no unknown");
+    refused("\"s4\", \"s2\"]", "\"s4\", \"py\"]", UnknownName, 5, "`py` is not an unknown");
+    refused("unknown = \"s2\"", "unknown = \"s9\"", UnknownName, 29, "`s9` is not an unknown");
     refused("order", "equations = [\"c2\"]\norder", DuplicateName, 5, "use one of the two");
 }
 

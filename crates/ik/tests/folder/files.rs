@@ -1,4 +1,4 @@
-//! Forged files: removed, emptied, cut, changed, with lines removed, doubled and exchanged, or another robot's.
+//! Forged files: removed, emptied, truncated, changed, with lines removed, duplicated and exchanged, or taken from another robot.
 
 use groebot_ik::derive::report::stages::PAGE;
 use groebot_ik::folder::{
@@ -7,10 +7,10 @@ use groebot_ik::folder::{
 
 use super::honest::{self, Honest};
 
-/// So many places of a file are changed.
+/// Number of places in a file that are changed.
 const PLACES: usize = 12;
 
-/// `text` with the lines that `change` makes of it, when that is another text.
+/// `text` with its lines changed, if the result differs.
 fn with_lines(text: &str, change: impl Fn(&mut Vec<&str>)) -> Option<String> {
     let mut lines: Vec<&str> = text.split_inclusive('\n').collect();
     change(&mut lines);
@@ -18,7 +18,7 @@ fn with_lines(text: &str, change: impl Fn(&mut Vec<&str>)) -> Option<String> {
     (changed != text).then_some(changed)
 }
 
-/// A text with another digit, or another letter where there is no digit behind `place`.
+/// A text with another digit, or with another letter if there is no digit after `place`.
 fn with_another(text: &str, place: usize) -> Option<String> {
     let mut bytes = text.as_bytes().to_vec();
     let digit = (place..bytes.len()).find(|&at| bytes[at].is_ascii_digit());
@@ -27,7 +27,7 @@ fn with_another(text: &str, place: usize) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
-/// Forgeries of a text, each with what was done.
+/// Forgeries of a text, each with a description.
 fn forgeries(text: &str, proved: usize, other: &str) -> Vec<(String, String)> {
     let count = text.lines().count();
     let mut forged = vec![
@@ -59,7 +59,7 @@ fn found<'a>(findings: &'a [Finding], name: &str) -> &'a Verdict {
     &findings.iter().find(|finding| finding.what == name).unwrap().verdict
 }
 
-/// Forges every file of a derivation; how many forgeries that are.
+/// Forges every file of a derivation. Returns the number of forgeries.
 fn forge_files(honest: &Honest, other: &str) -> usize {
     let (written, checked) = honest.written();
     let mut stored = Stored { files: Default::default(), others: Default::default(), ..honest.stored.clone() };
@@ -78,7 +78,7 @@ fn forge_files(honest: &Honest, other: &str) -> usize {
         for (what, changed) in forgeries(text, *proved, &honest::text(other, name)) {
             forged.files.insert(name.clone(), changed.into_bytes());
             let findings = check(&forged);
-            // Another robot's page is none of ours, and says so with our mark.
+            // The page of another robot has groebot's mark, but is not that of this folder.
             let Verdict::Fails(error) = found(&findings, name) else { panic!("{name}: {what}: {findings:?}") };
             assert!(error.to_string().contains(name.as_str()), "{error}");
             let others = findings.iter().filter(|finding| finding.what != *name);
@@ -109,7 +109,7 @@ fn forged_files_of_coupled_chains_are_refused() {
     assert!(forge_files(&Honest::two_arms(), "nao_left_leg") > 300);
 }
 
-/// Cells that rounding does not explain.
+/// Table cells with changes that rounding cannot explain.
 #[test]
 fn measured_numbers_are_measured_again() {
     let honest = Honest::new("planar_2r");
@@ -150,7 +150,7 @@ fn measured_numbers_are_measured_again() {
     assert!(matches!(verdict(PAGE, &|text| text.replacen("less well", "as well", 1)), Verdict::Fails(_)));
 }
 
-/// A page that a person wrote is left alone; one that was ours is not.
+/// A page that a user wrote is not checked; a changed page of groebot fails.
 #[test]
 fn a_page_of_ones_own_is_named() {
     let honest = Honest::new("planar_2r");

@@ -1,4 +1,4 @@
-//! Derivations of all kinds, and the folders that they write.
+//! Unchanged derivations of all kinds, and the folders that they write.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use groebot_ik::witness::{self, Report};
 use serde_json::Value;
 use tempfile::{TempDir, tempdir};
 
-/// A derivation, and its folder with the certificate alone.
+/// A derivation, and its folder with only the certificate.
 pub struct Honest {
     pub source: Source,
     pub proved: Derivation,
@@ -43,7 +43,7 @@ impl Honest {
         Honest { source, proved, stored, recount, _folder: None }
     }
 
-    /// Two planar arms on one shoulder, derived.
+    /// Two planar arms on a common shoulder, derived.
     pub fn two_arms() -> Self {
         let folder = tempdir().unwrap();
         let arm = |name: &str, joints: usize| {

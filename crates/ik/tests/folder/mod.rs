@@ -1,4 +1,4 @@
-//! Tests of `groebot_ik::folder`: a forged file or a forged record of a certificate is refused, or what it says is still true.
+//! Tests of `groebot_ik::folder`: a forged file, or a forged record of a certificate, is rejected, or what it claims is still true.
 
 mod files;
 mod honest;

@@ -1,4 +1,4 @@
-//! The hashes of a thin folder: what is read, and what a check finds of them.
+//! The hashes of a thin folder: how they are read, and the findings of a check.
 
 use groebot_ik::ErrorKind;
 use groebot_ik::derive::report::stages::PAGE;
@@ -27,7 +27,7 @@ fn each_output_has_its_hash() {
     assert_eq!(kept[2].bytes, outputs.to_text().into_bytes());
 }
 
-/// The hash of a table of checks is that of its words and counts: by `sha256sum` of `kind,px,solutions\nround,*,8\n`.
+/// The hash of a table of checks covers its words and counts: computed with `sha256sum` of `kind,px,solutions\nround,*,8\n`.
 #[test]
 fn the_hash_of_a_table_has_no_measured_numbers() {
     let hash = |table: &str| Outputs::of(&[file(CHECKS, table)]).get(CHECKS).unwrap().to_owned();
@@ -56,7 +56,7 @@ fn lines_that_are_no_hashes_are_refused() {
     assert_eq!(Outputs::read("").unwrap().names().count(), 0);
 }
 
-/// Every hash of a derivation, changed, removed, doubled or exchanged, is refused with the file's name.
+/// Every hash of a derivation that is changed, removed, duplicated or exchanged is rejected with the name of its file.
 #[test]
 fn forged_hashes_are_refused() {
     let honest = Honest::new("planar_2r");

@@ -1,4 +1,4 @@
-//! Forged records of certificates, by a forger who prints all other files again from the forged certificate.
+//! Forged records of certificates, where all other files are printed again from the forged certificate.
 
 use std::collections::BTreeMap;
 
@@ -9,13 +9,13 @@ use serde_json::{Value, json};
 
 use super::honest::{self, Honest};
 
-/// So many forgeries of each sort are tried, evenly over the certificate.
+/// Number of forgeries of each kind, spread evenly over the certificate.
 const EACH: usize = 10;
 
-/// A forged certificate, and what was done where.
+/// A forged certificate, and a description of the forgery.
 type Forgery = (String, Value);
 
-/// All forgeries of a certificate by their sorts; `other` is another robot's.
+/// All forgeries of a certificate by kind; `other` is the certificate of another robot.
 fn forgeries(whole: &Value, other: &Value) -> BTreeMap<&'static str, Vec<Forgery>> {
     let mut places = Vec::new();
     walk(whole, String::new(), &mut places);
@@ -86,25 +86,25 @@ fn walk(value: &Value, place: String, places: &mut Vec<String>) {
     places.push(place);
 }
 
-/// `count` of a list, evenly, first and last among them.
+/// `count` elements of a list, at even distances, with the first and the last.
 fn evenly<T>(list: Vec<T>, count: usize) -> Vec<T> {
     let length = list.len();
     let taken = |at: usize| length <= count || at * (count - 1) / (length - 1) != (at + 1) * (count - 1) / (length - 1);
     list.into_iter().enumerate().filter(|(at, _)| taken(*at) || at + 1 == length).map(|(_, item)| item).collect()
 }
 
-/// What a forger's certificate proves, when it is accepted and written as a certificate is.
+/// The derivation that a forged certificate proves, if it is accepted and written without change.
 fn accepted(honest: &mut Honest, forged: &Value) -> Option<Derivation> {
     let mut stored = honest.stored.clone();
     stored.files.insert(CERTIFICATE.to_owned(), forged.to_string().into_bytes());
     let proved = prove(&honest.source, &stored, &mut honest.recount).ok()?;
     let files = proved.stage_files().unwrap();
     let own = files.iter().find(|(name, _)| name == CERTIFICATE).unwrap();
-    // The order of keys and the space between them say nothing.
+    // The order of keys and white space have no meaning.
     (serde_json::from_slice::<Value>(&own.1).unwrap() == *forged).then_some(proved)
 }
 
-/// Whether two solvers give the same answers at targets, and claim the same number of them.
+/// Whether two solvers have equal solutions at targets, and claim equal numbers of them.
 fn agree(honest: &Derivation, forged: &Derivation, targets: &[Vec<f64>]) -> bool {
     let answers = |program: &Program, target: &[f64]| -> Vec<Vec<i64>> {
         let rounded = |q: &f64| (q * 1e6).round() as i64;
@@ -117,7 +117,7 @@ fn agree(honest: &Derivation, forged: &Derivation, targets: &[Vec<f64>]) -> bool
         && targets.iter().all(|target| answers(honest.program(), target) == answers(forged.program(), target))
 }
 
-/// Targets that are reached, from the forward kinematics of the solver itself.
+/// Reachable targets, from the forward kinematics of the solver itself.
 fn targets(program: &Program, stored: &str) -> Vec<Vec<f64>> {
     let rows = stored.lines().skip(1).filter(|row| row.starts_with("random") || row.starts_with("rational"));
     let numbers =
@@ -125,7 +125,7 @@ fn targets(program: &Program, stored: &str) -> Vec<Vec<f64>> {
     rows.map(numbers).take(20).collect()
 }
 
-/// Forges the certificate in every way; how many forgeries there were.
+/// Forges the certificate by all methods. Returns the number of forgeries.
 fn forge_records(mut honest: Honest, other: &Value, table: &str) -> usize {
     let whole = honest.certificate();
     assert!(accepted(&mut honest, &whole).is_some_and(|again| again == honest.proved));

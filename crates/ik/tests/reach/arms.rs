@@ -1,9 +1,9 @@
-//! What arms reach, known otherwise.
+//! Reachability of arms, compared with independent computations.
 
 use std::f64::consts::{PI, TAU};
 
 use groebot_ik::Watch;
-use groebot_ik::reach::{Ask, Measure, Survey};
+use groebot_ik::reach::{Measure, Request, Survey};
 use groebot_robot::kinematics::screw::ScrewSolver;
 use groebot_robot::kinematics::{Chain, Target};
 use groebot_robot::spatial::Pose;
@@ -14,7 +14,7 @@ use proptest::test_runner::TestRunner;
 
 use super::{derivation, grid, map};
 
-/// Rotations by chance, by four normal numbers: nothing of the library's own spread.
+/// Random rotations from four normal numbers, independent of the library's orientations.
 fn rotations(count: usize) -> Vec<UnitQuaternion<f64>> {
     let mut runner = TestRunner::deterministic();
     let mut chance = || (0.0..1.0f64).new_tree(&mut runner).unwrap().current();
@@ -28,7 +28,7 @@ fn rotations(count: usize) -> Vec<UnitQuaternion<f64>> {
 fn two_links_reach_a_ring() {
     let (long, short) = (0.5, 0.4);
     let places = grid([(-1.0, 1.0, 41), (-1.0, 1.0, 41), (0.0, 0.0, 1)]);
-    let found = map("planar_2r", &Ask { measure: Measure::Manipulability, ..Ask::new(places) }).unwrap();
+    let found = map("planar_2r", &Request { measure: Measure::Manipulability, ..Request::new(places) }).unwrap();
     for (place, entry) in found.entries.iter().enumerate() {
         let [x, y, _] = places.at(place);
         let distance = x.hypot(y);
@@ -41,7 +41,7 @@ fn two_links_reach_a_ring() {
         assert_eq!((entry.answers, entry.reached), (answers, answers / 2), "{x} {y}");
         let wanted = if answers == 2 { long * short * (1.0 - cosine * cosine).sqrt() } else { 0.0 };
         let off = |own: f32| (f64::from(own) - wanted).abs();
-        // Singles.
+        // Entries of maps are in single precision.
         assert!(off(entry.best) < 1e-7 && off(entry.mean) < 1e-7, "{x} {y}: {entry:?}");
     }
     assert!(found.reached() > 600 && found.index(0) == 0.0);
@@ -50,9 +50,9 @@ fn two_links_reach_a_ring() {
 #[test]
 fn limits_leave_what_is_within() {
     let places = grid([(-0.8, 0.8, 9), (0.05, 0.85, 9), (0.0, 0.0, 1)]);
-    // The elbow one way; the shoulder by a turn of its own, which no answer has as it comes.
+    // The elbow bends in one direction. The shoulder's limits need a whole turn, which no solution has initially.
     let limits = vec![[TAU, TAU + PI], [0.0, 3.0]];
-    let within = map("planar_2r", &Ask { limits: Some(limits), ..Ask::new(places) }).unwrap();
+    let within = map("planar_2r", &Request { limits: Some(limits), ..Request::new(places) }).unwrap();
     let mut kept = 0;
     for (place, entry) in within.entries.iter().enumerate() {
         let [x, y, _] = places.at(place);
@@ -70,22 +70,22 @@ fn limits_leave_what_is_within() {
 
 #[test]
 fn self_motions_are_walked_to_within_limits() {
-    // On its yaw axis the polar arm may turn as it likes; half of all turns are within.
+    // On its yaw axis the polar arm may rotate freely; half of all rotations are within limits.
     let places = grid([(0.0, 0.0, 1), (1.0, 1.6, 4), (0.0, 0.0, 1)]);
     let free = [f64::NEG_INFINITY, f64::INFINITY];
-    let all = map("polar", &Ask::new(places)).unwrap();
+    let all = map("polar", &Request::new(places)).unwrap();
     assert_eq!(all.reached(), 4);
     for yaw in [[0.3, 0.45], [-2.9, -2.75], [2.9, 3.05]] {
-        let within = map("polar", &Ask { limits: Some(vec![yaw, free, free]), ..Ask::new(places) }).unwrap();
+        let within = map("polar", &Request { limits: Some(vec![yaw, free, free]), ..Request::new(places) }).unwrap();
         assert_eq!(within.reached(), 4, "{yaw:?}");
     }
-    // Beside the axis they do not.
+    // Beside the axis no rotation is within limits.
     let beside = grid([(0.3, 0.3, 1), (1.0, 1.6, 4), (0.0, 0.0, 1)]);
-    let within = map("polar", &Ask { limits: Some(vec![[0.3, 0.4], free, free]), ..Ask::new(beside) }).unwrap();
+    let within = map("polar", &Request { limits: Some(vec![[0.3, 0.4], free, free]), ..Request::new(beside) }).unwrap();
     assert_eq!(within.reached(), 0);
 }
 
-/// The share of rotations by chance that the screw solver reaches at a place, and its answers for all of them.
+/// The share of random rotations that the screw solver reaches at a place, and the number of solutions for all of them.
 fn by_screws(chain: &Chain, at: Vector3<f64>, rotations: &[UnitQuaternion<f64>]) -> (f64, f64) {
     let screws = ScrewSolver::new(chain).unwrap();
     let counts = rotations.iter().map(|rotation| {
@@ -108,11 +108,11 @@ fn arms_of_six_joints_reach_what_the_screw_solver_reaches_by_chance() {
         let witness: Vec<(f64, f64)> =
             (0..places.places()).map(|place| by_screws(&chain, places.at(place).into(), &rotations)).collect();
         for seed in [None, Some(11)] {
-            let found = map(name, &Ask { orientations: 1500, seed, ..Ask::new(places) }).unwrap();
+            let found = map(name, &Request { orientations: 1500, seed, ..Request::new(places) }).unwrap();
             for (place, entry) in found.entries.iter().enumerate() {
                 let (share, answers) = witness[place];
                 let own = f64::from(entry.answers) / 1500.0;
-                // Four standard deviations of a count of 1,500 by chance, and of up to eight answers each.
+                // Four standard deviations of a count over 1,500 random rotations, with up to eight solutions each.
                 let (bound, slack) = (4.0 * 0.5 / 1500f64.sqrt(), 4.0 * 4.0 / 1500f64.sqrt());
                 assert!((found.index(place) - share).abs() < bound, "{name} {place}: {} {share}", found.index(place));
                 assert!((own - answers).abs() < slack, "{name} {place}: {own} {answers}");
@@ -125,13 +125,13 @@ fn arms_of_six_joints_reach_what_the_screw_solver_reaches_by_chance() {
 
 #[test]
 fn tilts_and_directions_and_angles_are_spread_too() {
-    // A ray, pitch and roll, and a plane's angle: with every orientation the same share as with another spread.
-    let asked =
+    // A ray, pitch and roll, and the angle in a plane: the share agrees with that for other orientations.
+    let tasks =
         [("nao_left_arm", [0.06, 0.13, 0.11]), ("upright_arm", [0.3, 0.2, 0.4]), ("planar_3r", [0.5, 0.3, 0.0])];
-    for (name, at) in asked {
+    for (name, at) in tasks {
         let places = grid(at.map(|at| (at, at, 1)));
         let share = |orientations: usize, seed: Option<u64>| {
-            map(name, &Ask { orientations, seed, ..Ask::new(places) }).unwrap().index(0)
+            map(name, &Request { orientations, seed, ..Request::new(places) }).unwrap().index(0)
         };
         let dense = share(20_000, None);
         assert!(dense > 0.01, "{name}: {dense}");
@@ -141,7 +141,7 @@ fn tilts_and_directions_and_angles_are_spread_too() {
     }
 }
 
-/// The Jacobian's columns by differences of what the tip reaches, in the base's axes.
+/// The columns of the Jacobian in the base's axes, by finite differences of forward kinematics.
 fn differences(chain: &Chain, q: &[f64]) -> Vec<[f64; 6]> {
     let step = 1e-6;
     let pose = |joint: usize, step: f64| -> Pose {
@@ -195,22 +195,23 @@ fn units_and_joints_that_follow_leave_the_manipulability_as_it_is() {
     let chain = arm("", 1.0, more);
     let q = [0.3, 1.1, -0.55];
     let columns = differences(&chain, &q);
-    // Two motions: of the first joint, and of the second one with what follows it.
+    // Two motions: that of the first joint, and that of the second one with the joint that follows it.
     let [a, b] = [columns[0], std::array::from_fn(|row| columns[1][row] - 0.5 * columns[2][row])];
     let wanted = (a[0] * b[1] - a[1] * b[0]).abs();
     assert!(wanted > 0.05 && (chain.manipulability(&q) - wanted).abs() < 1e-8, "{} {wanted}", chain.manipulability(&q));
 }
 
 #[test]
-fn what_lies_beyond_the_chain_is_told_as_if_it_was_asked() {
+fn places_beyond_the_chain_are_counted_as_by_the_solver() {
     for (name, reach, seed) in
         [("ur5", 1.6, None), ("ur5", 1.0, Some(3)), ("puma", 1.2, None), ("nao_left_arm", 0.35, None)]
     {
         let (chain, program) = derivation(name);
         let axis = (-reach, reach, 11);
-        let (ask, solver) = (Ask { orientations: 30, seed, ..Ask::new(grid([axis; 3])) }, program.solver());
-        let by =
-            |chain: Option<&Chain>| Survey::new(&solver, &program, chain, &ask).unwrap().map(&Watch::none()).unwrap();
+        let (request, solver) = (Request { orientations: 30, seed, ..Request::new(grid([axis; 3])) }, program.solver());
+        let by = |chain: Option<&Chain>| {
+            Survey::new(&solver, &program, chain, &request).unwrap().map(&Watch::none()).unwrap()
+        };
         let whole = by(None);
         assert_eq!(whole, by(Some(&chain)), "{name}");
         assert!(whole.reached() > 100, "{name}");
@@ -222,11 +223,12 @@ fn the_best_and_the_mean_are_those_of_all_answers() {
     let (chain, program) = derivation("puma");
     let reach = chain.reach();
     let at = [0.4 * reach, 0.2 * reach, 0.3 * reach];
-    // One orientation at a place, the identity turned by the seed of the place: as many maps as orientations.
-    let ask = Ask { orientations: 50, measure: Measure::Manipulability, ..Ask::new(grid(at.map(|at| (at, at, 1)))) };
+    // One orientation at a place: the identity rotated by the seed of the place. There are as many maps as orientations.
+    let request =
+        Request { orientations: 50, measure: Measure::Manipulability, ..Request::new(grid(at.map(|at| (at, at, 1)))) };
     let solver = program.solver();
-    let found = Survey::new(&solver, &program, Some(&chain), &ask).unwrap().map(&Watch::none()).unwrap();
-    // The same by the spiral as its paper writes it (M. Alexa 2022, listing 1).
+    let found = Survey::new(&solver, &program, Some(&chain), &request).unwrap().map(&Watch::none()).unwrap();
+    // The rotation of the spiral in the form of the paper (M. Alexa 2022, listing 1).
     let (phi, psi) = (2f64.sqrt(), 1.533_751_168_755_204_3_f64);
     let (mut best, mut sum, mut reached) = (0.0f64, 0.0, 0);
     for number in 0..50 {

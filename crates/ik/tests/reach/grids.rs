@@ -1,9 +1,9 @@
-//! Places, orientations and refusals.
+//! Places, orientations and errors.
 
 use std::f64::consts::FRAC_PI_2;
 
 use groebot_ik::folder;
-use groebot_ik::reach::{Ask, Axis, Grid, Measure, Survey};
+use groebot_ik::reach::{Axis, Grid, Measure, Request, Survey};
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::Chain;
 
@@ -35,38 +35,38 @@ fn what_is_no_grid_is_refused() {
 }
 
 #[test]
-fn questions_that_no_map_answers_are_refused() {
-    let here = Ask::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.2, 0.2, 1)]));
-    let refused = |name: &str, ask: &Ask| map(name, ask).unwrap_err();
-    // No place is asked for, or two tips.
+fn invalid_requests_are_refused() {
+    let here = Request::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.2, 0.2, 1)]));
+    let refused = |name: &str, request: &Request| map(name, request).unwrap_err();
+    // The task has no position, or two tips.
     for name in ["wrist_rotation", "nao_head"] {
         assert_eq!(refused(name, &here).kind(), ErrorKind::Unsupported, "{name}");
     }
     let legs = folder::program(concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations/nao_legs").as_ref()).unwrap();
     assert_eq!(Survey::new(&legs.solver(), &legs, None, &here).err().unwrap().kind(), ErrorKind::Unsupported);
-    let line = Ask::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.0, 1.0, 5)]));
+    let line = Request::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.0, 1.0, 5)]));
     assert!(refused("planar_2r", &line).message().contains("asks for no z"));
     for orientations in [0, 1_000_001] {
-        assert_eq!(refused("ur5", &Ask { orientations, ..here.clone() }).kind(), ErrorKind::BadValue);
+        assert_eq!(refused("ur5", &Request { orientations, ..here.clone() }).kind(), ErrorKind::BadValue);
     }
     for given in [vec![], vec![0.1, 0.2], vec![f64::NAN]] {
-        assert!(refused("iiwa14", &Ask { given, ..here.clone() }).message().contains("A3"));
+        assert!(refused("iiwa14", &Request { given, ..here.clone() }).message().contains("A3"));
     }
-    // Nothing is said of its limits, or the wrong thing.
-    assert_eq!(refused("planar_2r", &Ask { measure: Measure::Limits, ..here.clone() }).kind(), ErrorKind::BadValue);
+    // The limits are missing or invalid.
+    assert_eq!(refused("planar_2r", &Request { measure: Measure::Limits, ..here.clone() }).kind(), ErrorKind::BadValue);
     for limits in [vec![[0.0, 1.0]], vec![[0.0, f64::NAN]; 2], vec![[0.0, 1.0], [1.0, 0.0]]] {
-        assert_eq!(refused("planar_2r", &Ask { limits: Some(limits), ..here.clone() }).kind(), ErrorKind::BadValue);
+        assert_eq!(refused("planar_2r", &Request { limits: Some(limits), ..here.clone() }).kind(), ErrorKind::BadValue);
     }
     let (_, program) = derivation("planar_2r");
-    let ask = Ask { measure: Measure::Manipulability, ..here };
-    let without = Survey::new(&program.solver(), &program, None, &ask).err().unwrap();
+    let request = Request { measure: Measure::Manipulability, ..here };
+    let without = Survey::new(&program.solver(), &program, None, &request).err().unwrap();
     assert_eq!(without.kind(), ErrorKind::Unsupported);
 }
 
 #[test]
 fn orientations_are_spread_evenly_over_all() {
-    // An arm whose tip is where the three axes of its wrist meet. For each way of the arm, where rotations are spread evenly the sine of the wrist's pitch is, too, and one of two answers has the pitch between -90 and 90
-    // degrees: up to an angle a it has the share (1 + sin a) / 2 of all.
+    // An arm whose tip is the centre of its spherical wrist. For each posture of the arm, rotations are evenly distributed, and so is the sine of the wrist's
+    // pitch. One of two solutions has its pitch between -90 and 90 degrees. Up to an angle a the share of solutions is (1 + sin a) / 2.
     let text =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations/puma/0_chain.toml")).unwrap();
     let at_wrist = text.replace("[0, 1.524, 0.15]", "[0, 1.524, 0]");
@@ -77,8 +77,9 @@ fn orientations_are_spread_evenly_over_all() {
     let places = grid([(0.3, 0.3, 1), (0.8, 0.8, 1), (0.4, 0.4, 1)]);
     let orientations = 2000;
     let answers = |seed: Option<u64>, limits: Option<Vec<[f64; 2]>>| {
-        let ask = Ask { orientations, seed, limits, ..Ask::new(places) };
-        let found = Survey::new(&program.solver(), program, Some(&chain), &ask).unwrap().map(&Watch::none()).unwrap();
+        let request = Request { orientations, seed, limits, ..Request::new(places) };
+        let found =
+            Survey::new(&program.solver(), program, Some(&chain), &request).unwrap().map(&Watch::none()).unwrap();
         found.entries[0].answers
     };
     for (most, seed) in [(-1.0, None), (-0.3, None), (0.6, None), (1.2, Some(3)), (0.6, Some(4))] {
@@ -99,8 +100,8 @@ fn a_map_does_not_depend_on_how_it_is_cut() {
     let places = grid([(-0.9, 0.9, 5), (0.0, 0.8, 3), (-0.1, 0.9, 4)]);
     for measure in [Measure::Count, Measure::Manipulability] {
         for seed in [None, Some(7)] {
-            let ask = Ask { orientations: 37, measure, seed, ..Ask::new(places) };
-            let survey = Survey::new(&solver, &program, Some(&chain), &ask).unwrap();
+            let request = Request { orientations: 37, measure, seed, ..Request::new(places) };
+            let survey = Survey::new(&solver, &program, Some(&chain), &request).unwrap();
             let whole = survey.map(&Watch::none()).unwrap();
             let cuts = [0, 1, 17, 18, 60];
             let parts = cuts.windows(2).flat_map(|ends| survey.entries(ends[0]..ends[1], &Watch::none()).unwrap());
@@ -116,7 +117,7 @@ fn a_map_does_not_depend_on_how_it_is_cut() {
 fn a_seed_turns_each_place_otherwise() {
     let places = grid([(0.3, 0.6, 4), (0.3, 0.3, 1), (0.4, 0.4, 1)]);
     let reached = |seed: Option<u64>| -> Vec<u32> {
-        let map = map("ur5", &Ask { orientations: 300, seed, ..Ask::new(places) }).unwrap();
+        let map = map("ur5", &Request { orientations: 300, seed, ..Request::new(places) }).unwrap();
         map.entries.iter().map(|entry| entry.answers).collect()
     };
     let (own, one, two) = (reached(None), reached(Some(1)), reached(Some(2)));
@@ -126,9 +127,10 @@ fn a_seed_turns_each_place_otherwise() {
 #[test]
 fn long_maps_can_be_stopped() {
     let (_, program) = derivation("ur5");
-    let ask = Ask { orientations: 1000, ..Ask::new(grid([(-1.0, 1.0, 100), (-1.0, 1.0, 100), (-1.0, 1.0, 100)])) };
+    let request =
+        Request { orientations: 1000, ..Request::new(grid([(-1.0, 1.0, 100), (-1.0, 1.0, 100), (-1.0, 1.0, 100)])) };
     let solver = program.solver();
-    let survey = Survey::new(&solver, &program, None, &ask).unwrap();
+    let survey = Survey::new(&solver, &program, None, &request).unwrap();
     let budget = Watch::none().with_time(std::time::Duration::from_millis(30));
     assert_eq!(survey.map(&budget).unwrap_err().kind(), ErrorKind::Budget);
     let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
@@ -136,9 +138,9 @@ fn long_maps_can_be_stopped() {
 }
 
 #[test]
-fn given_joints_are_told_from_numbers_of_the_same_name() {
-    // The upright arm has a joint `roll`, and its task a number of that name.
-    let told = [
+fn given_joints_are_distinguished_from_inputs_of_equal_name() {
+    // The upright arm has a joint `roll`, and its task has an input with that name.
+    let expected = [
         ("upright_arm", 0),
         ("iiwa14", 1),
         ("nao_left_arm_position", 1),
@@ -146,10 +148,10 @@ fn given_joints_are_told_from_numbers_of_the_same_name() {
         ("planar_4r", 1),
         ("ur5", 0),
     ];
-    for (name, count) in told {
+    for (name, count) in expected {
         let mut program = derivation(name).1;
         assert_eq!(program.given(), program.inputs.len() - count..program.inputs.len(), "{name}");
-        // Without what is known of the source, by the names.
+        // Without the field about the source, by the names.
         program.about = None;
         assert_eq!(program.given().len(), if name == "upright_arm" { 1 } else { count }, "{name}");
     }

@@ -1,4 +1,4 @@
-//! Maps of what solvers reach: against plane geometry, against the screw solver, and against other ways to count the same.
+//! Reachability maps, compared with plane geometry, with the screw solver, and with other methods of counting.
 
 mod arms;
 mod grids;
@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use groebot_ik::derive::{Ends, InputFile};
 use groebot_ik::folder;
-use groebot_ik::reach::{Ask, Axis, Grid, ReachMap, Survey};
+use groebot_ik::reach::{Axis, Grid, ReachMap, Request, Survey};
 use groebot_ik::solver::Program;
 use groebot_ik::{Result, Watch};
 use groebot_robot::kinematics::Chain;
@@ -25,7 +25,7 @@ fn grid(axes: [(f64, f64, usize); 3]) -> Grid {
     Grid::new(axes.map(|(from, to, count)| Axis::new(from, to, count).unwrap())).unwrap()
 }
 
-fn map(name: &str, ask: &Ask) -> Result<ReachMap> {
+fn map(name: &str, request: &Request) -> Result<ReachMap> {
     let (chain, program) = derivation(name);
-    Survey::new(&program.solver(), &program, Some(&chain), ask)?.map(&Watch::none())
+    Survey::new(&program.solver(), &program, Some(&chain), request)?.map(&Watch::none())
 }

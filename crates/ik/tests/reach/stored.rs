@@ -1,14 +1,14 @@
-//! Maps as JSON, CSV and pictures.
+//! Maps as JSON, CSV and SVG pictures.
 
 use groebot_ik::ErrorKind;
-use groebot_ik::reach::{Ask, Measure, ReachMap};
+use groebot_ik::reach::{Measure, ReachMap, Request};
 use serde_json::{Value, json};
 
 use super::{grid, map};
 
 fn small(measure: Measure) -> ReachMap {
     let places = grid([(-0.8, 0.8, 5), (-0.8, 0.8, 4), (0.2, 0.6, 3)]);
-    map("ur5", &Ask { orientations: 20, measure, seed: Some(u64::MAX), ..Ask::new(places) }).unwrap()
+    map("ur5", &Request { orientations: 20, measure, seed: Some(u64::MAX), ..Request::new(places) }).unwrap()
 }
 
 #[test]
@@ -71,9 +71,9 @@ fn json_that_is_no_map_is_refused() {
 #[test]
 fn slices_show_what_is_reached() {
     let places = grid([(-1.0, 1.0, 21), (-1.0, 1.0, 21), (0.0, 0.0, 1)]);
-    let ring = map("planar_2r", &Ask::new(places)).unwrap();
+    let ring = map("planar_2r", &Request::new(places)).unwrap();
     let svg = ring.to_svg(None);
-    // One slice; what is reached has the last colour, so that the area of its paths is that of the places.
+    // One slice. All reached places have the last colour, so that the area of its paths is that of the places.
     assert!(svg.contains(">z = 0.000 m<") && !svg.contains(">x = "));
     let path = svg.lines().find(|line| line.starts_with("<path class=\"s32\"")).unwrap();
     let widths = path
@@ -87,9 +87,9 @@ fn slices_show_what_is_reached() {
     let cell = 300.0 / 21.0;
     assert!((widths.sum::<f64>() / cell - ring.reached() as f64).abs() < 1.0, "{}", ring.reached());
     assert_eq!(svg.matches("<path").count(), 1);
-    // An axis too small for numbers beside it.
+    // An axis too small for numbers next to it.
     let tiny = grid([(0.0, 1e-310, 3), (0.0, 1e-310, 2), (0.0, 0.0, 1)]);
-    assert!(map("planar_2r", &Ask::new(tiny)).unwrap().to_svg(None).starts_with("<svg"));
+    assert!(map("planar_2r", &Request::new(tiny)).unwrap().to_svg(None).starts_with("<svg"));
     let many = small(Measure::Manipulability);
     assert!(many.to_svg(None).matches(">z = ").count() == 3 && many.to_svg(Some(0)).matches(">x = ").count() == 5);
     assert!(many.to_svg(Some(1)).contains("mean manipulability"));

@@ -72,7 +72,7 @@ fn the_whole_has_its_bounds() {
     refused(|program| program.blocks[1].cases[0].first_branch = usize::MAX, "generic");
     refused(|program| program.conditions = vec![Condition::Rotation(1)], "condition");
     refused(|program| program.conditions = vec![Condition::Unit(usize::MAX)], "condition");
-    refused(|program| program.blocks[1].cases.retain(|case| case.open), "no case that goes on");
+    refused(|program| program.blocks[1].cases.retain(|case| case.open), "has only open cases");
     refused(
         |program| {
             for block in &mut program.blocks {

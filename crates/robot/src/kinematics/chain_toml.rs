@@ -226,7 +226,7 @@ pub fn read_task(table: Table<'_>) -> Result<(Task, ExactVector)> {
         None => Ok((task, task.usual_direction())),
         Some(node) if task.aims() => Ok((task, node.exact_vector()?)),
         Some(node) => {
-            let message = format!("the task `{}` aims no direction; leave it out or choose `ray`", task.name());
+            let message = format!("the task `{}` orients no direction; omit it or choose `ray`", task.name());
             Err(node.error(ErrorKind::BadValue, message))
         }
     }

@@ -30,7 +30,7 @@ fn agree(robot: &Robot, tip: &str) {
     let chain = robot.chain(None, Some(tip)).unwrap().ideal().0;
     let numbers = masses(robot, &path, &chain).unwrap();
     let told = symbolic(&chain, Masses::Numbers(&numbers));
-    let (equations, mut random) = (Equations::as_told(robot, Base::Fixed).unwrap().without_friction(), Random(11));
+    let (equations, mut random) = (Equations::unchecked(robot, Base::Fixed).unwrap().without_friction(), Random(11));
     let places: Vec<usize> = chain
         .joints()
         .iter()

@@ -65,7 +65,7 @@ fn along(w: &[f64], vector: &DVector<f64>) -> [f64; 2] {
 fn a_thousand_states_of_each_robot_are_what_pinocchio_says() {
     for (seed, (name, description, base, table)) in TABLES.into_iter().enumerate() {
         let robot = Robot::from_urdf(description).unwrap();
-        let equations = Equations::as_told(&robot, base).unwrap();
+        let equations = Equations::unchecked(&robot, base).unwrap();
         let model = Model::new(&robot).unwrap();
         let (mut room, mut random) = (equations.workspace(), Random(seed as u64));
         let (joints, count) = (equations.joints().len(), equations.freedoms());

@@ -67,7 +67,7 @@ fn tasks_directions_and_given_joints() {
     assert!(aimed.given().is_empty());
     let line = |wrong: Result<Chain, _>, kind, line, word| assert_error(&wrong.unwrap_err(), kind, Some(line), word);
     line(arm("kind = 'ray', direction = [0, 0, 0]", ""), ErrorKind::BadValue, 3, "non-zero");
-    line(arm("kind = 'pose', direction = [0, 0, 1]", ""), ErrorKind::BadValue, 3, "aims no direction");
+    line(arm("kind = 'pose', direction = [0, 0, 1]", ""), ErrorKind::BadValue, 3, "orients no direction");
     line(arm("kind = 'ray', plane = 'xy'", ""), ErrorKind::BadValue, 3, "no plane");
     line(arm("kind = 'ray'", "given = ['c']"), ErrorKind::UnknownName, 2, "`a`, `b`");
     line(arm("kind = 'ray'", "given = ['a', 'a']"), ErrorKind::DuplicateName, 2, "twice");

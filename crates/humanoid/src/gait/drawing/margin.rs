@@ -29,10 +29,10 @@ pub(super) fn draw(walk: &Walk, top: f64, svg: &mut Svg) -> f64 {
         (LEFT, top + 12.0),
         "margin of the zero moment point: its distance from the border of the support polygon",
     );
-    let asked = format!("required: {:.1} mm", 1e3 * walk.request.margin);
+    let required = format!("required: {:.1} mm", 1e3 * walk.request.margin);
     let legend = [
         (Swatch::Line, "margin", "margin, RH0 (3-5)"),
-        (Swatch::Line, "limit", asked.as_str()),
+        (Swatch::Line, "limit", required.as_str()),
         (Swatch::Area, "left-stands", "the left foot supports alone in the swing of step n"),
         (Swatch::Area, "right-stands", "the right one"),
         (Swatch::Area, "both-stand", "double support"),

@@ -123,8 +123,8 @@ impl Floor<'_> {
         let known = best.as_ref().map(|(length, _)| *length);
         let end = self.improve(&mut best, Aim::Straight, effort, watch)?;
         if let (Some((times, scale)), Some(length), End::Open(_)) = (times, known, &end) {
-            let told = times[self.cells[0]] * scale;
-            let less = FIELD_FACTOR * (length / told).min(1.0);
+            let estimate = times[self.cells[0]] * scale;
+            let less = FIELD_FACTOR * (length / estimate).min(1.0);
             self.improve(&mut best, Aim::Field(times, scale * less), effort, watch)?;
         }
         let Some((length, path)) = best else { unreachable!("connected cells have a path") };

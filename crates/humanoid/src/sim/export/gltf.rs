@@ -36,7 +36,7 @@ impl Scene {
         let roots: Vec<usize> = (0..nodes.len()).filter(|place| self.nodes[*place].parent.is_none()).collect();
         let animations = file.animation(self)?;
         let asset = json!({ "version": "2.0", "generator": concat!("groebot ", env!("CARGO_PKG_VERSION")) });
-        let mut told = json!({
+        let mut object = json!({
             "scene": 0,
             "scenes": [{ "name": self.title, "nodes": roots }],
             "nodes": nodes,
@@ -47,21 +47,21 @@ impl Scene {
             "bufferViews": file.views,
             "buffers": if file.bytes.is_empty() { json!([]) } else { json!([{ "byteLength": file.bytes.len() }]) },
         });
-        drop_empty(&mut told);
+        drop_empty(&mut object);
         // The generator is at the start of the file, where it is checked before the file is replaced.
-        let rest = told.to_string();
+        let rest = object.to_string();
         glb(format!("{{\"asset\":{asset},{}", &rest[1..]).into_bytes(), file.bytes)
     }
 }
 
 /// Removes empty lists, which glTF does not permit.
-fn drop_empty(told: &mut Value) {
+fn drop_empty(object: &mut Value) {
     let is_empty = |value: &Value| value.as_array().is_some_and(Vec::is_empty);
-    if let Some(fields) = told.as_object_mut() {
+    if let Some(fields) = object.as_object_mut() {
         fields.retain(|_, value| !is_empty(value));
         fields.values_mut().for_each(drop_empty);
     }
-    told.as_array_mut().into_iter().flatten().for_each(drop_empty);
+    object.as_array_mut().into_iter().flatten().for_each(drop_empty);
 }
 
 /// The container: a header, then each chunk after its length and name, padded to four bytes.
@@ -99,12 +99,12 @@ struct File {
 
 impl File {
     fn node(&mut self, node: &Node) -> Result<Map<String, Value>> {
-        let mut told = Map::new();
-        told.insert("name".to_owned(), json!(node.name));
+        let mut object = Map::new();
+        object.insert("name".to_owned(), json!(node.name));
         let (turn, place) = (quaternion(&node.pose.rotation), node.pose.translation.vector);
         let mut tell = |field: &str, value: &[f64], usual: &[f64]| {
             if value != usual {
-                told.insert(field.to_owned(), json!(value));
+                object.insert(field.to_owned(), json!(value));
             }
         };
         tell("rotation", &turn, &[0.0, 0.0, 0.0, 1.0]);
@@ -113,10 +113,10 @@ impl File {
         let primitives = node.parts.iter().map(|part| self.primitive(part)).collect::<Result<Vec<_>>>()?;
         let primitives: Vec<Value> = primitives.into_iter().flatten().collect();
         if !primitives.is_empty() {
-            told.insert("mesh".to_owned(), json!(self.meshes.len()));
+            object.insert("mesh".to_owned(), json!(self.meshes.len()));
             self.meshes.push(json!({ "name": node.name, "primitives": primitives }));
         }
-        Ok(told)
+        Ok(object)
     }
 
     /// The triangles of a part in its node's frame; `None` where there are none.
@@ -132,8 +132,8 @@ impl File {
             attributes["NORMAL"] = json!(self.floats(&normals, "VEC3", Some(VERTICES), false)?);
         }
         let bytes: Vec<u8> = skin.triangles.iter().flatten().flat_map(|corner| corner.to_le_bytes()).collect();
-        let told = json!({ "componentType": UNSIGNED_INT, "count": 3 * skin.triangles.len(), "type": "SCALAR" });
-        let indices = self.accessor(&bytes, told, Some(INDICES));
+        let object = json!({ "componentType": UNSIGNED_INT, "count": 3 * skin.triangles.len(), "type": "SCALAR" });
+        let indices = self.accessor(&bytes, object, Some(INDICES));
         let material = self.material(&part.material);
         Ok(Some(json!({ "attributes": attributes, "indices": indices, "material": material })))
     }
@@ -143,20 +143,20 @@ impl File {
             return place;
         }
         let [red, green, blue] = own.diffuse.map(linear);
-        let mut told = json!({
+        let mut object = json!({
             "pbrMetallicRoughness": {
                 "baseColorFactor": [red, green, blue, own.opacity.clamp(0.0, 1.0)], "metallicFactor": 0, "roughnessFactor": 0.7,
             },
             "doubleSided": true,
         });
         if own.emissive != [0.0; 3] {
-            told["emissiveFactor"] = json!(own.emissive.map(linear));
+            object["emissiveFactor"] = json!(own.emissive.map(linear));
         }
         if own.opacity < 1.0 {
-            told["alphaMode"] = json!("BLEND");
+            object["alphaMode"] = json!("BLEND");
         }
         self.known.push(*own);
-        self.materials.push(told);
+        self.materials.push(object);
         self.materials.len() - 1
     }
 
@@ -211,29 +211,29 @@ impl File {
         if !singles.iter().flatten().all(|x| x.is_finite()) {
             return Err(bad("a number is too large for single precision, which glTF uses"));
         }
-        let mut told = json!({ "componentType": FLOAT, "count": rows.len(), "type": kind });
+        let mut object = json!({ "componentType": FLOAT, "count": rows.len(), "type": kind });
         if bounds {
             let extreme = |pick: fn(f32, f32) -> f32| {
                 let each = |place: usize| singles.iter().map(|row| row[place]).reduce(pick).unwrap_or(0.0);
                 (0..N).map(|place| f64::from(each(place))).collect::<Vec<_>>()
             };
-            told["min"] = json!(extreme(f32::min));
-            told["max"] = json!(extreme(f32::max));
+            object["min"] = json!(extreme(f32::min));
+            object["max"] = json!(extreme(f32::max));
         }
         let bytes: Vec<u8> = singles.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
-        Ok(self.accessor(&bytes, told, target))
+        Ok(self.accessor(&bytes, object, target))
     }
 
     /// Appends bytes, a multiple of four, to the buffer.
-    fn accessor(&mut self, bytes: &[u8], mut told: Value, target: Option<u32>) -> usize {
+    fn accessor(&mut self, bytes: &[u8], mut object: Value, target: Option<u32>) -> usize {
         let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
         if let Some(target) = target {
             view["target"] = json!(target);
         }
-        told["bufferView"] = json!(self.views.len());
+        object["bufferView"] = json!(self.views.len());
         self.bytes.extend(bytes);
         self.views.push(view);
-        self.accessors.push(told);
+        self.accessors.push(object);
         self.accessors.len() - 1
     }
 }

@@ -139,8 +139,8 @@ impl Markup {
 impl Field<'_> {
     fn in_xml(&self) -> String {
         match self {
-            Field::Numbers(numbers) => told(numbers),
-            Field::Rows(rows) => joined(rows.iter().map(|row| told(row)), " "),
+            Field::Numbers(numbers) => formatted(numbers),
+            Field::Rows(rows) => joined(rows.iter().map(|row| formatted(row)), " "),
             Field::Triangles(triangles) => joined(triangles.iter().map(|[a, b, c]| format!("{a} {b} {c} -1")), " "),
             Field::Flag(is) => is.to_string(),
             Field::Text(text) => text.replace('&', "&amp;").replace('<', "&lt;").replace('\'', "&apos;"),
@@ -158,7 +158,7 @@ impl Field<'_> {
     }
 }
 
-fn told(numbers: &[f64]) -> String {
+fn formatted(numbers: &[f64]) -> String {
     joined(numbers.iter().map(|x| number(*x)), " ")
 }
 

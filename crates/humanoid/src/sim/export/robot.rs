@@ -89,25 +89,25 @@ fn motion(joint: &Joint, value: f64) -> Pose {
 /// The values of each joint, one per sample or one for all: those of the trajectory, those of the leader for followers,
 /// else the value within limits that is nearest to zero.
 fn values(robot: &Robot, trajectory: Option<&Trajectory>) -> Result<Vec<Vec<f64>>> {
-    let mut told: Vec<Option<Vec<f64>>> = vec![None; robot.joints().len()];
+    let mut given: Vec<Option<Vec<f64>>> = vec![None; robot.joints().len()];
     if let Some(trajectory) = trajectory {
         trajectory.check()?;
         if trajectory.times.is_empty() {
             return Err(Error::new(ErrorKind::BadValue, "the trajectory has no sample; give at least one"));
         }
         for (column, track) in trajectory.joints.iter().enumerate() {
-            told[place(robot, track)?] = Some(trajectory.q.iter().map(|q| q[column]).collect());
+            given[place(robot, track)?] = Some(trajectory.q.iter().map(|q| q[column]).collect());
         }
     }
     let rest = |joint: &Joint| vec![joint.limits.map_or(0.0, |(low, high)| 0f64.max(low).min(high))];
     let led = |joint: &Joint| {
         let law = robot.law(joint);
         let leader = robot.joints().iter().position(|other| other.name == law.leader && law.leader != joint.name)?;
-        let leading = told[leader].clone().unwrap_or_else(|| rest(&robot.joints()[leader]));
+        let leading = given[leader].clone().unwrap_or_else(|| rest(&robot.joints()[leader]));
         Some(leading.into_iter().map(|value| law.value(value)).collect())
     };
     let value =
-        |(place, joint): (usize, &Joint)| told[place].clone().or_else(|| led(joint)).unwrap_or_else(|| rest(joint));
+        |(place, joint): (usize, &Joint)| given[place].clone().or_else(|| led(joint)).unwrap_or_else(|| rest(joint));
     Ok(robot.joints().iter().enumerate().map(value).collect())
 }
 

@@ -1,4 +1,4 @@
-//! Reads VRML as far as RH0 Fig. 5-4 shows it, and no more: [`Scene::from_vrml`].
+//! Reader of the VRML nodes in RH0 Fig. 5-4: [`Scene::from_vrml`].
 //!
 //! | node | fields |
 //! | --- | --- |
@@ -8,7 +8,7 @@
 //! | `Material` | `ambientIntensity`, `diffuseColor`, `emissiveColor`, `specularColor` |
 //! | `Box` | `size` |
 //!
-//! Each may have a name by `DEF`. Children stand in brackets, or one alone without them, as in the figure.
+//! Each may have a name by `DEF`. Children are in brackets; a single child may be without them, as in the figure.
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
@@ -58,8 +58,8 @@ impl Scene {
 fn words(text: &str) -> Vec<(usize, &str)> {
     let mut words = Vec::new();
     for (place, line) in text.lines().enumerate() {
-        let told = line.split('#').next().unwrap_or("");
-        for piece in told.split(|letter: char| letter.is_whitespace() || letter == ',') {
+        let code = line.split('#').next().unwrap_or("");
+        for piece in code.split(|letter: char| letter.is_whitespace() || letter == ',') {
             let mut rest = piece;
             while let Some(at) = rest.find(BRACKETS) {
                 words.extend([(place + 1, &rest[..at]), (place + 1, &rest[at..=at])]);
@@ -150,7 +150,7 @@ impl<'t> Reader<'t> {
         for number in &mut numbers {
             let word = self.word("a number")?;
             let read = word.parse().map_err(|_| {
-                let text = format!("`{}` is no number; give {N} here", shown(word));
+                let text = format!("`{}` is not a number; give {N} here", shown(word));
                 self.error(ErrorKind::Syntax, text)
             })?;
             if !f64::is_finite(read) || !good(read) {

@@ -74,12 +74,12 @@ impl Scene {
         if !place.iter().all(|x| x.is_finite()) {
             return;
         }
-        let told = [
+        let fields = [
             ("description", Field::Text("all")),
             ("position", Field::Numbers(place.as_slice())),
             ("orientation", Field::Numbers(&turn)),
         ];
-        out.leaf("", "Viewpoint", "", &told);
+        out.leaf("", "Viewpoint", "", &fields);
     }
 
     fn tree(&self, out: &mut Markup, names: &[String]) {
@@ -125,17 +125,17 @@ impl Scene {
 /// Begins a `Transform` with the fields that differ from the defaults.
 fn transform(out: &mut Markup, name: &str, pose: &Pose, scale: [f64; 3]) {
     let (turn, place) = (axis_angle(&pose.rotation), pose.translation.vector);
-    let mut told = Vec::new();
+    let mut fields = Vec::new();
     if place != Vector3::zeros() {
-        told.push(("translation", Field::Numbers(place.as_slice())));
+        fields.push(("translation", Field::Numbers(place.as_slice())));
     }
     if turn[3] != 0.0 {
-        told.push(("rotation", Field::Numbers(&turn)));
+        fields.push(("rotation", Field::Numbers(&turn)));
     }
     if scale != [1.0; 3] {
-        told.push(("scale", Field::Numbers(&scale)));
+        fields.push(("scale", Field::Numbers(&scale)));
     }
-    out.open(name, &told);
+    out.open(name, &fields);
 }
 
 fn shape(out: &mut Markup, part: &Part) {
@@ -168,9 +168,9 @@ fn material(out: &mut Markup, own: &Material) {
         ("specularColor", &own.specular, &usual.specular),
         ("transparency", &clear, &[0.0]),
     ];
-    let told = fields.into_iter().filter(|(_, value, usual)| value != usual);
-    let told: Vec<_> = told.map(|(field, value, _)| (field, Field::Numbers(value))).collect();
-    out.leaf("material", "Material", "", &told);
+    let fields = fields.into_iter().filter(|(_, value, usual)| value != usual);
+    let fields: Vec<_> = fields.map(|(field, value, _)| (field, Field::Numbers(value))).collect();
+    out.leaf("material", "Material", "", &fields);
 }
 
 fn geometry(out: &mut Markup, body: &Body) {
@@ -180,20 +180,20 @@ fn geometry(out: &mut Markup, body: &Body) {
             out.leaf("geometry", "Sphere", "", &[("radius", Field::Numbers(&[*radius]))]);
         }
         Body::Solid(Solid::Cylinder { radius, length }) => {
-            let told =
+            let fields =
                 [("radius", Field::Numbers(std::slice::from_ref(radius))), ("height", Field::Numbers(&[*length]))];
-            out.leaf("geometry", "Cylinder", "", &told);
+            out.leaf("geometry", "Cylinder", "", &fields);
         }
         _ => {
             let skin = Skin::of(body);
             let crease = if skin.normals.is_empty() { 0.0 } else { CREASE };
             let points: Vec<Vec<f64>> = skin.points.iter().map(|point| point.coords.as_slice().to_vec()).collect();
-            let told = [
+            let fields = [
                 ("solid", Field::Flag(false)),
                 ("creaseAngle", Field::Numbers(&[crease])),
                 ("coordIndex", Field::Triangles(&skin.triangles)),
             ];
-            out.node("geometry", "IndexedFaceSet", &told, |out| {
+            out.node("geometry", "IndexedFaceSet", &fields, |out| {
                 out.leaf("coord", "Coordinate", "", &[("point", Field::Rows(&points))]);
             });
         }

@@ -5,15 +5,15 @@
 pub enum Function {
     /// Inverse dynamics (RNEA): the torques of a motion.
     Inverse,
-    /// The torques against gravity.
+    /// The gravity torques.
     Gravity,
     /// The mass matrix (CRBA).
     Inertia,
-    /// The Coriolis matrix of Christoffel symbols.
+    /// The Coriolis matrix from Christoffel symbols.
     Coriolis,
     /// Forward dynamics (ABA): the accelerations from torques.
     Forward,
-    /// The derivatives of inverse dynamics by the configuration and the velocity.
+    /// The derivatives of inverse dynamics with respect to the configuration and the velocity.
     Derivatives,
 }
 
@@ -28,7 +28,7 @@ impl Function {
         Function::Derivatives,
     ];
 
-    /// Its name in code.
+    /// Its name in printed code.
     pub fn name(self) -> &'static str {
         match self {
             Function::Inverse => "inverse",

@@ -16,7 +16,7 @@ pub(super) enum Table {
 /// The parts that differ between the languages.
 pub(super) trait Language {
     fn expressions(&self) -> &dyn Expressions;
-    /// The results of a function: statements, and a last expression.
+    /// The results of a function: statements, and a final expression.
     fn answer(&self, function: Function, freedoms: usize, results: Vec<String>) -> (Vec<String>, String);
     /// The list of parameters.
     fn parameters(&self, function: Function, equations: &Equations) -> String;

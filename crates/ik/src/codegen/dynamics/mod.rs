@@ -37,8 +37,7 @@ pub enum Form {
     Shorter,
     /// Straight-line code, the fastest form.
     Straight,
-    /// Loops over the bodies, whose parameters are in tables. Forward dynamics with joints that follow others is
-    /// straight-line code anyway.
+    /// Loops over the bodies, whose parameters are in tables. Forward dynamics (ABA) with joints that follow others is always straight-line code.
     Recursive,
 }
 
@@ -70,16 +69,15 @@ impl Printed<'_> {
     /// Prints a Rust file that needs the crate `groebot-runtime` (edition 2024).
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for forward dynamics where bodies without mass would move.
+    /// [`ErrorKind::BadValue`] for forward dynamics if bodies without mass would move.
     pub fn rust(&self) -> Result<String> {
         Ok(super::fill(RUST, &self.outline(&Rust, "")?))
     }
 
-    /// Prints a header and a source file in C99 that need `groebot_dynamics.h`, for files `stem.h` and `stem.c`; names
-    /// begin with the robot's.
+    /// Prints a header and a source file in C99 that need `groebot_dynamics.h`, for files `stem.h` and `stem.c`. Names begin with the robot's.
     ///
     /// # Errors
-    /// As [`Printed::rust`].
+    /// Same as [`Printed::rust`].
     pub fn c99(&self, stem: &str) -> Result<[String; 2]> {
         let outline = self.outline(&C, stem)?;
         Ok([HEADER, SOURCE].map(|skeleton| super::fill(skeleton, &outline)))
@@ -88,7 +86,7 @@ impl Printed<'_> {
     /// The number of operations of a function.
     ///
     /// # Errors
-    /// As [`Printed::rust`].
+    /// Same as [`Printed::rust`].
     pub fn operations(&self, function: Function) -> Result<usize> {
         Ok(self.record(function)?.code.len())
     }
@@ -100,7 +98,7 @@ impl Printed<'_> {
         let functions = self.functions.iter().map(|function| self.function(*function, &recursive, language));
         let functions: Vec<FunctionText> = functions.collect::<Result<_>>()?;
         let loops = functions.iter().any(|function| function.is_recursive);
-        let ways = values.iter().filter(|value| value.freedom == Freedom::Slide);
+        let displacements = values.iter().filter(|value| value.freedom == Freedom::Slide);
         let joints = self.equations.joints().iter().map(|name| format!("`{}`", remark(name)));
         let base = |coordinates: &str| -> Vec<String> {
             if self.equations.is_floating() { coordinates.split(' ').map(str::to_owned).collect() } else { Vec::new() }
@@ -116,7 +114,7 @@ impl Printed<'_> {
             freedoms: base("vx vy vz wx wy wz").into_iter().chain(joints).collect(),
             remarks: self.remarks.iter().map(|line| remark(line)).collect(),
             angles: angles.map(|value| joint_value(value, language)).collect(),
-            ways: ways.map(|value| joint_value(value, language)).collect(),
+            displacements: displacements.map(|value| joint_value(value, language)).collect(),
             bodies: values.len() + 1,
             tables: if loops { language.tables(&recursive.tables()) } else { Vec::new() },
             functions,
@@ -125,7 +123,7 @@ impl Printed<'_> {
 
     fn function(&self, function: Function, recursive: &Recursive, language: &dyn Language) -> Result<FunctionText> {
         let body = self.record(function)?;
-        // One language decides for both, so that they round alike.
+        // The length in Rust determines the form in both languages, so that they round alike.
         let is_long = || self.straight(function, &body, &Rust).0.iter().map(String::len).sum::<usize>() > LONGEST;
         let has_loops = function != Function::Forward || recursive.is_plain();
         let is_recursive = has_loops && (self.form == Form::Recursive || self.form == Form::Shorter && is_long());
@@ -167,7 +165,7 @@ impl Printed<'_> {
                 ([_], true) => "Matrix",
                 (_, true) => "[Matrix; 2]",
             },
-            reads_ways: code.iter().any(|line| line.contains("way[")),
+            reads_displacements: code.iter().any(|line| line.contains("way[")),
             code,
             answer,
             is_recursive,
@@ -180,12 +178,12 @@ impl Printed<'_> {
         let values = self.equations.values();
         let turning = values.iter().filter(|value| value.freedom == Freedom::Turn).count();
         let pairs = ["c", "s"].into_iter().flat_map(|name| (0..turning).map(move |i| format!("{name}[{i}]")));
-        let ways = values.iter().filter(|value| value.freedom == Freedom::Slide);
-        let ways = ways.map(|value| format!("({})", joint_value(value, language)));
+        let displacements = values.iter().filter(|value| value.freedom == Freedom::Slide);
+        let displacements = displacements.map(|value| format!("({})", joint_value(value, language)));
         let turn = (3..7).map(|i| format!("q[{i}]"));
         let lists = function.inputs().iter();
         let lists = lists.flat_map(|list| (0..self.equations.freedoms()).map(move |i| format!("{list}[{i}]")));
-        pairs.chain(ways).chain(turn).chain(lists).collect()
+        pairs.chain(displacements).chain(turn).chain(lists).collect()
     }
 
     /// Runs the algorithm and records it.
@@ -250,7 +248,7 @@ struct Outline {
     freedoms: Vec<String>,
     remarks: Vec<String>,
     angles: Vec<String>,
-    ways: Vec<String>,
+    displacements: Vec<String>,
     bodies: usize,
     tables: Vec<String>,
     functions: Vec<FunctionText>,
@@ -265,6 +263,6 @@ struct FunctionText {
     result: &'static str,
     code: Vec<String>,
     answer: String,
-    reads_ways: bool,
+    reads_displacements: bool,
     is_recursive: bool,
 }

@@ -33,15 +33,15 @@ impl Tape {
         // A final negation is computed here.
         let outputs: Vec<Operand> = results.iter().map(|result| self.output(result)).collect();
         let record = self.0.borrow();
-        let mut asked = vec![false; record.operations.len()];
+        let mut needed = vec![false; record.operations.len()];
         let register = |operand: &Operand| if let Operand::Register(index) = operand { Some(*index) } else { None };
-        outputs.iter().filter_map(register).for_each(|index| asked[index] = true);
-        for index in (0..asked.len()).rev().filter(|index| asked[*index]).collect::<Vec<_>>() {
-            mark(&record.operations, index, &mut asked);
+        outputs.iter().filter_map(register).for_each(|index| needed[index] = true);
+        for index in (0..needed.len()).rev().filter(|index| needed[*index]).collect::<Vec<_>>() {
+            mark(&record.operations, index, &mut needed);
         }
-        let mut places = vec![0; asked.len()];
+        let mut places = vec![0; needed.len()];
         let mut code = Vec::new();
-        for (index, operation) in record.operations.iter().enumerate().filter(|(index, _)| asked[*index]) {
+        for (index, operation) in record.operations.iter().enumerate().filter(|(index, _)| needed[*index]) {
             places[index] = code.len();
             code.push(Instruction { target: code.len(), operation: moved(operation, &places) });
         }
@@ -83,15 +83,15 @@ impl Tape {
     }
 }
 
-fn mark(operations: &[Operation], index: usize, asked: &mut [bool]) {
+fn mark(operations: &[Operation], index: usize, needed: &mut [bool]) {
     let mut open = vec![index];
     while let Some(index) = open.pop() {
         let (a, b) = operations[index].operands();
         for operand in [Some(a), b].into_iter().flatten() {
             if let Operand::Register(read) = operand
-                && !asked[read]
+                && !needed[read]
             {
-                asked[read] = true;
+                needed[read] = true;
                 open.push(read);
             }
         }

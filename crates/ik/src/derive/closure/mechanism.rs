@@ -264,8 +264,8 @@ impl Mechanism {
         self.seen().freedoms() <= self.independent()
     }
 
-    /// Whether the steps of a plan must have as many solutions as the loop. If the task asks for more than the joints can do, or joints follow others, steps
-    /// may have more. The unused equations are then evaluated at run time.
+    /// Whether the steps of a plan must have as many solutions as the loop. If the task is overdetermined (more numbers than independent joints), or joints
+    /// follow others, steps may have more. The unused equations are then evaluated at run time.
     pub fn counts_exactly(&self) -> bool {
         self.is_tight() && self.followers().is_empty()
     }
@@ -293,8 +293,8 @@ impl Mechanism {
 
 /// The law by which a joint follows the joint at index `leader`.
 fn coupling([joint, other]: [&ScrewJoint; 2], leader: usize, mimic: &Mimic) -> Result<Coupling> {
-    let turn = [joint, other].map(ScrewJoint::is_revolute);
-    Coupling::new(leader, turn, [&joint.square, &other.square], mimic).ok_or_else(|| {
+    let revolute = [joint, other].map(ScrewJoint::is_revolute);
+    Coupling::new(leader, revolute, [&joint.square, &other.square], mimic).ok_or_else(|| {
         let text = format!(
             "joint `{}` follows `{}` by a law that is no polynomial in rational numbers: the ratio of the lengths of their axis vectors is irrational; \
              a search (`groebot ik --numeric`) finds joint values",

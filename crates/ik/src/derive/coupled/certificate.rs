@@ -66,12 +66,12 @@ impl Coupled {
             (Some((sides, shared)), Some(stored)) => Some(Simultaneous::again(sides, shared, stored)?),
             // If no relations of shared joints fit, the chains are solved one after the other. A recount checks that none fit.
             (_, None) => None,
-            _ => return Err(refused("the proof of the shared joints is missing or left over".to_owned())),
+            _ => return Err(refused("the proof of the shared joints is missing or superfluous".to_owned())),
         };
         let derived = Coupled::assemble(coupled, simultaneous, &mut prove)?;
         match stored.next() {
             None => Ok(derived),
-            Some(proof) => Err(refused(format!("the certificate of `{}` is left over", proof.chain))),
+            Some(proof) => Err(refused(format!("the certificate of `{}` is superfluous", proof.chain))),
         }
     }
 }

@@ -81,13 +81,13 @@ impl CoupledView<'_> {
                 let nearest = before.iter().map(|q| stage.solver.nearest(&stage.target(target, q)));
                 let nearest: Vec<Option<Nearest>> = nearest.collect::<Result<_>>()?;
                 let nearest = nearest.into_iter().flatten().min_by(|a, b| a.relative.total_cmp(&b.relative));
-                let ways = if stage == &self.method.stages[0] { 0 } else { before.len() };
+                let count = if stage == &self.method.stages[0] { 0 } else { before.len() };
                 let member = self.problem.chains()[stage.member].name.clone();
                 let disagreement = match self.alone(stage, watch)? {
                     Some(alone) => self.disagreement(stage, &before, &alone.solve_numbers(&stage.own_target(target))?),
                     None => None,
                 };
-                return Ok(Some(Explanation { member, before: ways, disagreement, nearest }));
+                return Ok(Some(Explanation { member, before: count, disagreement, nearest }));
             }
             before = answers.into_iter().map(|answer| answer.q).collect();
         }
@@ -136,16 +136,17 @@ impl CoupledView<'_> {
     /// there are no solutions.
     fn disagreement(&self, stage: &ChainStage, before: &[Vec<f64>], answers: &[Solution]) -> Option<Disagreement> {
         let shared: Vec<usize> = stage.found().collect();
-        let one = |way: &Vec<f64>, answer: &Solution, actuator: usize| Disagreement {
+        let one = |earlier: &Vec<f64>, answer: &Solution, actuator: usize| Disagreement {
             actuator: self.program.joints[actuator].name.clone(),
             unit: self.program.joints[actuator].unit,
             needed: stage.joints.iter().position(|place| *place == actuator).map_or(f64::NAN, |joint| answer.q[joint]),
-            found: way[actuator],
+            found: earlier[actuator],
         };
         let larger = |a: &Disagreement, b: &Disagreement| a.off().abs().total_cmp(&b.off().abs());
-        let pairs = before.iter().flat_map(|way| answers.iter().map(move |answer| (way, answer)));
-        let worst =
-            pairs.filter_map(|(way, answer)| shared.iter().map(|&actuator| one(way, answer, actuator)).max_by(larger));
+        let pairs = before.iter().flat_map(|earlier| answers.iter().map(move |answer| (earlier, answer)));
+        let worst = pairs.filter_map(|(earlier, answer)| {
+            shared.iter().map(|&actuator| one(earlier, answer, actuator)).max_by(larger)
+        });
         worst.min_by(larger)
     }
 }
@@ -166,7 +167,7 @@ impl fmt::Display for Explanation {
         write!(f, "the equations of chain `{}` fail", self.member)?;
         match self.before {
             0 => {}
-            ways => write!(f, " in each of the {ways} ways in which the chains before it reach their targets")?,
+            count => write!(f, " for each of the {count} solutions of the chains before it")?,
         }
         match &self.nearest {
             Some(nearest) => write!(f, "; the nearest joints found leave a residual of {:.1e}", nearest.residual),

@@ -87,7 +87,7 @@ impl Coupled {
         }
         let stages = found.stages;
         let last = stages.last().map(|stage| stage.program.clone());
-        let mut program = last.ok_or_else(|| Error::new(ErrorKind::BadValue, "there is no chain"))?;
+        let mut program = last.ok_or_else(|| Error::new(ErrorKind::BadValue, "there are no chains"))?;
         let all = Coupled { simultaneous, stages };
         let most = 2 * all.dimension() + program.blocks.len();
         program.capacity = most.min(program.capacity);
@@ -186,8 +186,7 @@ impl ChainStage {
                 // The user gives one value for both chains.
                 (true, Some(_)) => {}
                 (true, None) => {
-                    let text =
-                        format!("`{}` is given, but a chain before it finds its actuator; leave it out", joint.name);
+                    let text = format!("`{}` is given, but an earlier chain finds its actuator; omit it", joint.name);
                     return Err(Error::new(ErrorKind::BadValue, text));
                 }
             }
@@ -242,11 +241,11 @@ impl ChainStage {
 
     /// The chain's own target in a target of the solver, without the joints that earlier chains find.
     pub fn own_target(&self, target: &[f64]) -> Vec<f64> {
-        let asked = |origin: &Origin| match *origin {
+        let own = |origin: &Origin| match *origin {
             Origin::Target(index) => Some(target[index]),
             Origin::Joint(_) => None,
         };
-        self.inputs.iter().filter_map(asked).collect()
+        self.inputs.iter().filter_map(own).collect()
     }
 
     /// The inputs of the chain's own solver, from a target of the solver and its joints.
@@ -308,13 +307,16 @@ impl Found<'_> {
         let freedoms = |member: usize| self.coupled.chains()[member].chain.task().freedoms();
         let remaining: Vec<usize> = (0..self.coupled.chains().len()).filter(left).collect();
         remaining.iter().copied().find(|&member| self.open(member) <= freedoms(member)).ok_or_else(|| {
-            let told = |&member: &usize| {
+            let description = |&member: &usize| {
                 let CoupledChain { name, chain, .. } = &self.coupled.chains()[member];
                 let (open, task) = (self.open(member), chain.task().name());
                 format!("`{name}` has {open} joints to find, its task `{task}` determines {}", freedoms(member))
             };
-            let list: Vec<String> = remaining.iter().map(told).collect();
-            let text = format!("no chain can be solved next: {}; ask more of one, or give a joint", list.join("; "));
+            let list: Vec<String> = remaining.iter().map(description).collect();
+            let text = format!(
+                "no chain can be solved next: {}; choose a task that determines more joints, or give a joint",
+                list.join("; ")
+            );
             Error::new(ErrorKind::PositiveDimensional, text)
         })
     }

@@ -75,9 +75,10 @@ impl CoupledChains {
     /// Checks `parts` and makes them coupled chains.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for no chain, an invalid name or prefix, different length units, joints of one chain with one actuator, joints of different
-    /// kinds with one actuator, or more than 16 actuators. [`ErrorKind::DuplicateName`] for chains or actuators with one name, and joints that are shared
-    /// twice. [`ErrorKind::UnknownName`] for shared joints that do not exist.
+    /// * [`ErrorKind::BadValue`] for no chain, an invalid name or prefix, or different length units.
+    /// * [`ErrorKind::BadValue`] for an actuator with joints of one chain or of different kinds, and for more than 16 actuators.
+    /// * [`ErrorKind::DuplicateName`] for chains or actuators with one name, and joints that are shared twice.
+    /// * [`ErrorKind::UnknownName`] for shared joints that do not exist.
     pub fn new(parts: CoupledParts) -> Result<Self> {
         CoupledChains::assemble(parts).map_err(|fault| fault.error)
     }
@@ -149,10 +150,10 @@ fn is_word(text: &str) -> bool {
 fn check_coupled(parts: &CoupledParts) -> Checked {
     let bad = |part, text: String| fault(part, ErrorKind::BadValue, text);
     if !is_word(&parts.name) {
-        return bad(Part::Whole, "`name` is no word; give letters, digits and `_`, no digit first".to_owned());
+        return bad(Part::Whole, "`name` is not a word; give letters, digits and `_`, no digit first".to_owned());
     }
     let Some(first) = parts.chains.first() else {
-        return bad(Part::Whole, "there is no chain; give one or more".to_owned());
+        return bad(Part::Whole, "there are no chains; give at least one".to_owned());
     };
     for (index, member) in parts.chains.iter().enumerate() {
         let part = Part::Chain(index);
@@ -192,7 +193,7 @@ fn check_shared(parts: &CoupledParts) -> Checked {
         }
         let kind = |place: JointPlace| parts.joint(place).map(|joint| joint.kind);
         if group.iter().any(|&place| kind(place) != kind(group[0])) {
-            return fault(part, ErrorKind::BadValue, format!("{}: all must turn, or all slide", names()));
+            return fault(part, ErrorKind::BadValue, format!("{}: all must be revolute, or all prismatic", names()));
         }
     }
     Ok(())

@@ -56,7 +56,7 @@ fn read_member(table: Table<'_>, folder: &Path) -> Result<CoupledChain> {
     let name = table.required("name")?.text()?.to_owned();
     let named = |error: crate::Error| error.with_context(format_args!("chain `{}`", shown(&name)));
     let chain = read_chain(table.required("chain")?, folder).map_err(named)?;
-    let chain = asked(table, chain).map_err(|error| named(error).at_line(table.line()))?;
+    let chain = requested(table, chain).map_err(|error| named(error).at_line(table.line()))?;
     let prefix = table.optional("prefix").map(|node| node.text().map(str::to_owned)).transpose()?;
     let file = table.required("chain")?.text().ok().map(str::to_owned);
     Ok(CoupledChain { prefix: prefix.unwrap_or_else(|| format!("{name}_")), name, chain, file })
@@ -77,13 +77,13 @@ fn read_chain(node: Node<'_>, folder: &Path) -> Result<Chain> {
 }
 
 /// `chain` with the task, the direction and the given joints of its entry.
-fn asked(table: Table<'_>, chain: Chain) -> Result<Chain> {
+fn requested(table: Table<'_>, chain: Chain) -> Result<Chain> {
     let own = || (chain.task(), chain.direction().clone());
     let task = table.optional("task").map(|node| read_task(node.table()?)).transpose()?;
     let is_given = table.optional("given").is_some();
-    let (is_asked, (task, direction)) = (task.is_some() || is_given, task.unwrap_or_else(own));
+    let (is_requested, (task, direction)) = (task.is_some() || is_given, task.unwrap_or_else(own));
     let given = if is_given { read_given(table)? } else { chain.parts().given.clone() };
-    if is_asked { chain.with_task(task, direction, given) } else { Ok(chain) }
+    if is_requested { chain.with_task(task, direction, given) } else { Ok(chain) }
 }
 
 /// Reads joints with a common actuator.

@@ -61,9 +61,9 @@ impl Six {
             rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| target[3 + 3 * i + j])),
             translation: [target[0], target[1], target[2]],
         };
-        let (before, behind) = self.given.split_at(self.before);
+        let (before, after) = self.given.split_at(self.before);
         for (&joint, is_before) in
-            before.iter().map(|joint| (joint, true)).chain(behind.iter().rev().map(|joint| (joint, false)))
+            before.iter().map(|joint| (joint, true)).chain(after.iter().rev().map(|joint| (joint, false)))
         {
             let screw = chain.screws()[joint];
             let back =

@@ -119,7 +119,7 @@ pub(super) fn ranked(chain: &Chain) -> Result<Vec<Regular>> {
 
 /// The greatest distance between the points of two consecutive axes; one if all points are equal.
 fn typical_length(lines: &[Line; 6]) -> f64 {
-    let way = |a: &Line, b: &Line| (0..3).map(|k| (a.point[k] - b.point[k]).powi(2)).sum::<f64>().sqrt();
-    let longest = lines.windows(2).map(|pair| way(&pair[0], &pair[1])).fold(0.0, f64::max);
+    let distance = |a: &Line, b: &Line| (0..3).map(|k| (a.point[k] - b.point[k]).powi(2)).sum::<f64>().sqrt();
+    let longest = lines.windows(2).map(|pair| distance(&pair[0], &pair[1])).fold(0.0, f64::max);
     if longest > 0.0 { longest } else { 1.0 }
 }

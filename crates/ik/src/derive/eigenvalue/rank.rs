@@ -11,7 +11,7 @@ use super::residue::Residue;
 use super::rows::{Doubled, FAR, MOVING, Row, Rows};
 use super::screw::{Axis, Figure};
 use super::vector::dot;
-use crate::derive::samples::specimen::Random;
+use crate::derive::samples::random_sample::Random;
 use crate::solver::eigenvalue::Formulation;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::Zp;

@@ -2,7 +2,7 @@
 
 use groebot_runtime::six_axes::Rigid;
 
-use crate::derive::samples::specimen::Random;
+use crate::derive::samples::random_sample::Random;
 use crate::solver::eigenvalue::{Formulation, Layout};
 
 /// The number of random targets for each formulation.

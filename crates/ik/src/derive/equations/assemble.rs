@@ -58,7 +58,7 @@ impl Assembler {
     }
 
     /// Assemblers for every length of sums that is tried, the default first.
-    pub fn ways() -> [Assembler; 5] {
+    pub fn variants() -> [Assembler; 5] {
         [LONGEST, 6, 3, 2, 1].map(Assembler::with_sums_of)
     }
 

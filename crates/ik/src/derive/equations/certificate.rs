@@ -89,7 +89,7 @@ pub(in crate::derive) fn prove(system: &System, text: &str) -> Result<(Equations
     let searched = searched.map_err(|error| error.with_context("searched order"))?;
     let generic = requested.solved().map(|solved| solved.certified.order.as_slice());
     if generic != Some(system.order.as_slice()) {
-        return Err(refused("the generic stratum is not solved in the order that the input asks for".to_owned()));
+        return Err(refused("the generic stratum is not solved in the order that the input requests".to_owned()));
     }
     Equations { requested, searched }.compiled(system)
 }

@@ -78,13 +78,13 @@ impl fmt::Display for Triangular {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (stair, degree) in self.stairs.iter().zip(self.degrees()) {
             let name = &self.ring.variables()[stair.unknown];
-            let way = match degree {
+            let method = match degree {
                 1 => "linear: one value".to_owned(),
                 2 => "quadratic: up to two real roots, closed form".to_owned(),
                 3 | 4 => format!("degree {degree}: up to {degree} real roots, algebraic closed form"),
                 _ => format!("degree {degree}: real-root isolation"),
             };
-            writeln!(f, "{name}  ({way})")?;
+            writeln!(f, "{name}  ({method})")?;
             for polynomial in &stair.polynomials {
                 writeln!(f, "    {} = 0", presented(&self.ring, polynomial))?;
             }

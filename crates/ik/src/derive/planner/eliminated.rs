@@ -7,8 +7,10 @@ use super::types::{PlanStep, Way};
 use crate::derive::closure::{Factor, Mechanism};
 use crate::derive::samples::echelon::Echelon;
 use crate::derive::samples::evidence::Space;
-use crate::derive::samples::sights::{Sample, Sight, Sights, is_number, members, set};
-use crate::derive::samples::specimen::Random;
+use crate::derive::samples::random_sample::Random;
+use crate::derive::samples::sampled_relations::{
+    SampledRelation, SampledRelations, SampledValue, is_number, members, set,
+};
 use crate::{Result, Watch};
 use groebot_algebra::groebner::{basis_modulo_prime, normal_form};
 use groebot_algebra::number::Ring;
@@ -27,38 +29,43 @@ const HARD: usize = 15;
 const LINEAR: usize = 20;
 
 /// The index of a relation, and its coefficients at the sampled targets.
-type Seen = (usize, Rc<Sight>);
+type IndexedRelation = (usize, Rc<SampledRelation>);
 
 /// The steps to each joint of the set `joints` when those of `known` are known, with at most [`GREATEST`] solutions. There is at most one step per joint: that
 /// of lowest degree, then of least effort.
 ///
 /// # Errors
-/// As [`Sights::of`]. The error of `watch` if it stops the search.
-pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Watch) -> Result<Vec<Candidate>> {
+/// As [`SampledRelations::of`]. The error of `watch` if it stops the search.
+pub fn eliminations(
+    sampled: &mut SampledRelations<'_>,
+    joints: u32,
+    known: u32,
+    watch: &Watch,
+) -> Result<Vec<Candidate>> {
     let places = members(joints);
-    let followers = followers(sights.mechanism, joints);
-    let laws = if followers == 0 { None } else { Some(Laws::new(sights, &places)?) };
-    let relations = independent(sights, joints, known, laws.as_ref())?;
+    let followers = followers(sampled.mechanism, joints);
+    let laws = if followers == 0 { None } else { Some(Laws::new(sampled, &places)?) };
+    let relations = independent(sampled, joints, known, laws.as_ref())?;
     let mut best: Vec<Option<Candidate>> = vec![None; places.len()];
     for chosen in combinations(relations.len(), places.len() - members(followers).len()) {
         watch.check()?;
-        let some: Vec<Seen> = chosen.into_iter().map(|at| relations[at].clone()).collect();
-        if !covers(sights.mechanism, &some, joints) {
+        let some: Vec<IndexedRelation> = chosen.into_iter().map(|at| relations[at].clone()).collect();
+        if !covers(sampled.mechanism, &some, joints) {
             continue;
         }
-        let (degrees, symbols) = freed_degrees(sights, &some, &places, watch)?;
+        let (degrees, symbols) = freed_degrees(sampled, &some, &places, watch)?;
         for (at, &degree) in degrees.iter().enumerate().filter(|(_, degree)| is_allowed(degree)) {
             let away: Vec<usize> = places.iter().copied().filter(|&place| place != places[at]).collect();
             let is_led = |joint: &usize| followers >> *joint & 1 == 1;
             let is_plain = match &laws {
                 None => false,
-                Some(laws) => some.iter().all(|(_, sight)| laws.degree(sight).is_ok_and(|degree| degree <= 1)),
+                Some(laws) => some.iter().all(|(_, terms)| laws.degree(terms).is_ok_and(|degree| degree <= 1)),
             };
-            let is_hard = |joint: &&usize| !is_led(joint) && !is_plain && !turns_as_one(sights, &some, **joint);
+            let is_hard = |joint: &&usize| !is_led(joint) && !is_plain && !rotates_together(sampled, &some, **joint);
             let hard = away.iter().filter(is_hard).count();
             let effort = 10 * places.len() + symbols + HARD * hard;
             if best[at].as_ref().is_none_or(|(step, least)| (degree, effort) < (step.degree, *least)) {
-                let relations = some.iter().map(|(index, _)| sights.relations[*index].clone()).collect();
+                let relations = some.iter().map(|(index, _)| sampled.relations[*index].clone()).collect();
                 let way = Way::Eliminated { relations, away };
                 best[at] = Some((PlanStep { joint: places[at], way, degree }, effort));
             }
@@ -72,17 +79,17 @@ pub fn eliminations(sights: &mut Sights<'_>, joints: u32, known: u32, watch: &Wa
 /// The count is zero if there are no values or infinitely many, or if the planner does not use one of the step's relations.
 ///
 /// # Errors
-/// As [`Sights::of`]. The error of `watch` if it stops the count.
-pub fn count(sights: &mut Sights<'_>, step: &PlanStep, watch: &Watch) -> Result<usize> {
+/// As [`SampledRelations::of`]. The error of `watch` if it stops the count.
+pub fn count(sampled: &mut SampledRelations<'_>, step: &PlanStep, watch: &Watch) -> Result<usize> {
     let Way::Eliminated { relations, away } = &step.way else { return Ok(step.degree) };
     let places = members(set(away) | 1 << step.joint);
-    let mut some: Vec<Seen> = Vec::with_capacity(relations.len());
+    let mut some: Vec<IndexedRelation> = Vec::with_capacity(relations.len());
     for relation in relations {
-        let Some(index) = sights.relations.iter().position(|known| known == relation) else { return Ok(0) };
-        let unknown = set(&places) & sights.joints_of(index);
-        some.push((index, sights.of(index, unknown)?));
+        let Some(index) = sampled.relations.iter().position(|known| known == relation) else { return Ok(0) };
+        let unknown = set(&places) & sampled.joints_of(index);
+        some.push((index, sampled.of(index, unknown)?));
     }
-    let (degrees, _) = freed_degrees(sights, &some, &places, watch)?;
+    let (degrees, _) = freed_degrees(sampled, &some, &places, watch)?;
     Ok(places.iter().zip(degrees).find(|(place, _)| **place == step.joint).map_or(0, |(_, degree)| degree))
 }
 
@@ -95,8 +102,8 @@ pub fn followers(mechanism: &Mechanism, joints: u32) -> u32 {
 }
 
 /// Whether every joint of the set occurs in the relations, or is the leader of a joint that occurs.
-fn covers(mechanism: &Mechanism, some: &[Seen], joints: u32) -> bool {
-    let factors = some.iter().flat_map(|(_, sight)| sight.iter().flat_map(|(product, _)| product.list()));
+fn covers(mechanism: &Mechanism, some: &[IndexedRelation], joints: u32) -> bool {
+    let factors = some.iter().flat_map(|(_, terms)| terms.iter().flat_map(|(product, _)| product.list()));
     let occur = factors.fold(0, |set, factor| set | 1 << factor.joint());
     let leaders = mechanism.followers().into_iter().filter(|(follower, _)| occur >> follower & 1 == 1);
     leaders.fold(occur, |set, (_, coupling)| set | 1 << coupling.leader) & joints == joints
@@ -106,13 +113,13 @@ fn covers(mechanism: &Mechanism, some: &[Seen], joints: u32) -> bool {
 ///
 /// The sum of the squares of such relations is independent of the joint, which eliminates it (Pieper 1968). Each relation has a row (A, B) from A c + B s'. The
 /// condition holds if the map (A, B) -> (B, -n A), a rotation by 90 degrees, keeps the span of the rows at all targets.
-fn turns_as_one(sights: &Sights<'_>, some: &[Seen], joint: usize) -> bool {
-    let (field, n) = (sights.field(), sights.squares[joint]);
+fn rotates_together(sampled: &SampledRelations<'_>, some: &[IndexedRelation], joint: usize) -> bool {
+    let (field, n) = (sampled.field(), sampled.squares[joint]);
     let mut rows = Echelon::new(field);
     let mut turned = Vec::new();
-    for (_, sight) in some {
+    for (_, terms) in some {
         let (mut row, mut turn) = (Vec::new(), Vec::new());
-        for (product, sample) in sight.iter() {
+        for (product, sample) in terms.iter() {
             let rest: Vec<Factor> = product.list().iter().copied().filter(|factor| factor.joint() != joint).collect();
             let (cosine, sine) = (Factor::Cosine(joint), Factor::Sine(joint));
             for (k, &value) in sample.iter().enumerate() {
@@ -138,41 +145,46 @@ struct Laws {
 }
 
 impl Laws {
-    fn new(sights: &Sights<'_>, places: &[usize]) -> Result<Self> {
-        let space = Space::new(sights.mechanism, places, sights.field())?;
-        let mut ideal = space.couplings(sights.mechanism);
-        ideal.extend(space.circles(&sights.squares)?);
+    fn new(sampled: &SampledRelations<'_>, places: &[usize]) -> Result<Self> {
+        let space = Space::new(sampled.mechanism, places, sampled.field())?;
+        let mut ideal = space.couplings(sampled.mechanism);
+        ideal.extend(space.circles(&sampled.squares)?);
         Ok(Laws { space, ideal })
     }
 
     /// The degree of a relation after substitution of the laws.
-    fn degree(&self, sight: &Sight) -> Result<u32> {
-        let polynomial = self.space.polynomial(sight.iter().map(|(product, sample)| (product, sample[0])))?;
+    fn degree(&self, terms: &SampledRelation) -> Result<u32> {
+        let polynomial = self.space.polynomial(terms.iter().map(|(product, sample)| (product, sample[0])))?;
         Ok(self.space.ring.degree(&normal_form(&self.space.ring, &polynomial, &self.ideal)?))
     }
 }
 
 /// The first linearly independent relations whose unknown joints are all in the set. If joints follow others, relations of least degree come first.
-fn independent(sights: &mut Sights<'_>, joints: u32, known: u32, laws: Option<&Laws>) -> Result<Vec<Seen>> {
-    let of_loop = |index: &usize| sights.relations[*index].followed().is_none();
+fn independent(
+    sampled: &mut SampledRelations<'_>,
+    joints: u32,
+    known: u32,
+    laws: Option<&Laws>,
+) -> Result<Vec<IndexedRelation>> {
+    let of_loop = |index: &usize| sampled.relations[*index].followed().is_none();
     let mut within: Vec<usize> =
-        subsets(joints).flat_map(|subset| sights.among(subset, known)).filter(of_loop).collect();
+        subsets(joints).flat_map(|subset| sampled.among(subset, known)).filter(of_loop).collect();
     within.sort_unstable();
     if let Some(laws) = laws {
         let mut sorted = Vec::with_capacity(within.len());
         for index in within {
-            let sight = sights.of(index, joints & sights.joints_of(index))?;
-            sorted.push((laws.degree(&sight)?, index));
+            let terms = sampled.of(index, joints & sampled.joints_of(index))?;
+            sorted.push((laws.degree(&terms)?, index));
         }
         sorted.sort_unstable();
         within = sorted.into_iter().filter(|(degree, _)| *degree > 0).map(|(_, index)| index).collect();
     }
-    let mut rows = Echelon::new(sights.field());
+    let mut rows = Echelon::new(sampled.field());
     let mut found = Vec::new();
     for index in within.into_iter().take(LOOKED_AT) {
-        let sight = sights.of(index, joints & sights.joints_of(index))?;
-        if rows.insert(sight.iter().map(|(product, sample)| (product.clone(), sample[0]))) {
-            found.push((index, sight));
+        let terms = sampled.of(index, joints & sampled.joints_of(index))?;
+        if rows.insert(terms.iter().map(|(product, sample)| (product.clone(), sample[0]))) {
+            found.push((index, terms));
         }
         if found.len() == CANDIDATES {
             break;
@@ -196,33 +208,33 @@ fn combinations(count: usize, size: usize) -> Vec<Vec<usize>> {
 /// Proportional coefficients remain proportional. If this gives too many values for a step, the other linear relations of the coefficients are kept too. These
 /// count as [`LINEAR`] additional symbols.
 fn freed_degrees(
-    sights: &mut Sights<'_>,
-    some: &[Seen],
+    sampled: &mut SampledRelations<'_>,
+    some: &[IndexedRelation],
     places: &[usize],
     watch: &Watch,
 ) -> Result<(Vec<usize>, usize)> {
-    let space = Space::new(sights.mechanism, places, sights.field())?;
+    let space = Space::new(sampled.mechanism, places, sampled.field())?;
     let mut actual = Vec::new();
-    for (_, sight) in some {
-        actual.push(space.polynomial(sight.iter().map(|(product, sample)| (product, sample[0])))?);
+    for (_, terms) in some {
+        actual.push(space.polynomial(terms.iter().map(|(product, sample)| (product, sample[0])))?);
     }
     // Free coefficients may give finitely many solutions where the actual coefficients do not, but never fewer solutions.
-    if !degrees(sights, actual, &space, places, watch)?.iter().any(is_allowed) {
+    if !degrees(sampled, actual, &space, places, watch)?.iter().any(is_allowed) {
         return Ok((vec![0; places.len()], 0));
     }
     let mut random = Random::new(some.iter().fold(1, |seed, (index, _)| seed * 1009 + *index as u64));
-    let (polynomials, symbols) = freed(sights, some, &space, &mut random)?;
-    let free = degrees(sights, polynomials, &space, places, watch)?;
+    let (polynomials, symbols) = freed(sampled, some, &space, &mut random)?;
+    let free = degrees(sampled, polynomials, &space, places, watch)?;
     if free.iter().any(is_allowed) {
         return Ok((free, symbols));
     }
     let mut mixtures = Vec::new();
     for (index, _) in some {
-        let unknown = set(places) & sights.joints_of(*index);
-        let mixture = sights.mixture(*index, unknown)?;
+        let unknown = set(places) & sampled.joints_of(*index);
+        let mixture = sampled.mixture(*index, unknown)?;
         mixtures.push(space.polynomial(mixture.iter().map(|(product, &value)| (product, value)))?);
     }
-    Ok((degrees(sights, mixtures, &space, places, watch)?, symbols + LINEAR))
+    Ok((degrees(sampled, mixtures, &space, places, watch)?, symbols + LINEAR))
 }
 
 /// Whether a step may have this number of solutions.
@@ -232,37 +244,37 @@ fn is_allowed(degree: &usize) -> bool {
 
 /// The number of values of each joint; zero if there are no solutions or infinitely many.
 fn degrees(
-    sights: &Sights<'_>,
+    sampled: &SampledRelations<'_>,
     polynomials: Vec<Polynomial<u64>>,
     space: &Space,
     places: &[usize],
     watch: &Watch,
 ) -> Result<Vec<usize>> {
-    let mut generators = space.circles(&sights.squares)?;
-    generators.extend(space.couplings(sights.mechanism));
+    let mut generators = space.circles(&sampled.squares)?;
+    generators.extend(space.couplings(sampled.mechanism));
     generators.extend(polynomials);
     let basis = basis_modulo_prime(&space.ring, &generators, watch)?;
     match basis.quotient_dimension() {
         None | Some(0) => Ok(vec![0; places.len()]),
-        Some(_) => space.degrees(&basis, places, &mut Random::new(sights.field().modulus()), watch),
+        Some(_) => space.degrees(&basis, places, &mut Random::new(sampled.field().modulus()), watch),
     }
 }
 
 /// The relations with random numbers in place of symbols, and the number of symbols.
 fn freed(
-    sights: &Sights<'_>,
-    some: &[Seen],
+    sampled: &SampledRelations<'_>,
+    some: &[IndexedRelation],
     space: &Space,
     random: &mut Random,
 ) -> Result<(Vec<Polynomial<u64>>, usize)> {
-    let field = sights.field();
-    let mut symbols: Vec<(Sample, u64)> = Vec::new();
-    let mut value = |sample: &Sample| {
+    let field = sampled.field();
+    let mut symbols: Vec<(SampledValue, u64)> = Vec::new();
+    let mut value = |sample: &SampledValue| {
         if is_number(sample) {
             return sample[0];
         }
         for (symbol, value) in &symbols {
-            if let Some(ratio) = sights.ratio(sample, symbol) {
+            if let Some(ratio) = sampled.ratio(sample, symbol) {
                 return field.mul(&ratio, value);
             }
         }
@@ -270,8 +282,8 @@ fn freed(
         symbols.push((*sample, value));
         value
     };
-    let polynomial = |(_, sight): &Seen| {
-        let terms: Vec<_> = sight.iter().map(|(product, sample)| (product, value(sample))).collect();
+    let polynomial = |(_, terms): &IndexedRelation| {
+        let terms: Vec<_> = terms.iter().map(|(product, sample)| (product, value(sample))).collect();
         space.polynomial(terms.into_iter())
     };
     let polynomials = some.iter().map(polynomial).collect::<Result<_>>()?;

@@ -48,13 +48,13 @@ fn candidates(free: usize) -> Vec<(Task, ExactVector)> {
 /// Whether the joints are found one at a time for the task. If the chain has one joint more than the task determines, one joint is given.
 fn is_solved(chain: &Chain, task: Task, direction: &ExactVector) -> bool {
     let ask = |given: Vec<String>| chain.with_task(task, direction.clone(), given);
-    let Ok(asked) = ask(chain.parts().given.clone()) else { return false };
-    if asked.check_task().is_err() {
+    let Ok(requested) = ask(chain.parts().given.clone()) else { return false };
+    if requested.check_task().is_err() {
         return false;
     }
     let watch = Watch::none();
-    let given = joints_to_give(&asked, &watch)
-        .map(|choice| choice.map_or_else(|| asked.parts().given.clone(), |choice| choice.given));
+    let given = joints_to_give(&requested, &watch)
+        .map(|choice| choice.map_or_else(|| requested.parts().given.clone(), |choice| choice.given));
     let mechanism = given.and_then(ask).and_then(|chain| Mechanism::new(&chain));
     mechanism.and_then(|mechanism| plan(&mechanism, &watch)).is_ok()
 }

@@ -48,8 +48,8 @@ pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
     let leads = |joint: &&usize| chain.leader(**joint).is_none();
     let names =
         |joints: &[usize]| joints.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
-    let asked = chain.given();
-    let mut given = asked.clone();
+    let requested = chain.given();
+    let mut given = requested.clone();
     let Some(excess) = chain.independent().len().checked_sub(chain.task().freedoms()).filter(|n| *n > 0) else {
         return Ok(None);
     };
@@ -59,7 +59,7 @@ pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
         given.sort_unstable();
     }
     let (joint, candidates) = match last_to_give(chain, &given, watch) {
-        Err(error) if is_refusal(error.kind()) => match ends_to_give(chain, &asked, excess) {
+        Err(error) if is_refusal(error.kind()) => match ends_to_give(chain, &requested, excess) {
             Some(given) => return Ok(Some(Choice { given: names(&given), candidates: Vec::new() })),
             None => return Err(error),
         },
@@ -129,8 +129,8 @@ fn ends_to_give(chain: &Chain, given: &[usize], count: usize) -> Option<Vec<usiz
 fn leaves_six(chain: &Chain, given: &[usize]) -> bool {
     let leads = |joint: &&usize| chain.leader(**joint).is_none();
     let given = given.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
-    let asked = chain.with_task(chain.task(), chain.direction().clone(), given);
-    asked.is_ok_and(|chain| fits(&chain).is_ok())
+    let with_given = chain.with_task(chain.task(), chain.direction().clone(), given);
+    with_given.is_ok_and(|chain| fits(&chain).is_ok())
 }
 
 /// The joint that leaves six joints which can be solved together: the last, else the first. A follower is replaced by its leader.

@@ -23,8 +23,8 @@ pub use types::{Evidence, Plan, PlanStep, Way};
 
 use crate::derive::closure::{Mechanism, Relation, prove};
 use crate::derive::samples;
-use crate::derive::samples::sights::Sights;
-use crate::derive::samples::specimen::Random;
+use crate::derive::samples::random_sample::Random;
+use crate::derive::samples::sampled_relations::SampledRelations;
 use crate::{Error, ErrorKind, Result, Watch};
 use search::{Reach, Search};
 
@@ -36,8 +36,8 @@ const SEED: u64 = 5;
 
 /// The plan of `mechanism`: a step for each joint that is not given, with at most four solutions per step.
 ///
-/// The product of these numbers is the number of complex solutions at a generic reachable target. The product may be greater if the task asks for more than the
-/// joints can do, or if joints follow others. The remaining equations are then evaluated at run time.
+/// The product of these numbers is the number of complex solutions at a generic reachable target. The product may be greater if the task is overdetermined
+/// (more numbers than independent joints), or if joints follow others. The remaining equations are then evaluated at run time.
 ///
 /// # Errors
 /// [`ErrorKind::PositiveDimensional`] if joints are free, with those that may be given. [`ErrorKind::Unsupported`] if there is no such plan, with the number of
@@ -68,11 +68,12 @@ pub(super) fn evidence(mechanism: &Mechanism, watch: &Watch) -> Result<Option<Ve
 }
 
 /// The relations at random targets modulo a prime.
-fn sights<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) -> Result<Sights<'a>> {
+fn sampled_relations<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) -> Result<SampledRelations<'a>> {
     let lucky = samples::evidence::lucky_primes(mechanism)?.into_iter().next();
-    let (_, arithmetic) =
-        lucky.ok_or_else(|| Error::new(ErrorKind::Unsupported, "no prime suits the chain's constants"))?;
-    Sights::new(mechanism, relations, arithmetic, &mut Random::new(SEED))
+    let (_, arithmetic) = lucky.ok_or_else(|| {
+        Error::new(ErrorKind::Unsupported, "no tried prime is coprime to the denominators of the chain's constants")
+    })?;
+    SampledRelations::new(mechanism, relations, arithmetic, &mut Random::new(SEED))
 }
 
 /// The steps of the best plan, if its number of solutions is acceptable.
@@ -83,11 +84,11 @@ fn search(
     dimension: usize,
     watch: &Watch,
 ) -> Result<Vec<PlanStep>> {
-    let mut sights = sights(mechanism, relations)?;
+    let mut sampled = sampled_relations(mechanism, relations)?;
     let may_be_more = !mechanism.counts_exactly();
     let mut best: Option<(usize, Vec<PlanStep>)> = None;
     for reach in REACHES {
-        let Some(steps) = Search::new(&mut sights, reach, watch).steps()? else { continue };
+        let Some(steps) = Search::new(&mut sampled, reach, watch).steps()? else { continue };
         let product = steps.iter().map(|step| step.degree).product();
         if product == dimension {
             return Ok(steps);

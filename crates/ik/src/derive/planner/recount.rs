@@ -1,7 +1,7 @@
 //! Comparison of a plan's claims with new counts.
 
 use super::types::{Evidence, Plan, Way};
-use super::{eliminated, sights};
+use super::{eliminated, sampled_relations};
 use crate::derive::closure::Mechanism;
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -15,9 +15,9 @@ pub fn same_degrees(mechanism: &Mechanism, plan: &Plan, watch: &Watch) -> Result
         return Ok(());
     }
     let relations = mechanism.relations();
-    let mut sights = sights(mechanism, &relations)?;
+    let mut sampled = sampled_relations(mechanism, &relations)?;
     for step in eliminations {
-        let counted = eliminated::count(&mut sights, step, watch)?;
+        let counted = eliminated::count(&mut sampled, step, watch)?;
         if counted != step.degree {
             let name = &mechanism.joints()[step.joint].name;
             return Err(refused(format!("`{name}` has {counted} values in its step, {} are claimed", step.degree)));

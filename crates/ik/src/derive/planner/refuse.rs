@@ -15,8 +15,8 @@ pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
     let suits = if unknown.len() <= freedoms + 1 { suitable(mechanism, watch)? } else { Vec::new() };
     let advice = match suits.as_slice() {
         [] if unknown.len() > freedoms => format!("give the values of at least {}", unknown.len() - freedoms),
-        [] if unknown.len() > 1 => "more than one must be given, or another task asked".to_owned(),
-        [] => "ask for another task".to_owned(),
+        [] if unknown.len() > 1 => "give more than one joint, or choose another task".to_owned(),
+        [] => "choose another task".to_owned(),
         [one] => format!("give the value of the joint {one}"),
         list => format!("give the value of one of the joints {}", list.join(", ")),
     };
@@ -33,18 +33,18 @@ pub(super) fn driven(mechanism: &Mechanism) -> Vec<usize> {
 
 /// The error for a mechanism with one redundant joint if none can be given. It reports the result for each joint.
 pub fn none_to_give(mechanism: &Mechanism, refusals: &[(usize, Error)]) -> Error {
-    let told = |(joint, error): &(usize, Error)| {
+    let result = |(joint, error): &(usize, Error)| {
         let name = &mechanism.joints()[*joint].name;
         let end = error.message().find(" (values").or(error.message().find(':')).unwrap_or(error.message().len());
         format!("with `{name}` given, {}", &error.message()[..end])
     };
-    let told: Vec<String> = refusals.iter().map(told).collect();
+    let results: Vec<String> = refusals.iter().map(result).collect();
     let text = format!(
         "the `{}` task leaves one of the {} joints free, and no joint that is given leaves others that can be found one at a time with \
          at most 4 values each (an eigenvalue problem is for a pose): {}",
         mechanism.task().name(),
         refusals.len(),
-        told.join("; ")
+        results.join("; ")
     );
     Error::new(ErrorKind::Unsupported, text)
 }
@@ -106,7 +106,9 @@ fn lacking(mechanism: &Mechanism) -> String {
             "three neighbouring axes would have to meet in one point or be parallel (joints {}); none do",
             list(bad)
         ),
-        (good, _) => format!("that joints {} meet in one point, are parallel or slide is not enough", list(good)),
+        (good, _) => {
+            format!("joints {} meet in one point, are parallel or are prismatic, which is not enough", list(good))
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use super::eliminated::{eliminations, followers};
 use super::one_joint::{Candidate, best_step};
 use super::types::PlanStep;
-use crate::derive::samples::sights::{Sights, members, set};
+use crate::derive::samples::sampled_relations::{SampledRelations, members, set};
 use crate::{Result, Watch};
 
 /// The sets of joints from which the search may eliminate joints.
@@ -38,17 +38,17 @@ struct Onward {
 
 /// The state of the search.
 pub struct Search<'a, 'b> {
-    sights: &'a mut Sights<'b>,
+    sampled: &'a mut SampledRelations<'b>,
     reach: Reach,
     watch: &'a Watch,
     all: u32,
-    ways: HashMap<u32, Option<Onward>>,
+    paths: HashMap<u32, Option<Onward>>,
 }
 
 impl<'a, 'b> Search<'a, 'b> {
-    pub fn new(sights: &'a mut Sights<'b>, reach: Reach, watch: &'a Watch) -> Self {
-        let all = (1_u32 << sights.mechanism.joints().len()) - 1;
-        Search { sights, reach, watch, all, ways: HashMap::new() }
+    pub fn new(sampled: &'a mut SampledRelations<'b>, reach: Reach, watch: &'a Watch) -> Self {
+        let all = (1_u32 << sampled.mechanism.joints().len()) - 1;
+        Search { sampled, reach, watch, all, paths: HashMap::new() }
     }
 
     /// The steps of the path with the fewest solutions; `None` if no path finds all joints.
@@ -56,12 +56,12 @@ impl<'a, 'b> Search<'a, 'b> {
     /// # Errors
     /// The error of the watch if it stops the search.
     pub fn steps(mut self) -> Result<Option<Vec<PlanStep>>> {
-        let mut known = set(self.sights.mechanism.given());
+        let mut known = set(self.sampled.mechanism.given());
         if self.explore(known)?.is_none() {
             return Ok(None);
         }
         let mut steps = Vec::new();
-        while let Some(Some(Onward { step: Some(step), .. })) = self.ways.get(&known) {
+        while let Some(Some(Onward { step: Some(step), .. })) = self.paths.get(&known) {
             known |= 1 << step.joint;
             steps.push(step.clone());
         }
@@ -70,11 +70,11 @@ impl<'a, 'b> Search<'a, 'b> {
 
     /// The least cost from the set `known` to the end.
     fn explore(&mut self, known: u32) -> Result<Option<Cost>> {
-        if let Some(onward) = self.ways.get(&known) {
+        if let Some(onward) = self.paths.get(&known) {
             return Ok(onward.as_ref().map(|onward| onward.cost));
         }
         self.watch.check()?;
-        self.watch.report("plan", self.ways.len(), (self.all & !known).count_ones() as usize);
+        self.watch.report("plan", self.paths.len(), (self.all & !known).count_ones() as usize);
         let mut best: Option<Onward> = None;
         if known == self.all {
             best = Some(Onward { cost: Cost { solutions: 1, effort: 0 }, step: None });
@@ -87,7 +87,7 @@ impl<'a, 'b> Search<'a, 'b> {
             }
         }
         let cost = best.as_ref().map(|onward| onward.cost);
-        self.ways.insert(known, best);
+        self.paths.insert(known, best);
         Ok(cost)
     }
 
@@ -95,7 +95,7 @@ impl<'a, 'b> Search<'a, 'b> {
     fn candidates(&mut self, known: u32) -> Result<Vec<Candidate>> {
         let mut alone = Vec::new();
         for joint in members(self.all & !known) {
-            alone.extend(best_step(self.sights, joint, known)?);
+            alone.extend(best_step(self.sampled, joint, known)?);
         }
         if let Some(unique) = alone.iter().filter(|(step, _)| step.degree == 1).min_by_key(|(_, effort)| *effort) {
             return Ok(vec![unique.clone()]);
@@ -108,7 +108,7 @@ impl<'a, 'b> Search<'a, 'b> {
         let unknown = self.all & !known;
         for joints in (1..=unknown).filter(|joints| joints & !unknown == 0) {
             if self.is_together(joints, size) {
-                alone.extend(eliminations(self.sights, joints, known, self.watch)?);
+                alone.extend(eliminations(self.sampled, joints, known, self.watch)?);
             }
         }
         Ok(alone)
@@ -117,7 +117,7 @@ impl<'a, 'b> Search<'a, 'b> {
     /// Whether these joints may be found together: two or more, of which at most `size` follow none of the others.
     fn is_together(&self, joints: u32, size: usize) -> bool {
         let count = joints.count_ones() as usize;
-        let led = followers(self.sights.mechanism, joints).count_ones() as usize;
+        let led = followers(self.sampled.mechanism, joints).count_ones() as usize;
         count > 1 && count - led <= size
     }
 }

@@ -88,8 +88,7 @@ fn check_identifier(name: &str, part: Part, meaning: &str) -> Checked {
         return Ok(());
     }
     let shown: String = name.chars().take(40).collect();
-    let text =
-        format!("`{shown}` cannot name {meaning}; give up to 200 letters, digits and `_` that start with no digit");
+    let text = format!("`{shown}` cannot name {meaning}; give up to 200 letters, digits and `_`, no digit first");
     Err(mistake(part, ErrorKind::BadValue, text))
 }
 
@@ -143,7 +142,7 @@ fn check_angle(input: &Input, is_angle: bool, parameter: &Parameter, i: usize) -
         return Ok(());
     }
     let text = if is_angle {
-        format!("parameter `{}` is a cosine or sine of `{}`, which is no angle", parameter.name, input.name)
+        format!("parameter `{}` is a cosine or sine of `{}`, which is not an angle", parameter.name, input.name)
     } else {
         format!("the angle `{}` cannot be used in equations; use its cosine and sine", input.name)
     };
@@ -162,7 +161,7 @@ fn check_length(parts: &SystemParts) -> Checked {
     if parts.inputs.len().max(parts.parameters.len()) <= MAX_PARAMETERS {
         return Ok(());
     }
-    let text = format!("more than {MAX_PARAMETERS} inputs or parameters; turn some into constants");
+    let text = format!("more than {MAX_PARAMETERS} inputs or parameters; replace some by constants");
     Err(mistake(Part::Parameter(MAX_PARAMETERS), ErrorKind::Unsupported, text))
 }
 
@@ -185,7 +184,7 @@ fn check_order(order: &[String], unknowns: &[&str]) -> Checked {
     };
     for name in order {
         if !unknowns.contains(&name.as_str()) {
-            return bad(ErrorKind::UnknownName, format!("`{name}` is no unknown"));
+            return bad(ErrorKind::UnknownName, format!("`{name}` is not an unknown"));
         }
         if !seen.insert(name.as_str()) {
             return bad(ErrorKind::DuplicateName, format!("`{name}` is given twice"));
@@ -273,7 +272,7 @@ fn check_divisors(expression: &Expression, part: Part, context: &str, unknowns: 
 fn check_choice(parts: &SystemParts, unknowns: &[&str]) -> Checked {
     match &parts.choice {
         Some(choice) if !unknowns.contains(&choice.unknown.as_str()) => {
-            let text = format!("choice: `{}` is no unknown; give one of {}", choice.unknown, unknowns.join(", "));
+            let text = format!("choice: `{}` is not an unknown; give one of {}", choice.unknown, unknowns.join(", "));
             Err(mistake(Part::Choice, ErrorKind::UnknownName, text))
         }
         _ => Ok(()),

@@ -32,7 +32,7 @@ impl Constants {
     /// Reads one constant: a number, an expression in earlier constants, or `{ square = ... }`.
     pub(in crate::derive) fn read(&mut self, node: &Node<'_>) -> Result<()> {
         if !is_identifier(node.name()) {
-            let text = "no name for a constant; give letters, digits and `_` that start with no digit";
+            let text = "not a valid name for a constant; give letters, digits and `_`, no digit first";
             return Err(node.error(ErrorKind::BadValue, text));
         }
         let value = match node.table() {

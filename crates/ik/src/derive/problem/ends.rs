@@ -146,7 +146,7 @@ impl Ends {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a direction if the task orients none; as [`Chain::with_task`].
-    pub fn ask(&self, chain: Chain) -> Result<Chain> {
+    pub fn apply_to(&self, chain: Chain) -> Result<Chain> {
         let chain = match &self.name {
             Some(name) => Chain::new(ChainParts { name: name.clone(), ..chain.into() })?,
             None => chain,
@@ -157,7 +157,7 @@ impl Ends {
         let task = self.task.unwrap_or(chain.task());
         if self.direction.is_some() && !task.aims() {
             let text = format!(
-                "the task `{}` aims no direction; leave it out, or ask for `ray`, `direction` or `position_yaw`",
+                "the task `{}` orients no direction; omit `direction`, or choose `ray`, `direction` or `position_yaw`",
                 task.name()
             );
             return Err(Error::new(ErrorKind::BadValue, text));

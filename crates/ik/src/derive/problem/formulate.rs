@@ -37,12 +37,12 @@ pub fn formulate(chain: &Chain) -> Result<System> {
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     if !chain.given().is_empty() {
-        let text = "joints with given values need the planner of blocks; leave `given` out";
+        let text = "joints with given values need the planner of blocks; omit `given`";
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     if let Some(joint) = chain.joints().iter().find(|joint| joint.mimic.is_some()) {
         let text = format!(
-            "joint `{}` follows another one (mimic), which needs the planner of blocks; leave `order` and `choice` out",
+            "joint `{}` follows another one (mimic), which needs the planner of blocks; omit `order` and `choice`",
             shown(&joint.name)
         );
         return Err(Error::new(ErrorKind::Unsupported, text));

@@ -126,27 +126,27 @@ impl InputFile {
         let chain = match &self.description {
             Description::Robot(tree) => tree.chain(ends.base.as_deref(), ends.tip.as_deref()).map(Some),
             _ if ends.base.is_some() || ends.tip.is_some() => {
-                bad("base and tip are chosen, but only a URDF has links to choose from; leave them out")
+                bad("base and tip are chosen, but only a URDF has links to choose from; omit them")
             }
             Description::Chain(chain) => Ok(Some((**chain).clone())),
-            Description::System(_) if ends != Ends::default() => bad(
-                "a task is chosen, but a system of equations states its own; leave task, direction and given joints out",
-            ),
-            Description::Coupled(_) if ends != Ends::default() => bad(
-                "a task is chosen, but each chain states its own; leave task, direction, given joints and tolerance out",
-            ),
+            Description::System(_) if ends != Ends::default() => {
+                bad("a task is chosen, but a system of equations has its own; omit task, direction and given joints")
+            }
+            Description::Coupled(_) if ends != Ends::default() => {
+                bad("a task is chosen, but each chain has its own; omit task, direction, given joints and tolerance")
+            }
             Description::System(_) | Description::Coupled(_) => Ok(None),
         };
-        let asked = chain.and_then(|chain| chain.map(|chain| ends.ask(chain)).transpose());
-        asked.map_err(|error| error.in_file(&self.path))
+        let requested = chain.and_then(|chain| chain.map(|chain| ends.apply_to(chain)).transpose());
+        requested.map_err(|error| error.in_file(&self.path))
     }
 }
 
 /// Reads the task file next to `file`, when `file` is the input of a mechanism's folder.
 fn read_ends(file: &Path) -> Result<Ends> {
     let is_named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
-    let beside = file.with_file_name(TASK_NAME);
-    if is_named && beside.is_file() { Ends::read(&beside) } else { Ok(Ends::default()) }
+    let task_file = file.with_file_name(TASK_NAME);
+    if is_named && task_file.is_file() { Ends::read(&task_file) } else { Ok(Ends::default()) }
 }
 
 /// Reads the description in the text of `file`.
@@ -218,12 +218,12 @@ impl Source {
     /// # Errors
     /// As [`InputFile::chain`], [`Ends::ideal`] and [`formulate`](crate::derive::formulate()), with file and line.
     pub fn of(input: InputFile, ends: &Ends) -> Result<Source> {
-        let (chain, way, notes) = (input.chain(ends)?, input.path(ends)?, input.ignored(ends)?);
+        let (chain, link_path, notes) = (input.chain(ends)?, input.path(ends)?, input.ignored(ends)?);
         let mut ends = ends.or(&input.ends);
-        if let Some(LinkPath { tip, choice: TipChoice::OnlyFrame(_), .. }) = &way {
+        if let Some(LinkPath { tip, choice: TipChoice::OnlyFrame(_), .. }) = &link_path {
             ends.tip = Some(tip.clone());
         }
-        let carrier = input.carrier(way.as_ref());
+        let carrier = input.carrier(link_path.as_ref());
         let InputFile { path, name, text, description, .. } = input;
         let (system, coupled) = match (&chain, description) {
             (Some(_), _) => (None, None),
@@ -231,8 +231,8 @@ impl Source {
             (None, Description::Coupled(coupled)) => (None, Some(*coupled)),
             (None, _) => return Err(Error::new(ErrorKind::BadValue, "there is no chain and no system").in_file(&path)),
         };
-        let choice = way.as_ref().map(|way| way.choice);
-        let links = way.map(|way| [way.base, way.tip]);
+        let choice = link_path.as_ref().map(|path| path.choice);
+        let links = link_path.map(|path| [path.base, path.tip]);
         let mut source =
             Source { path, name, text, chain: None, ideal: None, system, coupled, ends, links, notes, choice, carrier };
         chain.map(|chain| source.take(chain)).transpose().map_err(|error| error.in_file(&source.path))?;
@@ -329,7 +329,7 @@ impl Source {
     }
 
     /// The names of the files that the input refers to: those of coupled chains.
-    pub fn beside(&self) -> impl Iterator<Item = &str> {
+    pub fn referenced_files(&self) -> impl Iterator<Item = &str> {
         self.coupled.iter().flat_map(CoupledChains::chains).filter_map(|member| member.file.as_deref())
     }
 
@@ -381,7 +381,7 @@ fn input_in(folder: &Path) -> Result<PathBuf> {
     match present.as_slice() {
         [file] => Ok(folder.join(file)),
         [] => {
-            let text = "this folder has no input; put a `0_chain.toml`, a `0_system.toml`, a `0_robot.urdf` or a `0_coupled.toml` in it";
+            let text = "this folder has no input; add a `0_chain.toml`, a `0_system.toml`, a `0_robot.urdf` or a `0_coupled.toml`";
             Err(Error::new(ErrorKind::BadValue, text).in_file(folder))
         }
         [first, second, ..] => {

@@ -1,7 +1,7 @@
 //! The number of complex solutions of a random reachable target, and the number of values of each joint, by a Groebner basis modulo a prime.
 
-use super::sights::set;
-use super::specimen::{Random, Specimen, lucky_field};
+use super::random_sample::{Random, RandomSample, lucky_field};
+use super::sampled_relations::set;
 use crate::derive::closure::{Arithmetic, Factor, Factors, Mechanism, Modular, Polynomials, Relation};
 use crate::derive::planner::Evidence;
 use crate::{Result, Watch};
@@ -81,7 +81,7 @@ fn basis(
     random: &mut Random,
     watch: &Watch,
 ) -> Result<Basis<Zp>> {
-    let specimen = Specimen::draw(mechanism, arithmetic, random)?;
+    let sample = RandomSample::draw(mechanism, arithmetic, random)?;
     let mask = set(&mechanism.unknown());
     let squares: Vec<u64> = mechanism.joints().iter().map(|joint| arithmetic.rational(&joint.square)).collect();
     let mut generators = space.circles(&squares)?;
@@ -89,7 +89,7 @@ fn basis(
     let of_loop = relations.iter().filter(|relation| relation.followed().is_none());
     for relation in of_loop.filter(|relation| is_split(relation, mask)) {
         watch.check()?;
-        let value = specimen.evaluate(mechanism, relation, mask, arithmetic)?;
+        let value = sample.evaluate(mechanism, relation, mask, arithmetic)?;
         generators.push(space.polynomial(value.terms().map(|(product, &coefficient)| (product, coefficient)))?);
     }
     basis_modulo_prime(&space.ring, &generators, watch)

@@ -2,5 +2,5 @@
 
 pub(super) mod echelon;
 pub(super) mod evidence;
-pub(super) mod sights;
-pub(super) mod specimen;
+pub(super) mod random_sample;
+pub(super) mod sampled_relations;

@@ -25,14 +25,14 @@ const OUT: f64 = 1e6;
 
 /// The value of a symbol and its size, the sum of its terms' magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Sized {
+pub(super) struct SizedValue {
     pub value: Operand,
     pub size: Operand,
 }
 
-impl Sized {
+impl SizedValue {
     pub fn negated(self, assembler: &mut Assembler) -> Self {
-        Sized { value: assembler.mul(Operand::Constant(-1.0), self.value), size: self.size }
+        SizedValue { value: assembler.mul(Operand::Constant(-1.0), self.value), size: self.size }
     }
 }
 
@@ -45,7 +45,7 @@ pub(super) struct Place {
     /// The auxiliary unknown `w`.
     pub auxiliary: Option<usize>,
     /// The symbols, in the form's order.
-    pub symbols: Vec<Sized>,
+    pub symbols: Vec<SizedValue>,
     /// The sampled values of a free joint.
     pub samples: Vec<f64>,
     /// The error bound of the symbols.
@@ -55,7 +55,7 @@ pub(super) struct Place {
 }
 
 /// Sets the unknown `spread` in each case, so that later blocks know whether this block left its joint free.
-pub(super) fn tell_spread(cases: &mut [Case], spread: usize) {
+pub(super) fn set_spread(cases: &mut [Case], spread: usize) {
     for case in cases {
         let value = Operand::Constant(if case.free.is_empty() { 1.0 } else { OUT });
         case.steps.insert(0, Step::Set { unknown: spread, value });
@@ -278,12 +278,12 @@ impl<'a> Builder<'a> {
         Ok(true)
     }
 
-    fn symbols(&self, names: &[String]) -> Result<Vec<Sized>> {
+    fn symbols(&self, names: &[String]) -> Result<Vec<SizedValue>> {
         let all = self.form.symbols();
         let symbol = |name: &String| {
             let index = all.iter().position(|symbol| symbol == name);
             index.map(|index| self.place.symbols[index]).ok_or_else(|| {
-                Error::new(ErrorKind::UnknownName, format!("`{name}` is no symbol of `{}`", self.form.name()))
+                Error::new(ErrorKind::UnknownName, format!("`{name}` is not a symbol of `{}`", self.form.name()))
             })
         };
         names.iter().map(symbol).collect()

@@ -95,7 +95,7 @@ pub(in crate::derive) fn prove_claims(problem: &ChainProblem, claims: Claims) ->
     };
     let steps = prove_plan(&mechanism, &claims.plan, &mut eliminate)?;
     if stored.next().is_some() {
-        return Err(refused("an elimination is left over".to_owned()));
+        return Err(refused("an elimination is superfluous".to_owned()));
     }
     let (form_bases, half_angles) = prove_forms(&steps, &claims.form_bases, claims.half_angles.as_deref())?;
     Sequential { plan: claims.plan, steps, form_bases, half_angles }.compiled(problem, &mechanism)
@@ -121,7 +121,7 @@ pub(super) fn prove_forms(
 ) -> Result<(Vec<FormBasis>, Option<HalfAngles>)> {
     let half_angles = half_angles.map(HalfAngles::again).transpose()?;
     if half_angles.is_some() != HalfAngles::are_needed(steps) {
-        return Err(refused("half angles are missing or left over".to_owned()));
+        return Err(refused("half angles are missing or superfluous".to_owned()));
     }
     let form_bases = form_bases.iter().map(prove_form).collect::<Result<Vec<_>>>()?;
     if form_bases.iter().map(|form_basis| form_basis.form).ne(FormBasis::needed(steps)) {
@@ -165,7 +165,8 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
     if steps.len() + plan.given.len() != count {
         return Err(refused("the plan does not find every joint".to_owned()));
     }
-    // The equations that the plan does not use leave fewer solutions, if the task asks for more than the joints can do or if joints follow others.
+    // The equations that the plan does not use leave fewer solutions, if the task is overdetermined (more numbers than independent joints) or if joints follow
+    // others.
     let exact = mechanism.counts_exactly();
     if !exact && most(plan) < plan.dimension || exact && plan.product() != plan.dimension {
         let text = format!("the steps give {} solutions, {} are claimed", plan.product(), plan.dimension);
@@ -174,7 +175,8 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
     Ok(steps)
 }
 
-/// The maximum number of solutions of all steps together, for tasks that ask for more than the joints can do. Two equations in one joint may be dependent then.
+/// The maximum number of solutions of all steps together, for overdetermined tasks (more numbers than independent joints). Two equations in one joint may be
+/// dependent then.
 fn most(plan: &Plan) -> usize {
     let most = |step: &PlanStep| if matches!(step.way, Way::Pair(_)) { 2 } else { step.degree };
     plan.steps.iter().map(most).product()
@@ -193,7 +195,7 @@ fn prove_step(
     for relation in step.way.relations() {
         let is_new = |joint: &usize| *joint != step.joint && !known.contains(joint) && !away.contains(joint);
         if let Some(other) = relation.joints().into_iter().find(is_new) {
-            return Err(refused(format!("`{relation}` holds joint {}, which is not known yet", other + 1)));
+            return Err(refused(format!("`{relation}` contains joint {}, which is not known yet", other + 1)));
         }
         closure::prove(mechanism, relation)?;
     }

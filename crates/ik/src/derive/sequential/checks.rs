@@ -25,7 +25,7 @@ pub(super) fn checks(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Chec
 /// Same as [`checks`], but with the short equations for fast polishing.
 pub(super) fn polishing(mechanism: &Mechanism, layout: &Layout, reach: f64) -> Checks {
     let mechanism = mechanism.plain();
-    let [usual, others @ ..] = Assembler::ways().map(|assembler| written(mechanism, layout, reach, assembler));
+    let [usual, others @ ..] = Assembler::variants().map(|assembler| written(mechanism, layout, reach, assembler));
     of_least_work(usual, others, Checks::work)
 }
 

@@ -91,7 +91,10 @@ impl Elimination {
         let degree = |f: &Poly| elimination.degree(f);
         let own = found.polynomials.iter().zip(&found.cofactors).filter(|(f, _)| elimination.is_own(f));
         let (member, cofactors) = own.min_by_key(|(f, _)| (degree(f), f.terms().len())).ok_or_else(|| {
-            Error::new(ErrorKind::Unsupported, "the relations leave nothing when the other joints are eliminated")
+            Error::new(
+                ErrorKind::Unsupported,
+                "elimination of the other joints from the relations gives no usable equation",
+            )
         })?;
         (elimination.member, elimination.cofactors) = (member.clone(), cofactors.clone());
         elimination.proved()

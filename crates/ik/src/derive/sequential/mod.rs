@@ -87,13 +87,13 @@ impl Sequential {
         let mechanism = Mechanism::new(&problem.chain)?;
         let plan = planner::plan(&mechanism, watch)?;
         let evidence = plan.evidence[0].clone();
-        let told = |error: Error| match error.kind() {
+        let described = |error: Error| match error.kind() {
             ErrorKind::Unsupported => planner::not_derived(&mechanism, &evidence, &error),
             _ => error,
         };
         Sequential::of_plan(&mechanism, plan, watch)
             .and_then(|method| method.compiled(problem, &mechanism))
-            .map_err(told)
+            .map_err(described)
     }
 
     /// Derives and proves `plan`, a plan of `mechanism`.
@@ -110,8 +110,8 @@ impl Sequential {
 
     /// Adds the program of `problem`, whose mechanism is `mechanism`.
     ///
-    /// Newton's method polishes every solution of the closed form on the described chain, and solutions are measured there. If the task asks for more than the
-    /// joints can do, the ideal chain decides which solutions exist.
+    /// Newton's method polishes every solution of the closed form on the described chain, and solutions are measured there. If the task is overdetermined (more
+    /// numbers than independent joints), the ideal chain decides which solutions exist.
     ///
     /// # Errors
     /// As [`Mechanism::new`]; [`crate::ErrorKind::Unsupported`] for a problem that a program cannot represent.

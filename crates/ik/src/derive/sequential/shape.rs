@@ -70,7 +70,7 @@ pub(super) fn eliminated(mechanism: &Mechanism, step: &PlanStep, elimination: &E
         (false, 3 | 4) => Form::Lengths,
         _ => {
             let text = format!(
-                "what the elimination leaves has degree {degree}; at most 2 is allowed for an angle, 4 for a length"
+                "the result of the elimination has degree {degree}; at most 2 is allowed for an angle, 4 for a length"
             );
             return Err(Error::new(ErrorKind::Unsupported, text));
         }

@@ -119,7 +119,7 @@ impl Simultaneous {
         let mut joints = stored.joints.clone();
         joints.sort_unstable();
         if joints != common.unknown {
-            return Err(refused("the shared joints are not those that both chains leave open".to_owned()));
+            return Err(refused("the shared joints are not those that both chains leave undetermined".to_owned()));
         }
         let elimination = match (&stored.joints[..], &stored.elimination) {
             (&[first, second], Some(stored_elimination)) => {
@@ -127,7 +127,7 @@ impl Simultaneous {
                 Some(Elimination::of_two_again(&sides, [second, first], stored_elimination)?)
             }
             (&[_], None) => None,
-            _ => return Err(refused("the elimination of a shared joint is missing or left over".to_owned())),
+            _ => return Err(refused("the elimination of a shared joint is missing or superfluous".to_owned())),
         };
         let steps = common.steps(&stored.joints, stored.relations.clone(), elimination)?;
         let (form_bases, half_angles) = prove_forms(&steps, &stored.form_bases, stored.half_angles.as_deref())?;
@@ -158,12 +158,12 @@ impl<'a> Common<'a> {
         let alike = first.iter().zip(second).all(|(a, b)| a.is_revolute() && b.is_revolute() && a.square == b.square);
         if first.len() != shared || second.len() != shared || !alike {
             return unsupported(
-                "shared joints must stand first in both chains, and turn about axes that are vectors of one length",
+                "shared joints must be the first joints of both chains and revolute, with axis vectors of equal length",
             );
         }
         if mechanisms.iter().any(|mechanism| mechanism.hidden().is_some()) {
             return unsupported(
-                "joints that two chains share are not found from a ray, which leaves a turn open; ask for another task",
+                "joints that two chains share cannot be found from a ray, which leaves a rotation open; choose another task",
             );
         }
         let given = mechanisms[0].given().to_vec();
@@ -232,10 +232,10 @@ impl<'a> Common<'a> {
     ) -> Result<Vec<ProvedStep>> {
         for (mechanism, relation) in self.sides(&relations) {
             if let Some(joint) = relation.joints().into_iter().find(|joint| *joint >= self.shared) {
-                return Err(refused(format!("`{relation}` holds joint {}, which is not shared", joint + 1)));
+                return Err(refused(format!("`{relation}` contains joint {}, which is not shared", joint + 1)));
             }
             if !relation.has_target() {
-                return Err(refused(format!("`{relation}` does not hold the target")));
+                return Err(refused(format!("`{relation}` does not contain the target")));
             }
             prove(mechanism, relation)?;
         }

@@ -53,8 +53,8 @@ impl SixAxes {
     /// Makes the step.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a direction that is not of length one, a length that is not positive, a joint value
-    /// of the wrong type, no formulation, or a formulation that does not exist for these joints.
+    /// [`ErrorKind::BadValue`] for a direction that is not of length one, a length that is not positive, or a joint value of the wrong type.
+    /// [`ErrorKind::BadValue`] also for no formulation, or a formulation that does not exist for these joints.
     pub fn new(parts: SixAxesParts) -> Result<Self> {
         let is_unit = |line: &Line| (line.direction.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= ACCEPTANCE.input;
         let is_finite = parts.lines.iter().all(|line| line.point.iter().all(|entry| entry.is_finite()));
@@ -63,7 +63,7 @@ impl SixAxes {
         ensure((0.0..=1.0).contains(&parts.within), "six axes: a tolerance from 0 to 1 is allowed")?;
         let suits = |(joint, slides): (&JointValue, &bool)| matches!(joint, JointValue::Plain(_)) == *slides;
         let suit = parts.joints.iter().zip(&parts.slides).all(suits);
-        ensure(suit, "six axes: angles, and plain values of joints that slide, are allowed")?;
+        ensure(suit, "six axes: angles, and plain values of prismatic joints, are allowed")?;
         let count = parts.formulations.len();
         let known = (1..=Formulations::ROOM).contains(&count) && parts.formulations.iter().all(Formulation::is_valid);
         ensure(known, "six axes: 1 to 12 formulations, each of which hides one of joints 0 to 5, is allowed")?;

@@ -9,7 +9,7 @@ use crate::solver::{Block, Case, Demand, JointValue, Layout, Operand, Program, S
 #[derive(Clone, Debug)]
 pub(super) struct Blocks {
     pub memory: Memory,
-    pub list: Vec<Prepared>,
+    pub list: Vec<PreparedBlock>,
     /// The addresses of the numbers that the equations read.
     pub places: Vec<u32>,
     /// Whether the squares of unknowns are computed from less exact values.
@@ -18,31 +18,31 @@ pub(super) struct Blocks {
 
 /// A block.
 #[derive(Clone, Debug)]
-pub(super) struct Prepared {
+pub(super) struct PreparedBlock {
     pub code: Code,
     /// The number of branch numbers.
     pub radix: usize,
-    pub turns: Vec<Turn>,
+    pub alternatives: Vec<Alternative>,
 }
 
 /// One of several alternative cases, of which one runs.
 #[derive(Clone, Debug)]
-pub(super) enum Turn {
+pub(super) enum Alternative {
     /// A case that its guards select.
-    Told(Told),
+    Guarded(PreparedCase),
     /// A group of cases, each with its pivot. The best conditioned one runs.
-    Elected(Vec<(u32, Told)>),
+    BestConditioned(Vec<(u32, PreparedCase)>),
     /// A gap, with its number: a stratum that could not be derived.
-    Open(usize, Told),
+    Gap(usize, PreparedCase),
 }
 
 /// A case.
 #[derive(Clone, Debug)]
-pub(super) struct Told {
+pub(super) struct PreparedCase {
     pub code: Code,
     pub guards: Vec<Guard>,
     pub applies: Applies,
-    pub steps: Vec<Way>,
+    pub steps: Vec<PreparedStep>,
     pub first_branch: usize,
     /// The end of its branch numbers.
     pub last: usize,
@@ -67,7 +67,7 @@ pub(super) enum Applies {
 
 /// A step.
 #[derive(Clone, Debug)]
-pub(super) enum Way {
+pub(super) enum PreparedStep {
     Compute(Code),
     Set { unknown: u32, value: u32 },
     Square { unknown: u32, constant: u32, typical: u32, stride: usize, is_pair: bool },
@@ -111,31 +111,35 @@ struct Preparing<'a> {
 }
 
 impl Preparing<'_> {
-    fn block(&mut self, index: usize) -> Prepared {
+    fn block(&mut self, index: usize) -> PreparedBlock {
         let (layout, block) = (self.layout, &self.layout.program.blocks[index]);
         let is_last = index + 1 == layout.program.blocks.len();
         let wanted = if is_last { layout.wanted() } else { layout.wanted_of(index) };
         let demand = Demand::of_block(layout.program, block, &wanted);
         let code = self.assembler.code(&block.code, &demand);
         let first = (0..block.cases.len()).filter(|&case| block.opens_group(case));
-        let turns = first.map(|first| self.turn(block, first, &wanted)).collect();
-        Prepared { code, radix: block.branches(), turns }
+        let alternatives = first.map(|first| self.alternative(block, first, &wanted)).collect();
+        PreparedBlock { code, radix: block.branches(), alternatives }
     }
 
-    fn turn(&mut self, block: &Block, first: usize, wanted: &[usize]) -> Turn {
+    fn alternative(&mut self, block: &Block, first: usize, wanted: &[usize]) -> Alternative {
         let case = &block.cases[first];
         let Some(pivot) = case.pivot else {
-            let told = self.told(case, wanted);
-            return if case.open { Turn::Open(self.number(case), told) } else { Turn::Told(told) };
+            let prepared = self.prepared_case(case, wanted);
+            return if case.open {
+                Alternative::Gap(self.number(case), prepared)
+            } else {
+                Alternative::Guarded(prepared)
+            };
         };
         let mut members = Vec::new();
         for case in &block.cases {
             if let Some(own) = case.pivot.filter(|own| own.group == pivot.group) {
-                let told = self.told(case, wanted);
-                members.push((self.assembler.place(own.value), told));
+                let prepared = self.prepared_case(case, wanted);
+                members.push((self.assembler.place(own.value), prepared));
             }
         }
-        Turn::Elected(members)
+        Alternative::BestConditioned(members)
     }
 
     /// The number of an open case among all, from 1.
@@ -144,7 +148,7 @@ impl Preparing<'_> {
         1 + open.position(|other| std::ptr::eq(other, case)).unwrap_or(0)
     }
 
-    fn told(&mut self, case: &Case, wanted: &[usize]) -> Told {
+    fn prepared_case(&mut self, case: &Case, wanted: &[usize]) -> PreparedCase {
         let program = self.layout.program;
         let (mut demand, claim) = (Demand::of_case(program, case, wanted), Demand::of_claim(case));
         demand.add(&claim);
@@ -163,22 +167,25 @@ impl Preparing<'_> {
         let steps = if case.open { Vec::new() } else { self.steps(case, &demand) };
         let last = case.first_branch + Program::branches(case);
         let free = case.free.iter().fold(0, |free, joint| free | 1 << joint);
-        Told { code, guards, applies, steps, first_branch: case.first_branch, last, free }
+        PreparedCase { code, guards, applies, steps, first_branch: case.first_branch, last, free }
     }
 
-    fn steps(&mut self, case: &Case, demand: &Demand) -> Vec<Way> {
+    fn steps(&mut self, case: &Case, demand: &Demand) -> Vec<PreparedStep> {
         let is_mirror = self.layout.is_mirror(case);
-        let mut ways = Vec::new();
+        let mut prepared = Vec::new();
         for (index, step) in case.steps.iter().enumerate() {
             let stride: usize = case.steps[index + 1..].iter().map(Step::slots).product();
             match step {
-                Step::Compute(code) => ways.push(Way::Compute(self.assembler.code(code, demand))),
+                Step::Compute(code) => prepared.push(PreparedStep::Compute(self.assembler.code(code, demand))),
                 Step::Set { unknown, value } if demand.wants_unknown(*unknown) => {
-                    ways.push(Way::Set { unknown: self.unknown(*unknown), value: self.assembler.place(*value) });
+                    prepared.push(PreparedStep::Set {
+                        unknown: self.unknown(*unknown),
+                        value: self.assembler.place(*value),
+                    });
                 }
                 Step::Set { .. } => {}
                 Step::Roots { unknown, polynomials, typical, half_angle } => {
-                    ways.push(self.roots((*unknown, polynomials, *typical, *half_angle), stride, is_mirror));
+                    prepared.push(self.roots((*unknown, polynomials, *typical, *half_angle), stride, is_mirror));
                 }
                 Step::Sample { joint, values } => {
                     let unknowns = joint.unknowns().into_iter().map(|unknown| self.unknown(unknown)).collect();
@@ -186,12 +193,12 @@ impl Preparing<'_> {
                         JointValue::Angle { .. } => vec![value.cos(), value.sin()],
                         JointValue::Plain(_) => vec![*value],
                     };
-                    ways.push(Way::Sample { unknowns, rows: values.iter().map(row).collect() });
+                    prepared.push(PreparedStep::Sample { unknowns, rows: values.iter().map(row).collect() });
                 }
-                Step::SixAxes(six) => ways.push(self.six_axes(six, stride)),
+                Step::SixAxes(six) => prepared.push(self.six_axes(six, stride)),
             }
         }
-        ways
+        prepared
     }
 
     fn unknown(&mut self, unknown: usize) -> u32 {
@@ -203,21 +210,21 @@ impl Preparing<'_> {
         (unknown, polynomials, typical, half_angle): (usize, &[Vec<Operand>], Option<Operand>, bool),
         stride: usize,
         is_pair: bool,
-    ) -> Way {
+    ) -> PreparedStep {
         let is_plain = self.layout.program.is_plain(unknown);
         let usual = if is_plain { Operand::Magnitude } else { Operand::Constant(1.0) };
         let typical = self.assembler.place(typical.unwrap_or(usual));
         let place = self.unknown(unknown);
         if let Some(constant) = square(polynomials).filter(|_| !half_angle) {
             let constant = self.assembler.place(constant);
-            return Way::Square { unknown: place, constant, typical, stride, is_pair };
+            return PreparedStep::Square { unknown: place, constant, typical, stride, is_pair };
         }
         let mut list = |list: &Vec<Operand>| list.iter().map(|&operand| self.assembler.place(operand)).collect();
         let polynomials = polynomials.iter().map(&mut list).collect();
-        Way::Roots { unknown: place, polynomials, typical, half_angle, stride }
+        PreparedStep::Roots { unknown: place, polynomials, typical, half_angle, stride }
     }
 
-    fn six_axes(&mut self, six: &crate::solver::eigenvalue::SixAxes, stride: usize) -> Way {
+    fn six_axes(&mut self, six: &crate::solver::eigenvalue::SixAxes, stride: usize) -> PreparedStep {
         let joints = &self.layout.program.joints;
         let bit =
             |joint: JointValue| joints.iter().position(|other| other.value == joint).map_or(0, |index| 1 << index);
@@ -228,7 +235,7 @@ impl Preparing<'_> {
             }
             JointValue::Plain(unknown) => JointPlace::Length(assembler.place(Operand::Unknown(unknown))),
         };
-        Way::SixAxes(Box::new(Six {
+        PreparedStep::SixAxes(Box::new(Six {
             chain: six.chain(),
             target: parts.target.map(|operand| self.assembler.place(operand)),
             joints: parts.joints.map(|joint| place(joint, self.assembler)),

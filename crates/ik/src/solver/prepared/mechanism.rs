@@ -9,7 +9,7 @@ use super::shaped::Shaped;
 
 impl<S: Storage + 'static> Mechanism for Shaped<S> {
     type Storage = S;
-    const IS_TOLD: bool = true;
+    const INTERPRETED: bool = true;
 
     #[inline(always)]
     fn facts(&self) -> Facts<'_> {

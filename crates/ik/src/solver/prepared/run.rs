@@ -4,7 +4,7 @@ use groebot_runtime as runtime;
 use groebot_runtime::storage::{Array, Storage};
 use groebot_runtime::{Candidates, Found, Number, With};
 
-use super::blocks::{Applies, Guard, JointPlace, Six, Told, Turn, Way};
+use super::blocks::{Alternative, Applies, Guard, JointPlace, PreparedCase, PreparedStep, Six};
 use super::code::Line;
 use super::shaped::Shaped;
 use groebot_algebra::roots::MAX_DEGREE;
@@ -34,19 +34,19 @@ where
         };
         block.code.run(self.memory);
         let before = self.candidates.count();
-        for turn in &block.turns {
-            match turn {
-                Turn::Told(case) => {
+        for alternative in &block.alternatives {
+            match alternative {
+                Alternative::Guarded(case) => {
                     if self.applies(case, before) {
                         self.case(index, case, found);
                     }
                 }
-                Turn::Open(number, case) => {
+                Alternative::Gap(number, case) => {
                     case.code.run(self.memory);
                     let guard = self.guard(&case.guards);
                     self.candidates.is_open(*number, guard);
                 }
-                Turn::Elected(members) => {
+                Alternative::BestConditioned(members) => {
                     if let Some(case) = self.elect(members) {
                         self.case(index, case, found);
                     }
@@ -55,7 +55,7 @@ where
         }
     }
 
-    fn applies(&mut self, case: &Told, before: usize) -> bool {
+    fn applies(&mut self, case: &PreparedCase, before: usize) -> bool {
         case.code.run(self.memory);
         if case.guards.is_empty() {
             return true;
@@ -78,7 +78,7 @@ where
     }
 
     /// The best conditioned case of a group; its guards' code has run last.
-    fn elect<'m>(&mut self, members: &'m [(u32, Told)]) -> Option<&'m Told> {
+    fn elect<'m>(&mut self, members: &'m [(u32, PreparedCase)]) -> Option<&'m PreparedCase> {
         let mut claims = Vec::with_capacity(members.len());
         for (pivot, case) in members {
             case.code.run(self.memory);
@@ -89,20 +89,20 @@ where
         Some(case)
     }
 
-    fn case(&mut self, index: usize, case: &Told, found: Found<N>) {
+    fn case(&mut self, index: usize, case: &PreparedCase, found: Found<N>) {
         let found = if index == 0 { Found::first(0, case.last) } else { found };
         self.steps(index, case, &case.steps, found.freeing(case.free), case.first_branch);
     }
 
     /// Runs the steps, once for each choice of roots and samples, and then the next block; `number` is the code of this
     /// block's choices.
-    fn steps(&mut self, index: usize, case: &Told, steps: &[Way], found: Found<N>, number: usize) {
+    fn steps(&mut self, index: usize, case: &PreparedCase, steps: &[PreparedStep], found: Found<N>, number: usize) {
         for (done, step) in steps.iter().enumerate() {
-            let behind = &steps[done + 1..];
+            let rest = &steps[done + 1..];
             match step {
-                Way::Compute(code) => code.run(self.memory),
-                Way::Set { unknown, value } => self.memory[*unknown as usize].0 = self.at(*value),
-                Way::Square { unknown, constant, typical, stride, is_pair } => {
+                PreparedStep::Compute(code) => code.run(self.memory),
+                PreparedStep::Set { unknown, value } => self.memory[*unknown as usize].0 = self.at(*value),
+                PreparedStep::Square { unknown, constant, typical, stride, is_pair } => {
                     let (constant, typical) = (self.at(*constant), self.at(*typical));
                     let roots = if self.solver.blocks.grazing {
                         N::grazing_roots(constant, typical)
@@ -112,17 +112,17 @@ where
                     if *is_pair {
                         if let Some(root) = roots.as_slice().first() {
                             self.memory[*unknown as usize].0 = *root;
-                            self.steps(index, case, behind, found.by_pair(&roots), number);
+                            self.steps(index, case, rest, found.by_pair(&roots), number);
                         }
                         return;
                     }
                     for (choice, root) in roots.as_slice().iter().enumerate() {
                         self.memory[*unknown as usize].0 = *root;
-                        self.steps(index, case, behind, found.by_root(&roots, choice), number + choice * stride);
+                        self.steps(index, case, rest, found.by_root(&roots, choice), number + choice * stride);
                     }
                     return;
                 }
-                Way::Roots { unknown, polynomials, typical, half_angle, stride } => {
+                PreparedStep::Roots { unknown, polynomials, typical, half_angle, stride } => {
                     let values = |list: &Vec<u32>| list.iter().map(|&place| self.at(place)).collect::<Vec<N>>();
                     let lists: Vec<Vec<N>> = polynomials.iter().map(values).collect();
                     let lists: Vec<&[N]> = lists.iter().map(Vec::as_slice).collect();
@@ -133,20 +133,20 @@ where
                     };
                     for (choice, root) in roots.as_slice().iter().enumerate() {
                         self.memory[*unknown as usize].0 = *root;
-                        self.steps(index, case, behind, found.by_root(&roots, choice), number + choice * stride);
+                        self.steps(index, case, rest, found.by_root(&roots, choice), number + choice * stride);
                     }
                     return;
                 }
-                Way::Sample { unknowns, rows } => {
+                PreparedStep::Sample { unknowns, rows } => {
                     for row in rows {
                         for (unknown, value) in unknowns.iter().zip(row) {
                             self.memory[*unknown as usize].0 = N::of(*value);
                         }
-                        self.steps(index, case, behind, found, number);
+                        self.steps(index, case, rest, found, number);
                     }
                     return;
                 }
-                Way::SixAxes(six) => return self.six_axes(index, case, six, behind, found, number),
+                PreparedStep::SixAxes(six) => return self.six_axes(index, case, six, rest, found, number),
             }
         }
         let found = if index == 0 { Found { branch: number, ..found } } else { found.next(self.radix(index), number) };
@@ -157,7 +157,15 @@ where
         self.solver.blocks.list[index].radix
     }
 
-    fn six_axes(&mut self, index: usize, case: &Told, six: &Six, behind: &[Way], found: Found<N>, number: usize) {
+    fn six_axes(
+        &mut self,
+        index: usize,
+        case: &PreparedCase,
+        six: &Six,
+        rest: &[PreparedStep],
+        found: Found<N>,
+        number: usize,
+    ) {
         let target = six.target.map(|place| self.at(place));
         let Some(answers) = N::alone(&target, |target| six.chain.solve(target)) else { return };
         for (choice, answer) in answers.as_slice().iter().enumerate() {
@@ -171,7 +179,7 @@ where
                 }
             }
             let found = found.by_answer(&answer.free, answer.lost, six.bits);
-            self.steps(index, case, behind, found, number + choice * six.stride);
+            self.steps(index, case, rest, found, number + choice * six.stride);
         }
     }
 }

@@ -54,9 +54,9 @@ pub(super) struct Kinds {
 
 impl Kinds {
     fn new(facts: &Facts) -> Self {
-        let joint = |stands: &Vec<usize>| match stands[..] {
+        let joint = |places: &Vec<usize>| match places[..] {
             [cosine, sine] => runtime::Joint::Angle([cosine, sine]),
-            _ => runtime::Joint::Length(stands[0]),
+            _ => runtime::Joint::Length(places[0]),
         };
         let condition = |&(kind, first): &(&str, usize)| match kind {
             "Rotation" => runtime::Condition::Rotation(first),
@@ -220,7 +220,7 @@ impl<S: Storage + 'static> Shaped<S> {
     pub fn refused(&self, target: &[f64], error: runtime::Error) -> Error {
         if let runtime::Error::OpenStratum(number) = error {
             let label = self.open.get(number.wrapping_sub(1)).map_or("", String::as_str);
-            let text = format!("the target lies on `{label}`, a stratum that could not be derived");
+            let text = format!("the target is on `{label}`, a stratum that could not be derived");
             return Error::new(ErrorKind::Unsupported, text);
         }
         if error == runtime::Error::Unsettled {

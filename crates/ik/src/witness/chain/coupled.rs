@@ -4,10 +4,11 @@
 //! The screw solver and the oracle solve chain by chain, each with the shared actuators at the values from earlier chains. If shared joints are found from both
 //! chains together, no chain can be solved first, and these two witnesses are not used.
 
+use crate::tolerances::WITNESS;
 use nalgebra::DMatrix;
 
 use super::count::Counter;
-use super::model::{Configuration, Model, RESIDUAL};
+use super::model::{Configuration, Model};
 use super::rational::Rationals;
 use super::targets::{Target, Targets};
 use super::{Check, Solver};
@@ -35,7 +36,7 @@ pub fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) -> Resu
         solver: derived.program,
         bound: Some(derived.method.dimension()),
         screws: ByScrews::new(&model).map(|screws| Box::new(screws) as Box<dyn Solver>),
-        tolerance: RESIDUAL,
+        tolerance: WITNESS.residual,
         options: Options { oracle: if derived.method.simultaneous.is_some() { 0 } else { options.oracle }, ..*options },
         watch,
     };
@@ -110,17 +111,17 @@ impl<'a> CoupledModel<'a> {
     /// All joint vectors that `solve` finds chain by chain. It takes the target of a chain.
     fn continued(&self, target: &[f64], solve: &Solve<'a, '_>) -> Result<Vec<Solution>> {
         let start = Solution { q: vec![0.0; self.count], ..Solution::default() };
-        let mut ways = vec![start];
+        let mut solutions = vec![start];
         for member in &self.members {
             let mut next = Vec::new();
-            for way in &ways {
-                for answer in solve(member, &member.stage.target(target, &way.q))? {
-                    next.push(member.put(way, &answer));
+            for solution in &solutions {
+                for answer in solve(member, &member.stage.target(target, &solution.q))? {
+                    next.push(member.put(solution, &answer));
                 }
             }
-            ways = next;
+            solutions = next;
         }
-        Ok(ways)
+        Ok(solutions)
     }
 }
 
@@ -133,15 +134,15 @@ impl Member<'_> {
         self.joint(actuator).is_some_and(|joint| self.whole.given.contains(&joint))
     }
 
-    /// `way` with the chain's joints as in `answer`.
-    fn put(&self, way: &Solution, answer: &Solution) -> Solution {
-        let mut way = way.clone();
+    /// `solution` with the chain's joints as in `answer`.
+    fn put(&self, solution: &Solution, answer: &Solution) -> Solution {
+        let mut solution = solution.clone();
         for (&place, &value) in self.stage.joints.iter().zip(&answer.q) {
-            way.q[place] = value;
+            solution.q[place] = value;
         }
-        way.free.extend(answer.free.iter().map(|&joint| self.stage.joints[joint]));
-        way.residual = way.residual.max(answer.residual);
-        way
+        solution.free.extend(answer.free.iter().map(|&joint| self.stage.joints[joint]));
+        solution.residual = solution.residual.max(answer.residual);
+        solution
     }
 }
 

@@ -1,23 +1,17 @@
 //! Self-motions of one parameter at singular targets: whether there is one, whether a path in it leads to a solution, and which solutions are equal up to a
 //! self-motion.
 
+use crate::tolerances::WITNESS;
 use nalgebra::{DMatrix, DVector};
 
-use super::model::{Configuration, ORDINARY, RESIDUAL};
+use super::model::Configuration;
 use super::singular::{least_squares, null_vector};
 
 use groebot_robot::kinematics::Solution;
 use groebot_runtime::tolerances::MERGING;
 
-/// The maximum sigma of a configuration in a self-motion.
-const SINGULAR: f64 = 1e-12;
 /// The distance along the null vector at which a self-motion is tested.
 const PROBE: f64 = 0.05;
-/// The residual of a member of a self-motion, after correction.
-pub(super) const MEMBER: f64 = 1e-12;
-/// Same as [`MEMBER`], but for the detection of a self-motion. An isolated solution may be singular with another singularity at a distance of 1e-6. Then joint
-/// vectors 0.05 away miss by at most 1e-12, although they are no solutions.
-const ROUNDED: f64 = 1e-14;
 /// The number of such distances over which a self-motion must continue. If two axes are out of line by 1e-6 rad, there is a double solution instead. Its error
 /// is 1e-12 times the square of the distance, which is initially less than rounding.
 const PROBES: usize = 4;
@@ -25,18 +19,13 @@ const PROBES: usize = 4;
 pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
 /// The maximum number of corrections of one member.
 const CORRECTIONS: usize = 20;
-/// Singular values below this fraction of the largest one count as zero.
-const RANK: f64 = 1e-8;
-/// The maximum bend of a path between two joint vectors, as a fraction of its length, or of the square of its length if that is greater.
+/// The maximum bend of a path between two joint vectors: a fraction of its length, or of the square of its length if that is greater.
 const STRAIGHT: f64 = 1e-2;
 /// The longest and the shortest step along a curve, and the maximum number of steps.
 const LONGEST: f64 = 0.1;
-const SHORTEST: f64 = 1e-6;
 const PACES: usize = 2000;
 /// The minimum cosine of the angle between a curve's directions before and after a step.
 const STEADY: f64 = 0.9;
-/// The maximum distance between the end of a path and its solution.
-const ARRIVED: f64 = 1e-6;
 
 /// Paths of joint vectors with the same target.
 pub(super) trait SelfMotions: Configuration {
@@ -49,7 +38,7 @@ pub(super) trait SelfMotions: Configuration {
     fn goes_on(&self, target: &[f64], q: &[f64], mut ahead: DVector<f64>) -> bool {
         let mut at = q.to_vec();
         (0..PROBES).all(|_| {
-            let next = self.stepped(target, &at, &ahead, (PROBE, ROUNDED));
+            let next = self.stepped(target, &at, &ahead, (PROBE, WITNESS.rounding));
             next.is_some_and(|(next, on)| {
                 (at, ahead) = (next, on);
                 true
@@ -59,14 +48,21 @@ pub(super) trait SelfMotions: Configuration {
 
     /// The direction in which joints that are singular within rounding can move.
     fn tangent(&self, q: &[f64]) -> Option<DVector<f64>> {
-        if self.sigma(q) > SINGULAR { None } else { null_vector(self.jacobian(q)) }
+        if self.sigma(q) > WITNESS.member { None } else { null_vector(self.jacobian(q)) }
     }
 
-    /// The member next to `q` moved by `way` along the unit vector `ahead`, and no farther along it. Its error is at most `tolerance`.
-    fn beside(&self, target: &[f64], q: &[f64], ahead: &DVector<f64>, way: f64, tolerance: f64) -> Option<Vec<f64>> {
+    /// The member next to `q` moved by `distance` along the unit vector `ahead`, and no farther along it. Its error is at most `tolerance`.
+    fn moved_along(
+        &self,
+        target: &[f64],
+        q: &[f64],
+        ahead: &DVector<f64>,
+        distance: f64,
+        tolerance: f64,
+    ) -> Option<Vec<f64>> {
         let mut moved = q.to_vec();
         for (&joint, share) in self.unknown().iter().zip(ahead.iter()) {
-            moved[joint] += way * share * self.unit(joint);
+            moved[joint] += distance * share * self.unit(joint);
         }
         let across = |_: &[f64]| DMatrix::from_row_slice(1, ahead.len(), ahead.as_slice());
         self.corrected(target, moved, self.unknown(), &across, tolerance)
@@ -83,11 +79,11 @@ pub(super) trait SelfMotions: Configuration {
     /// then a path between the two must reach the target everywhere.
     fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         let (distance, sigma) = (self.distance(a, b), self.sigma(a));
-        if sigma > ORDINARY {
-            return distance <= 1e-9;
+        if sigma > WITNESS.ordinary {
+            return distance <= WITNESS.equal;
         }
-        let miss = f64::max(1e-13, 4.0 * self.residual(target, a));
-        distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b, RESIDUAL)
+        let miss = f64::max(WITNESS.exact, 4.0 * self.residual(target, a));
+        distance <= (miss / sigma).max(WITNESS.moved) && self.is_joined(target, a, b, WITNESS.residual)
     }
 
     /// Whether joint vectors next to the straight line from `a` to `b` reach the target, within `missed`.
@@ -109,32 +105,32 @@ pub(super) trait SelfMotions: Configuration {
     fn leads_to(&self, target: &[f64], q: &[f64], answer: &Solution, (step, missed): (f64, f64)) -> bool {
         let Solution { q: end, free, .. } = answer;
         let short: Vec<f64> = free.iter().map(|&joint| self.difference(joint, end[joint], q[joint])).collect();
-        let round = |(way, &joint): (&f64, &usize)| {
-            if self.turns(joint) { way - std::f64::consts::TAU.copysign(*way) } else { *way }
+        let round = |(angle, &joint): (&f64, &usize)| {
+            if self.turns(joint) { angle - std::f64::consts::TAU.copysign(*angle) } else { *angle }
         };
         let long: Vec<f64> = short.iter().zip(free).map(round).collect();
-        [short, long].iter().any(|way| {
-            let led = self.led(target, q, (free, way), (step, missed));
+        [short, long].iter().any(|displacements| {
+            let led = self.led(target, q, (free, displacements), (step, missed));
             led.is_some_and(|led| self.distance(&led, end) <= missed.sqrt())
         })
     }
 
-    /// The end of the path on which the free joints move by `way` in such steps.
+    /// The end of the path on which the free joints move by `displacements` in such steps.
     fn led(
         &self,
         target: &[f64],
         q: &[f64],
-        (free, way): (&[usize], &[f64]),
+        (free, displacements): (&[usize], &[f64]),
         (step, missed): (f64, f64),
     ) -> Option<Vec<f64>> {
         let others: Vec<usize> = self.unknown().iter().copied().filter(|joint| !free.contains(joint)).collect();
         let units = free.iter().map(|&joint| self.unit(joint));
-        let longest = way.iter().zip(units).map(|(way, unit)| way.abs() / unit).fold(0.0, f64::max);
+        let longest = displacements.iter().zip(units).map(|(value, unit)| value.abs() / unit).fold(0.0, f64::max);
         let steps = (longest / step).ceil().max(1.0);
         let none = |_: &[f64]| DMatrix::zeros(0, others.len());
         (1..=steps as usize).try_fold(q.to_vec(), |mut at, step| {
-            for (&joint, way) in free.iter().zip(way) {
-                at[joint] = q[joint] + way * step as f64 / steps;
+            for (&joint, displacement) in free.iter().zip(displacements) {
+                at[joint] = q[joint] + displacement * step as f64 / steps;
             }
             self.corrected(target, at, &others, &none, missed)
         })
@@ -144,7 +140,9 @@ pub(super) trait SelfMotions: Configuration {
     /// the end of its part of the circle and turns back while the others change to another branch.
     fn runs_to(&self, target: &[f64], q: &[f64], answer: &[f64]) -> bool {
         let tangent = self.tangent(q);
-        tangent.is_some_and(|ahead| [ahead.clone(), -ahead].into_iter().any(|way| self.runs(target, q, way, answer)))
+        tangent.is_some_and(|ahead| {
+            [ahead.clone(), -ahead].into_iter().any(|direction| self.runs(target, q, direction, answer))
+        })
     }
 
     /// Same as [`SelfMotions::runs_to`], but only in the direction `ahead`. The curve's bends limit the steps.
@@ -154,9 +152,12 @@ pub(super) trait SelfMotions: Configuration {
             if self.distance(&at, answer) <= 2.0 * pace && self.passes(target, &at, &ahead, answer) {
                 return true;
             }
-            match self.stepped(target, &at, &ahead, (pace, MEMBER)).filter(|(_, next)| next.dot(&ahead) > STEADY) {
+            match self
+                .stepped(target, &at, &ahead, (pace, WITNESS.member))
+                .filter(|(_, next)| next.dot(&ahead) > STEADY)
+            {
                 Some(next) => ((at, ahead), pace) = (next, f64::min(2.0 * pace, LONGEST)),
-                None if pace > SHORTEST => pace /= 2.0,
+                None if pace > WITNESS.near => pace /= 2.0,
                 None => return false,
             }
         }
@@ -166,19 +167,21 @@ pub(super) trait SelfMotions: Configuration {
     /// Whether `answer` is on the curve from `at` along `ahead`, within a small distance.
     fn passes(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, answer: &[f64]) -> bool {
         let apart = |&joint: &usize| self.difference(joint, answer[joint], at[joint]) / self.unit(joint);
-        let way = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
-        self.beside(target, at, ahead, way, MEMBER).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
+        let distance = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
+        self.moved_along(target, at, ahead, distance, WITNESS.member)
+            .is_some_and(|passed| self.distance(&passed, answer) <= WITNESS.near)
     }
 
-    /// The point of the curve next to `at` moved by `way` along the unit vector `ahead`, and the curve's direction there. Its error is at most `tolerance`.
+    /// The point of the curve next to `at` moved by `distance` along the unit vector `ahead`, and the curve's direction there. Its error is at most
+    /// `tolerance`.
     fn stepped(
         &self,
         target: &[f64],
         at: &[f64],
         ahead: &DVector<f64>,
-        (way, tolerance): (f64, f64),
+        (distance, tolerance): (f64, f64),
     ) -> Option<(Vec<f64>, DVector<f64>)> {
-        let next = self.beside(target, at, ahead, way, tolerance)?;
+        let next = self.moved_along(target, at, ahead, distance, tolerance)?;
         let tangent = null_vector(self.jacobian(&next))?;
         let side = tangent.dot(ahead).signum();
         Some((next, tangent * side))
@@ -206,7 +209,7 @@ pub(super) trait SelfMotions: Configuration {
             system.rows_mut(rows, fixed.nrows()).copy_from(&fixed);
             let mut missed = DVector::from_vec(self.misses(target, &q));
             missed = missed.insert_rows(rows, fixed.nrows(), 0.0);
-            let step = least_squares(system, &missed, RANK)?;
+            let step = least_squares(system, &missed, WITNESS.rank)?;
             for (&joint, step) in moving.iter().zip(step.iter()) {
                 q[joint] -= step * self.unit(joint);
             }

@@ -1,4 +1,4 @@
-/* All that a printed solver needs of <math.h>, for a compiler without a C library: whoever links it gives these functions. */
+/* The functions of <math.h> that a printed solver needs, for a compiler without a C library. They must be provided when linking. */
 #ifndef FREESTANDING_MATH_H
 #define FREESTANDING_MATH_H
 

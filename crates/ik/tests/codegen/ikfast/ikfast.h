@@ -1,4 +1,4 @@
-/* A stand-in for the header of IKFast's callers, for tests: the classes and functions of its documented interface, written anew.
+/* A replacement for the header of IKFast's callers, for tests: the classes and functions of its documented interface, written independently.
  *
  * https://docs.ros.org/en/ros2_packages/iron/api/moveit_resources_prbt_ikfast_manipulator_plugin/generated/ lists MoveIt's header; with
  * IKFAST_DOUBLE_OPENRAVE the declarations are those of OpenRAVE's later one. */
@@ -44,7 +44,7 @@ public:
     virtual void Clear() = 0;
 };
 
-/* A solution that checks itself as the real one's Validate does. */
+/* A solution with the check of the original Validate function. */
 template <typename T>
 class IkSolution : public IkSolutionBase<T> {
 public:

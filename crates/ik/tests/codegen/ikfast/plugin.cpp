@@ -1,4 +1,4 @@
-// Includes a printed solver as MoveIt's plugin template does, within a namespace behind its headers, and speaks to it as the plugin does.
+// Includes a printed solver like MoveIt's plugin template, within a namespace after its headers, and calls it like the plugin.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <float.h>
-// MoveIt's headers include it through Eigen's.
+// MoveIt's headers include this one through those of Eigen.
 #if defined(__SSE2__)
 #include <emmintrin.h>
 #endif
@@ -18,8 +18,8 @@ namespace robot_group {
 #define IKFAST_NO_MAIN
 #include "5_ikfast.cpp"
 
-// Reads lines of eetrans (3), eerot (9) and the free value; prints for each the count, then for each solution its branch, its joints, and
-// what forward kinematics makes of them.
+// Reads lines of eetrans (3), eerot (9) and the free value. For each it prints the number of solutions, then for each solution its branch, its joints,
+// and their forward kinematics.
 static int serve()
 {
     double line[13];

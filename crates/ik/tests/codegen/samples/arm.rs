@@ -1,5 +1,4 @@
-//! An arm with a turning base and two links: nested root steps, a case with a free joint, an open case, and cases out of
-//! the order of their branches.
+//! An arm with a rotating base and two links: nested root steps, a case with a free joint, an open case, and cases in another order than their branches.
 
 use crate::codegen::builder::*;
 use groebot_ik::solver::{Case, Checks, Guard, Operand, Preference, Program, Rule, Step, Unit};

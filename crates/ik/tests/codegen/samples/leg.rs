@@ -1,4 +1,4 @@
-//! A leg of two links in its sagittal plane: one case, one quadratic root step.
+//! A leg with two links in its sagittal plane: one case, one quadratic root step.
 
 use crate::codegen::builder::*;
 use groebot_ik::solver::{Case, Checks, Operand, Preference, Program, Rule, Step, Unit};

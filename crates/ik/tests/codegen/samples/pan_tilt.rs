@@ -1,4 +1,4 @@
-//! A camera that looks along a direction: two blocks, pan and tilt, and a self-motion where it looks straight up or down.
+//! A camera that points along a direction: two blocks, pan and tilt, and a self-motion where it points straight up or down.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -11,7 +11,7 @@ const S1: usize = 2;
 const C2: usize = 3;
 const S2: usize = 4;
 
-/// Where the camera looks.
+/// The direction of the camera.
 pub fn direction(pan: f64, tilt: f64) -> [f64; 3] {
     [tilt.cos() * pan.cos(), tilt.cos() * pan.sin(), tilt.sin()]
 }

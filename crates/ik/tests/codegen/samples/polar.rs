@@ -1,5 +1,5 @@
-//! A polar arm whose target is given in a turned frame: a prismatic joint, cosine and sine parameters, three equations for
-//! two joints, and an unknown of the equations that is no joint's.
+//! A polar arm with a target in a rotated frame: a prismatic joint, cosine and sine parameters, three equations for two joints, and an unknown that is not a
+//! joint.
 
 use crate::codegen::builder::*;
 use groebot_ik::solver::{Case, Checks, Operand, Preference, Program, Rule, Step, Unit};
@@ -53,7 +53,7 @@ fn generic() -> Case {
     let square = code.mul(parameter(4), parameter(4));
     let minus_square = code.sub(constant(0.0), square);
     let start = code.take();
-    // (c - x / rho) (c + 1), whose other root the check refuses unless it is right, or the plain linear polynomial.
+    // (c - x / rho) (c + 1), whose second root the check rejects unless it is a solution, or the plain linear polynomial.
     let ratio = code.div(x, unknown(RHO));
     let minus_ratio = code.sub(constant(0.0), ratio);
     let middle = code.sub(constant(1.0), ratio);

@@ -1,4 +1,4 @@
-//! The real roots of a polynomial of degree 4, 3 or 2, whichever leads; its names are awkward on purpose.
+//! The real roots of a polynomial of degree 4, 3 or 2, by its leading coefficient. Its names are intentionally difficult.
 
 use crate::codegen::builder::*;
 use groebot_ik::solver::{About, Case, Checks, Joint, JointValue, Program, Rule, Unit};

@@ -1,4 +1,4 @@
-//! A spherical wrist, `R = Rz(q1) Ry(q2) Rz(q3)`: three blocks, a self-motion where the axes meet, and cases of which the best runs.
+//! A spherical wrist, `R = Rz(q1) Ry(q2) Rz(q3)`: three blocks, a self-motion where axes coincide, and a group of cases of which the best runs.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -28,7 +28,7 @@ pub fn rotation(q: [f64; 3]) -> [f64; 9] {
     ]
 }
 
-/// A gantry that carries the wrist: `px, py, pz` and then the rotation, sliding joints first.
+/// A gantry that carries the wrist: inputs `px, py, pz`, then the rotation; the prismatic joints come first.
 pub fn carried() -> Program {
     let mut program = program(false);
     let names = ["px", "py", "pz"];
@@ -64,7 +64,7 @@ fn r(row: usize, column: usize) -> Operand {
     parameter(3 * (row - 1) + column - 1)
 }
 
-/// The program; with `gap`, where `r33` is near a half, the last block could not be derived.
+/// The program. With `gap`, there is no derivation of the last block where `r33` is near a half.
 pub fn program(gap: bool) -> Program {
     let name = |i: usize| format!("r{}{}", i / 3 + 1, i % 3 + 1);
     Program {
@@ -125,7 +125,7 @@ fn first() -> Block {
     Block::numbered("q1", vec![], vec![generic, straight])
 }
 
-/// `Rz(-q1) R` has the second row `(s3, c3, 0)`; the greater of the two is found first, which makes no difference here.
+/// `Rz(-q1) R` has the second row `(s3, c3, 0)`. The greater of the two is found first, which makes no difference here.
 fn last(gap: bool) -> Block {
     let mut code = Code::default();
     let mut turned = |column: usize| {

@@ -72,17 +72,17 @@ fn mistakes_stand_at_their_line_and_say_what_is_allowed() {
         ("\"a.hip\"", "\"hip\"", ErrorKind::BadValue, 4, "is no joint of a chain"),
         ("\"a.hip\"", "\"b.knee\"", ErrorKind::BadValue, 4, "one of each"),
         ("\"a.hip\", ", "", ErrorKind::BadValue, 4, "two or more chains"),
-        ("\"a.hip\"", "\"a.slide\"", ErrorKind::BadValue, 4, "all must turn, or all slide"),
+        ("\"a.hip\"", "\"a.slide\"", ErrorKind::BadValue, 4, "all must be revolute, or all prismatic"),
         ("],\n]", "],\n[\"a.hip\", \"b.knee\"]]", ErrorKind::DuplicateName, 5, "`a.hip` is shared twice"),
         ("name = \"b\"", "name = \"a\"", ErrorKind::UnknownName, 4, "there is no `b`"),
         ("\"right_\"", "\"a_\"", ErrorKind::DuplicateName, 9, "give it its own"),
         ("\"right_\"", "\"1\"", ErrorKind::BadValue, 9, "no digit first"),
-        ("name = \"two\"", "name = \"t w o\"", ErrorKind::BadValue, 1, "`name` is no word"),
+        ("name = \"two\"", "name = \"t w o\"", ErrorKind::BadValue, 1, "`name` is not a word"),
         ("prefix = \"right_\"\nchain = \"arm.toml\"", "chain = \"mm.toml\"", ErrorKind::BadValue, 9, "give one unit"),
         ("\"arm.toml\"\ntask", "\"../arm.toml\"\ntask", ErrorKind::BadValue, 12, "no plain file name"),
         ("\"arm.toml\"\ntask", "7\ntask", ErrorKind::BadValue, 12, "or a table"),
         ("[\"slide\"]", "[\"slid\"]", ErrorKind::UnknownName, 9, "chain `b`"),
-        ("\"direction\", direction", "\"pose\", direction", ErrorKind::BadValue, 13, "aims no direction"),
+        ("\"direction\", direction", "\"pose\", direction", ErrorKind::BadValue, 13, "orients no direction"),
     ];
     for (from, to, kind, line, word) in cases {
         let text = TWO.replacen(from, to, 1);

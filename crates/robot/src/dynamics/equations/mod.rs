@@ -130,7 +130,7 @@ impl Equations {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a number outside the range of doubles, [`ErrorKind::Unsupported`] as in
     /// [`Equations::new`].
-    pub fn as_told(robot: &Robot, base: Base) -> Result<Self> {
+    pub fn unchecked(robot: &Robot, base: Base) -> Result<Self> {
         let robot = robot.with_constants_fixed()?;
         Equations::of(&robot, &Model::new(&robot)?, base)
     }

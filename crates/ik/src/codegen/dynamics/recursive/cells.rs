@@ -34,7 +34,7 @@ pub(super) fn mass(step: &mut Step, row: &str, from: usize) -> Mass<Recorded> {
     Mass::of(step.list::<10>(row, from))
 }
 
-/// A body with this type of joint; its frame and mass are not read where they are not needed.
+/// A body with this type of joint. Its frame and mass are not read where they are not needed.
 pub(super) fn body(freedom: Freedom) -> Body<Recorded> {
     Body { parent: None, freedom, frame: Frame::identity(), mass: Mass::of(std::array::from_fn(|_| Recorded::zero())) }
 }

@@ -1,4 +1,4 @@
-//! The derivatives of inverse dynamics, in loops.
+//! The derivatives of inverse dynamics (RNEA), in loops.
 
 use super::Recursive;
 use super::cells::{COMPOSITE, body, composite, frame, numbers};

@@ -25,7 +25,7 @@ impl Recursive {
         });
     }
 
-    /// The forward pass for a body: its frame, its motion, and the force that the motion needs.
+    /// The forward pass of RNEA for a body: its frame, its motion, and the force that the motion needs.
     pub(super) fn move_on(&self, loops: &mut Loops<'_>, moves: bool) {
         self.place(loops);
         loops.by_freedom("i", |loops, freedom| {

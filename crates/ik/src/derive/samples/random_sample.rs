@@ -2,7 +2,7 @@
 
 use crate::derive::closure::{
     Arithmetic, Assignment, Coupling, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear, Object,
-    Relation, Target, Turn, Word, carry, evaluate,
+    Relation, Target, TargetRotation, Word, carry, evaluate,
 };
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Field, Ring, Zp};
@@ -28,12 +28,12 @@ impl Random {
 
 /// Joint values and the target that they reach, modulo a prime.
 #[derive(Clone, Debug)]
-pub struct Specimen {
+pub struct RandomSample {
     joints: Vec<JointValue<u64>>,
     target: Target<u64>,
 }
 
-impl Specimen {
+impl RandomSample {
     /// Random values of all joints, and their target.
     ///
     /// # Errors
@@ -44,11 +44,11 @@ impl Specimen {
         for (follower, coupling) in mechanism.followers() {
             joints[follower] = followed(coupling, &joints[coupling.leader], arithmetic);
         }
-        let nowhere = Target { position: [0; 3], turn: Turn::Nothing };
+        let nowhere = Target { position: [0; 3], rotation: TargetRotation::Unspecified };
         let assignment = Assignment { joints, target: nowhere };
         let parameters = parameters(mechanism, &assignment, arithmetic)?;
         let target = Target::new(mechanism, &parameters, arithmetic)?;
-        Ok(Specimen { joints: assignment.joints, target })
+        Ok(RandomSample { joints: assignment.joints, target })
     }
 
     /// `relation` at these joint values and this target, as a polynomial in the joints of the set `unknown`.

@@ -3,42 +3,42 @@
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
-use super::specimen::{Random, Specimen};
+use super::random_sample::{Random, RandomSample};
 use crate::Result;
 use crate::derive::closure::{Arithmetic, Coupling, Factor, Factors, Mechanism, Modular, Multilinear, Relation};
 use groebot_algebra::number::{Ring, Zp};
 
 /// The number of targets of a sample.
-pub const SPECIMENS: usize = 3;
+pub const SAMPLES: usize = 3;
 
 /// The number of targets in a mixture: one more than the maximum number of free symbols.
 const MIXED: usize = 12;
 
 /// The values of a coefficient at all targets.
-pub type Sample = [u64; SPECIMENS];
+pub type SampledValue = [u64; SAMPLES];
 
 /// A relation with some joints known: for each product of the unknown joints its coefficient, with product 1 first.
-pub type Sight = Vec<(Factors, Sample)>;
+pub type SampledRelation = Vec<(Factors, SampledValue)>;
 
 /// The relations of a mechanism at random targets.
 #[non_exhaustive]
-pub struct Sights<'a> {
+pub struct SampledRelations<'a> {
     pub mechanism: &'a Mechanism,
     pub relations: &'a [Relation],
     /// |w|^2 of each joint's axis.
     pub squares: Vec<u64>,
     arithmetic: Modular,
-    specimens: Vec<Specimen>,
+    samples: Vec<RandomSample>,
     /// Random weights with the sum 1, one for each target.
     weights: Vec<u64>,
     /// The joints of each relation, as a set.
     joints: Vec<u32>,
     /// For each relation, the leader that must be known before its follower's relation is used, unless the law is linear. As a set.
     leaders: Vec<u32>,
-    seen: HashMap<(usize, u32), Rc<Sight>>,
+    seen: HashMap<(usize, u32), Rc<SampledRelation>>,
 }
 
-impl<'a> Sights<'a> {
+impl<'a> SampledRelations<'a> {
     pub fn new(
         mechanism: &'a Mechanism,
         relations: &'a [Relation],
@@ -48,13 +48,13 @@ impl<'a> Sights<'a> {
         let field = arithmetic.field();
         let mut weights: Vec<u64> = (1..MIXED).map(|_| random.below(field.modulus())).collect();
         weights.push(weights.iter().fold(field.one(), |rest, weight| field.sub(&rest, weight)));
-        let draw = |_| Specimen::draw(mechanism, &mut arithmetic, random);
-        let specimens = (0..MIXED).map(draw).collect::<Result<_>>()?;
+        let draw = |_| RandomSample::draw(mechanism, &mut arithmetic, random);
+        let samples = (0..MIXED).map(draw).collect::<Result<_>>()?;
         let squares = mechanism.joints().iter().map(|joint| arithmetic.rational(&joint.square)).collect();
         let joints = relations.iter().map(|relation| set(&relation.joints())).collect();
         let leaders = relations.iter().map(|relation| nonlinear_leader(mechanism, relation)).collect();
         let seen = HashMap::new();
-        Ok(Sights { mechanism, relations, squares, arithmetic, specimens, weights, joints, leaders, seen })
+        Ok(SampledRelations { mechanism, relations, squares, arithmetic, samples, weights, joints, leaders, seen })
     }
 
     /// The prime field.
@@ -74,18 +74,18 @@ impl<'a> Sights<'a> {
     }
 
     /// The relation `index` as a polynomial in the joints of the set `unknown`. The other joints have their sampled values.
-    pub fn of(&mut self, index: usize, unknown: u32) -> Result<Rc<Sight>> {
-        if let Some(sight) = self.seen.get(&(index, unknown)) {
-            return Ok(Rc::clone(sight));
+    pub fn of(&mut self, index: usize, unknown: u32) -> Result<Rc<SampledRelation>> {
+        if let Some(terms) = self.seen.get(&(index, unknown)) {
+            return Ok(Rc::clone(terms));
         }
         let relation = &self.relations[index];
-        let mut values = Vec::with_capacity(SPECIMENS);
-        for specimen in &self.specimens[..SPECIMENS] {
-            values.push(specimen.evaluate(self.mechanism, relation, unknown, &mut self.arithmetic)?);
+        let mut values = Vec::with_capacity(SAMPLES);
+        for sample in &self.samples[..SAMPLES] {
+            values.push(sample.evaluate(self.mechanism, relation, unknown, &mut self.arithmetic)?);
         }
-        let sight = Rc::new(gather(&values));
-        self.seen.insert((index, unknown), Rc::clone(&sight));
-        Ok(sight)
+        let terms = Rc::new(gather(&values));
+        self.seen.insert((index, unknown), Rc::clone(&terms));
+        Ok(terms)
     }
 
     /// The relation `index` with random coefficients that keep only their linear relations over the rational numbers. It is the mean of the relation over many
@@ -93,8 +93,8 @@ impl<'a> Sights<'a> {
     pub fn mixture(&mut self, index: usize, unknown: u32) -> Result<BTreeMap<Factors, u64>> {
         let (relation, field) = (&self.relations[index], self.field());
         let mut mixture: BTreeMap<Factors, u64> = BTreeMap::new();
-        for (specimen, weight) in self.specimens.iter().zip(&self.weights) {
-            let value = specimen.evaluate(self.mechanism, relation, unknown, &mut self.arithmetic)?;
+        for (sample, weight) in self.samples.iter().zip(&self.weights) {
+            let value = sample.evaluate(self.mechanism, relation, unknown, &mut self.arithmetic)?;
             for (product, coefficient) in value.terms() {
                 let sum = mixture.entry(product.clone()).or_default();
                 *sum = field.add(sum, &field.mul(weight, coefficient));
@@ -104,10 +104,10 @@ impl<'a> Sights<'a> {
     }
 
     /// `a / b` if it is equal at all targets.
-    pub fn ratio(&self, a: &Sample, b: &Sample) -> Option<u64> {
+    pub fn ratio(&self, a: &SampledValue, b: &SampledValue) -> Option<u64> {
         let field = self.field();
         let ratio = field.checked_div(&a[0], &b[0])?;
-        (0..SPECIMENS).all(|k| a[k] == field.mul(&ratio, &b[k])).then_some(ratio)
+        (0..SAMPLES).all(|k| a[k] == field.mul(&ratio, &b[k])).then_some(ratio)
     }
 }
 
@@ -128,30 +128,30 @@ pub fn members(set: u32) -> Vec<usize> {
     (0..u32::BITS as usize).filter(|joint| set >> joint & 1 == 1).collect()
 }
 
-fn gather(values: &[Multilinear<u64>]) -> Sight {
-    let mut sight: HashMap<&Factors, Sample> = HashMap::new();
+fn gather(values: &[Multilinear<u64>]) -> SampledRelation {
+    let mut terms: HashMap<&Factors, SampledValue> = HashMap::new();
     for (k, value) in values.iter().enumerate() {
         for (product, &coefficient) in value.terms() {
-            sight.entry(product).or_default()[k] = coefficient;
+            terms.entry(product).or_default()[k] = coefficient;
         }
     }
-    let mut sight: Sight = sight.into_iter().map(|(product, sample)| (product.clone(), sample)).collect();
-    sight.sort();
-    sight
+    let mut terms: SampledRelation = terms.into_iter().map(|(product, sample)| (product.clone(), sample)).collect();
+    terms.sort();
+    terms
 }
 
 /// The coefficient of a product; zero if the product does not occur.
-pub fn coefficient(sight: &Sight, factors: &[Factor]) -> Sample {
-    let found = sight.iter().find(|(product, _)| product.list() == factors);
-    found.map_or([0; SPECIMENS], |(_, sample)| *sample)
+pub fn coefficient(terms: &SampledRelation, factors: &[Factor]) -> SampledValue {
+    let found = terms.iter().find(|(product, _)| product.list() == factors);
+    found.map_or([0; SAMPLES], |(_, sample)| *sample)
 }
 
 /// Whether the coefficient is equal at all targets: then it is a rational constant of the mechanism.
-pub fn is_number(sample: &Sample) -> bool {
+pub fn is_number(sample: &SampledValue) -> bool {
     sample.iter().all(|value| *value == sample[0])
 }
 
 /// Whether the coefficient is nonzero at all targets.
-pub fn is_sound(sample: &Sample) -> bool {
+pub fn is_sound(sample: &SampledValue) -> bool {
     !sample.contains(&0)
 }
