@@ -22,26 +22,16 @@ pub use report::{Fault, Kind, Report, Row, Summary, Verdict};
 
 use crate::derive::Source;
 use crate::solver::{Program, Solver};
+use crate::tolerances::WITNESS;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Solution;
 use groebot_robot::kinematics::oracle::Oracle;
-use model::{EXACT, Model, ORDINARY, RESIDUAL};
+use model::Model;
 use screws::Screws;
 use targets::{Target, Targets};
 
-/// The distance (rad, or a fraction of the typical length) below which two solutions are duplicates.
-const DUPLICATE: f64 = 5e-8;
-/// The maximum of the scaled Jacobian's smallest singular value where a joint may be reported as free.
-const SINGULAR: f64 = 1e-5;
-/// The smallest singular value above which the number of solutions is compared with the exact one. If the distance to a singular configuration is less than
-/// about its square, rounding decides whether there are two solutions or none.
-const TIE: f64 = 1e-4;
-/// The accuracy of the oracle's ordinary solutions (rad, or a fraction of the typical length).
-const ORACLE: f64 = 1e-6;
 /// The numbers of the oracle's starting points: at first, and again before it reports a fault.
 const SEEDS: [usize; 2] = [60, 600];
-/// The joint displacement by which a round target is moved (rad, or a fraction of the typical length).
-const MOVED: f64 = 1e-7;
 /// The maximum distance of an ordinary solution of the moved target from one of the target itself, in multiples of `MOVED / sigma`.
 const FOLLOWS: f64 = 10.0;
 
@@ -102,7 +92,7 @@ impl<'a> Check<'a> {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         // If the equations contain no lengths, a program's scale is nearly zero.
-        let unit = if program.scale > 1e-9 { program.scale } else { 1.0 };
+        let unit = if program.scale > WITNESS.equal { program.scale } else { 1.0 };
         let model = Model::new(system, unit);
         let screws = source.chain.as_ref().and_then(Screws::new);
         let check =
@@ -137,7 +127,7 @@ impl<'a> Check<'a> {
         let mut row = Row::open(number, kind, target, joints, answers.as_deref());
         if let Some(answers) = answers {
             let known = answers.iter().map(|answer| answer.q.as_slice()).chain(row.joints.as_deref());
-            row.is_singular = known.into_iter().any(|q| self.model.sigma(&row.target, q) <= SINGULAR);
+            row.is_singular = known.into_iter().any(|q| self.model.sigma(&row.target, q) <= WITNESS.free);
             let faults = self.faults(number, &mut row, &answers)?;
             row.verdict = if faults.is_empty() { Verdict::Pass } else { Verdict::Fail(faults) };
         }
@@ -175,11 +165,12 @@ impl<'a> Check<'a> {
         Ok(faults)
     }
 
-    /// Whether each ordinary solution of a reached target that is moved by [`MOVED`] is next to one of these.
+    /// Whether each ordinary solution of a reached target that is moved by `WITNESS.moved` is next to one of these.
     fn agrees_when_moved(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
         let Some(q) = &row.joints else { return Ok(true) };
         let sizes = self.model.joint_sizes(&row.target);
-        let moved: Vec<f64> = (0..q.len()).map(|joint| q[joint] + MOVED * share(joint) * sizes[joint]).collect();
+        let moved: Vec<f64> =
+            (0..q.len()).map(|joint| q[joint] + WITNESS.moved * share(joint) * sizes[joint]).collect();
         let Some(moved_target) = self.model.inputs_at(&moved, &row.target) else { return Ok(true) };
         let others = match self.solver.solve_numbers(&moved_target) {
             Err(error) if error.kind() == ErrorKind::Unsupported => return Ok(true),
@@ -187,9 +178,10 @@ impl<'a> Check<'a> {
         };
         Ok(others.iter().all(|other| {
             let sigma = self.model.sigma(&moved_target, &other.q);
-            let near =
-                |answer: &Solution| self.model.distance(&moved_target, &other.q, &answer.q) <= FOLLOWS * MOVED / sigma;
-            sigma <= ORDINARY || answers.iter().any(near)
+            let near = |answer: &Solution| {
+                self.model.distance(&moved_target, &other.q, &answer.q) <= FOLLOWS * WITNESS.moved / sigma
+            };
+            sigma <= WITNESS.ordinary || answers.iter().any(near)
         }))
     }
 
@@ -201,8 +193,8 @@ impl<'a> Check<'a> {
                 let misfit = self.model.misfit(&target, &answer.q);
                 let chain = self.source.chain.as_ref();
                 let missed = chain.map_or(0.0, |chain| screws::misplacement(chain, &answer.q, &target));
-                let is_too_free = !answer.free.is_empty() && self.model.sigma(&target, &answer.q) > SINGULAR;
-                Judged { residual: misfit, is_missed: misfit.max(missed) > RESIDUAL, is_too_free }
+                let is_too_free = !answer.free.is_empty() && self.model.sigma(&target, &answer.q) > WITNESS.free;
+                Judged { residual: misfit, is_missed: misfit.max(missed) > WITNESS.residual, is_too_free }
             })
         })
     }
@@ -210,7 +202,7 @@ impl<'a> Check<'a> {
     /// Checks the solutions as a set.
     fn together(&self, target: &[f64], answers: &[Solution]) -> Vec<Fault> {
         let twice = |(index, a): (usize, &Solution)| {
-            answers[..index].iter().any(|b| self.model.distance(target, &a.q, &b.q) <= DUPLICATE)
+            answers[..index].iter().any(|b| self.model.distance(target, &a.q, &b.q) <= WITNESS.duplicate)
         };
         let duplicate = answers.iter().enumerate().any(twice).then_some(Fault::Duplicate);
         let bound = (answers.len() > self.program.bound()).then_some(Fault::Bound);
@@ -234,24 +226,24 @@ impl<'a> Check<'a> {
             return self.model.matches(target, q, &answer.q);
         }
         let member = Self::member(answer, q);
-        if self.model.misfit(target, &member) <= RESIDUAL {
+        if self.model.misfit(target, &member) <= WITNESS.residual {
             return self.model.matches(target, q, &member);
         }
         // The other joints move with the free ones. Without solving, it is only known that `q` is in some self-motion.
-        self.model.sigma(target, q) <= SINGULAR
+        self.model.sigma(target, q) <= WITNESS.free
     }
 
     /// Whether the number of solutions depends on rounding.
     fn is_tie(&self, row: &Row, answers: &[Solution]) -> bool {
         let known = answers.iter().map(|answer| answer.q.as_slice()).chain(row.joints.as_deref());
-        known.into_iter().any(|q| self.model.sigma(&row.target, q) <= TIE)
+        known.into_iter().any(|q| self.model.sigma(&row.target, q) <= WITNESS.tie)
     }
 
     /// Whether the solutions and those of the screw solver match in both directions. Solutions of targets that are out of reach by less than 1e-11 may be
     /// missing on the other side.
     fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
         let covers = |some: &[Solution], answer: &Solution| {
-            let sure = self.model.misfit(target, &answer.q) <= EXACT;
+            let sure = self.model.misfit(target, &answer.q) <= WITNESS.exact;
             !sure || some.iter().any(|other| self.represents(target, other, &answer.q))
         };
         answers.iter().all(|answer| covers(others, answer)) && others.iter().all(|other| covers(answers, other))
@@ -285,15 +277,15 @@ impl<'a> Check<'a> {
     }
 
     fn agrees_with_search(&self, target: &[f64], answers: &[Solution], found: &[Vec<f64>]) -> bool {
-        let ordinary = |q: &[f64]| self.model.sigma(target, q) > ORDINARY;
-        let near = |a: &[f64], b: &[f64]| self.model.distance(target, a, b) <= ORACLE;
+        let ordinary = |q: &[f64]| self.model.sigma(target, q) > WITNESS.ordinary;
+        let near = |a: &[f64], b: &[f64]| self.model.distance(target, a, b) <= WITNESS.near;
         let ours = |q: &Vec<f64>| !ordinary(q) || answers.iter().any(|answer| near(q, &answer.q));
         let theirs = |answer: &Solution| !ordinary(&answer.q) || found.iter().any(|q| near(q, &answer.q));
         found.iter().all(ours) && answers.iter().all(theirs)
     }
 }
 
-/// The fraction of [`MOVED`] by which joint `number` moves. All joints have different fractions.
+/// The fraction of `WITNESS.moved` by which joint `number` moves. All joints have different fractions.
 fn share(number: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     2.0 * (GOLDEN * (number as f64 + 1.0)).fract() - 1.0

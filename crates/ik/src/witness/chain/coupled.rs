@@ -4,10 +4,11 @@
 //! The screw solver and the oracle solve chain by chain, each with the shared actuators at the values from earlier chains. If shared joints are found from both
 //! chains together, no chain can be solved first, and these two witnesses are not used.
 
+use crate::tolerances::WITNESS;
 use nalgebra::DMatrix;
 
 use super::count::Counter;
-use super::model::{Configuration, Model, RESIDUAL};
+use super::model::{Configuration, Model};
 use super::rational::Rationals;
 use super::targets::{Target, Targets};
 use super::{Check, Solver};
@@ -35,7 +36,7 @@ pub fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) -> Resu
         solver: derived.program,
         bound: Some(derived.method.dimension()),
         screws: ByScrews::new(&model).map(|screws| Box::new(screws) as Box<dyn Solver>),
-        tolerance: RESIDUAL,
+        tolerance: WITNESS.residual,
         options: Options { oracle: if derived.method.simultaneous.is_some() { 0 } else { options.oracle }, ..*options },
         watch,
     };

@@ -16,14 +16,15 @@ mod targets;
 
 use super::report::{Fault, Kind, Report, Row, Verdict};
 use super::screws::Screws;
-use super::{DUPLICATE, Draws, FOLLOWS, Judged, MOVED, ORACLE, Options, SEEDS, SINGULAR, TIE, faults_of_each, share};
+use super::{Draws, FOLLOWS, Judged, Options, SEEDS, faults_of_each, share};
 use crate::solver::Program;
+use crate::tolerances::WITNESS;
 use crate::{ErrorKind, Result, Watch};
 use count::Counter;
 use groebot_robot::kinematics::{Chain, Solution, Task};
-use model::{Configuration, EXACT, Model, ORDINARY, RESIDUAL, SHARP};
+use model::{Configuration, Model};
 use rational::Rationals;
-use self_motion::{MEMBER, STEPS, SelfMotions};
+use self_motion::{STEPS, SelfMotions};
 use targets::{Target, Targets};
 
 /// The number of rows, from the first, whose round targets are also searched numerically.
@@ -87,7 +88,7 @@ impl<'a> Check<'a> {
         options: &Options,
         watch: &Watch,
     ) -> Result<Report> {
-        Check::run_within(chain, solver, bound, (options, RESIDUAL), watch)
+        Check::run_within(chain, solver, bound, (options, WITNESS.residual), watch)
     }
 
     /// Same as [`Check::run`], but for a chain as described, whose ideal chain decides which solutions exist. Its solutions may miss their targets by
@@ -152,7 +153,7 @@ impl<'a> Check<'a> {
         if faults.contains(&Fault::Range) {
             return Ok(faults);
         }
-        let is_singular = |q: &[f64]| self.model.sigma(q) <= ORDINARY;
+        let is_singular = |q: &[f64]| self.model.sigma(q) <= WITNESS.ordinary;
         row.is_singular =
             row.joints.as_deref().into_iter().chain(answers.iter().map(|answer| answer.q.as_slice())).any(is_singular);
         faults.extend(self.together(answers));
@@ -187,7 +188,8 @@ impl<'a> Check<'a> {
         let is_early = number < SEARCHED || self.options.draws == Draws::Round;
         if self.options.oracle > 0 && is_early && row.oracle.is_none() {
             let found = self.model.search(&row.target, SEEDS[0])?;
-            let is_ours = |q: &Vec<f64>| self.model.sigma(q) <= ORDINARY || self.is_near(q, answers, ORACLE);
+            let is_ours =
+                |q: &Vec<f64>| self.model.sigma(q) <= WITNESS.ordinary || self.is_near(q, answers, WITNESS.near);
             row.oracle = Some(found.len());
             faults.extend((!found.iter().all(is_ours)).then_some(Fault::Oracle));
         }
@@ -195,13 +197,13 @@ impl<'a> Check<'a> {
         Ok(faults)
     }
 
-    /// Whether each ordinary solution of a reached target that is moved by [`MOVED`] is next to one of these.
+    /// Whether each ordinary solution of a reached target that is moved by `WITNESS.moved` is next to one of these.
     fn agrees_when_moved(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
         let Some(mut q) = row.joints.clone().or_else(|| answers.first().map(|answer| answer.q.clone())) else {
             return Ok(true);
         };
         for (number, &joint) in self.model.unknown().iter().enumerate() {
-            q[joint] += MOVED * share(number) * self.model.unit(joint);
+            q[joint] += WITNESS.moved * share(number) * self.model.unit(joint);
         }
         self.model.settle(&mut q);
         let moved = self.model.target(&q);
@@ -211,7 +213,7 @@ impl<'a> Check<'a> {
         };
         Ok(others.iter().all(|other| {
             let sigma = self.model.sigma(&other.q);
-            sigma <= ORDINARY || self.is_near(&other.q, answers, FOLLOWS * MOVED / sigma)
+            sigma <= WITNESS.ordinary || self.is_near(&other.q, answers, FOLLOWS * WITNESS.moved / sigma)
         }))
     }
 
@@ -229,7 +231,7 @@ impl<'a> Check<'a> {
         faults_of_each(row, answers, |answer| {
             self.model.is_well_formed(&answer.q).then(|| {
                 let residual = self.model.residual(&target, &answer.q);
-                let is_too_free = !answer.free.is_empty() && self.model.sigma(&answer.q) > SINGULAR;
+                let is_too_free = !answer.free.is_empty() && self.model.sigma(&answer.q) > WITNESS.free;
                 Judged { residual, is_missed: residual > self.tolerance, is_too_free }
             })
         })
@@ -238,7 +240,7 @@ impl<'a> Check<'a> {
     /// Checks the solutions as a set.
     fn together(&self, answers: &[Solution]) -> Vec<Fault> {
         let twice = |(index, a): (usize, &Solution)| {
-            answers[..index].iter().any(|b| self.model.distance(&a.q, &b.q) <= DUPLICATE)
+            answers[..index].iter().any(|b| self.model.distance(&a.q, &b.q) <= WITNESS.duplicate)
         };
         let duplicate = answers.iter().enumerate().any(twice).then_some(Fault::Duplicate);
         // Several members may represent one self-motion.
@@ -277,14 +279,14 @@ impl<'a> Check<'a> {
 
     /// Whether the chain is described inexactly, so that solutions may miss their targets. The ideal chain decides which solutions exist.
     fn is_described(&self) -> bool {
-        self.tolerance > RESIDUAL
+        self.tolerance > WITNESS.residual
     }
 
     /// Whether `q` is a member of a self-motion that one of the solutions represents. On the path between them, a described chain may miss the target by the
     /// tolerance of a solution, because only the ideal chain has the self-motion.
     fn is_member(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> bool {
         let self_motions = || answers.iter().filter(|answer| !answer.free.is_empty());
-        let missed = if self.is_described() { self.tolerance } else { MEMBER };
+        let missed = if self.is_described() { self.tolerance } else { WITNESS.member };
         let leads = |answer: &Solution, step: f64| self.model.leads_to(target, q, answer, (step, missed));
         self_motions().any(|answer| self.model.matches(target, q, &answer.q))
             || STEPS.into_iter().any(|step| self_motions().any(|answer| leads(answer, step)))
@@ -294,7 +296,7 @@ impl<'a> Check<'a> {
     /// Whether the number of solutions depends on rounding.
     fn is_tie(&self, row: &Row, answers: &[Solution]) -> bool {
         let known = answers.iter().map(|answer| answer.q.as_slice()).chain(row.joints.as_deref());
-        known.into_iter().any(|q| self.model.sigma(q) <= TIE)
+        known.into_iter().any(|q| self.model.sigma(q) <= WITNESS.tie)
     }
 
     /// Whether the solutions agree with those of the screw solver.
@@ -304,7 +306,7 @@ impl<'a> Check<'a> {
     /// tasks (more numbers than independent joints). There, forward kinematics alone checks ours.
     fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
         let covers = |some: &[Solution], answer: &Solution| {
-            let least = if self.model.sigma(&answer.q) > ORDINARY { EXACT } else { SHARP };
+            let least = if self.model.sigma(&answer.q) > WITNESS.ordinary { WITNESS.exact } else { WITNESS.rounding };
             let sure = self.model.residual(target, &answer.q) <= least;
             let is_same = |other: &Solution| self.are_same(target, &answer.q, &other.q);
             !sure || some.iter().any(is_same) || self.is_member(target, some, &answer.q)
@@ -314,7 +316,7 @@ impl<'a> Check<'a> {
             jacobian.nrows() > jacobian.ncols()
         };
         let ours = |answer: &Solution| {
-            self.model.sigma(&answer.q) <= ORDINARY || is_overdetermined(answer) || covers(others, answer)
+            self.model.sigma(&answer.q) <= WITNESS.ordinary || is_overdetermined(answer) || covers(others, answer)
         };
         answers.iter().all(ours) && others.iter().all(|other| covers(answers, other))
     }
@@ -339,9 +341,9 @@ impl<'a> Check<'a> {
     }
 
     fn agrees_with_search(&self, answers: &[Solution], found: &[Vec<f64>]) -> bool {
-        let ordinary = |q: &[f64]| self.model.sigma(q) > ORDINARY;
-        let ours = |q: &Vec<f64>| !ordinary(q) || self.is_near(q, answers, ORACLE);
-        let near = |q: &Vec<f64>, answer: &Solution| self.model.distance(q, &answer.q) <= ORACLE;
+        let ordinary = |q: &[f64]| self.model.sigma(q) > WITNESS.ordinary;
+        let ours = |q: &Vec<f64>| !ordinary(q) || self.is_near(q, answers, WITNESS.near);
+        let near = |q: &Vec<f64>, answer: &Solution| self.model.distance(q, &answer.q) <= WITNESS.near;
         let theirs = |answer: &Solution| !ordinary(&answer.q) || found.iter().any(|q| near(q, answer));
         found.iter().all(ours) && answers.iter().all(theirs)
     }
