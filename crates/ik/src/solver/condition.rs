@@ -53,14 +53,14 @@ impl Condition {
         let is_missed = mirrored || deviation.is_nan() || deviation > ACCEPTANCE.input;
         is_missed.then(|| match self {
             Condition::Rotation(_) if mirrored => {
-                format!("{names} are no rotation matrix: the determinant is negative; give a right-handed one")
+                format!("{names} are not a rotation matrix: the determinant is negative; give a right-handed one")
             }
             Condition::Rotation(_) => format!(
-                "{names} are no rotation matrix: R R^T differs from one by {deviation:.1e}; {:e} is allowed",
+                "{names} are not a rotation matrix: R R^T differs from one by {deviation:.1e}; {:e} is allowed",
                 ACCEPTANCE.input
             ),
             Condition::Unit(_) => format!(
-                "{names} are no unit vector: the squared length differs from one by {deviation:.1e}; {:e} is allowed",
+                "{names} are not a unit vector: the squared length differs from one by {deviation:.1e}; {:e} is allowed",
                 ACCEPTANCE.input
             ),
         })

@@ -26,11 +26,11 @@ pub fn prove(mechanism: &Mechanism, relation: &Relation) -> Result<()> {
         return if mechanism.couplings().contains(relation) {
             Ok(())
         } else {
-            Err(refused(relation, "no joint follows so"))
+            Err(refused(relation, "no joint follows by this law"))
         };
     }
     if !sees(mechanism, relation) {
-        return Err(refused(relation, "it needs more of the target than the task sees"));
+        return Err(refused(relation, "it uses parts of the target that the task does not specify"));
     }
     let closed = |word: &Word| closed(mechanism, relation.measure, word);
     let substituted = Relation { left: closed(&relation.left), right: closed(&relation.right), ..relation.clone() };

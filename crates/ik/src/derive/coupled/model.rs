@@ -166,7 +166,8 @@ fn check_coupled(parts: &CoupledParts) -> Checked {
         }
         let twin = |other: &&CoupledChain| other.name == member.name || other.prefix == member.prefix;
         if let Some(other) = parts.chains[..index].iter().find(twin) {
-            let text = format!("`{}` has the name or the prefix of `{}`; give it its own", member.name, other.name);
+            let text =
+                format!("`{}` and `{}` have equal names or prefixes; change one of them", member.name, other.name);
             return fault(part, ErrorKind::DuplicateName, text);
         }
     }

@@ -241,7 +241,7 @@ impl<'a> Builder<'a> {
     /// The root of a linear polynomial, given by its two coefficients.
     fn root(&mut self, coefficients: &[Operand]) -> Result<Operand> {
         let [low, high] = coefficients else {
-            return Err(Error::new(ErrorKind::Unsupported, "a stair of a half angle is not linear"));
+            return Err(Error::new(ErrorKind::Unsupported, "a polynomial of a half angle is not linear"));
         };
         let top = self.assembler.mul(Operand::Constant(-1.0), *low);
         Ok(self.assembler.div(top, *high))
@@ -350,7 +350,7 @@ impl<'a> Builder<'a> {
     fn put(&mut self, values: &[(usize, Quotient)], steps: &mut Vec<Step>) -> Result<()> {
         let quotient = |unknown: usize| values.iter().find(|(u, _)| *u == unknown).map(|(_, value)| *value);
         let value = |unknown: usize| quotient(unknown).map(|quotient| quotient.value);
-        let missing = || Error::new(ErrorKind::Unsupported, "a stair of a form is not linear");
+        let missing = || Error::new(ErrorKind::Unsupported, "a polynomial of a form is not linear");
         let put: Vec<(usize, Operand)> = match self.place.value {
             JointValue::Angle { cosine, sine } => {
                 let (c, s) = quotient(cosine).zip(quotient(sine)).ok_or_else(missing)?;

@@ -203,7 +203,8 @@ impl<S: Storage + 'static> Shaped<S> {
         if inputs > 0 && targets.len().is_multiple_of(inputs) {
             return Ok(());
         }
-        let text = format!("{} numbers are no targets of {inputs} each", targets.len());
+        let text =
+            format!("{} numbers are given, which is not a multiple of {inputs}, the length of a target", targets.len());
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
