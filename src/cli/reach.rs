@@ -111,7 +111,7 @@ impl Arguments {
     fn request(&self, program: &Program, chain: Option<&Chain>) -> Result<Request> {
         let has = |axis: BaseAxis| program.tip().is_some_and(|tip| tip.input(TargetNumber::Position(axis)).is_some());
         let around = chain.and_then(around);
-        let axis = |told: Option<Axis>, place: usize| match (told, &around) {
+        let axis = |given: Option<Axis>, place: usize| match (given, &around) {
             (Some(axis), _) => Ok(axis),
             _ if !has(BaseAxis::ALL[place]) => Axis::new(0.0, 0.0, 1),
             (None, Some((middle, reach))) => Axis::new(middle[place] - reach, middle[place] + reach, USUAL),

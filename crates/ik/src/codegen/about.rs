@@ -29,7 +29,7 @@ impl AboutText {
 fn lines(program: &Program) -> Vec<String> {
     let Some(about) = &program.about else { return Vec::new() };
     let named = |what: &str, name: Option<&String>| name.map(|name| format!("{what}: {}", remark(name)));
-    let task = Some(format!("Task: {}", remark(&program.asked())));
+    let task = Some(format!("Task: {}", remark(&program.task_text())));
     let hash = (!about.hash.is_empty()).then(|| format!("Hash of the input: {}", remark(&about.hash)));
     let ends = [named("Base link", about.base.as_ref()), named("Tip link", about.tip.as_ref())];
     let solutions = about.solutions.map(|count| format!("Solutions: up to {count} at a generic target"));

@@ -53,7 +53,7 @@ impl ReachMap {
         let unit = tip.map(|tip| program.inputs[tip.first_input].unit);
         ReachMap {
             solver: program.name.clone(),
-            task: program.asked(),
+            task: program.task_text(),
             unit: unit.map_or("", Unit::symbol).to_owned(),
             grid: request.grid,
             orientations,

@@ -16,7 +16,7 @@ impl Program {
     }
 
     /// Describes the target: `pose`, `position, ElbowYaw given`, `left: pose; right: ray of [0, 0, 1]`, `its equations`.
-    pub fn asked(&self) -> String {
+    pub fn task_text(&self) -> String {
         let tasks: Vec<String> = self.tasks.iter().map(TipTask::to_string).collect();
         let tasks = if tasks.is_empty() { "its equations".to_owned() } else { tasks.join("; ") };
         let given = self.given_names().join(", ");

@@ -25,7 +25,7 @@ fn a_program_names_its_source() {
         let mut source = Source::read(&folder(name)).unwrap();
         let about = |source: &Source| {
             let program = Derivation::of(source, &Watch::none()).unwrap().about(source).program().clone();
-            (program.asked(), program.about.unwrap())
+            (program.task_text(), program.about.unwrap())
         };
         let (asked, about_source) = about(&source);
         assert_eq!((asked.as_str(), about_source.base.as_deref()), (task, None), "{name}");

@@ -21,7 +21,7 @@ fn in_format_2(program: &Program) -> String {
     object.remove("tasks").unwrap();
     object.remove("given_joints").unwrap();
     if let Some(about) = object.get_mut("about") {
-        about["task"] = program.asked().into();
+        about["task"] = program.task_text().into();
     }
     value.to_string()
 }
@@ -33,7 +33,7 @@ fn a_file_of_format_2_is_read() {
     let pose = TipTask { chain: None, task: Task::Pose, direction: None, first_input: 0 };
     assert_eq!(program.tasks, [pose]);
     assert_eq!(program.given_joints, [GivenJoint { joint: 2, input: 12 }]);
-    assert_eq!(program.asked(), "pose, A3 given");
+    assert_eq!(program.task_text(), "pose, A3 given");
     assert!(program.to_json().contains("\"format\": 3"));
     assert_eq!(program, folder::program(&path("iiwa14")).unwrap());
 }

@@ -13,7 +13,7 @@ const FORMAT: JsonFormat = JsonFormat {
     what: "certificate",
     oldest: 7,
     number: 7,
-    renew: "`groebot derive`, or for equations of motion `groebot dynamics --symbolic`, on its folder writes it anew",
+    renew: "`groebot derive`, or for equations of motion `groebot dynamics --symbolic`, on its folder writes it again",
 };
 
 /// Subject of a certificate.

@@ -140,7 +140,7 @@ impl From<Chain> for ChainParts {
 
 impl Chain {
     /// Describes the task: `planar_pose in xz`, `ray of [1, 0, 0]`, `position, ElbowYaw given`.
-    pub fn asked(&self) -> String {
+    pub fn task_text(&self) -> String {
         let stated = Stated { task: self.task(), direction: self.task().aims().then(|| self.direction()) };
         let given = &self.parts.given;
         let given = if given.is_empty() { String::new() } else { format!(", {} given", given.join(", ")) };
@@ -151,7 +151,7 @@ impl Chain {
 /// A short table, one line for each joint.
 impl fmt::Display for Chain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}: {}, lengths in {}", self.name(), self.asked(), self.length_unit().symbol())?;
+        writeln!(f, "{}: {}, lengths in {}", self.name(), self.task_text(), self.length_unit().symbol())?;
         for joint in self.joints() {
             let (kind, limits) = match (joint.kind, joint.limits) {
                 (JointKind::Revolute, Some((low, high))) => {

@@ -69,7 +69,7 @@ fn worst(samples: &[Sample]) -> f64 {
 }
 
 #[test]
-fn errors_die_out_as_computed_torque_says() {
+fn errors_decay_as_predicted_by_computed_torque() {
     for plant in [ur5(), stanford()] {
         let law = || ComputedTorque::new(&plant, Gains::critical(6, FREQUENCY)).unwrap();
         let [coarse, fine] = [1e-3, 5e-4].map(|step| deviation(&run(&plant, law(), step, 5.0, Disturbance::default())));
@@ -128,7 +128,7 @@ fn gravity_compensation_comes_to_rest_and_open_loop_does_not_pull_back() {
 }
 
 #[test]
-fn torques_are_cut_and_what_is_cut_is_told() {
+fn torques_are_limited_and_the_excess_is_reported() {
     let plant = ur5();
     let law = ComputedTorque::new(&plant, Gains::critical(6, FREQUENCY)).unwrap();
     let mut limited = Limited::new(law, vec![10.0; 6]);
@@ -180,8 +180,8 @@ fn work_space_is_that_of_the_thesis() {
     error.rows_mut(3, 3).copy_from(&(pose.rotation * target.pose.rotation.inverse()).scaled_axis());
     let six = |vector: &nalgebra::Vector6<f64>| DVector::from_column_slice(vector.as_slice());
     let late = moving - six(&target.velocity);
-    let asked = six(&target.acceleration) - late * 40.0 - error * 400.0;
-    let force = effective.inertia * asked + effective.coriolis * moving + effective.gravity;
+    let requested = six(&target.acceleration) - late * 40.0 - error * 400.0;
+    let force = effective.inertia * requested + effective.coriolis * moving + effective.gravity;
     near(&torques, (jacobian.transpose() * force).as_slice(), 1e-9, "(2-50)");
     assert_eq!(law.damped(), 0.0);
 }
