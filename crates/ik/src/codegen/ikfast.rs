@@ -11,15 +11,13 @@ use super::outline::Outline;
 use super::reserved::prefix;
 use super::single_file;
 use crate::solver::{Forward, GivenJoint, JointValue, Program, Reached, Unit};
+use crate::tolerances::IKFAST;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::shown;
 use groebot_robot::kinematics::{Plane, Task};
 
 const SKELETON: &str = include_str!("skeleton/ikfast.cpp.txt");
 
-/// The rounding error of targets in single precision, relative to the sizes of the equations: several units in the last
-/// place.
-const SINGLE: f64 = 1e-6;
 /// The upper bound of a digit of a branch number. A solution's indices are bytes, and the greatest byte means none.
 const MOST_DIGITS: usize = 250;
 
@@ -60,7 +58,7 @@ fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<Stri
         )
     })?;
     let kind = Kind::of(program, &forward).map_err(refuse)?;
-    let program = &if options.single { program.tolerant(SINGLE) } else { Some(program.clone()) }.ok_or_else(|| {
+    let program = &if options.single { program.tolerant(IKFAST.single) } else { Some(program.clone()) }.ok_or_else(|| {
         let text = "the task has more numbers than the joints can reach, and no target that is rounded to single precision is consistent; omit --float, so that \
                     callers use double precision";
         refuse(text.to_owned())

@@ -39,11 +39,5 @@ pub use program::{Block, Case, Checks, Condition, Described, Guard, Input, Pivot
 pub use rule::{Following, ParameterRule, Rule};
 pub use tips::{GivenJoint, TipTask};
 
-pub use groebot_runtime::tolerances::{
-    ACCEPT, ADRIFT, ALIKE, ALONE, ALONG, APART, APPROACHES, ARRIVED, ASIDE, ASTRAY, BESIDE, BLUR, CHORD, CONSISTENT,
-    DAMPINGS, DISTINCT, DOUBLINGS, FARTHER, FARTHEST, GRAZING, INVERSIONS, LEAPS, LEAPT, LEVER, MEETING, MERGE, MILD,
-    NARROWS, NEAR, OVERSHOT, PACES, PATIENCE, PIVOT, PLAIN, POLISH_STEPS, POLISHED, REGULAR, RETURNS, ROUNDING, SHORT,
-    SINGULAR, STEEP, STIFF, TINY, TURN, TWIN, TWIN_AT, TWIN_WITHIN,
-};
 /// The maximum number of joints of a program.
 pub const MAX_JOINTS: usize = groebot_algebra::limits::SOLVER_JOINTS;

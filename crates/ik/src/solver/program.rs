@@ -21,7 +21,7 @@ pub struct Input {
     pub unit: Unit,
 }
 
-/// A condition on the inputs. Deviations within [`super::CONSISTENT`] are removed before the target is used; larger
+/// A condition on the inputs. Deviations within `ACCEPTANCE.input` of the run time are removed before the target is used; larger
 /// ones are an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -41,7 +41,7 @@ pub struct Guard {
     pub value: Operand,
     /// The size that the value is compared with.
     pub scale: Operand,
-    /// True: run when `|value| <= NEAR * scale`. False: run when `|value| > TINY * scale`.
+    /// True: run when `|value| <= STRATA.near * scale`. False: run when `|value| > STRATA.denominator * scale`.
     pub near: bool,
 }
 
@@ -63,7 +63,7 @@ pub enum Step {
         /// Index of the unknown.
         unknown: usize,
         /// Polynomials, coefficients from degree 0 up. The first whose leading coefficient is not negligible
-        /// ([`super::PIVOT`]) is solved; the last is used if all others are negligible.
+        /// (`ROOTS.pivot`) is solved; the last is used if all others are negligible.
         polynomials: Vec<Vec<Operand>>,
         /// The unknown's typical size, which distinguishes a tangency from a miss. `None` is the length scale if the
         /// unknown is a joint's value itself, else one. A larger size proposes more double roots.

@@ -12,12 +12,10 @@ use crate::solver::{
     Block, Case, Checks, Guard, Input, Joint, JointValue, Operand, ParameterRule, Preference, Program, Rule, Step,
     TipTask, Unit,
 };
+use crate::tolerances::DERIVED_STRATA;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Ring, Style};
 use groebot_algebra::poly::{Expression, Order};
-
-/// The scale of a program whose equations contain no constants. Its parameters alone then determine the scale.
-const SMALLEST_SCALE: f64 = 1e-12;
 
 /// Compiles the solver of `system` from its proved tree.
 ///
@@ -281,7 +279,7 @@ impl<'a> Compiler<'a> {
             scale = scale.max(numbers(&ring, &f));
         }
         checks.code = assembler.take();
-        Ok((checks, scale.to_f64().unwrap_or(0.0).max(SMALLEST_SCALE)))
+        Ok((checks, scale.to_f64().unwrap_or(0.0).max(DERIVED_STRATA.least_scale)))
     }
 
     fn is_circle(&self, ring: &Unknowns, f: &Poly) -> bool {

@@ -11,13 +11,6 @@ use groebot_robot::kinematics::oracle::{Oracle, Unknown};
 use groebot_robot::kinematics::{Chain, JointKind, Solution, Target, TargetNumber, Task};
 use groebot_robot::spatial::{Pose, angle, vertical};
 
-/// The maximum error of a solution: a fraction of the reach, and an angle \[rad\].
-pub(super) const RESIDUAL: f64 = 1e-11;
-/// The error below which an ordinary joint vector is certainly a solution.
-pub(super) const EXACT: f64 = 1e-13;
-/// Same as [`EXACT`], but next to a singular configuration. There, a target at a distance of 1e-13 may have other solutions, or a self-motion.
-pub(super) const SHARP: f64 = 1e-14;
-
 /// The chain, its task, and which of its joints are unknown.
 pub(super) struct Model<'a> {
     pub chain: &'a Chain,

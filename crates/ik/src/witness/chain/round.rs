@@ -1,5 +1,6 @@
 //! Round targets, which users try first: joint values in multiples of 15 or 30 degrees, and axis-aligned orientations at positions on a grid.
 
+use crate::tolerances::WITNESS;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
@@ -10,8 +11,6 @@ use groebot_robot::spatial::Pose;
 
 /// The approximate width of the grid as a fraction of the reach. It is rounded to 1, 2 or 5 times a power of ten.
 const FINENESS: f64 = 0.05;
-/// The tolerance within which entries of an orientation, or fractions of the reach, are rounded to integers.
-const ROUNDING: f64 = 1e-14;
 
 /// The source of round targets for one chain.
 pub(super) struct RoundTargets<'a> {
@@ -62,7 +61,7 @@ impl<'a> RoundTargets<'a> {
         let lengths = self.model.lengths();
         for (index, value) in inputs.iter_mut().enumerate() {
             let unit = if index < lengths { self.model.length } else { 1.0 };
-            let is_round = (*value / unit - (*value / unit).round()).abs() <= ROUNDING;
+            let is_round = (*value / unit - (*value / unit).round()).abs() <= WITNESS.rounding;
             *value = if is_round { (*value / unit).round() * unit } else { *value };
         }
         inputs.extend(self.model.chain.given_inputs().iter().map(|&joint| q[joint]));
