@@ -1,12 +1,13 @@
 //! Newton steps from a candidate of a nearby mechanism's formulas to the solution next to it: [`Problem::approached`], and [`Ways`] for several candidates.
 
 use crate::counters::{Event, Phase};
+use crate::effort::{APPROACHES, TURN};
 use crate::lanes::Lanes;
 use crate::mechanism::{Abreast, Joint, Joints, Mechanism, Parameters, Places, Shorts};
 use crate::number::{Number, With};
 use crate::problem::{Fit, Problem, everywhere, fit};
 use crate::storage::Array;
-use crate::tolerances::{APPROACHES, CHORD, PLAIN, ROUNDING, TURN};
+use crate::tolerances::{ACCEPTANCE, PIVOTS, POLISHING};
 use crate::trigonometry::{cosine_and_sine, in_turn};
 
 /// The end of the Newton steps from a candidate.
@@ -40,13 +41,13 @@ impl<M: Mechanism> Problem<'_, M> {
             let missed = missed_by::<M, f64>(&here.value, &here.size);
             first = first.or(Some((missed, normal.pivot)));
             let mut value = here.value;
-            for second in 0..if missed > CHORD { 1 } else { 2 } {
+            for second in 0..if missed > POLISHING.chord { 1 } else { 2 } {
                 if second > 0 {
                     value = self.mechanism.short(self.parameters, &at).value;
                 }
                 self.step_back(&normal.step(&value), &mut at, &mut end)?;
                 let fit = self.measure_at(&at, &end);
-                if fit.relative < ROUNDING {
+                if fit.relative < ACCEPTANCE.rounding {
                     let (missed, pivot) = first?;
                     return fit.accepted.then_some(Approach { end, fit, missed, pivot });
                 }
@@ -136,7 +137,7 @@ impl<M: Mechanism, N: Number> Normal<M, N> {
         let rows = square.as_mut();
         for k in 0..joints {
             let pivot = rows[k].as_ref()[k];
-            *sound = sound.where_below(size * PLAIN - pivot, 0.0);
+            *sound = sound.where_below(size * PIVOTS.regular - pivot, 0.0);
             least = least.lesser(pivot);
             inverse.as_mut()[k] = N::of(1.0) / pivot;
             for i in k + 1..joints {
@@ -238,7 +239,7 @@ impl<M: Mechanism> Ways<M> {
                 return;
             }
             // The first candidate is representative of all.
-            if self.missed.as_ref()[0] > CHORD {
+            if self.missed.as_ref()[0] > POLISHING.chord {
                 continue;
             }
             let value = problem.mechanism.short(p, &walkers.here).value;
@@ -270,7 +271,7 @@ impl<M: Mechanism> Ways<M> {
             (self.residual.as_mut()[k], self.relative.as_mut()[k]) = (residual.0[lane], relative.0[lane]);
             self.sound.as_mut()[k] = walkers.sound.0[lane];
             let is_sound = walkers.sound.0[lane] > 0.0;
-            walkers.are_done[lane] = !is_sound || relative.0[lane] < ROUNDING;
+            walkers.are_done[lane] = !is_sound || relative.0[lane] < ACCEPTANCE.rounding;
         }
         walkers.are_done.iter().all(|is_done| *is_done)
     }

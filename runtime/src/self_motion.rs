@@ -2,13 +2,12 @@
 
 use core::f64::consts::TAU;
 
+use crate::effort::{ALONG, ASIDE, DOUBLINGS, LEAPT, NARROWS, PACES, RETURNS};
 use crate::joints::{beyond, differences, is_in, moved, stepped};
 use crate::mechanism::{Equations, Facts, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::Array;
-use crate::tolerances::{
-    ALONG, ARRIVED, ASIDE, ASTRAY, DAMPINGS, DOUBLINGS, LEAPT, NARROWS, PACES, REGULAR, RETURNS, ROUNDING, SINGULAR,
-};
+use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS, POLISHING, SELF_MOTIONS};
 
 impl<M: Mechanism> Problem<'_, M> {
     /// Whether the equations also hold, within `bound` or rounding, when the joints `free` are moved and the others follow. One direction suffices, because in
@@ -21,11 +20,12 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// Same as [`Problem::lies_on_self_motion`] within rounding, without self-motions that cover only a small part of the circle.
     pub fn lies_on_long_self_motion(&mut self, q: &Joints<M>, free: u32) -> bool {
-        self.regularity(q) <= REGULAR && self.leads_far_aside(q, free)
+        self.regularity(q) <= PIVOTS.regular && self.leads_far_aside(q, free)
     }
 
     fn leads_far_aside(&mut self, q: &Joints<M>, free: u32) -> bool {
-        !self.steps.are_spent() && [ASIDE, -ASIDE].iter().any(|way| self.leads_aside(q, free, *way, ROUNDING))
+        !self.steps.are_spent()
+            && [ASIDE, -ASIDE].iter().any(|way| self.leads_aside(q, free, *way, ACCEPTANCE.rounding))
     }
 
     /// A joint that alone parametrises a self-motion, as a set. Of the joints that some case frees, it is the one found first. If the formulas are those of a
@@ -53,15 +53,16 @@ impl<M: Mechanism> Problem<'_, M> {
     /// Whether joint values next to `q` reach the target and are on a self-motion of one of the joints `free`.
     pub fn has_member(&mut self, q: &Joints<M>, free: u32) -> bool {
         let (q, fit) = self.polished(q.clone(), 0);
-        fit.accepted && (0..self.joints()).any(|i| is_in(free, i) && self.lies_on_self_motion(&q, 1 << i, ROUNDING))
+        fit.accepted
+            && (0..self.joints()).any(|i| is_in(free, i) && self.lies_on_self_motion(&q, 1 << i, ACCEPTANCE.rounding))
     }
 
     fn leads_to_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64, regularity: f64) -> bool {
-        let bound = f64::max(bound, ROUNDING);
-        if regularity > REGULAR || self.steps.are_spent() {
+        let bound = f64::max(bound, ACCEPTANCE.rounding);
+        if regularity > PIVOTS.regular || self.steps.are_spent() {
             return false;
         }
-        let narrows = if bound > ROUNDING || regularity > SINGULAR { 1 } else { NARROWS };
+        let narrows = if bound > ACCEPTANCE.rounding || regularity > PIVOTS.singular { 1 } else { NARROWS };
         // If the last displacement but one fails, longer ones fail too.
         let may =
             narrows == 1 || [1.0, -1.0].iter().any(|side| self.sets_out(q, free, side * narrowed(NARROWS - 2), bound));
@@ -125,7 +126,7 @@ impl<M: Mechanism> Problem<'_, M> {
         let joint = free.trailing_zeros() as usize;
         let ahead: Equations<M> = Array::by(self.facts().size_of.len(), |i| derivatives.as_ref()[i].as_ref()[joint]);
         let triangle = self.triangle_of(&derivatives, &ahead, 0.0, free);
-        let back = if triangle.regularity() > REGULAR { triangle.substituted() } else { None }?;
+        let back = if triangle.regularity() > PIVOTS.regular { triangle.substituted() } else { None }?;
         Some(Array::by(self.joints(), |i| if i == joint { 1.0 } else { -back.as_ref()[i] }))
     }
 
@@ -168,7 +169,7 @@ impl<M: Mechanism> Problem<'_, M> {
     fn is_straight(&mut self, a: &Joints<M>, way: &Joints<M>) -> bool {
         [0.5, 0.25, 0.75].iter().all(|share| {
             let at = Array::by(self.joints(), |i| a.as_ref()[i] + share * way.as_ref()[i]);
-            self.measure(&at).relative <= ROUNDING
+            self.measure(&at).relative <= ACCEPTANCE.rounding
         })
     }
 
@@ -199,7 +200,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether cubic Hermite curves approximate the self-motion between two of its places. Half-way along each curve, the correction of the other joints must
-    /// be at most [`ARRIVED`]. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their
+    /// be at most `MERGING.apart`. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their
     /// error is of fourth order in their length.)
     fn is_interpolated(&mut self, [first, last]: [Knot<M>; 2], joint: usize) -> bool {
         let (facts, free, start) = (self.facts(), 1 << joint, first.q.as_ref()[joint]);
@@ -211,7 +212,7 @@ impl<M: Mechanism> Problem<'_, M> {
             let (mut middle, gone) = (near.half_way(&facts, far), 0.5 * (near.gone + far.gone));
             middle.as_mut()[joint] = facts.wrapped(joint, start + gone);
             let Some((q, _)) = self.corrected(middle.clone(), free) else { return false };
-            if facts.farthest(q.as_ref(), middle.as_ref()) <= ARRIVED {
+            if facts.farthest(q.as_ref(), middle.as_ref()) <= MERGING.apart {
                 count -= 1;
                 at = ends[count].take();
             } else if count < DIVISIONS {
@@ -269,20 +270,20 @@ impl<M: Mechanism> Problem<'_, M> {
     fn corrected(&mut self, ahead: Joints<M>, free: u32) -> Option<End<M>> {
         let mut end = self.measured(ahead);
         for _ in 0..RETURNS {
-            if end.1.relative <= ASTRAY || self.steps.are_spent() {
+            if end.1.relative <= SELF_MOTIONS.curve || self.steps.are_spent() {
                 break;
             }
-            let step = self.newton_step(&end.0, DAMPINGS[1], free)?;
+            let step = self.newton_step(&end.0, POLISHING.dampings[1], free)?;
             end = self.measured(stepped::<M>(&self.facts(), &end.0, &step));
         }
-        (end.1.relative <= ASTRAY).then_some(end)
+        (end.1.relative <= SELF_MOTIONS.curve).then_some(end)
     }
 
     /// Whether joint values next to a member of a self-motion are on that self-motion: the equations hold half-way too.
     fn is_there(&mut self, end: End<M>, b: &Joints<M>, free: u32) -> bool {
         let (q, fit) = self.polish(end, free);
-        let is_close = fit.accepted && self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED);
-        is_close && self.are_joined(&q, b, ROUNDING, free)
+        let is_close = fit.accepted && self.facts().is_within(q.as_ref(), b.as_ref(), MERGING.apart);
+        is_close && self.are_joined(&q, b, ACCEPTANCE.rounding, free)
     }
 }
 

@@ -2,11 +2,10 @@
 
 use crate::joints::{beyond, differences};
 use crate::mechanism::{Facts, Found, Joints, Mechanism};
+use crate::tolerances::MERGING;
 
 /// Maximal number of stored starts.
 const ROOM: usize = 32;
-/// A start within this distance of a step is on the same curve (rad, or relative to the length scale).
-const PASSED: f64 = 1e-2;
 
 /// Starts of walks: the candidates, and joint values on the curves next to them.
 pub(crate) struct Starts<M: Mechanism> {
@@ -36,7 +35,7 @@ impl<M: Mechanism> Starts<M> {
                 let share = product(aside.as_ref(), way.as_ref()) / product(way.as_ref(), way.as_ref());
                 let share = share.clamp(0.0, 1.0);
                 let nearest = beyond::<M>(facts, to, from, -share);
-                facts.farthest(q.as_ref(), nearest.as_ref()) <= PASSED
+                facts.farthest(q.as_ref(), nearest.as_ref()) <= MERGING.known
             };
             if start.as_ref().is_some_and(is_passed) {
                 *start = None;

@@ -39,7 +39,7 @@ GB_INLINE void GB_(eliminate)(GB_(normal) *normal, T *sound)
     }
     for (int k = 0; k < GB_JOINTS; k++) {
         const T pivot = normal->square[k][k];
-        *sound = GB_(where_below)(*sound, size * GB_PLAIN - pivot, R(0.0));
+        *sound = GB_(where_below)(*sound, size * GB_PIVOTS_REGULAR_STEPS - pivot, R(0.0));
         least = GB_(lesser)(least, pivot);
         normal->inverse[k] = R(1.0) / pivot;
         for (int i = k + 1; i < GB_JOINTS; i++) {

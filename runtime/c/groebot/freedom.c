@@ -31,7 +31,7 @@ static bool gb_across(const gb_problem *problem, const gb_real *rows, const gb_r
 static void gb_bend(const gb_problem *problem, const gb_real *q, const gb_real *way, gb_real *bends)
 {
     const gb_mechanism *m = problem->mechanism;
-    const gb_real width = GB_BENT / gb_larger(gb_longest(m, way), R(1.0));
+    const gb_real width = GB_POLISHING_DIFFERENCE / gb_larger(gb_longest(m, way), R(1.0));
     gb_real back[GB_MAX_JOINTS], moved[GB_MAX_JOINTS], behind[GB_MAX_EQUATIONS * GB_MAX_JOINTS], values[GB_MAX_EQUATIONS];
     for (size_t i = 0; i < m->joints; i++) {
         back[i] = -width * way[i];
@@ -64,7 +64,7 @@ static bool gb_freeing_step(const gb_problem *problem, const gb_real *q, uint32_
         return false;
     }
     gb_bend(problem, q, way, bends);
-    gb_make_shares(problem, q, GB_STIFF, free, &nearer);
+    gb_make_shares(problem, q, GB_PIVOTS_REGULAR_STEPS, free, &nearer);
     for (size_t i = 0; i <= m->joints; i++) {
         gb_real *filled = gb_column(&triangle, i);
         if (i < m->joints && !gb_is_in(free, i) && !gb_across(problem, rows, bends, i, free, filled, way)) {

@@ -3,7 +3,7 @@
 /* The least and the greatest number of turns that bring a joint within its limits. The first is greater when none does. */
 static void gb_turns_within(const gb_joint *joint, gb_real value, const gb_real *limit, gb_real *first, gb_real *last)
 {
-    const gb_real low = limit[0] - GB_SLACK - value, high = limit[1] + GB_SLACK - value;
+    const gb_real low = limit[0] - GB_ACCEPTANCE_INPUT_LIMITS - value, high = limit[1] + GB_ACCEPTANCE_INPUT_LIMITS - value;
     const bool is_within = low <= R(0.0) && R(0.0) <= high;
     *first = joint->is_angle ? gb_ceiling(low / GB_TAU) : R(0.0);
     *last = joint->is_angle ? gb_floor(high / GB_TAU) : is_within ? R(0.0) : R(-1.0);

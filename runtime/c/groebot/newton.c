@@ -299,7 +299,7 @@ static bool gb_return(const gb_problem *problem, gb_end *end, gb_real relative, 
 static bool gb_come_back(const gb_problem *problem, gb_end *end, gb_real enough, uint32_t held)
 {
     gb_real back[GB_MAX_JOINTS];
-    for (int i = 0; i < GB_RETURNS && gb_newton_step(problem, end->q, GB_STIFF, held, back); i++) {
+    for (int i = 0; i < GB_RETURNS && gb_newton_step(problem, end->q, GB_PIVOTS_REGULAR_STEPS, held, back); i++) {
         gb_stepped(problem->mechanism, end->q, back, end->q);
         end->fit = gb_measure(problem, end->q);
         if (end->fit.relative < enough) {
@@ -341,8 +341,8 @@ static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
 {
     const gb_mechanism *m = problem->mechanism;
     const gb_real relative = end->fit.relative;
-    const bool leaps = gb_is_between(relative, GB_ROUNDING, GB_NEAR);
-    const gb_real enough = leaps ? R(0.5) * relative : relative, last = held == 0 ? GB_ALONE : GB_ROUNDING;
+    const bool leaps = gb_is_between(relative, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR);
+    const gb_real enough = leaps ? R(0.5) * relative : relative, last = held == 0 ? GB_SELF_MOTIONS_MEMBER : GB_ACCEPTANCE_ROUNDING;
     bool has_fallen = false;
     gb_end fallen, next, other;
     gb_real step[GB_MAX_JOINTS];
@@ -361,7 +361,7 @@ static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
             *end = next;
             return true;
         }
-        if (is_plain && relative < GB_ROUNDING && gb_longest(m, step) <= GB_SHORT) {
+        if (is_plain && relative < GB_ACCEPTANCE_ROUNDING && gb_longest(m, step) <= GB_POLISHING_STEP) {
             return false;
         }
         if (is_plain && relative > last && gb_is_regular(&triangle)) {
@@ -397,15 +397,15 @@ static void gb_polish(const gb_problem *problem, gb_end *end, uint32_t held)
     for (int i = 0; i < GB_POLISH_STEPS; i++) {
         const gb_end before = *end;
         gb_real step[GB_MAX_JOINTS];
-        const bool is_done = before.fit.relative <= GB_POLISHED || slow == GB_PATIENCE || gb_are_spent(problem);
+        const bool is_done = before.fit.relative <= GB_POLISHING_DONE || slow == GB_PATIENCE || gb_are_spent(problem);
         if (is_done || !gb_improve(problem, end, held)) {
             return;
         }
-        slow = end->fit.relative <= gb_larger(GB_ROUNDING, R(0.5) * before.fit.relative) ? 0 : slow + 1;
+        slow = end->fit.relative <= gb_larger(GB_ACCEPTANCE_ROUNDING, R(0.5) * before.fit.relative) ? 0 : slow + 1;
         for (size_t k = 0; k < problem->mechanism->joints; k++) {
             step[k] = end->q[k] - before.q[k];
         }
-        if (end->fit.relative < GB_ROUNDING && gb_longest(problem->mechanism, step) <= GB_SHORT) {
+        if (end->fit.relative < GB_ACCEPTANCE_ROUNDING && gb_longest(problem->mechanism, step) <= GB_POLISHING_STEP) {
             return;
         }
     }
@@ -423,7 +423,7 @@ static bool gb_are_joined(const gb_problem *problem, const gb_real *a, const gb_
 {
     const gb_mechanism *m = problem->mechanism;
     gb_real middle[GB_MAX_JOINTS], back[GB_MAX_JOINTS];
-    if (gb_farthest(m, a, b) > GB_BLUR) {
+    if (gb_farthest(m, a, b) > GB_MERGING_BLUR) {
         return false;
     }
     gb_beyond(m, a, b, R(-0.5), middle);
@@ -432,7 +432,7 @@ static bool gb_are_joined(const gb_problem *problem, const gb_real *a, const gb_
         if (fit.relative <= bound) {
             return true;
         }
-        if (!gb_newton_step(problem, middle, GB_STIFF, held, back)) {
+        if (!gb_newton_step(problem, middle, GB_PIVOTS_REGULAR_STEPS, held, back)) {
             return false;
         }
         gb_stepped(m, middle, back, middle);
@@ -488,8 +488,8 @@ static bool gb_fall(const gb_problem *problem, gb_real *q, gb_real *squares, uin
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most)
 {
     gb_real squares = gb_squares(problem, q), longest = INFINITY;
-    for (int i = 0; i < GB_FITTING_STEPS && longest > GB_SHORT; i++) {
-        if (squares <= GB_POLISHED * GB_POLISHED || gb_are_spent(problem) || !gb_fall(problem, q, &squares, held, most, &longest)) {
+    for (int i = 0; i < GB_FITTING_STEPS && longest > GB_POLISHING_STEP; i++) {
+        if (squares <= GB_POLISHING_DONE * GB_POLISHING_DONE || gb_are_spent(problem) || !gb_fall(problem, q, &squares, held, most, &longest)) {
             break;
         }
     }

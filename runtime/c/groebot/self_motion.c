@@ -66,11 +66,11 @@ static gb_real gb_narrowed(int narrow)
 /* Whether the joints can move from q along a self-motion, given the regularity at q. */
 static bool gb_leads_to_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound, gb_real regularity)
 {
-    bound = gb_larger(GB_ROUNDING, bound);
-    if (regularity > GB_REGULAR || gb_are_spent(problem)) {
+    bound = gb_larger(GB_ACCEPTANCE_ROUNDING, bound);
+    if (regularity > GB_PIVOTS_REGULAR || gb_are_spent(problem)) {
         return false;
     }
-    const int narrows = bound > GB_ROUNDING || regularity > GB_SINGULAR ? 1 : GB_NARROWS;
+    const int narrows = bound > GB_ACCEPTANCE_ROUNDING || regularity > GB_PIVOTS_SINGULAR ? 1 : GB_NARROWS;
     /* If the last displacement but one fails, longer ones fail too. */
     const gb_real first = gb_narrowed(GB_NARROWS - 2);
     if (narrows > 1 && !gb_sets_out(problem, q, free, first, bound) && !gb_sets_out(problem, q, free, -first, bound)) {
@@ -96,13 +96,13 @@ GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real 
 static bool gb_leads_far_aside(const gb_problem *problem, const gb_real *q, uint32_t free)
 {
     return !gb_are_spent(problem)
-        && (gb_leads_aside(problem, q, free, GB_ASIDE, GB_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ROUNDING));
+        && (gb_leads_aside(problem, q, free, GB_ASIDE, GB_ACCEPTANCE_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ACCEPTANCE_ROUNDING));
 }
 
 /* Same as gb_lies_on_self_motion within rounding, without self-motions that cover only a small part of the circle. */
 static bool gb_lies_on_long_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free)
 {
-    return gb_regularity(problem, q) <= GB_REGULAR && gb_leads_far_aside(problem, q, free);
+    return gb_regularity(problem, q) <= GB_PIVOTS_REGULAR && gb_leads_far_aside(problem, q, free);
 }
 
 /* Whether a joint may be free: some case frees it, or the formulas are those of a nearby mechanism and free none. */
@@ -155,7 +155,7 @@ GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint3
     gb_copy(end.q, q, joints);
     gb_polish_from(problem, &end, 0);
     for (size_t i = 0; end.fit.accepted && i < joints; i++) {
-        if (gb_is_in(free, i) && gb_lies_on_self_motion(problem, end.q, (uint32_t)1 << i, GB_ROUNDING)) {
+        if (gb_is_in(free, i) && gb_lies_on_self_motion(problem, end.q, (uint32_t)1 << i, GB_ACCEPTANCE_ROUNDING)) {
             return true;
         }
     }
@@ -196,7 +196,7 @@ static bool gb_find_tangent(const gb_problem *problem, const gb_real *q, uint32_
         slopes.values[i] = slopes.rows[i * m->joints + joint];
     }
     gb_triangle_of(problem, &slopes, R(0.0), free, &triangle);
-    if (!(gb_regularity_in(&triangle) > GB_REGULAR && gb_substitute(&triangle, tangent))) {
+    if (!(gb_regularity_in(&triangle) > GB_PIVOTS_REGULAR && gb_substitute(&triangle, tangent))) {
         return false;
     }
     for (size_t i = 0; i < m->joints; i++) {
@@ -214,7 +214,7 @@ static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb
         for (size_t i = 0; i < problem->mechanism->joints; i++) {
             at[i] = a[i] + shares[k] * way[i];
         }
-        if (!(gb_measure(problem, at).relative <= GB_ROUNDING)) {
+        if (!(gb_measure(problem, at).relative <= GB_ACCEPTANCE_ROUNDING)) {
             return false;
         }
     }
@@ -225,8 +225,8 @@ static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb
 static bool gb_is_there(const gb_problem *problem, gb_end *end, const gb_real *b, uint32_t free)
 {
     gb_polish(problem, end, free);
-    const bool is_close = end->fit.accepted && gb_is_close(problem->mechanism, end->q, b, 0, GB_ARRIVED);
-    return is_close && gb_are_joined(problem, end->q, b, GB_ROUNDING, free);
+    const bool is_close = end->fit.accepted && gb_is_close(problem->mechanism, end->q, b, 0, GB_MERGING_APART_MEMBERS);
+    return is_close && gb_are_joined(problem, end->q, b, GB_ACCEPTANCE_ROUNDING, free);
 }
 
 /* The largest displacement of a free joint on `way`. */
@@ -244,7 +244,7 @@ static bool gb_correct(const gb_problem *problem, gb_end *end, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;
     end->fit = gb_measure(problem, end->q);
-    for (int k = 0; k < GB_RETURNS && !(end->fit.relative <= GB_ASTRAY || gb_are_spent(problem)); k++) {
+    for (int k = 0; k < GB_RETURNS && !(end->fit.relative <= GB_SELF_MOTIONS_CURVE || gb_are_spent(problem)); k++) {
         gb_real step[GB_MAX_JOINTS], next[GB_MAX_JOINTS];
         if (!gb_newton_step(problem, end->q, gb_dampings[1], free, step)) {
             return false;
@@ -253,7 +253,7 @@ static bool gb_correct(const gb_problem *problem, gb_end *end, uint32_t free)
         gb_copy(end->q, next, m->joints);
         end->fit = gb_measure(problem, end->q);
     }
-    return end->fit.relative <= GB_ASTRAY;
+    return end->fit.relative <= GB_SELF_MOTIONS_CURVE;
 }
 
 /* Same as gb_correct, and the result must be near. */
@@ -303,7 +303,7 @@ static void gb_half_way(const gb_mechanism *m, const gb_knot *near, const gb_kno
 #define GB_DIVISIONS 5
 
 /* Whether cubic Hermite curves approximate the self-motion between two of its places. Half-way along each curve, the correction of the other joints must be
- * at most GB_ARRIVED. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their error is
+ * at most GB_MERGING_APART_MEMBERS. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their error is
  * of fourth order in their length.) */
 static bool gb_is_interpolated(const gb_problem *problem, const gb_knot *first, const gb_knot *last, uint32_t free)
 {
@@ -322,7 +322,7 @@ static bool gb_is_interpolated(const gb_problem *problem, const gb_knot *first, 
         if (!gb_correct(problem, &end, free)) {
             return false;
         }
-        if (gb_farthest(m, end.q, middle) <= GB_ARRIVED) {
+        if (gb_farthest(m, end.q, middle) <= GB_MERGING_APART_MEMBERS) {
             at = ends[--count];
         } else if (count < GB_DIVISIONS) {
             gb_knot *knot = &ends[count++];

@@ -96,23 +96,8 @@
 #define GB_MAX_SIZES 8
 #endif
 
-/* The tolerances are those of groebot-runtime's tolerances.rs, where they are documented. */
-#define GB_ACCEPT GB_EITHER(1e-12, 3e-5)
-#define GB_MERGE GB_EITHER(1e-7, 2e-3)
-#define GB_BLUR GB_EITHER(5e-2, 3e-2)
-#define GB_ROUNDING GB_EITHER(1e-14, 5e-6)
-#define GB_POLISHED GB_EITHER(1e-15, 2e-7)
-#define GB_MEETING GB_EITHER(1e-5, 1e-2)
-#define GB_TANGENT GB_EITHER(1e-10, 1e-4)
-#define GB_GRAZING GB_EITHER(1e-6, 1e-4)
-#define GB_NEAR GB_EITHER(1e-3, 1e-2)
-#define GB_OFF R(1e-2)
-#define GB_BESIDE GB_EITHER(1e-7, 1e-2)
-#define GB_TINY R(1e-30)
-#define GB_CONSISTENT GB_EITHER(1e-9, 1e-4)
+/* Numbers and lengths of steps are those of groebot-runtime's effort.rs, where they are documented. */
 #define GB_APPROACHES 3
-#define GB_CHORD R(5e-6)
-#define GB_PLAIN R(1e-6)
 #define GB_STEEP R(400.0)
 #define GB_MILD R(4.0)
 #define GB_TURN R(1e-2)

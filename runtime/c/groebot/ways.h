@@ -41,7 +41,7 @@ GB_INLINE bool gb_write_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker 
     for (size_t lane = 0; lane < GB_STEP; lane++) {
         if (!walker->are_done[lane]) {
             gb_write_one(ways, walker, first, lane);
-            walker->are_done[lane] = !(ways->sound[first + lane] > R(0.0)) || ways->relative[first + lane] < GB_ROUNDING;
+            walker->are_done[lane] = !(ways->sound[first + lane] > R(0.0)) || ways->relative[first + lane] < GB_ACCEPTANCE_ROUNDING;
         }
         are_done &= walker->are_done[lane];
     }
@@ -71,7 +71,7 @@ GB_INLINE bool gb_step_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker *
     if (gb_write_ways(ways, p, walker, first)) {
         return true;
     }
-    if (ways->missed[0] > GB_CHORD) {
+    if (ways->missed[0] > GB_POLISHING_CHORD) {
         return false;
     }
     GB_PAIR(second_step)(p, walker->at, step, &normal);
@@ -131,7 +131,7 @@ static bool gb_lead(gb_sink_1 *c, const gb_ways *ways, size_t k, const gb_real *
     if (c->found[k].free != 0) {
         return false;
     }
-    if (ways->sound[k] > R(0.0) && ways->relative[k] < GB_ROUNDING) {
+    if (ways->sound[k] > R(0.0) && ways->relative[k] < GB_ACCEPTANCE_ROUNDING) {
         gb_follow(ways, k, q, approach);
         return true;
     }

@@ -15,9 +15,8 @@ use super::rigid::Rigid;
 use super::section::Place;
 use super::vector::product;
 use crate::arithmetic::Arithmetic;
+use crate::tolerances::SELF_MOTIONS;
 
-/// Rounding error of the equations on a self-motion.
-const LEVEL: f64 = 1e-13;
 /// Maximal number of steps across the curve from the start of a walk.
 const ROUNDS: usize = 12;
 /// Maximal number of steps across the curve from the end of a step along it.
@@ -71,7 +70,7 @@ impl<'a> Walk<'a> {
                     break;
                 }
             }
-            if level[1] <= LEVEL {
+            if level[1] <= SELF_MOTIONS.member {
                 search.find(self.chain, start.q, self.target);
             } else if self.chain.within > 0.0 && level[0] <= BESIDE * self.chain.within {
                 search.meeting.remember(start.q);
@@ -124,7 +123,7 @@ impl<'a> Walk<'a> {
     /// 11 (1971) 168-174).
     fn change(&self, a: &Place, b: &Place, search: &mut Search) {
         let (mut low, mut high) = (a.section.value, b.section.value);
-        if (low <= 0.0) == (high <= 0.0) || f64::max(low.abs(), high.abs()) <= LEVEL {
+        if (low <= 0.0) == (high <= 0.0) || f64::max(low.abs(), high.abs()) <= SELF_MOTIONS.member {
             return;
         }
         let (mut near, mut far, mut side) = (*a, *b, 0.0);
@@ -153,7 +152,7 @@ impl<'a> Walk<'a> {
     /// Searches for two solutions, or a double one, where the sixth equation has an extremum near zero.
     fn dip(&self, [a, b, c]: [&Place; 3], search: &mut Search) {
         let [low, least, high] = [a, b, c].map(|place| place.section.value);
-        let is_dip = least.abs() < low.abs() && least.abs() < high.abs() && least.abs() > LEVEL;
+        let is_dip = least.abs() < low.abs() && least.abs() < high.abs() && least.abs() > SELF_MOTIONS.member;
         if !is_dip || (low <= 0.0) != (least <= 0.0) || (high <= 0.0) != (least <= 0.0) {
             return;
         }

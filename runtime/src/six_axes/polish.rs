@@ -7,21 +7,16 @@ use super::linear::solve;
 use super::rigid::Rigid;
 use super::vector::{Vector, add, cosines_and_sines, cross, dot, norm, product, scale, size, sub, turn};
 use crate::arithmetic::Arithmetic;
+use crate::tolerances::{PIVOTS, POLISHING, SELF_MOTIONS};
 
 /// Maximal number of Newton steps: at a singular pose each one only halves the residual.
 const STEPS: usize = 40;
-/// A residual below which no further step is tried.
-pub(super) const EXACT: f64 = 2e-15;
-/// A residual below which polishing ends after one step that does not halve it.
-const ROUNDING: f64 = 1e-13;
+/// A residual below which no further step is tried: a pose has more rounding than an equation.
+pub(super) const EXACT: f64 = 2.0 * POLISHING.done;
 /// Maximal number of times that steps are shortened, over all steps.
 const SHORTENED: usize = 12;
 /// A step that moves a joint by more than this is shortened.
 pub(super) const LONGEST: f64 = 0.5;
-/// The sine of a rotation close to half a turn, at which rounding makes the axis inaccurate.
-const NO_AXIS: f64 = 1e-6;
-/// A Jacobian column depends on the columns after it if at most this share of it is orthogonal to them.
-const SINGULAR: f64 = 1e-6;
 
 /// Forward kinematics of a joint vector.
 pub(super) struct Reach {
@@ -48,7 +43,7 @@ impl Reach {
 #[cold]
 fn obtuse(turn: &Vector) -> Vector {
     let sine = Arithmetic::sqrt(dot(turn, turn));
-    if sine > NO_AXIS { scale(turn, (2.0 - sine) / sine) } else { [2.0, 0.0, 0.0] }
+    if sine > PIVOTS.regular { scale(turn, (2.0 - sine) / sine) } else { [2.0, 0.0, 0.0] }
 }
 
 /// A joint vector and its pose error.
@@ -110,7 +105,7 @@ impl Chain {
                 break;
             }
             at = next;
-            if at.residual > 0.5 * known && at.residual <= ROUNDING {
+            if at.residual > 0.5 * known && at.residual <= SELF_MOTIONS.member {
                 break;
             }
         }
@@ -131,7 +126,7 @@ impl Chain {
         let mut share = 1.0;
         loop {
             let next = self.trial(from_fn(|joint| at.q[joint] + share * step[joint]), target);
-            if next.residual < at.residual || at.residual <= ROUNDING || *shortened >= SHORTENED {
+            if next.residual < at.residual || at.residual <= SELF_MOTIONS.member || *shortened >= SHORTENED {
                 return next;
             }
             (share, *shortened) = (0.25 * share, *shortened + 1);
@@ -183,7 +178,7 @@ impl Chain {
                 }
             }
             let left = norm(&column);
-            free[joint] = left <= SINGULAR * whole;
+            free[joint] = left <= PIVOTS.regular * whole;
             if !free[joint] {
                 kept[count] = column.map(|entry| entry / left);
                 count += 1;

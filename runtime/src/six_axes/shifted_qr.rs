@@ -8,11 +8,10 @@ use core::array::from_fn;
 use super::hessenberg::Hessenberg;
 use super::pencil::{Matrix, SIZE};
 use crate::arithmetic::Arithmetic;
+use crate::tolerances::ROOTS;
 
 /// Maximal number of QR steps for one deflation; every tenth has an exceptional shift.
 const MAX_STEPS: usize = 60;
-/// A column with a smaller squared length counts as zero.
-const FAINT: f64 = 1e-280;
 
 /// An eigenvalue of a real matrix.
 #[derive(Clone, Copy, Debug)]
@@ -134,7 +133,7 @@ impl Window<'_> {
     fn reflect<const N: usize>(&mut self, top: usize, column: [f64; N]) {
         let square = column.iter().map(|entry| entry * entry).sum::<f64>();
         let length = Arithmetic::sqrt(square).copysign(column[0]);
-        if square >= FAINT {
+        if square >= ROOTS.zero {
             let (head, share) = (column[0] + length, 1.0 + column[0] / length);
             let u: [f64; N] = from_fn(|k| if k == 0 { 1.0 } else { column[k] / head });
             let w = u.map(|entry| entry * share);

@@ -61,7 +61,7 @@ static void gb_six_remember(gb_six_list *list, const gb_real *q)
         return;
     }
     for (size_t k = 0; k < list->count; k++) {
-        if (gb_six_is_within(list->list[k], q, ways, GB_SIX_ALIKE)) {
+        if (gb_six_is_within(list->list[k], q, ways, GB_MERGING_KNOWN)) {
             return;
         }
     }
@@ -83,7 +83,7 @@ static void gb_six_lose(gb_six_search *search, const gb_real *q)
 static void gb_six_keep(gb_six_distinct *answers, const gb_real *q, gb_real residual, const bool *slides)
 {
     size_t at = 0;
-    while (at < answers->count && !gb_six_is_within(answers->list[at], q, slides, GB_SIX_MERGE)) {
+    while (at < answers->count && !gb_six_is_within(answers->list[at], q, slides, GB_MERGING_JOINTS)) {
         at++;
     }
     if (at == GB_SIX_KEPT || (at < answers->count && !(residual < answers->residual[at]))) {
@@ -110,7 +110,7 @@ static GB_COLD void gb_six_displace(const gb_chain *chain, const gb_real *q, gb_
 {
     bool is_new = !gb_six_is_member(chain, q);
     for (size_t k = 0; k < answers->count && is_new; k++) {
-        is_new = !gb_six_is_within(answers->list[k], q, chain->slides, GB_SIX_MERGE);
+        is_new = !gb_six_is_within(answers->list[k], q, chain->slides, GB_MERGING_JOINTS);
     }
     for (size_t k = 0; k < answers->count && is_new; k++) {
         if (gb_six_is_member(chain, answers->list[k])) {
@@ -146,11 +146,11 @@ static void gb_six_find(const gb_chain *chain, const gb_rigid *target, const gb_
     memcpy(q, from, sizeof q);
     const gb_real residual = gb_six_polish(chain, q, target, &start);
     gb_six_wrap(q, chain->slides);
-    if (!(residual <= GB_SIX_ACCEPT)) {
+    if (!(residual <= GB_ACCEPTANCE_RESIDUAL_SIX)) {
         return;
     }
     for (size_t k = 0; k < search->answers.count; k++) {
-        if (gb_six_is_within(search->answers.list[k], q, chain->slides, GB_SIX_APART)) {
+        if (gb_six_is_within(search->answers.list[k], q, chain->slides, GB_MERGING_APART)) {
             return;
         }
     }

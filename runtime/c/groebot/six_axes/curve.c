@@ -50,7 +50,7 @@ static void gb_six_way(const gb_real *from, const gb_real *to, gb_real *way)
 static void gb_six_change(const gb_six_walk *walk, const gb_six_point *a, const gb_six_point *b)
 {
     gb_real low = a->value, high = b->value;
-    if ((low <= R(0.0)) == (high <= R(0.0)) || gb_larger(gb_magnitude(low), gb_magnitude(high)) <= GB_SIX_LEVEL) {
+    if ((low <= R(0.0)) == (high <= R(0.0)) || gb_larger(gb_magnitude(low), gb_magnitude(high)) <= GB_SELF_MOTIONS_MEMBER_SIX) {
         return;
     }
     gb_six_point near = *a, far = *b;
@@ -85,7 +85,7 @@ static void gb_six_change(const gb_six_walk *walk, const gb_six_point *a, const 
 static void gb_six_dip(const gb_six_walk *walk, const gb_six_point *a, const gb_six_point *b, const gb_six_point *c)
 {
     const gb_real low = a->value, least = b->value, high = c->value, size = gb_magnitude(least);
-    if (!(size < gb_magnitude(low) && size < gb_magnitude(high) && size > GB_SIX_LEVEL) || (low <= R(0.0)) != (least <= R(0.0))
+    if (!(size < gb_magnitude(low) && size < gb_magnitude(high) && size > GB_SELF_MOTIONS_MEMBER_SIX) || (low <= R(0.0)) != (least <= R(0.0))
         || (high <= R(0.0)) != (least <= R(0.0))) {
         return;
     }
@@ -177,7 +177,7 @@ static void gb_six_run_walk(gb_six_walk *walk)
             }
             gb_six_leads_home(walk, &home, level);
         }
-        if (level[1] <= GB_SIX_LEVEL) {
+        if (level[1] <= GB_SELF_MOTIONS_MEMBER_SIX) {
             gb_six_find(walk->chain, walk->target, start->q, walk->search);
         } else if (walk->chain->within > R(0.0) && level[0] <= GB_SIX_NEXT * walk->chain->within) {
             gb_six_remember(&walk->search->meeting, start->q);

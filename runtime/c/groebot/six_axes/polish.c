@@ -63,7 +63,7 @@ static GB_COLD void gb_six_make_obtuse(gb_real *turn)
 {
     const gb_real sine = gb_square_root(gb_six_dot(turn, turn));
     for (int k = 0; k < 3; k++) {
-        turn[k] = sine > GB_SIX_NO_AXIS ? turn[k] * ((R(2.0) - sine) / sine) : (k == 0 ? R(2.0) : R(0.0));
+        turn[k] = sine > GB_PIVOTS_REGULAR_SIX ? turn[k] * ((R(2.0) - sine) / sine) : (k == 0 ? R(2.0) : R(0.0));
     }
 }
 
@@ -178,7 +178,7 @@ static void gb_six_follow_step(const gb_chain *chain, const gb_six_trial *at, co
             next->q[joint] = at->q[joint] + share * step[joint];
         }
         gb_six_try(chain, target, next);
-        if (next->residual < at->residual || at->residual <= GB_SIX_ROUNDING || *shortened >= GB_SIX_SHORTENED) {
+        if (next->residual < at->residual || at->residual <= GB_SELF_MOTIONS_MEMBER_SIX || *shortened >= GB_SIX_SHORTENED) {
             return;
         }
         share = R(0.25) * share;
@@ -207,7 +207,7 @@ static gb_real gb_six_polish(const gb_chain *chain, gb_real *q, const gb_rigid *
         gb_six_trial *const other = at;
         at = next;
         next = other;
-        if (at->residual > R(0.5) * known && at->residual <= GB_SIX_ROUNDING) {
+        if (at->residual > R(0.5) * known && at->residual <= GB_SELF_MOTIONS_MEMBER_SIX) {
             break;
         }
     }
@@ -235,7 +235,7 @@ static void gb_six_find_free(const gb_chain *chain, const gb_real *q, bool *is_f
             }
         }
         const gb_real left = gb_six_norm(column);
-        is_free[joint] = left <= GB_SIX_SINGULAR * whole;
+        is_free[joint] = left <= GB_PIVOTS_REGULAR_COLUMNS * whole;
         if (!is_free[joint]) {
             for (int k = 0; k < 6; k++) {
                 kept[count][k] = column[k] / left;
