@@ -310,7 +310,8 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Whether two solutions are one: members of one self-motion, one singular configuration, or within `MERGING.joints` without the joints that are free in either.
+    /// Whether two solutions are one: members of one self-motion, one singular configuration, or within `MERGING.joints` without the joints that are free in
+    /// either.
     fn is_one(&mut self, index: usize, b: &Solution<M>) -> bool {
         let Answers { problem, out, is_another, suffices, loners, .. } = self;
         let a = &out[index];
@@ -334,8 +335,8 @@ impl<M: Mechanism> Answers<'_, M> {
 }
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than `MERGING.joints`. Half-way between
-    /// them the residual is then no larger than at the worse of the two.
+    /// Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than `MERGING.joints`. Half-way
+    /// between them the residual is then no larger than at the worse of the two.
     pub fn are_blurred(&mut self, (a, of_a): (&Joints<M>, f64), (b, of_b): (&Joints<M>, f64)) -> bool {
         let bound = f64::max(f64::max(of_a, of_b), MERGING.halfway);
         let is_near = self.facts().farthest(a.as_ref(), b.as_ref()) <= MERGING.blur;

@@ -200,8 +200,8 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether cubic Hermite curves approximate the self-motion between two of its places. Half-way along each curve, the correction of the other joints must
-    /// be at most `MERGING.apart`. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their
-    /// error is of fourth order in their length.)
+    /// be at most `MERGING.apart`. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends.
+    /// Their error is of fourth order in their length.)
     fn is_interpolated(&mut self, [first, last]: [Knot<M>; 2], joint: usize) -> bool {
         let (facts, free, start) = (self.facts(), 1 << joint, first.q.as_ref()[joint]);
         let (mut at, mut count) = (Some(first), 1);

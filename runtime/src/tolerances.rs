@@ -5,16 +5,17 @@
 
 /// Real roots of polynomials of one unknown.
 pub struct Roots {
-    /// A critical point with `|p| <= tangent sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's typical size. It bounds the rounding
-    /// error of the coefficients.
+    /// A critical point with `|p| <= tangent sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's typical size. It bounds the
+    /// rounding error of the coefficients.
     /// Test: `roots_tangent`.
     pub tangent: f64,
-    /// Real roots are close to each other when they differ by at most this, relative to the unknown's typical size: the square of their difference is then within
-    /// `tangent`, so that rounding may merge two roots or split one. For the same reason a Newton step as short as this halves the number of wrong digits.
+    /// Real roots are close to each other when they differ by at most this, relative to the unknown's typical size: the square of their difference is then
+    /// within `tangent`, so that rounding may merge two roots or split one. For the same reason a Newton step as short as this halves the number of wrong
+    /// digits.
     /// Test: `roots_close`.
     pub close: f64,
-    /// Among polynomials for one unknown, or matrices for one pencil, the first whose leading coefficient or least pivot exceeds this share of the largest entry is
-    /// used.
+    /// Among polynomials for one unknown, or matrices for one pencil, the first whose leading coefficient or least pivot exceeds this share of the largest
+    /// entry is used.
     /// Test: `roots_pivot`.
     pub pivot: f64,
     /// Coefficients, and squared lengths of columns, below this share of the largest are zero: their reciprocals may overflow.
@@ -71,8 +72,8 @@ pub struct Polishing {
     /// Test: `polishing_chord`.
     pub chord: f64,
     /// Damping added where a plain Newton step fails, as at a singular configuration, relative to the size of the squared Jacobian. The last value is for a
-    /// solution that is singular in two directions. In one of these the derivative is rounding, which misleads the plain step. In the other one it decreases with
-    /// the square root of the residual, so that larger damping would stop the steps too early.
+    /// solution that is singular in two directions. In one of these the derivative is rounding, which misleads the plain step. In the other one it decreases
+    /// with the square root of the residual, so that larger damping would stop the steps too early.
     /// Test: `polishing_dampings`.
     pub dampings: [f64; 6],
     /// Weights of the residual in the successive steps towards a configuration where a joint moves freely. The error of that configuration is at most the
@@ -93,8 +94,8 @@ pub struct Pivots {
     /// are damped by this share of the squared Jacobian: joints do not move in a direction in which the equations change little.
     /// Test: `pivots_regular`.
     pub regular: f64,
-    /// Where each pivot is more than this share of the largest, a solution that holds within `ACCEPTANCE.rounding` is a root of its own. Rounding moves its joints
-    /// by far less than the distance to another one.
+    /// Where each pivot is more than this share of the largest, a solution that holds within `ACCEPTANCE.rounding` is a root of its own. Rounding moves its
+    /// joints by far less than the distance to another one.
     /// Test: `pivots_isolated`.
     pub isolated: f64,
     /// A pivot below this share of the largest loses too many digits where there is another choice, or means that the solution set has one more dimension.

@@ -52,12 +52,13 @@ pub fn describe(page: &mut Page, derived: SequentialView<'_>) {
     let relations: usize = derived.method.steps.iter().map(|step| step.relations.len()).sum();
     let proofs: usize = derived
         .method
-        .form_bases
+        .forms
+        .bases
         .iter()
         .flat_map(|form_basis| form_basis.tree.walk())
         .map(|node| node.proofs().len())
         .sum();
-    let forms: Vec<&str> = derived.method.form_bases.iter().map(|form_basis| Form::name(form_basis.form)).collect();
+    let forms: Vec<&str> = derived.method.forms.bases.iter().map(|form_basis| Form::name(form_basis.form)).collect();
     page.entries(&[
         (relations.to_string(), "equations follow from the loop: their normal forms are zero".to_owned()),
         (proofs.to_string(), format!("Groebner bases of the forms {} on all strata", forms.join(", "))),

@@ -150,10 +150,8 @@ impl Arguments {
                 return Err(Error::new(ErrorKind::Unsupported, text));
             }
             let proved = Options::new().watch(session.watch.clone()).derive(&chain)?;
-            let files = proved.stage_files()?;
-            let certificate = files.iter().find(|(name, _)| name == CERTIFICATE);
-            let certificate = certificate.and_then(|(_, bytes)| std::str::from_utf8(bytes).ok());
-            page.with_limb(&chain, [&path.base, &path.tip], proved.program().to_json(), certificate)
+            let certificate = proved.certificate()?;
+            page.with_limb(&chain, [&path.base, &path.tip], proved.program().to_json(), Some(&certificate))
         })
     }
 

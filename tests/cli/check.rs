@@ -66,8 +66,8 @@ fn a_changed_input_is_not_what_was_proved() {
 #[test]
 fn a_changed_stage_names_the_file_and_its_line() {
     let all = [
-        ("3_basis.txt", "generic", "px", "py"),
-        ("4_triangular.txt", "generic", "px", "py"),
+        ("3_basis.txt", "lexicographic", "px", "py"),
+        ("4_triangular.txt", "lexicographic", "px", "py"),
         ("5_program.json", "\"cases\"", "58841", "58842"),
         ("5_solver.c", "block_1", "58841", "58842"),
         ("5_solver.rs", "block_1", "58841", "58842"),

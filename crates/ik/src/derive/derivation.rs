@@ -237,19 +237,6 @@ impl Derivation {
         }
     }
 
-    /// The stage files with their names. Every run gives the same bytes.
-    ///
-    /// # Errors
-    /// As [`Derivation::certificate`].
-    pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
-        match self.view() {
-            AnyView::Equations(view) => view.stage_files(),
-            AnyView::Sequential(view) => view.stage_files(),
-            AnyView::Eigenvalue(view) => Ok(view.stage_files()),
-            AnyView::Coupled(view) => view.stage_files(),
-        }
-    }
-
     /// The number of complex solutions of a generic reachable target, if it was counted.
     pub fn dimension(&self) -> Option<usize> {
         match &self.method {

@@ -3,7 +3,7 @@
 
 use groebot_algebra::number::{BigRational, parse_rational};
 use groebot_ik::derive::{ChainProblem, Derivation};
-use groebot_ik::witness::chain::Check;
+use groebot_ik::witness::chain::check_chain;
 use groebot_ik::witness::{Options, Report as Checked};
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::Target;
@@ -34,7 +34,7 @@ fn arm(first: [&str; 3], at: [&str; 3]) -> Chain {
 
 fn check(chain: &Chain, derived: &Derivation) -> Checked {
     let options = Options { targets: 100, oracle: 3, ..Options::default() };
-    Check::run(chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap()
+    check_chain(chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap()
 }
 
 #[test]

@@ -11,7 +11,7 @@ use crate::{Error, ErrorKind, Result};
 
 const FORMAT: JsonFormat = JsonFormat {
     what: "certificate",
-    number: 6,
+    number: 7,
     renew: "`groebot derive`, or for equations of motion `groebot dynamics --symbolic`, on its folder writes it anew",
 };
 

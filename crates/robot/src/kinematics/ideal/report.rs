@@ -7,7 +7,6 @@ use super::meeting::gatherings;
 use super::{SAME, line, size, turn};
 use crate::kinematics::{Chain, Joint, JointKind, LengthUnit};
 use crate::spatial::exact::vector::{Line, cosine, cross, is_zero, length, sine, sub};
-use groebot_algebra::escape::markdown;
 
 /// Kind of relation between consecutive joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -201,13 +200,12 @@ impl Relation {
 }
 
 impl Report {
-    /// The paragraph of a mechanism's README, in Markdown.
-    pub fn paragraph(&self) -> String {
+    /// The sentence of a README that introduces [`Report::lines`].
+    pub fn sentence(&self) -> String {
         format!(
             "The solver is derived for the ideal robot within {:e} rad, or of the reach. Each answer is polished by Newton's method on the robot as \
-             described, and measured on it. What was taken to be meant:\n\n{}\n",
+             described, and measured on it. What was taken to be meant:",
             self.tolerance,
-            self.lines().iter().map(|line| format!("* {}\n", markdown(line))).collect::<String>()
         )
     }
 
