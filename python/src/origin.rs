@@ -69,8 +69,8 @@ impl Origin {
 
 /// The error without its file, which is temporary and unknown to the caller.
 pub fn elsewhere(error: &Error) -> Error {
-    let told = Error::new(error.kind(), error.message());
-    error.place().line.map_or(told.clone(), |line| told.at_line(line))
+    let moved = Error::new(error.kind(), error.message());
+    error.place().line.map_or(moved.clone(), |line| moved.at_line(line))
 }
 
 /// Result of the check of a solver.

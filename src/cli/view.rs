@@ -158,13 +158,13 @@ impl Arguments {
     /// The robot of a page in a room.
     fn running(&self, page: Page, room: &Path) -> Result<Page> {
         let text = room_text(room)?;
-        let told = Room::from_toml(&text).map_err(|error| error.in_file(room))?.start;
-        let Footprint { x, y, yaw } = self.places.start(told)?;
+        let default_start = Room::from_toml(&text).map_err(|error| error.in_file(room))?.start;
+        let Footprint { x, y, yaw } = self.places.start(default_start)?;
         let goal = self.places.goal()?.numbers();
         let robot = self.shown.to_string_lossy();
-        let asked =
+        let run_request =
             RunRequest { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.places.apart };
-        page.with_run(&asked).map_err(|error| error.in_file(room))
+        page.with_run(&run_request).map_err(|error| error.in_file(room))
     }
 }
 

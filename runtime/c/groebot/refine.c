@@ -118,8 +118,8 @@ static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, cons
     return !all->suffices || gb_leads_to(&all->problem, member, isolated, free);
 }
 
-/* Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than GB_MERGING_JOINTS. Half-way between
- * them the residual is then no larger than at the worse of the two. */
+/* Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than GB_MERGING_JOINTS. Half-way
+ * between them the residual is then no larger than at the worse of the two. */
 static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real of_a, const gb_real *b, gb_real of_b)
 {
     const gb_real bound = gb_larger(gb_larger(of_a, of_b), GB_MERGING_HALFWAY);
@@ -149,8 +149,8 @@ static bool gb_are_alike(const gb_answers *all, size_t i, const gb_answer *b)
     return *gb_branch_of(all, i) == b->branch && *gb_free_of(all, i) == b->free;
 }
 
-/* Whether a solution in the list and a new one are one: members of one self-motion, one singular configuration, or within GB_MERGING_JOINTS without the joints that
- * are free in either. */
+/* Whether a solution in the list and a new one are one: members of one self-motion, one singular configuration, or within GB_MERGING_JOINTS without the
+ * joints that are free in either. */
 static bool gb_is_one(gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_problem *problem = &all->problem;
@@ -441,7 +441,8 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     const gb_real missed = end.fit.relative;
     gb_polish(problem, &end, 0);
     const gb_real miss = end.fit.relative, way = gb_farthest(problem->mechanism, q, end.q);
-    const bool is_nearby = problem->mechanism->is_nearby, is_beside = gb_is_between(missed, GB_ACCEPTANCE_ROUNDING, is_nearby ? GB_NEARBY_ROBOTS_OFF : GB_STRATA_NEAR);
+    const bool is_nearby = problem->mechanism->is_nearby;
+    const bool is_beside = gb_is_between(missed, GB_ACCEPTANCE_ROUNDING, is_nearby ? GB_NEARBY_ROBOTS_OFF : GB_STRATA_NEAR);
     const bool holds = missed < GB_ACCEPTANCE_ROUNDING || (miss < GB_ACCEPTANCE_ROUNDING && way <= GB_MERGING_JOINTS);
     all->unsound = end.fit.accepted && holds ? all->unsound : number;
     all->doubted = found->close ? number : all->doubted;

@@ -303,8 +303,8 @@ static void gb_half_way(const gb_mechanism *m, const gb_knot *near, const gb_kno
 #define GB_DIVISIONS 5
 
 /* Whether cubic Hermite curves approximate the self-motion between two of its places. Half-way along each curve, the correction of the other joints must be
- * at most GB_MERGING_APART_MEMBERS. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their error is
- * of fourth order in their length.) */
+ * at most GB_MERGING_APART_MEMBERS. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends.
+ * Their error is of fourth order in their length.) */
 static bool gb_is_interpolated(const gb_problem *problem, const gb_knot *first, const gb_knot *last, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;

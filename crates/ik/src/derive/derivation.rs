@@ -286,9 +286,9 @@ fn about(source: &Source, program: &Program) -> About {
 /// The task of the tip, or the task of each chain's tip.
 fn task(source: &Source) -> String {
     match (&source.chain, &source.coupled) {
-        (Some(chain), _) => chain.asked(),
+        (Some(chain), _) => chain.task_text(),
         (None, Some(coupled)) => {
-            let tasks = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.asked()));
+            let tasks = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.task_text()));
             tasks.collect::<Vec<_>>().join("; ")
         }
         (None, None) => "its equations".to_owned(),

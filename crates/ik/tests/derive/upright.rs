@@ -44,7 +44,7 @@ fn the_loop_closes_where_the_arm_stands() {
         for at in 0..50 {
             let q: Vec<f64> = (0..5).map(|joint| (f64::from(at * 5 + joint) * 0.731).sin() * 3.1).collect();
             let target = Target::reached(&chain, &q).unwrap();
-            let (_, given) = upright.asked(&target, &[]).unwrap();
+            let (_, given) = upright.loop_target(&target, &[]).unwrap();
             // The loop's rotation may have any value that closes the loop.
             let pose = chain.forward(&q).unwrap();
             let (_, _, yaw) = pose.rotation.euler_angles();

@@ -114,7 +114,7 @@ fn a_hundred_thousand_targets_of_each_robot() {
     }
 }
 
-/// A described arm whose y axes are off by 3.7e-6 rad, because 1.5708 stands for pi/2. At its singular targets the ideal robot has two complex or two real
+/// A described arm whose y axes are off by 3.7e-6 rad, because pi/2 is rounded to 1.5708. At its singular targets the ideal robot has two complex or two real
 /// solutions, where the arm has one. The joint values that made each target are found.
 #[test]
 fn singular_targets_of_an_arm_in_rounded_numbers() {

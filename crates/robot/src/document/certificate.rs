@@ -12,7 +12,7 @@ use crate::{Error, ErrorKind, Result};
 const FORMAT: JsonFormat = JsonFormat {
     what: "certificate",
     number: 7,
-    renew: "`groebot derive`, or for equations of motion `groebot dynamics --symbolic`, on its folder writes it anew",
+    renew: "`groebot derive`, or for equations of motion `groebot dynamics --symbolic`, on its folder writes it again",
 };
 
 /// Subject of a certificate.

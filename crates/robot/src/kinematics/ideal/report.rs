@@ -143,9 +143,9 @@ fn of_pair(first: usize, own: &[Joint], meant: &[Joint]) -> Vec<Relation> {
 /// Whether the middle one of three axes, which do not intersect in one point, has no offset.
 fn level(first: usize, own: &[Joint], meant: &[Joint]) -> Option<Relation> {
     let offset = |axes: &[Joint]| {
-        let [before, own, behind] = [0, 1, 2].map(|place| line(&axes[place]));
+        let [before, own, after] = [0, 1, 2].map(|place| line(&axes[place]));
         let bends = |other: &Line| !is_zero(&cross(&own.direction, &other.direction));
-        let feet = (bends(&before) && bends(&behind)).then(|| (own.nearest(&before), own.nearest(&behind)));
+        let feet = (bends(&before) && bends(&after)).then(|| (own.nearest(&before), own.nearest(&after)));
         feet.map(|(a, b)| (a == b, length(&sub(&a, &b))))
     };
     let meets = |pair: &[Joint]| line(&pair[0]).gap(&line(&pair[1])) == 0.0;

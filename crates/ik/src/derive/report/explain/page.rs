@@ -153,7 +153,7 @@ fn coupled(view: CoupledView<'_>) -> Result<Document> {
         for text in [&parts.description, &parts.source].into_iter().flatten() {
             page.paragraph(Line::plain(text));
         }
-        page.paragraph(Line::of("Task: ").words(&stage.problem.chain.asked()).and("."));
+        page.paragraph(Line::of("Task: ").words(&stage.problem.chain.task_text()).and("."));
         steps(&mut page, stage.view())?;
     }
     Ok(page)
