@@ -12,7 +12,7 @@ use groebot_robot::kinematics::{Chain, Solution};
 const SEEDS: [usize; 2] = [60, 600];
 /// The number of rows, from the first, whose round targets are also searched numerically.
 const SEARCHED: usize = 48;
-/// The maximum distance of an ordinary solution of the moved target from one of the target itself, in multiples of `MOVED / sigma`.
+/// The maximum distance of an ordinary solution of the moved target from one of the target itself, in multiples of `WITNESS.moved / sigma`.
 const FOLLOWS: f64 = 10.0;
 
 /// A solver under check, with targets given as numbers.
@@ -240,7 +240,7 @@ impl Check<'_> {
         Ok(faults)
     }
 
-    /// Whether each ordinary solution of a reached target that is moved by `WITNESS.moved` is next to one of these.
+    /// Whether each ordinary solution of a reached target that is moved by [`WITNESS.moved`] is next to one of these.
     fn agrees_when_moved(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
         let q = row.joints.clone().or_else(|| answers.first().map(|answer| answer.q.clone()));
         let moved = q.and_then(|q| self.subject.moved_target(&row.target, q, &|number| WITNESS.moved * share(number)));
@@ -318,7 +318,7 @@ impl Check<'_> {
     }
 }
 
-/// The fraction of `WITNESS.moved` by which joint `number` moves. All joints have different fractions.
+/// The fraction of [`WITNESS.moved`] by which joint `number` moves. All joints have different fractions.
 fn share(number: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     2.0 * (GOLDEN * (number as f64 + 1.0)).fract() - 1.0

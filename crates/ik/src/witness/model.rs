@@ -2,10 +2,9 @@
 
 use super::chain::model::Joints;
 use super::chain::singular::smallest_singular_value;
-use crate::tolerances::WITNESS;
-
 use super::newton::{jacobian, largest, newton};
 use crate::derive::{JointKindUnknown, ParameterSource, Quantity, System};
+use crate::tolerances::WITNESS;
 use groebot_algebra::poly::Expression;
 use groebot_robot::spatial::angle;
 

@@ -8,11 +8,11 @@ use super::chain::model::Joints;
 use super::check::Target;
 use super::model::{Model, replaced};
 use super::newton::newton;
-use super::random::Random;
 use super::report::Kind;
 use crate::derive::{ParameterSource, Quantity};
 use crate::solver::Program;
 use groebot_algebra::poly::{Expression, parse};
+use groebot_algebra::random::SplitMix64;
 
 /// The maximum number of draws for a target of one kind.
 const DRAWS: usize = 20;
@@ -55,7 +55,7 @@ enum Slot {
 /// The source of targets for one program.
 pub(super) struct Targets<'a> {
     model: &'a Model<'a>,
-    random: Random,
+    random: SplitMix64,
     plan: &'static [Slot],
     /// Factors that vanish together, with their text.
     strata: Vec<(String, Vec<Expression>)>,
@@ -65,7 +65,7 @@ pub(super) struct Targets<'a> {
 
 impl<'a> Targets<'a> {
     pub fn new(model: &'a Model<'a>, program: &Program, draws: Draws, seed: u64) -> Self {
-        let (strata, random) = (strata(model, program), Random::new(seed));
+        let (strata, random) = (strata(model, program), SplitMix64::new(seed));
         let plan: &[Slot] = if draws == Draws::Round { &ROUND } else { &PLAN };
         Targets { model, random, plan, strata, boundaries_done: 0, strata_done: 0 }
     }

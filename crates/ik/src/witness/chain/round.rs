@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::model::{Joints, Model};
-use crate::witness::random::Random;
+use groebot_algebra::random::SplitMix64;
 use groebot_robot::spatial::Pose;
 
 /// The approximate width of the grid as a fraction of the reach. It is rounded to 1, 2 or 5 times a power of ten.
@@ -15,12 +15,12 @@ const FINENESS: f64 = 0.05;
 /// The source of round targets for one chain.
 pub(super) struct RoundTargets<'a> {
     model: &'a Model<'a>,
-    random: Random,
+    random: SplitMix64,
 }
 
 impl<'a> RoundTargets<'a> {
     pub fn new(model: &'a Model<'a>, seed: u64) -> Self {
-        RoundTargets { model, random: Random::new(seed ^ 0x0072_6f75_6e64) }
+        RoundTargets { model, random: SplitMix64::new(seed ^ 0x0072_6f75_6e64) }
     }
 
     /// Joint values: angles in multiples of `degrees`, displacements on the grid and within their limits.

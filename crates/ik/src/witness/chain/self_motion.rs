@@ -6,7 +6,6 @@ use nalgebra::{DMatrix, DVector};
 
 use super::model::Configuration;
 use super::singular::{least_squares, null_vector};
-
 use groebot_robot::kinematics::Solution;
 use groebot_runtime::tolerances::MERGING;
 

@@ -11,8 +11,8 @@ use super::round::RoundTargets;
 use super::singular::null_vector;
 use crate::witness::Draws;
 use crate::witness::check::Target;
-use crate::witness::random::Random;
 use crate::witness::report::Kind;
+use groebot_algebra::random::SplitMix64;
 use groebot_robot::spatial::Pose;
 
 /// The maximum number of draws for a target of one kind.
@@ -74,7 +74,7 @@ enum Slot {
 /// The source of targets for one chain.
 pub(super) struct Targets<'a> {
     model: &'a Model<'a>,
-    random: Random,
+    random: SplitMix64,
     plan: &'static [Slot],
     round: RoundTargets<'a>,
     /// Values of single joints that make every configuration singular: joint and value.
@@ -90,7 +90,7 @@ struct Singularity {
 
 impl<'a> Targets<'a> {
     pub fn new(model: &'a Model<'a>, draws: Draws, seed: u64) -> Self {
-        let (random, round) = (Random::new(seed), RoundTargets::new(model, seed));
+        let (random, round) = (SplitMix64::new(seed), RoundTargets::new(model, seed));
         let plan: &[Slot] = if draws == Draws::Round { &ROUND } else { &PLAN };
         let mut targets = Targets { model, random, plan, round, critical: Vec::new(), done: 0 };
         targets.critical = targets.critical_values();
