@@ -213,7 +213,7 @@ impl Layout {
     /// [`ErrorKind::BadValue`] for a wrong number of values.
     pub fn target(&self, values: &[f64]) -> Result<Target> {
         if values.len() != self.numbers.len() {
-            let text = format!("{} numbers are no target of the task `{}`", values.len(), self.task.name());
+            let text = format!("{} numbers are not a target of the task `{}`", values.len(), self.task.name());
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let value = |number: TargetNumber| self.place(number).map_or(0.0, |place| values[place]);
