@@ -156,7 +156,7 @@ typedef double gb_real;
 #else
 #include "groebot/mechanism.h"
 #ifdef GB_SHORTS
-#include "groebot/ways.h"
+#include "groebot/approaches.h"
 #endif
 #include "groebot/answers.h"
 #include "groebot/described.h"

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::approach::{LANES, Ways};
+use crate::approach::{Approaches, LANES};
 use crate::effort::{MILD, STEEP};
 use crate::measure::{Fits, joints};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places, elected};
@@ -230,8 +230,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         let facts = self.problem.facts();
         let joints = joints::<M, W>(&facts, &self.at, self.are_ordinary());
         if self.problem.facts().nearby.is_some() {
-            let ways = Ways::new::<W>(&self.problem, &self.at, self.waiting);
-            return self.flush_nearby(&joints, &ways);
+            let approaches = Approaches::new::<W>(&self.problem, &self.at, self.waiting);
+            return self.flush_nearby(&joints, &approaches);
         }
         let twins = self.twins::<W>();
         let fits = Fits::new::<W>(&self.problem, &self.at, self.waiting, twins);
@@ -260,17 +260,18 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     }
 
     /// Processes candidates of a nearby mechanism's formulas: Newton steps lead them to solutions.
-    fn flush_nearby(&mut self, joints: &Joints<M, Abreast<M>>, ways: &Ways<M>) {
+    fn flush_nearby(&mut self, joints: &Joints<M, Abreast<M>>, approaches: &Approaches<M>) {
         let room = self.problem.facts().candidates;
         let waiting = core::mem::take(&mut self.waiting).min(room);
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let found = self.found.as_ref()[k];
             let q = self.joints_of(joints, k);
-            let is_short =
-                found.free == 0 && ways.sound.as_ref()[k] > 0.0 && ways.relative.as_ref()[k] < ACCEPTANCE.rounding;
+            let is_short = found.free == 0
+                && approaches.sound.as_ref()[k] > 0.0
+                && approaches.relative.as_ref()[k] < ACCEPTANCE.rounding;
             let approached = if is_short {
-                Some(ways.approach(&self.problem, k, &q))
+                Some(approaches.approach(&self.problem, k, &q))
             } else if found.free == 0 {
                 let at = self.places_of(k);
                 self.problem.approached(&at, &q)

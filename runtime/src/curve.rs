@@ -119,8 +119,8 @@ impl<M: Mechanism> Answers<'_, M> {
     /// member is kept.
     fn walk_curve(&mut self, found: &Found, q: Joints<M>, starts: &mut Starts<M>) {
         let Some((home, held)) = self.problem.start(&q, found.free) else { return };
-        let sides = [-PACE[1], PACE[1]].map(|way| {
-            let side = moved::<M>(&self.problem.facts(), &home.q, held, way);
+        let sides = [-PACE[1], PACE[1]].map(|delta| {
+            let side = moved::<M>(&self.problem.facts(), &home.q, held, delta);
             self.problem.settled(side, held)
         });
         let most = home.most;
@@ -149,9 +149,9 @@ impl<M: Mechanism> Answers<'_, M> {
             let facts = self.problem.facts();
             starts.pass(&facts, &before.q, &at.q);
             walk.pass(&at);
-            let way = facts.farthest(at.q.as_ref(), walk.home.q.as_ref());
-            is_away |= way > 3.0 * PACE[2];
-            if is_away && way <= PACE[2] {
+            let delta = facts.farthest(at.q.as_ref(), walk.home.q.as_ref());
+            is_away |= delta > 3.0 * PACE[2];
+            if is_away && delta <= PACE[2] {
                 self.change(&walk.found, &at, &walk.home);
                 return true;
             }
@@ -286,7 +286,7 @@ impl<M: Mechanism> Problem<'_, M> {
             if longest <= SELF_MOTIONS.curve {
                 for (value, row) in miss.as_mut().iter_mut().zip(derivatives.as_ref()) {
                     let slopes = row.as_ref().iter().zip(step.as_ref());
-                    *value = slopes.fold(*value, |rest, (slope, way)| rest - slope * way);
+                    *value = slopes.fold(*value, |rest, (slope, delta)| rest - slope * delta);
                 }
                 let most = miss.as_ref().iter().fold(0.0, |most, value| f64::max(most, value.abs()));
                 return (most <= STRATA.near).then_some(Place { q, miss, most });
@@ -328,14 +328,14 @@ impl<M: Mechanism> Problem<'_, M> {
         let [low, middle, high] = [&sides[0], least, &sides[1]].map(|place| place.along(unit));
         let lengths = sides.each_ref().map(|side| self.facts().farthest(side.q.as_ref(), least.q.as_ref()));
         let (fall, rise) = ((middle - low) / lengths[0], (high - middle) / lengths[1]);
-        let way = 0.5 * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
-        let side = usize::from(way >= 0.0);
-        Some((side, self.between(least, &sides[side], way.abs() / lengths[side])?))
+        let delta = 0.5 * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
+        let side = usize::from(delta >= 0.0);
+        Some((side, self.between(least, &sides[side], delta.abs() / lengths[side])?))
     }
 }
 
 /// The index of the entry with the greatest magnitude, the first of equals.
-fn farthest(way: &[f64]) -> usize {
-    let farther = |best: usize, i: usize| if way[i].abs() > way[best].abs() { i } else { best };
-    (1..way.len()).fold(0, farther)
+fn farthest(delta: &[f64]) -> usize {
+    let farther = |best: usize, i: usize| if delta[i].abs() > delta[best].abs() { i } else { best };
+    (1..delta.len()).fold(0, farther)
 }

@@ -187,7 +187,7 @@ fn onto_self_motion<M: Mechanism>(
     let p = ideal_parameters(problem.mechanism, &q)?;
     let is_near = is_within(problem.measure(&q));
     let mut ideal = Problem::new(problem.mechanism, &p, problem.steps);
-    (is_near && ideal.lies_on_self_motion(&q, free, ACCEPTANCE.rounding)).then_some(q)
+    (is_near && ideal.is_on_self_motion(&q, free, ACCEPTANCE.rounding)).then_some(q)
 }
 
 /// Adds joint values with which the ideal mechanism also reaches the target within the tolerance, and which are far from all solutions of the nearby target.

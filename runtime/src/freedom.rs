@@ -28,8 +28,8 @@ impl<M: Mechanism> Problem<'_, M> {
 
     fn freeing_step(&mut self, q: &Joints<M>, free: u32, share: f64) -> Option<Joints<M>> {
         let (rows, joints) = (self.shared(q).0, self.joints());
-        let (missed, way) = self.across(&rows, &rows, free.trailing_zeros() as usize, free)?;
-        let bends = self.bends(q, &way);
+        let (missed, direction) = self.across(&rows, &rows, free.trailing_zeros() as usize, free)?;
+        let bends = self.bends(q, &direction);
         let nearer = self.shares(q, PIVOTS.regular, free);
         let mut triangle = self.no_triangle();
         for i in 0..=joints {
@@ -62,19 +62,19 @@ impl<M: Mechanism> Problem<'_, M> {
             let of_joints = rows.as_ref()[i].as_ref().iter().zip(along.as_ref()).enumerate();
             of_joints.fold(whole.as_ref()[i], |sum, (k, (x, y))| if is_in(free, k) { sum } else { sum - x * y })
         };
-        let way = Array::by(self.joints(), |k| match k {
+        let direction = Array::by(self.joints(), |k| match k {
             k if k == column => 1.0,
             k if is_in(free, k) => 0.0,
             k => -along.as_ref()[k],
         });
-        Some((Array::by(count, rest), way))
+        Some((Array::by(count, rest), direction))
     }
 
     /// The change of the Jacobian along a displacement of the joints.
-    fn bends(&self, q: &Joints<M>, way: &Joints<M>) -> Equations<M, Joints<M>> {
-        let width = POLISHING.difference / f64::max(self.facts().longest(way.as_ref()), 1.0);
+    fn bends(&self, q: &Joints<M>, direction: &Joints<M>) -> Equations<M, Joints<M>> {
+        let width = POLISHING.difference / f64::max(self.facts().longest(direction.as_ref()), 1.0);
         let moved = |by: f64| {
-            let part: Joints<M> = Array::by(self.joints(), |i| by * way.as_ref()[i]);
+            let part: Joints<M> = Array::by(self.joints(), |i| by * direction.as_ref()[i]);
             self.shared(&shifted::<M>(&self.facts(), q, &part)).0
         };
         let (ahead, behind) = (moved(width), moved(-width));

@@ -99,9 +99,9 @@ pub(crate) fn strides_within<M: Mechanism>(
     for i in (0..2 * problem.joints()).filter(|i| is_in(answer.free, i / 2)) {
         let mut q = answer.q.clone();
         for _ in 0..STRIDES {
-            let way = if i % 2 == 0 { STRIDE } else { -STRIDE };
+            let delta = if i % 2 == 0 { STRIDE } else { -STRIDE };
             let (next, fit) = {
-                let start = moved::<M>(&problem.facts(), &q, i / 2, way);
+                let start = moved::<M>(&problem.facts(), &q, i / 2, delta);
                 problem.polished(start, answer.free)
             };
             if !fit.accepted {

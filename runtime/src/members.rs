@@ -13,7 +13,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// a part of the circle, or where there is none and an isolated solution is nearby.
     pub fn refine_member(&mut self, found: &Found, q: Joints<M>) {
         let _phase = Phase::Member.begin();
-        let is_known = self.merged.contains(found) || self.out[..self.count].iter().any(|a| is_told(a, found));
+        let is_known = self.merged.contains(found) || self.out[..self.count].iter().any(|a| is_member_of(a, found));
         if is_known && (!found.free.is_power_of_two() || self.problem.steps.are_spent()) {
             return;
         }
@@ -63,7 +63,7 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Keeps a member of a long self-motion within rounding if no solution is lost without further tests. Returns whether it was kept.
     fn keep_long_member(&mut self, found: &Found, end: &End<M>, is_known: bool) -> bool {
-        if end.1.relative <= ACCEPTANCE.rounding && self.problem.lies_on_long_self_motion(&end.0, found.free) {
+        if end.1.relative <= ACCEPTANCE.rounding && self.problem.is_on_long_self_motion(&end.0, found.free) {
             self.keep_on_trail(found, end.clone());
             return true;
         }
@@ -100,7 +100,7 @@ impl<M: Mechanism> Answers<'_, M> {
             || last.is_some_and(|last| {
                 problem.leads_round_to(member(&last.q, &last.tangent), member(q, &tangent), found.free)
             })
-            || out[..*count].iter().rev().any(|a| is_told(a, found) && problem.leads_to(&a.q, q, found.free));
+            || out[..*count].iter().rev().any(|a| is_member_of(a, found) && problem.leads_to(&a.q, q, found.free));
         if joins {
             trails.remember(found, q, tangent);
         }
@@ -150,7 +150,7 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Keeps a candidate if it is a member of a self-motion. Returns whether it is.
     fn keep_member(&mut self, found: &Found, end: &End<M>) -> bool {
-        let is_member = end.1.accepted && self.problem.lies_on_self_motion(&end.0, found.free, end.1.relative);
+        let is_member = end.1.accepted && self.problem.is_on_self_motion(&end.0, found.free, end.1.relative);
         if is_member {
             self.keep_on_trail(found, end.clone());
         }
@@ -179,6 +179,6 @@ impl<M: Mechanism> Answers<'_, M> {
 }
 
 /// Whether a solution is a member of a self-motion within rounding, with the branch and the free joints of a candidate.
-fn is_told<M: Mechanism>(a: &Solution<M>, found: &Found) -> bool {
+fn is_member_of<M: Mechanism>(a: &Solution<M>, found: &Found) -> bool {
     a.relative <= ACCEPTANCE.rounding && a.branch == found.branch && a.free == found.free
 }

@@ -108,8 +108,8 @@ impl<M: Mechanism> Problem<'_, M> {
         }
         for most in LEAPS {
             let share = f64::min(most / longest, 1.0);
-            let way: Joints<M> = Array::by(self.joints(), |i| share * step.as_ref()[i]);
-            let mut next = stepped::<M>(&self.facts(), q, &way);
+            let direction: Joints<M> = Array::by(self.joints(), |i| share * step.as_ref()[i]);
+            let mut next = stepped::<M>(&self.facts(), q, &direction);
             for _ in 0..RETURNS {
                 let Some(back) = self.newton_step(&next, PIVOTS.regular, held) else { break };
                 next = stepped::<M>(&self.facts(), &next, &back);
@@ -212,33 +212,33 @@ impl<M: Mechanism> Problem<'_, M> {
         }
         let joints = self.joints();
         let most = (0..joints).fold(0.0, |most, i| f64::max(most, triangle.entry(i, i).abs()));
-        let mut way: Joints<M> = Array::by(joints, |_| 1.0);
+        let mut direction: Joints<M> = Array::by(joints, |_| 1.0);
         let mut share = 1.0;
         for _ in 0..INVERSIONS {
             for row in 0..joints {
-                let above =
-                    (0..row).fold(way.as_ref()[row], |sum, k| sum - triangle.entry(row, k) * triangle.entry(joints, k));
+                let above = (0..row)
+                    .fold(direction.as_ref()[row], |sum, k| sum - triangle.entry(row, k) * triangle.entry(joints, k));
                 let solved = above / triangle.entry(row, row);
                 triangle.column_mut(joints)[row] = solved;
             }
             let before = norm(&triangle.column(joints)[..joints]);
-            way = triangle.substituted()?;
-            share = before / (norm(way.as_ref()) * most);
+            direction = triangle.substituted()?;
+            share = before / (norm(direction.as_ref()) * most);
         }
-        let longest = self.facts().longest(way.as_ref());
-        let unit = Array::by(joints, |i| way.as_ref()[i] / longest);
+        let longest = self.facts().longest(direction.as_ref());
+        let unit = Array::by(joints, |i| direction.as_ref()[i] / longest);
         (longest.is_finite() && longest > 0.0).then_some((unit, share))
     }
 
-    /// The distance along `way` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`.
-    pub fn second_root(&mut self, root: &Joints<M>, way: &Joints<M>, ahead: f64) -> Option<f64> {
-        let there: Joints<M> = Array::by(self.joints(), |i| ahead * way.as_ref()[i]);
+    /// The distance along `direction` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`.
+    pub fn second_root(&mut self, root: &Joints<M>, direction: &Joints<M>, ahead: f64) -> Option<f64> {
+        let there: Joints<M> = Array::by(self.joints(), |i| ahead * direction.as_ref()[i]);
         let start = shifted::<M>(&self.facts(), root, &there);
         let step = self.newton_step(&start, 0.0, 0)?;
         let (mut along, mut square) = (0.0, 0.0);
-        for (step, way) in step.as_ref().iter().zip(way.as_ref()) {
-            along += step * way;
-            square += way * way;
+        for (step, direction) in step.as_ref().iter().zip(direction.as_ref()) {
+            along += step * direction;
+            square += direction * direction;
         }
         let arrived = ahead - along / square;
         let distance = 2.0 * ahead - ahead * ahead / arrived;

@@ -33,11 +33,11 @@ impl<M: Mechanism> Answers<'_, M> {
         let missed = start.1.relative;
         let end = self.problem.polish(start, 0);
         let miss = end.1.relative;
-        let way = self.problem.facts().farthest(q.as_ref(), end.0.as_ref());
+        let delta = self.problem.facts().farthest(q.as_ref(), end.0.as_ref());
         let is_nearby = self.problem.facts().nearby.is_some();
         let is_beside =
             (ACCEPTANCE.rounding..=if is_nearby { NEARBY_ROBOTS.off } else { STRATA.near }).contains(&missed);
-        let holds = missed < ACCEPTANCE.rounding || miss < ACCEPTANCE.rounding && way <= MERGING.joints;
+        let holds = missed < ACCEPTANCE.rounding || miss < ACCEPTANCE.rounding && delta <= MERGING.joints;
         if !(end.1.accepted && holds) {
             self.unsound = number;
         }
@@ -54,13 +54,13 @@ impl<M: Mechanism> Answers<'_, M> {
         }
         if (ACCEPTANCE.rounding..=STRATA.near).contains(&miss) {
             self.around(found, &end, miss);
-        } else if is_beside && way > LEVER * Arithmetic::sqrt(missed) {
+        } else if is_beside && delta > LEVER * Arithmetic::sqrt(missed) {
             if !is_nearby || regularity <= PIVOTS.isolated {
                 self.around(found, &end, missed);
             }
             // Such a candidate is between two solutions: starts again from the other side.
-            let way = differences::<M>(&self.problem.facts(), &q, &end.0);
-            let start = shifted::<M>(&self.problem.facts(), &q, &way);
+            let delta = differences::<M>(&self.problem.facts(), &q, &end.0);
+            let start = shifted::<M>(&self.problem.facts(), &q, &delta);
             let start = self.problem.polished(start, 0);
             self.keep(found, start);
         }
@@ -131,15 +131,15 @@ impl<M: Mechanism> Answers<'_, M> {
     fn twin(&mut self, found: &Found, end: &Joints<M>, triangle: Triangle<M>, missed: f64) {
         let _phase = Phase::Twin.begin();
         let nearby = Arithmetic::sqrt(missed);
-        let Some((way, share)) = self.problem.stillest(triangle) else { return };
+        let Some((delta, share)) = self.problem.stillest(triangle) else { return };
         if share > TWIN * nearby {
             return;
         }
-        let Some(distance) = self.problem.second_root(end, &way, TWIN_AT * nearby) else { return };
+        let Some(distance) = self.problem.second_root(end, &delta, TWIN_AT * nearby) else { return };
         if distance.abs() > TWIN_WITHIN * nearby {
             return;
         }
-        let step: Joints<M> = Array::by(self.problem.joints(), |i| distance * way.as_ref()[i]);
+        let step: Joints<M> = Array::by(self.problem.joints(), |i| distance * delta.as_ref()[i]);
         let start = shifted::<M>(&self.problem.facts(), end, &step);
         let at = self.problem.place(&start);
         let end = match self.problem.approached(&at, &start) {
@@ -160,8 +160,8 @@ impl<M: Mechanism> Answers<'_, M> {
             for i in 0..self.problem.joints() {
                 for sign in [-1.0, 1.0] {
                     let weight = if end.1.accepted { 1.0 } else { weights.as_ref()[i] };
-                    let way = f64::min(farther * Arithmetic::sqrt(missed / weight), APART);
-                    let start = moved::<M>(&self.problem.facts(), &end.0, i, 2.0 * sign * way);
+                    let delta = f64::min(farther * Arithmetic::sqrt(missed / weight), APART);
+                    let start = moved::<M>(&self.problem.facts(), &end.0, i, 2.0 * sign * delta);
                     let start = self.problem.polished(start, 0);
                     is_found |= start.1.accepted;
                     self.keep(found, start);
@@ -310,7 +310,8 @@ impl<M: Mechanism> Answers<'_, M> {
         }
     }
 
-    /// Whether two solutions are one: members of one self-motion, one singular configuration, or within `MERGING.joints` without the joints that are free in either.
+    /// Whether two solutions are one: members of one self-motion, one singular configuration, or within `MERGING.joints` without the joints that are free in
+    /// either.
     fn is_one(&mut self, index: usize, b: &Solution<M>) -> bool {
         let Answers { problem, out, is_another, suffices, loners, .. } = self;
         let a = &out[index];
@@ -334,8 +335,8 @@ impl<M: Mechanism> Answers<'_, M> {
 }
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than `MERGING.joints`. Half-way between
-    /// them the residual is then no larger than at the worse of the two.
+    /// Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than `MERGING.joints`. Half-way
+    /// between them the residual is then no larger than at the worse of the two.
     pub fn are_blurred(&mut self, (a, of_a): (&Joints<M>, f64), (b, of_b): (&Joints<M>, f64)) -> bool {
         let bound = f64::max(f64::max(of_a, of_b), MERGING.halfway);
         let is_near = self.facts().farthest(a.as_ref(), b.as_ref()) <= MERGING.blur;
@@ -359,7 +360,7 @@ fn is_on<M: Mechanism>(
     if member.relative > ACCEPTANCE.rounding || loners.contains(&isolated.q, free) {
         return false;
     }
-    if !problem.lies_on_self_motion(&isolated.q, free, ACCEPTANCE.rounding) {
+    if !problem.is_on_self_motion(&isolated.q, free, ACCEPTANCE.rounding) {
         loners.remember(&isolated.q, free);
         return false;
     }

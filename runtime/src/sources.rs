@@ -107,7 +107,7 @@ pub const C_PARTS: [(&str, &str); 49] = [
     ("groebot/strays.c", include_str!("../c/groebot/strays.c")),
     ("groebot/tolerances.h", include_str!("../c/groebot/tolerances.h")),
     ("groebot/trigonometry.c", include_str!("../c/groebot/trigonometry.c")),
-    ("groebot/ways.h", include_str!("../c/groebot/ways.h")),
+    ("groebot/approaches.h", include_str!("../c/groebot/approaches.h")),
     ("groebot/width.h", include_str!("../c/groebot/width.h")),
     ("groebot/six_axes/answers.c", include_str!("../c/groebot/six_axes/answers.c")),
     ("groebot/six_axes/candidates.c", include_str!("../c/groebot/six_axes/candidates.c")),

@@ -28,11 +28,11 @@ impl<M: Mechanism> Starts<M> {
 
     /// Removes the starts that a step passes.
     pub fn pass(&mut self, facts: &Facts<'_>, from: &Joints<M>, to: &Joints<M>) {
-        let way = differences::<M>(facts, to, from);
+        let delta = differences::<M>(facts, to, from);
         for start in &mut self.list[..self.count] {
             let is_passed = |(_, q): &(Found, Joints<M>)| {
                 let aside = differences::<M>(facts, q, from);
-                let share = product(aside.as_ref(), way.as_ref()) / product(way.as_ref(), way.as_ref());
+                let share = product(aside.as_ref(), delta.as_ref()) / product(delta.as_ref(), delta.as_ref());
                 let share = share.clamp(0.0, 1.0);
                 let nearest = beyond::<M>(facts, to, from, -share);
                 facts.farthest(q.as_ref(), nearest.as_ref()) <= MERGING.known

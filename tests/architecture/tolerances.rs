@@ -15,6 +15,10 @@ const C: &str = "runtime/c/groebot/tolerances.h";
 const MOST_OF_SOLUTION: usize = 40;
 /// The largest number of tolerances of checks and maps.
 const MOST_OF_CHECK: usize = 15;
+/// The largest number of tolerances of solutions without a known test that fails without them.
+const MOST_WITHOUT_TEST: usize = 8;
+/// The tests that fail without one tolerance.
+const TESTS: &str = "runtime/tests/tolerances.rs";
 /// The structs that solutions do not depend on.
 const OF_CHECK: [&str; 2] = ["WITNESS", "REACH"];
 
@@ -153,4 +157,26 @@ fn tolerances_in_c_are_those_in_rust() {
     }
     let missing = |one: &&Tolerance| !macros.iter().any(|(name, _)| *name == name_of(one));
     assert_none(&rust.iter().filter(missing).map(|one| format!("{C} lacks GB_{}", name_of(one))).collect::<Vec<_>>());
+}
+
+/// The fields of the structs in a module of tolerances: the declaration, and the test that the last line of its documentation names.
+fn named_tests(text: &str) -> Vec<(String, String)> {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let is_field = |pair: &&[&str]| pair[1].starts_with("pub ") && pair[1].ends_with(',');
+    let test_of = |line: &str| {
+        line.strip_prefix("/// Test: ").unwrap_or_default().trim_end_matches('.').trim_matches('`').to_owned()
+    };
+    lines.windows(2).filter(is_field).map(|pair| (pair[1].to_owned(), test_of(pair[0]))).collect()
+}
+
+#[test]
+fn tolerances_name_a_test_that_fails_without_them() {
+    let (tests, ik) = (read(TESTS), read(IK));
+    let of_solution = ik.split("/// Maps of the workspace.").next().unwrap_or_default();
+    let fields = [named_tests(&read(RUNTIME)), named_tests(of_solution)].concat();
+    let (without, with): (Vec<_>, Vec<_>) = fields.iter().partition(|(_, test)| test == "none known");
+    assert!(without.len() <= MOST_WITHOUT_TEST && with.len() > without.len(), "{without:?}");
+    let exists = |test: &str| tests.contains(&format!("    {test}: ")) || tests.contains(&format!("fn {test}()"));
+    let missing = with.iter().filter(|(_, test)| test.is_empty() || !exists(test));
+    assert_none(&missing.map(|(field, test)| format!("`{field}`: {TESTS} has no test `{test}`")).collect::<Vec<_>>());
 }

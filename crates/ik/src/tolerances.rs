@@ -3,20 +3,25 @@
 /// Cases for strata, as a derivation writes them into a program.
 pub(crate) struct DerivedStrata {
     /// The guard of a stratum's case: each factor's symbols are below this fraction of their sizes.
+    /// Test: none known.
     pub close: f64,
     /// A case does not run if a denominator's symbols are below this fraction of their sizes. Then only rounding errors remain of them, and every value of the
     /// joint that they determine solves the equations equally well.
+    /// Test: none known.
     pub lost: f64,
     /// Same as `lost`, but for the leading coefficient of an angle's quartic, relative to the sum of all symbols' sizes. It is smaller, because an elimination
     /// multiplies symbols: near a singular configuration the correct coefficient is very small.
+    /// Test: none known.
     pub faint: f64,
     /// The scale of a program whose equations contain no constants. Its parameters alone then determine the scale.
+    /// Test: none known.
     pub least_scale: f64,
 }
 
 /// Files with the interface of IKFast.
 pub(crate) struct Ikfast {
     /// The rounding error of targets in single precision, relative to the sizes of the equations: several units in the last place.
+    /// Test: none known.
     pub single: f64,
 }
 

@@ -159,8 +159,8 @@ GB_INLINE void gb_joints_of(gb_real (*joints)[GB_CANDIDATES], size_t k, gb_real 
 /* Keeps the solutions near the waiting candidates of a nearby mechanism's formulas. */
 static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
 {
-    gb_ways ways;
-    gb_find_ways(c, &ways);
+    gb_approaches approaches;
+    gb_find_approaches(c, &approaches);
     const size_t waiting = c->waiting;
     bool is_usual = c->all.count == 0;
     for (size_t k = 0; k < waiting; k++) {
@@ -168,7 +168,7 @@ static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
         gb_real q[GB_JOINTS];
         gb_joints_of(joints, k, q);
         c->waiting = 0;
-        if (!gb_lead(c, &ways, k, q, &approach)) {
+        if (!gb_lead(c, &approaches, k, q, &approach)) {
             is_usual = false;
             gb_look_closer(c, k, waiting, q, NULL);
             continue;
@@ -263,13 +263,13 @@ static void gb_keep_pairs(gb_sink_1 *c)
 static bool gb_are_within(const gb_real *a, const gb_real *b, uint32_t free, gb_real tolerance)
 {
     for (size_t i = 0; i < GB_JOINTS; i++) {
-        gb_real way = a[i] - b[i], span = R(1.0);
+        gb_real delta = a[i] - b[i], span = R(1.0);
         if (gb_joints[i].is_angle) {
-            way = way > GB_PI ? way - GB_TAU : way < -GB_PI ? way + GB_TAU : way;
+            delta = delta > GB_PI ? delta - GB_TAU : delta < -GB_PI ? delta + GB_TAU : delta;
         } else {
             span = gb_larger(GB_SCALE, gb_magnitude(a[i]));
         }
-        if (!(free >> i & 1) && !(gb_magnitude(way) <= tolerance * span)) {
+        if (!(free >> i & 1) && !(gb_magnitude(delta) <= tolerance * span)) {
             return false;
         }
     }

@@ -1,11 +1,11 @@
 /* Newton steps from a candidate of a nearby mechanism's formulas to the solution next to it */
 
 /* A pair of a cosine and a sine turned back by a small angle and normalised. Returns the normalising factor. */
-GB_INLINE T GB_(turn_back)(T way, T *cosine, T *sine)
+GB_INLINE T GB_(turn_back)(T delta, T *cosine, T *sine)
 {
     const T c = *cosine, s = *sine;
-    const T norm = R(1.5) - R(0.5) * (c * c + s * s), square = way * way;
-    const T across = norm * way * (R(1.0) - square * (R(1.0) - square * (R(1.0) / R(20.0))) * (R(1.0) / R(6.0)));
+    const T norm = R(1.5) - R(0.5) * (c * c + s * s), square = delta * delta;
+    const T across = norm * delta * (R(1.0) - square * (R(1.0) - square * (R(1.0) / R(20.0))) * (R(1.0) / R(6.0)));
     const T along = norm * (R(1.0) - R(0.5) * square * (R(1.0) - square * (R(1.0) / R(12.0))));
     *cosine = along * c + across * s;
     *sine = along * s - across * c;

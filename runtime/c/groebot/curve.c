@@ -37,11 +37,11 @@ typedef struct {
 static bool gb_is_listed(const gb_answers *all, const gb_real *q);
 
 /* The index of the entry with the greatest magnitude, the first of equals. */
-static size_t gb_greatest(const gb_real *way, size_t count)
+static size_t gb_greatest(const gb_real *delta, size_t count)
 {
     size_t best = 0;
     for (size_t i = 1; i < count; i++) {
-        best = gb_magnitude(way[i]) > gb_magnitude(way[best]) ? i : best;
+        best = gb_magnitude(delta[i]) > gb_magnitude(delta[best]) ? i : best;
     }
     return best;
 }
@@ -49,9 +49,9 @@ static size_t gb_greatest(const gb_real *way, size_t count)
 /* The joint with the largest difference between `b` and `a`. */
 static size_t gb_farthest_joint(const gb_mechanism *m, const gb_real *a, const gb_real *b)
 {
-    gb_real way[GB_MAX_JOINTS];
-    gb_differences(m, a, b, way);
-    return gb_greatest(way, m->joints);
+    gb_real delta[GB_MAX_JOINTS];
+    gb_differences(m, a, b, delta);
+    return gb_greatest(delta, m->joints);
 }
 
 static gb_real gb_scalar_product(const gb_real *a, const gb_real *b, size_t count)
@@ -126,7 +126,7 @@ static bool gb_start_with(const gb_problem *problem, const gb_real *q, size_t he
 static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint32_t free, gb_spot *spot, size_t *held)
 {
     gb_triangle triangle;
-    gb_real way[GB_MAX_JOINTS], share;
+    gb_real delta[GB_MAX_JOINTS], share;
     if (free != 0) {
         for (*held = 0; !gb_is_in(free, *held); (*held)++) {
         }
@@ -135,10 +135,10 @@ static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint3
         }
     }
     gb_make_triangle(problem, q, R(0.0), 0, &triangle);
-    if (!gb_stillest(problem, &triangle, way, &share)) {
+    if (!gb_stillest(problem, &triangle, delta, &share)) {
         return false;
     }
-    *held = gb_greatest(way, problem->mechanism->joints);
+    *held = gb_greatest(delta, problem->mechanism->joints);
     return gb_start_with(problem, q, *held, spot);
 }
 
@@ -226,9 +226,9 @@ static bool gb_find_vertex(const gb_problem *problem, const gb_spot *unit, const
     const gb_real low = gb_miss_along(m, &sides[0], unit), middle = gb_miss_along(m, least, unit), high = gb_miss_along(m, &sides[1], unit);
     const gb_real lengths[2] = {gb_farthest(m, sides[0].q, least->q), gb_farthest(m, sides[1].q, least->q)};
     const gb_real fall = (middle - low) / lengths[0], rise = (high - middle) / lengths[1];
-    const gb_real way = R(0.5) * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
-    *side = way >= R(0.0);
-    return gb_between_spots(problem, least, &sides[*side], gb_magnitude(way) / lengths[*side], vertex);
+    const gb_real delta = R(0.5) * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
+    *side = delta >= R(0.0);
+    return gb_between_spots(problem, least, &sides[*side], gb_magnitude(delta) / lengths[*side], vertex);
 }
 
 /* Searches for two solutions, or a double one, where the residual has a minimum without a change of sign: at the vertex of a parabola. */
@@ -287,10 +287,10 @@ static void gb_keep_whole_curve(gb_answers *all, const gb_found_1 *found, size_t
 /* Whether joint values are next to a step of a walk. */
 static bool gb_is_passed(const gb_mechanism *m, const gb_real *q, const gb_real *from, const gb_real *to)
 {
-    gb_real way[GB_MAX_JOINTS], aside[GB_MAX_JOINTS], nearest[GB_MAX_JOINTS];
-    gb_differences(m, to, from, way);
+    gb_real delta[GB_MAX_JOINTS], aside[GB_MAX_JOINTS], nearest[GB_MAX_JOINTS];
+    gb_differences(m, to, from, delta);
     gb_differences(m, q, from, aside);
-    const gb_real share = gb_scalar_product(aside, way, m->joints) / gb_scalar_product(way, way, m->joints);
+    const gb_real share = gb_scalar_product(aside, delta, m->joints) / gb_scalar_product(delta, delta, m->joints);
     gb_beyond(m, to, from, -gb_smaller(gb_larger(share, R(0.0)), R(1.0)), nearest);
     return gb_farthest(m, q, nearest) <= GB_MERGING_KNOWN;
 }
@@ -315,9 +315,9 @@ static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, c
     gb_keep_change(all, &curve->found, &before, &at);
     for (int k = 0; k < GB_CURVE_PACES; k++) {
         gb_pass(m, starts, curve, &before, &at);
-        const gb_real way = gb_farthest(m, at.q, curve->home.q);
-        is_away |= way > R(3.0) * gb_curve_pace[2];
-        if (is_away && way <= gb_curve_pace[2]) {
+        const gb_real delta = gb_farthest(m, at.q, curve->home.q);
+        is_away |= delta > R(3.0) * gb_curve_pace[2];
+        if (is_away && delta <= gb_curve_pace[2]) {
             gb_keep_change(all, &curve->found, &at, &curve->home);
             return true;
         }

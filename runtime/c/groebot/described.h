@@ -76,7 +76,7 @@ static bool gb_onto_self_motion(const gb_problem *problem, gb_real *q, uint32_t 
     if (!(gb_fitted(problem, q, free, R(0.5)).relative <= within) || !gb_free_joints(problem, q, free) || !gb_ideal_parameters(q, p)) {
         return false;
     }
-    return gb_measure_of(problem, q).relative <= within && gb_lies_on_self_motion(&ideal, q, free, GB_ACCEPTANCE_ROUNDING);
+    return gb_measure_of(problem, q).relative <= within && gb_is_on_self_motion(&ideal, q, free, GB_ACCEPTANCE_ROUNDING);
 }
 
 /* Moves a solution of the ideal mechanism to where the mechanism as described is nearest to the target. */

@@ -71,7 +71,7 @@ static bool gb_is_on_trail(gb_answers *all, const gb_found_1 *found, const gb_re
 /* Keeps a candidate if it is a member of a self-motion. Returns whether it is. */
 static bool gb_keep_member(gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
-    const bool is_member = end->fit.accepted && gb_lies_on_self_motion(&all->problem, end->q, found->free, end->fit.relative);
+    const bool is_member = end->fit.accepted && gb_is_on_self_motion(&all->problem, end->q, found->free, end->fit.relative);
     if (is_member) {
         gb_keep_on_trail(all, found, end);
     }
@@ -111,7 +111,7 @@ static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end
 }
 
 /* Whether a solution in the list is a member of a self-motion within rounding, with the branch and the free joints of a candidate. */
-static bool gb_is_told(const gb_answers *all, size_t i, const gb_found_1 *found)
+static bool gb_is_member_of(const gb_answers *all, size_t i, const gb_found_1 *found)
 {
     return *gb_relative_of(all, i) <= GB_ACCEPTANCE_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free;
 }
@@ -125,7 +125,7 @@ static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
         }
     }
     for (size_t i = 0; i < all->count; i++) {
-        if (gb_is_told(all, i, found)) {
+        if (gb_is_member_of(all, i, found)) {
             return true;
         }
     }
@@ -135,7 +135,7 @@ static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
 /* Keeps a member of a long self-motion within rounding if no solution is lost without further tests. Returns whether it was kept. */
 static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end, bool is_known)
 {
-    if (end->fit.relative <= GB_ACCEPTANCE_ROUNDING && gb_lies_on_long_self_motion(&all->problem, end->q, found->free)) {
+    if (end->fit.relative <= GB_ACCEPTANCE_ROUNDING && gb_is_on_long_self_motion(&all->problem, end->q, found->free)) {
         gb_keep_on_trail(all, found, end);
         return true;
     }
@@ -166,7 +166,7 @@ static bool gb_is_on_known(gb_answers *all, const gb_found_1 *found, const gb_en
     bool joins = !is_on_curve || (has_last && gb_leads_round_to(problem, last, here, found->free));
     for (size_t i = all->count; i > 0 && !joins;) {
         i--;
-        joins = gb_is_told(all, i, found) && gb_leads_to(problem, gb_q_of(all, i), end->q, found->free);
+        joins = gb_is_member_of(all, i, found) && gb_leads_to(problem, gb_q_of(all, i), end->q, found->free);
     }
     if (joins) {
         gb_remember(all, found->branch, found->free, end->q, is_on_curve ? tangent : NULL);

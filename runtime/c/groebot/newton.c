@@ -218,7 +218,7 @@ static bool gb_is_regular(gb_triangle *triangle)
 
 /* The direction in which the equations change least, with its largest component equal to one, and that change relative to the largest pivot. Computed by
  * inverse iteration from the triangular factor. False where a pivot is zero, or no steps are left. */
-static bool gb_stillest(const gb_problem *problem, gb_triangle *triangle, gb_real *way, gb_real *share)
+static bool gb_stillest(const gb_problem *problem, gb_triangle *triangle, gb_real *delta, gb_real *share)
 {
     const size_t joints = problem->mechanism->joints;
     gb_real least, most;
@@ -228,49 +228,49 @@ static bool gb_stillest(const gb_problem *problem, gb_triangle *triangle, gb_rea
     gb_pivots(triangle, &least, &most);
     gb_real *right = gb_column(triangle, joints);
     for (size_t i = 0; i < joints; i++) {
-        way[i] = R(1.0);
+        delta[i] = R(1.0);
     }
     *share = R(1.0);
     for (int i = 0; i < GB_INVERSIONS; i++) {
         for (size_t row = 0; row < joints; row++) {
-            gb_real above = way[row];
+            gb_real above = delta[row];
             for (size_t k = 0; k < row; k++) {
                 above = above - gb_column(triangle, row)[k] * right[k];
             }
             right[row] = above / gb_column(triangle, row)[row];
         }
         const gb_real before = gb_norm(right, joints);
-        if (!gb_substitute(triangle, way)) {
+        if (!gb_substitute(triangle, delta)) {
             return false;
         }
-        *share = before / (gb_norm(way, joints) * most);
+        *share = before / (gb_norm(delta, joints) * most);
     }
-    const gb_real longest = gb_longest(problem->mechanism, way);
+    const gb_real longest = gb_longest(problem->mechanism, delta);
     for (size_t i = 0; i < joints; i++) {
-        way[i] = way[i] / longest;
+        delta[i] = delta[i] / longest;
     }
     return gb_is_finite(longest) && longest > R(0.0);
 }
 
-/* q + factor way, angles in (-pi, pi]. */
-static void gb_shifted(const gb_mechanism *m, const gb_real *q, const gb_real *way, gb_real factor, gb_real *next)
+/* q + factor delta, angles in (-pi, pi]. */
+static void gb_shifted(const gb_mechanism *m, const gb_real *q, const gb_real *delta, gb_real factor, gb_real *next)
 {
     for (size_t i = 0; i < m->joints; i++) {
-        next[i] = gb_wrapped(m, i, q[i] + factor * way[i]);
+        next[i] = gb_wrapped(m, i, q[i] + factor * delta[i]);
     }
 }
 
-/* The distance along `way` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`. */
-static bool gb_second_root(const gb_problem *problem, const gb_real *root, const gb_real *way, gb_real ahead, gb_real *distance)
+/* The distance along `delta` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`. */
+static bool gb_second_root(const gb_problem *problem, const gb_real *root, const gb_real *delta, gb_real ahead, gb_real *distance)
 {
     gb_real start[GB_MAX_JOINTS], step[GB_MAX_JOINTS], along = R(0.0), square = R(0.0);
-    gb_shifted(problem->mechanism, root, way, ahead, start);
+    gb_shifted(problem->mechanism, root, delta, ahead, start);
     if (!gb_newton_step(problem, start, R(0.0), 0, step)) {
         return false;
     }
     for (size_t i = 0; i < problem->mechanism->joints; i++) {
-        along = along + step[i] * way[i];
-        square = square + way[i] * way[i];
+        along = along + step[i] * delta[i];
+        square = square + delta[i] * delta[i];
     }
     const gb_real arrived = ahead - along / square;
     *distance = R(2.0) * ahead - ahead * ahead / arrived;
@@ -314,7 +314,7 @@ static bool gb_come_back(const gb_problem *problem, gb_end *end, gb_real enough,
 static bool gb_leap(const gb_problem *problem, const gb_real *q, gb_real enough, uint32_t held, gb_end *end)
 {
     const gb_mechanism *m = problem->mechanism;
-    gb_real step[GB_MAX_JOINTS], way[GB_MAX_JOINTS];
+    gb_real step[GB_MAX_JOINTS], delta[GB_MAX_JOINTS];
     if (!gb_newton_step(problem, q, R(0.0), held, step)) {
         return false;
     }
@@ -325,9 +325,9 @@ static bool gb_leap(const gb_problem *problem, const gb_real *q, gb_real enough,
     for (size_t k = 0; k < GB_LENGTH_OF(gb_leaps); k++) {
         const gb_real share = gb_smaller(R(1.0), gb_leaps[k] / longest);
         for (size_t i = 0; i < m->joints; i++) {
-            way[i] = share * step[i];
+            delta[i] = share * step[i];
         }
-        gb_stepped(m, q, way, end->q);
+        gb_stepped(m, q, delta, end->q);
         if (gb_come_back(problem, end, enough, held)) {
             return true;
         }

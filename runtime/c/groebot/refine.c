@@ -109,7 +109,7 @@ static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, cons
     if (gb_is_loner(all, isolated, free)) {
         return false;
     }
-    if (!gb_lies_on_self_motion(&all->problem, isolated, free, GB_ACCEPTANCE_ROUNDING)) {
+    if (!gb_is_on_self_motion(&all->problem, isolated, free, GB_ACCEPTANCE_ROUNDING)) {
         const size_t next = all->loners_count++ % GB_LONERS;
         gb_copy(all->loners[next], isolated, all->problem.mechanism->joints);
         all->loners_of[next] = free;
@@ -118,8 +118,8 @@ static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, cons
     return !all->suffices || gb_leads_to(&all->problem, member, isolated, free);
 }
 
-/* Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than GB_MERGING_JOINTS. Half-way between
- * them the residual is then no larger than at the worse of the two. */
+/* Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than GB_MERGING_JOINTS. Half-way
+ * between them the residual is then no larger than at the worse of the two. */
 static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real of_a, const gb_real *b, gb_real of_b)
 {
     const gb_real bound = gb_larger(gb_larger(of_a, of_b), GB_MERGING_HALFWAY);
@@ -149,8 +149,8 @@ static bool gb_are_alike(const gb_answers *all, size_t i, const gb_answer *b)
     return *gb_branch_of(all, i) == b->branch && *gb_free_of(all, i) == b->free;
 }
 
-/* Whether a solution in the list and a new one are one: members of one self-motion, one singular configuration, or within GB_MERGING_JOINTS without the joints that
- * are free in either. */
+/* Whether a solution in the list and a new one are one: members of one self-motion, one singular configuration, or within GB_MERGING_JOINTS without the
+ * joints that are free in either. */
 static bool gb_is_one(gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_problem *problem = &all->problem;
@@ -321,9 +321,9 @@ static void gb_around(gb_answers *all, const gb_found_1 *found, const gb_end *en
     for (gb_real farther = R(1.0); farther <= GB_FARTHEST && !gb_are_spent(&all->problem); farther *= GB_FARTHER) {
         for (size_t i = 0; i < 2 * m->joints; i++) {
             const gb_real sign = i % 2 == 0 ? R(-1.0) : R(1.0), weight = end->fit.accepted ? R(1.0) : weights[i / 2];
-            const gb_real way = gb_smaller(GB_APART_BY, farther * gb_square_root(missed / weight));
+            const gb_real delta = gb_smaller(GB_APART_BY, farther * gb_square_root(missed / weight));
             gb_end start = *end;
-            start.q[i / 2] = gb_moved(m, end->q, i / 2, R(2.0) * sign * way);
+            start.q[i / 2] = gb_moved(m, end->q, i / 2, R(2.0) * sign * delta);
             gb_polish_from(&all->problem, &start, 0);
             is_found |= start.fit.accepted;
             gb_keep(all, found, start.q, &start.fit);
@@ -340,14 +340,14 @@ static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end
 {
     const gb_problem *problem = &all->problem;
     const gb_real nearby = gb_square_root(missed);
-    gb_real way[GB_MAX_JOINTS], at[GB_MAX_PLACES], share, distance;
+    gb_real delta[GB_MAX_JOINTS], at[GB_MAX_PLACES], share, distance;
     gb_approach approach;
     gb_end start;
-    if (!gb_stillest(problem, triangle, way, &share) || share > GB_TWIN * nearby ||
-        !gb_second_root(problem, end, way, GB_TWIN_AT * nearby, &distance) || gb_magnitude(distance) > GB_TWIN_WITHIN * nearby) {
+    if (!gb_stillest(problem, triangle, delta, &share) || share > GB_TWIN * nearby ||
+        !gb_second_root(problem, end, delta, GB_TWIN_AT * nearby, &distance) || gb_magnitude(distance) > GB_TWIN_WITHIN * nearby) {
         return;
     }
-    gb_shifted(problem->mechanism, end, way, distance, start.q);
+    gb_shifted(problem->mechanism, end, delta, distance, start.q);
     gb_place(problem, start.q, at);
     if (problem->mechanism->approach(problem, at, start.q, &approach)) {
         gb_keep(all, found, approach.end, &approach.fit);
@@ -440,9 +440,10 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     end.fit = gb_measure(problem, q);
     const gb_real missed = end.fit.relative;
     gb_polish(problem, &end, 0);
-    const gb_real miss = end.fit.relative, way = gb_farthest(problem->mechanism, q, end.q);
-    const bool is_nearby = problem->mechanism->is_nearby, is_beside = gb_is_between(missed, GB_ACCEPTANCE_ROUNDING, is_nearby ? GB_NEARBY_ROBOTS_OFF : GB_STRATA_NEAR);
-    const bool holds = missed < GB_ACCEPTANCE_ROUNDING || (miss < GB_ACCEPTANCE_ROUNDING && way <= GB_MERGING_JOINTS);
+    const gb_real miss = end.fit.relative, delta = gb_farthest(problem->mechanism, q, end.q);
+    const bool is_nearby = problem->mechanism->is_nearby;
+    const bool is_beside = gb_is_between(missed, GB_ACCEPTANCE_ROUNDING, is_nearby ? GB_NEARBY_ROBOTS_OFF : GB_STRATA_NEAR);
+    const bool holds = missed < GB_ACCEPTANCE_ROUNDING || (miss < GB_ACCEPTANCE_ROUNDING && delta <= GB_MERGING_JOINTS);
     all->unsound = end.fit.accepted && holds ? all->unsound : number;
     all->doubted = found->close ? number : all->doubted;
     gb_triangle triangle;
@@ -460,7 +461,7 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     }
     if (gb_is_between(miss, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR)) {
         gb_around(all, found, &end, miss);
-    } else if (is_beside && way > GB_LEVER * gb_square_root(missed)) {
+    } else if (is_beside && delta > GB_LEVER * gb_square_root(missed)) {
         if (!is_nearby || regularity <= GB_PIVOTS_ISOLATED) {
             gb_around(all, found, &end, missed);
         }

@@ -294,7 +294,7 @@ GB_LINKAGE bool gb_are_all(const gb_answers *all);
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach);
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most);
 GB_LINKAGE bool gb_free_joints(const gb_problem *problem, gb_real *q, uint32_t free);
-GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound);
+GB_LINKAGE bool gb_is_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound);
 GB_LINKAGE gb_real gb_regularity(const gb_problem *problem, const gb_real *q);
 GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint32_t free);
 GB_LINKAGE void gb_put_in_order(gb_answers *all);

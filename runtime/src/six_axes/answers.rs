@@ -194,9 +194,9 @@ fn is_within(a: &[f64; 6], b: &[f64; 6], slides: &[bool; 6], limit: f64) -> bool
 }
 
 #[inline(always)]
-fn difference(way: f64, slides: bool) -> f64 {
-    let turns = if slides { 0.0 } else { Arithmetic::round(way / TAU) };
-    (way - TAU * turns).abs()
+fn difference(delta: f64, slides: bool) -> f64 {
+    let turns = if slides { 0.0 } else { Arithmetic::round(delta / TAU) };
+    (delta - TAU * turns).abs()
 }
 
 /// The joints with angles in (-pi, pi].

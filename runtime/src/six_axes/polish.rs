@@ -29,12 +29,12 @@ impl Reach {
     /// The pose error to a target: translation relative to the length scale, and rotation (rad).
     #[inline(always)]
     pub fn miss(&self, target: &Rigid) -> [f64; 6] {
-        let way = sub(&target.translation, &self.end.translation);
+        let position = sub(&target.translation, &self.end.translation);
         let turn = |index: usize| cross(&self.end.column(index), &target.column(index));
         let turn = scale(&add(&add(&turn(0), &turn(1)), &turn(2)), 0.5);
         let cosine = |index: usize| dot(&self.end.column(index), &target.column(index));
         let turn = if cosine(0) + cosine(1) + cosine(2) < 1.0 { obtuse(&turn) } else { turn };
-        [way[0], way[1], way[2], turn[0], turn[1], turn[2]]
+        [position[0], position[1], position[2], turn[0], turn[1], turn[2]]
     }
 }
 
@@ -139,9 +139,9 @@ impl Chain {
         let mut matrix = [[0.0; 6]; 6];
         for (joint, (axis, origin)) in reach.axes.iter().zip(&reach.origins).enumerate() {
             let arm = sub(&reach.end.translation, origin);
-            let (way, turn) = if self.slides[joint] { (*axis, [0.0; 3]) } else { (cross(axis, &arm), *axis) };
+            let (position, turn) = if self.slides[joint] { (*axis, [0.0; 3]) } else { (cross(axis, &arm), *axis) };
             for k in 0..3 {
-                (matrix[k][joint], matrix[3 + k][joint]) = (way[k], turn[k]);
+                (matrix[k][joint], matrix[3 + k][joint]) = (position[k], turn[k]);
             }
         }
         matrix

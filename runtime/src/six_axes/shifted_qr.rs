@@ -86,9 +86,9 @@ fn pair(h: &Matrix, low: usize) -> (Eigenvalue, Eigenvalue) {
         let (re, im) = (0.5 * (a + d), Arithmetic::sqrt(-discriminant));
         return (Eigenvalue { re, im }, Eigenvalue { re, im: -im });
     }
-    let way = half + Arithmetic::sqrt(discriminant).copysign(half);
-    let first = d + way;
-    let second = if way == 0.0 { d } else { d - b * c / way };
+    let sum = half + Arithmetic::sqrt(discriminant).copysign(half);
+    let first = d + sum;
+    let second = if sum == 0.0 { d } else { d - b * c / sum };
     (Eigenvalue { re: first, im: 0.0 }, Eigenvalue { re: second, im: 0.0 })
 }
 

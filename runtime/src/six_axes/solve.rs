@@ -72,7 +72,7 @@ impl Chain {
             self.meet(&goal, &target, &mut search);
         }
         // The first run shows a reliable result only where there is no self-motion.
-        self.told(&search, runs, accuracy)
+        self.collected(&search, runs, accuracy)
     }
 
     /// Runs formulations until one is reliable. Returns their number and [`Answers::accuracy`] of the last one. Lost candidates are then removed.
@@ -137,7 +137,7 @@ impl Chain {
     }
 
     /// The solutions, in the unit of the target.
-    fn told(&self, search: &Search, runs: usize, accuracy: Option<f64>) -> Answers {
+    fn collected(&self, search: &Search, runs: usize, accuracy: Option<f64>) -> Answers {
         let mut answers = Answers::NONE;
         (answers.runs, answers.accuracy) = (runs, accuracy);
         for q in search.answers.iter() {

@@ -26,10 +26,10 @@ typedef struct {
 } gb_six_search;
 
 /* The magnitude of a displacement; of an angle, reduced to (-pi, pi]. */
-GB_INLINE gb_real gb_six_difference(gb_real way, bool slides)
+GB_INLINE gb_real gb_six_difference(gb_real delta, bool slides)
 {
-    const gb_real turns = slides ? R(0.0) : gb_round(way / GB_TAU);
-    return gb_magnitude(way - GB_TAU * turns);
+    const gb_real turns = slides ? R(0.0) : gb_round(delta / GB_TAU);
+    return gb_magnitude(delta - GB_TAU * turns);
 }
 
 /* The largest difference of two joint vectors. */
@@ -56,12 +56,12 @@ static bool gb_six_is_within(const gb_real *a, const gb_real *b, const bool *sli
 /* Adds a joint vector if the list has none close to it. Angles that differ by whole turns are distinct. */
 static void gb_six_remember(gb_six_list *list, const gb_real *q)
 {
-    static const bool ways[6] = {true, true, true, true, true, true};
+    static const bool slides[6] = {true, true, true, true, true, true};
     if (list->count == GB_SIX_KEPT) {
         return;
     }
     for (size_t k = 0; k < list->count; k++) {
-        if (gb_six_is_within(list->list[k], q, ways, GB_MERGING_KNOWN)) {
+        if (gb_six_is_within(list->list[k], q, slides, GB_MERGING_KNOWN)) {
             return;
         }
     }

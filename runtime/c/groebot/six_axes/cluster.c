@@ -125,8 +125,8 @@ static bool gb_six_are_separate(const gb_six_eigenvalue *values, size_t count)
     for (size_t k = 0; k < count; k++) {
         for (size_t i = 0; i < k; i++) {
             const gb_six_eigenvalue a = values[k], b = values[i];
-            const gb_real way = gb_magnitude(a.re - b.re) + gb_magnitude(a.im - b.im);
-            if (way <= GB_MERGING_APART_TANGENTS * (R(1.0) + a.re * a.re + b.re * b.re)) {
+            const gb_real distance = gb_magnitude(a.re - b.re) + gb_magnitude(a.im - b.im);
+            if (distance <= GB_MERGING_APART_TANGENTS * (R(1.0) + a.re * a.re + b.re * b.re)) {
                 return false;
             }
         }

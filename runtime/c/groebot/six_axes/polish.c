@@ -118,15 +118,15 @@ static gb_real gb_six_closing(const gb_chain *chain, const gb_real *q, size_t jo
 GB_INLINE void gb_six_derivatives(const gb_chain *chain, const gb_six_reach *reach, size_t joint, gb_real *column)
 {
     const gb_real *axis = reach->axes[joint];
-    gb_real arm[3], way[3];
+    gb_real arm[3], position[3];
     GB_UNROLL
     for (int k = 0; k < 3; k++) {
         arm[k] = reach->end.translation[k] - reach->origins[joint][k];
     }
-    gb_six_cross(axis, arm, way);
+    gb_six_cross(axis, arm, position);
     GB_UNROLL
     for (int k = 0; k < 3; k++) {
-        column[k] = chain->slides[joint] ? axis[k] : way[k];
+        column[k] = chain->slides[joint] ? axis[k] : position[k];
         column[3 + k] = chain->slides[joint] ? R(0.0) : axis[k];
     }
 }

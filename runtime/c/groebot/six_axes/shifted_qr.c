@@ -34,9 +34,9 @@ static void gb_six_pair(const gb_six_matrix *h, size_t low, gb_six_eigenvalue *p
         pair[1].im = -pair[0].im;
         return;
     }
-    const gb_real way = half + gb_signed(gb_square_root(discriminant), half);
-    pair[0].re = d + way;
-    pair[1].re = way == R(0.0) ? d : d - b * c / way;
+    const gb_real sum = half + gb_signed(gb_square_root(discriminant), half);
+    pair[0].re = d + sum;
+    pair[1].re = sum == R(0.0) ? d : d - b * c / sum;
     pair[0].im = pair[1].im = R(0.0);
 }
 

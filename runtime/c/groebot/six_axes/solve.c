@@ -190,7 +190,7 @@ static bool gb_six_is_sorted(const gb_real *a, const gb_real *b)
 }
 
 /* Joint values in the unit of the target. */
-static gb_six_answer gb_six_tell(const gb_chain *chain, const gb_real *q, bool lost)
+static gb_six_answer gb_six_answer_of(const gb_chain *chain, const gb_real *q, bool lost)
 {
     gb_six_answer answer;
     for (int joint = 0; joint < 6; joint++) {
@@ -202,11 +202,11 @@ static gb_six_answer gb_six_tell(const gb_chain *chain, const gb_real *q, bool l
 }
 
 /* Writes the solutions, in the unit of the target. Returns their number. */
-static size_t gb_six_tell_all(const gb_chain *chain, const gb_six_search *search, bool is_isolated, gb_six_answer *out)
+static size_t gb_six_write_answers(const gb_chain *chain, const gb_six_search *search, bool is_isolated, gb_six_answer *out)
 {
     size_t count = 0;
     for (; count < search->answers.count; count++) {
-        gb_six_answer answer = gb_six_tell(chain, search->answers.list[count], false);
+        gb_six_answer answer = gb_six_answer_of(chain, search->answers.list[count], false);
         if (!is_isolated) {
             gb_six_find_free(chain, search->answers.list[count], answer.free);
         }
@@ -217,10 +217,10 @@ static size_t gb_six_tell_all(const gb_chain *chain, const gb_six_search *search
         out[place] = answer;
     }
     for (size_t k = 0; k < search->lost.count; k++) {
-        out[count++] = gb_six_tell(chain, search->lost.list[k], true);
+        out[count++] = gb_six_answer_of(chain, search->lost.list[k], true);
     }
     for (size_t k = 0; k < search->meeting.count && count < GB_SIX_ROOM; k++) {
-        out[count++] = gb_six_tell(chain, search->meeting.list[k], true);
+        out[count++] = gb_six_answer_of(chain, search->meeting.list[k], true);
     }
     return count;
 }
@@ -246,5 +246,5 @@ GB_LINKAGE size_t gb_six_axes(const gb_chain *chain, const gb_real *target, gb_s
         gb_six_meet(chain, &goal, &end, &search);
     }
     /* The first run shows a reliable result only where there is no self-motion. */
-    return gb_six_tell_all(chain, &search, runs == 1, out);
+    return gb_six_write_answers(chain, &search, runs == 1, out);
 }
