@@ -11,6 +11,7 @@ mod scan;
 mod scanner;
 mod signatures;
 mod table;
+mod tolerances;
 mod watches;
 
 use std::collections::HashMap;

@@ -34,7 +34,7 @@ pub fn closest<'py>(
     let reached = match found.reached {
         Target::Pose(pose) => arrays::shaped(py, pose.to_homogeneous().transpose().as_slice().to_vec(), &[4, 4])?,
         other => {
-            let numbers = other.numbers();
+            let numbers = stored.program.tip().and_then(|tip| tip.layout().values(&other).ok()).unwrap_or_default();
             let count = numbers.len();
             arrays::shaped(py, numbers, &[count])?
         }

@@ -137,6 +137,7 @@ typedef double gb_real;
 #if (defined(GB_ROBOT) || defined(GB_RUNTIME)) && !defined(GB_SHARED)
 #define GB_SHARED
 #include "groebot/shared.h"
+#include "groebot/tolerances.h"
 #endif
 
 #if defined(GB_ROBOT) && !(defined(GB_WIDTH) && GB_WIDTH == 0)
@@ -160,7 +161,7 @@ typedef double gb_real;
 #else
 #include "groebot/mechanism.h"
 #ifdef GB_SHORTS
-#include "groebot/ways.h"
+#include "groebot/approaches.h"
 #endif
 #include "groebot/answers.h"
 #include "groebot/described.h"

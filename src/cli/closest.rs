@@ -58,7 +58,9 @@ pub fn solution(closest: &Closest) -> Solution {
 pub fn text(answer: &Answer<'_>, closest: &Closest) -> String {
     let length =
         answer.program.inputs.iter().map(|input| input.unit).find(|unit| !matches!(unit, Unit::Radian | Unit::One));
-    let distance = length.map(|unit| format!("{:.6e} {}", closest.distance, unit.symbol()));
+    let short = closest.distance < 1e-3 && closest.distance > 0.0;
+    let number = if short { format!("{:.3e}", closest.distance) } else { format!("{:.6}", closest.distance) };
+    let distance = length.map(|unit| format!("{number} {}", unit.symbol()));
     let angle = format!("{:.6} deg ({:.9} rad)", closest.angle.to_degrees(), closest.angle);
     let misses = match distance {
         Some(distance) if closest.angle == 0.0 => distance,
@@ -99,9 +101,11 @@ impl<'a> Entry<'a> {
     /// The entry, with angles in the unit of the answer.
     pub fn new(answer: &'a Answer<'_>, closest: &Closest) -> Self {
         let row = solution(closest);
+        let reached =
+            answer.program.tip().and_then(|tip| tip.layout().values(&closest.reached).ok()).unwrap_or_default();
         Entry {
             q: answer.shown(&row),
-            reached: answer.angles.of_target(answer.program, &closest.reached.numbers()),
+            reached: answer.angles.of_target(answer.program, &reached),
             distance: closest.distance,
             angle: shown(answer.angles, closest.angle),
             is_minimum: closest.is_minimum,

@@ -20,7 +20,7 @@ use groebot_robot::document::read_text;
 const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal --target 60,150
   groebot solve derivations/nao_leg_sagittal --target -60,-150 --json
-  groebot solve derivations/nao_leg_sagittal --target 300,400 --closest
+  groebot solve derivations/planar_2r --target 3,4 --closest
   groebot solve derivations/nao_leg_sagittal < targets.csv > answers.csv
   groebot fk derivations/ur5 < joints.csv | groebot solve derivations/ur5 | groebot fk derivations/ur5
 

@@ -3,6 +3,7 @@
 use groebot_robot::kinematics::{BaseAxis, InverseKinematics, Solution, Target, Task};
 use groebot_robot::spatial::{Pose, angle};
 use groebot_runtime::target_of;
+use groebot_runtime::tolerances::ACCEPTANCE;
 use nalgebra::{Matrix3, Vector3};
 
 use super::prepared::Outline;
@@ -11,7 +12,7 @@ use crate::{Error, ErrorKind, Result};
 
 /// Tolerance of a rotation that must be about an axis, and of a tool that must not move the tip \[rad, and relative to the reach\]. It is that of a
 /// target's rotation.
-const ALIGNED: f64 = super::CONSISTENT;
+const ALIGNED: f64 = ACCEPTANCE.input;
 
 /// Where the base is in the world, and where the tool is on the tip. The default is the identity for both.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

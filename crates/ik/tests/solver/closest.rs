@@ -5,7 +5,7 @@ use std::path::Path;
 use groebot_ik::ErrorKind;
 use groebot_ik::folder;
 use groebot_ik::solver::{ClosestOptions, Placement, Program, Solver};
-use groebot_robot::kinematics::Target;
+use groebot_robot::kinematics::{Target, Task};
 use groebot_robot::spatial::Pose;
 use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
 
@@ -14,6 +14,12 @@ use crate::codegen::random;
 fn program(name: &str) -> Program {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("derivations");
     folder::program(&root.join(name)).unwrap()
+}
+
+/// The numbers of a target.
+fn values(target: &Target) -> Vec<f64> {
+    let task = Task::all().into_iter().find(|task| target.is_of(*task)).unwrap();
+    task.layout().values(target).unwrap()
 }
 
 fn pose(between: &mut impl FnMut(f64, f64) -> f64, size: f64) -> Pose {
@@ -78,7 +84,7 @@ fn a_spherical_wrist_keeps_the_orientation_when_rotation_weighs_much() {
 
 /// Minimum of the same error by a coordinate-free search: random points, each improved by random steps that shrink.
 fn searched(solver: &Solver, target: &Target, length: f64, between: &mut impl FnMut(f64, f64) -> f64) -> f64 {
-    let goal = target.numbers();
+    let goal = values(target);
     let error = |q: &[f64]| {
         let own = solver.reached(q).unwrap();
         let squares = |range: std::ops::Range<usize>| range.map(|i| (own[i] - goal[i]).powi(2)).sum::<f64>();
@@ -188,7 +194,7 @@ fn other_tasks_have_closest_joints_too() {
         let found = solver.closest(target).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(found.is_minimum, "{name}: {found:?}");
         let [distance, angle] = (|| {
-            let (own, goal) = (found.reached.numbers(), target.numbers());
+            let (own, goal) = (values(&found.reached), values(&target));
             let lengths = if matches!(target, Target::Direction(_)) { 0 } else { 2.max(goal.len().min(3)) };
             let lengths = if matches!(target, Target::PlanarPose(_)) { 2 } else { lengths };
             let distance = (0..lengths).map(|i| (own[i] - goal[i]).powi(2)).sum::<f64>().sqrt();
@@ -223,16 +229,13 @@ fn the_closest_pose_of_a_tool_is_that_of_the_tool() {
     let far = pose(&mut between, 5.0);
     let found = placed.closest(far).unwrap();
     let numbers = placed.reached(&found.q).unwrap();
-    let distance = (0..3).map(|i| (numbers[i] - Target::Pose(far).numbers()[i]).powi(2)).sum::<f64>().sqrt();
+    let distance = (0..3).map(|i| (numbers[i] - values(&Target::Pose(far))[i]).powi(2)).sum::<f64>().sqrt();
     assert!((distance - found.distance).abs() < 1e-9 && found.is_minimum, "{distance} {found:?}");
     let Target::Pose(reached) = found.reached else { panic!() };
     assert!((reached.rotation.angle_to(&far.rotation) - found.angle).abs() < 1e-7, "{found:?}");
-    let of_tip =
-        solver.closest_numbers(&placed.base_from_tip(&Target::Pose(far).numbers()), &ClosestOptions::default());
+    let of_tip = solver.closest_numbers(&placed.base_from_tip(&values(&Target::Pose(far))), &ClosestOptions::default());
     let numbers = placed.reached(&of_tip.unwrap().q).unwrap();
-    let Ok(Target::Pose(other)) = Target::from_numbers(groebot_robot::kinematics::Task::Pose, &numbers) else {
-        panic!()
-    };
+    let Ok(Target::Pose(other)) = Task::Pose.layout().target(&numbers) else { panic!() };
     let error = |pose: &Pose| {
         let chord = 2.0 * solver_scale() * (0.5 * pose.rotation.angle_to(&far.rotation)).sin();
         (pose.translation.vector - far.translation.vector).norm_squared() + chord * chord

@@ -22,7 +22,7 @@ fn pose(between: &mut impl FnMut(f64, f64) -> f64) -> Pose {
 }
 
 fn pose_of(numbers: &[f64]) -> Pose {
-    let Ok(Target::Pose(pose)) = Target::from_numbers(Task::Pose, numbers) else { panic!("{numbers:?}") };
+    let Ok(Target::Pose(pose)) = Task::Pose.layout().target(numbers) else { panic!("{numbers:?}") };
     pose
 }
 
@@ -43,7 +43,7 @@ fn a_placed_pose_has_the_solutions_of_the_pose_in_the_base_frame() {
         let found = placed.solve(world_from_tool).unwrap();
         assert!(found.iter().any(|one| farthest(&one.q, &q) < 1e-9), "{q:?}: {found:?}");
         for one in &found {
-            let reached = Target::Pose(world_from_tool).numbers();
+            let reached = Task::Pose.layout().values(&Target::Pose(world_from_tool)).unwrap();
             assert!(farthest(&placed.reached(&one.q).unwrap(), &reached) < 1e-12 * 10.0, "{q:?}");
         }
         let mut through_trait = Vec::new();
@@ -126,8 +126,9 @@ fn positions_and_rays_have_any_base() {
 fn a_rotation_has_any_base_and_any_tool() {
     let (base, tool) = (turned(Vector3::x(), 0.7, [1.0, 2.0, 3.0]), turned(Vector3::y(), -0.4, [3.0, 2.0, 1.0]));
     come_back(&program("wrist_rotation").solver(), &Placement::default().base(base).tool(tool), 3, |own, seen| {
-        let Ok(Target::Rotation(rotation)) = Target::from_numbers(Task::Rotation, own) else { panic!() };
-        seen.copy_from_slice(&Target::Rotation(base.rotation * rotation * tool.rotation).numbers());
+        let Ok(Target::Rotation(rotation)) = Task::Rotation.layout().target(own) else { panic!() };
+        let seen_rotation = Target::Rotation(base.rotation * rotation * tool.rotation);
+        seen.copy_from_slice(&Task::Rotation.layout().values(&seen_rotation).unwrap());
     });
 }
 

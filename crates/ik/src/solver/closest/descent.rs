@@ -4,16 +4,14 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::measure::Measure;
+use crate::tolerances::CLOSEST;
 
 /// The greatest number of steps from a starting point.
 const STEPS: usize = 80;
 /// The greatest damping, relative to the largest second derivative.
 const MOST_DAMPING: f64 = 1e8;
-/// The decrease of a minimum's error that a step of Newton's method predicts, relative to the error: that of rounding of the gradient.
-const FLAT: f64 = 1e-9;
-/// A negative eigenvalue of the Hessian, relative to the largest, that differences of gradients may give to a flat direction.
-const CURVED: f64 = 1e-5;
-
+/// Rounding error of an error, relative to it.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// The search from one point.
 pub(super) struct Descent<'a> {
     pub measure: &'a Measure<'a>,
@@ -71,7 +69,7 @@ impl<'a> Descent<'a> {
     /// Minimises the error from these values of the unknown joints.
     pub fn run(&self, start: &[f64]) -> Option<End> {
         let mut point = self.point(self.clamped(DVector::from_row_slice(start)))?;
-        let mut damping = 1e-4;
+        let mut damping = 1e-3;
         for _ in 0..STEPS {
             let hessian = self.hessian(&point)?;
             match self.step(&point, &hessian, &mut damping) {
@@ -100,14 +98,14 @@ impl<'a> Descent<'a> {
             });
             // Where the error does not change within rounding the gradient shows progress.
             let is_better = |next: &Point| {
-                next.error < point.error * (1.0 - 1e-14)
-                    || (next.error <= point.error * (1.0 + 1e-14) && next.slope() < 0.5 * point.slope())
+                next.error < point.error * (1.0 - ROUNDING)
+                    || (next.error <= point.error * (1.0 + ROUNDING) && next.slope() < 0.5 * point.slope())
             };
             if let Some(better) = next.filter(is_better) {
-                *damping = (*damping / 10.0).max(1e-14);
+                *damping = (*damping / 10.0).max(f64::EPSILON);
                 return Some(better);
             }
-            *damping = (*damping * 10.0).max(1e-12);
+            *damping = (*damping * 10.0).max(f64::EPSILON);
         }
         None
     }
@@ -162,8 +160,8 @@ fn is_flat(point: &Point, hessian: &DMatrix<f64>) -> bool {
     }
     let gradient = DVector::from_iterator(point.free.len(), point.free.iter().map(|&k| point.gradient[k]));
     let most = hessian.diagonal().amax().max(f64::MIN_POSITIVE);
-    let Some(factor) = factored(hessian, CURVED * most) else { return false };
-    gradient.dot(&factor.solve(&gradient)) <= FLAT * point.error
+    let Some(factor) = factored(hessian, CLOSEST.curved * most) else { return false };
+    gradient.dot(&factor.solve(&gradient)) <= CLOSEST.flat * point.error
 }
 
 /// The Cholesky factor of the matrix with `damping` added to its diagonal; `None` unless it is positive definite.

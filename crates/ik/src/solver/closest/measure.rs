@@ -41,7 +41,7 @@ impl<'a> Measure<'a> {
         let mut measure = Measure {
             solver,
             task,
-            lengths: task.lengths(),
+            lengths: task.layout().lengths(),
             goal: Vec::new(),
             lever,
             weight: length.unwrap_or(outline.scale) / outline.scale,
@@ -126,7 +126,7 @@ impl<'a> Measure<'a> {
 
     /// The target that `q` reaches, base_from_tip.
     pub fn reached(&self, q: &[f64]) -> Option<Target> {
-        Target::from_numbers(self.task, &self.solver.reached(q)?[..self.outline().own]).ok()
+        self.task.layout().target(&self.solver.reached(q)?[..self.outline().own]).ok()
     }
 }
 
@@ -134,7 +134,7 @@ impl<'a> Measure<'a> {
 fn sights_of(task: Task, target: &[f64]) -> Sights {
     let values = match task {
         Task::PlanarPose { .. } | Task::PositionYaw { .. } => {
-            let (lengths, angles) = target.split_at(task.lengths());
+            let (lengths, angles) = target.split_at(task.layout().lengths());
             lengths.iter().copied().chain(angles.iter().flat_map(|angle| [angle.cos(), angle.sin()])).collect()
         }
         _ => target.to_vec(),

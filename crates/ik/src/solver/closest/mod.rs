@@ -13,10 +13,8 @@ use groebot_robot::spatial::angle;
 use self::descent::{Descent, End};
 use self::measure::Measure;
 use super::{PlacedSolver, Solver};
+use crate::tolerances::CLOSEST;
 use crate::{Error, ErrorKind, Result};
-
-/// Relative difference of two errors that are counted as one minimum.
-const SAME: f64 = 1e-6;
 
 /// The joint values whose target has the least error.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,7 +135,7 @@ impl Solver {
         let Some(best) = ends.iter().min_by(|a, b| a.error.total_cmp(&b.error)) else {
             return Err(Error::new(ErrorKind::BadValue, "no starting point has a finite error; give a smaller target"));
         };
-        let is_same = |end: &&End| end.error - best.error <= SAME * best.error;
+        let is_same = |end: &&End| end.error - best.error <= CLOSEST.same * best.error;
         let q = if options.limits.is_none() { self.wrapped(&best.q) } else { best.q.clone() };
         let found = closest(&measure, q, false)?;
         Ok(Closest {
@@ -193,7 +191,7 @@ impl PlacedSolver<'_> {
         if let Some(task) = solver.outline.task {
             let mut numbers = solver.reached(&found.q).ok_or_else(measure::unsupported)?;
             self.task_placement().to_world(&mut numbers);
-            found.reached = Target::from_numbers(task, &numbers[..solver.outline.own])?;
+            found.reached = task.layout().target(&numbers[..solver.outline.own])?;
         }
         Ok(found)
     }

@@ -53,7 +53,7 @@ fn sequence(ranges: &[[f64; 2]]) -> impl Iterator<Item = Vec<f64>> + '_ {
 /// The derived solutions of targets with the orientation of `target`, at fractions of the position that `q` reaches.
 fn nearby(solver: &Solver, target: &[f64], q: &[f64]) -> Result<Vec<Vec<f64>>> {
     let lengths = match solver.outline.task {
-        Some(task @ (Task::Pose | Task::Ray | Task::PositionYaw { .. })) => task.lengths(),
+        Some(task @ (Task::Pose | Task::Ray | Task::PositionYaw { .. })) => task.layout().lengths(),
         _ => return Ok(Vec::new()),
     };
     let Some(reached) = solver.reached(q) else { return Ok(Vec::new()) };

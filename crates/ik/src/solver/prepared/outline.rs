@@ -1,14 +1,14 @@
 //! What a program says of its task and its joints. Main type: [`Outline`].
 
 use crate::solver::{Joint, Program, Unit};
-use groebot_robot::kinematics::{BaseAxis, Plane, Task};
+use groebot_robot::kinematics::Task;
 
 /// The task and the joints of a program.
 #[derive(Clone, Debug)]
 pub(crate) struct Outline {
-    /// The task; `None` for equations with other inputs, and for several tips.
+    /// The task of the only tip; `None` for equations, and for several tips.
     pub task: Option<Task>,
-    /// The number of inputs of the task, without given joints.
+    /// The number of inputs of the task, which come first.
     pub own: usize,
     /// The number of all inputs.
     pub inputs: usize,
@@ -31,18 +31,24 @@ pub(crate) struct JointOutline {
 
 impl Outline {
     pub fn new(program: &Program) -> Self {
-        let (given, limits, follows) = (program.given(), program.limits(), program.follows());
-        let own = given.start;
+        let (limits, follows) = (program.limits(), program.follows());
         let index = |name: &str| program.joints.iter().position(|joint| joint.name == name);
+        let input =
+            |place: usize| program.given_joints.iter().find(|given| given.joint == place).map(|given| given.input);
         let joint = |(place, joint): (usize, &Joint)| JointOutline {
             is_angle: joint.unit == Unit::Radian,
             limits: limits[place],
-            given: given.clone().find(|&input| program.inputs[input].name == joint.name),
+            given: input(place),
             follows: follows[place].and_then(|mimic| Some((index(&mimic.leader)?, mimic.law()))),
         };
-        let names: Vec<&str> = program.inputs[..own].iter().map(|input| input.name.as_str()).collect();
-        let joints = program.joints.iter().enumerate().map(joint).collect();
-        Outline { task: task_of(&names), own, inputs: program.inputs.len(), scale: program.scale, joints }
+        let tip = program.tip().filter(|tip| tip.first_input == 0);
+        Outline {
+            task: tip.map(|tip| tip.task),
+            own: tip.map_or(0, |tip| tip.inputs().len()),
+            inputs: program.inputs.len(),
+            scale: program.scale,
+            joints: program.joints.iter().enumerate().map(joint).collect(),
+        }
     }
 
     /// The joints that are neither given nor follow others.
@@ -73,13 +79,4 @@ impl Outline {
         };
         self.joints.iter().enumerate().map(rate).sum()
     }
-}
-
-/// The task whose numbers have these names.
-fn task_of(names: &[&str]) -> Option<Task> {
-    let planes = [Plane::Xy, Plane::Xz, Plane::Yz];
-    let whole = [Task::Pose, Task::Position, Task::Ray, Task::Direction, Task::Rotation, Task::PositionPitchRoll];
-    let planar = planes.into_iter().flat_map(|plane| [Task::PlanarPosition { plane }, Task::PlanarPose { plane }]);
-    let yaw = BaseAxis::ALL.into_iter().map(|axis| Task::PositionYaw { axis });
-    whole.into_iter().chain(planar).chain(yaw).find(|task| task.numbers() == names)
 }
