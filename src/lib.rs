@@ -34,7 +34,7 @@
 #![cfg_attr(test, allow(missing_docs))]
 
 pub use groebot_algebra::{Error, ErrorKind, Result, Watch};
-pub use groebot_algebra::{error, escape, groebner, limits, number, poly, real, roots, watch};
+pub use groebot_algebra::{error, escape, groebner, limits, number, poly, random, real, roots, watch};
 pub use groebot_humanoid::{gait, nav, sim, task, view};
 pub use groebot_ik::{codegen, derive, folder, reach, solver, witness};
 pub use groebot_robot::{control, document, dynamics, files, kinematics, model, motion, spatial};

@@ -36,6 +36,7 @@ fn arm() -> SystemParts {
         description: "two joints in a plane".into(),
         source: "NAO (6.7.1)-(6.7.4)".into(),
         length_unit: LengthUnit::Millimetre,
+        task: None,
         inputs: vec![input("py", Quantity::Length), input("pz", Quantity::Length)],
         parameters: vec![
             parameter("py", ParameterSource::Input(0), None),

@@ -28,7 +28,6 @@ pub use coupling::{Coupling, Law};
 pub use evaluate::{Image, Vector, carry, evaluate, evaluate_side};
 pub(crate) use explain::show;
 pub(super) use feature::common_point_of as common_point;
-pub(super) use mechanism::yaw_names;
 pub use mechanism::{Mechanism, ScrewJoint, Standing};
 pub use prove::prove;
 pub use relation::{Letter, Measure, Object, Relation, Word};
