@@ -86,7 +86,7 @@ pub fn shared_order(simultaneous: &Simultaneous) -> &'static str {
     }
 }
 
-/// The number of the first relation of shared joints, behind that of the loop.
+/// The number of the first relation of shared joints, after that of the loop.
 const FIRST: usize = 2;
 
 /// Adds a table of the actuators and the joints that each moves.
