@@ -72,7 +72,8 @@ impl Simultaneous {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] if the unknown shared joints are not one or two revolute ones, or if no relations fit. As [`Mechanism::new`].
-    pub fn derive(sides: [Side<'_>; 2], shared: usize, watch: &Watch) -> Result<Self> {
+    pub fn derive<'w>(sides: [Side<'_>; 2], shared: usize, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let common = Common::new(sides, shared)?;
         let steps = common.search(watch)?;
         let forms = Forms::of(&steps)?;
