@@ -13,7 +13,7 @@ fn path(name: &str) -> std::path::PathBuf {
     std::path::Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations")).join(name)
 }
 
-/// The program as format 2 stores it: the target in words.
+/// The program as format 2 stores it, with the target as text.
 fn in_format_2(program: &Program) -> String {
     let mut value: Value = serde_json::from_str(&program.to_json()).unwrap();
     let object = value.as_object_mut().unwrap();
@@ -69,7 +69,7 @@ fn tasks_and_given_joints_are_read_from_the_words_of_format_2() {
     }
 }
 
-/// Without words the names of the inputs are those of a task.
+/// Without a description, the names of the inputs determine the task.
 #[test]
 fn without_words_the_inputs_have_the_names_of_a_task() {
     let program = wrist::carried();
@@ -88,9 +88,9 @@ fn other_formats_are_refused() {
     }
 }
 
-/// The joint is one value, and the number of the task with its name another.
+/// A joint and a number of the task may have the same name.
 #[test]
-fn a_given_joint_with_the_name_of_a_number_is_told_from_it() {
+fn a_given_joint_may_have_the_name_of_a_number() {
     let mut source = Source::read(&path("nao_left_arm_position")).unwrap();
     let own = Derivation::of(&source, &Watch::none()).unwrap();
     let mut parts = source.chain.unwrap().parts().clone();
@@ -120,7 +120,7 @@ fn a_given_joint_with_the_name_of_a_number_is_told_from_it() {
     );
 }
 
-/// Where one program follows another, the values of one task are given once.
+/// In composed programs, the numbers of one task are given once.
 #[test]
 fn tasks_of_composed_programs_are_kept() {
     let first = wrist::program(false);
