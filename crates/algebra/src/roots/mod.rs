@@ -14,5 +14,6 @@ pub use groebot_runtime::tolerances::TANGENT;
 
 pub use descartes::{RealRoot, isolate_square_free, real_roots_of};
 pub use isolate::{Interval, Sturm, isolate, rounded_roots};
-pub use refine::{enclose, has_root, refine, sign_at_root};
+pub(crate) use refine::{enclose, has_root};
+pub use refine::{refine, sign_at_root};
 pub use square_free::{gcd, square_free_parts};

@@ -44,7 +44,7 @@ pub struct Motion {
 /// # Errors
 /// [`ErrorKind::BadValue`] with the time when a foot is out of reach; [`ErrorKind::Cancelled`] and
 /// [`ErrorKind::Budget`].
-pub fn realise(
+pub(crate) fn realise(
     biped: &Biped,
     legs: &Legs,
     references: &[Reference],

@@ -46,7 +46,7 @@ pub struct OneStep {
 
 impl OneStep {
     /// The phases of a walk of `steps` steps.
-    pub fn actions(&self, steps: usize) -> Vec<Action> {
+    pub(crate) fn actions(&self, steps: usize) -> Vec<Action> {
         let step = |step| [Action::Shift(step), Action::Swing(step), Action::Balance(step)];
         let walk = (0..steps).flat_map(step);
         if self.upright.is_some() {
@@ -58,7 +58,7 @@ impl OneStep {
 
     /// The reference at the fraction `share` of phase `place`, which begins with the feet at `feet`. A foot pitches
     /// about its ankle, `ankle_height` \[m\] above the sole.
-    pub fn reference(
+    pub(crate) fn reference(
         &self,
         style: &Style,
         schedule: &Schedule,

@@ -62,7 +62,13 @@ pub fn plan(biped: &Biped, legs: &Legs, request: &Request, watch: &Watch) -> Res
 ///
 /// # Errors
 /// As [`plan`].
-pub fn plan_actions(biped: &Biped, legs: &Legs, request: &Request, actions: &[Action], watch: &Watch) -> Result<Walk> {
+pub(crate) fn plan_actions(
+    biped: &Biped,
+    legs: &Legs,
+    request: &Request,
+    actions: &[Action],
+    watch: &Watch,
+) -> Result<Walk> {
     refusal::check(request)?;
     let mut slowed = vec![1.0; actions.len()];
     loop {

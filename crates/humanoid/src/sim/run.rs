@@ -215,7 +215,8 @@ impl Run {
     ///
     /// # Errors
     /// As [`Journey::finish`].
-    pub fn finish(self, watch: &Watch) -> Result<Walk> {
+    #[cfg(feature = "clearance")]
+    pub(crate) fn finish(self, watch: &Watch) -> Result<Walk> {
         self.journey.finish(watch)
     }
 }

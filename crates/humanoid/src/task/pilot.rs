@@ -86,7 +86,7 @@ impl Pilot {
 
     /// Same as [`Pilot::within`], but without a test of the greatest steps.
     #[must_use]
-    pub fn at_most(mut self, ahead: f64, turn: f64) -> Self {
+    pub(crate) fn at_most(mut self, ahead: f64, turn: f64) -> Self {
         self.reach.at_most(ahead, turn);
         self
     }
@@ -156,7 +156,7 @@ impl Pilot {
     ///
     /// # Errors
     /// As [`crate::gait::plan`].
-    pub fn stand(&self, feet: [Footprint; 2], action: Action, watch: &Watch) -> Result<Walk> {
+    pub(crate) fn stand(&self, feet: [Footprint; 2], action: Action, watch: &Watch) -> Result<Walk> {
         self.walk(Route::at_rest(feet), &[action], watch)
     }
 

@@ -26,7 +26,7 @@ const MISSES: f64 = 2.0;
 /// it.
 ///
 /// # Errors
-/// As [`Check::run`], [`chain::Check::run`] and [`coupled::check`].
+/// As [`Check::run`] and [`chain::Check::run`].
 pub fn check(source: &Source, derivation: &Derivation, watch: &Watch) -> Result<Report> {
     let of = |targets, oracle, exact, seed| Options { targets, oracle, exact, seed, draws: Draws::All };
     let amounts = Amounts {

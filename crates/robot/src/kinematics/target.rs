@@ -149,7 +149,7 @@ impl Target {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] otherwise, and for a quaternion or a direction whose norm is not one.
-    pub fn check(&self, chain: &Chain) -> Result<()> {
+    pub(crate) fn check(&self, chain: &Chain) -> Result<()> {
         let task = chain.task();
         let is_of_task = matches!(
             (self, task),

@@ -149,7 +149,7 @@ impl Task {
     }
 
     /// The number of lengths among its numbers. They come first.
-    pub fn lengths(self) -> usize {
+    pub(crate) fn lengths(self) -> usize {
         match self {
             Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => 3,
             Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,

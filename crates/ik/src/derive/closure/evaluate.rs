@@ -51,25 +51,11 @@ pub fn evaluate<A: Arithmetic>(
     Ok(left.sub(&right, arithmetic))
 }
 
-/// `measure(fixed, word moved)`: one side of `relation`.
-///
-/// # Errors
-/// As [`evaluate`].
-pub fn evaluate_side<A: Arithmetic>(
-    mechanism: &Mechanism,
-    relation: &Relation,
-    word: &Word,
-    assignment: &Assignment<A::Value>,
-    arithmetic: &mut A,
-) -> Result<Multilinear<A::Value>> {
-    Evaluation { mechanism, assignment, arithmetic }.side(relation, word)
-}
-
 /// The image of `object` under `word`, with the additional data for `measure`.
 ///
 /// # Errors
 /// As [`evaluate`].
-pub fn carry<A: Arithmetic>(
+pub(crate) fn carry<A: Arithmetic>(
     mechanism: &Mechanism,
     word: &Word,
     object: &Object,

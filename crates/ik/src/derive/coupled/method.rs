@@ -150,7 +150,7 @@ impl CoupledView<'_> {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for another number of joints.
-    pub fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
+    pub(crate) fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
         let mut target = vec![0.0; self.program.inputs.len()];
         for stage in &self.method.stages {
             stage.write(&stage.problem.reached(&self.joints_of(stage.member, q)?)?, &mut target);
@@ -160,7 +160,7 @@ impl CoupledView<'_> {
     }
 
     /// Writes the values of joints that the user gives to both chains into a target of the solver.
-    pub fn write_given(&self, q: &[f64], target: &mut [f64]) {
+    pub(crate) fn write_given(&self, q: &[f64], target: &mut [f64]) {
         let (Some(_), CoupledChain { prefix, chain, .. }) = (&self.method.simultaneous, &self.problem.chains()[0])
         else {
             return;

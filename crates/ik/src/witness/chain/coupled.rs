@@ -21,7 +21,7 @@ use groebot_robot::kinematics::{Chain, Solution};
 ///
 /// # Errors
 /// As [`Check::run`].
-pub fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) -> Result<Report> {
+pub(crate) fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) -> Result<Report> {
     let model = CoupledModel::new(derived);
     let leading = derived.method.stages.iter().map(|stage| leading(derived, stage)).collect::<Result<Vec<Chain>>>()?;
     let leading: Vec<Model<'_>> = leading.iter().map(Model::new).collect();

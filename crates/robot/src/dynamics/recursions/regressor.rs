@@ -27,7 +27,7 @@ impl<S: Scalar> Mass<S> {
 impl<S: Scalar> Data<S> {
     /// Computes the regressor in row-major order. Columns are the ten inertial parameters of each body, a floating base
     /// first. `links` are the frames, relative to the bodies' own, in which the parameters are given, the base first.
-    pub fn regressor(
+    pub(crate) fn regressor(
         &mut self,
         tree: &Tree<S>,
         motion: &Motion<'_, S>,
