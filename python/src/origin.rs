@@ -35,7 +35,7 @@ impl Origin {
             origin.files.insert(name, String::from_utf8_lossy(&text).into_owned());
         }
         let folder = source.path.parent().unwrap_or(Path::new(""));
-        for name in source.beside() {
+        for name in source.referenced_files() {
             let path = folder.join(name);
             origin.files.insert(name.to_owned(), read_text(&path, DESCRIPTION_BYTES)?);
         }

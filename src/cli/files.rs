@@ -216,7 +216,7 @@ pub fn source_files(source: &Source, folder: &Path) -> Result<Vec<(String, Vec<u
     if !is_same_file(&source.path, &folder.join(source.name)) {
         files.push((source.name.to_owned(), source.text.clone().into_bytes()));
     }
-    for name in source.beside() {
+    for name in source.referenced_files() {
         let path = source.path.with_file_name(name);
         if !is_same_file(&path, &folder.join(name)) {
             files.push((name.to_owned(), read_text(&path, TEXT_LIMIT)?.into_bytes()));

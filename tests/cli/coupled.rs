@@ -184,7 +184,7 @@ fn mistakes_name_file_and_line_and_write_nothing() {
         assert_eq!(content(folder.path()), stood);
     }
     let (folder, _) = arms();
-    has(&refused(&["derive", text(folder.path()), "--task", "pose"]), &["each chain states its own"]);
+    has(&refused(&["derive", text(folder.path()), "--task", "pose"]), &["each chain has its own"]);
     has(&refused(&["info", text(folder.path()), "--tip", "x"]), &["only a URDF has links"]);
 }
 

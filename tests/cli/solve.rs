@@ -275,7 +275,7 @@ fn quaternions_in_csv_and_what_is_none() {
         ("1,2,3,1,0,0,1\n", "line 1: the quaternion `qx` to `qw` has length 1.414"),
         ("1,2,3,4\n", "line 1: 4 numbers given; give 12"),
         ("1,2,3,1,0,0,x\n", "line 1: cell 7 (`qw`) is `x`"),
-        ("1,2,3,1,0,0,0,-1,0,0,0,1\n", "line 1: `r11` to `r33` are no rotation matrix: the determinant is negative"),
+        ("1,2,3,1,0,0,0,-1,0,0,0,1\n", "line 1: `r11` to `r33` are not a rotation matrix: the determinant is negative"),
     ] {
         let ran = run_on(&["solve", path], input.as_bytes());
         assert!(ran.code == 1 && ran.err.contains(words), "{}", ran.err);

@@ -223,8 +223,8 @@ fn foot(model: &Model, link: usize, (height, corners): &(f64, Vec<Point2<f64>>))
     Foot { link, body, torso_from_sole, ankle_height, corners: corners.clone(), joints }
 }
 
-/// The height of the lowest points of all bodies fixed to a link, relative to the link's origin, and the ground
-/// projection of these points in the torso's axes.
+/// The height of the lowest points of all bodies fixed to a link, relative to the link's origin. Also the ground projection of these points in the torso's
+/// axes.
 fn touching(robot: &Robot, model: &Model, link: usize, meshes: &Meshes) -> Result<(f64, Vec<Point2<f64>>)> {
     let (body, torso_from_sole) = model.link(link);
     let at = torso_from_sole.translation.vector;

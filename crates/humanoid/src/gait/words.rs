@@ -170,10 +170,10 @@ impl RouteBuilder {
     fn go(&mut self, word: &Word) -> Result<()> {
         let half = self.measures.length / 2.0;
         let level = self.ahead == [0.0; 2];
-        let behind = |side: Side| self.ahead[side as usize] < 0.0;
+        let is_rear = |side: Side| self.ahead[side as usize] < 0.0;
         match *word {
             Word::Out(_) | Word::Turn(_) if !level => Err(bad("the feet are not side by side; give `in` first")),
-            Word::Stride(side) | Word::In(side) if !behind(side) => {
+            Word::Stride(side) | Word::In(side) if !is_rear(side) => {
                 Err(bad(&format!("the {} foot is not at the rear; give `out` or the other foot first", side.name())))
             }
             Word::Out(side) => self.step(side, half, [half, -half]),

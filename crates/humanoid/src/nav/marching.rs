@@ -46,9 +46,9 @@ fn solve(grid: &Grid, times: &[f64], accepted: &[bool], place: usize) -> f64 {
     // Along each axis `a T - b` is the difference, of the nearer neighbour: (T - T1), or (3 T - 4 T1 + T2) / 2.
     let axis = |step: usize| {
         let known = |at: usize| if accepted[at] { times[at] } else { f64::INFINITY };
-        let (before, behind) = (known(place - step), known(place + step));
+        let (before, after) = (known(place - step), known(place + step));
         let (first, farther) =
-            if before <= behind { (before, place.checked_sub(2 * step)) } else { (behind, Some(place + 2 * step)) };
+            if before <= after { (before, place.checked_sub(2 * step)) } else { (after, Some(place + 2 * step)) };
         let second = farther.filter(|at| *at < times.len()).map_or(f64::INFINITY, known);
         if second <= first { (first, 1.5, 2.0 * first - 0.5 * second) } else { (first, 1.0, first) }
     };

@@ -48,11 +48,11 @@ impl Map {
     fn counts(&self) -> Vec<u32> {
         let line = |cells: &[Cell]| {
             let mut count = 0;
-            let behind = cells.iter().map(move |cell| {
+            let after = cells.iter().map(move |cell| {
                 count += u32::from(*cell == Cell::Occupied);
                 count
             });
-            [0].into_iter().chain(behind).collect::<Vec<_>>()
+            [0].into_iter().chain(after).collect::<Vec<_>>()
         };
         self.cells().chunks_exact(self.columns()).flat_map(line).collect()
     }

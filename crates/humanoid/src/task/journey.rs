@@ -18,8 +18,8 @@ use crate::{Error, ErrorKind, Result, Watch};
 
 /// The number of steps to the first target of a search along the course.
 const STEPS_AHEAD: f64 = 6.0;
-/// The number of searches permitted on a course before the first step, the number of steps that permit one more, and
-/// the number of searches to a place some steps forward.
+/// Limits on searches: the number permitted on a course before the first step; the number of steps that permit one more; the number of searches to a place some
+/// steps forward.
 const MOST_SEARCHES: usize = 60;
 const STEPS_A_SEARCH: usize = 4;
 const MOST_NEAR: usize = 8;

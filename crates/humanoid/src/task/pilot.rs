@@ -121,8 +121,7 @@ impl Pilot {
         Polygon::hull(&middle.carry_all(self.outline.corners()))
     }
 
-    /// The areas that the body covers while it steps on the spot, and during its greatest steps and turns, in the frame
-    /// of the middle of the feet.
+    /// The areas that the body covers, in the frame of the middle of the feet: while it steps on the spot, and during its greatest steps and turns.
     pub(super) fn outlines(&self) -> [&Polygon; 2] {
         [&self.outline, &self.stride]
     }
@@ -175,8 +174,8 @@ impl Pilot {
         plan_actions(&self.walker.biped, &self.walker.legs, &request, &[action], watch)
     }
 
-    /// The area that the body covers while both feet, one after the other, make the step of the lead, in the moving
-    /// frame of the middle of the feet. Infeasible steps are ignored.
+    /// The area that the body covers while both feet make the step of the lead, one after the other. It is in the moving frame of the middle of the feet.
+    /// Infeasible steps are ignored.
     fn covered(&self, step: &Footprint, watch: &Watch) -> Result<Polygon> {
         let mut corners = Vec::new();
         for first in [Side::Left, Side::Right] {

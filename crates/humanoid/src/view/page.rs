@@ -165,11 +165,10 @@ impl Page {
         let mut html = String::with_capacity(SHELL.len() + SCRIPT.len());
         let mut rest = SHELL;
         for (place, text) in parts {
-            let (before, behind) =
-                rest.split_once(place).expect("the page's frame has a place for each, in this order");
+            let (before, after) = rest.split_once(place).expect("the page's frame has a place for each, in this order");
             html.push_str(before);
             html.push_str(text);
-            rest = behind;
+            rest = after;
         }
         html + rest
     }

@@ -33,11 +33,11 @@ fn the_reason_names_remedy_time_and_place() {
         &["centre of mass is 3.8 mm inside", "amplitude of 0.0212..0.0900 m", "-0.0407..0.0894 m forward"],
     );
     let on_the_spot = Route::regular(&Regular { length: 0.0, ..regular() }).unwrap();
-    let behind = |request: &mut Request| {
+    let rearward = |request: &mut Request| {
         request.route = on_the_spot;
         (request.style.ahead, request.style.torso_height) = (-0.043, 0.29);
     };
-    contains(reason(behind), &["t = 0.00 s", "centre of mass is 7.7 mm inside", "forward of the ankles"]);
+    contains(reason(rearward), &["t = 0.00 s", "centre of mass is 7.7 mm inside", "forward of the ankles"]);
     contains(reason(|request| request.margin = 0.05), &["the sole allows a margin of 0.0444 m at most"]);
     contains(reason(|request| request.speed_share = 0.01), &["rad/s", "longer --period"]);
     let narrow = Route::regular(&Regular { half_width: 0.035, ..regular() }).unwrap();

@@ -3,7 +3,7 @@
 /// The longest line of joined declarations, in characters.
 const LINE: usize = 112;
 
-/// How a language declares a constant number.
+/// The form in which a language declares a constant number.
 pub(super) struct Declaration {
     /// The text before its name.
     pub head: &'static str,

@@ -19,9 +19,9 @@ const NUMBERED: [&str; 14] = [
 
 /// The identifiers of one program in one language.
 pub(super) struct Names {
-    /// By parameter.
+    /// Identifiers of the parameters.
     pub parameters: Vec<String>,
-    /// By unknown; different from those of the parameters.
+    /// Identifiers of the unknowns; different from those of the parameters.
     pub unknowns: Vec<String>,
 }
 

@@ -77,7 +77,7 @@ pub(super) fn packed_lines(items: Vec<String>, lead: &str) -> String {
 /// Prints the code of one function.
 pub(super) struct Printer<'a> {
     language: &'a dyn Expressions,
-    /// By parameter and by unknown.
+    /// Identifiers of the parameters and the unknowns.
     parameters: &'a [String],
     unknowns: &'a [String],
     demand: Demand,
@@ -99,7 +99,7 @@ impl<'a> Printer<'a> {
         Printer { language, parameters, unknowns: &[], demand, first_register: 0, waiting: HashMap::new() }
     }
 
-    /// By unknown.
+    /// Identifiers of the unknowns.
     pub fn unknowns(&self) -> &'a [String] {
         self.unknowns
     }

@@ -69,9 +69,9 @@ fn whole(text: &str) -> String {
 fn without_comments(text: &str) -> String {
     let mut kept = String::with_capacity(text.len());
     let mut rest = text;
-    while let Some((code, behind)) = rest.split_once("/*") {
+    while let Some((code, after)) = rest.split_once("/*") {
         kept += code;
-        rest = behind.split_once("*/").map_or("", |(_, behind)| behind);
+        rest = after.split_once("*/").map_or("", |(_, after)| after);
     }
     kept += rest;
     kept.lines().map(str::trim).filter(|line| !line.is_empty()).map(|line| format!("{line}\n")).collect()

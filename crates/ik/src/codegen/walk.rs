@@ -126,20 +126,20 @@ impl<'a> Walk<'a> {
         let demand = Demand::of_block(scene.program, block, &scene.layout.wanted_of(index));
         let lines = scene.printer(demand, base).code(&block.code);
         self.push(lines);
-        let behind = base + block.registers();
+        let next_base = base + block.registers();
         for first in (0..block.cases.len()).filter(|&case| block.opens_group(case)) {
             let group = block.cases[first].pivot.map(|pivot| pivot.group);
             if group.is_some() {
                 let is_member = |case: &usize| block.cases[*case].pivot.map(|pivot| pivot.group) == group;
-                self.elect(index, base, behind, (0..block.cases.len()).filter(is_member).collect());
+                self.elect(index, base, next_base, (0..block.cases.len()).filter(is_member).collect());
             } else {
-                self.described_case(index, first, base, behind);
+                self.described_case(index, first, base, next_base);
             }
         }
     }
 
     /// Prints a case with its description.
-    fn described_case(&mut self, index: usize, case: usize, base: usize, behind: usize) {
+    fn described_case(&mut self, index: usize, case: usize, base: usize, next_base: usize) {
         let block = &self.scene.program.blocks[index];
         let depth = self.depth;
         if block.cases.len() > 1 {
@@ -148,12 +148,12 @@ impl<'a> Walk<'a> {
                 self.open(["{".to_owned()]);
             }
         }
-        self.case(index, &block.cases[case], base, behind);
+        self.case(index, &block.cases[case], base, next_base);
         self.close(depth);
     }
 
     /// Prints one of the cases of a pivot group.
-    fn elect(&mut self, index: usize, base: usize, behind: usize, members: Vec<usize>) {
+    fn elect(&mut self, index: usize, base: usize, next_base: usize, members: Vec<usize>) {
         let (scene, block) = (self.scene, &self.scene.program.blocks[index]);
         let first = self.claims;
         for &member in &members {
@@ -168,23 +168,23 @@ impl<'a> Walk<'a> {
             self.claims += 1;
         }
         let claims: Vec<usize> = (first..self.claims).collect();
-        let bodies = members.into_iter().map(|member| self.apart(index, member, base, behind)).collect();
+        let bodies = members.into_iter().map(|member| self.apart(index, member, base, next_base)).collect();
         let lines = self.dialect.elect(&claims, bodies);
         self.push(lines);
     }
 
     /// The lines of a case as a separate text.
-    fn apart(&mut self, index: usize, member: usize, base: usize, behind: usize) -> Vec<String> {
+    fn apart(&mut self, index: usize, member: usize, base: usize, next_base: usize) -> Vec<String> {
         let (lines, depth) = (std::mem::take(&mut self.lines), std::mem::take(&mut self.depth));
         let case = &self.scene.program.blocks[index].cases[member];
         self.comment(&description(self.scene.program, member, case));
-        self.case(index, case, base, behind);
+        self.case(index, case, base, next_base);
         self.close(0);
         self.depth = depth;
         std::mem::replace(&mut self.lines, lines)
     }
 
-    fn case(&mut self, index: usize, case: &'a Case, base: usize, behind: usize) {
+    fn case(&mut self, index: usize, case: &'a Case, base: usize, next_base: usize) {
         let (scene, dialect) = (self.scene, self.dialect);
         let is_last = index + 1 == scene.program.blocks.len();
         let wanted = if is_last { scene.layout.wanted() } else { scene.layout.wanted_of(index) };
@@ -213,11 +213,11 @@ impl<'a> Walk<'a> {
             };
             self.open([dialect.open_case(&applies)]);
         }
-        self.steps(index, case, &mut printer, behind);
+        self.steps(index, case, &mut printer, next_base);
     }
 
     /// Prints the steps of a case, and the blocks after it.
-    fn steps(&mut self, index: usize, case: &'a Case, printer: &mut Printer<'_>, behind: usize) {
+    fn steps(&mut self, index: usize, case: &'a Case, printer: &mut Printer<'_>, next_base: usize) {
         let scene = self.scene;
         let mut terms = if case.first_branch > 0 { vec![case.first_branch.to_string()] } else { Vec::new() };
         let mut how: Vec<How> = Vec::new();
@@ -264,11 +264,11 @@ impl<'a> Walk<'a> {
             self.push([self.dialect.found(before, index + 1, &how)]);
             self.found = index + 1;
         }
-        self.go_on(index, case, printer, behind);
+        self.go_on(index, case, printer, next_base);
         self.found = before;
     }
 
-    fn go_on(&mut self, index: usize, case: &Case, printer: &Printer<'_>, behind: usize) {
+    fn go_on(&mut self, index: usize, case: &Case, printer: &Printer<'_>, next_base: usize) {
         let (scene, next) = (self.scene, index + 1);
         if next == scene.program.blocks.len() {
             let at: Vec<String> = scene.layout.places().into_iter().map(|unknown| printer.unknown(unknown)).collect();
@@ -278,7 +278,7 @@ impl<'a> Walk<'a> {
             let lines = self.dialect.go_on(next + 1, self.found, case.is_rare(), &function.known);
             self.push(lines);
         } else {
-            self.block(next, behind);
+            self.block(next, next_base);
         }
     }
 

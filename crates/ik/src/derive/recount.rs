@@ -56,7 +56,7 @@ impl Recount {
         if *self.formulations(&derived.method.six)? == derived.method.formulations {
             return Ok(());
         }
-        Err(refused("the formulations are not those that are regular and most accurate, the best first".to_owned()))
+        Err(refused("the formulations are not the regular and most accurate ones, ordered by accuracy".to_owned()))
     }
 
     fn coupled(&mut self, derived: CoupledView<'_>) -> Result<()> {

@@ -222,7 +222,7 @@ fn prints(program: &Program, name: &str, bytes: &[u8]) -> bool {
 
 /// The input files of a derivation.
 fn inputs(source: &Source) -> impl Iterator<Item = &str> {
-    [source.name, TASK_NAME].into_iter().chain(source.beside())
+    [source.name, TASK_NAME].into_iter().chain(source.referenced_files())
 }
 
 fn described(source: &Source) -> String {

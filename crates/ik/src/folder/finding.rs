@@ -16,11 +16,11 @@ pub struct Finding {
 /// The result for one item.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// It is correct; the text says how that is known.
+    /// The item is correct; the text gives the proof.
     Holds(String),
-    /// It is damaged, forged or missing, or nothing proves it.
+    /// The item is damaged, forged, missing, or unproved.
     Fails(Error),
-    /// It was not written by groebot; the text gives the reason.
+    /// The item was not written by groebot; the text gives the reason.
     NotChecked(String),
 }
 

@@ -51,9 +51,11 @@ impl Poses {
     /// The targets for a solver.
     ///
     /// # Errors
-    /// - [`ErrorKind::Unsupported`] for a task without a position, or with inputs that are neither that, an orientation, nor given joints.
-    /// - [`ErrorKind::BadValue`] for no orientations or more than 10^6, for a number of given values that is not that of the given joints, and for several
-    ///   places on an axis without a coordinate in the task.
+    /// [`ErrorKind::Unsupported`] for a task without a position, or with inputs that are neither that, an orientation, nor given joints.
+    /// [`ErrorKind::BadValue`]:
+    /// - there are no orientations, or more than 10^6
+    /// - the number of given values is not that of the given joints
+    /// - there are several places on an axis without a coordinate in the task
     pub(super) fn new(program: &Program, request: &Request) -> Result<Self> {
         let Request { orientations, ref given, .. } = *request;
         if !(1..=MOST).contains(&orientations) {

@@ -49,7 +49,7 @@ pub struct Request {
     pub grid: Grid,
     /// Number of orientations at each place, spread evenly over all orientations that the task distinguishes. It is one if the task has no orientation.
     pub orientations: usize,
-    /// If there is a seed, the orientations of each place are rotated by a rotation of its own, which depends only on the seed and the index of the place.
+    /// If there is a seed, each place has its own rotation of all orientations. It depends only on the seed and the index of the place.
     pub seed: Option<u64>,
     /// The values of the joints that are inputs of each target.
     pub given: Vec<f64>,

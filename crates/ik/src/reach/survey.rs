@@ -75,10 +75,12 @@ impl<'a> Survey<'a> {
     /// Prepares a map from a solver, its program, the chain of the program if there is one, and the options.
     ///
     /// # Errors
-    /// - [`ErrorKind::Unsupported`] for a task without a position, for targets with inputs other than one tip's position, orientation and given joints, and for
-    ///   manipulability without a chain.
-    /// - [`ErrorKind::BadValue`] for no orientations or more than 10^6, for a number of given values that is not that of the given joints, for several places
-    ///   on an axis without a coordinate in the task, and for limits that are invalid or missing in the description.
+    /// [`ErrorKind::Unsupported`] for a task without a position, for inputs other than one tip's position, orientation and given joints, and for manipulability
+    /// without a chain. [`ErrorKind::BadValue`]:
+    /// - there are no orientations, or more than 10^6
+    /// - the number of given values is not that of the given joints
+    /// - there are several places on an axis without a coordinate in the task
+    /// - limits are invalid, or missing in the description
     pub fn new(
         solver: &'a dyn Solves,
         program: &'a Program,

@@ -97,10 +97,7 @@ impl Places {
         for &(_, b) in shared {
             let known = |unknown| given.iter().any(|(_, set)| *set == unknown);
             if !unknowns_of(next.joints[b].value).into_iter().all(known) {
-                return Err(refuse(format!(
-                    "`{}` is shared, but the next program finds it itself",
-                    next.joints[b].name
-                )));
+                return Err(refuse(format!("`{}` is shared, but the next program finds it too", next.joints[b].name)));
             }
         }
         let mut parameters = vec![None; next.parameters.len()];
@@ -156,7 +153,7 @@ impl Places {
 
     fn input(&self, index: usize) -> Result<usize> {
         self.inputs[index]
-            .ok_or_else(|| refuse(format!("input {index} of the next program is more than a shared joint")))
+            .ok_or_else(|| refuse(format!("input {index} of the next program is used for more than a shared joint")))
     }
 
     fn condition(&self, condition: Condition) -> Result<Condition> {
@@ -300,9 +297,9 @@ fn mapped(operation: Operation, place: &dyn Fn(Operand) -> Operand) -> Operation
 fn both(first: &Checks, next: Checks, joints: usize) -> Checks {
     let (mine, theirs, length) = (measured(first), measured(&next), first.code.len());
     let ahead = |index: usize| if index < mine { index } else { index + theirs };
-    let behind = |index: usize| if index < theirs { index + mine } else { index + length };
+    let renumbered = |index: usize| if index < theirs { index + mine } else { index + length };
     let mut checks = moved(first, &ahead);
-    let next = moved(&next, &behind);
+    let next = moved(&next, &renumbered);
     checks.jacobian.iter_mut().for_each(|row| row.resize(joints, Operand::Constant(0.0)));
     checks.code.extend(next.code);
     checks.code.sort_by_key(|line| line.target);

@@ -53,13 +53,13 @@ impl Condition {
         let is_missed = mirrored || deviation.is_nan() || deviation > CONSISTENT;
         is_missed.then(|| match self {
             Condition::Rotation(_) if mirrored => {
-                format!("{names} are no rotation matrix: the determinant is negative; give a right-handed one")
+                format!("{names} are not a rotation matrix: the determinant is negative; give a right-handed one")
             }
             Condition::Rotation(_) => format!(
-                "{names} are no rotation matrix: R R^T differs from one by {deviation:.1e}; {CONSISTENT:e} is allowed"
+                "{names} are not a rotation matrix: R R^T differs from one by {deviation:.1e}; {CONSISTENT:e} is allowed"
             ),
             Condition::Unit(_) => format!(
-                "{names} are no unit vector: the squared length differs from one by {deviation:.1e}; {CONSISTENT:e} is allowed"
+                "{names} are not a unit vector: the squared length differs from one by {deviation:.1e}; {CONSISTENT:e} is allowed"
             ),
         })
     }

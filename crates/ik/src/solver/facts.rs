@@ -70,7 +70,7 @@ impl Facts {
         let is_abreast = is_solved_abreast(program);
         Facts {
             inputs: program.inputs.len(),
-            joints: layout.stands(),
+            joints: layout.joint_places(),
             last_first: layout.last_first(),
             places: places.len(),
             has_extras: !layout.extra.is_empty(),
@@ -223,6 +223,6 @@ pub(crate) fn run(layout: &Layout<'_>, joint: usize) -> usize {
     let unknowns = program.joints[joint].value.unknowns();
     let later = candidates(program, block + 1);
     let is_mirrored = usual(&program.blocks[block]).is_some_and(|case| mirror::turns(program, case, &unknowns));
-    let is_behind = layout.mirror.as_ref().is_some_and(|mirror| mirror.block < block);
-    if is_mirrored || is_behind { 2 * later } else { later }
+    let is_after_mirror = layout.mirror.as_ref().is_some_and(|mirror| mirror.block < block);
+    if is_mirrored || is_after_mirror { 2 * later } else { later }
 }

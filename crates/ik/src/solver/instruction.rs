@@ -75,8 +75,9 @@ impl FromStr for Operand {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        let fail =
-            || Error::new(ErrorKind::Syntax, format!("`{text}` is no operand; give p0, x0, r0, m or a finite number"));
+        let fail = || {
+            Error::new(ErrorKind::Syntax, format!("`{text}` is not an operand; give p0, x0, r0, m or a finite number"))
+        };
         let index = |rest: &str| rest.parse::<usize>().map_err(|_| fail());
         match text.split_at_checked(1) {
             Some(("p", rest)) => Ok(Operand::Parameter(index(rest)?)),
@@ -106,8 +107,9 @@ impl FromStr for Instruction {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        let fail =
-            || Error::new(ErrorKind::Syntax, format!("`{text}` is no instruction; give one such as `r3 = r1 * p0`"));
+        let fail = || {
+            Error::new(ErrorKind::Syntax, format!("`{text}` is not an instruction; give one such as `r3 = r1 * p0`"))
+        };
         let words: Vec<&str> = text.split(' ').collect();
         let operation = match words.as_slice() {
             [_, "=", "abs", a] => Operation::Abs(a.parse()?),

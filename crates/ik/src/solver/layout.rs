@@ -84,7 +84,7 @@ impl<'a> Layout<'a> {
     }
 
     /// By joint, the indices of its cosine and sine, or of its value, among the places.
-    pub fn stands(&self) -> Vec<Vec<usize>> {
+    pub fn joint_places(&self) -> Vec<Vec<usize>> {
         let unknowns = self.program.joints.iter().map(|joint| joint.value.unknowns());
         unknowns.map(|unknowns| unknowns.into_iter().map(|unknown| self.place(unknown)).collect()).collect()
     }

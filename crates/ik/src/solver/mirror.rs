@@ -41,7 +41,7 @@ impl Mirror {
             return None;
         }
         let mut unknowns = vec![Parity::Even; program.unknowns.len()];
-        if !behind_root(case, &mut unknowns) {
+        if !analyse_root(case, &mut unknowns) {
             return None;
         }
         for later in &program.blocks[block + 1..] {
@@ -73,7 +73,7 @@ impl Mirror {
 /// Whether the only root step of a case keeps the magnitudes of the unknowns `found`, which the case finds.
 pub(crate) fn turns(program: &Program, case: &Case, found: &[usize]) -> bool {
     let mut unknowns = vec![Parity::Even; program.unknowns.len()];
-    behind_root(case, &mut unknowns) && found.iter().all(|&unknown| unknowns[unknown] != Parity::Mixed)
+    analyse_root(case, &mut unknowns) && found.iter().all(|&unknown| unknowns[unknown] != Parity::Mixed)
 }
 
 /// Whether a block has one solution, by code without any condition.
@@ -85,7 +85,7 @@ fn is_straight(block: &Block) -> bool {
 }
 
 /// Analyses a case whose only root step is `x^2 + constant`; false for any other case.
-fn behind_root(case: &Case, unknowns: &mut [Parity]) -> bool {
+fn analyse_root(case: &Case, unknowns: &mut [Parity]) -> bool {
     let mut registers = HashMap::new();
     let mut roots = 0;
     for step in &case.steps {

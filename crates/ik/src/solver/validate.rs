@@ -20,8 +20,9 @@ const MOST_UNKNOWNS: usize = groebot_algebra::limits::PROGRAM_UNKNOWNS;
 const MOST_BRANCHES: usize = usize::MAX >> usize::BITS.saturating_sub(53);
 
 impl Program {
-    /// Checks that every index is in range, registers are written once and before they are read, every unknown is set
-    /// once along every path through the blocks, and sizes agree: a valid program never panics.
+    /// Checks that a program is well formed; a valid program never panics.
+    ///
+    /// Every index is in range. Registers are written once, before they are read. Every unknown is set once along every path through the blocks. Sizes agree.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] with the wrong part.
@@ -66,12 +67,12 @@ impl Program {
             check_name("joint, input or link", name).map_err(|error| error.with_context("malformed program"))
         })?;
         let limits = self.about.as_ref().map_or(&[][..], |about| &about.limits);
-        ensure(limits.is_empty() || limits.len() == self.joints.len(), "limits: one pair a joint, or none at all")?;
+        ensure(limits.is_empty() || limits.len() == self.joints.len(), "limits: one pair per joint, or none")?;
         ensure(limits.iter().flatten().all(|(low, high)| low <= high), "limits: the least, then the greatest value")?;
         let follows = self.about.as_ref().map_or(&[][..], |about| &about.follows);
-        ensure(follows.is_empty() || follows.len() == self.joints.len(), "follows: one entry a joint, or none at all")?;
+        ensure(follows.is_empty() || follows.len() == self.joints.len(), "follows: one entry per joint, or none")?;
         let leads = |mimic: &Mimic| self.joints.iter().any(|joint| joint.name == mimic.leader);
-        ensure(follows.iter().flatten().all(leads), "follows: a joint of the solver leads")?;
+        ensure(follows.iter().flatten().all(leads), "follows: the leader must be a joint of the solver")?;
         let known = self.preference.is_none_or(|preference| preference.unknown < self.unknowns.len());
         ensure(known, "preference")
     }
@@ -87,7 +88,7 @@ impl Program {
         let (first, count) = condition.inputs();
         let inputs = first.checked_add(count).and_then(|end| self.inputs.get(first..end));
         let plain = inputs.is_some_and(|inputs| inputs.iter().all(|input| input.unit == Unit::One));
-        ensure(plain, "condition: its inputs do not exist or are no plain numbers")
+        ensure(plain, "condition: its inputs do not exist or are not plain numbers")
     }
 
     /// Checks that no input belongs to two rotations, because each may be given as a quaternion.

@@ -1,5 +1,10 @@
-//! Numeric checks of a derived program by independent witnesses: the original equations in floating point, joint values that made the target, forward
-//! kinematics, the exact number of real roots (Sturm), the screw solver, a numeric oracle.
+//! Numeric checks of a derived program by independent witnesses:
+//! * the original equations in floating point;
+//! * joint values that made the target;
+//! * forward kinematics;
+//! * the exact number of real roots (Sturm);
+//! * the screw solver;
+//! * a numeric oracle.
 
 mod accuracy;
 pub mod chain;
@@ -146,7 +151,7 @@ impl<'a> Check<'a> {
         if let Some(q) = &row.joints {
             let target = &row.target;
             row.nearest = answers.iter().map(|answer| self.gap(target, q, answer)).reduce(f64::min);
-            let found = answers.iter().any(|answer| self.stands_for(target, answer, q));
+            let found = answers.iter().any(|answer| self.represents(target, answer, q));
             faults.extend((!found).then_some(Fault::Missing));
         }
         if number < self.options.exact {
@@ -166,24 +171,25 @@ impl<'a> Check<'a> {
             faults.extend((!agrees).then_some(Fault::Oracle));
         }
         if row.kind.is_round() {
-            faults.extend((!self.agrees_beside(row, answers)?).then_some(Fault::Moved));
+            faults.extend((!self.agrees_when_moved(row, answers)?).then_some(Fault::Moved));
         }
         Ok(faults)
     }
 
     /// Whether each ordinary solution of a reached target that is moved by [`MOVED`] is next to one of these.
-    fn agrees_beside(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
+    fn agrees_when_moved(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
         let Some(q) = &row.joints else { return Ok(true) };
         let sizes = self.model.joint_sizes(&row.target);
         let moved: Vec<f64> = (0..q.len()).map(|joint| q[joint] + MOVED * share(joint) * sizes[joint]).collect();
-        let Some(beside) = self.model.inputs_at(&moved, &row.target) else { return Ok(true) };
-        let others = match self.solver.solve_numbers(&beside) {
+        let Some(moved_target) = self.model.inputs_at(&moved, &row.target) else { return Ok(true) };
+        let others = match self.solver.solve_numbers(&moved_target) {
             Err(error) if error.kind() == ErrorKind::Unsupported => return Ok(true),
             others => others?,
         };
         Ok(others.iter().all(|other| {
-            let sigma = self.model.sigma(&beside, &other.q);
-            let near = |answer: &Solution| self.model.distance(&beside, &other.q, &answer.q) <= FOLLOWS * MOVED / sigma;
+            let sigma = self.model.sigma(&moved_target, &other.q);
+            let near =
+                |answer: &Solution| self.model.distance(&moved_target, &other.q, &answer.q) <= FOLLOWS * MOVED / sigma;
             sigma <= ORDINARY || answers.iter().any(near)
         }))
     }
@@ -224,7 +230,7 @@ impl<'a> Check<'a> {
     }
 
     /// Whether `q` is `answer`, or a member of the self-motion that it represents.
-    fn stands_for(&self, target: &[f64], answer: &Solution, q: &[f64]) -> bool {
+    fn represents(&self, target: &[f64], answer: &Solution, q: &[f64]) -> bool {
         if answer.free.is_empty() {
             return self.model.matches(target, q, &answer.q);
         }
@@ -247,7 +253,7 @@ impl<'a> Check<'a> {
     fn agrees(&self, target: &[f64], answers: &[Solution], others: &[Solution]) -> bool {
         let covers = |some: &[Solution], answer: &Solution| {
             let sure = self.model.misfit(target, &answer.q) <= EXACT;
-            !sure || some.iter().any(|other| self.stands_for(target, other, &answer.q))
+            !sure || some.iter().any(|other| self.represents(target, other, &answer.q))
         };
         answers.iter().all(|answer| covers(others, answer)) && others.iter().all(|other| covers(answers, other))
     }

@@ -67,7 +67,7 @@ fn forged_claims_are_refused_and_located() {
     });
     expect(&error, "does not belong");
     let error = damaged(|v| v["requested"][1]["claim"]["kind"] = "inconsistent".into());
-    expect(&error, "not of the kind");
+    expect(&error, "not of the claimed kind");
     let error = damaged(|v| v["requested"][0]["claim"]["order"] = serde_json::json!(["c4", "c3", "s4", "c4"]));
     expect(&error, "the order is not one of the unknowns");
     let (derivation, text) = leg();
@@ -84,7 +84,7 @@ fn forged_claims_are_refused_and_located() {
 fn an_open_claim_does_not_pass_for_a_derivation() {
     let open = serde_json::json!({"kind": "open", "reason": "", "order": [], "basis": [], "cofactors": []});
     let error = damaged(|v| v["requested"] = serde_json::json!([{"stratum": "generic", "claim": open}]));
-    expect(&error, "it is claimed to be open, and can be derived");
+    expect(&error, "it is claimed to be open, but it can be derived");
 }
 
 /// Every stratum of the leg can be derived in both orders, so none may be claimed to be open.
@@ -99,7 +99,7 @@ fn a_stratum_that_can_be_derived_is_not_open() {
                 let open =
                     serde_json::json!({"kind": "open", "reason": reason, "order": [], "basis": [], "cofactors": []});
                 let error = damaged(|v| v[tree][at]["claim"] = open);
-                expect(&error, "it is claimed to be open, and can be derived");
+                expect(&error, "it is claimed to be open, but it can be derived");
                 count += 1;
             }
         }

@@ -109,7 +109,7 @@ pub(super) fn robot(links: &[Link], [quarter, half]: [&str; 2]) -> Chain {
 }
 
 /// `chain` for a task.
-pub(super) fn asked(chain: &Chain, task: Task, direction: [i32; 3]) -> Chain {
+pub(super) fn with_task(chain: &Chain, task: Task, direction: [i32; 3]) -> Chain {
     chain
         .with_task(task, direction.map(|x| groebot_algebra::number::BigRational::from_integer(x.into())), Vec::new())
         .unwrap()
@@ -122,7 +122,7 @@ pub(super) fn derived(chain: &Chain) -> groebot_ik::solver::Program {
 
 /// Programs of described robots: two SCARAs, an arm of five joints and a planar arm.
 pub fn programs() -> Vec<groebot_ik::solver::Program> {
-    let planar = asked(&robot(&PLANAR, ROUNDINGS[1]), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
+    let planar = with_task(&robot(&PLANAR, ROUNDINGS[1]), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
     [robot(&SCARA, ROUNDINGS[0]), robot(&FOLDING, ROUNDINGS[1]), robot(&FIVE, ROUNDINGS[1]), planar]
         .iter()
         .map(derived)
@@ -134,11 +134,11 @@ fn sigma(jacobian: DMatrix<f64>) -> f64 {
 }
 
 pub(super) fn distance(chain: &Chain, a: &[f64], b: &[f64]) -> f64 {
-    let way = |(joint, (a, b)): (&groebot_robot::kinematics::Joint, (&f64, &f64))| match joint.kind {
+    let difference = |(joint, (a, b)): (&groebot_robot::kinematics::Joint, (&f64, &f64))| match joint.kind {
         JointKind::Revolute => (a - b - 2.0 * PI * ((a - b) / (2.0 * PI)).round()).abs(),
         JointKind::Prismatic => (a - b).abs() / chain.reach(),
     };
-    chain.joints().iter().zip(a.iter().zip(b)).map(way).fold(0.0, f64::max)
+    chain.joints().iter().zip(a.iter().zip(b)).map(difference).fold(0.0, f64::max)
 }
 
 /// Joint values: random ones, and multiples of 15 degrees.
@@ -229,13 +229,13 @@ fn poses_of_rounded_robots_have_the_answers_of_all_digits() {
 #[test]
 fn rays_and_planar_poses_of_rounded_robots_have_the_answers_of_all_digits() {
     for rounding in ROUNDINGS {
-        let ray = |digits| asked(&robot(&SCARA, digits), Task::Ray, [1, 0, 0]);
+        let ray = |digits| with_task(&robot(&SCARA, digits), Task::Ray, [1, 0, 0]);
         let seen = compare(&ray(rounding), &ray(EXACT), 16);
         assert!(seen.answers >= 20, "{seen:?}");
-        let yaw = |digits| asked(&robot(&SCARA, digits), Task::PositionYaw { axis: BaseAxis::Z }, [1, 0, 0]);
+        let yaw = |digits| with_task(&robot(&SCARA, digits), Task::PositionYaw { axis: BaseAxis::Z }, [1, 0, 0]);
         let seen = compare(&yaw(rounding), &yaw(EXACT), 16);
         assert!(seen.answers >= 40, "{seen:?}");
-        let planar = |digits| asked(&robot(&PLANAR, digits), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
+        let planar = |digits| with_task(&robot(&PLANAR, digits), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
         let seen = compare(&planar(rounding), &planar(EXACT), 24);
         assert!(seen.answers >= 40, "{seen:?}");
     }
@@ -267,7 +267,7 @@ fn tolerances_follow_the_idealisation() {
 
 #[test]
 fn planes_that_are_tilted_beyond_the_tolerance_are_refused_with_the_option_that_helps() {
-    let planar = asked(&robot(&PLANAR, ["1.571", "3.142"]), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
+    let planar = with_task(&robot(&PLANAR, ["1.571", "3.142"]), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
     let error = planar.ideal_within(1e-6).unwrap_err().to_string();
     assert!(error.contains("`j1`") && error.contains("2.0e-4 rad off") && error.contains("--snap"), "{error}");
     assert!(planar.ideal_within(1e-3).is_ok());

@@ -10,7 +10,7 @@ use groebot_robot::kinematics::{BaseAxis, Chain, JointKind, Plane, Solution, Tar
 use groebot_robot::spatial::Pose;
 use nalgebra::{DMatrix, DVector, Translation3};
 
-use super::described::{EXACT, FOLDING, LYNX, Link, PINCHER, PLANAR, ROUNDINGS, asked, derived, distance, robot};
+use super::described::{EXACT, FOLDING, LYNX, Link, PINCHER, PLANAR, ROUNDINGS, derived, distance, robot, with_task};
 use crate::codegen::random;
 
 /// Joint values in multiples of 90 degrees, prismatic ones in multiples of a centimetre.
@@ -39,8 +39,8 @@ fn followed(chain: &Chain, member: &Solution, end: &[f64], is_long: bool) -> Vec
     for step in 1..=STEPS {
         for &joint in &member.free {
             let short = end[joint] - member.q[joint] - 2.0 * PI * ((end[joint] - member.q[joint]) / (2.0 * PI)).round();
-            let way = if is_long { short - 2.0 * PI.copysign(short) } else { short };
-            q[joint] = member.q[joint] + way * step as f64 / STEPS as f64;
+            let path = if is_long { short - 2.0 * PI.copysign(short) } else { short };
+            q[joint] = member.q[joint] + path * step as f64 / STEPS as f64;
         }
         for _ in 0..6 {
             let slope = |&joint: &usize| {
@@ -188,8 +188,8 @@ fn the_check_takes_self_motions_within_the_tolerance_and_misses_them() {
 #[test]
 fn planar_poses_and_yaws_of_rounded_robots_pass_their_checks() {
     for rounding in [ROUNDINGS[0], ROUNDINGS[1]] {
-        let planar = asked(&robot(&PLANAR, rounding), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
-        let yaw = asked(&robot(&FOLDING, rounding), Task::PositionYaw { axis: BaseAxis::Z }, [1, 0, 0]);
+        let planar = with_task(&robot(&PLANAR, rounding), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
+        let yaw = with_task(&robot(&FOLDING, rounding), Task::PositionYaw { axis: BaseAxis::Z }, [1, 0, 0]);
         for chain in [planar, yaw] {
             let program = derived(&chain);
             let tolerance = 2.0 * program.described.as_ref().unwrap().within;

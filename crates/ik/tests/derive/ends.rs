@@ -25,7 +25,7 @@ fn folder(task: Option<&str>) -> tempfile::TempDir {
 }
 
 #[test]
-fn a_folder_keeps_what_is_asked() {
+fn a_folder_stores_the_request() {
     let folder = folder(Some(TASK));
     let input = InputFile::read(folder.path()).unwrap();
     assert_eq!(input.ends.to_toml(), TASK);
@@ -42,12 +42,12 @@ fn a_folder_keeps_what_is_asked() {
 fn the_command_overrides_the_folder() {
     let folder = folder(Some(TASK));
     let input = InputFile::read(folder.path()).unwrap();
-    let asked =
+    let request =
         Ends { tip: Some("d".into()), task: Some(Task::Position), given: vec!["three".into()], ..Ends::default() };
-    let chain = input.chain(&asked).unwrap().unwrap();
+    let chain = input.chain(&request).unwrap().unwrap();
     assert_eq!((chain.task(), chain.given(), chain.joints()[1].name.as_str()), (Task::Position, vec![1], "three"));
-    assert_eq!(asked.or(&input.ends).direction, None);
-    let aimed = Ends { direction: asked.or(&input.ends).direction.or(input.ends.direction.clone()), ..asked };
+    assert_eq!(request.or(&input.ends).direction, None);
+    let aimed = Ends { direction: request.or(&input.ends).direction.or(input.ends.direction.clone()), ..request };
     assert_error(&input.chain(&aimed).unwrap_err(), ErrorKind::BadValue, None, "orients no direction");
 }
 
@@ -65,7 +65,7 @@ fn every_task_file_is_read_as_it_was_written() {
 }
 
 #[test]
-fn mistakes_are_told() {
+fn mistakes_are_reported() {
     assert_error(&Ends::from_toml("\ntips = 'a'").unwrap_err(), ErrorKind::UnknownKey, Some(2), "tips");
     assert_error(&Ends::from_toml("task = { kind = 'poses' }").unwrap_err(), ErrorKind::BadValue, Some(1), "pose");
     let folder = folder(Some("tip = 'c'\ngiven = ['four']"));
@@ -74,6 +74,6 @@ fn mistakes_are_told() {
     let system =
         InputFile::read(concat!(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), "/derivations/nao_arm_planar").as_ref())
             .unwrap();
-    let asked = Ends { task: Some(Task::Pose), ..Ends::default() };
-    assert_error(&system.chain(&asked).unwrap_err(), ErrorKind::BadValue, None, "system of equations");
+    let request = Ends { task: Some(Task::Pose), ..Ends::default() };
+    assert_error(&system.chain(&request).unwrap_err(), ErrorKind::BadValue, None, "system of equations");
 }

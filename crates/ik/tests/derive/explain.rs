@@ -168,7 +168,7 @@ fn the_printed_cofactors_multiply_out() {
 }
 
 #[test]
-fn a_system_is_told_with_its_source_s_numbers_and_its_strata() {
+fn a_system_is_reported_with_its_source_s_numbers_and_its_strata() {
     let text = sagittal().to_markdown();
     for words in [
         "(0.1)  f1 = 102.9*c4*s3 + 102.9*c3*s4 + 100*s3 - px = 0",

@@ -27,7 +27,7 @@ fn scara(base: &str) -> Chain {
     Robot::from_urdf(&text).unwrap().chain(None, None).unwrap()
 }
 
-fn asked(chain: &Chain, axis: BaseAxis, direction: [i32; 3]) -> Chain {
+fn with_task(chain: &Chain, axis: BaseAxis, direction: [i32; 3]) -> Chain {
     let direction = direction.map(|x| BigRational::from_integer(x.into()));
     chain.with_task(Task::PositionYaw { axis }, direction, Vec::new()).unwrap()
 }
@@ -39,7 +39,7 @@ fn derived(chain: &Chain) -> Result<Program> {
 /// Derived by hand: the tip rotates by j1 + j2 - j4 about the vertical, because the quill points down.
 #[test]
 fn a_scara_has_two_elbows_at_the_angle_that_is_asked() {
-    let chain = asked(&scara("0 0 0"), BaseAxis::Z, [1, 0, 0]);
+    let chain = with_task(&scara("0 0 0"), BaseAxis::Z, [1, 0, 0]);
     let program = derived(&chain).unwrap();
     let names: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
     assert_eq!((names.as_slice(), program.isolated), (&["px", "py", "pz", "yaw"][..], Some(2)));
@@ -67,7 +67,7 @@ fn every_axis_counts_from_the_next_one() {
         robots.into_iter().zip([format!("0 {quarter} 0"), format!("{} 0 0", -quarter), "0 0 0.3".to_owned()])
     {
         for direction in [[1, 0, 0], [0, -2, 0], [1, 1, 0]] {
-            let chain = asked(&scara(&base), axis, direction);
+            let chain = with_task(&scara(&base), axis, direction);
             let (program, mut between) = (derived(&chain).unwrap(), random());
             let solver = program.solver();
             for _ in 0..40 {
@@ -102,7 +102,7 @@ fn files_for_ikfast_have_the_type_of_the_axis() {
         (BaseAxis::Y, format!("{} 0 0", -quarter), "TranslationZAxisAngleYNorm4D", "0x44000010"),
     ];
     for (axis, base, name, code) in types {
-        let program = derived(&asked(&scara(&base), axis, [1, 0, 0])).unwrap();
+        let program = derived(&with_task(&scara(&base), axis, [1, 0, 0])).unwrap();
         let text = groebot_ik::codegen::ikfast::emit(&program, &Default::default()).unwrap();
         assert!(
             text.contains(&format!("Type: {name} ({code})")) && text.contains(&format!("return {code};")),
@@ -115,9 +115,9 @@ fn files_for_ikfast_have_the_type_of_the_axis() {
 #[test]
 fn tips_that_tilt_and_directions_along_the_axis_are_refused() {
     let refused = |chain: &Chain| derived(chain).unwrap_err().to_string();
-    let along = refused(&asked(&scara("0 0 0"), BaseAxis::Z, [0, 0, 1]));
+    let along = refused(&with_task(&scara("0 0 0"), BaseAxis::Z, [0, 0, 1]));
     assert!(along.contains("right angle to the base's z") && along.contains("--direction"), "{along}");
-    let tilted = refused(&asked(&scara("0 0 0"), BaseAxis::X, [0, 0, 1]));
+    let tilted = refused(&with_task(&scara("0 0 0"), BaseAxis::X, [0, 0, 1]));
     assert!(tilted.contains("`j1` tilts the tip"), "{tilted}");
 }
 

@@ -56,13 +56,13 @@ fn a_folder_with_the_name_of_a_robot_has_its_mechanism() {
     for (name, chain) in described() {
         let Some(robot) = robots::by_name(&name) else { continue };
         // A chain's joints have the names and limits of the whole robot: `LHipYawPitch` instead of the chain's `HipYawPitch`.
-        let told = |joint: &Joint, named: &Joint| Joint {
+        let renamed = |joint: &Joint, named: &Joint| Joint {
             name: if named.name.ends_with(&joint.name) { named.name.clone() } else { joint.name.clone() },
             limits: joint.limits.or(named.limits),
             axis: named.axis.clone(),
             ..joint.clone()
         };
-        let joints: Vec<Joint> = chain.joints().iter().zip(robot.joints()).map(|(a, b)| told(a, b)).collect();
+        let joints: Vec<Joint> = chain.joints().iter().zip(robot.joints()).map(|(a, b)| renamed(a, b)).collect();
         assert_eq!((&joints[..], chain.tip()), (robot.joints(), robot.tip()), "{name}");
         for (a, b) in chain.joints().iter().zip(robot.joints()) {
             assert!((a.direction().into_inner() - b.direction().into_inner()).norm() < 1e-15, "{name} {}", a.name);

@@ -25,8 +25,8 @@ fn lost(off: f64, targets: usize) -> usize {
     let (program, mut random) = (arm(), Random::new(24));
     let is_lost = |q: &[f64; 6]| {
         let answers = program.solve_numbers(&program.reached(q).unwrap()).unwrap();
-        let way = |found: &[f64]| distance(&found.try_into().unwrap(), q);
-        !answers.iter().any(|answer| way(&answer.q) <= f64::max(1e-7, 1e-12 / off.abs()))
+        let distance_to = |found: &[f64]| distance(&found.try_into().unwrap(), q);
+        !answers.iter().any(|answer| distance_to(&answer.q) <= f64::max(1e-7, 1e-12 / off.abs()))
     };
     (0..targets).filter(|_| is_lost(&folded(&mut random, off))).count()
 }
@@ -39,14 +39,17 @@ fn answers_beside_a_self_motion_are_found() {
 }
 
 #[test]
-fn a_self_motion_is_told() {
+fn a_self_motion_is_reported() {
     let (program, mut random) = (arm(), Random::new(25));
     let solver = program.solver();
     for _ in 0..40 {
         let q = folded(&mut random, 0.0);
         let answers = solver.solve_numbers(&solver.reached(&q).unwrap()).unwrap();
-        let told = answers.iter().filter(|answer| !answer.free.is_empty());
-        assert!(told.clone().count() > 0 && told.clone().all(|answer| (answer.q[5] - q[5]).abs() < 1e-6), "{q:?}");
+        let members = answers.iter().filter(|answer| !answer.free.is_empty());
+        assert!(
+            members.clone().count() > 0 && members.clone().all(|answer| (answer.q[5] - q[5]).abs() < 1e-6),
+            "{q:?}"
+        );
     }
 }
 

@@ -71,5 +71,5 @@ fn joints_at_the_ends_are_chosen_where_no_others_will_do() {
 fn a_joint_between_others_is_not_for_it() {
     let error = fits(&with_given(ARM, "Joint3")).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
-    assert!(error.message().contains("all that are before and after them must be given"), "{error}");
+    assert!(error.message().contains("all joints before and after them must be given"), "{error}");
 }

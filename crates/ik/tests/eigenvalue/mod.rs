@@ -60,8 +60,8 @@ pub fn rational(numerator: i64, denominator: i64) -> BigRational {
 
 /// The largest difference of two joint vectors, with angles modulo 2 pi.
 pub fn distance(a: &[f64; 6], b: &[f64; 6]) -> f64 {
-    let way = |(x, y): (&f64, &f64)| (x - y - TAU * ((x - y) / TAU).round()).abs();
-    a.iter().zip(b).map(way).fold(0.0, f64::max)
+    let difference = |(x, y): (&f64, &f64)| (x - y - TAU * ((x - y) / TAU).round()).abs();
+    a.iter().zip(b).map(difference).fold(0.0, f64::max)
 }
 
 /// The joint values that reach the target.
@@ -82,10 +82,10 @@ pub fn residual(solver: &six_axes::Chain, answers: &Answers, target: &[f64; 12])
         let reached = last_frame(solver, &solver.forward(&answer.q));
         let column = |motion: &Rigid, k: usize| Vector3::from(motion.rotation.map(|row| row[k]));
         let turn: Vector3<f64> = (0..3).map(|k| column(&reached, k).cross(&column(&wanted, k)) * 0.5).sum();
-        let way = (Vector3::from(wanted.translation) - Vector3::from(reached.translation)).amax();
+        let error = (Vector3::from(wanted.translation) - Vector3::from(reached.translation)).amax();
         let sliding = answer.q.iter().zip(&solver.slides).filter(|(_, slides)| **slides);
-        let longest = sliding.map(|(way, _)| way.abs()).fold(0.0, f64::max);
-        f64::max((way - 2.0 * f64::EPSILON * longest) / solver.length, turn.amax())
+        let longest = sliding.map(|(value, _)| value.abs()).fold(0.0, f64::max);
+        f64::max((error - 2.0 * f64::EPSILON * longest) / solver.length, turn.amax())
     };
     found(answers).iter().map(miss).fold(0.0, f64::max)
 }

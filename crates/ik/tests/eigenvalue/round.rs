@@ -32,8 +32,8 @@ fn miss(solver: &six_axes::Chain, q: &[f64; 6], target: &[f64; 12]) -> Vector6<f
     let columns = |pose: &[f64; 12]| [0, 1, 2].map(|k| nalgebra::Vector3::new(pose[3 + k], pose[6 + k], pose[9 + k]));
     let turn =
         columns(&reached).iter().zip(&columns(target)).map(|(a, b)| a.cross(b) * 0.5).sum::<nalgebra::Vector3<f64>>();
-    let way = |k: usize| target[k] - reached[k];
-    Vector6::new(way(0), way(1), way(2), turn.x, turn.y, turn.z)
+    let difference = |k: usize| target[k] - reached[k];
+    Vector6::new(difference(0), difference(1), difference(2), turn.x, turn.y, turn.z)
 }
 
 fn jacobian(solver: &six_axes::Chain, q: &[f64; 6]) -> Matrix6<f64> {

@@ -10,11 +10,11 @@ use super::{Random, found, random_chain_of, residual};
 /// The distance between `q` and the nearest solution; displacements in metres.
 fn nearest(answers: &Answers, q: &[f64; 6], sliding: &[usize]) -> f64 {
     let turn = std::f64::consts::TAU;
-    let way = |joint: usize, a: f64, b: f64| match sliding.contains(&joint) {
+    let difference = |joint: usize, a: f64, b: f64| match sliding.contains(&joint) {
         true => (a - b).abs(),
         false => (a - b - turn * ((a - b) / turn).round()).abs(),
     };
-    let far = |a: &[f64; 6]| (0..6).map(|joint| way(joint, a[joint], q[joint])).fold(0.0, f64::max);
+    let far = |a: &[f64; 6]| (0..6).map(|joint| difference(joint, a[joint], q[joint])).fold(0.0, f64::max);
     found(answers).iter().map(|answer| far(&answer.q)).fold(f64::INFINITY, f64::min)
 }
 

@@ -65,8 +65,8 @@ fn invalid_requests_are_refused() {
 
 #[test]
 fn orientations_are_spread_evenly_over_all() {
-    // An arm whose tip is the centre of its spherical wrist. For each posture of the arm and evenly distributed rotations, the sine of the wrist's pitch is
-    // evenly distributed too, and one of two solutions has its pitch between -90 and 90 degrees. Up to an angle a the share of solutions is (1 + sin a) / 2.
+    // An arm whose tip is the centre of its spherical wrist. For each posture of the arm, rotations are evenly distributed, and so is the sine of the wrist's
+    // pitch. One of two solutions has its pitch between -90 and 90 degrees. Up to an angle a the share of solutions is (1 + sin a) / 2.
     let text =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations/puma/0_chain.toml")).unwrap();
     let at_wrist = text.replace("[0, 1.524, 0.15]", "[0, 1.524, 0]");

@@ -138,7 +138,7 @@ fn what_cannot_be_shared_is_refused() {
         assert_eq!(error.kind(), ErrorKind::BadValue);
         error.message().to_owned()
     };
-    assert!(refused(&program, &[(0, 0)]).contains("`pan` is shared, but the next program finds it itself"));
+    assert!(refused(&program, &[(0, 0)]).contains("`pan` is shared, but the next program finds it too"));
     assert!(refused(&slide(), &[(0, 1)]).contains("both must be revolute, or prismatic"));
     assert!(refused(&slide(), &[(2, 0)]).contains("no such joints"));
     assert!(refused(&slide(), &[(0, 2)]).contains("no such joints"));

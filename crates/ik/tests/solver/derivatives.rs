@@ -32,12 +32,12 @@ fn derivatives_from_values_are_those_of_the_polynomials() {
     let (mut compared, mut programs) = (0, 0);
     for stored in all() {
         let (program, solver) = (&stored.program, stored.program.solver());
-        let mut is_told = false;
+        let mut has_derivatives = false;
         for q in joint_values(program, 20, random()) {
             let target = solver.reached(&q).unwrap_or_else(|| vec![0.3; program.inputs.len()]);
             let parameters = solver.parameters(&target).unwrap();
             let Some(found) = solver.derivatives(&target, &q).unwrap() else { continue };
-            is_told = true;
+            has_derivatives = true;
             let mut unknowns = vec![0.0; program.unknowns.len()];
             for (joint, &q) in program.joints.iter().zip(&q) {
                 match joint.value {
@@ -55,7 +55,7 @@ fn derivatives_from_values_are_those_of_the_polynomials() {
                 }
             }
         }
-        programs += usize::from(is_told);
+        programs += usize::from(has_derivatives);
     }
     assert!(programs > 35 && compared > 40_000, "{programs} programs, {compared} derivatives");
 }

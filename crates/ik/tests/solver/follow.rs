@@ -55,12 +55,12 @@ fn a_smooth_path_is_followed_without_a_jump() {
         let found = followed(&chain, &poses, solver).unwrap();
         assert!(found.jumps.is_empty(), "{:?}", found.jumps);
         is_along(&chain, &poses, &found);
-        let way = |q: &[Vec<f64>]| -> f64 {
+        let length = |q: &[Vec<f64>]| -> f64 {
             q.windows(2).map(|pair| pair[0].iter().zip(&pair[1]).map(|(a, b)| (a - b).powi(2)).sum::<f64>()).sum()
         };
         let known: Vec<Vec<f64>> = (0..40).map(|k| swing(k as f64 / 39.0).to_vec()).collect();
         assert!(
-            way(&found.trajectory.q) <= way(&known) + 1e-9,
+            length(&found.trajectory.q) <= length(&known) + 1e-9,
             "the shortest, at most as long as the one that is known"
         );
     }

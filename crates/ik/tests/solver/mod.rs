@@ -195,7 +195,7 @@ fn a_target_off_its_conditions_is_refused_by_name_and_measure() {
     assert!(refused(exact.map(|value| -value)).contains("determinant"));
     assert!(refused([f64::MAX; 9]).contains("differs"));
     let error = pan_tilt::program().solve_numbers(&[0.6, 0.0, 0.9]).unwrap_err();
-    assert!(error.message().contains("`dx` to `dz` are no unit vector"), "{error}");
+    assert!(error.message().contains("`dx` to `dz` are not a unit vector"), "{error}");
 }
 
 /// A rotation with ten digits is not orthogonal to the last bit. The nearest rotation is solved.

@@ -209,7 +209,7 @@ fn what_is_lost_at_round_targets_alone_is_found() {
 
 /// PUMA's straight wrist: joints 4 and 6 rotate about one line, so only their sum is determined.
 #[test]
-fn a_self_motion_must_be_told() {
+fn a_self_motion_must_be_reported() {
     let chain = robots::puma();
     let screws = ByScrews::new(&chain).unwrap();
     let silent = Changed { solver: &screws, change: |answers| answers.iter_mut().for_each(|a| a.free.clear()) };
@@ -218,8 +218,12 @@ fn a_self_motion_must_be_told() {
         let failed = |row: &&groebot_ik::witness::Row| matches!(&row.verdict, Verdict::Fail(f) if f.contains(&Fault::SelfMotion));
         report.rows.iter().filter(|row| row.kind == Kind::Singular).filter(failed).count()
     };
-    let (told, untold) = (faults(&run(&chain, &screws, None, options)), faults(&run(&chain, &silent, None, options)));
-    assert!(untold > told + 5, "{told} self-motions without a word when they are told, {untold} when they are not");
+    let (reported, unreported) =
+        (faults(&run(&chain, &screws, None, options)), faults(&run(&chain, &silent, None, options)));
+    assert!(
+        unreported > reported + 5,
+        "{reported} missing self-motions when they are reported, {unreported} when they are not"
+    );
 }
 
 /// Exact counts compared with the screw solver's, for robots whose solutions are real and complete there.
@@ -236,7 +240,7 @@ fn exact_counts_are_those_of_screw_theory() {
     }
 }
 
-/// A base rotated by angles without rational sines, and a tool at such an angle, change neither the number of solutions nor the time of the count.
+/// A base rotated by angles without rational sines, and a tool at such an angle. Neither changes the number of solutions or the time of the count.
 #[test]
 fn a_turned_base_and_a_tool_leave_the_counts() {
     let count = |text: &str| {
@@ -297,7 +301,7 @@ fn other_tasks_are_checked_too() {
 }
 
 #[test]
-fn the_accuracy_is_told_by_class() {
+fn the_accuracy_is_reported_by_class() {
     let chain = robots::stanford();
     let report = run(
         &chain,

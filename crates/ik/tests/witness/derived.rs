@@ -52,7 +52,7 @@ fn check(chain: &Chain, derived: &Derivation, options: &Options) -> Result<Repor
     Check::run(chain, derived.program(), derived.dimension(), options, &Watch::none())
 }
 
-fn told(report: &Report, most: usize) -> String {
+fn failures_text(report: &Report, most: usize) -> String {
     let lines = report.failures().take(most).map(|row| format!("{row}; from {:?}\n", row.joints));
     lines.collect()
 }
@@ -78,7 +78,7 @@ fn every_chain_passes_some_of_its_checks() {
             "{name}: {} solutions, {taken:.2?}; {}\n{}",
             derived.dimension().unwrap(),
             report.summary(),
-            told(&report, 6)
+            failures_text(&report, 6)
         );
         if report.failures().count() > 0 {
             failed.push(name);
@@ -89,7 +89,7 @@ fn every_chain_passes_some_of_its_checks() {
 
 /// RH0's hand at 5e-11 m from the axis of the second joint, at the double root of the first: four solutions, as by screw theory.
 #[test]
-fn an_angle_that_hardly_matters_is_found() {
+fn a_poorly_determined_angle_is_found() {
     let (_, chain) = chains().into_iter().find(|(name, _)| name == "rh0_arm").unwrap();
     let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
     let screws = ByScrews::new(&chain).unwrap();
@@ -139,7 +139,7 @@ fn a_self_motion_leaves_the_isolated_answers_next_to_it() {
 ///
 /// The numbers of solutions and of self-motions are those of screw theory, which may report several members of one self-motion.
 #[test]
-fn answers_beside_a_self_motion_are_told_from_it() {
+fn answers_beside_a_self_motion_are_isolated() {
     let (chain, derived) = named("nao_left_arm");
     let screws = ByScrews::new(&chain).unwrap();
     let solver = derived.program().solver();
@@ -204,7 +204,7 @@ fn a_self_motion_next_to_a_folded_knee_is_found() {
 /// NAO's leg with the ankle's pitch near a right angle. The self-motions of both knee solutions are 8e-4 rad apart. They were reported as two, but there are
 /// four, as by screw theory.
 #[test]
-fn self_motions_next_to_each_other_are_told_apart() {
+fn self_motions_next_to_each_other_are_separate() {
     let (chain, derived) = named("nao_left_leg");
     let screws = ByScrews::new(&chain).unwrap();
     let q = [
@@ -224,7 +224,7 @@ fn self_motions_next_to_each_other_are_told_apart() {
 /// NAO's arm next to targets where its solutions meet in pairs: eight solutions. Pairs are 4e-7 rad apart in the shoulder and 2e-6 rad in the wrist, and
 /// between them the equations have errors of only 7e-15. They were reported as four.
 #[test]
-fn answers_that_rounding_tells_apart_are_two() {
+fn close_answers_are_two() {
     let (chain, derived) = named("nao_left_arm");
     let screws = ByScrews::new(&chain).unwrap();
     let q = [0.8627998442172125, -2.3824601626755086, 2.5481778138821483, -1.356032992644737, -1.6545327338122349];
@@ -251,7 +251,7 @@ fn a_self_motion_on_a_small_part_of_the_circle_is_found() {
     }
     let report =
         check(&chain, &derived, &Options { targets: 700, oracle: 0, exact: 0, seed: 9, ..Options::default() }).unwrap();
-    assert_eq!(report.failures().count(), 0, "{}", told(&report, 6));
+    assert_eq!(report.failures().count(), 0, "{}", failures_text(&report, 6));
 }
 
 /// The last axis is parallel to those of the arm, so the wrist rotates along a part of the circle, within the reach of the elbow. From the first joint values
@@ -283,7 +283,7 @@ fn a_rounded_robot_is_solved_at_singular_poses_too() {
     let report =
         Check::run(derived.sequential().unwrap().problem.measured(), derived.program(), None, &options, &Watch::none())
             .unwrap();
-    assert_eq!(report.failures().count(), 0, "{}\n{}", report.summary(), told(&report, 6));
+    assert_eq!(report.failures().count(), 0, "{}\n{}", report.summary(), failures_text(&report, 6));
 }
 
 /// Next to the folded arm, the ideal robot has one double root. The described robot has two solutions, 0.03 rad apart.
@@ -350,9 +350,11 @@ fn the_counts_of_the_chains() {
         "chain,solutions,run,class,targets,failed,counted_exactly,by_screws,residual_p50,residual_p99,residual_p99.9,residual_max,joints_max,answers,seconds"
     );
     let mut failed = Vec::new();
-    let asked = std::env::var("GROEBOT_CHAINS").unwrap_or_default();
-    let asked: Vec<&str> = asked.split(',').filter(|name| !name.is_empty()).collect();
-    for (name, chain) in chains().into_iter().filter(|(name, _)| asked.is_empty() || asked.contains(&name.as_str())) {
+    let requested = std::env::var("GROEBOT_CHAINS").unwrap_or_default();
+    let requested: Vec<&str> = requested.split(',').filter(|name| !name.is_empty()).collect();
+    for (name, chain) in
+        chains().into_iter().filter(|(name, _)| requested.is_empty() || requested.contains(&name.as_str()))
+    {
         let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
         // A third of the targets are random, and the first of these are counted.
         for (run, targets, exact) in [("poses", 100_000, 0), ("counts", 2_860, 1_000)] {
@@ -364,7 +366,7 @@ fn the_counts_of_the_chains() {
             if report.failures().count() > 0 {
                 println!(
                     "# {name}\n{}",
-                    told(&report, 10).lines().map(|line| format!("# {line}\n")).collect::<String>()
+                    failures_text(&report, 10).lines().map(|line| format!("# {line}\n")).collect::<String>()
                 );
                 failed.push(name.clone());
             }

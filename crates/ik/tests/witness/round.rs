@@ -139,7 +139,7 @@ fn is_complete(name: &str, source: &Source) -> Result<bool> {
 }
 
 /// Whether the name contains `GROEBOT_ROBOTS`, or that variable is not set.
-fn is_asked(name: &str) -> bool {
+fn is_requested(name: &str) -> bool {
     std::env::var("GROEBOT_ROBOTS").is_ok_and(|part| !name.contains(&part)).then_some(()).is_none()
 }
 
@@ -160,11 +160,11 @@ fn round_targets_of_all_robots() {
     folders.sort();
     for folder in folders {
         let name = folder.file_name().unwrap().to_str().unwrap().to_owned();
-        if is_asked(&name) {
+        if is_requested(&name) {
             run(&name, &Source::read(&folder).unwrap());
         }
     }
-    for (name, lengths) in OFFSET_WRISTS.into_iter().filter(|(name, _)| is_asked(name)) {
+    for (name, lengths) in OFFSET_WRISTS.into_iter().filter(|(name, _)| is_requested(name)) {
         run(name, &source_of(&offset_wrist(lengths)));
     }
     let mut random = Random::new(47);
@@ -176,7 +176,7 @@ fn round_targets_of_all_robots() {
         }
         arms += 1;
         let name = format!("random arm {arms}");
-        if is_asked(&name) {
+        if is_requested(&name) {
             run(&name, &source);
         }
     }

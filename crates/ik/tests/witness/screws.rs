@@ -44,11 +44,11 @@ impl Links {
     /// Whether `b` represents `a`: they match within the tolerance, and all joint vectors between them reach the target.
     fn same(&self, a: Answer, b: Answer, target: [f64; 2]) -> bool {
         let from = [0, 1].map(|j| a[j].or(b[j]).unwrap_or(0.0));
-        let way = [0, 1].map(|j| b[j].map_or(0.0, |b| angle::difference(b, from[j])));
-        let gap = way[0].abs().max(way[1].abs());
+        let step = [0, 1].map(|j| b[j].map_or(0.0, |b| angle::difference(b, from[j])));
+        let gap = step[0].abs().max(step[1].abs());
         let sigma = self.sigma(from);
         let tolerance = if sigma > 1e-3 { 1e-9 } else { (1e-13 / sigma).max(1e-7) };
-        let between = |share: f64| self.miss([from[0] + share * way[0], from[1] + share * way[1]], target);
+        let between = |share: f64| self.miss([from[0] + share * step[0], from[1] + share * step[1]], target);
         let worst = [0.25, 0.5, 0.75, 1.0].map(between).into_iter().fold(0.0, f64::max);
         gap <= tolerance && worst <= 1e-11
     }

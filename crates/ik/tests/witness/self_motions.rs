@@ -53,7 +53,7 @@ fn miss(a: &[f64], b: &[f64]) -> f64 {
 /// With the wrist centre on the axis of the first joint, this joint is free on two closed curves. Each covers a quarter of the circle, and they are pi apart,
 /// with equal cases and roots. They have the fifth joint on different sides, and screw theory finds members of both.
 #[test]
-fn two_self_motions_of_one_branch_are_both_told() {
+fn two_self_motions_of_one_branch_are_both_reported() {
     let chain = Chain::from_toml(Z1).unwrap();
     let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
     let screws = ByScrews::new(&chain).unwrap();
@@ -82,7 +82,7 @@ fn two_self_motions_of_one_branch_are_both_told() {
 /// The formulas are those of a leg whose hip axes meet. They give single joint vectors of a self-motion of the described leg, which is reported as one
 /// self-motion instead of many isolated solutions. (With its hip rotated to the other side, the leg is too short by less than a micrometre.)
 #[test]
-fn a_self_motion_of_a_robot_in_rounded_numbers_is_told_as_one() {
+fn a_self_motion_of_a_robot_in_rounded_numbers_is_reported_as_one() {
     use std::f64::consts::FRAC_PI_2;
     let chain = Chain::from_toml(LEG).unwrap();
     let proved = groebot_ik::derive(&chain).unwrap();

@@ -188,9 +188,9 @@ impl<'a> Search<'a> {
         }
         let root = self.roots[view.root as usize].spot;
         let next = if view.is_up { view.row + 1 } else { view.row - 1 };
-        let behind = View { row: next, ..*view };
-        let from = |x: usize| self.plane.lattice(x, behind.line()).from(root);
-        let (mut x, end) = self.reach(&behind, rays, run);
+        let beyond = View { row: next, ..*view };
+        let from = |x: usize| self.plane.lattice(x, beyond.line()).from(root);
+        let (mut x, end) = self.reach(&beyond, rays, run);
         loop {
             let first = self.rows.next(x, next as usize, true);
             if first >= end {
@@ -207,16 +207,16 @@ impl<'a> Search<'a> {
                 let low = rays[0].filter(|_| is_left(rays[0], ends[0])).unwrap_or(ends[0]);
                 let high = rays[1].filter(|_| is_right(rays[1], ends[1])).unwrap_or(ends[1]);
                 let opening = (first as u32, last as u32);
-                self.fresh.push(Window { view: behind, rays: [low, high], opening });
+                self.fresh.push(Window { view: beyond, rays: [low, high], opening });
             }
             x = last;
         }
     }
 
     /// The part of a run next to which rays meet the far line, with one more cell on both sides.
-    fn reach(&self, behind: &View, rays: Rays, run: (usize, usize)) -> (usize, usize) {
-        let root = &self.roots[behind.root as usize].real;
-        let at = |ray: Spot| root.x + ray.x as f64 / ray.y as f64 * (behind.line() as f64 - root.y);
+    fn reach(&self, beyond: &View, rays: Rays, run: (usize, usize)) -> (usize, usize) {
+        let root = &self.roots[beyond.root as usize].real;
+        let at = |ray: Spot| root.x + ray.x as f64 / ray.y as f64 * (beyond.line() as f64 - root.y);
         let low = rays[0].map_or(0.0, |ray| at(ray).floor() - 1.0).max(run.0 as f64);
         let high = rays[1].map_or(f64::INFINITY, |ray| at(ray).ceil() + 1.0).min(run.1 as f64);
         (low as usize, high.max(0.0) as usize)

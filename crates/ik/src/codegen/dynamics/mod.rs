@@ -98,7 +98,7 @@ impl Printed<'_> {
         let functions = self.functions.iter().map(|function| self.function(*function, &recursive, language));
         let functions: Vec<FunctionText> = functions.collect::<Result<_>>()?;
         let loops = functions.iter().any(|function| function.is_recursive);
-        let ways = values.iter().filter(|value| value.freedom == Freedom::Slide);
+        let displacements = values.iter().filter(|value| value.freedom == Freedom::Slide);
         let joints = self.equations.joints().iter().map(|name| format!("`{}`", remark(name)));
         let base = |coordinates: &str| -> Vec<String> {
             if self.equations.is_floating() { coordinates.split(' ').map(str::to_owned).collect() } else { Vec::new() }
@@ -114,7 +114,7 @@ impl Printed<'_> {
             freedoms: base("vx vy vz wx wy wz").into_iter().chain(joints).collect(),
             remarks: self.remarks.iter().map(|line| remark(line)).collect(),
             angles: angles.map(|value| joint_value(value, language)).collect(),
-            ways: ways.map(|value| joint_value(value, language)).collect(),
+            displacements: displacements.map(|value| joint_value(value, language)).collect(),
             bodies: values.len() + 1,
             tables: if loops { language.tables(&recursive.tables()) } else { Vec::new() },
             functions,
@@ -165,7 +165,7 @@ impl Printed<'_> {
                 ([_], true) => "Matrix",
                 (_, true) => "[Matrix; 2]",
             },
-            reads_ways: code.iter().any(|line| line.contains("way[")),
+            reads_displacements: code.iter().any(|line| line.contains("way[")),
             code,
             answer,
             is_recursive,
@@ -178,12 +178,12 @@ impl Printed<'_> {
         let values = self.equations.values();
         let turning = values.iter().filter(|value| value.freedom == Freedom::Turn).count();
         let pairs = ["c", "s"].into_iter().flat_map(|name| (0..turning).map(move |i| format!("{name}[{i}]")));
-        let ways = values.iter().filter(|value| value.freedom == Freedom::Slide);
-        let ways = ways.map(|value| format!("({})", joint_value(value, language)));
+        let displacements = values.iter().filter(|value| value.freedom == Freedom::Slide);
+        let displacements = displacements.map(|value| format!("({})", joint_value(value, language)));
         let turn = (3..7).map(|i| format!("q[{i}]"));
         let lists = function.inputs().iter();
         let lists = lists.flat_map(|list| (0..self.equations.freedoms()).map(move |i| format!("{list}[{i}]")));
-        pairs.chain(ways).chain(turn).chain(lists).collect()
+        pairs.chain(displacements).chain(turn).chain(lists).collect()
     }
 
     /// Runs the algorithm and records it.
@@ -248,7 +248,7 @@ struct Outline {
     freedoms: Vec<String>,
     remarks: Vec<String>,
     angles: Vec<String>,
-    ways: Vec<String>,
+    displacements: Vec<String>,
     bodies: usize,
     tables: Vec<String>,
     functions: Vec<FunctionText>,
@@ -263,6 +263,6 @@ struct FunctionText {
     result: &'static str,
     code: Vec<String>,
     answer: String,
-    reads_ways: bool,
+    reads_displacements: bool,
     is_recursive: bool,
 }

@@ -190,8 +190,8 @@ impl Factors {
     }
 }
 
-/// A polynomial of degree one in the cosine and sine of each unknown revolute joint, and of degree at most two in the length of each prismatic one. It maps
-/// each product of unknowns to its coefficient.
+/// A polynomial of degree at most one in the cosine and sine of each unknown revolute joint. In the length of a prismatic joint, its degree is at most two. It
+/// maps each product of unknowns to its coefficient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Multilinear<V> {
     terms: BTreeMap<Factors, V>,

@@ -24,9 +24,9 @@ pub enum JointValue<V> {
 
 /// The part of the target's rotation that the task specifies.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Turn<V> {
+pub enum TargetRotation<V> {
     /// No part.
-    Nothing,
+    Unspecified,
     /// The image of the direction that the task orients, [`Mechanism::aim`].
     Direction([V; 3]),
     /// Its matrix, base_from_tip, by rows.
@@ -39,7 +39,7 @@ pub struct Target<V> {
     /// The position of the tip. If the task does not specify it, the position in the zero configuration.
     pub position: [V; 3],
     /// The rotation.
-    pub turn: Turn<V>,
+    pub rotation: TargetRotation<V>,
 }
 
 /// The values of the joints and of the target.
@@ -63,33 +63,35 @@ impl<V: Clone> Target<V> {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let mut position = mechanism.tip_point().each_ref().map(|entry| arithmetic.rational(entry));
-        let turn = match mechanism.seen() {
+        let rotation = match mechanism.seen() {
             Task::Pose | Task::Ray | Task::PositionPitchRoll => {
                 position.clone_from_slice(&parameters[..3]);
-                Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 + 3 * i + j].clone())))
+                TargetRotation::Matrix(std::array::from_fn(|i| {
+                    std::array::from_fn(|j| parameters[3 + 3 * i + j].clone())
+                }))
             }
             Task::Position => {
                 position.clone_from_slice(parameters);
-                Turn::Nothing
+                TargetRotation::Unspecified
             }
             Task::PlanarPosition { plane } => {
                 plane.coordinates().into_iter().zip(parameters).for_each(|(k, value)| position[k] = value.clone());
-                Turn::Nothing
+                TargetRotation::Unspecified
             }
-            Task::Direction => Turn::Direction(std::array::from_fn(|k| parameters[k].clone())),
+            Task::Direction => TargetRotation::Direction(std::array::from_fn(|k| parameters[k].clone())),
             Task::Rotation => {
-                Turn::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 * i + j].clone())))
+                TargetRotation::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| parameters[3 * i + j].clone())))
             }
             Task::PositionYaw { axis } => {
                 position.clone_from_slice(&parameters[..3]);
-                Turn::Matrix(about(axis.coordinate(), &parameters[3], &parameters[4], arithmetic))
+                TargetRotation::Matrix(about(axis.coordinate(), &parameters[3], &parameters[4], arithmetic))
             }
             Task::PlanarPose { plane } => {
                 plane.coordinates().into_iter().zip(parameters).for_each(|(k, value)| position[k] = value.clone());
-                Turn::Matrix(about(plane.normal(), &parameters[2], &parameters[3], arithmetic))
+                TargetRotation::Matrix(about(plane.normal(), &parameters[2], &parameters[3], arithmetic))
             }
         };
-        Ok(Target { position, turn })
+        Ok(Target { position, rotation })
     }
 }
 

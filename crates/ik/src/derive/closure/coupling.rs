@@ -25,7 +25,7 @@ pub struct Coupling {
 #[non_exhaustive]
 pub enum Law {
     /// Both joints are revolute.
-    Turn {
+    Revolute {
         /// The number of rotations per rotation of the leader: not zero.
         times: i32,
         /// |w| of the leader over |w| of the follower.
@@ -36,7 +36,7 @@ pub enum Law {
         offset: [BigRational; 2],
     },
     /// Both joints are prismatic.
-    Slide {
+    Prismatic {
         /// d' of the follower for one of the leader.
         factor: BigRational,
         /// d' of the offset.
@@ -50,17 +50,22 @@ impl Coupling {
     ///
     /// `None` if the law is not a polynomial over Q. This holds for a fractional factor of an angle, for a prismatic and a revolute joint, and for axis vectors
     /// whose lengths have an irrational ratio.
-    pub(super) fn new(leader: usize, turn: [bool; 2], [own, other]: [&BigRational; 2], mimic: &Mimic) -> Option<Self> {
+    pub(super) fn new(
+        leader: usize,
+        revolute: [bool; 2],
+        [own, other]: [&BigRational; 2],
+        mimic: &Mimic,
+    ) -> Option<Self> {
         let (ratio, square) = (rational_root(&(other / own))?, own.clone());
         let root = square.to_f64().unwrap_or(1.0).sqrt();
-        let law = match (turn, mimic.whole()) {
+        let law = match (revolute, mimic.whole()) {
             ([true, true], Some(times)) => {
                 let offset = turned(mimic.offset.to_f64().unwrap_or(0.0), &square, root);
-                Law::Turn { times, ratio, square, offset }
+                Law::Revolute { times, ratio, square, offset }
             }
             ([false, false], _) => {
                 let factor = &mimic.multiplier * ratio;
-                Law::Slide { factor, offset: quotient(&mimic.offset, &square, root) }
+                Law::Prismatic { factor, offset: quotient(&mimic.offset, &square, root) }
             }
             _ => return None,
         };
@@ -70,23 +75,23 @@ impl Coupling {
     /// Whether the law is linear in the unknowns of the leader, so that these follow from the follower's.
     pub(crate) fn is_linear(&self) -> bool {
         match self.law {
-            Law::Turn { times, .. } => times.abs() == 1,
-            Law::Slide { .. } => true,
+            Law::Revolute { times, .. } => times.abs() == 1,
+            Law::Prismatic { .. } => true,
         }
     }
 
     /// The follower's unknowns, c and s' or d', as functions of those of the leader.
     pub(crate) fn follow<A: Arithmetic>(&self, leader: &[A::Value], arithmetic: &mut A) -> Vec<A::Value> {
         match (&self.law, leader) {
-            (Law::Turn { times, ratio, square, offset }, [cosine, sine]) => {
+            (Law::Revolute { times, ratio, square, offset }, [cosine, sine]) => {
                 let signed = if *times < 0 { -ratio } else { ratio.clone() };
                 let [scale, square] = [signed, square.clone()].map(|number| arithmetic.rational(&number));
-                let turn = [cosine.clone(), arithmetic.mul(&scale, sine)];
+                let rotation = [cosine.clone(), arithmetic.mul(&scale, sine)];
                 let start = offset.each_ref().map(|number| arithmetic.rational(number));
-                let next = |sum: [A::Value; 2], _| product(&sum, &turn, &square, arithmetic);
+                let next = |sum: [A::Value; 2], _| product(&sum, &rotation, &square, arithmetic);
                 (0..times.unsigned_abs()).fold(start, next).to_vec()
             }
-            (Law::Slide { factor, offset }, [length]) => {
+            (Law::Prismatic { factor, offset }, [length]) => {
                 let [factor, offset] = [factor, offset].map(|number| arithmetic.rational(number));
                 let share = arithmetic.mul(&factor, length);
                 vec![arithmetic.add(&share, &offset)]
@@ -97,7 +102,7 @@ impl Coupling {
 
     /// The coefficients of a linear law. For each unknown of the follower, c and s' or d': the coefficients of the leader's unknowns, then the constant.
     pub(super) fn coefficients(&self) -> Vec<Vec<BigRational>> {
-        let count = if matches!(self.law, Law::Turn { .. }) { 2 } else { 1 };
+        let count = if matches!(self.law, Law::Revolute { .. }) { 2 } else { 1 };
         let number = |here: bool| BigRational::from_integer(i32::from(here).into());
         let at = |own: usize| (0..count).map(|k| number(k == own)).collect::<Vec<_>>();
         let zero = self.follow(&at(count), &mut Exact);
@@ -109,8 +114,8 @@ impl Coupling {
     /// All constants of the law.
     pub(in crate::derive) fn numbers(&self) -> Vec<&BigRational> {
         match &self.law {
-            Law::Turn { ratio, square, offset: [c, s], .. } => vec![ratio, square, c, s],
-            Law::Slide { factor, offset } => vec![factor, offset],
+            Law::Revolute { ratio, square, offset: [c, s], .. } => vec![ratio, square, c, s],
+            Law::Prismatic { factor, offset } => vec![factor, offset],
         }
     }
 }

@@ -5,7 +5,7 @@
 //! So the joint's cosine and sine occur only in the first degree.
 
 use super::arithmetic::{Arithmetic, Factor, Multilinear};
-use super::assignment::{Assignment, JointValue, Turn};
+use super::assignment::{Assignment, JointValue, TargetRotation};
 use super::following::follow;
 use super::mechanism::Mechanism;
 use super::relation::{Letter, Measure, Object, Relation, Word};
@@ -93,9 +93,9 @@ enum Rotation<'a, V> {
         inverse: bool,
     },
     /// R_T R_M^T.
-    Target(&'a Turn<V>),
+    Target(&'a TargetRotation<V>),
     /// R_M R_T^T.
-    TargetInverse(&'a Turn<V>),
+    TargetInverse(&'a TargetRotation<V>),
 }
 
 impl<'a, A: Arithmetic> Evaluation<'a, A> {
@@ -196,12 +196,12 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
             Letter::Target => Motion {
                 before: self.numbers(mechanism.tip_point()),
                 after: self.values(&assignment.target.position),
-                rotation: Rotation::Target(&assignment.target.turn),
+                rotation: Rotation::Target(&assignment.target.rotation),
             },
             Letter::TargetInverse => Motion {
                 before: self.values(&assignment.target.position),
                 after: self.numbers(mechanism.tip_point()),
-                rotation: Rotation::TargetInverse(&assignment.target.turn),
+                rotation: Rotation::TargetInverse(&assignment.target.rotation),
             },
         }
     }
@@ -295,7 +295,7 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
                 self.plus(&along, &turned)
             }
             Rotation::Target(turn) => self.target_rotation(turn, v),
-            Rotation::TargetInverse(Turn::Matrix(rows)) => {
+            Rotation::TargetInverse(TargetRotation::Matrix(rows)) => {
                 let columns: [[A::Value; 3]; 3] = std::array::from_fn(|i| std::array::from_fn(|j| rows[j][i].clone()));
                 let body = columns.each_ref().map(|row| self.dot_values(row, v));
                 mechanism.tip_rotation().each_ref().map(|row| self.dot_number(row, &body))
@@ -305,18 +305,18 @@ impl<'a, A: Arithmetic> Evaluation<'a, A> {
         }
     }
 
-    fn target_rotation(&mut self, turn: &Turn<A::Value>, v: &Vector<A::Value>) -> Vector<A::Value> {
+    fn target_rotation(&mut self, rotation: &TargetRotation<A::Value>, v: &Vector<A::Value>) -> Vector<A::Value> {
         let mechanism = self.mechanism;
-        match turn {
+        match rotation {
             // Only the tip itself is transformed; its vector from the tip is zero.
-            Turn::Nothing => std::array::from_fn(|_| Multilinear::zero()),
-            Turn::Direction(aim) => {
+            TargetRotation::Unspecified => std::array::from_fn(|_| Multilinear::zero()),
+            TargetRotation::Direction(aim) => {
                 // Only multiples of the direction are transformed: v = k a with k = a.v / a.a.
                 let own = mechanism.aim();
                 let factor = self.dot_number(&vector::scale(own, &vector::dot(own, own).recip()), v);
                 aim.each_ref().map(|entry| self.times_value(&factor, entry))
             }
-            Turn::Matrix(rows) => {
+            TargetRotation::Matrix(rows) => {
                 let back = transposed(mechanism.tip_rotation());
                 let body = back.each_ref().map(|row| self.dot_number(row, v));
                 rows.each_ref().map(|row| self.dot_values(row, &body))

@@ -107,9 +107,9 @@ impl Relation {
         let stays = |place: &usize, object: &Object| leaves(&mechanism.joints()[*place], object, self.measure);
         let places = |word: &[Letter]| word.iter().filter_map(|letter| letter.joint()).collect::<Vec<_>>();
         let target = self.right.0.iter().position(|letter| letter.joint().is_none()).unwrap_or(self.right.0.len());
-        let (before, behind) = self.right.0.split_at(target);
+        let (before, after) = self.right.0.split_at(target);
         let start = places(before).into_iter().max().map_or(0, |place| place + 1);
-        let end = places(behind).into_iter().min().unwrap_or(mechanism.joints().len());
+        let end = places(after).into_iter().min().unwrap_or(mechanism.joints().len());
         let between = places(&self.left.0);
         let first = between.iter().copied().min();
         let cut = first.or_else(|| (start..end).find(|place| !stays(place, &self.fixed))).unwrap_or(end);

@@ -21,8 +21,8 @@ pub struct Features {
 }
 
 impl Features {
-    /// The invariants of a row of joints. If there is a choice of directions, they are adapted to the joint with the axis `beside`.
-    pub fn of(row: &[&ScrewJoint], beside: &ExactVector) -> Self {
+    /// The invariants of a row of joints. If there is a choice of directions, they are adapted to the joint with the axis `neighbour`.
+    pub fn of(row: &[&ScrewJoint], neighbour: &ExactVector) -> Self {
         let turns: Vec<&ScrewJoint> = row.iter().copied().filter(|joint| joint.is_revolute()).collect();
         let slides: Vec<&ScrewJoint> = row.iter().copied().filter(|joint| !joint.is_revolute()).collect();
         let point = if slides.is_empty() { common_point(&turns) } else { None };
@@ -31,17 +31,17 @@ impl Features {
             row.iter().all(|joint| leaves(joint, &line, Measure::Moment))
         };
         Features {
-            directions: shared_directions(&turns, beside),
-            normals: normals(&turns, &slides, beside),
+            directions: shared_directions(&turns, neighbour),
+            normals: normals(&turns, &slides, neighbour),
             line: point.clone().map(|point| (point, turns[0].axis.clone())).filter(on_line),
             anchor: row.first().map_or_else(vector::zero, |joint| joint.point.clone()),
             points: point.into_iter().collect(),
         }
     }
 
-    /// The invariants of an empty row, which keeps everything fixed: directions adapted to the joint with the axis `beside`, and `points`.
-    pub fn of_nothing(beside: &ExactVector, points: Vec<ExactVector>) -> Self {
-        let frame = vector::frame(beside).to_vec();
+    /// The invariants of an empty row, which keeps everything fixed: directions adapted to the joint with the axis `neighbour`, and `points`.
+    pub fn of_nothing(neighbour: &ExactVector, points: Vec<ExactVector>) -> Self {
+        let frame = vector::frame(neighbour).to_vec();
         let anchor = points.first().cloned().unwrap_or_else(vector::zero);
         Features { directions: frame.clone(), normals: frame, points, line: None, anchor }
     }
@@ -119,9 +119,9 @@ fn crossing(first: &ScrewJoint, other: &ScrewJoint) -> Option<ExactVector> {
     Some(vector::add(&first.point, &vector::scale(&first.axis, &along)))
 }
 
-fn shared_directions(turns: &[&ScrewJoint], beside: &ExactVector) -> Vec<ExactVector> {
+fn shared_directions(turns: &[&ScrewJoint], neighbour: &ExactVector) -> Vec<ExactVector> {
     match turns {
-        [] => vector::frame(beside).to_vec(),
+        [] => vector::frame(neighbour).to_vec(),
         [first, rest @ ..] if rest.iter().all(|joint| vector::parallel(&joint.axis, &first.axis)) => {
             vec![first.axis.clone()]
         }
@@ -130,11 +130,11 @@ fn shared_directions(turns: &[&ScrewJoint], beside: &ExactVector) -> Vec<ExactVe
 }
 
 /// Directions along all revolute axes and perpendicular to all prismatic ones.
-fn normals(turns: &[&ScrewJoint], slides: &[&ScrewJoint], beside: &ExactVector) -> Vec<ExactVector> {
+fn normals(turns: &[&ScrewJoint], slides: &[&ScrewJoint], neighbour: &ExactVector) -> Vec<ExactVector> {
     let candidates = match (turns, slides) {
         ([first, ..], _) => vec![first.axis.clone()],
         ([], [first, rest @ ..]) => match rest.iter().find(|joint| !vector::parallel(&joint.axis, &first.axis)) {
-            None => across(&first.axis, beside),
+            None => across(&first.axis, neighbour),
             Some(other) => vec![vector::tidy(&vector::cross(&first.axis, &other.axis))],
         },
         ([], []) => Vec::new(),
@@ -146,9 +146,9 @@ fn normals(turns: &[&ScrewJoint], slides: &[&ScrewJoint], beside: &ExactVector) 
     candidates.into_iter().filter(stays).collect()
 }
 
-/// Two directions perpendicular to `axis`, the first of them also perpendicular to `beside`.
-fn across(axis: &ExactVector, beside: &ExactVector) -> Vec<ExactVector> {
-    let first = match vector::cross(axis, beside) {
+/// Two directions perpendicular to `axis`, the first of them also perpendicular to `neighbour`.
+fn across(axis: &ExactVector, neighbour: &ExactVector) -> Vec<ExactVector> {
+    let first = match vector::cross(axis, neighbour) {
         cross if vector::is_zero(&cross) => vector::perpendicular(axis),
         cross => vector::tidy(&cross),
     };

@@ -152,7 +152,7 @@ impl Mechanism {
             None => {}
             Some(standing) if given == standing.plain.given() => return Ok(self),
             Some(_) => {
-                let text = "the task `position_pitch_roll` is for as many joints as it has numbers: name the joints that are given (`given`)";
+                let text = "the task `position_pitch_roll` needs as many independent joints as it has numbers: name the given joints (`given`)";
                 return Err(Error::new(ErrorKind::Unsupported, text));
             }
         }
@@ -293,10 +293,10 @@ impl Mechanism {
 
 /// The law by which a joint follows the joint at index `leader`.
 fn coupling([joint, other]: [&ScrewJoint; 2], leader: usize, mimic: &Mimic) -> Result<Coupling> {
-    let turn = [joint, other].map(ScrewJoint::is_revolute);
-    Coupling::new(leader, turn, [&joint.square, &other.square], mimic).ok_or_else(|| {
+    let revolute = [joint, other].map(ScrewJoint::is_revolute);
+    Coupling::new(leader, revolute, [&joint.square, &other.square], mimic).ok_or_else(|| {
         let text = format!(
-            "joint `{}` follows `{}` by a law that is no polynomial in rational numbers: the ratio of the lengths of their axis vectors is irrational; \
+            "joint `{}` follows `{}` by a law that is not a polynomial over the rational numbers: the ratio of the lengths of their axis vectors is irrational; \
              a search (`groebot ik --numeric`) finds joint values",
             shown(&joint.name),
             shown(&other.name)

@@ -23,7 +23,7 @@ mod relation;
 mod vector;
 
 pub use arithmetic::{Arithmetic, Exact, Factor, Factors, Modular, Multilinear, Polynomials};
-pub use assignment::{Assignment, JointValue, Target, Turn};
+pub use assignment::{Assignment, JointValue, Target, TargetRotation};
 pub use coupling::{Coupling, Law};
 pub(crate) use evaluate::carry;
 pub use evaluate::{Image, Vector, evaluate};

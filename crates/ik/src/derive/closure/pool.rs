@@ -42,10 +42,10 @@ impl Mechanism {
     /// The invariants of the run. `between` is whether there are joints between it and the tail.
     fn run_features(&self, run: &Range<usize>, between: bool) -> Features {
         let next = Some(run.end).filter(|&next| between && next < self.joints().len());
-        let beside = self.axis(next.or(run.start.checked_sub(1)));
+        let neighbour = self.axis(next.or(run.start.checked_sub(1)));
         match &self.row(run)[..] {
-            [] => Features::of_nothing(&beside, Vec::new()),
-            row => Features::of(row, &beside),
+            [] => Features::of_nothing(&neighbour, Vec::new()),
+            row => Features::of(row, &neighbour),
         }
     }
 
@@ -56,12 +56,12 @@ impl Mechanism {
         if tail.end == count {
             row.extend(self.unseen());
         }
-        let beside = if between { Some(tail.start - 1) } else { Some(tail.end).filter(|&next| next < count) };
+        let neighbour = if between { Some(tail.start - 1) } else { Some(tail.end).filter(|&next| next < count) };
         if row.is_empty() {
-            let point = beside.map_or_else(vector::zero, |joint| self.joints()[joint].point.clone());
-            return Features::of_nothing(&self.axis(beside), vec![point]);
+            let point = neighbour.map_or_else(vector::zero, |joint| self.joints()[joint].point.clone());
+            return Features::of_nothing(&self.axis(neighbour), vec![point]);
         }
-        Features::of(&row, &self.axis(beside))
+        Features::of(&row, &self.axis(neighbour))
     }
 
     fn axis(&self, joint: Option<usize>) -> ExactVector {
@@ -96,11 +96,11 @@ impl Cut<'_> {
     /// Adds the relations of this cut. Unconstrained motions come after the last joint and belong to the tail. Prismatic joints do not change directions.
     fn relate(&self, fixed: &Features, moved: &Features, relations: &mut Vec<Relation>) {
         let unseen = self.mechanism.unseen();
-        let behind = self.tail.end < self.mechanism.joints().len();
-        if behind && unseen.iter().any(ScrewJoint::is_revolute) {
+        let after = self.tail.end < self.mechanism.joints().len();
+        if after && unseen.iter().any(ScrewJoint::is_revolute) {
             return;
         }
-        let only_angles = behind && !unseen.is_empty();
+        let only_angles = after && !unseen.is_empty();
         for (measure, fixed, moved) in fixed.pairs(moved) {
             if (measure == Measure::Angle || !only_angles) && self.is_widest(measure, &fixed, &moved) {
                 relations.extend(self.relation(measure, fixed, moved));
@@ -112,10 +112,10 @@ impl Cut<'_> {
     fn is_widest(&self, measure: Measure, fixed: &Object, moved: &Object) -> bool {
         let joints = self.mechanism.joints();
         let stays = |place: usize, object: &Object| leaves(&joints[place], object, measure);
-        let (between, before, behind) =
+        let (between, before, after) =
             (self.run.end < self.tail.start, self.run.start > 0, self.tail.end < joints.len());
         let run = between && stays(self.run.end, fixed) || before && stays(self.run.start - 1, fixed);
-        let tail = between && stays(self.tail.start - 1, moved) || behind && stays(self.tail.end, moved);
+        let tail = between && stays(self.tail.start - 1, moved) || after && stays(self.tail.end, moved);
         !(run || tail)
     }
 
@@ -127,8 +127,8 @@ impl Cut<'_> {
         };
         let left = (self.run.end..self.tail.start).map(Letter::Joint).filter(turns).collect();
         let before = (0..self.run.start).map(Letter::Inverse).rev();
-        let behind = (self.tail.end..joints.len()).map(Letter::Inverse).rev();
-        let right = before.chain([Letter::Target]).chain(behind).filter(turns).collect();
+        let after = (self.tail.end..joints.len()).map(Letter::Inverse).rev();
+        let right = before.chain([Letter::Target]).chain(after).filter(turns).collect();
         let relation = Relation { measure, fixed, moved, left: Word(left), right: Word(right) };
         (!relation.joints().is_empty()).then_some(relation)
     }

@@ -8,7 +8,7 @@
 //! polynomial is its own normal form. The laws of joints that follow others are additional generators, which only enlarge the ideal.
 
 use super::arithmetic::Exact;
-use super::assignment::{Assignment, JointValue, Target, Turn};
+use super::assignment::{Assignment, JointValue, Target, TargetRotation};
 use super::evaluate::evaluate;
 use super::feature::leaves;
 use super::mechanism::{Mechanism, ScrewJoint};
@@ -16,8 +16,8 @@ use super::relation::{Letter, Measure, Relation, Word};
 use super::vector;
 use crate::{Error, ErrorKind, Result};
 
-/// Proves over Q that `relation` is in the ideal of the loop, and that it uses only those parts of the target that the task specifies. So it holds wherever the
-/// joints reach the target.
+/// Proves over Q that `relation` is in the ideal of the loop. Also proves that it uses only those parts of the target that the task specifies. So it holds
+/// wherever the joints reach the target.
 ///
 /// # Errors
 /// [`ErrorKind::Certificate`] if the proof fails; as [`evaluate`] if it is not a relation of the mechanism.
@@ -26,15 +26,15 @@ pub fn prove(mechanism: &Mechanism, relation: &Relation) -> Result<()> {
         return if mechanism.couplings().contains(relation) {
             Ok(())
         } else {
-            Err(refused(relation, "no joint follows so"))
+            Err(refused(relation, "no joint follows by this law"))
         };
     }
     if !sees(mechanism, relation) {
-        return Err(refused(relation, "it needs more of the target than the task sees"));
+        return Err(refused(relation, "it uses parts of the target that the task does not specify"));
     }
     let closed = |word: &Word| closed(mechanism, relation.measure, word);
     let substituted = Relation { left: closed(&relation.left), right: closed(&relation.right), ..relation.clone() };
-    let target = Target { position: vector::zero(), turn: Turn::Nothing };
+    let target = Target { position: vector::zero(), rotation: TargetRotation::Unspecified };
     let assignment = Assignment { joints: vec![JointValue::Unknown; mechanism.joints().len()], target };
     let normal_form = evaluate(mechanism, &substituted, &assignment, &mut Exact)?;
     if normal_form.is_zero() {

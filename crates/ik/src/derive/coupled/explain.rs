@@ -171,7 +171,7 @@ impl fmt::Display for Explanation {
         }
         match &self.nearest {
             Some(nearest) => write!(f, "; the nearest joints found leave a residual of {:.1e}", nearest.residual),
-            None => f.write_str("; no real joints come near"),
+            None => f.write_str("; no real candidate is near"),
         }
     }
 }

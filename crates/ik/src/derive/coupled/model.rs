@@ -75,9 +75,10 @@ impl CoupledChains {
     /// Checks `parts` and makes them coupled chains.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for no chain, an invalid name or prefix, different length units, joints of one chain with one actuator, joints of different
-    /// kinds with one actuator, or more than 16 actuators. [`ErrorKind::DuplicateName`] for chains or actuators with one name, and joints that are shared
-    /// twice. [`ErrorKind::UnknownName`] for shared joints that do not exist.
+    /// * [`ErrorKind::BadValue`] for no chain, an invalid name or prefix, or different length units.
+    /// * [`ErrorKind::BadValue`] for an actuator with joints of one chain or of different kinds, and for more than 16 actuators.
+    /// * [`ErrorKind::DuplicateName`] for chains or actuators with one name, and joints that are shared twice.
+    /// * [`ErrorKind::UnknownName`] for shared joints that do not exist.
     pub fn new(parts: CoupledParts) -> Result<Self> {
         CoupledChains::assemble(parts).map_err(|fault| fault.error)
     }
@@ -165,7 +166,8 @@ fn check_coupled(parts: &CoupledParts) -> Checked {
         }
         let twin = |other: &&CoupledChain| other.name == member.name || other.prefix == member.prefix;
         if let Some(other) = parts.chains[..index].iter().find(twin) {
-            let text = format!("`{}` has the name or the prefix of `{}`; give it its own", member.name, other.name);
+            let text =
+                format!("`{}` and `{}` have equal names or prefixes; change one of them", member.name, other.name);
             return fault(part, ErrorKind::DuplicateName, text);
         }
     }

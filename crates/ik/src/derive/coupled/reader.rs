@@ -71,7 +71,7 @@ fn read_chain(node: Node<'_>, folder: &Path) -> Result<Chain> {
     let file = node.text().map_err(|_| node.error(ErrorKind::BadValue, wanted))?;
     let is_plain = Path::new(file).file_name().is_some_and(|name| name == file) && !file.contains(['/', '\\']);
     if !is_plain {
-        return Err(node.error(ErrorKind::BadValue, format!("`{}` is no plain file name; {wanted}", shown(file))));
+        return Err(node.error(ErrorKind::BadValue, format!("`{}` is not a plain file name; {wanted}", shown(file))));
     }
     Chain::read(&folder.join(file))
 }
@@ -99,7 +99,7 @@ fn read_place(node: &Node<'_>, members: &[CoupledChain]) -> Result<JointPlace> {
         node.error(ErrorKind::UnknownName, text)
     };
     let Some((member_name, joint_name)) = text.split_once('.') else {
-        let text = format!("`{}` is no joint of a chain; give one such as \"left.Hip\"", shown(text));
+        let text = format!("`{}` is not a joint of a chain; give one such as \"left.Hip\"", shown(text));
         return Err(node.error(ErrorKind::BadValue, text));
     };
     let names = || members.iter().map(|member| member.name.as_str()).collect();

@@ -30,7 +30,7 @@ impl Six {
         let unknown: Vec<usize> = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();
         let is_row = unknown.windows(2).all(|pair| pair[1] == pair[0] + 1);
         if chain.task() != Task::Pose || unknown.len() != 6 || !is_row {
-            let text = "the eigenvalue problem is for the pose of six joints in a row; all that are before and after them must be given";
+            let text = "the eigenvalue problem needs a pose and six consecutive joints; all joints before and after them must be given";
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
         let mut parts = chain.parts().clone();
@@ -61,15 +61,15 @@ impl Six {
             rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| target[3 + 3 * i + j])),
             translation: [target[0], target[1], target[2]],
         };
-        let (before, behind) = self.given.split_at(self.before);
+        let (before, after) = self.given.split_at(self.before);
         for (&joint, is_before) in
-            before.iter().map(|joint| (joint, true)).chain(behind.iter().rev().map(|joint| (joint, false)))
+            before.iter().map(|joint| (joint, true)).chain(after.iter().rev().map(|joint| (joint, false)))
         {
             let screw = chain.screws()[joint];
             let back =
                 if is_before { Back::of(&screw) } else { Back::of(&screw.moved(&chain.base_from_tip().inverse())) };
             let Some(motion) = back.motion(&value(joint), assembler) else {
-                return Err(Error::new(ErrorKind::Unsupported, "a given joint's value has no such numbers"));
+                return Err(Error::new(ErrorKind::Unsupported, "the value of a given joint has another type"));
             };
             six = if is_before { motion.times(&six, assembler) } else { six.times(&motion, assembler) };
         }

@@ -136,7 +136,7 @@ impl Entry {
         for determinant in &self.determinants {
             let again = Determinant::evaluate(chain, formulation, determinant.prime, determinant.seed)?;
             if again != *determinant {
-                return Err(refused(format!("{name}: the determinant modulo {} is another", determinant.prime)));
+                return Err(refused(format!("{name}: the determinant modulo {} differs", determinant.prime)));
             }
         }
         Ok(Regular { formulation, determinants: self.determinants.clone() })

@@ -192,7 +192,7 @@ impl Replay<'_> {
                 let member = Box::new(Node::leaf(MEMBER, member, outcome));
                 Ok(Outcome::SelfMotion(Box::new(SelfMotion { free, certified, member })))
             }
-            _ => Err(refused("the basis is not of the kind that is claimed".to_owned())),
+            _ => Err(refused("the basis is not of the claimed kind".to_owned())),
         }
     }
 }
@@ -204,7 +204,7 @@ impl Replay<'_> {
         match engine.prove(label, setting, parent)? {
             Outcome::Open(reason) if reason == claim.reason => Ok(Outcome::Open(reason)),
             Outcome::Open(reason) => Err(refused(format!("it is open, but for another reason: {reason}"))),
-            _ => Err(refused("it is claimed to be open, and can be derived".to_owned())),
+            _ => Err(refused("it is claimed to be open, but it can be derived".to_owned())),
         }
     }
 }

@@ -22,7 +22,7 @@ pub fn derive_tree(system: &System, orders: Orders, watch: &Watch) -> Result<Nod
         Outcome::Solved(_) => Ok(node),
         Outcome::Inconsistent(_) => {
             let text = "the equations contradict each other for generic targets: the ideal is {1}; \
-                        take away an equation or make one of its constants a parameter";
+                        remove an equation or make one of its constants a parameter";
             Err(Error::new(ErrorKind::Inconsistent, text))
         }
         Outcome::SelfMotion(self_motion) => {

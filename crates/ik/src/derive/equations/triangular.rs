@@ -43,7 +43,7 @@ pub(crate) fn triangularise(ring: &Unknowns, basis: &[Poly]) -> Result<Triangula
     for f in basis {
         match (0..count).find(|&v| ring.degree_in(f, v) > 0) {
             Some(v) => groups[v].push(cleared(ring, f)),
-            None => return Err(Error::new(ErrorKind::Inconsistent, "a constant is no triangular form")),
+            None => return Err(Error::new(ErrorKind::Inconsistent, "a constant is not a triangular form")),
         }
     }
     let mut stairs = Vec::new();

@@ -61,7 +61,7 @@ pub fn eliminations(
                 None => false,
                 Some(laws) => some.iter().all(|(_, terms)| laws.degree(terms).is_ok_and(|degree| degree <= 1)),
             };
-            let is_hard = |joint: &&usize| !is_led(joint) && !is_plain && !turns_as_one(sampled, &some, **joint);
+            let is_hard = |joint: &&usize| !is_led(joint) && !is_plain && !rotates_together(sampled, &some, **joint);
             let hard = away.iter().filter(is_hard).count();
             let effort = 10 * places.len() + symbols + HARD * hard;
             if best[at].as_ref().is_none_or(|(step, least)| (degree, effort) < (step.degree, *least)) {
@@ -113,7 +113,7 @@ fn covers(mechanism: &Mechanism, some: &[IndexedRelation], joints: u32) -> bool 
 ///
 /// The sum of the squares of such relations is independent of the joint, which eliminates it (Pieper 1968). Each relation has a row (A, B) from A c + B s'. The
 /// condition holds if the map (A, B) -> (B, -n A), a rotation by 90 degrees, keeps the span of the rows at all targets.
-fn turns_as_one(sampled: &SampledRelations<'_>, some: &[IndexedRelation], joint: usize) -> bool {
+fn rotates_together(sampled: &SampledRelations<'_>, some: &[IndexedRelation], joint: usize) -> bool {
     let (field, n) = (sampled.field(), sampled.squares[joint]);
     let mut rows = Echelon::new(field);
     let mut turned = Vec::new();

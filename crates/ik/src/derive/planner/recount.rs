@@ -38,7 +38,7 @@ pub fn same_evidence(counted: Option<&[Evidence]>, claimed: &[Evidence], dimensi
     }
     match counted == claimed {
         true => Ok(()),
-        false => Err(refused("the solutions counted modulo primes are not those that are recorded".to_owned())),
+        false => Err(refused("the solutions counted modulo primes differ from the recorded ones".to_owned())),
     }
 }
 

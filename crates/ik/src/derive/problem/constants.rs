@@ -63,7 +63,8 @@ impl Constants {
         let Ok(text) = node.text() else { return node.exact().map(Expression::Number) };
         let written = parse(text).map_err(|error| node.place(error))?;
         if let Some(name) = written.names().into_iter().find(|name| !self.has(name)) {
-            let text = format!("`{}` is no earlier constant; declare it above", groebot_robot::document::shown(name));
+            let text =
+                format!("`{}` is not an earlier constant; declare it above", groebot_robot::document::shown(name));
             return Err(node.error(ErrorKind::UnknownName, text));
         }
         let value = self.put_in(&written, MAX_PARTS.0).map_err(|error| node.place(error))?;

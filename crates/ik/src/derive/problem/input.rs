@@ -145,8 +145,8 @@ impl InputFile {
 /// Reads the task file next to `file`, when `file` is the input of a mechanism's folder.
 fn read_ends(file: &Path) -> Result<Ends> {
     let is_named = file.file_name().is_some_and(|name| INPUT_NAMES.iter().any(|known| name == *known));
-    let beside = file.with_file_name(TASK_NAME);
-    if is_named && beside.is_file() { Ends::read(&beside) } else { Ok(Ends::default()) }
+    let task_file = file.with_file_name(TASK_NAME);
+    if is_named && task_file.is_file() { Ends::read(&task_file) } else { Ok(Ends::default()) }
 }
 
 /// Reads the description in the text of `file`.
@@ -329,7 +329,7 @@ impl Source {
     }
 
     /// The names of the files that the input refers to: those of coupled chains.
-    pub fn beside(&self) -> impl Iterator<Item = &str> {
+    pub fn referenced_files(&self) -> impl Iterator<Item = &str> {
         self.coupled.iter().flat_map(CoupledChains::chains).filter_map(|member| member.file.as_deref())
     }
 

@@ -68,7 +68,7 @@ fn check_rational(parameter: &Parameter, value: &BigRational, earlier: &[Paramet
     let others = earlier.iter().filter_map(|other| Some((other, rational(constant_square(other)?)?.ok()?)));
     let others: Vec<_> = others.collect();
     if others.len() >= MAX_ROOTS {
-        let text = format!("more than {MAX_ROOTS} square roots of numbers; write them by fewer");
+        let text = format!("more than {MAX_ROOTS} square roots of numbers; express them by fewer");
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     for subset in 0..1u32 << others.len() {
@@ -76,7 +76,7 @@ fn check_rational(parameter: &Parameter, value: &BigRational, earlier: &[Paramet
         let product = chosen().fold(BigRational::one(), |product, (_, square)| product * square);
         let Some(root) = rational_root(&(value * &product)) else { continue };
         let relation = chosen().fold(format!("{}/{product}", root), |text, (other, _)| text + "*" + &other.name);
-        return bad(format!("it follows from what is there; write it as the expression {relation}"));
+        return bad(format!("it depends on earlier roots; replace it by the expression {relation}"));
     }
     Ok(())
 }

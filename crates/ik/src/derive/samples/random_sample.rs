@@ -2,7 +2,7 @@
 
 use crate::derive::closure::{
     Arithmetic, Assignment, Coupling, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear, Object,
-    Relation, Target, Turn, Word, carry, evaluate,
+    Relation, Target, TargetRotation, Word, carry, evaluate,
 };
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Field, Ring, Zp};
@@ -44,7 +44,7 @@ impl RandomSample {
         for (follower, coupling) in mechanism.followers() {
             joints[follower] = followed(coupling, &joints[coupling.leader], arithmetic);
         }
-        let nowhere = Target { position: [0; 3], turn: Turn::Nothing };
+        let nowhere = Target { position: [0; 3], rotation: TargetRotation::Unspecified };
         let assignment = Assignment { joints, target: nowhere };
         let parameters = parameters(mechanism, &assignment, arithmetic)?;
         let target = Target::new(mechanism, &parameters, arithmetic)?;

@@ -32,14 +32,14 @@ const OUT: f64 = 1e6;
 
 /// The value of a symbol and its size, the sum of its terms' magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Sized {
+pub(super) struct SizedValue {
     pub value: Operand,
     pub size: Operand,
 }
 
-impl Sized {
+impl SizedValue {
     pub fn negated(self, assembler: &mut Assembler) -> Self {
-        Sized { value: assembler.mul(Operand::Constant(-1.0), self.value), size: self.size }
+        SizedValue { value: assembler.mul(Operand::Constant(-1.0), self.value), size: self.size }
     }
 }
 
@@ -52,7 +52,7 @@ pub(super) struct Place {
     /// The auxiliary unknown `w`.
     pub auxiliary: Option<usize>,
     /// The symbols, in the form's order.
-    pub symbols: Vec<Sized>,
+    pub symbols: Vec<SizedValue>,
     /// The sampled values of a free joint.
     pub samples: Vec<f64>,
     /// The error bound of the symbols.
@@ -62,7 +62,7 @@ pub(super) struct Place {
 }
 
 /// Sets the unknown `spread` in each case, so that later blocks know whether this block left its joint free.
-pub(super) fn tell_spread(cases: &mut [Case], spread: usize) {
+pub(super) fn set_spread(cases: &mut [Case], spread: usize) {
     for case in cases {
         let value = Operand::Constant(if case.free.is_empty() { 1.0 } else { OUT });
         case.steps.insert(0, Step::Set { unknown: spread, value });
@@ -247,7 +247,7 @@ impl<'a> Builder<'a> {
     /// The root of a linear polynomial, given by its two coefficients.
     fn root(&mut self, coefficients: &[Operand]) -> Result<Operand> {
         let [low, high] = coefficients else {
-            return Err(Error::new(ErrorKind::Unsupported, "a stair of a half angle is not linear"));
+            return Err(Error::new(ErrorKind::Unsupported, "a polynomial of a half angle is not linear"));
         };
         let top = self.assembler.mul(Operand::Constant(-1.0), *low);
         Ok(self.assembler.div(top, *high))
@@ -283,7 +283,7 @@ impl<'a> Builder<'a> {
         Ok(true)
     }
 
-    fn symbols(&self, names: &[String]) -> Result<Vec<Sized>> {
+    fn symbols(&self, names: &[String]) -> Result<Vec<SizedValue>> {
         let all = self.form.symbols();
         let symbol = |name: &String| {
             let index = all.iter().position(|symbol| symbol == name);
@@ -355,7 +355,7 @@ impl<'a> Builder<'a> {
     fn put(&mut self, values: &[(usize, Quotient)], steps: &mut Vec<Step>) -> Result<()> {
         let quotient = |unknown: usize| values.iter().find(|(u, _)| *u == unknown).map(|(_, value)| *value);
         let value = |unknown: usize| quotient(unknown).map(|quotient| quotient.value);
-        let missing = || Error::new(ErrorKind::Unsupported, "a stair of a form is not linear");
+        let missing = || Error::new(ErrorKind::Unsupported, "a polynomial of a form is not linear");
         let put: Vec<(usize, Operand)> = match self.place.value {
             JointValue::Angle { cosine, sine } => {
                 let (c, s) = quotient(cosine).zip(quotient(sine)).ok_or_else(missing)?;

@@ -1,6 +1,6 @@
 //! A [`Program`] from a plan's steps: a block for each joint, then the checks.
 
-use super::cases::{Place, Sized, cases, quartic, tell_spread};
+use super::cases::{Place, SizedValue, cases, quartic, set_spread};
 use super::checks::{checks, polishing};
 use super::context::Context;
 use super::form_basis::{Form, FormBasis};
@@ -43,7 +43,7 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Sequential, 
         let has_roots = parts.steps[index + 1..].iter().any(|later| later.shape.form.degree() > 1);
         if has_roots && block.cases.iter().any(|case| !case.free.is_empty()) {
             let spread = layout.unknown(&format!("f{}", mechanism.joints()[step.joint].symbol));
-            tell_spread(&mut block.cases, spread);
+            set_spread(&mut block.cases, spread);
             spreads.push(spread);
         }
         blocks.push(block);
@@ -105,7 +105,7 @@ pub(in crate::derive) fn checks_on(ideal: &Chain, chain: &Chain) -> Result<Check
 /// As [`Mechanism::of_chain`].
 fn described_by(mechanism: &Mechanism, truth: &Chain, report: &Report, program: &Program) -> Result<Option<Described>> {
     let layout = Layout::new(mechanism, truth.length_unit());
-    if !asks_for_more(mechanism) || mechanism.standing().is_some() {
+    if !is_overdetermined(mechanism) || mechanism.standing().is_some() {
         return Ok(None);
     }
     let Checks { code, residuals, .. } = Checks {
@@ -121,7 +121,7 @@ fn described_by(mechanism: &Mechanism, truth: &Chain, report: &Report, program: 
 
 /// Whether the equations have conditions that no joint can influence. A planar pose requires that the chain stays in its plane, an angle about an axis that the
 /// tip does not tilt.
-fn asks_for_more(mechanism: &Mechanism) -> bool {
+fn is_overdetermined(mechanism: &Mechanism) -> bool {
     let freedoms = mechanism.seen().freedoms();
     matches!(mechanism.task(), Task::PlanarPose { .. } | Task::PositionYaw { .. })
         || freedoms > mechanism.unknown().len()
@@ -159,7 +159,7 @@ impl Context<'_> {
         };
         let Symbols { list: symbols, mut assembler, .. } = self.shortest(layout)?;
         let code = assembler.take();
-        let place = |symbols: Vec<Sized>| Place {
+        let place = |symbols: Vec<SizedValue>| Place {
             free: self.free,
             value: layout.joints[joint],
             auxiliary,
@@ -195,8 +195,8 @@ impl Context<'_> {
 }
 
 /// The guard for two nearly dependent linear equations. Each is then also solved alone; the final measurement removes wrong solutions.
-fn dependent([a, b, e, f]: [Sized; 4], slack: Slack, assembler: &mut Assembler) -> Guard {
-    let mut determinant = |part: fn(&Sized) -> Operand, sum: bool| {
+fn dependent([a, b, e, f]: [SizedValue; 4], slack: Slack, assembler: &mut Assembler) -> Guard {
+    let mut determinant = |part: fn(&SizedValue) -> Operand, sum: bool| {
         let (left, right) = (assembler.mul(part(&a), part(&f)), assembler.mul(part(&b), part(&e)));
         if sum { assembler.add(left, right) } else { assembler.sub(left, right) }
     };

@@ -51,12 +51,12 @@ pub(super) fn across([first, second]: [[usize; 3]; 2]) -> Block {
 pub(super) fn turned(mechanism: &Mechanism, across: [[usize; 3]; 2], emitter: &mut Emitter<'_>) -> Vec<Emitted> {
     let aim = mechanism.aim().each_ref().map(|entry| entry.to_f64().unwrap_or(0.0));
     let aim = Vector3::from(aim).normalize();
-    let beside = aim.cross(&Vector3::ith(aim.iamin(), 1.0)).normalize();
-    let before = [aim, beside, aim.cross(&beside)];
-    let behind = [DIRECTION, across[0].map(Operand::Unknown), across[1].map(Operand::Unknown)];
+    let side = aim.cross(&Vector3::ith(aim.iamin(), 1.0)).normalize();
+    let from = [aim, side, aim.cross(&side)];
+    let to = [DIRECTION, across[0].map(Operand::Unknown), across[1].map(Operand::Unknown)];
     let mut values: Vec<Emitted> = (0..3).map(|index| Emitted::code(Operand::Parameter(index))).collect();
     for entry in 0..9 {
-        let terms = before.iter().zip(&behind).map(|(from, to)| (from[entry % 3], to[entry / 3]));
+        let terms = from.iter().zip(&to).map(|(from, to)| (from[entry % 3], to[entry / 3]));
         let sum = terms.fold(Emitted::integer(0), |sum, (factor, value)| {
             let term = Emitted::code(value).times(factor);
             emitter.add(&sum, &term)

@@ -2,7 +2,7 @@
 
 use num_traits::{Signed, ToPrimitive};
 
-use super::cases::Sized;
+use super::cases::SizedValue;
 use super::context::Context;
 use super::eliminate::{Elimination, SymbolPlace};
 use super::emit::{Emitted, Emitter, Sizes};
@@ -17,7 +17,7 @@ use groebot_algebra::number::BigRational;
 
 /// The symbols of a step's form, and their code.
 pub(super) struct Symbols {
-    pub list: Vec<Sized>,
+    pub list: Vec<SizedValue>,
     /// The number of instructions that compute their values.
     work: usize,
     pub assembler: Assembler,
@@ -26,7 +26,7 @@ pub(super) struct Symbols {
 impl Symbols {
     /// Whether exactly the same values are constants, which need no code.
     fn has_numbers_of(&self, other: &Symbols) -> bool {
-        let is_number = |symbol: &Sized| number(&symbol.value).is_some();
+        let is_number = |symbol: &SizedValue| number(&symbol.value).is_some();
         self.list.iter().map(is_number).eq(other.list.iter().map(is_number))
     }
 }
@@ -76,7 +76,7 @@ impl Context<'_> {
             let largest = values.iter().filter_map(number).fold(1.0, |largest: f64, x| largest.max(x.abs()));
             vec![Operand::Constant(largest); values.len()]
         };
-        let list = values.into_iter().zip(sizes).map(|(value, size)| Sized { value, size }).collect();
+        let list = values.into_iter().zip(sizes).map(|(value, size)| SizedValue { value, size }).collect();
         Ok(Symbols { list, work, assembler: std::mem::take(assembler) })
     }
 

@@ -52,8 +52,8 @@ impl SixAxes {
     /// Makes the step.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a direction that is not of length one, a length that is not positive, a joint value
-    /// of the wrong type, no formulation, or a formulation that does not exist for these joints.
+    /// [`ErrorKind::BadValue`] for a direction that is not of length one, a length that is not positive, or a joint value of the wrong type.
+    /// [`ErrorKind::BadValue`] also for no formulation, or a formulation that does not exist for these joints.
     pub fn new(parts: SixAxesParts) -> Result<Self> {
         let is_unit = |line: &Line| (line.direction.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= 1e-9;
         let is_finite = parts.lines.iter().all(|line| line.point.iter().all(|entry| entry.is_finite()));

@@ -147,15 +147,15 @@ impl Batch {
     }
 
     /// Appends the solutions of the following targets.
-    fn append(&mut self, behind: Batch) {
+    fn append(&mut self, next: Batch) {
         let (targets, answers) = (self.targets(), self.answers());
-        self.starts.extend(behind.starts[1..].iter().map(|start| answers + start));
-        self.joints.iter_mut().zip(&behind.joints).for_each(|(column, values)| column.extend_from_slice(values));
-        self.residuals.extend_from_slice(&behind.residuals);
-        self.branches.extend_from_slice(&behind.branches);
-        self.free.extend_from_slice(&behind.free);
-        self.settled.extend_from_slice(&behind.settled);
-        self.refused.extend(behind.refused.into_iter().map(|(index, error)| (targets + index, error)));
+        self.starts.extend(next.starts[1..].iter().map(|start| answers + start));
+        self.joints.iter_mut().zip(&next.joints).for_each(|(column, values)| column.extend_from_slice(values));
+        self.residuals.extend_from_slice(&next.residuals);
+        self.branches.extend_from_slice(&next.branches);
+        self.free.extend_from_slice(&next.free);
+        self.settled.extend_from_slice(&next.settled);
+        self.refused.extend(next.refused.into_iter().map(|(index, error)| (targets + index, error)));
     }
 }
 
@@ -203,7 +203,8 @@ impl<S: Storage + 'static> Shaped<S> {
         if inputs > 0 && targets.len().is_multiple_of(inputs) {
             return Ok(());
         }
-        let text = format!("{} numbers are no targets of {inputs} each", targets.len());
+        let text =
+            format!("{} numbers are given, which is not a multiple of {inputs}, the length of a target", targets.len());
         Err(Error::new(ErrorKind::BadValue, text))
     }
 

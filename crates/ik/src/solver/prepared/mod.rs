@@ -143,9 +143,10 @@ impl Solver {
         shaped!(self, shaped => shaped.solve_within(target, limits))
     }
 
-    /// The target that joint values reach (radians, and the program's length unit), in the form for
-    /// [`Solver::solve_numbers`]. `None` for a program whose equations do not compare each number of the target with an
-    /// expression of the joints, or for a wrong number of joint values.
+    /// The target that joint values reach (radians, and the program's length unit), in the form for [`Solver::solve_numbers`].
+    ///
+    /// `None` for a wrong number of joint values, or for a program without forward kinematics: its equations do not compare each number of the target with an
+    /// expression of the joints.
     pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
         shaped!(self, shaped => shaped.reached(q))
     }

@@ -54,9 +54,9 @@ pub(super) struct Kinds {
 
 impl Kinds {
     fn new(facts: &Facts) -> Self {
-        let joint = |stands: &Vec<usize>| match stands[..] {
+        let joint = |places: &Vec<usize>| match places[..] {
             [cosine, sine] => runtime::Joint::Angle([cosine, sine]),
-            _ => runtime::Joint::Length(stands[0]),
+            _ => runtime::Joint::Length(places[0]),
         };
         let condition = |&(kind, first): &(&str, usize)| match kind {
             "Rotation" => runtime::Condition::Rotation(first),

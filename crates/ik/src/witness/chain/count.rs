@@ -176,7 +176,8 @@ impl Counter {
         }
         let mut first = 0;
         for (actuator, unknown) in self.unknowns.iter().enumerate() {
-            if let (Some(Value::Turn(_)), Some((part, joint))) = (unknown, joints_of(&self.parts, actuator).next()) {
+            if let (Some(Value::Revolute(_)), Some((part, joint))) = (unknown, joints_of(&self.parts, actuator).next())
+            {
                 system.push(self.circle(first, part.exact.square(joint)));
                 first += 1;
             }

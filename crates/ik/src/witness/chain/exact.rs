@@ -17,9 +17,9 @@ use groebot_robot::kinematics::{Chain, ExactVector, Joint, JointKind, Task};
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Value {
     /// `c` and `s`.
-    Turn([Form; 2]),
+    Revolute([Form; 2]),
     /// `d / sqrt(n)`.
-    Slide(Form),
+    Prismatic(Form),
 }
 
 /// The type of an object that the joints move.
@@ -76,20 +76,20 @@ impl ExactChain {
     /// The joint at the rational point of its circle (or line) with parameter `t`: `t = tan(q/2) / sqrt(n)`, or `d / sqrt(n)`.
     pub fn value(&self, index: usize, t: &BigRational) -> Value {
         if !self.turns(index) {
-            return Value::Slide(Form::constant(t.clone()));
+            return Value::Prismatic(Form::constant(t.clone()));
         }
         let square = &self.axes[index].square * t * t;
         let below = BigRational::one() + &square;
         let (c, s) = ((BigRational::one() - square) / &below, (t + t) / below);
-        Value::Turn([Form::constant(c), Form::constant(s)])
+        Value::Revolute([Form::constant(c), Form::constant(s)])
     }
 
     /// The unknowns of joint `index`. The first of them has the index `first`.
     pub fn unknown(&self, index: usize, first: usize) -> Value {
         if !self.turns(index) {
-            return Value::Slide(Form::unknown(first));
+            return Value::Prismatic(Form::unknown(first));
         }
-        Value::Turn([Form::unknown(first), Form::unknown(first + 1)])
+        Value::Revolute([Form::unknown(first), Form::unknown(first + 1)])
     }
 
     /// `n` of joint `index`.
@@ -101,8 +101,8 @@ impl ExactChain {
     pub fn double(&self, index: usize, value: &Value) -> f64 {
         let root = number(&self.axes[index].square).sqrt();
         match value {
-            Value::Turn([c, s]) => (root * number(&s.value())).atan2(number(&c.value())),
-            Value::Slide(d) => root * number(&d.value()),
+            Value::Revolute([c, s]) => (root * number(&s.value())).atan2(number(&c.value())),
+            Value::Prismatic(d) => root * number(&d.value()),
         }
     }
 
@@ -148,11 +148,11 @@ impl Axis {
     fn apply(&self, value: &Value, sense: Sense, kind: Moved, x: Forms) -> Forms {
         let sign = if sense == Sense::Forward { BigRational::one() } else { -BigRational::one() };
         match value {
-            Value::Slide(d) if kind == Moved::Point => {
+            Value::Prismatic(d) if kind == Moved::Point => {
                 sum(&x, &Form::default().with_multiple(d, &sign), &constant(&self.direction))
             }
-            Value::Slide(_) => x,
-            Value::Turn([c, s]) => {
+            Value::Prismatic(_) => x,
+            Value::Revolute([c, s]) => {
                 let s = Form::default().with_multiple(s, &sign);
                 let centre = if kind == Moved::Point { constant(&self.point) } else { Forms::default() };
                 let z = [0, 1, 2].map(|i| x[i].minus(&centre[i]));

@@ -191,12 +191,12 @@ impl<'a> Check<'a> {
             row.oracle = Some(found.len());
             faults.extend((!found.iter().all(is_ours)).then_some(Fault::Oracle));
         }
-        faults.extend((!self.agrees_beside(row, answers)?).then_some(Fault::Moved));
+        faults.extend((!self.agrees_when_moved(row, answers)?).then_some(Fault::Moved));
         Ok(faults)
     }
 
     /// Whether each ordinary solution of a reached target that is moved by [`MOVED`] is next to one of these.
-    fn agrees_beside(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
+    fn agrees_when_moved(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
         let Some(mut q) = row.joints.clone().or_else(|| answers.first().map(|answer| answer.q.clone())) else {
             return Ok(true);
         };
@@ -204,10 +204,10 @@ impl<'a> Check<'a> {
             q[joint] += MOVED * share(number) * self.model.unit(joint);
         }
         self.model.settle(&mut q);
-        let beside = self.model.target(&q);
-        let others = match self.solver.solve(&beside) {
+        let moved = self.model.target(&q);
+        let others = match self.solver.solve(&moved) {
             Err(error) if error.kind() == ErrorKind::Unsupported => return Ok(true),
-            others => self.completed(&beside, others?),
+            others => self.completed(&moved, others?),
         };
         Ok(others.iter().all(|other| {
             let sigma = self.model.sigma(&other.q);
@@ -309,12 +309,12 @@ impl<'a> Check<'a> {
             let is_same = |other: &Solution| self.are_same(target, &answer.q, &other.q);
             !sure || some.iter().any(is_same) || self.is_member(target, some, &answer.q)
         };
-        let asks_too_much = |answer: &Solution| {
+        let is_overdetermined = |answer: &Solution| {
             let jacobian = self.model.jacobian(&answer.q);
             jacobian.nrows() > jacobian.ncols()
         };
         let ours = |answer: &Solution| {
-            self.model.sigma(&answer.q) <= ORDINARY || asks_too_much(answer) || covers(others, answer)
+            self.model.sigma(&answer.q) <= ORDINARY || is_overdetermined(answer) || covers(others, answer)
         };
         answers.iter().all(ours) && others.iter().all(|other| covers(answers, other))
     }

@@ -26,7 +26,7 @@ pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
 const CORRECTIONS: usize = 20;
 /// Singular values below this fraction of the largest one count as zero.
 const RANK: f64 = 1e-8;
-/// The maximum bend of a path between two joint vectors, as a fraction of its length, or of the square of its length if that is greater.
+/// The maximum bend of a path between two joint vectors: a fraction of its length, or of the square of its length if that is greater.
 const STRAIGHT: f64 = 1e-2;
 /// The longest and the shortest step along a curve, and the maximum number of steps.
 const LONGEST: f64 = 0.1;
@@ -62,7 +62,7 @@ pub(super) trait SelfMotions: Configuration {
     }
 
     /// The member next to `q` moved by `distance` along the unit vector `ahead`, and no farther along it. Its error is at most `tolerance`.
-    fn beside(
+    fn moved_along(
         &self,
         target: &[f64],
         q: &[f64],
@@ -175,10 +175,12 @@ pub(super) trait SelfMotions: Configuration {
     fn passes(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, answer: &[f64]) -> bool {
         let apart = |&joint: &usize| self.difference(joint, answer[joint], at[joint]) / self.unit(joint);
         let distance = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
-        self.beside(target, at, ahead, distance, MEMBER).is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
+        self.moved_along(target, at, ahead, distance, MEMBER)
+            .is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
     }
 
-    /// The point of the curve next to `at` moved by `distance` along the unit vector `ahead`, and the curve's direction there. Its error is at most `tolerance`.
+    /// The point of the curve next to `at` moved by `distance` along the unit vector `ahead`, and the curve's direction there. Its error is at most
+    /// `tolerance`.
     fn stepped(
         &self,
         target: &[f64],
@@ -186,7 +188,7 @@ pub(super) trait SelfMotions: Configuration {
         ahead: &DVector<f64>,
         (distance, tolerance): (f64, f64),
     ) -> Option<(Vec<f64>, DVector<f64>)> {
-        let next = self.beside(target, at, ahead, distance, tolerance)?;
+        let next = self.moved_along(target, at, ahead, distance, tolerance)?;
         let tangent = null_vector(self.jacobian(&next))?;
         let side = tangent.dot(ahead).signum();
         Some((next, tangent * side))

@@ -77,12 +77,12 @@ fn the_solver_has_eleven_joints_and_the_inputs_of_both_feet() {
 }
 
 /// The largest error of a foot: of its position as a fraction of the leg's length, and of its rotation or its sole's normal.
-fn miss(chain: &Chain, reached: &[f64], asked: &[f64]) -> f64 {
+fn miss(chain: &Chain, reached: &[f64], requested: &[f64]) -> f64 {
     let reached = chain.forward(reached).unwrap();
-    let asked = chain.forward(asked).unwrap();
-    let position = (reached.translation.vector - asked.translation.vector).amax() / chain.reach();
-    let (reached, asked) = (reached.rotation.to_rotation_matrix(), asked.rotation.to_rotation_matrix());
-    let turn = reached.matrix() - asked.matrix();
+    let requested = chain.forward(requested).unwrap();
+    let position = (reached.translation.vector - requested.translation.vector).amax() / chain.reach();
+    let (reached, requested) = (reached.rotation.to_rotation_matrix(), requested.rotation.to_rotation_matrix());
+    let turn = reached.matrix() - requested.matrix();
     position.max(if chain.task() == Task::Ray { turn.column(2).amax() } else { turn.amax() })
 }
 
@@ -114,14 +114,14 @@ fn both_feet_are_reached_in_all_ways_and_as_often_as_screw_theory_says() {
         let feet = |q: &[f64]| {
             [LEGS.coupled().unwrap().joints_of(1, q).unwrap(), LEGS.coupled().unwrap().joints_of(0, q).unwrap()]
         };
-        let asked = feet(&q);
+        let requested = feet(&q);
         for answer in &answers {
             let reached = feet(&answer.q);
-            assert!(miss(&left, &reached[0], &asked[0]) <= 1e-12, "{place}: left foot of {answer:?}");
-            assert!(miss(&right, &reached[1], &asked[1]) <= 1e-12, "{place}: right foot of {answer:?}");
+            assert!(miss(&left, &reached[0], &requested[0]) <= 1e-12, "{place}: left foot of {answer:?}");
+            assert!(miss(&right, &reached[1], &requested[1]) <= 1e-12, "{place}: right foot of {answer:?}");
             assert!(answer.free.is_empty(), "{place}: {answer:?}");
         }
-        let expected = counted(&screws[0], &screws[1], [&asked[0], &asked[1]]);
+        let expected = counted(&screws[0], &screws[1], [&requested[0], &requested[1]]);
         assert_eq!(answers.len(), expected, "{place}: {answers:?}");
         most = most.max(answers.len());
     }
@@ -139,10 +139,10 @@ fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
         let answers = solver.solve_numbers(&target).unwrap();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "pose {pose} {q:?}: {answers:?}");
         for (member, chain) in [(1, &legs[0]), (0, &legs[1])] {
-            let asked = BOTH_POSES.coupled().unwrap().joints_of(member, &q).unwrap();
+            let requested = BOTH_POSES.coupled().unwrap().joints_of(member, &q).unwrap();
             for answer in &answers {
                 let reached = BOTH_POSES.coupled().unwrap().joints_of(member, &answer.q).unwrap();
-                assert!(miss(chain, &reached, &asked) <= 1e-12, "pose {pose} {q:?}: {answer:?}");
+                assert!(miss(chain, &reached, &requested) <= 1e-12, "pose {pose} {q:?}: {answer:?}");
             }
         }
         assert_eq!(BOTH_POSES.coupled().unwrap().explain(&target, &Watch::none()).unwrap(), None);

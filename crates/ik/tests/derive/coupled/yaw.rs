@@ -71,11 +71,11 @@ fn the_joints_that_made_a_target_are_found_and_every_answer_reaches_it() {
         let answers = solver.solve_numbers(&target).unwrap();
         running += start.elapsed();
         assert!(answers.iter().any(|answer| distance(&answer.q, &q) < 1e-9), "{q:?}: {answers:?}");
-        let asked = feet(&q);
+        let requested = feet(&q);
         for answer in &answers {
             assert!(distance(&answer.q[1..3], &q[1..3]) < 1e-12, "the tilt is given: {answer:?}");
             let reached = feet(&answer.q);
-            assert!((0..2).all(|leg| miss(&reached[leg], &asked[leg]) < 1e-12), "{q:?}: {answer:?}");
+            assert!((0..2).all(|leg| miss(&reached[leg], &requested[leg]) < 1e-12), "{q:?}: {answer:?}");
         }
         assert!(answers.len() <= STANDING.dimension().unwrap());
         most = most.max(answers.len());
@@ -98,28 +98,28 @@ fn the_standing_robot_is_found() {
 }
 
 /// The solutions of both legs for one yaw of the torso.
-fn ways(legs: &[ScrewSolver; 2], asked: &[Pose; 2], tilt: &[f64], yaw: f64) -> [Vec<Vec<f64>>; 2] {
+fn solutions(legs: &[ScrewSolver; 2], requested: &[Pose; 2], tilt: &[f64], yaw: f64) -> [Vec<Vec<f64>>; 2] {
     let world_from_torso = torso(&[yaw, tilt[0], tilt[1]]);
     [0, 1].map(|leg| {
-        let target = Target::Pose(world_from_torso.inverse() * asked[leg]);
+        let target = Target::Pose(world_from_torso.inverse() * requested[leg]);
         legs[leg].solve(&target).unwrap().into_iter().map(|answer| answer.q).collect()
     })
 }
 
-/// The solution that continues `way` at the next sample.
-fn next<'a>(ways: &'a [Vec<f64>], way: &[f64]) -> Option<&'a Vec<f64>> {
-    let nearest = ways.iter().min_by(|a, b| distance(a, way).total_cmp(&distance(b, way)))?;
-    (distance(nearest, way) < 0.2).then_some(nearest)
+/// The solution that continues `solution` at the next sample.
+fn next<'a>(solutions: &'a [Vec<f64>], solution: &[f64]) -> Option<&'a Vec<f64>> {
+    let nearest = solutions.iter().min_by(|a, b| distance(a, solution).total_cmp(&distance(b, solution)))?;
+    (distance(nearest, solution) < 0.2).then_some(nearest)
 }
 
 /// All yaws, with the legs' joints, at which solutions of both legs have equal hip values. Solutions that begin or end between two samples are skipped.
-fn meetings(legs: &[ScrewSolver; 2], asked: &[Pose; 2], tilt: &[f64]) -> Vec<(f64, [Vec<f64>; 2])> {
+fn meetings(legs: &[ScrewSolver; 2], requested: &[Pose; 2], tilt: &[f64]) -> Vec<(f64, [Vec<f64>; 2])> {
     let place = |k: usize| std::f64::consts::TAU * (k as f64 + 0.123) / PLACES as f64 - std::f64::consts::PI;
     let off = |a: &[f64], b: &[f64]| angle::difference(a[0], b[0]);
     let mut found = Vec::new();
-    let mut here = ways(legs, asked, tilt, place(0));
+    let mut here = solutions(legs, requested, tilt, place(0));
     for k in 0..PLACES {
-        let there = ways(legs, asked, tilt, place(k + 1));
+        let there = solutions(legs, requested, tilt, place(k + 1));
         for (a, b) in here[0].iter().flat_map(|a| here[1].iter().map(move |b| (a, b))) {
             let (Some(c), Some(d)) = (next(&there[0], a), next(&there[1], b)) else { continue };
             let (start, end) = (off(a, b), off(c, d));
@@ -129,7 +129,7 @@ fn meetings(legs: &[ScrewSolver; 2], asked: &[Pose; 2], tilt: &[f64]) -> Vec<(f6
             let (mut low, mut high, mut at) = (place(k), place(k + 1), [a.clone(), b.clone()]);
             for _ in 0..45 {
                 let middle = 0.5 * (low + high);
-                let both = ways(legs, asked, tilt, middle);
+                let both = solutions(legs, requested, tilt, middle);
                 let (Some(e), Some(f)) = (next(&both[0], &at[0]), next(&both[1], &at[1])) else { break };
                 if off(e, f) * start > 0.0 {
                     low = middle

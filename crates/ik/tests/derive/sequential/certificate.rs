@@ -71,5 +71,8 @@ fn an_equation_about_what_the_task_does_not_see_is_refused() {
     assert!(point.as_array().is_some_and(|point| point.len() == 3), "{point}");
     point.as_array_mut().unwrap().swap(0, 1);
     let error = Derivation::prove(&chain, &value.to_string()).unwrap_err();
-    assert!(error.kind() == ErrorKind::Certificate && error.message().contains("than the task sees"), "{error}");
+    assert!(
+        error.kind() == ErrorKind::Certificate && error.message().contains("that the task does not specify"),
+        "{error}"
+    );
 }

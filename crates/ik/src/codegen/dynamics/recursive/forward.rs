@@ -9,13 +9,13 @@ use groebot_robot::dynamics::recursions::{ArticulatedInertia, ArticulatedJoint, 
 
 impl Recursive {
     pub(super) fn forward(&self, loops: &mut Loops<'_>) {
-        loops.arrays(&[("frame", 12), ("velocity", 6), ("resistance", 27), ("bias", 6), ("turning", 6)]);
+        loops.arrays(&[("frame", 12), ("velocity", 6), ("articulated", 27), ("bias", 6), ("turning", 6)]);
         loops.arrays(&[("push", 6), ("pivot", 1), ("excess", 1), ("acceleration", 6)]);
         let resist = |loops: &mut Loops<'_>, index: &str| {
             loops.step(|step| {
                 let own = mass(step, &format!("BODY[{index}]"), WEIGHS);
                 let velocity = step.six(&format!("velocity[{index}]"), 0);
-                step.write_list(&format!("resistance[{index}]"), 0, inertia_numbers(ArticulatedInertia::of(&own)));
+                step.write_list(&format!("articulated[{index}]"), 0, inertia_numbers(ArticulatedInertia::of(&own)));
                 step.write_list(&format!("bias[{index}]"), 0, numbers(&bias(&own, &velocity, None)));
             });
         };
@@ -36,7 +36,7 @@ impl Recursive {
         loops.inward(|loops| {
             loops.by_freedom("i", |loops, freedom| {
                 loops.step(|step| {
-                    let (carried, bias) = (articulated_inertia(step, "resistance[i]"), step.six("bias[i]", 0));
+                    let (carried, bias) = (articulated_inertia(step, "articulated[i]"), step.six("bias[i]", 0));
                     let [torque, rotor] = [self.of_joint(step, "tau"), step.read(format!("BODY[i][{ROTOR}]"))];
                     let joint = ArticulatedJoint::of(&carried, &body(freedom), &bias, &torque, &rotor);
                     step.write_list("push[i]", 0, numbers(&joint.force));
@@ -45,17 +45,17 @@ impl Recursive {
                 });
             });
             loops.step(|step| {
-                let (carried, bias) = (articulated_inertia(step, "resistance[i]"), step.six("bias[i]", 0));
+                let (carried, bias) = (articulated_inertia(step, "articulated[i]"), step.six("bias[i]", 0));
                 let (turning, frame) = (step.six("turning[i]", 0), frame(step, "frame[i]"));
                 let (inertia, bias) = articulated_joint(step).propagate(&carried, &bias, &turning, &frame);
-                step.add_list("resistance[p]", 0, inertia_numbers(inertia));
+                step.add_list("articulated[p]", 0, inertia_numbers(inertia));
                 step.add_list("bias[p]", 0, numbers(&bias));
             });
         });
         loops.step(|step| {
             let found = if self.floats() {
                 let (torque, bias) = (step.six("tau", 0), step.six("bias[0]", 0));
-                let base = articulated_inertia(step, "resistance[0]");
+                let base = articulated_inertia(step, "articulated[0]");
                 base.solve(&torque.add(&bias.negated()), |_, _| true).unwrap_or_else(Six::zero)
             } else {
                 self.pull(step)

@@ -42,7 +42,7 @@ impl Recursive {
     /// The tables of the robot: each body after its parent.
     pub fn tables(&self) -> Vec<Table> {
         let tree = &self.formal.tree;
-        let behind = |joint: usize| tree.order.iter().position(|other| *other == joint).map_or(0, |at| at + 1);
+        let number = |joint: usize| tree.order.iter().position(|other| *other == joint).map_or(0, |at| at + 1);
         let by_body = |of_base: usize, of_joint: &dyn Fn(usize) -> usize| -> Vec<usize> {
             std::iter::once(of_base).chain(tree.order.iter().map(|joint| of_joint(*joint))).collect()
         };
@@ -60,7 +60,7 @@ impl Recursive {
         };
         let base = row(&Frame::identity(), &tree.base, 0.0);
         let mut tables = vec![
-            Table::Places("PARENT", by_body(0, &|joint| tree.bodies[joint].parent.map_or(0, behind))),
+            Table::Places("PARENT", by_body(0, &|joint| tree.bodies[joint].parent.map_or(0, number))),
             Table::Places("AT", by_body(0, &|joint| self.formal.first + self.formal.drives[joint].freedom)),
             Table::Places("PLACE", by_body(0, &alike)),
             Table::Numbers("BODY", std::iter::once(base).chain(tree.order.iter().map(of_joint)).collect()),

@@ -1,7 +1,7 @@
 //! A report that explains a derivation to a student.
 //!
-//! It shows the equations that determine each joint, what cancels in them, the polynomials, why each basis is correct, the origin of each branch, and the
-//! behaviour at singularities. [`explain`] makes a [`Document`], which is printed as Markdown or LaTeX.
+//! It shows the equations that determine each joint, the joints that cancel, and the polynomials. It explains why each basis is correct, the origin of each
+//! branch, and the behaviour at singularities. [`explain`] makes a [`Document`], which is printed as Markdown or LaTeX.
 
 mod algebra;
 mod chain;
