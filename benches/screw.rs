@@ -74,7 +74,7 @@ impl Spread {
     }
 
     /// A point, and its image under the screws.
-    fn way(&mut self, screws: &[Screw]) -> (Point3<f64>, Point3<f64>) {
+    fn path(&mut self, screws: &[Screw]) -> (Point3<f64>, Point3<f64>) {
         let p = self.point();
         let k = screws.iter().rev().fold(p, |x, screw| screw.exp(3.0 * self.next()) * x);
         (p, k)
@@ -94,7 +94,7 @@ fn each<T>(c: &mut Criterion, name: &str, make: impl Fn(&mut Spread) -> T, call:
 type Way = (Vec<Screw>, Point3<f64>, Point3<f64>);
 
 fn carried(spread: &mut Spread, screws: Vec<Screw>) -> Way {
-    let (p, k) = spread.way(&screws);
+    let (p, k) = spread.path(&screws);
     (screws, p, k)
 }
 
@@ -105,16 +105,16 @@ fn subproblems(c: &mut Criterion) {
         let screws = vec![s.turn(w)];
         carried(s, screws)
     };
-    let axis = |way: &Way| *way.0[0].axis().expect("it turns");
+    let axis = |path: &Way| *path.0[0].axis().expect("it turns");
     let count = |values: Values| values.iter().count();
     let z = Vector3::z_axis();
     let away = Point3::new(0.3, -0.2, 0.5);
-    each(c, "pk1", one, |way| count(rotate_to_point(&axis(way), &way.1, &way.2, exact)));
-    each(c, "pk3", one, |way| count(rotate_to_distance(&axis(way), &way.1, &away, (way.2 - away).norm(), exact)));
-    each(c, "pg5", one, |way| count(rotate_to_plane(&axis(way), &way.1, &z, &way.2, exact)));
-    each(c, "pardos_one", one, |way| count(translate_to_distance(&z, &way.1, &away, 2.0, exact)));
-    each(c, "pg1", one, |way| count(translate_to_plane(&axis(way).direction(), &way.1, &z, &way.2, exact)));
-    let two = |way: &Way| two_screws_to_point(&way.0[0], &way.0[1], &way.1, &way.2, exact).len();
+    each(c, "pk1", one, |path| count(rotate_to_point(&axis(path), &path.1, &path.2, exact)));
+    each(c, "pk3", one, |path| count(rotate_to_distance(&axis(path), &path.1, &away, (path.2 - away).norm(), exact)));
+    each(c, "pg5", one, |path| count(rotate_to_plane(&axis(path), &path.1, &z, &path.2, exact)));
+    each(c, "pardos_one", one, |path| count(translate_to_distance(&z, &path.1, &away, 2.0, exact)));
+    each(c, "pg1", one, |path| count(translate_to_plane(&axis(path).direction(), &path.1, &z, &path.2, exact)));
+    let two = |path: &Way| two_screws_to_point(&path.0[0], &path.0[1], &path.1, &path.2, exact).len();
     let meeting = |s: &mut Spread| {
         let (v, w) = (s.vector(), s.vector());
         let screws = [v, w].map(|w| Screw::revolute(w, away).expect("a direction")).to_vec();
@@ -138,7 +138,7 @@ fn subproblems(c: &mut Criterion) {
     each(c, "pg4", parallel, two);
     each(c, "pg6", skew, two);
     each(c, "pg2", slides, two);
-    let three = |way: &Way| three_screws_to_point([&way.0[0], &way.0[1], &way.0[2]], &way.1, &way.2, exact).len();
+    let three = |path: &Way| three_screws_to_point([&path.0[0], &path.0[1], &path.0[2]], &path.1, &path.2, exact).len();
     let general = |s: &mut Spread| {
         let (u, v, w) = (s.vector(), s.vector(), s.vector());
         let screws = vec![s.turn(u), s.turn(v), s.turn(w)];

@@ -60,10 +60,10 @@ proptest! {
     #[test]
     fn the_jacobian_is_the_limit_of_differences(q in joints(-1.0..1.0), j in 0usize..3) {
         let step = 1e-6;
-        let (mut ahead, mut behind) = (q, q);
+        let (mut ahead, mut after) = (q, q);
         ahead[j] += step;
-        behind[j] -= step;
-        let slope = (tool(&ahead) - tool(&behind)) / (2.0 * step);
+        after[j] -= step;
+        let slope = (tool(&ahead) - tool(&after)) / (2.0 * step);
         prop_assert!((slope - denavit_hartenberg::jacobian(&q).fixed_view::<3, 1>(0, j)).norm() < 1e-8);
     }
 
@@ -103,8 +103,8 @@ proptest! {
 /// long.
 #[test]
 fn a_robot_that_looks_back_is_not_found() {
-    let behind = [PI, PI - 0.6_f64.asin(), 0.3];
-    assert!((tool(&behind) - Vector3::new(0.4, 0.66 + 0.3, 0.0)).norm() < 1e-15);
-    let given = denavit_hartenberg::inverse(&denavit_hartenberg::forward(&behind));
-    assert!(same(&given, &[0.0, 0.6_f64.asin(), 0.3]) && !same(&given, &behind));
+    let after = [PI, PI - 0.6_f64.asin(), 0.3];
+    assert!((tool(&after) - Vector3::new(0.4, 0.66 + 0.3, 0.0)).norm() < 1e-15);
+    let given = denavit_hartenberg::inverse(&denavit_hartenberg::forward(&after));
+    assert!(same(&given, &[0.0, 0.6_f64.asin(), 0.3]) && !same(&given, &after));
 }

@@ -1,7 +1,7 @@
 """Time and memory of a reach map of a UR5: writes lines of benches/record/DATE-reach.csv to standard output.
 
 `python benches/reach.py [POSES]`, by default a thousand million: a cube around the reach, a hundred orientations at each place. Poses beyond the chain's length
-are excluded by their position. The number of solved poses is reported.
+are excluded by their position. The number of solved poses is values.
 """
 
 import resource
@@ -30,8 +30,8 @@ def main(poses: int) -> None:
         end = time.perf_counter()
         used = time.process_time() - spent
         memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-        told = [name, measure, threads, made.reached.size * orientations, made.reached.sum(dtype="int64"), made.answers.sum(dtype="int64")]
-        print(*told, f"{end - start:.2f}", f"{used:.2f}", f"{memory:.0f}", sep=",", flush=True)
+        values = [name, measure, threads, made.reached.size * orientations, made.reached.sum(dtype="int64"), made.answers.sum(dtype="int64")]
+        print(*values, f"{end - start:.2f}", f"{used:.2f}", f"{memory:.0f}", sep=",", flush=True)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ pose of shape (4, 4) is that of the tip in the frame of the chain's base.
 """
 
 from ._batch import Batch, PaddedBatch, Status
-from ._errors import BadValueError, GroebotError, NoWayError
+from ._errors import BadValueError, GroebotError, NoPathError
 from ._groebot import Robot, Solution, Solver, __version__, derive, navigate
 from ._reach import ReachMap, reach_map
 from ._records import Check, Explanation, Jump, Path, Walk
@@ -19,7 +19,7 @@ __all__ = [
     "Explanation",
     "GroebotError",
     "Jump",
-    "NoWayError",
+    "NoPathError",
     "PaddedBatch",
     "Path",
     "ReachMap",

@@ -10,7 +10,7 @@ class GroebotError(Exception):
     """An error: `kind` is a word for tests in programs, and the message has the allowed values.
 
     Kinds: io, syntax, unknown_key, missing_key, bad_value, duplicate_name, unknown_name, overflow, inconsistent, positive_dimensional, cancelled, budget,
-    unsupported, certificate, no_way, other.
+    unsupported, certificate, no_path, other.
     """
 
     kind: str
@@ -21,27 +21,27 @@ class GroebotError(Exception):
         place = (f"{file}: " if file else "") + (f"line {line}: " if line else "")
         super().__init__(place + message)
         self.kind, self.file, self.line = kind, file, line
-        self._told = (message, kind, file, line)
+        self._arguments = (message, kind, file, line)
 
     def __reduce__(self) -> tuple[type[GroebotError], tuple[object, ...]]:
-        return type(self), self._told
+        return type(self), self._arguments
 
 
 class BadValueError(GroebotError, ValueError):
     """A value, a name or a text that is not allowed."""
 
 
-class NoWayError(GroebotError):
+class NoPathError(GroebotError):
     """There is no path over a map: a body as wide as the robot's core cannot leave the cells of `enclosure`, (N, 2) \\[m\\]."""
 
     enclosure: npt.NDArray[np.float64]
 
     def __init__(self, message: str, enclosure: npt.NDArray[np.float64]) -> None:
-        super().__init__(message, "no_way")
+        super().__init__(message, "no_path")
         self.enclosure = enclosure
 
     def __reduce__(self) -> tuple[type[GroebotError], tuple[object, ...]]:
-        return type(self), (self._told[0], self.enclosure)
+        return type(self), (self._arguments[0], self.enclosure)
 
 
 _VALUES = {"bad_value", "syntax", "unknown_key", "missing_key", "duplicate_name", "unknown_name"}

@@ -75,7 +75,7 @@ class Ask:
         return _reach(solver, self.axes, self.orientations, self.measure, limits, given, self.seed, start, stop, threads, progress)
 
 
-def asked(
+def requested(
     grid: Grid,
     orientations: int,
     measure: Measure,
@@ -182,26 +182,26 @@ class ReachMap:
 
     def to_json(self) -> str:
         """Converts the map to the JSON of `groebot reach`, which `groebot view` shows."""
-        told = {"format": 1, "solver": self.solver, "task": self.task, "unit": self.unit}
+        head = {"format": 1, "solver": self.solver, "task": self.task, "unit": self.unit}
         axes = {name: {"from": axis.start, "to": axis.stop, "count": axis.num} for name, axis in zip("xyz", self.axes)}
         seed = {} if self.seed is None else {"seed": self.seed}
         counted = {"orientations": self.orientations, "measure": self.measure, "limited": self.limited}
         numbers = {name: column.ravel().tolist() for name in _COLUMNS if (column := getattr(self, name)) is not None}
         if not self.open.any():
             del numbers["open"]
-        return _reach_as(json.dumps({**told, **axes, **seed, **counted, **numbers}), "json")
+        return _reach_as(json.dumps({**head, **axes, **seed, **counted, **numbers}), "json")
 
     @staticmethod
     def from_json(text: str) -> ReachMap:
         """Reads the JSON of `to_json` or `groebot reach`. `BadValueError` for other text."""
-        told = json.loads(_reach_as(text, "json"))
-        axes = tuple(Axis(told[name]["from"], told[name]["to"], told[name]["count"]) for name in "xyz")
+        data = json.loads(_reach_as(text, "json"))
+        axes = tuple(Axis(data[name]["from"], data[name]["to"], data[name]["count"]) for name in "xyz")
         shape = tuple(axis.num for axis in axes)
         kinds = {"best": np.float32, "mean": np.float32}
-        own = {name: np.array(told[name], kinds.get(name, np.uint32)).reshape(shape) for name in _COLUMNS if name in told}
+        own = {name: np.array(data[name], kinds.get(name, np.uint32)).reshape(shape) for name in _COLUMNS if name in data}
         own.setdefault("open", np.zeros(shape, np.uint32))
-        same = {name: told[name] for name in ("solver", "task", "unit", "orientations", "measure", "limited")}
-        return ReachMap(axes=axes, seed=told.get("seed"), **same, **own)  # type: ignore[arg-type]
+        same = {name: data[name] for name in ("solver", "task", "unit", "orientations", "measure", "limited")}
+        return ReachMap(axes=axes, seed=data.get("seed"), **same, **own)  # type: ignore[arg-type]
 
     def table(self) -> arrow.Table:
         """Converts the map to a pyarrow table: x, y, z and the columns, one row per grid point."""
@@ -275,5 +275,5 @@ def reach_map(
     `progress(stage, done, open)` is called periodically. Poses are generated while they are counted: the map uses 20 bytes per grid point, and its columns use
     the same amount.
     """
-    ask = asked(grid, orientations, measure, limits, given, seed)
+    ask = requested(grid, orientations, measure, limits, given, seed)
     return ReachMap.of(solver, ask, ask.columns(solver, threads=threads, progress=progress))

@@ -80,7 +80,7 @@ class Walk:
     """The pose of the torso in the world frame, (samples, 4, 4)."""
     margin: npt.NDArray[np.float64]
     """The distance of the zero moment point from the border of the support polygon, (samples,) [m]."""
-    way: npt.NDArray[np.float64]
+    path: npt.NDArray[np.float64]
     """The corners of the path of the midpoint of the feet, (corners, 2) [m]."""
     footsteps: npt.NDArray[np.float64]
     """The footsteps: x, y, yaw, (steps, 3) [m, rad]."""

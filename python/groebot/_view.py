@@ -52,9 +52,9 @@ def view(
         _write(self, Path(folder))
         command = [sys.executable, "-m", "groebot", "view", folder, "--out", str(page.absolute())]
         command += [] if reach is None else ["--reach", str(Path(reach).absolute())]
-        told = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
-    if told.returncode:
-        raise GroebotError(told.stderr.strip().removeprefix("error: ") or f"`groebot view` ended with {told.returncode}")
+        result = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
+    if result.returncode:
+        raise GroebotError(result.stderr.strip().removeprefix("error: ") or f"`groebot view` ended with {result.returncode}")
     if open or (open is None and not _in_notebook()):
         webbrowser.open(page.absolute().as_uri())
     return View(page, height)

@@ -45,7 +45,7 @@ class Work(ABC):
         """Number of rows."""
 
     @abstractmethod
-    def told(self) -> dict[str, Any]:
+    def parameters(self) -> dict[str, Any]:
         """All data on which the result depends, as values that JSON can represent. `Work.key` is its hash."""
 
     @abstractmethod
@@ -56,7 +56,7 @@ class Work(ABC):
     @cached_property
     def key(self) -> str:
         """The SHA-256 hash of these data, in hexadecimal."""
-        text = json.dumps({"format": FORMAT, "groebot": __version__, **self.told()}, sort_keys=True)
+        text = json.dumps({"format": FORMAT, "groebot": __version__, **self.parameters()}, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -74,8 +74,8 @@ class Block:
 
     def marks(self, work: Work) -> dict[bytes, bytes]:
         """The metadata of the file."""
-        said = {"key": work.key, "start": self.start, "stop": self.stop, "rows": work.rows, "format": FORMAT}
-        return {f"groebot.{name}".encode(): str(value).encode() for name, value in said.items()}
+        metadata = {"key": work.key, "start": self.start, "stop": self.stop, "rows": work.rows, "format": FORMAT}
+        return {f"groebot.{name}".encode(): str(value).encode() for name, value in metadata.items()}
 
     def is_done(self, work: Work) -> bool:
         """Whether the file exists, is complete, and belongs to this work."""

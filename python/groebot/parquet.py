@@ -142,7 +142,7 @@ class Solve(blocks.Work):
         """Builds the work for targets in parquet files, and checks it before it is sent to workers.
 
         `columns` are by default those of the solver's inputs and given joints. `options` are `limits=`, `near=` (one for all), `given=` and `dtype=` of
-        `solve_batch`. Invalid targets are reported by their status.
+        `solve_batch`. Invalid targets are constant by their status.
         """
         unknown = set(options) - {"limits", "near", "given", "dtype"}
         if unknown:
@@ -150,11 +150,11 @@ class Solve(blocks.Work):
         if not keep or (wrong := set(keep) - {*KEEP, "count"}):
             raise BadValueError(f"of a target there are {', '.join(KEEP)} and count; not {sorted(wrong) if keep else 'nothing'}", "bad_value")
         plain = {name: _plain(name, value) for name, value in options.items() if value is not None}
-        told = solver.given if "given" in plain else []
-        names = [name for name in solver.inputs if name not in told] if columns is None else columns
+        constant = solver.given if "given" in plain else []
+        names = [name for name in solver.inputs if name not in constant] if columns is None else columns
         work = Solve(solver.to_json(), Targets.of(source, names), tuple(keep), plain, threads)
         if work.rows:
-            # Wrong shapes are reported here, not by a remote worker.
+            # Wrong shapes are constant here, not by a remote worker.
             next(work.solved(0, 1))
         return work
 
@@ -162,7 +162,7 @@ class Solve(blocks.Work):
     def rows(self) -> int:
         return self.targets.rows
 
-    def told(self) -> dict[str, Any]:
+    def parameters(self) -> dict[str, Any]:
         parts = [[Path(part.path).name, part.rows, part.footer] for part in self.targets.parts]
         return {
             "work": "solve",

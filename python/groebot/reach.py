@@ -18,7 +18,7 @@ import pyarrow.parquet as parquet
 
 from . import blocks
 from ._groebot import Solver
-from ._reach import _COLUMNS, Ask, Grid, Measure, ReachMap, asked
+from ._reach import _COLUMNS, Ask, Grid, Measure, ReachMap, requested
 
 PIECE = 1 << 16
 """Number of grid points that are computed and written together."""
@@ -48,8 +48,8 @@ class Reach(blocks.Work):
         """Builds the work for a grid, and checks it before it is sent to workers. Arguments are as for `groebot.reach_map`; `threads` is the number of threads
         of one block.
         """
-        ask = asked(grid, orientations, measure, limits, given, seed)
-        # Errors are reported here, not by a remote worker.
+        ask = requested(grid, orientations, measure, limits, given, seed)
+        # Errors are parameters here, not by a remote worker.
         ask.columns(solver, 0, 0, 1)
         return Reach(solver.to_json(), ask, threads)
 
@@ -57,10 +57,10 @@ class Reach(blocks.Work):
     def rows(self) -> int:
         return self.ask.places
 
-    def told(self) -> dict[str, Any]:
+    def parameters(self) -> dict[str, Any]:
         ask = self.ask
-        told = {"work": "reach", "solver": self.solver, "axes": ask.axes, "orientations": ask.orientations, "measure": ask.measure}
-        return {**told, "limits": ask.limits, "given": ask.given, "seed": ask.seed}
+        parameters = {"work": "reach", "solver": self.solver, "axes": ask.axes, "orientations": ask.orientations, "measure": ask.measure}
+        return {**parameters, "limits": ask.limits, "given": ask.given, "seed": ask.seed}
 
     def tables(self, start: int, stop: int) -> Iterator[arrow.Table]:
         solver, shape = _solver(self.solver), tuple(axis.num for axis in self.ask.axes)

@@ -41,7 +41,7 @@ impl<'py> Numbers<'py> {
 
 /// The shape of a solver's targets.
 #[derive(Clone, Copy, Debug)]
-pub struct Asked {
+pub struct TargetShape {
     /// Numbers of a target, without the values of given joints.
     pub own: usize,
     /// Number of given joints.
@@ -52,7 +52,7 @@ pub struct Asked {
     pub is_pose: bool,
 }
 
-impl Asked {
+impl TargetShape {
     /// The targets in an array of this shape, and whether it is a single target.
     ///
     /// # Errors
@@ -85,9 +85,9 @@ impl Asked {
             _ => None,
         };
         let (form, width, one) = found.ok_or_else(|| bad_value(self.refusal(shape)))?;
-        let told = form == Form::Numbers && width == whole;
+        let includes_given = form == Form::Numbers && width == whole;
         let targets = Targets { data, form, width, inputs: whole, rotation: self.rotation, given: &[], single };
-        let expected = if told { 0 } else { self.given };
+        let expected = if includes_given { 0 } else { self.given };
         let values = given.unwrap_or(&[]);
         if values.len() == expected || (expected > 0 && values.len() == expected * targets.len()) {
             return Ok((Targets { given: values, ..targets }, one));

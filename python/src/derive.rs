@@ -42,8 +42,15 @@ pub fn derive(
     progress: Option<&Bound<'_, PyAny>>,
     threads: Option<usize>,
 ) -> PyResult<Solver> {
-    let asked =
-        Asked { task, plane, axis, direction: direction.map(decimals).transpose()?, given: names(given)?, name, snap };
+    let options = TaskOptions {
+        task,
+        plane,
+        axis,
+        direction: direction.map(decimals).transpose()?,
+        given: names(given)?,
+        name,
+        snap,
+    };
     let time = time.map(budget).transpose()?;
     let (description, mut ends) = match robot.cast::<Robot>() {
         Ok(robot) => {
@@ -52,7 +59,7 @@ pub fn derive(
         }
         Err(_) => (Described::Path(robot.extract::<PathBuf>()?), Ends::default()),
     };
-    asked.put(&mut ends).map_err(|error| raised(&error))?;
+    options.put(&mut ends).map_err(|error| raised(&error))?;
     let stored = watched(py, progress, threads_of(threads), |watch| {
         let watch = time.map_or_else(|| watch.clone(), |time| watch.clone().with_time(time));
         description.derived(&ends, &watch)
@@ -80,8 +87,8 @@ impl Described {
     }
 }
 
-/// The requested task and options.
-struct Asked<'a> {
+/// The options task and options.
+struct TaskOptions<'a> {
     task: Option<&'a str>,
     plane: Option<&'a str>,
     axis: Option<&'a str>,
@@ -91,7 +98,7 @@ struct Asked<'a> {
     snap: Option<f64>,
 }
 
-impl Asked<'_> {
+impl TaskOptions<'_> {
     /// Adds the options to `ends` in the format of a task file, which has the same names.
     fn put(&self, ends: &mut Ends) -> Result<()> {
         let quoted = |text: &str| serde_json::Value::from(text).to_string();
@@ -116,12 +123,12 @@ impl Asked<'_> {
         if let Some(direction) = &self.direction {
             text += &format!("direction = [{}]\n", direction.join(", "));
         }
-        let asked = Ends::from_toml(&text).map_err(|error| Error::new(error.kind(), error.message()))?;
-        ends.task = asked.task;
-        ends.direction = asked.direction;
-        ends.given = asked.given;
-        ends.name = asked.name;
-        ends.snap = asked.snap;
+        let options = Ends::from_toml(&text).map_err(|error| Error::new(error.kind(), error.message()))?;
+        ends.task = options.task;
+        ends.direction = options.direction;
+        ends.given = options.given;
+        ends.name = options.name;
+        ends.snap = options.snap;
         ends.chooses = self.given.iter().any(|joint| joint == Ends::AUTO);
         Ok(())
     }

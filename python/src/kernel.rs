@@ -197,8 +197,8 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
 #[inline]
 fn write<'m, M: Mechanism + 'm>(rows: Rows<'_>, answers: impl Iterator<Item = &'m runtime::Solution<M>>) {
     let Rows { mut q, residual, branch, free } = rows;
-    let told = residual.iter_mut().zip(branch).zip(free);
-    for (answer, ((residual, branch), free)) in answers.zip(told) {
+    let status_of = residual.iter_mut().zip(branch).zip(free);
+    for (answer, ((residual, branch), free)) in answers.zip(status_of) {
         // Its length is a constant at compile time.
         let own = answer.q.as_ref();
         let Some((row, rest)) = q.split_at_mut_checked(own.len()) else { return };
@@ -303,9 +303,9 @@ impl Kernel for Interpreted {
                     }
                 }
                 Solved::Target { refused } => {
-                    let told = |error: Error| self.why(&numbers[row * inputs..][..inputs], &error);
+                    let status_of = |error: Error| self.why(&numbers[row * inputs..][..inputs], &error);
                     let why = if whole[row] == Status::Solved {
-                        refused.map_or(if are_settled { Status::Unreachable } else { Status::Unsettled }, told)
+                        refused.map_or(if are_settled { Status::Unreachable } else { Status::Unsettled }, status_of)
                     } else {
                         whole[row]
                     };

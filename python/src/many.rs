@@ -40,7 +40,7 @@ pub fn solve_batch<'py>(
     let given = wanted.given.map(|given| Numbers::of(given)?.to_vec()).transpose()?;
     let borrowed = numbers.array.try_readonly()?;
     let data = borrowed.as_slice()?;
-    let (rows, one) = stored.asked.targets(numbers.shape(), data, given.as_deref(), numbers.single)?;
+    let (rows, one) = stored.target_shape.targets(numbers.shape(), data, given.as_deref(), numbers.single)?;
     if one {
         return Err(bad_value("`targets` holds one target; use solve, or give it an axis more: targets[None]"));
     }
@@ -198,26 +198,26 @@ fn joint_values(stored: &Stored, q: &Bound<'_, PyAny>) -> PyResult<(Vec<f64>, bo
 /// `BadValueError` for wrong shapes and values that are not finite; an error of the kind `unsupported` if the equations do not determine the result.
 pub fn forward<'py>(py: Python<'py>, stored: &Stored, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     let (list, one) = joint_values(stored, q)?;
-    let (joints, asked) = (stored.program.joints.len(), stored.asked);
+    let (joints, shape) = (stored.program.joints.len(), stored.target_shape);
     let reached = py.detach(|| {
         let mut all = Vec::new();
         for row in list.chunks(joints) {
             let numbers = stored.kernel.forward(row)?;
-            if asked.is_pose {
+            if shape.is_pose {
                 for i in 0..3 {
                     all.extend_from_slice(&numbers[3 + 3 * i..6 + 3 * i]);
                     all.push(numbers[i]);
                 }
                 all.extend_from_slice(&[0.0, 0.0, 0.0, 1.0]);
             } else {
-                all.extend_from_slice(&numbers[..asked.own]);
+                all.extend_from_slice(&numbers[..shape.own]);
             }
         }
         Some(all)
     });
     let reached =
         reached.ok_or_else(|| unsupported("the equations of this solver do not say what joint values reach"))?;
-    let own: &[usize] = if asked.is_pose { &[4, 4] } else { &[asked.own] };
+    let own: &[usize] = if shape.is_pose { &[4, 4] } else { &[shape.own] };
     with_rows(py, reached, list.len() / joints, own, one)
 }
 

@@ -21,7 +21,7 @@ use crate::work::{threads, watched};
 /// `robot` is nao, rh0 or teo. `map` is a file (ROS YAML, PGM, PNG, text, a room in TOML), the name of a room (living-room, encirclement), or an array of
 /// booleans. The array has the shape (rows, columns), begins at y = 0 and is true where there is an obstacle; `resolution` is the size of its cells \[m\].
 /// `start` and `goal` are (x, y) or (x, y, heading) \[m, rad\]. A room has a default start. `method` is exact, fmm, m3r or potential. `apart` is the distance
-/// of the body from obstacles \[m\]. If there is no path, it raises `NoWayError`, which has the cells that enclose the start or the goal.
+/// of the body from obstacles \[m\]. If there is no path, it raises `NoPathError`, which has the cells that enclose the start or the goal.
 #[pyfunction]
 #[pyo3(signature = (robot, map, goal, start=None, *, method="exact", resolution=0.05, apart=0.02, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
@@ -37,9 +37,9 @@ pub fn navigate<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let method = self::method(method)?;
-    let (map, told) = self::map(map, resolution)?;
+    let (map, default_start) = self::map(map, resolution)?;
     let start = start.map(|start| place("start", &start)).transpose()?;
-    let start = start.map(|(at, heading)| [at.x, at.y, heading.unwrap_or(0.0)]).or(told).unwrap_or_default();
+    let start = start.map(|(at, heading)| [at.x, at.y, heading.unwrap_or(0.0)]).or(default_start).unwrap_or_default();
     let (place, heading) = place("goal", &goal)?;
     let goal = Goal { place, heading };
     let (pilot, found) = watched(py, progress, threads(None), |watch| {
@@ -147,6 +147,6 @@ fn no_path(py: Python<'_>, blocked: &Blocked) -> PyResult<PyErr> {
     let cells = &blocked.enclosure.cells;
     let middles = cells.iter().map(|cell| blocked.map.centre(*cell)).flat_map(|at| [at.x, at.y]).collect();
     let enclosure = shaped(py, middles, &[cells.len(), 2])?;
-    let made = py.import("groebot._errors")?.getattr("NoWayError")?.call1((blocked.to_string(), enclosure))?;
+    let made = py.import("groebot._errors")?.getattr("NoPathError")?.call1((blocked.to_string(), enclosure))?;
     Ok(PyErr::from_value(made))
 }

@@ -69,8 +69,8 @@ impl Origin {
 
 /// The error without its file, which is temporary and unknown to the caller.
 pub fn elsewhere(error: &Error) -> Error {
-    let told = Error::new(error.kind(), error.message());
-    error.place().line.map_or(told.clone(), |line| told.at_line(line))
+    let moved = Error::new(error.kind(), error.message());
+    error.place().line.map_or(moved.clone(), |line| moved.at_line(line))
 }
 
 /// Result of the check of a solver.
@@ -90,10 +90,7 @@ pub struct Checked {
 /// [`ErrorKind::Certificate`] for a proof that fails, for a proof that claims less than the derivation of its input, and for a wrong or missing solution at an
 /// ordinary target.
 pub fn check(source: &Source, proved: &Derivation, watch: &Watch) -> Result<Checked> {
-    let missing = || Error::new(ErrorKind::Certificate, "the derivation has no certificate; derive it again");
-    let stages = proved.stage_files()?;
-    let certificate = stages.iter().find(|(name, _)| name == CERTIFICATE).ok_or_else(missing)?;
-    let again = prove_text(source, &String::from_utf8_lossy(&certificate.1), &mut Recount::new(watch))?;
+    let again = prove_text(source, &proved.certificate()?, &mut Recount::new(watch))?;
     if again.program() != proved.program() {
         return Err(Error::new(ErrorKind::Certificate, "the solver is not the one that its certificate proves"));
     }

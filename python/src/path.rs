@@ -59,7 +59,8 @@ pub fn solve_path<'py>(
     let q = shaped(py, q, &[poses.len(), joints])?;
     let made = py.import("groebot._records")?;
     let jump = made.getattr("Jump")?;
-    let jumps = followed.jumps.iter().map(|told| jump.call1((told.sample, told.joint, told.step, told.why.as_str())));
+    let jumps =
+        followed.jumps.iter().map(|found| jump.call1((found.sample, found.joint, found.step, found.why.as_str())));
     let jumps = PyList::new(py, jumps.collect::<PyResult<Vec<_>>>()?)?;
     made.getattr("Path")?.call1((q, jumps))
 }
@@ -67,11 +68,11 @@ pub fn solve_path<'py>(
 /// Converts rows to poses.
 fn poses(stored: &Stored, poses: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
     let numbers = Numbers::of(poses)?;
-    if !stored.asked.is_pose || stored.asked.given > 0 {
+    if !stored.target_shape.is_pose || stored.target_shape.given > 0 {
         return Err(crate::errors::unsupported("a path is of poses, without given joints"));
     }
     let borrowed = numbers.array.try_readonly()?;
-    let (targets, one) = stored.asked.targets(numbers.shape(), borrowed.as_slice()?, None, numbers.single)?;
+    let (targets, one) = stored.target_shape.targets(numbers.shape(), borrowed.as_slice()?, None, numbers.single)?;
     if one {
         return Err(bad_value("`poses` holds one pose; give it an axis more: poses[None]"));
     }

@@ -44,7 +44,7 @@ pub fn reach<'py>(
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let stored = &solver.0;
-    let is_described = limits.is_some_and(|limits| limits.extract::<bool>().is_ok_and(|is_asked| is_asked));
+    let is_described = limits.is_some_and(|limits| limits.extract::<bool>().is_ok_and(|is_requested| is_requested));
     let limits = if is_described {
         Some(Request::described(&stored.program).map_err(|error| raised(&error))?)
     } else {

@@ -48,9 +48,9 @@ impl Robot {
         floating: bool,
         gravity: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let told = path_or_text.cast::<PyString>().ok().map(|text| text.to_str()).transpose()?;
+        let text = path_or_text.cast::<PyString>().ok().map(|text| text.to_str()).transpose()?;
         let XmlText { text, notes } =
-            match told.filter(|text| text.trim_start_matches('\u{feff}').trim_start().starts_with('<')) {
+            match text.filter(|text| text.trim_start_matches('\u{feff}').trim_start().starts_with('<')) {
                 Some(text) => XmlText { text: as_utf8(text).into_owned(), notes: Vec::new() },
                 None => {
                     let path: PathBuf = path_or_text.extract()?;

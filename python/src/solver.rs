@@ -308,7 +308,7 @@ impl Solver {
         let values = given.map(|given| Numbers::of(given)?.to_vec()).transpose()?;
         let borrowed = numbers.array.try_readonly()?;
         let (targets, one) =
-            self.0.asked.targets(numbers.shape(), borrowed.as_slice()?, values.as_deref(), numbers.single)?;
+            self.0.target_shape.targets(numbers.shape(), borrowed.as_slice()?, values.as_deref(), numbers.single)?;
         if !one {
             return Err(bad_value("`target` holds many targets; use solve_batch"));
         }

@@ -11,7 +11,7 @@ use groebot::solver::{Condition, Program};
 use groebot::{Error, ErrorKind, Result, Watch};
 use serde_json::{Value, json};
 
-use crate::arrays::Asked;
+use crate::arrays::TargetShape;
 use crate::kernel::{Interpreted, Kernel};
 use crate::known;
 use crate::origin::{CERTIFICATE, Origin};
@@ -33,7 +33,7 @@ pub struct Stored {
     /// The text of the stored proof.
     certificate: Option<String>,
     proved: OnceLock<Arc<Derivation>>,
-    pub asked: Asked,
+    pub target_shape: TargetShape,
 }
 
 impl Stored {
@@ -44,9 +44,9 @@ impl Stored {
             Some(known) => known.kernel(),
             None => Arc::new(Interpreted::new(&program)) as Arc<dyn Kernel>,
         };
-        let asked = asked(&program);
+        let target_shape = target_shape(&program);
         let is_printed = printed.is_some();
-        Stored { program, kernel, is_printed, chain, origin, certificate, proved: OnceLock::new(), asked }
+        Stored { program, kernel, is_printed, chain, origin, certificate, proved: OnceLock::new(), target_shape }
     }
 
     /// Returns a solver of the wheel.
@@ -167,7 +167,7 @@ impl Stored {
 }
 
 /// The shape of a program's targets.
-fn asked(program: &Program) -> Asked {
+fn target_shape(program: &Program) -> TargetShape {
     let given = program.given().len();
     let own = program.inputs.len() - given;
     let mut rotations = program.conditions.iter().filter_map(|condition| match condition {
@@ -175,5 +175,5 @@ fn asked(program: &Program) -> Asked {
         Condition::Unit(_) => None,
     });
     let rotation = rotations.next().filter(|_| rotations.next().is_none());
-    Asked { own, given, rotation, is_pose: own == 12 && rotation == Some(3) }
+    TargetShape { own, given, rotation, is_pose: own == 12 && rotation == Some(3) }
 }

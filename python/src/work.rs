@@ -35,8 +35,8 @@ pub fn watched<T: Send>(
     let step: Arc<Mutex<Option<Step>>> = Arc::default();
     let heard = Arc::clone(&step);
     let watch = Watch::none().with_cancel(Arc::clone(&cancel)).with_listener(move |progress| {
-        let told = (progress.stage.to_owned(), progress.done, progress.open);
-        *heard.lock().unwrap_or_else(PoisonError::into_inner) = Some(told);
+        let step = (progress.stage.to_owned(), progress.done, progress.open);
+        *heard.lock().unwrap_or_else(PoisonError::into_inner) = Some(step);
     });
     let (finished, done) = (Mutex::new(false), Condvar::new());
     let mut interruption = None;
@@ -90,7 +90,7 @@ fn pooled<T: Send>(threads: usize, work: impl FnOnce() -> Result<T> + Send) -> R
 }
 
 /// The requested number of threads, limited to a useful range; by default the number of processors.
-pub fn threads(asked: Option<usize>) -> usize {
+pub fn threads(requested: Option<usize>) -> usize {
     let usual = || std::thread::available_parallelism().map_or(1, usize::from);
-    asked.filter(|asked| *asked > 0).map_or_else(usual, |asked| asked.min(MOST_THREADS))
+    requested.filter(|requested| *requested > 0).map_or_else(usual, |requested| requested.min(MOST_THREADS))
 }

@@ -66,7 +66,7 @@ def test_single_precision(ur5, targets):
     assert np.abs(reached - targets[batch.row]).max() < 1e-5
 
 
-def test_rows_that_are_no_targets_are_told_and_the_others_solved(ur5, targets):
+def test_rows_that_are_no_targets_are_reported_and_the_others_solved(ur5, targets):
     rows = targets[:8].copy()
     rows[1, 0, 3] = np.nan
     rows[2, :3, :3] *= 1.1

@@ -115,7 +115,7 @@ def test_options_are_those_of_solve_batch(tmp_path, ur5, poses, source):
     assert batch.q.dtype == np.float32 and np.array_equal(batch.q, wanted.q) and np.array_equal(batch.status, wanted.status)
 
 
-def test_given_joints_stand_behind_the_inputs(tmp_path, random):
+def test_given_joints_are_after_the_inputs(tmp_path, random):
     robot = groebot.Robot.from_urdf(KUKA_URDF)
     solver = groebot.derive(robot, task="position", given=robot.joints[3:])
     q = random.uniform(-1, 1, (50, 6))
@@ -124,9 +124,9 @@ def test_given_joints_stand_behind_the_inputs(tmp_path, random):
     blocks.run(Solve.of(solver, tmp_path / "in.parquet"), tmp_path / "out", block=20)
     for start, batch in batches(tmp_path / "out"):
         assert all(np.abs(batch[row] - q[start + row]).max(1).min() < 1e-6 for row in range(len(batch)))
-    (_, told) = next(batches(tmp_path / "out"))
+    (_, solutions) = next(batches(tmp_path / "out"))
     blocks.run(Solve.of(solver, tmp_path / "in.parquet", given=q[0, 3:]), tmp_path / "all", block=1)
-    assert np.array_equal(next(batches(tmp_path / "all"))[1].q, told[0])
+    assert np.array_equal(next(batches(tmp_path / "all"))[1].q, solutions[0])
 
 
 def test_what_is_done_is_not_done_again_and_what_is_broken_is(tmp_path, ur5, source):
@@ -162,7 +162,7 @@ class Watched(blocks.Work):
 
     rows = 10
 
-    def told(self):
+    def parameters(self):
         return {}
 
     def tables(self, start, stop):
@@ -203,7 +203,7 @@ def test_blocks_of_other_work_are_kept(tmp_path, ur5, source, poses):
     assert contents(out) == whole
 
 
-def test_a_missing_block_is_told(tmp_path, ur5, source):
+def test_a_missing_block_is_reported(tmp_path, ur5, source):
     done = blocks.run(Solve.of(ur5, source), tmp_path / "out", block=500)
     for number in (4, 1):
         done.files[number].unlink()
@@ -214,7 +214,7 @@ def test_a_missing_block_is_told(tmp_path, ur5, source):
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "reported"),
     [
         ({"columns": ["px"]}, r"\(4, 4\)"),
         ({"columns": ["elbow"]}, "elbow.*px"),
@@ -227,8 +227,8 @@ def test_a_missing_block_is_told(tmp_path, ur5, source):
         ({"dtype": int}, "dtype"),
     ],
 )
-def test_wrong_words_are_told_before_anything_is_done(ur5, source, options, told):
-    with pytest.raises(ValueError, match=told):
+def test_wrong_words_are_reported_before_anything_is_done(ur5, source, options, reported):
+    with pytest.raises(ValueError, match=reported):
         Solve.of(ur5, source, **options)
 
 
@@ -237,12 +237,12 @@ def test_what_is_no_table_of_targets_is_refused(tmp_path, ur5, source):
         Solve.of(ur5, tmp_path / "none*.parquet")
     with pytest.raises(BadValueError, match="block of 0"):
         blocks.run(Solve.of(ur5, source), tmp_path / "out", block=0)
-    for values, told in [
+    for values, reported in [
         (arrow.array(["a"] * 3), "no real numbers"),
         (arrow.array([[0.0] * 12, [0.0] * 11, [0.0] * 13]), "11 to 13"),
         (arrow.array([[0.0] * 12, None, [0.0] * 12]), "null"),
         (arrow.array([[0.0] * 11 + [None]] * 3), "null"),
     ]:
         parquet.write_table(arrow.table({"pose": values}), tmp_path / "bad.parquet")
-        with pytest.raises(BadValueError, match=told):
+        with pytest.raises(BadValueError, match=reported):
             blocks.run(Solve.of(ur5, tmp_path / "bad.parquet", ["pose"]), tmp_path / "out")

@@ -143,7 +143,7 @@ def test_work_of_ones_own(tmp_path, client):
 class Squares(blocks.Work):
     rows = 1_050
 
-    def told(self):
+    def reported(self):
         return {"work": "squares"}
 
     def tables(self, start, stop):

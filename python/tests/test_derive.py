@@ -78,7 +78,7 @@ def test_descriptions_other_than_urdf():
         groebot.derive(UR5_URDF, given="no_such_joint")
 
 
-def test_progress_is_told_and_can_stop():
+def test_progress_is_reported_and_can_stop():
     seen = []
     groebot.derive(UR5_URDF, progress=lambda stage, done, left: seen.append((stage, done, left)))
     assert all(isinstance(stage, str) for stage, _, _ in seen)
@@ -141,20 +141,20 @@ def test_the_command():
     assert run("solve", "/nowhere").returncode == 1 and run("dance").returncode == 2
 
 
-def test_a_path_stays_continuous_and_tells_where_it_jumps():
+def test_a_path_is_continuous_or_reports_its_jumps():
     ur5 = Solver.named("ur5")
     q0 = np.array([0.2, -1.2, 1.5, -0.4, 1.0, 0.3])
-    way = q0 + np.linspace(0, 1, 50)[:, None] * np.array([0.5, 0.3, -0.4, 0.2, 0.3, 4.0])
-    path = ur5.solve_path(ur5.forward(way), q0)
-    assert path.jumps == [] and np.abs(path.q - way).max() < 1e-9
-    turned = ur5.solve_path(ur5.forward(way), q0 + [0, 0, 0, 0, 0, 2 * np.pi])
-    assert np.abs(turned.q - way - [0, 0, 0, 0, 0, 2 * np.pi]).max() < 1e-9
-    away = ur5.solve_path(ur5.forward(way), q0 + [2.0, 0, 0, 0, 0, 0])
+    route = q0 + np.linspace(0, 1, 50)[:, None] * np.array([0.5, 0.3, -0.4, 0.2, 0.3, 4.0])
+    path = ur5.solve_path(ur5.forward(route), q0)
+    assert path.jumps == [] and np.abs(path.q - route).max() < 1e-9
+    turned = ur5.solve_path(ur5.forward(route), q0 + [0, 0, 0, 0, 0, 2 * np.pi])
+    assert np.abs(turned.q - route - [0, 0, 0, 0, 0, 2 * np.pi]).max() < 1e-9
+    away = ur5.solve_path(ur5.forward(route), q0 + [2.0, 0, 0, 0, 0, 0])
     assert away.jumps[0].index == 0 and "stands" in away.jumps[0].why
-    torn = np.concatenate([way[:25], way[25:] + [1.5, 0, 0, 0, 0, 0]])
+    torn = np.concatenate([route[:25], route[25:] + [1.5, 0, 0, 0, 0, 0]])
     (jump,) = ur5.solve_path(ur5.forward(torn), q0).jumps
     assert jump.index == 25 and jump.joint == 0 and abs(jump.step - 1.5) < 0.1
-    far = ur5.forward(way)
+    far = ur5.forward(route)
     far[7, :3, 3] = 9.0
     with pytest.raises(groebot.BadValueError, match="pose 8"):
         ur5.solve_path(far)

@@ -43,7 +43,7 @@ def test_what_is_no_target_is_refused(target):
 
 
 @pytest.mark.parametrize("shape", [(4, 4), (3, 4, 5), (3, 3, 3), (3, 8), (12,), (7,), (2, 2, 4, 4), (0,), (0, 3)])
-def test_wrong_shapes_tell_the_right_ones(shape):
+def test_wrong_shapes_report_the_right_ones(shape):
     with pytest.raises(BadValueError, match=r"\(4, 4\)|one target"):
         UR5.solve_batch(np.zeros(shape))
 
@@ -107,7 +107,7 @@ def test_text_that_is_no_solver_is_refused(text):
         Solver.from_json(text)
 
 
-def test_files_that_are_not_there_are_told(tmp_path):
+def test_files_that_are_not_there_are_reported(tmp_path):
     for read in (Solver.load, Robot.from_urdf, groebot.derive):
         with pytest.raises(GroebotError) as raised:
             read(tmp_path / "nothing")

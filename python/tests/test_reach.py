@@ -38,9 +38,9 @@ def poses(made, orientations):
 
 def interpreted(solver):
     """The same solver with a name that is not compiled."""
-    told = json.loads(solver.to_json())
-    told["program"]["name"] = "another"
-    return Solver.from_json(json.dumps(told))
+    data = json.loads(solver.to_json())
+    data["program"]["name"] = "another"
+    return Solver.from_json(json.dumps(data))
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +72,7 @@ def test_manipulability_is_that_of_jacobians(ur5):
     np.testing.assert_allclose(made.mean, best.sum(-1) / np.maximum(made.reached, 1), rtol=1e-5, atol=1e-9)
 
 
-def test_described_limits_are_asked_for_by_either_name():
+def test_described_limits_have_two_names():
     arm = Solver.named("nao_left_arm")
     grid = [(0, 0.2, 5), (0, 0.25, 5), (0, 0.25, 5)]
     by_measure, by_limits, free = reach_map(arm, grid, 40, "limits"), reach_map(arm, grid, 40, limits=True), reach_map(arm, grid, 40)
@@ -88,13 +88,13 @@ def test_given_joints_and_threads_and_seeds():
     one, two = (reach_map(arm, grid, 50, given=[0.4], seed=3, threads=threads) for threads in (1, 2))
     np.testing.assert_array_equal(one.answers, two.answers)
     assert not np.array_equal(one.answers, reach_map(arm, grid, 50, given=0.4, seed=4).answers)
-    told = []
+    reported = []
     for count in (6, 12, 24, 48, 96):
         axis = (-1, 1, count)
-        reach_map(arm, [axis] * 3, 50, given=[0.4], progress=lambda *line: told.append(line))
-        if told:
+        reach_map(arm, [axis] * 3, 50, given=[0.4], progress=lambda *line: reported.append(line))
+        if reported:
             break
-    assert told and all(stage == "reach: places" for stage, _, _ in told)
+    assert reported and all(stage == "reach: places" for stage, _, _ in reported)
     with pytest.raises(BadValueError, match="A3"):
         reach_map(arm, grid, 50)
 

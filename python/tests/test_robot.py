@@ -23,8 +23,8 @@ def bodies():
         inertial = link.find("inertial")
         if inertial is None:
             continue
-        frame, told = _origin(inertial.find("origin")), inertial.find("inertia")
-        xx, xy, xz, yy, yz, zz = (float(told.get(key)) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
+        frame, reported = _origin(inertial.find("origin")), inertial.find("inertia")
+        xx, xy, xz, yy, yz, zz = (float(reported.get(key)) for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"))
         inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
         turn = frame[:3, :3]
         yield link.get("name"), float(inertial.find("mass").get("value")), frame[:3, 3], turn @ inertia @ turn.T
@@ -72,7 +72,7 @@ def test_inverse_and_forward_dynamics_are_one_another(robot, random):
     assert np.allclose(torques, whole + coriolis, atol=1e-9)
 
 
-def test_links_stand_where_the_tree_says(robot, random):
+def test_links_are_at_the_poses_of_the_tree(robot, random):
     q = random.uniform(-3, 3, 6)
     for link in robot.links:
         assert np.allclose(robot.link_pose(q, link), urdf_forward(UR5, q, link), atol=1e-12)
@@ -121,21 +121,21 @@ def test_robots_travel(robot):
     assert groebot.derive(named).solutions == 8
 
 
-def test_a_humanoid_finds_its_way():
+def test_a_humanoid_finds_its_path():
     walk = groebot.navigate("rh0", REPOSITORY / "examples/living_room.toml", (7.2, 3.4), (1, 2.6))
     assert walk.q.shape == (len(walk.times), len(walk.joints)) and (walk.margin > 0).all()
-    assert np.allclose(walk.way[0], [1, 2.6], atol=0.1) and np.allclose(walk.way[-1], [7.2, 3.4], atol=0.1)
+    assert np.allclose(walk.path[0], [1, 2.6], atol=0.1) and np.allclose(walk.path[-1], [7.2, 3.4], atol=0.1)
     assert np.hypot(*(walk.footsteps[-1, :2] - [7.2, 3.4])) < 0.3 and set(walk.feet) == {"left", "right"}
     assert walk.csv.startswith("#") or "time" in walk.csv.splitlines()[0]
 
 
-def test_a_map_as_an_array_and_no_way_through_it():
+def test_a_map_as_an_array_and_no_path_through_it():
     room = np.zeros((60, 60), bool)
     assert len(groebot.navigate("nao", room, (2.0, 1.5), (1.0, 1.5)).times) > 100
     room[:, 30] = True
-    with pytest.raises(groebot.NoWayError) as raised:
+    with pytest.raises(groebot.NoPathError) as raised:
         groebot.navigate("nao", room, (2.5, 1.5), (0.6, 1.5))
-    assert raised.value.kind == "no_way" and raised.value.enclosure.shape[1] == 2
+    assert raised.value.kind == "no_path" and raised.value.enclosure.shape[1] == 2
     assert (raised.value.enclosure[:, 0] < 1.5).all()
     with pytest.raises(groebot.BadValueError):
         groebot.navigate("nao", room, (2.5,), (0.6, 1.5))

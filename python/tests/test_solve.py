@@ -132,8 +132,8 @@ def test_a_named_solver_follows_its_proof():
 
 
 def test_explain(ur5):
-    told = ur5.explain()
-    assert "UR5" in str(told).upper() and told._repr_latex_().startswith("\\documentclass")
+    reported = ur5.explain()
+    assert "UR5" in str(reported).upper() and reported._repr_latex_().startswith("\\documentclass")
 
 
 def test_the_jacobian_is_the_derivative_of_the_witness(ur5, random):
@@ -141,8 +141,8 @@ def test_the_jacobian_is_the_derivative_of_the_witness(ur5, random):
     jacobian = ur5.jacobian(q)
     (pose,) = dh_forward(UR5_DH, q[None])
     ahead = dh_forward(UR5_DH, q + step * np.eye(6))
-    behind = dh_forward(UR5_DH, q - step * np.eye(6))
-    rate = (ahead - behind) / (2 * step)
+    after = dh_forward(UR5_DH, q - step * np.eye(6))
+    rate = (ahead - after) / (2 * step)
     turning = rate[:, :3, :3] @ pose[:3, :3].T
     angular = np.stack([turning[:, 2, 1], turning[:, 0, 2], turning[:, 1, 0]])
     assert np.allclose(jacobian[:3], rate[:, :3, 3].T, atol=1e-8)

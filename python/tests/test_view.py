@@ -52,7 +52,7 @@ def test_every_named_solver_has_a_page(name, tmp_path, opened):
     assert len(data_of(view.path.read_text())["limbs"]) == 1 and opened == []
 
 
-def test_the_chain_ends_at_the_tip_that_was_asked_for(tmp_path):
+def test_the_chain_ends_at_the_requested_tip(tmp_path):
     joint = '<joint name="to_{0}" type="fixed"><parent link="wrist_3_link"/><child link="{0}"/><origin xyz="0 {1} 0"/></joint><link name="{0}"/>'
     two_tips = joint.format("left", 0.2) + joint.format("right", -0.2)
     text = UR5_URDF.read_text().replace("</robot>", two_tips + "</robot>")
@@ -62,7 +62,7 @@ def test_the_chain_ends_at_the_tip_that_was_asked_for(tmp_path):
     assert json.loads(limb["program"])["name"].endswith("right") and limb["name"].endswith("right")
 
 
-def test_what_has_no_page_is_told(tmp_path):
+def test_what_has_no_page_is_reported(tmp_path):
     alone = Solver.from_json((DERIVATIONS / "ur5/5_program.json").read_text())
     with pytest.raises(groebot.BadValueError, match="folder of its derivation"):
         alone.view(open=False)

@@ -92,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.file.as_path()]);
     let output = output.expects([arguments.out.as_ref(), proof_file.as_ref()])?;
     if arguments.cover {
-        return tell_cover(arguments, &output, &session, start);
+        return write_cover(arguments, &output, &session, start);
     }
     let question = arguments.question().map_err(|error| error.in_file(&arguments.file))?;
     let answer = question.answer(&session.watch).map_err(|error| in_file(error, &arguments.file))?;
@@ -122,14 +122,14 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// Computes the cover and writes the result.
-fn tell_cover(arguments: &Arguments, output: &Output, session: &Session, start: Instant) -> Outcome {
-    let tell = || {
+fn write_cover(arguments: &Arguments, output: &Output, session: &Session, start: Instant) -> Outcome {
+    let compute = || {
         let (system, _) = arguments.system()?;
         let order = arguments.order.clone().unwrap_or_else(|| system.heading.order.clone());
         let heading = system.heading.clone().with_order(order).map_err(|error| error.with_context("--order"))?;
-        basis_cover::tell(&system, &heading, &session.watch)
+        basis_cover::compute(&system, &heading, &session.watch)
     };
-    let (text, summary) = tell().map_err(|error| in_file(error, &arguments.file))?;
+    let (text, summary) = compute().map_err(|error| in_file(error, &arguments.file))?;
     match &arguments.out {
         Some(path) => {
             session.watch.check()?;

@@ -11,7 +11,7 @@ use groebot_algebra::poly::system::{Heading, PolynomialSystem};
 /// # Errors
 /// [`ErrorKind::BadValue`] without parameters, or for a coefficient with a denominator; those of [`cover`]; the error
 /// of `watch`.
-pub fn tell(system: &PolynomialSystem, heading: &Heading, watch: &Watch) -> Result<(String, String)> {
+pub fn compute(system: &PolynomialSystem, heading: &Heading, watch: &Watch) -> Result<(String, String)> {
     if heading.parameters.is_empty() {
         let text = "a cover needs parameters, and there are none; name some in the heading";
         return Err(Error::new(ErrorKind::BadValue, text).with_context("--cover"));

@@ -18,7 +18,7 @@ pub fn describe_coupled(page: &mut Page, derived: CoupledView<'_>) {
     }
     for stage in &derived.method.stages {
         page.heading(&derived.title(stage));
-        page.line(&format!("task {}", stage.problem.chain.asked()));
+        page.line(&format!("task {}", stage.problem.chain.task_text()));
         describe(page, stage.view());
     }
 }
@@ -42,22 +42,23 @@ pub fn describe(page: &mut Page, derived: SequentialView<'_>) {
     for line in plan.to_string().lines().skip(1) {
         page.line(line);
     }
-    page.heading("What runs");
+    page.heading("Program");
     let blocks = derived.program.blocks.iter().map(|block| {
         let cases: Vec<&str> = block.cases.iter().map(|case| case.label.as_str()).collect();
         (block.label.clone(), cases.join("; "))
     });
     page.entries(&blocks.collect::<Vec<_>>());
-    page.heading("Proved, exactly and without trusting the engine");
+    page.heading("Proved exactly, independently of the Groebner engine");
     let relations: usize = derived.method.steps.iter().map(|step| step.relations.len()).sum();
     let proofs: usize = derived
         .method
-        .form_bases
+        .forms
+        .bases
         .iter()
         .flat_map(|form_basis| form_basis.tree.walk())
         .map(|node| node.proofs().len())
         .sum();
-    let forms: Vec<&str> = derived.method.form_bases.iter().map(|form_basis| Form::name(form_basis.form)).collect();
+    let forms: Vec<&str> = derived.method.forms.bases.iter().map(|form_basis| Form::name(form_basis.form)).collect();
     page.entries(&[
         (relations.to_string(), "equations follow from the loop: their normal forms are zero".to_owned()),
         (proofs.to_string(), format!("Groebner bases of the forms {} on all strata", forms.join(", "))),

@@ -42,9 +42,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
         findings.push(Finding::fails(folder, CHECKS, error));
     }
     if arguments.json {
-        console::print(&json::text(&told(&findings, &source.notes)))?;
+        console::print(&json::text(&findings_json(&findings, &source.notes)))?;
     } else {
-        console::tell(&source.notes);
+        console::print_notes(&source.notes);
         console::print(&page(&findings, Paint::of(&std::io::stdout())))?;
     }
     match findings.iter().find_map(Finding::error) {
@@ -54,7 +54,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// All findings as JSON; files that groebot did not write have `null` for the result.
-fn told(findings: &[Finding], notes: &[String]) -> serde_json::Value {
+fn findings_json(findings: &[Finding], notes: &[String]) -> serde_json::Value {
     let one = |Finding { what, verdict }: &Finding| {
         let (holds, text) = match verdict {
             Verdict::Holds(text) => (Some(true), text.clone()),

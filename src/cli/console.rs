@@ -68,7 +68,7 @@ pub fn print(text: &str) -> Outcome {
 }
 
 /// Writes notes about ignored input to standard error.
-pub fn tell(notes: &[String]) {
+pub fn print_notes(notes: &[String]) {
     notes.iter().for_each(|note| line("note", note));
 }
 

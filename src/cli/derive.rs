@@ -115,7 +115,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let names = files.names();
     if arguments.json {
         let (choice, laps) = (chosen.as_ref(), clock.laps.as_slice());
-        let told = Derived {
+        let derived = Derived {
             source: &source,
             derivation: &derivation,
             checked: &checked,
@@ -124,10 +124,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
             files: &names,
             laps,
         };
-        console::print(&json::text(&told.json()))?;
+        console::print(&json::text(&derived.json()))?;
         return weak(&checked);
     }
-    let told = Report {
+    let content = Report {
         source: &source,
         derivation: &derivation,
         checked: &checked,
@@ -135,9 +135,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
         files: &names,
         timings: &clock.laps,
     };
-    let told = report(&told, Paint::of(&std::io::stdout()))?;
+    let text = report(&content, Paint::of(&std::io::stdout()))?;
     let tip = TipLink::line(TipLink::of_source(&source).as_ref());
-    console::print(&(chosen.as_ref().map(choice_text).unwrap_or_default() + &tip + &told))?;
+    console::print(&(chosen.as_ref().map(choice_text).unwrap_or_default() + &tip + &text))?;
     weak(&checked)
 }
 

@@ -33,7 +33,7 @@ pub struct EndArguments {
     /// The task of the tip: pose, position, ray, direction, rotation, position_pitch_roll, position_yaw,
     /// planar_position or planar_pose (default: as described; for a URDF, pose)
     #[arg(long, value_name = "TASK", value_parser = task)]
-    task: Option<AskedTask>,
+    task: Option<RequestedTask>,
     /// The plane of the base frame in which a planar task moves: xy, xz or yz
     #[arg(long, value_name = "PLANE", value_parser = plane)]
     plane: Option<Plane>,
@@ -131,7 +131,7 @@ impl TipLink {
 
 /// A task, or one that needs a plane, or an axis.
 #[derive(Clone, Copy)]
-enum AskedTask {
+enum RequestedTask {
     Spatial(Task),
     Planar(fn(Plane) -> Task),
     About(fn(BaseAxis) -> Task),
@@ -161,14 +161,14 @@ impl EndArguments {
     }
 
     fn task(&self) -> Result<Option<Task>> {
-        if self.axis.is_some() && !matches!(self.task, Some(AskedTask::About(_))) {
+        if self.axis.is_some() && !matches!(self.task, Some(RequestedTask::About(_))) {
             let text = "--axis belongs to the task position_yaw; give --task position_yaw, or leave it out";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         match (self.task, self.plane) {
-            (Some(AskedTask::About(task)), None) => Ok(Some(task(self.axis.unwrap_or(BaseAxis::Z)))),
-            (Some(AskedTask::Planar(task)), Some(plane)) => Ok(Some(task(plane))),
-            (Some(AskedTask::Planar(_)), None) => {
+            (Some(RequestedTask::About(task)), None) => Ok(Some(task(self.axis.unwrap_or(BaseAxis::Z)))),
+            (Some(RequestedTask::Planar(task)), Some(plane)) => Ok(Some(task(plane))),
+            (Some(RequestedTask::Planar(_)), None) => {
                 let text = "a planar task moves in a plane of the base frame; give it by --plane xy, xz or yz";
                 Err(Error::new(ErrorKind::MissingKey, text))
             }
@@ -177,16 +177,16 @@ impl EndArguments {
                     "--plane belongs to a planar task; give --task planar_position or planar_pose, or leave it out";
                 Err(Error::new(ErrorKind::BadValue, text))
             }
-            (Some(AskedTask::Spatial(task)), None) => Ok(Some(task)),
+            (Some(RequestedTask::Spatial(task)), None) => Ok(Some(task)),
             (None, None) => Ok(None),
         }
     }
 }
 
-fn task(text: &str) -> std::result::Result<AskedTask, String> {
-    let spatial = TASKS.into_iter().map(|task| (task.name(), AskedTask::Spatial(task)));
-    let planar = PLANAR.into_iter().map(|task| (task(Plane::Xy).name(), AskedTask::Planar(task)));
-    let about = ABOUT.into_iter().map(|task| (task(BaseAxis::Z).name(), AskedTask::About(task)));
+fn task(text: &str) -> std::result::Result<RequestedTask, String> {
+    let spatial = TASKS.into_iter().map(|task| (task.name(), RequestedTask::Spatial(task)));
+    let planar = PLANAR.into_iter().map(|task| (task(Plane::Xy).name(), RequestedTask::Planar(task)));
+    let about = ABOUT.into_iter().map(|task| (task(BaseAxis::Z).name(), RequestedTask::About(task)));
     let known: Vec<_> = spatial.chain(about).chain(planar).collect();
     let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
     let found = known.iter().find(|(name, _)| *name == text).map(|(_, task)| *task);

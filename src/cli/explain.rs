@@ -41,8 +41,8 @@ pub struct Arguments {
 /// Proves, explains, prints.
 pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.force.output([arguments.input.as_path()]).expects([arguments.output.as_ref()])?;
-    let (source, mut document) = told(&arguments.input, &arguments.ends.ends()?)?;
-    console::tell(&source.notes);
+    let (source, mut document) = proved_document(&arguments.input, &arguments.ends.ends()?)?;
+    console::print_notes(&source.notes);
     // A stored proof has its own tip link.
     let tip = TipLink::of_source(&source).filter(|_| !is_derived(&arguments.input));
     document.parts.splice(..0, tip.as_ref().and_then(TipLink::paragraph));
@@ -58,10 +58,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// # Errors
 /// As [`Source::read`], [`folder::reprove`] and [`explain`].
 pub(super) fn document(input: &Path) -> crate::Result<Document> {
-    told(input, &Ends::default()).map(|(_, document)| document)
+    proved_document(input, &Ends::default()).map(|(_, document)| document)
 }
 
-fn told(input: &Path, ends: &Ends) -> crate::Result<(Source, Document)> {
+fn proved_document(input: &Path, ends: &Ends) -> crate::Result<(Source, Document)> {
     let mut source = Source::read_between(input, ends)?;
     source.choose_given(&Watch::none())?;
     let document = explain(&prove(input, &source)?)?;

@@ -84,7 +84,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 }
 
 /// Reports the parts of the links that are not exported.
-fn tell_left_out(robot: &Robot) {
+fn report_omissions(robot: &Robot) {
     let notes = robot.links().iter().flat_map(|link| link.notes.iter().map(|note| (shown(&link.name), note)));
     notes.for_each(|(link, note)| console::line("note", &format!("link `{link}`: {note}")));
 }
@@ -115,7 +115,7 @@ impl Arguments {
         }
         let (robot, meshes) = moving::described(&self.input)?;
         robot.check().map_err(|error| error.in_file(&self.input))?;
-        tell_left_out(&robot);
+        report_omissions(&robot);
         if self.to == Format::Mjcf {
             let mut notes = Vec::new();
             let text = robot.to_mjcf(&meshes, &mut notes).map_err(|error| error.in_file(&self.input))?;
@@ -142,7 +142,7 @@ impl Arguments {
             Some(motion) => moving::robot_of(motion, self.robot.as_deref()).map_err(|error| error.in_file(file))?,
             None => moving::robot(file)?,
         };
-        tell_left_out(&robot);
+        report_omissions(&robot);
         let scene = Scene::of_robot(&robot, self.meshes.then_some(&meshes), motion.as_ref());
         let scene = scene.map_err(|error| error.in_file(file))?;
         scene.notes.iter().for_each(|note| console::line("warning", note));

@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let notes = input.ignored(&ends)?;
     if !arguments.json {
-        console::tell(&notes);
+        console::print_notes(&notes);
     }
     let edge = Edge { chain: &chain, degrees: arguments.degrees, tip: tip.as_ref(), others, notes };
     match arguments.q.as_slice() {
@@ -106,7 +106,7 @@ struct Answer {
     rpy: [f64; 3],
     outside: Vec<String>,
     /// The numbers of the target.
-    asked: Vec<f64>,
+    target: Vec<f64>,
 }
 
 /// The columns of a table of the joint values of `chain`; those of the joints in `others` are ignored.
@@ -127,7 +127,7 @@ impl Edge<'_> {
 
     /// The quantities of the chain's task that are not part of a pose, by name: the direction of its aim, or its angle
     /// \[rad\].
-    fn asked(&self) -> Vec<(usize, String)> {
+    fn task_numbers(&self) -> Vec<(usize, String)> {
         let beyond = |(_, name): &(usize, String)| ["dx", "dy", "dz", "phi"].contains(&name.as_str());
         self.chain.task().numbers().into_iter().enumerate().filter(beyond).collect()
     }
@@ -164,8 +164,8 @@ impl Edge<'_> {
         let beyond =
             |(joint, value): &(&Joint, &f64)| joint.limits.is_some_and(|(low, high)| **value < low || **value > high);
         let outside = joints.iter().zip(&values).filter(beyond).map(|(joint, _)| joint.name.clone()).collect();
-        let asked = Target::reached(self.chain, &values)?.numbers();
-        Ok(Answer { q, pose, rpy: [roll, pitch, yaw].map(positive_zero), outside, asked })
+        let target = Target::reached(self.chain, &values)?.numbers();
+        Ok(Answer { q, pose, rpy: [roll, pitch, yaw].map(positive_zero), outside, target })
     }
 }
 
@@ -346,7 +346,9 @@ fn csv_header(edge: &Edge<'_>) -> String {
     cells.extend(["x", "y", "z"].map(|name| format!("{name}_{length}")));
     cells.extend(["qx", "qy", "qz", "qw"].map(str::to_owned));
     cells.extend(["roll", "pitch", "yaw"].map(|name| format!("{name}_{angle}")));
-    cells.extend(edge.asked().into_iter().map(|(_, name)| if name == "phi" { format!("phi_{angle}") } else { name }));
+    cells.extend(
+        edge.task_numbers().into_iter().map(|(_, name)| if name == "phi" { format!("phi_{angle}") } else { name }),
+    );
     cells.push("outside_limits".to_owned());
     super::answers::csv_line(&cells)
 }
@@ -356,7 +358,7 @@ fn csv_row(edge: &Edge<'_>, answer: &Answer) -> String {
     values.extend(answer.position());
     values.extend(answer.quaternion());
     values.extend(answer.rpy.map(|angle| edge.angle(angle)));
-    values.extend(edge.asked().into_iter().map(|(place, name)| match answer.asked[place] {
+    values.extend(edge.task_numbers().into_iter().map(|(place, name)| match answer.target[place] {
         phi if name == "phi" => edge.angle(phi),
         number => number,
     }));

@@ -72,7 +72,7 @@ pub fn read_room(file: &Path) -> Result<Room> {
 /// # Errors
 /// As [`moved`], [`Room::with_moved`] and [`Room::without`].
 pub fn refurnished(room: Room, furniture: &[String]) -> Result<Room> {
-    furniture.iter().try_fold(room, |room, told| match moved(told)? {
+    furniture.iter().try_fold(room, |room, option| match moved(option)? {
         (name, Some(at)) => room.with_moved(name, at.point(), at.yaw),
         (name, None) => room.without(name),
     })
@@ -83,9 +83,9 @@ pub fn refurnished(room: Room, furniture: &[String]) -> Result<Room> {
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for another text.
-pub fn moved(told: &str) -> Result<(&str, Option<Footprint>)> {
-    let wrong = || bad(&format!("{told}: give NAME=X,Y or NAME=X,Y,YAW or NAME=none for a piece of furniture"));
-    let (name, place) = told.split_once('=').ok_or_else(wrong)?;
+pub fn moved(option: &str) -> Result<(&str, Option<Footprint>)> {
+    let wrong = || bad(&format!("{option}: give NAME=X,Y or NAME=X,Y,YAW or NAME=none for a piece of furniture"));
+    let (name, place) = option.split_once('=').ok_or_else(wrong)?;
     if place == "none" {
         return Ok((name, None));
     }
@@ -116,8 +116,8 @@ impl PlaceArguments {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a number of values other than two or three.
-    pub fn start(&self, told: Option<[f64; 3]>) -> Result<Footprint> {
-        let [x, y, yaw] = told.unwrap_or_default();
+    pub fn start(&self, default: Option<[f64; 3]>) -> Result<Footprint> {
+        let [x, y, yaw] = default.unwrap_or_default();
         self.start.as_deref().map_or(Ok(Footprint { x, y, yaw }), start_at)
     }
 

@@ -77,18 +77,18 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let none = || Error::new(ErrorKind::BadValue, "there is no chain here").in_file(&input.path);
     let chain = input.chain(&ends)?.ok_or_else(none)?;
     if !arguments.quiet {
-        console::tell(&input.ignored(&ends)?);
+        console::print_notes(&input.ignored(&ends)?);
     }
     let (poses, times) = read_poses(&arguments.poses, &chain)?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let solver = Options::new().watch(session.watch.clone()).derive(&chain)?;
-    let told =
+    let description =
         if times.is_some() || arguments.every.is_some() { speeds(&input.description, &chain) } else { Vec::new() };
     let pace = match (times, arguments.every) {
         (Some(times), _) => Pace::At(times),
         (None, every) => Pace::Every(every.unwrap_or(1.0)),
     };
-    let followed = follow(&chain, &told, &solver.program().solver(), &poses, &pace, &session.watch)
+    let followed = follow(&chain, &description, &solver.program().solver(), &poses, &pace, &session.watch)
         .map_err(|error| error.in_file(&arguments.poses))?;
     drop(session);
     if let Some(jump) = followed.jumps.first().filter(|_| arguments.strict) {

@@ -122,7 +122,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.json {
         console::print(&(serde_json::to_string_pretty(&report).expect("numbers and names") + "\n"))?;
     } else {
-        console::tell(&report.notes);
+        console::print_notes(&report.notes);
         console::print(&text(&report))?;
     }
     if report.good { Ok(()) } else { Err(Halt::BadData) }

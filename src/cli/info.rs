@@ -109,7 +109,7 @@ fn equations(chain: &Chain) -> std::result::Result<String, Halt> {
 fn chain_page(chain: &Chain, notes: &[String], paint: Paint) -> String {
     let unit = chain.length_unit().symbol();
     let (name, count) = (paint.bold(chain.name()), joints(chain.joints().len()));
-    let mut page = format!("{name}: {count}, task {}, lengths in {unit}\n", chain.asked());
+    let mut page = format!("{name}: {count}, task {}, lengths in {unit}\n", chain.task_text());
     for text in [&chain.parts().description, &chain.parts().source].into_iter().flatten() {
         page += &format!("{}\n", paint.dim(text));
     }

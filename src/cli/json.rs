@@ -131,7 +131,7 @@ pub fn chain(described: &Chain, (meant, report): (&Chain, &Report), notes: &[Str
     json!({
         "format": FORMAT,
         "name": described.name(),
-        "task": described.asked(),
+        "task": described.task_text(),
         "length_unit": described.length_unit().symbol(),
         "joints": joints.collect::<Vec<_>>(),
         "tip": doubles(&described.tip().point),
@@ -181,7 +181,7 @@ pub fn plan(chain: &Chain, plan: &Plan, notes: &[String], tip: Option<&TipLink>)
     json!({
         "format": FORMAT,
         "name": chain.name(),
-        "task": chain.asked(),
+        "task": chain.task_text(),
         "tip_link": tip,
         "steps": steps.collect::<Vec<_>>(),
         "solutions": plan.most_solutions(),

@@ -218,13 +218,13 @@ fn status(outcome: &Outcome) -> u8 {
         Err(Halt::NoPath) => NO_PATH,
         Err(Halt::Fell) => FELL,
         Err(Halt::Error(error)) => {
-            tell(error);
+            report_error(error);
             if error.kind() == ErrorKind::Cancelled { 130 } else { 1 }
         }
     }
 }
 
-fn tell(error: &Error) {
+fn report_error(error: &Error) {
     let mut stderr = std::io::stderr().lock();
     let paint = Paint::of(&stderr);
     let text = match error.kind() {

@@ -41,9 +41,9 @@ pub fn motion(file: &Path) -> Result<Option<Motion>> {
 }
 
 /// The robot with this name or file, or else the one that the trajectory names.
-pub fn robot_of(trajectory: &Trajectory, told: Option<&Path>) -> Result<(Robot, Meshes)> {
+pub fn robot_of(trajectory: &Trajectory, described_by: Option<&Path>) -> Result<(Robot, Meshes)> {
     let own = || robots::robot(&trajectory.robot).map(|robot| (robot, Meshes::default()));
-    match told {
+    match described_by {
         Some(name) => robot(name),
         None => own().ok_or_else(|| {
             let text = format!(

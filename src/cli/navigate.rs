@@ -98,10 +98,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let named = walker::named(&arguments.robot, Outline::Measured, &arguments.soles, &session.watch)?;
     let notes = named.robot.parts().notes.clone();
-    let (map, told) = arguments.floor.map(&arguments.map)?;
+    let (map, default_start) = arguments.floor.map(&arguments.map)?;
     let pilot = arguments.pilot(named, &session.watch)?;
     let floor = Floor::new(&map, arguments.places.apart)?;
-    let (start, goal) = (arguments.places.start(told)?, arguments.places.goal()?);
+    let (start, goal) = (arguments.places.start(default_start)?, arguments.places.goal()?);
     let begun = Instant::now();
     let feet = start.feet(pilot.half_width());
     let found = Plan::find(&pilot, &floor, feet, goal, arguments.method.method(), &session.watch)?;
@@ -116,11 +116,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
         }
     }
     if arguments.json {
-        let mut told = arguments.told(&pilot, &found, milliseconds);
-        told["notes"] = notes.into();
-        console::print(&super::json::text(&told))?;
+        let mut json_report = arguments.json_report(&pilot, &found, milliseconds);
+        json_report["notes"] = notes.into();
+        console::print(&super::json::text(&json_report))?;
     } else if !arguments.quiet {
-        console::tell(&notes);
+        console::print_notes(&notes);
     }
     match found {
         Ok(_) if arguments.json || arguments.quiet => Ok(()),
@@ -164,34 +164,35 @@ impl Arguments {
         }
     }
 
-    fn told(&self, pilot: &Pilot, found: &std::result::Result<Plan, Blocked>, milliseconds: f64) -> Value {
+    fn json_report(&self, pilot: &Pilot, found: &std::result::Result<Plan, Blocked>, milliseconds: f64) -> Value {
         let method = self.method.to_possible_value().map(|value| value.get_name().to_owned());
         let biped = &pilot.walker().biped;
-        let mut told = json!({ "format": FORMAT, "robot": biped.name, "method": method, "milliseconds": milliseconds });
+        let mut json_report =
+            json!({ "format": FORMAT, "robot": biped.name, "method": method, "milliseconds": milliseconds });
         let step = |Footstep { side, print }: &Footstep| json!({ "foot": side.name(), "x": print.x, "y": print.y, "yaw": print.yaw });
         match found {
             Ok(plan) => {
                 let summary = Summary::of(biped, &plan.walk);
-                told["points"] = floor::points(&plan.course.path);
-                told["length"] = plan.course.path.length().into();
-                told["wide"] = plan.course.is_wide.into();
-                told["steps"] = plan.walk.schedule.route.steps.iter().map(step).collect();
-                told["seconds"] = summary.duration.into();
-                told["margin"] = summary.margin.value.into();
+                json_report["points"] = floor::points(&plan.course.path);
+                json_report["length"] = plan.course.path.length().into();
+                json_report["wide"] = plan.course.is_wide.into();
+                json_report["steps"] = plan.walk.schedule.route.steps.iter().map(step).collect();
+                json_report["seconds"] = summary.duration.into();
+                json_report["margin"] = summary.margin.value.into();
                 let refused = |refusal: &Refusal| {
                     let mut value = step(&refusal.footstep);
                     value["step"] = refusal.step.into();
                     value["reason"] = refusal.to_string().into();
                     value
                 };
-                told["refused"] = plan.refusals.iter().map(refused).collect();
+                json_report["refused"] = plan.refusals.iter().map(refused).collect();
             }
             Err(blocked) => {
-                told["points"] = Value::Null;
-                told["enclosure"] = floor::enclosure(&blocked.map, &blocked.enclosure);
+                json_report["points"] = Value::Null;
+                json_report["enclosure"] = floor::enclosure(&blocked.map, &blocked.enclosure);
             }
         }
-        told
+        json_report
     }
 }
 

@@ -45,11 +45,11 @@ impl PartArguments {
         let below = |joint: usize| {
             base.is_none_or(|base| robot.ancestry(robot.ends(joint).1).iter().any(|&up| robot.ends(up).0 == base))
         };
-        for (joint, told) in parts.joints.iter_mut().enumerate() {
+        for (joint, other) in parts.joints.iter_mut().enumerate() {
             let moves = if tip.is_some() { path.contains(&joint) && !carrying.contains(&joint) } else { below(joint) };
             let is_part = ends.iter().any(Option::is_some);
-            if !moves && (told.kind.is_single() || is_part) {
-                (told.kind, told.limits, told.mimic) = (JointType::Fixed, None, None);
+            if !moves && (other.kind.is_single() || is_part) {
+                (other.kind, other.limits, other.mimic) = (JointType::Fixed, None, None);
             }
         }
         let still: Vec<String> =

@@ -103,10 +103,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let session = Session::start(Limits::default())?;
     let (map, _) = arguments.floor.map(&arguments.map)?;
     let map = if arguments.radius == 0.0 { map } else { for_radius(map, arguments.radius)? };
-    let [start, goal] = [("start", &arguments.start), ("goal", &arguments.goal)].map(|(name, told)| match told[..] {
-        [x, y] => Ok(Point2::new(x, y)),
-        _ => Err(Error::new(ErrorKind::BadValue, format!("--{name} takes two numbers: --{name} 1,0.5"))),
-    });
+    let [start, goal] =
+        [("start", &arguments.start), ("goal", &arguments.goal)].map(|(name, numbers)| match numbers[..] {
+            [x, y] => Ok(Point2::new(x, y)),
+            _ => Err(Error::new(ErrorKind::BadValue, format!("--{name} takes two numbers: --{name} 1,0.5"))),
+        });
     let begun = Instant::now();
     let found = arguments.found(&map, &start?, &goal?, &session.watch)?;
     let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
@@ -142,20 +143,20 @@ impl Arguments {
 
     fn json(&self, map: &Map, found: &Found, milliseconds: f64) -> Value {
         let method = self.method.to_possible_value().map(|value| value.get_name().to_owned());
-        let mut told = json!({ "format": FORMAT, "method": method, "milliseconds": milliseconds });
+        let mut json_report = json!({ "format": FORMAT, "method": method, "milliseconds": milliseconds });
         match &found.path {
             Ok(path) => {
-                told["points"] = floor::points(path);
-                told["length"] = path.length().into();
-                told["seconds"] = found.time.into();
-                told["bound"] = found.bound.into();
+                json_report["points"] = floor::points(path);
+                json_report["length"] = path.length().into();
+                json_report["seconds"] = found.time.into();
+                json_report["bound"] = found.bound.into();
             }
             Err(enclosure) => {
-                told["points"] = Value::Null;
-                told["enclosure"] = floor::enclosure(map, enclosure);
+                json_report["points"] = Value::Null;
+                json_report["enclosure"] = floor::enclosure(map, enclosure);
             }
         }
-        told
+        json_report
     }
 }
 

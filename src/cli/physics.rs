@@ -103,7 +103,7 @@ impl Stage {
         command
             .current_dir(self.folder.path())
             .stdin(Stdio::null())
-            .stdout(file("told.json")?)
+            .stdout(file("output.json")?)
             .stderr(file("errors.txt")?);
         let mut running = Running(command.spawn().map_err(|error| self.no_mujoco(&error.to_string()))?);
         let status = loop {
@@ -121,11 +121,11 @@ impl Stage {
                 _ => Error::new(ErrorKind::Unsupported, format!("MuJoCo cannot simulate this: {last}")),
             });
         }
-        let told = read_text(&at("told.json"), OUTPUT_LIMIT)?;
-        let told = serde_json::from_str(&told).map_err(|error| {
+        let output = read_text(&at("output.json"), OUTPUT_LIMIT)?;
+        let output = serde_json::from_str(&output).map_err(|error| {
             Error::new(ErrorKind::Syntax, format!("the output of {} is not understood: {error}", self.python.display()))
         })?;
-        Ok((Trajectory::from_csv(&read_text(&at("answer.csv"), TABLE_LIMIT)?)?, told))
+        Ok((Trajectory::from_csv(&read_text(&at("answer.csv"), TABLE_LIMIT)?)?, output))
     }
 
     fn no_mujoco(&self, reason: &str) -> Error {

@@ -98,7 +98,7 @@ impl Mechanism {
     /// # Errors
     /// As [`InputFile::read`], [`Source::of`] and [`Source::choose_given`]; [`ErrorKind::UnknownName`] for a name that
     /// is neither a file nor a robot.
-    pub fn asked(&self) -> Result<RequestedChain> {
+    pub fn requested(&self) -> Result<RequestedChain> {
         let mut source = self.source()?;
         let choice = source.choose_given(&Watch::none())?;
         Ok(RequestedChain { source, choice })
@@ -149,13 +149,13 @@ impl Mechanism {
 
 /// Prints the plan.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let asked = arguments.mechanism.asked()?;
-    let (chain, solver, tip) = (asked.chain()?, asked.solver()?, asked.tip());
+    let requested = arguments.mechanism.requested()?;
+    let (chain, solver, tip) = (requested.chain()?, requested.solver()?, requested.tip());
     if arguments.json {
-        return console::print(&json::text(&json::plan(chain, solver.plan(), asked.notes(), tip.as_ref())));
+        return console::print(&json::text(&json::plan(chain, solver.plan(), requested.notes(), tip.as_ref())));
     }
-    console::tell(asked.notes());
+    console::print_notes(requested.notes());
     let about = chain.parts().description.as_deref().map(|text| format!("{text}\n")).unwrap_or_default();
-    let told = TipLink::line(tip.as_ref()) + &asked.choice.as_ref().map(choice_text).unwrap_or_default();
-    console::print(&format!("{told}{}, task {}\n{about}\n{}\n", chain.name(), chain.asked(), solver.plan()))
+    let heading = TipLink::line(tip.as_ref()) + &requested.choice.as_ref().map(choice_text).unwrap_or_default();
+    console::print(&format!("{heading}{}, task {}\n{about}\n{}\n", chain.name(), chain.task_text(), solver.plan()))
 }

@@ -109,11 +109,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 impl Arguments {
     fn request(&self, program: &Program, chain: Option<&Chain>) -> Result<Request> {
-        let asked = |name: &str| program.inputs.iter().any(|input| input.name == name);
+        let is_input = |name: &str| program.inputs.iter().any(|input| input.name == name);
         let around = chain.and_then(around);
-        let axis = |told: Option<Axis>, place: usize| match (told, &around) {
+        let axis = |given: Option<Axis>, place: usize| match (given, &around) {
             (Some(axis), _) => Ok(axis),
-            _ if !asked(["px", "py", "pz"][place]) => Axis::new(0.0, 0.0, 1),
+            _ if !is_input(["px", "py", "pz"][place]) => Axis::new(0.0, 0.0, 1),
             (None, Some((middle, reach))) => Axis::new(middle[place] - reach, middle[place] + reach, USUAL),
             _ => {
                 let name = ["x", "y", "z"][place];

@@ -38,9 +38,9 @@ pub struct Report<'a> {
 ///
 /// # Errors
 /// When a setting's field cannot be built, which does not happen for a derivation of this crate.
-pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
+pub fn report(content: &Report<'_>, paint: Paint) -> Result<String> {
     let mut page = Page { text: String::new(), paint };
-    match told.derivation.view() {
+    match content.derivation.view() {
         AnyView::Equations(derivation) => block(&mut page, derivation)?,
         AnyView::Sequential(derived) => {
             page.text += &format!("{}\n", derived.problem.chain);
@@ -49,16 +49,16 @@ pub fn report(told: &Report<'_>, paint: Paint) -> Result<String> {
         AnyView::Eigenvalue(derived) => chain_report::describe_six_axes(&mut page, derived),
         AnyView::Coupled(derived) => chain_report::describe_coupled(&mut page, derived),
     }
-    meant(&mut page, told);
-    ignored(&mut page, told);
-    checks(&mut page, told.checked);
-    written(&mut page, told);
+    meant(&mut page, content);
+    ignored(&mut page, content);
+    checks(&mut page, content.checked);
+    written(&mut page, content);
     Ok(page.text)
 }
 
 /// The idealisation of the description, and the limitations of its joints.
-fn meant(page: &mut Page, told: &Report<'_>) {
-    let Some((ideal, report)) = told.source.ideal.as_ref() else { return };
+fn meant(page: &mut Page, content: &Report<'_>) {
+    let Some((ideal, report)) = content.source.ideal.as_ref() else { return };
     if !report.is_empty() {
         page.heading("Idealisation of the description");
         report.lines().iter().for_each(|line| page.line(line));
@@ -92,10 +92,10 @@ fn meant(page: &mut Page, told: &Report<'_>) {
 }
 
 /// The ignored parts of the description.
-fn ignored(page: &mut Page, told: &Report<'_>) {
-    if !told.source.notes.is_empty() {
+fn ignored(page: &mut Page, content: &Report<'_>) {
+    if !content.source.notes.is_empty() {
         page.heading("Notes");
-        told.source.notes.iter().for_each(|note| page.line(note));
+        content.source.notes.iter().for_each(|note| page.line(note));
     }
 }
 
@@ -106,7 +106,7 @@ fn block(page: &mut Page, derivation: EquationsView<'_>) -> Result<()> {
     equations(page, system);
     if let Some(solved) = derivation.method.requested.solved() {
         basis(page, system, &solved.triangular);
-        way(page, system, &solved.triangular);
+        triangular_steps(page, system, &solved.triangular);
     }
     run_time(page, derivation)?;
     count(page, derivation);
@@ -182,8 +182,8 @@ fn number(index: usize) -> String {
     format!("[{}]", index + 1)
 }
 
-fn way(page: &mut Page, system: &System, triangular: &Triangular) {
-    page.heading("One unknown at a time");
+fn triangular_steps(page: &mut Page, system: &System, triangular: &Triangular) {
+    page.heading("Formulas, one unknown after the other");
     let mut first = 0;
     let mut entries = Vec::new();
     for (stair, degree) in triangular.stairs.iter().zip(triangular.degrees()) {
@@ -231,16 +231,16 @@ fn leading(ring: &Unknowns, f: &Poly, unknown: usize) -> Option<String> {
 }
 
 fn run_time(page: &mut Page, derivation: EquationsView<'_>) -> Result<()> {
-    let (asked, used) = (&derivation.method.requested, derivation.method.solving());
-    page.heading("What runs");
-    if strata::order(asked) == strata::order(used) {
+    let (requested, used) = (&derivation.method.requested, derivation.method.solving());
+    page.heading("Order that the solver uses");
+    if strata::order(requested) == strata::order(used) {
         page.line("The solver uses this order: no other tried order has denominators that vanish on fewer targets.");
         return Ok(());
     }
     page.line("Of the orders tried, the solver uses the one whose denominators vanish on the fewest strata:");
     let entry = |node| Ok((strata::order(node), strata::breakdowns(&strata::score(node)?)));
-    let (asked, (order, sets)) = (entry(asked)?, entry(used)?);
-    page.entries(&[asked, (order, format!("{sets}  <- used"))]);
+    let (requested, (order, sets)) = (entry(requested)?, entry(used)?);
+    page.entries(&[requested, (order, format!("{sets}  <- used"))]);
     Ok(())
 }
 
@@ -265,7 +265,7 @@ fn proofs(page: &mut Page, derivation: EquationsView<'_>) {
     let nodes = trees.iter().flat_map(|(_, node)| node.walk());
     let proofs: Vec<_> = nodes.flat_map(|node| node.proofs()).map(|(_, certified)| certified.proof).collect();
     let sum = |part: fn(&groebot_algebra::groebner::verify::Proof) -> usize| proofs.iter().map(part).sum::<usize>();
-    page.heading("Proved, exactly and without trusting the engine");
+    page.heading("Proved exactly, independently of the Groebner engine");
     page.entries(&[
         (proofs.len().to_string(), "Groebner bases, one a stratum and order".to_owned()),
         (sum(|proof| proof.cofactor_rows).to_string(), "basis elements are combinations of the equations".to_owned()),
@@ -276,7 +276,7 @@ fn proofs(page: &mut Page, derivation: EquationsView<'_>) {
 
 fn checks(page: &mut Page, checked: &witness::Report) {
     let summary = checked.summary();
-    page.heading("Checked numerically, by methods that are independent of the solver");
+    page.heading("Checked numerically by independent methods");
     let mut entries = vec![
         (
             (summary.rows - summary.failed).to_string(),
@@ -308,18 +308,18 @@ fn checks(page: &mut Page, checked: &witness::Report) {
     }
 }
 
-fn written(page: &mut Page, told: &Report<'_>) {
-    let folder = if told.folder.as_os_str().is_empty() { Path::new(".") } else { told.folder };
+fn written(page: &mut Page, content: &Report<'_>) {
+    let folder = if content.folder.as_os_str().is_empty() { Path::new(".") } else { content.folder };
     page.heading(&format!("Written to {}", folder.display()));
-    page.line(&told.files.join(", "));
-    without_ikfast(told.derivation.program()).iter().for_each(|line| page.line(line));
+    page.line(&content.files.join(", "));
+    without_ikfast(content.derivation.program()).iter().for_each(|line| page.line(line));
     page.heading("Time");
     let mut times = String::new();
-    for (stage, time) in told.timings {
+    for (stage, time) in content.timings {
         let _ = write!(times, "{}{stage} {}", if times.is_empty() { "" } else { ", " }, duration(*time));
     }
     page.line(&times);
-    let names: Vec<&str> = told.derivation.program().inputs.iter().map(|input| input.name.as_str()).collect();
+    let names: Vec<&str> = content.derivation.program().inputs.iter().map(|input| input.name.as_str()).collect();
     page.heading("Next");
     page.line(&format!("groebot solve {} --target {}", folder.display(), names.join(",")));
 }

@@ -113,7 +113,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let mut notes = robot.parts().notes.clone();
     let model = robot.to_mjcf(&meshes, &mut notes)?;
     if !arguments.json {
-        console::tell(&notes);
+        console::print_notes(&notes);
     }
     let nominal = arguments.case()?;
     let feet = [&arguments.left[..], &arguments.right];
@@ -123,19 +123,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.vary {
         let runs = varied(&stage, &plan, &nominal, &session.watch)?;
         drop(session);
-        return tell_all(&runs, &notes, arguments.json);
+        return report_runs(&runs, &notes, arguments.json);
     }
-    let (answer, told) = stage.play(&nominal, &session.watch)?;
+    let (answer, result) = stage.play(&nominal, &session.watch)?;
     drop(session);
-    let compared = Comparison::of(&plan, &answer, told.stiffness / nominal.mass)?;
+    let compared = Comparison::of(&plan, &answer, result.stiffness / nominal.mass)?;
     arguments.write(&output, &plan, &answer, &legs)?;
     if arguments.json {
-        let value = json!({ "format": FORMAT, "robot": plan.robot, "case": nominal, "run": told, "comparison": compared, "notes": notes });
+        let value = json!({ "format": FORMAT, "robot": plan.robot, "case": nominal, "run": result, "comparison": compared, "notes": notes });
         console::print(&super::json::text(&value))?;
     } else {
-        console::print(&format!("{}: {}\n{}{compared}", plan.robot, verdict(&told), motors(&told)))?;
+        console::print(&format!("{}: {}\n{}{compared}", plan.robot, verdict(&result), motors(&result)))?;
     }
-    if told.fell.is_some() { Err(Halt::Fell) } else { Ok(()) }
+    if result.fell.is_some() { Err(Halt::Fell) } else { Ok(()) }
 }
 
 impl Arguments {
@@ -237,7 +237,7 @@ fn legs(robot: &Robot, feet: [&str; 2]) -> Result<[Vec<String>; 2]> {
 /// A run of --vary.
 struct Run {
     case: Case,
-    told: ScriptOutput,
+    result: ScriptOutput,
     compared: Comparison,
 }
 
@@ -264,16 +264,16 @@ fn varied(stage: &Stage, plan: &Trajectory, nominal: &Case, watch: &Watch) -> Re
     let cases = cases(nominal);
     let one = |(done, case): (usize, &Case)| {
         watch.report("runs", done, cases.len() - done);
-        let (answer, told) = stage.play(case, watch)?;
-        let compared = Comparison::of(plan, &answer, told.stiffness / case.mass)?;
-        Ok(Run { case: *case, told, compared })
+        let (answer, result) = stage.play(case, watch)?;
+        let compared = Comparison::of(plan, &answer, result.stiffness / case.mass)?;
+        Ok(Run { case: *case, result, compared })
     };
     cases.iter().enumerate().map(one).collect()
 }
 
-fn tell_all(runs: &[Run], notes: &[String], as_json: bool) -> Outcome {
+fn report_runs(runs: &[Run], notes: &[String], as_json: bool) -> Outcome {
     if as_json {
-        let run = |Run { case, told, compared }: &Run| json!({ "case": case, "run": told, "comparison": compared });
+        let run = |Run { case, result, compared }: &Run| json!({ "case": case, "run": result, "comparison": compared });
         let value = json!({ "format": FORMAT, "runs": runs.iter().map(run).collect::<Vec<_>>(), "notes": notes });
         console::print(&super::json::text(&value))?;
     } else {
@@ -282,11 +282,11 @@ fn tell_all(runs: &[Run], notes: &[String], as_json: bool) -> Outcome {
             "roll_deg,pitch_deg,friction,mass,gain,latency_s,fell_s,off_mm,turn_off_deg,tilt_deg,landings,planned_landings,lift_mm,zmp_rms_mm,deviation_mrad\n{rows}"
         ))?;
     }
-    if runs.iter().any(|run| run.told.fell.is_some()) { Err(Halt::Fell) } else { Ok(()) }
+    if runs.iter().any(|run| run.result.fell.is_some()) { Err(Halt::Fell) } else { Ok(()) }
 }
 
-fn row(Run { case, told, compared }: &Run) -> String {
-    let fell = told.fell.map_or("stands".to_owned(), |time| format!("{time:.2}"));
+fn row(Run { case, result, compared }: &Run) -> String {
+    let fell = result.fell.map_or("stands".to_owned(), |time| format!("{time:.2}"));
     let deviation = compared.joints.iter().map(|joint| joint.greatest.abs()).fold(0.0, f64::max);
     format!(
         "{},{},{},{},{},{},{fell},{:.0},{:.1},{:.1},{},{},{:.1},{:.1},{:.1}\n",
@@ -307,18 +307,18 @@ fn row(Run { case, told, compared }: &Run) -> String {
     )
 }
 
-fn verdict(told: &ScriptOutput) -> String {
-    let ScriptOutput { mujoco, mass, fell, .. } = told;
+fn verdict(result: &ScriptOutput) -> String {
+    let ScriptOutput { mujoco, mass, fell, .. } = result;
     let fate = fell.map_or("the robot does not fall".to_owned(), |time| format!("the robot falls at {time:.2} s"));
     format!("{fate} ({mass:.2} kg, MuJoCo {mujoco})")
 }
 
-fn motors(told: &ScriptOutput) -> String {
-    let ScriptOutput { stiffness, damping, armature, .. } = told;
-    let points = if told.points.is_empty() {
+fn motors(result: &ScriptOutput) -> String {
+    let ScriptOutput { stiffness, damping, armature, .. } = result;
+    let points = if result.points.is_empty() {
         String::new()
     } else {
-        format!("  moments         assumed of {}, which is described as a point\n", told.points.join(", "))
+        format!("  moments         assumed of {}, which is described as a point\n", result.points.join(", "))
     };
     format!("{points}  motors          {stiffness:.1} N m/rad, {damping:.3} N m s/rad, {armature:.4} kg m^2\n")
 }

@@ -108,19 +108,19 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let checks = Checks::of(&named.robot, &named.meshes, &named.walker.biped, &performed, &session.watch)?;
     drop(session);
-    let (mut told, notes) = (told(&performed, &checks), named.robot.parts().notes.clone());
-    arguments.write(&output, &named, &performed, &told)?;
+    let (mut json_report, notes) = (json_report(&performed, &checks), named.robot.parts().notes.clone());
+    arguments.write(&output, &named, &performed, &json_report)?;
     if let (Some(file), Some(last)) = (&arguments.plot, performed.stages.last()) {
         let plan = Plan { course: last.course.clone(), walk: performed.walk.clone(), refusals: Vec::new() };
         let floor = Floor::new(&last.room.map()?, arguments.apart)?;
         output.write(file, Kind::Markup, plan.to_svg(&pilot, &floor))?;
     }
     if arguments.json {
-        (told["format"], told["holds"]) = (FORMAT.into(), checks.hold().into());
-        told["notes"] = notes.into();
-        console::print(&super::json::text(&told))?;
+        (json_report["format"], json_report["holds"]) = (FORMAT.into(), checks.hold().into());
+        json_report["notes"] = notes.into();
+        console::print(&super::json::text(&json_report))?;
     } else if !arguments.quiet {
-        console::tell(&notes);
+        console::print_notes(&notes);
         console::print(&Summary::of(&named.walker.biped, &performed.walk).to_string())?;
         console::print(&summary(&performed, &checks))?;
     }
@@ -151,10 +151,10 @@ impl Arguments {
     }
 
     fn changes(&self, room: &Room) -> Result<Vec<Change>> {
-        let change = |told: &String| {
+        let change = |option: &String| {
             let wrong =
-                || bad(format!("--then `{}`: give NAME=X,Y@STEPS, NAME=none@STEPS or goal=GOAL@STEPS", shown(told)));
-            let (what, after) = told.rsplit_once('@').ok_or_else(wrong)?;
+                || bad(format!("--then `{}`: give NAME=X,Y@STEPS, NAME=none@STEPS or goal=GOAL@STEPS", shown(option)));
+            let (what, after) = option.rsplit_once('@').ok_or_else(wrong)?;
             let after = after.parse().map_err(|_| wrong())?;
             let what = match what.strip_prefix("goal=") {
                 Some(goal) => What::Goal(destination(goal, room)?),
@@ -174,14 +174,14 @@ impl Arguments {
     fn refuse(&self, blocked: &Blocked, notes: &[String]) -> Outcome {
         let enclosure = floor::enclosure(&blocked.map, &blocked.enclosure);
         if self.json {
-            let told = json!({ "format": FORMAT, "holds": false, "enclosure": enclosure, "notes": notes });
-            console::print(&super::json::text(&told))?;
+            let json_report = json!({ "format": FORMAT, "holds": false, "enclosure": enclosure, "notes": notes });
+            console::print(&super::json::text(&json_report))?;
         }
         console::line("error", &blocked.to_string());
         Err(Halt::NoPath)
     }
 
-    fn write(&self, output: &Output, named: &Named, performed: &Performed, told: &Value) -> Outcome {
+    fn write(&self, output: &Output, named: &Named, performed: &Performed, json_report: &Value) -> Outcome {
         if self.out.is_none() && self.view.is_none() {
             return Ok(());
         }
@@ -195,7 +195,7 @@ impl Arguments {
             output.write(file, Kind::Markup, page.with_task(performed.record()).to_html())?;
         }
         if let Some(file) = &self.out {
-            value["task"] = told.clone();
+            value["task"] = json_report.clone();
             output.write(file, Kind::Json, value.to_string() + "\n")?;
         }
         Ok(())
@@ -203,25 +203,25 @@ impl Arguments {
 }
 
 /// A destination: a place by its numbers, or a piece of furniture by its name.
-fn destination(told: &str, room: &Room) -> Result<Destination> {
-    let numbers: Option<Vec<f64>> = told.split(',').map(|word| word.trim().parse().ok()).collect();
+fn destination(goal: &str, room: &Room) -> Result<Destination> {
+    let numbers: Option<Vec<f64>> = goal.split(',').map(|word| word.trim().parse().ok()).collect();
     match numbers {
         Some(numbers) => goal_at(&numbers).map(Destination::Place),
-        None if room.piece(told).is_ok() => Ok(Destination::Before(told.to_owned())),
+        None if room.piece(goal).is_ok() => Ok(Destination::Before(goal.to_owned())),
         None => {
             let names: Vec<&str> = room.pieces.iter().map(|piece| piece.name.as_str()).collect();
-            let text = format!("there is no furniture `{}`{}; or give X,Y", shown(told), one_among(told, &names));
+            let text = format!("there is no furniture `{}`{}; or give X,Y", shown(goal), one_among(goal, &names));
             Err(Error::new(ErrorKind::UnknownName, text))
         }
     }
 }
 
 /// Room, paths and checks as JSON.
-fn told(performed: &Performed, checks: &Checks) -> Value {
+fn json_report(performed: &Performed, checks: &Checks) -> Value {
     let time = |sample: usize| performed.walk.time(sample);
     let clearance = |own: &groebot_humanoid::sim::Clearance| json!({ "link": own.link, "thing": own.thing.to_string(), "distance": own.distance, "time": time(own.sample) });
-    let mut told = serde_json::to_value(performed.record()).expect("a record can be represented in JSON");
-    told["checks"] = json!({
+    let mut json_report = serde_json::to_value(performed.record()).expect("a record can be represented in JSON");
+    json_report["checks"] = json!({
         "hold": checks.hold(),
         "clearances": checks.clearances.iter().map(clearance).collect::<Vec<_>>(),
         "soles_off": checks.soles_off,
@@ -231,7 +231,7 @@ fn told(performed: &Performed, checks: &Checks) -> Value {
         "findings": checks.findings.len(),
         "samples_per_step": [checks.samples_per_step.0, checks.samples_per_step.1],
     });
-    told
+    json_report
 }
 
 fn summary(performed: &Performed, checks: &Checks) -> String {

@@ -178,7 +178,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if arguments.json {
         return console::print(&(serde_json::to_string_pretty(&summary).expect("numbers and names") + "\n"));
     }
-    console::tell(&summary.notes);
+    console::print_notes(&summary.notes);
     console::print(&text(&summary))
 }
 

@@ -150,23 +150,21 @@ impl Arguments {
                 return Err(Error::new(ErrorKind::Unsupported, text));
             }
             let proved = Options::new().watch(session.watch.clone()).derive(&chain)?;
-            let files = proved.stage_files()?;
-            let certificate = files.iter().find(|(name, _)| name == CERTIFICATE);
-            let certificate = certificate.and_then(|(_, bytes)| std::str::from_utf8(bytes).ok());
-            page.with_limb(&chain, [&path.base, &path.tip], proved.program().to_json(), certificate)
+            let certificate = proved.certificate()?;
+            page.with_limb(&chain, [&path.base, &path.tip], proved.program().to_json(), Some(&certificate))
         })
     }
 
     /// The robot of a page in a room.
     fn running(&self, page: Page, room: &Path) -> Result<Page> {
         let text = room_text(room)?;
-        let told = Room::from_toml(&text).map_err(|error| error.in_file(room))?.start;
-        let Footprint { x, y, yaw } = self.places.start(told)?;
+        let default_start = Room::from_toml(&text).map_err(|error| error.in_file(room))?.start;
+        let Footprint { x, y, yaw } = self.places.start(default_start)?;
         let goal = self.places.goal()?.numbers();
         let robot = self.shown.to_string_lossy();
-        let asked =
+        let run_request =
             RunRequest { robot: &robot, room: &text, start: [x, y, yaw], goal: &goal, apart: self.places.apart };
-        page.with_run(&asked).map_err(|error| error.in_file(room))
+        page.with_run(&run_request).map_err(|error| error.in_file(room))
     }
 }
 

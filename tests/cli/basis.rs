@@ -79,13 +79,13 @@ fn zero_and_unit_ideals() {
 }
 
 #[test]
-fn a_degree_beyond_counting_is_told_so() {
+fn a_degree_beyond_counting_is_reported() {
     let (_, summary) = basis("x^1000 - 1\ny^1000 - 1\nz^1000 - 1", &[]);
     assert!(summary.contains("dimension 0, degree over 1000000"), "{summary}");
 }
 
 #[test]
-fn every_format_says_the_same_and_is_read_again() {
+fn every_format_reports_the_same_and_is_read_again() {
     let folder = tempdir().unwrap();
     let file = folder.path().join("basis");
     let (plain, _) = basis(CYCLIC, &[]);
@@ -153,9 +153,9 @@ fn bad_files_are_refused_with_line_and_column() {
     let cases: [(&[u8], &str); 9] = [
         (b"", "line 1: column 1: there is no polynomial"),
         (b"x + y\nx*(y + 1\n", "line 2: column 9: `)` expected"),
-        (b"variables: x\r\nx + y\r\n", "line 2: column 5: nothing is called `y`"),
+        (b"variables: x\r\nx + y\r\n", "line 2: column 5: `y` is not declared"),
         (b"ring r = 0,(x,y),ws(1,2);\nideal i = x;", "line 1: column 18: the order `ws`"),
-        (b"ring r = 0,(x,y),dp;\nideal i = x,\n3xz;", "line 3: column 1: nothing is called `3xz`"),
+        (b"ring r = 0,(x,y),dp;\nideal i = x,\n3xz;", "line 3: column 1: `3xz` is not declared"),
         (b"x, y\n0\nx + 0.5,\ny", "line 3: column 6: `.` has no meaning"),
         (b"x + \xff", "line 1: column 5: the text is not UTF-8"),
         (b"x + y\n\0", "line 2: column 1: `\\0` has no meaning"),

@@ -57,8 +57,8 @@ fn options_that_mean_nothing_are_refused() {
     ] {
         let mut arguments = vec!["codegen", text(&ur5), "--lang", language, option];
         arguments.extend(value);
-        let told = refused(&arguments);
-        assert!(told.contains(option.trim_start_matches('-')) && told.contains(part), "{told}");
+        let reported = refused(&arguments);
+        assert!(reported.contains(option.trim_start_matches('-')) && reported.contains(part), "{reported}");
     }
     let none = refused(&["codegen", text(&root("derivations/nao_leg_sagittal")), "--lang", "ikfast"]);
     assert!(none.contains("nao_leg_sagittal") && none.contains("forward kinematics"), "{none}");
@@ -78,19 +78,19 @@ fn a_file_of_somebody_else_is_left_alone_unless_forced() {
     for (name, foreign) in [("puma.c", "int main(void) { return 0; }\n"), ("puma.h", "/* mine */\n")] {
         let file = folder.path().join(name);
         fs::write(&file, foreign).unwrap();
-        let told = refused(&arguments);
-        assert!(told.contains(name) && told.contains("--force"), "{told}");
+        let reported = refused(&arguments);
+        assert!(reported.contains(name) && reported.contains("--force"), "{reported}");
         assert_eq!(fs::read_to_string(&file).unwrap(), foreign);
         assert_eq!(succeed(&[&arguments[..], &["--force"]].concat()), "");
         assert_eq!(content(folder.path()), printed);
     }
     let other = folder.path().join("puma.txt");
-    let told = refused(&["codegen", text(&puma), "--lang", "c", "-o", text(&other)]);
-    assert!(told.contains("puma.txt") && told.contains("ends in `.c`") && !other.exists(), "{told}");
+    let reported = refused(&["codegen", text(&puma), "--lang", "c", "-o", text(&other)]);
+    assert!(reported.contains("puma.txt") && reported.contains("ends in `.c`") && !other.exists(), "{reported}");
     let quoted = folder.path().join("pu\"ma.c");
     for options in [["--lang", "c", "--single-file"].as_slice(), &["--lang", "c"], &["--lang", "ikfast"]] {
-        let told = refused(&[&["codegen", text(&puma), "-o", text(&quoted)], options].concat());
-        assert!(told.contains("quotation marks") && !quoted.exists(), "{told}");
+        let reported = refused(&[&["codegen", text(&puma), "-o", text(&quoted)], options].concat());
+        assert!(reported.contains("quotation marks") && !quoted.exists(), "{reported}");
     }
     assert!(
         refused(&["codegen", text(&puma), "--lang", "c", "-o", "/absent/folder/puma.c"]).contains("/absent/folder")

@@ -115,8 +115,9 @@ fn fault(folder: &Path, is_checked: bool) -> Option<String> {
         return Some(format!("no derivation writes {name}"));
     }
     if let Some(gravity) = gravity_of(folder) {
-        let told = run(&["dynamics", "--symbolic", text(folder), "--gravity", &gravity]);
-        if told.code != 0 || fs::read_to_string(folder.join("7_dynamics.txt")).ok().as_ref() != Some(&told.out) {
+        let reported = run(&["dynamics", "--symbolic", text(folder), "--gravity", &gravity]);
+        if reported.code != 0 || fs::read_to_string(folder.join("7_dynamics.txt")).ok().as_ref() != Some(&reported.out)
+        {
             return Some("7_dynamics.txt is out of date".to_owned());
         }
     }

@@ -57,7 +57,7 @@ fn has(page: &str, words: &[&str]) {
 }
 
 #[test]
-fn derive_writes_every_stage_and_tells_of_each_chain() {
+fn derive_writes_every_stage_and_reports_each_chain() {
     let (folder, report) = arms();
     has(
         report,
@@ -124,7 +124,7 @@ fn check_proves_it_again_and_finds_what_was_changed() {
 /// The tip of the first arm is at (1, 1.25). Its elbow is at (1, 0), or mirrored at the line to the tip. From both, the second arm, with links of 1 and 1.25,
 /// reaches (1, 1.2) with two solutions.
 #[test]
-fn solve_finds_all_ways_and_says_which_chain_fails() {
+fn solve_finds_all_solutions_and_names_the_failing_chain() {
     let (folder, _) = arms();
     let answer: Value =
         serde_json::from_str(&succeed(&["solve", text(folder.path()), "--json", "--target", "1,1.25,1,1.2"])).unwrap();
@@ -145,19 +145,19 @@ fn solve_finds_all_ways_and_says_which_chain_fails() {
 }
 
 #[test]
-fn info_and_explain_tell_of_actuators_and_chains() {
+fn info_and_explain_report_actuators_and_chains() {
     let (folder, _) = arms();
     let page = succeed(&["info", text(folder.path())]);
     has(&page, &["arms: 2 chains on 4 actuators", "j0    a.j0, b.j0", "chain b", "second: 3 joints"]);
-    let told: Value = serde_json::from_str(&succeed(&["info", "--json", text(folder.path())])).unwrap();
-    assert_eq!((&told["format"], &told["chains"][1]["chain"]["joints"][2]["name"]), (&1.into(), &"j2".into()));
-    assert_eq!(told["actuators"][0]["joints"], serde_json::json!(["a.j0", "b.j0"]));
+    let reported: Value = serde_json::from_str(&succeed(&["info", "--json", text(folder.path())])).unwrap();
+    assert_eq!((&reported["format"], &reported["chains"][1]["chain"]["joints"][2]["name"]), (&1.into(), &"j2".into()));
+    assert_eq!(reported["actuators"][0]["joints"], serde_json::json!(["a.j0", "b.j0"]));
     let system = succeed(&["info", "--json", "derivations/nao_arm_planar"]);
     let system: Value = serde_json::from_str(&system).unwrap();
     assert_eq!((&system["format"], system["equations"].as_array().unwrap().len()), (&1.into(), 4));
-    let told = succeed(&["explain", text(folder.path())]);
+    let reported = succeed(&["explain", text(folder.path())]);
     has(
-        &told,
+        &reported,
         &["## The chains and their actuators", "has 4 complex solutions", "The user gives the value of joint 1"],
     );
     has(&refused(&["fk", text(folder.path()), "--q", "0,0,0,0"]), &["needs a chain"]);
@@ -179,9 +179,9 @@ fn mistakes_name_file_and_line_and_write_nothing() {
         let before = fs::read_to_string(&path).unwrap();
         assert!(before.contains(from), "{from}");
         fs::write(&path, before.replacen(from, to, 1)).unwrap();
-        let stood = content(folder.path());
+        let previous = content(folder.path());
         has(&refused(&["derive", text(folder.path())]), words);
-        assert_eq!(content(folder.path()), stood);
+        assert_eq!(content(folder.path()), previous);
     }
     let (folder, _) = arms();
     has(&refused(&["derive", text(folder.path()), "--task", "pose"]), &["each chain has its own"]);
@@ -202,9 +202,9 @@ fn poses_that_disagree_on_the_hip_are_refused_by_name() {
     let target = |hips: [f64; 2]| format!("{},{}", pose(&left, hips[0]), pose(&right, hips[1]));
     let agreeing = succeed(&["solve", text(&folder), "--target", &target([-0.3, -0.3])]);
     has(&agreeing, &[" solutions"]);
-    let told = succeed(&["solve", text(&folder), "--target", &target([-0.3, -0.29])]);
+    let reported = succeed(&["solve", text(&folder), "--target", &target([-0.3, -0.29])]);
     has(
-        &told,
+        &reported,
         &["no solution: the chains' targets contradict each other: chain `right` needs `HipYawPitch` at", "rad off"],
     );
 }

@@ -67,9 +67,9 @@ fn the_report_prints_the_equations_with_their_labels() {
 }
 
 #[test]
-fn the_report_tells_what_a_reader_asks() {
+fn the_report_is_complete() {
     let report = &leg().report;
-    let asked = [
+    let requested = [
         "2 complex solutions",
         "divides by pz",
         "divides by px^2 + pz^2",
@@ -80,7 +80,7 @@ fn the_report_tells_what_a_reader_asks() {
         "certificate.json",
         "Time",
     ];
-    for part in asked {
+    for part in requested {
         assert!(report.contains(part), "`{part}` is missing in\n{report}");
     }
     let origin = report.lines().find(|line| line.contains("px = 0") && line.contains("pz = 0")).unwrap();
@@ -104,7 +104,7 @@ fn equal_links_free_the_hip_at_the_origin() {
 }
 
 #[test]
-fn files_stand_beside_the_input_and_are_the_same_every_time() {
+fn files_are_next_to_the_input_and_reproducible() {
     let folder = folder_with("nao_leg_sagittal", "0_chain.toml");
     let file = folder.path().join("0_chain.toml");
     assert_eq!(succeed(&["derive", text(&file), "--quiet"]), "");

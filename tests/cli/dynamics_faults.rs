@@ -50,13 +50,16 @@ fn rotors_of_transmissions_count() {
     // A fault of a transmission is reported with its actuator, and does not affect chains.
     let right = fs::read_to_string(corpus("rotor.urdf")).unwrap();
     for (from, to, words) in [
-        ("value=\"50\"", "value=\"fifty\"", "`fifty` is no number"),
-        ("value=\"50\"", "value=\"1e200\"", "beyond doubles"),
-        ("<joint name=\"j\"/>", "<joint name=\"k\"/>", "is no joint of the robot"),
+        ("value=\"50\"", "value=\"fifty\"", "`fifty` is not a number"),
+        ("value=\"50\"", "value=\"1e200\"", "exceeds the range of doubles"),
+        ("<joint name=\"j\"/>", "<joint name=\"k\"/>", "is not a joint of the robot"),
     ] {
         let (_folder, robot) = written("r.urdf", &right.replacen(from, to, 1));
-        let told = refuse(&robot, "q0\n0\n", &[]);
-        assert!(told.contains("actuator `m`") && told.contains(words) && told.contains("line 3"), "{told}");
+        let reported = refuse(&robot, "q0\n0\n", &[]);
+        assert!(
+            reported.contains("actuator `m`") && reported.contains(words) && reported.contains("line 3"),
+            "{reported}"
+        );
         assert_eq!(run(&["fk", text(&robot), "--tip", "b", "--q", "0.5"]).code, 0);
     }
 }
@@ -72,8 +75,8 @@ fn followers_with_multiplier_zero_are_constant() {
     let rust = succeed(&["dynamics", text(&robot), "--lang", "rust"]);
     assert!(rust.contains("COORDINATES: usize = 1;") && rust.contains("fn forward"), "{rust}");
     // As polynomials: the bent arm of two rods is one body.
-    let told = succeed(&["dynamics", "--symbolic", text(&robot), "--numbers", "--tip", "b"]);
-    let inertia = told.lines().find_map(|line| line.strip_prefix("M11 = ")).unwrap();
+    let reported = succeed(&["dynamics", "--symbolic", text(&robot), "--numbers", "--tip", "b"]);
+    let inertia = reported.lines().find_map(|line| line.strip_prefix("M11 = ")).unwrap();
     let (top, bottom) = inertia.split_once('/').unwrap();
     let found = top.parse::<f64>().unwrap() / bottom.parse::<f64>().unwrap();
     assert!((found - expected[0].1).abs() < 1e-12, "{inertia}");
@@ -81,23 +84,28 @@ fn followers_with_multiplier_zero_are_constant() {
 
 /// Joints at the root are held with a note. Others are refused, because their degrees of freedom would be missing.
 #[test]
-fn planar_and_floating_joints_are_told() {
+fn planar_and_floating_joints_are_reported() {
     let planar = fs::read_to_string(corpus("planar.urdf")).unwrap();
     for kind in ["planar", "floating"] {
         let at_root = planar.replace("\"planar\"", &format!("\"{kind}\""));
         let (_folder, robot) = written("r.urdf", &at_root);
-        let (row, told) = first(&robot, "q0\n0\n", &[]);
-        assert!(told.contains(&format!("joint `p` of the type `{kind}` is held at zero")), "{told}");
+        let (row, reported) = first(&robot, "q0\n0\n", &[]);
+        assert!(reported.contains(&format!("joint `p` of the type `{kind}` is held at zero")), "{reported}");
         near(&row, &[("M0_0", 1.25)]);
         let above = "<link name=\"v\"/><joint name=\"turn\" type=\"continuous\"><parent link=\"v\"/><child link=\"w\"/></joint>";
         let (_folder, robot) =
             written("r.urdf", &at_root.replacen("<link name=\"w\"/>", &format!("<link name=\"w\"/>{above}"), 1));
-        let told = refuse(&robot, "q0,q1\n0,0\n", &[]);
-        assert!(told.contains("joint `p`") && told.contains(kind) && told.contains("several freedoms"), "{told}");
+        let reported = refuse(&robot, "q0,q1\n0,0\n", &[]);
+        assert!(
+            reported.contains("joint `p`")
+                && reported.contains(kind)
+                && reported.contains("several degrees of freedom"),
+            "{reported}"
+        );
         assert_eq!(run(&["dynamics", text(&robot), "--lang", "rust"]).code, 1);
         // Above the base the joint does not move.
-        let (row, told) = first(&robot, "q0\n0\n", &["--base", "a"]);
-        assert_eq!(told, "");
+        let (row, reported) = first(&robot, "q0\n0\n", &["--base", "a"]);
+        assert_eq!(reported, "");
         near(&row, &[("M0_0", 1.25)]);
     }
 }
@@ -105,11 +113,14 @@ fn planar_and_floating_joints_are_told() {
 #[test]
 fn bodies_without_mass_have_all_but_accelerations() {
     let robot = corpus("massless_tip.urdf");
-    let (row, told) = first(&robot, "q0,q1\n0,0\n", &[]);
+    let (row, reported) = first(&robot, "q0,q1\n0,0\n", &[]);
     near(&row, &[("M0_0", 0.35), ("M1_0", 0.0), ("M1_1", 0.0), ("tau0", -4.905), ("tau1", 0.0), ("g0", -4.905)]);
     let empty = |name: &str| row.iter().any(|(other, cell)| other == name && cell.is_empty());
     assert!(empty("qdd0") && empty("qdd1"), "{row:?}");
-    assert!(told.contains("qdd is empty in 1 of 1 rows") && told.contains("link `b` of joint `j2`"), "{told}");
+    assert!(
+        reported.contains("qdd is empty in 1 of 1 rows") && reported.contains("link `b` of joint `j2`"),
+        "{reported}"
+    );
     let (_folder, states) = written("s.csv", "q0,q1\n0,0\n");
     let json = succeed(&["dynamics", text(&robot), "--states", text(&states), "--json"]);
     let report: serde_json::Value = serde_json::from_str(&json).unwrap();
@@ -139,12 +150,12 @@ fn unit_axes_on_mounts_with_two_angles_have_polynomials() {
     let robot = corpus("two_angles.urdf");
     let folder = tempdir().unwrap();
     let out = folder.path().join("out");
-    let said = succeed(&["dynamics", "--symbolic", text(&robot), "--tip", "l2", "--numbers", "-o", text(&out)]);
-    assert!(said.contains("proved"), "{said}");
+    let printed = succeed(&["dynamics", "--symbolic", text(&robot), "--tip", "l2", "--numbers", "-o", text(&out)]);
+    assert!(printed.contains("proved"), "{printed}");
     assert_eq!(run(&["check", text(&out)]).code, 0);
     // Both axes are parallel: the second link's inertia about its own axis, 0.03 + 0.1^2, is constant.
-    let told = fs::read_to_string(out.join("7_dynamics.txt")).unwrap();
-    let entry = told.lines().find_map(|line| line.strip_prefix("M22 = ")).unwrap();
+    let reported = fs::read_to_string(out.join("7_dynamics.txt")).unwrap();
+    let entry = reported.lines().find_map(|line| line.strip_prefix("M22 = ")).unwrap();
     assert_eq!(entry, "1/25", "{entry}");
 }
 
@@ -161,16 +172,16 @@ const NINE: [f64; 9] = [
 ];
 
 #[test]
-fn a_free_root_is_asked_for_or_follows_from_the_columns() {
+fn a_free_root_is_an_option_or_follows_from_the_columns() {
     let robot = corpus("seven_followers.urdf");
     let list = |name: &str, count: usize| (0..count).map(|at| format!("{name}{at}")).collect::<Vec<_>>().join(",");
     let place = "0,0,0,0,0,0,1,0.1,0.1,0.1";
     let bare = format!("{}\n{place}\n", list("q", 10));
-    let told = refuse(&robot, &bare, &[]);
-    assert!(told.contains("10 joints, all independent, or 3 independent joints of a free root"), "{told}");
-    assert!(told.contains("give --floating, or name the joints"), "{told}");
-    let (row, told) = first(&robot, &bare, &["--floating"]);
-    assert_eq!(told, "");
+    let reported = refuse(&robot, &bare, &[]);
+    assert!(reported.contains("10 joints, all independent, or 3 independent joints of a free root"), "{reported}");
+    assert!(reported.contains("give --floating, or name the joints"), "{reported}");
+    let (row, reported) = first(&robot, &bare, &["--floating"]);
+    assert_eq!(reported, "");
     near(
         &row,
         &[("M0_0", 12.0), ("M6_6", 102.86834919573565), ("g6", -193.80935836732078), ("g8", -53.58990127150631)],
@@ -188,10 +199,10 @@ fn a_free_root_is_asked_for_or_follows_from_the_columns() {
     near(&first(&robot, &named, &[]).0, &expected);
     // Each joint is reported separately.
     let all: Vec<String> = (0..10).map(|joint| format!("q:j{joint}")).collect();
-    let (row, told) = first(&robot, &format!("{}\n{}\n", all.join(","), ["0.1"; 10].join(",")), &[]);
+    let (row, reported) = first(&robot, &format!("{}\n{}\n", all.join(","), ["0.1"; 10].join(",")), &[]);
     assert!(
-        told.contains("they are taken as independent: j3, j4") && row.iter().any(|(name, _)| name == "tau9"),
-        "{told}"
+        reported.contains("they are taken as independent: j3, j4") && row.iter().any(|(name, _)| name == "tau9"),
+        "{reported}"
     );
     assert!(refuse(&robot, "q:j0,q:j1,q:elbow\n0,0,0\n", &[]).contains("3 independent joints (j0, j1, j2)"));
 }
@@ -204,8 +215,11 @@ fn negative_damping_and_empty_tables_are_refused() {
     {
         let pushed = robot.replacen("<axis", &format!("<dynamics {name}=\"-0.01\"/><axis"), 1);
         let (_folder, pushed) = written("r.urdf", &pushed);
-        let told = refuse(&pushed, "q0\n0\n", &[]);
-        assert!(told.contains("joint `j1`") && told.contains(words) && told.contains("--as-given"), "{told}");
+        let reported = refuse(&pushed, "q0\n0\n", &[]);
+        assert!(
+            reported.contains("joint `j1`") && reported.contains(words) && reported.contains("--as-given"),
+            "{reported}"
+        );
         assert_eq!(first(&pushed, "q0\n0\n", &["--as-given"]).1, "");
         let log = corpus("hinge_of_100_kg.csv");
         assert!(refused(&["identify", text(&pushed), text(&log)]).contains("below zero"));
@@ -224,12 +238,15 @@ fn dust_in_inertias_is_rounding() {
         )
     };
     let (_folder, dusty) = written("r.urdf", &robot("2.40741e-35"));
-    let (row, told) = first(&dusty, "q0\n0\n", &[]);
+    let (row, reported) = first(&dusty, "q0\n0\n", &[]);
     near(&row, &[("M0_0", 0.0133687)]);
-    assert!(told.contains("link `head`") && told.contains("taken for rounding"), "{told}");
+    assert!(reported.contains("link `head`") && reported.contains("treated as a rounding error"), "{reported}");
     let (_folder, wrong) = written("r.urdf", &robot("2e-5"));
-    let told = refuse(&wrong, "q0\n0\n", &[]);
-    assert!(told.contains("no body has it") && told.contains("`--as-given` takes the numbers unchanged"), "{told}");
+    let reported = refuse(&wrong, "q0\n0\n", &[]);
+    assert!(
+        reported.contains("physically impossible") && reported.contains("`--as-given` takes the numbers unchanged"),
+        "{reported}"
+    );
     near(&first(&wrong, "q0\n0\n", &["--as-given"]).0, &[("M0_0", 0.0133687)]);
 }
 
@@ -242,12 +259,12 @@ fn long_polynomials_are_read_back() {
     let (arm, out) = (corpus("hinge.urdf"), folder.path().join("out"));
     assert_eq!(run(&["dynamics", "--symbolic", text(&arm), "--tip", "l1", "--numbers", "-o", text(&out)]).code, 0);
     let file = out.join("7_dynamics.txt");
-    let told = fs::read_to_string(&file).unwrap();
+    let reported = fs::read_to_string(&file).unwrap();
     // The same polynomial as a long sum: an added term is subtracted again.
     let long = sum(40_000);
     assert!(long.len() > 400_000);
-    let entry = told.lines().find(|line| line.starts_with("N1 = ")).unwrap();
-    fs::write(&file, told.replacen(entry, &format!("{entry} + ({long}) - ({long})"), 1)).unwrap();
+    let entry = reported.lines().find(|line| line.starts_with("N1 = ")).unwrap();
+    fs::write(&file, reported.replacen(entry, &format!("{entry} + ({long}) - ({long})"), 1)).unwrap();
     let ran = run(&["check", text(&out)]);
     assert!(!ran.err.contains("bytes long"), "{}", ran.err);
 }

@@ -28,7 +28,7 @@ fn an_input_file_is_derived_first() {
 }
 
 #[test]
-fn a_damaged_proof_is_not_told() {
+fn a_damaged_proof_is_not_reported() {
     let folder = tempdir().unwrap();
     let leg = root("derivations/nao_leg_sagittal");
     fs::copy(leg.join("0_chain.toml"), folder.path().join("0_chain.toml")).unwrap();

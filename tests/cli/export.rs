@@ -19,8 +19,11 @@ fn a_robot_is_exported_and_walks_from_its_file() {
     let soles = ["--left", "l_sole", "--right", "r_sole"];
     let walk =
         |extra: &[&str]| succeed(&[&["walk", text(&urdf)][..], &soles, &["--goal", "0.2,0.05,20"], extra].concat());
-    let told = walk(&["-o", text(&csv)]);
-    assert!(told.contains("by one step goal") && told.contains("path            0.206 m, turn 20.0 deg"), "{told}");
+    let reported = walk(&["-o", text(&csv)]);
+    assert!(
+        reported.contains("by one step goal") && reported.contains("path            0.206 m, turn 20.0 deg"),
+        "{reported}"
+    );
     let walk_of = groebot::motion::Trajectory::read_csv(&csv).unwrap();
     assert!(walk_of.joints.iter().any(|joint| joint.name == "LKneePitch") && walk_of.times.len() > 100);
     assert!(walk(&["--gait", "preview"]).contains("by preview control"));
@@ -46,7 +49,7 @@ fn a_robot_is_exported_and_walks_from_its_file() {
     let facets: String = [[0, 1, 2], [1, 2, 3], [4, 5, 6], [5, 6, 7], [0, 4, 1], [2, 6, 3]].map(facet).concat();
     fs::write(folder.path().join("sole.stl"), format!("solid s\n{facets}endsolid s\n")).unwrap();
     fs::write(&urdf, described.replace(box_of, "<mesh filename=\"sole.stl\"/>")).unwrap();
-    assert_eq!(walk(&[]), told);
+    assert_eq!(walk(&[]), reported);
 
     // A folder with the description as `0_robot.urdf` and its meshes.
     let inside = folder.path().join("described");
@@ -54,7 +57,7 @@ fn a_robot_is_exported_and_walks_from_its_file() {
     fs::copy(&urdf, inside.join("0_robot.urdf")).unwrap();
     fs::copy(folder.path().join("sole.stl"), inside.join("sole.stl")).unwrap();
     let from_folder = succeed(&[&["walk", text(&inside)][..], &soles, &["--goal", "0.2,0.05,20"]].concat());
-    assert_eq!(from_folder, told);
+    assert_eq!(from_folder, reported);
 }
 
 #[test]
@@ -70,16 +73,16 @@ fn what_cannot_be_walked_or_exported_is_refused() {
     assert!(walk("l_sole", "l_sole").contains("moves both feet"));
     assert!(walk("RootWaist", "r_sole").contains("there are 0 joints between the root and `RootWaist`"));
     fs::write(&urdf, described.replace("<box size=\"0.24 0.14 0.01\"/>", "<mesh filename=\"nowhere.stl\"/>")).unwrap();
-    let told = walk("l_sole", "r_sole");
-    assert!(told.contains("nowhere.stl") && told.contains("--outline"), "{told}");
+    let reported = walk("l_sole", "r_sole");
+    assert!(reported.contains("nowhere.stl") && reported.contains("--outline"), "{reported}");
     let outline = |numbers: &str| {
         ["walk", text(&urdf), "--left", "l_sole", "--right", "r_sole", "--steps", "2", "--outline", numbers]
             .map(str::to_owned)
     };
     // The sole's plane is at its link, and 2 cm above it: the robot's base is then 2 cm lower.
     let height = |numbers: &str| {
-        let told = succeed(&outline(numbers).each_ref().map(String::as_str));
-        let at = told.split("torso ").nth(1).unwrap().split(' ').next().unwrap();
+        let reported = succeed(&outline(numbers).each_ref().map(String::as_str));
+        let at = reported.split("torso ").nth(1).unwrap().split(' ').next().unwrap();
         at.parse::<f64>().unwrap()
     };
     let lower = height("-0.12,0.12,-0.07,0.07") - height("-0.12,0.12,-0.07,0.07,0.02");
@@ -137,7 +140,7 @@ fn what_is_no_scene_is_refused() {
         fs::write(&file, content).unwrap();
         file.to_str().unwrap().to_owned()
     };
-    let says = |arguments: &[&str], words: &str| {
+    let check_message = |arguments: &[&str], words: &str| {
         let error = refused(&[&["export"], arguments, &["-o", text(&out)]].concat());
         assert!(error.contains(words) && !out.exists(), "{error}");
     };
@@ -145,19 +148,25 @@ fn what_is_no_scene_is_refused() {
     let motion = at("motion.csv", &format!("{head}time [s],q:lift [m]\n0,0.1\n1,0.2\n"));
     let telescope = root(TELESCOPE);
     let telescope = text(&telescope);
-    says(&[&motion, "--to", "glb"], "motion.csv: its robot `somebody` is not a robot of groebot");
-    says(&[&motion, "--robot", "nao", "--to", "x3d"], "no joint `lift`");
-    says(&[&motion, "--robot", "c3po", "--to", "x3d"], "`c3po` is neither a file nor a robot of groebot");
-    says(&[&motion, "--to", "mjcf"], "motion.csv: urdf and mjcf describe a robot, not a motion or a scene");
-    says(&[text(&root(FIGURE)), "--to", "urdf"], "urdf and mjcf describe a robot");
-    says(&[telescope, "--robot", "nao", "--to", "glb"], "--robot names the robot that moves, but this is not a motion");
-    says(&[telescope, "--meshes", "--to", "urdf"], "leave them out for urdf and mjcf");
-    says(
+    check_message(&[&motion, "--to", "glb"], "motion.csv: its robot `somebody` is not a robot of groebot");
+    check_message(&[&motion, "--robot", "nao", "--to", "x3d"], "no joint `lift`");
+    check_message(&[&motion, "--robot", "c3po", "--to", "x3d"], "`c3po` is neither a file nor a robot of groebot");
+    check_message(&[&motion, "--to", "mjcf"], "motion.csv: urdf and mjcf describe a robot, not a motion or a scene");
+    check_message(&[text(&root(FIGURE)), "--to", "urdf"], "urdf and mjcf describe a robot");
+    check_message(
+        &[telescope, "--robot", "nao", "--to", "glb"],
+        "--robot names the robot that moves, but this is not a motion",
+    );
+    check_message(&[telescope, "--meshes", "--to", "urdf"], "leave them out for urdf and mjcf");
+    check_message(
         &[&at("a.wrl", "#VRML V2.0 utf8\nSphere { }\n"), "--to", "glb"],
         "a.wrl: line 2: `Sphere` is not supported here",
     );
     let not = format!("{head}time [s],q:lift [m]\n0,0.1\n1,NaN\n");
-    says(&[&at("b.csv", &not), "--robot", telescope, "--to", "wrl"], "b.csv: line 5: `NaN` is no finite number");
+    check_message(
+        &[&at("b.csv", &not), "--robot", telescope, "--to", "wrl"],
+        "b.csv: line 5: `NaN` is not a finite number",
+    );
     let error = refused(&["export", &motion, "--robot", telescope, "--to", "glb"]);
     assert!(error.contains("give its file by -o"), "{error}");
     // Parts of meshes that are not read are reported, and the rest is written.
@@ -179,15 +188,15 @@ fn a_damaged_mesh_is_named() {
         let mesh = "<visual><geometry><mesh filename='part.stl'/></geometry></visual>";
         fs::write(&urdf, format!("<robot name='r'><link name='a'>{mesh}{shape}</link></robot>")).unwrap();
     };
-    let says = |told: &str| assert!(told.contains("part.stl: line 3: this is no STL"), "{told}");
+    let check_message = |reported: &str| assert!(reported.contains("part.stl: line 3: this is no STL"), "{reported}");
     robot("");
-    says(&refused(&["export", text(&urdf), "--meshes", "--to", "glb", "-o", text(&out)]));
-    says(&refused(&["view", text(&urdf), "--meshes", "-o", text(&out)]));
+    check_message(&refused(&["export", text(&urdf), "--meshes", "--to", "glb", "-o", text(&out)]));
+    check_message(&refused(&["view", text(&urdf), "--meshes", "-o", text(&out)]));
     robot("<collision><geometry><box size='1 1 1'/></geometry></collision>");
     for options in [&["--meshes", "--to", "glb"][..], &["--to", "mjcf"]] {
         let ran = run(&[&["export", text(&urdf), "-o", text(&out), "--force"], options].concat());
         assert_eq!(ran.code, 0, "{}", ran.err);
-        says(&ran.err);
+        check_message(&ran.err);
     }
     assert!(!fs::read_to_string(&out).unwrap().contains("part.stl"), "MuJoCo would refuse the whole model");
 }

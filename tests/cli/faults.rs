@@ -16,7 +16,7 @@ const ROBOT: &str = "<robot name=\"arm\"><xacro:property name=\"width\" value=\"
     <joint name=\"pan\" type=\"revolute\"><parent link=\"base\"/><child link=\"cam\"/><axis xyz=\"0 0 1\"/><limit lower=\"2\" upper=\"-2\"/></joint>\n\
     </robot>\n";
 const FAULT: &str = "line 6: joint `pan`: the limits 2..-2 are inverted";
-const XACRO: &str = "line 1: definitions of xacro that nothing uses are ignored: `width`";
+const XACRO: &str = "line 1: unused definitions of xacro are ignored: `width`";
 
 fn robot() -> (TempDir, String) {
     robot_of(ROBOT)
@@ -36,15 +36,16 @@ fn notes(page: &str) -> Vec<String> {
 }
 
 #[test]
-fn derive_tells_them_in_its_report_and_in_json() {
+fn derive_reports_them_as_text_and_json() {
     let (folder, file) = robot();
     let out = folder.path().join("out");
-    let asked = ["derive", &file, "--tip", "tip", "--task", "planar_position", "--plane", "xy", "--out", text(&out)];
-    let ran = run(&asked);
+    let requested =
+        ["derive", &file, "--tip", "tip", "--task", "planar_position", "--plane", "xy", "--out", text(&out)];
+    let ran = run(&requested);
     let words = ran.out.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(ran.code == 0 && words.contains(FAULT) && words.contains(XACRO), "{}{}", ran.out, ran.err);
-    let told = notes(&run(&[&asked[..], &["--json"]].concat()).out);
-    assert!(told.len() == 2 && told[0] == XACRO && told[1].contains(FAULT), "{told:?}");
+    let reported = notes(&run(&[&requested[..], &["--json"]].concat()).out);
+    assert!(reported.len() == 2 && reported[0] == XACRO && reported[1].contains(FAULT), "{reported:?}");
     // The folder is an ordinary derivation. Links of 0.3 m reach (0.3, 0.3) with a right angle at the elbow.
     let solved = run(&["solve", text(&out), "--target", "0.3,0.3", "--json"]);
     let solved: Value = serde_json::from_str(&solved.out).unwrap();
@@ -57,24 +58,27 @@ fn derive_tells_them_in_its_report_and_in_json() {
         "{elbows:?}"
     );
     let checked = run(&["check", text(&out), "--json"]);
-    assert_eq!((checked.code, notes(&checked.out)), (0, told));
+    assert_eq!((checked.code, notes(&checked.out)), (0, reported));
     let checked = run(&["check", text(&out)]);
     assert!(checked.code == 0 && checked.err.contains(FAULT), "{}", checked.err);
 }
 
 #[test]
-fn commands_on_a_chain_tell_them() {
+fn commands_on_a_chain_report_them() {
     let (_folder, file) = robot();
-    let told = notes(&run(&["info", &file, "--tip", "tip", "--json"]).out);
-    assert!(told.len() == 2 && told[1].contains(FAULT), "{told:?}");
+    let reported = notes(&run(&["info", &file, "--tip", "tip", "--json"]).out);
+    assert!(reported.len() == 2 && reported[1].contains(FAULT), "{reported:?}");
     let task = ["--tip", "tip", "--task", "planar_position", "--plane", "xy"];
     let ik = [&["ik", &file, "--target", "0.3,0.3"], &task[..]].concat();
     let fk = ["fk", &file, "--tip", "tip", "--q", "0,0"];
     let plan = [&["plan", &file], &task[..]].concat();
     for arguments in [&ik[..], &fk, &plan] {
         let ran = run(&[arguments, &["--json"]].concat());
-        let told = notes(&ran.out);
-        assert!(told.len() == 2 && told[0] == XACRO && told[1].contains(FAULT), "{arguments:?}: {told:?}");
+        let reported = notes(&ran.out);
+        assert!(
+            reported.len() == 2 && reported[0] == XACRO && reported[1].contains(FAULT),
+            "{arguments:?}: {reported:?}"
+        );
         assert_eq!(ran.err, "", "{arguments:?}");
     }
     let explain = [&["explain", &file], &task[..]].concat();
@@ -120,7 +124,7 @@ fn sound() -> String {
 }
 
 #[test]
-fn commands_on_the_whole_robot_tell_what_was_ignored() {
+fn commands_on_the_whole_robot_report_what_was_ignored() {
     let (folder, file) = robot_of(&sound());
     let table = |name: &str, text: &str| {
         let path = folder.path().join(name);

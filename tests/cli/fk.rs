@@ -86,7 +86,7 @@ fn text_shows_units_and_limits() {
 }
 
 #[test]
-fn csv_says_what_json_says_and_reads_its_own_output() {
+fn csv_reports_what_json_reports_and_reads_its_own_output() {
     let ran = run_on(&["fk", &leg()], b"0,0\n 0.3, 0.6\n\n");
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
     let rows: Vec<Vec<&str>> = ran.out.lines().map(|line| line.split(',').collect()).collect();
@@ -106,7 +106,7 @@ fn csv_says_what_json_says_and_reads_its_own_output() {
 }
 
 #[test]
-fn mistakes_are_told_in_one_line() {
+fn mistakes_are_reported_in_one_line() {
     let nao = file("nao.urdf");
     for (arguments, words) in [
         (vec!["--q", "1"], vec!["1 joint values", "2 joints"]),
@@ -120,7 +120,7 @@ fn mistakes_are_told_in_one_line() {
     for (arguments, words) in [
         (vec!["--q", "0"], "choose a tip link, such as `Head`"),
         (vec!["--q", "0", "--tip", "l_sol"], "did you mean `l_sole`?"),
-        (vec!["--q", "0", "--tip", "torso"], "nothing moves between `base_link` and `torso`"),
+        (vec!["--q", "0", "--tip", "torso"], "no joint moves between `base_link` and `torso`"),
     ] {
         let error = refused(&[&["fk", nao.as_str()], arguments.as_slice()].concat());
         assert!(error.contains(words) && error.contains("nao.urdf"), "{error}");

@@ -29,9 +29,9 @@ fn an_arm_follows_poses() {
     let [input, csv, json] = ["poses.csv", "path.csv", "path.json"].map(|name| folder.path().join(name));
     for (with_time, step) in [(true, 0.1), (false, 1.0)] {
         fs::write(&input, poses(with_time)).unwrap();
-        let told =
+        let reported =
             succeed(&["follow", "derivations/ur5", "--poses", text(&input), "-o", text(&csv), "--json", text(&json)]);
-        assert_eq!(told, "ur5: 20 poses, without a jump\n");
+        assert_eq!(reported, "ur5: 20 poses, without a jump\n");
         let path = Trajectory::read_csv(&csv).unwrap();
         assert!((path.times[19] - 19.0 * step).abs() < 1e-9);
         assert!(path.q.windows(2).all(|pair| (pair[1][0] - pair[0][0] - 0.08).abs() < 1e-8));
@@ -41,15 +41,15 @@ fn an_arm_follows_poses() {
 }
 
 #[test]
-fn a_jump_is_told_or_refused() {
+fn a_jump_is_reported_or_refused() {
     let folder = tempdir().unwrap();
     let [input, out] = ["poses.csv", "path.csv"].map(|name| folder.path().join(name));
     let mut rows: Vec<String> = poses(false).lines().map(str::to_owned).collect();
     rows.drain(3..17);
     fs::write(&input, rows.join("\n")).unwrap();
     let all = ["follow", "derivations/ur5", "--poses", text(&input), "-o", text(&out)];
-    let told = succeed(&all);
-    assert!(told.starts_with("ur5: 6 poses, one jump\n  pose 3: "), "{told}");
+    let reported = succeed(&all);
+    assert!(reported.starts_with("ur5: 6 poses, one jump\n  pose 3: "), "{reported}");
     fs::remove_file(&out).unwrap();
     assert!(refused(&[&all[..], &["--strict"]].concat()).contains("must jump at pose 3"));
     assert!(!out.exists());
@@ -61,8 +61,8 @@ fn a_jump_is_told_or_refused() {
         ("", "there is no pose"),
     ] {
         fs::write(&input, text_of).unwrap();
-        let told = refused(&all);
-        assert!(told.contains(words) && told.contains(text(&input)), "{told}");
+        let reported = refused(&all);
+        assert!(reported.contains(words) && reported.contains(text(&input)), "{reported}");
     }
     assert!(refused(&["follow", "derivations/ur5", "--poses", "/nowhere.csv"]).contains("/nowhere.csv"));
 }

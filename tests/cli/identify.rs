@@ -17,8 +17,8 @@ fn a_heavy_hinge_is_a_body() {
     let ran = run(&["identify", &corpus("hinge.urdf"), &corpus("hinge_of_100_kg.csv"), "-o", text(&table)]);
     assert_eq!((ran.code, ran.err.as_str()), (0, ""), "{}", ran.out);
     assert!(ran.out.contains("physically possible within the noise") && !ran.out.contains("bad data"), "{}", ran.out);
-    let told = fs::read_to_string(&table).unwrap();
-    assert!(told.starts_with("name,value,confidence_95,described,of_bodies\n\"l1.mx\",0.25,"), "{told}");
+    let reported = fs::read_to_string(&table).unwrap();
+    assert!(reported.starts_with("name,value,confidence_95,described,of_bodies\n\"l1.mx\",0.25,"), "{reported}");
 }
 
 /// Three torques for three parameters: the noise cannot be estimated.
@@ -38,8 +38,8 @@ fn without_a_degree_of_freedom_there_is_no_interval() {
 #[test]
 fn a_cell_out_of_range_is_refused_with_its_line_and_column() {
     let robot = root("tests/corpus/dynamics/rrp.urdf");
-    let told = refused(&["identify", text(&robot), &corpus("rrp_out_of_range.csv")]);
-    assert!(told.contains("line 5: column `v0`: `1e160` is too large"), "{told}");
+    let reported = refused(&["identify", text(&robot), &corpus("rrp_out_of_range.csv")]);
+    assert!(reported.contains("line 5: column `v0`: `1e160` is too large"), "{reported}");
 }
 
 /// A hinge with torques of the opposite sign, and one with torques in mN m; columns by joint name.

@@ -48,7 +48,7 @@ fn a_quaternion_and_angles_say_the_same() {
 }
 
 #[test]
-fn joint_values_are_among_the_answers_and_limits_are_told() {
+fn joint_values_are_among_the_answers_and_limits_are_reported() {
     let page = succeed(&["ik", "nao_left_leg", "--q", "5,10,-20,30,-10,5", "--degrees"]);
     let row = page
         .lines()
@@ -58,7 +58,7 @@ fn joint_values_are_among_the_answers_and_limits_are_told() {
 }
 
 #[test]
-fn a_target_out_of_reach_is_told() {
+fn a_target_out_of_reach_is_reported() {
     assert_eq!(succeed(&["ik", "puma", "--target", "9,9,9,0,0,0"]), "puma at 9,9,9,0,0,0: out of reach: no solution\n");
     assert!(solutions(&["polar", "--target", "0.2,0.9,0.3"]).len() == 4);
 }
@@ -66,7 +66,7 @@ fn a_target_out_of_reach_is_told() {
 #[test]
 fn bad_targets_are_refused() {
     assert!(refused(&["ik", "puma"]).contains("no target"));
-    assert!(refused(&["ik", "puma", "--target", "1,2,3,1,0,0,0,1,0,0,0,-1"]).contains("no rotation matrix"));
+    assert!(refused(&["ik", "puma", "--target", "1,2,3,1,0,0,0,1,0,0,0,-1"]).contains("not a rotation matrix"));
     assert!(refused(&["ik", "puma", "--target", "1,2"]).contains("2 numbers are given; a pose has 6 numbers"));
     assert!(refused(&["ik", "puma", "--target", "1,2,x,0,0,0"]).contains("finite numbers separated by commas"));
     assert!(refused(&["ik", "puma", "--target", "1,2,nan,0,0,0"]).contains("finite numbers"));
@@ -150,8 +150,8 @@ fn a_hollow_wrist_whose_axes_do_not_meet_is_searched() {
 #[test]
 fn answers_are_turned_into_limits() {
     let robot = urdf("limits_of_a_turn.urdf");
-    let asked = ["--q", "5.0,0.3,0.4,4.0,0.7,-5.0"];
-    let found = solutions(&[&[robot.as_str()], &asked[..]].concat());
+    let requested = ["--q", "5.0,0.3,0.4,4.0,0.7,-5.0"];
+    let found = solutions(&[&[robot.as_str()], &requested[..]].concat());
     assert_eq!(found.len(), 8);
     for answer in &found {
         let q = numbers(&answer["q"]);
@@ -167,7 +167,7 @@ fn answers_are_turned_into_limits() {
     for (one, other) in found.iter().zip(&turned) {
         assert!(numbers(&one["q"]).iter().zip(numbers(&other["q"])).all(|(a, b)| (a - b).abs() < 1e-9));
     }
-    let page = succeed(&[&["ik", &robot], &asked[..]].concat());
+    let page = succeed(&[&["ik", &robot], &requested[..]].concat());
     assert!(page.contains("286.478898") && !page.contains("j1 outside"), "{page}");
     assert!(page.starts_with("tip link `l6`: the only leaf link"), "{page}");
 }
@@ -178,7 +178,7 @@ fn answers_are_turned_into_limits() {
 fn a_joint_too_many_is_given_as_the_planner_chooses() {
     let robot = urdf("arm_on_a_rail.urdf");
     let values = [0.4, 0.3, -0.5, 0.6, 0.2, 0.7, -0.4];
-    let (asked, json) = (joined(&values), |more: &[&str]| -> Value {
+    let (requested, json) = (joined(&values), |more: &[&str]| -> Value {
         serde_json::from_str(&succeed(&[&["ik", &robot, "--json", "--q", &joined(&values)], more].concat())).unwrap()
     });
     let (chosen, named) = (json(&[]), json(&["--given", "j2"]));
@@ -190,15 +190,15 @@ fn a_joint_too_many_is_given_as_the_planner_chooses() {
         assert!(found.iter().all(|q| (q[1] - 0.3).abs() < 1e-15), "j2 is given: {answer}");
     }
     assert_eq!((&chosen["given"]["joints"], &named["given"]), (&Value::from(vec!["j2"]), &Value::Null));
-    let page = succeed(&["ik", &robot, "--given", "auto", "--q", &asked]);
+    let page = succeed(&["ik", &robot, "--given", "auto", "--q", &requested]);
     assert!(page.contains("Given with each target: the value of `j2`. The planner chose; `--given JOINT`"), "{page}");
 }
 
 #[test]
 fn without_an_order_derive_is_named_first() {
-    let told = refused(&["ik", &urdf("slide_and_five_axes.urdf"), "--q", "0.1,0.2,0.3,0.4,0.5,0.6"]);
-    let place = |words: &str| told.find(words).unwrap_or_else(|| panic!("{words}: {told}"));
-    assert!(place("`groebot derive`") < place("`groebot ik --numeric`"), "{told}");
+    let reported = refused(&["ik", &urdf("slide_and_five_axes.urdf"), "--q", "0.1,0.2,0.3,0.4,0.5,0.6"]);
+    let place = |words: &str| reported.find(words).unwrap_or_else(|| panic!("{words}: {reported}"));
+    assert!(place("`groebot derive`") < place("`groebot ik --numeric`"), "{reported}");
 }
 
 #[test]
@@ -211,8 +211,8 @@ fn a_base_at_survey_distance_is_named() {
         [&["ik", &robot, "--q", "0,0,0,0,0,0"], &ends[..]].concat(),
         [&["plan", &robot], &ends[..]].concat(),
     ] {
-        let told = refused(&command);
-        assert!(told.contains("choose a base link nearer to the arm, `b` (`--base`)"), "{told}");
+        let reported = refused(&command);
+        assert!(reported.contains("choose a base link nearer to the arm, `b` (`--base`)"), "{reported}");
     }
     assert!(succeed(&[&["info", &robot], &ends[..]].concat()).contains("choose a base link nearer to the arm, `b`"));
     assert_eq!(solutions(&[&robot, "--base", "b", "--q", "0.1,0.2,0.3,0.4,0.5,0.6"]).len(), 8);
@@ -228,8 +228,8 @@ fn a_table_of_the_other_convention_is_suspected() {
         std::fs::write(&file, table.replace(&format!("\"{own}\""), &format!("\"{other}\""))).unwrap();
         let advice = format!("try `convention = \"{own}\"`");
         for command in ["derive", "plan"] {
-            let told = refused(&[command, text(&file)]);
-            assert!(told.contains(&advice), "{told}");
+            let reported = refused(&[command, text(&file)]);
+            assert!(reported.contains(&advice), "{reported}");
         }
         assert!(succeed(&["info", text(&file)]).contains(&advice));
         assert!(!succeed(&["info", &urdf(&format!("ur5_{own}.toml"))]).contains("convention ="));

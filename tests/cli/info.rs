@@ -47,7 +47,7 @@ fn a_chain_shows_joints_limits_and_geometry() {
         &page,
         &[
             "3-5  RHipPitch, RKneePitch, RAnklePitch  parallel axes",
-            "RHipYawPitch: in the robot it follows LHipYawPitch, outside this chain; here it moves freely",
+            "RHipYawPitch: in the robot it follows LHipYawPitch, outside this chain; here it is independent",
         ],
     );
     let across = succeed(&["info", &file("nao.urdf"), "--base", "l_hand", "--tip", "r_hand"]);
@@ -55,12 +55,12 @@ fn a_chain_shows_joints_limits_and_geometry() {
 }
 
 #[test]
-fn a_single_chain_needs_no_tip_and_rounded_angles_are_told() {
+fn a_single_chain_needs_no_tip_and_rounded_angles_are_reported() {
     let page = succeed(&["info", &file("ur5.urdf")]);
     has(
         &page,
         &[
-            "shoulder_lift: roll 1.5708 rad is taken as 90 deg where solvers are derived",
+            "shoulder_lift: roll 1.5708 rad is interpreted as 90 deg when a solver is derived",
             "2-4  shoulder_lift, elbow, wrist_1",
         ],
     );

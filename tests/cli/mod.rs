@@ -1,6 +1,5 @@
 //! Tests of the program `groebot`, run as by a user or a script.
 
-mod asked;
 mod basis;
 mod browser;
 mod budgets;
@@ -30,6 +29,7 @@ mod shown;
 mod simulate;
 mod solve;
 mod task;
+mod task_options;
 mod thin;
 mod track;
 mod view;

@@ -12,16 +12,16 @@ const ROOM: &str =
     "size = [3.0, 2.0]\nwall = 0.05\n[[furniture]]\nname = \"wall\"\nbox = [0.1, 1.2]\nat = [1.5, 0.6]\n";
 
 #[test]
-fn ways_are_told_as_text_json_and_csv() {
+fn paths_are_reported_as_text_json_and_csv() {
     let folder = tempdir().unwrap();
     let [room, out] = ["room.toml", "way.csv"].map(|name| folder.path().join(name));
     fs::write(&room, ROOM).unwrap();
-    let asked = ["path", text(&room), "--start", "0.5,0.5", "--goal", "2.5,0.5"];
-    let with = |more: &[&'static str]| [&asked[..], more].concat();
-    let told = succeed(&[&asked[..], &["-o", text(&out)]].concat());
+    let requested = ["path", text(&room), "--start", "0.5,0.5", "--goal", "2.5,0.5"];
+    let with = |more: &[&'static str]| [&requested[..], more].concat();
+    let reported = succeed(&[&requested[..], &["-o", text(&out)]].concat());
     // The path over both upper corners of the wall, at (1.45, 1.2) and (1.55, 1.2).
     let length = 2.0 * 0.95f64.hypot(0.7) + 0.1;
-    assert!(told.contains(&format!("path of {length:.4} m, proved to be the shortest, 4 points")), "{told}");
+    assert!(reported.contains(&format!("path of {length:.4} m, proved to be the shortest, 4 points")), "{reported}");
     assert_eq!(fs::read_to_string(&out).unwrap().lines().count(), 5);
     let json = |more: &[&'static str]| -> Value { serde_json::from_str(&succeed(&with(more))).unwrap() };
     let exact = json(&["--json"]);
@@ -45,41 +45,42 @@ fn ways_are_told_as_text_json_and_csv() {
 }
 
 #[test]
-fn the_quickest_way_is_told_where_speeds_differ() {
+fn the_quickest_path_is_reported_where_speeds_differ() {
     let folder = tempdir().unwrap();
     let room = folder.path().join("room.toml");
     fs::write(&room, "size = [2, 2]\n[[slow]]\nname = \"mud\"\nbox = [2, 1]\nat = [1, 0.5]\nspeed = 0.5\n").unwrap();
-    let told = succeed(&["path", text(&room), "--start", "0.5,0.2", "--goal", "1.5,1.8", "--json"]);
-    let told: Value = serde_json::from_str(&told).unwrap();
+    let reported = succeed(&["path", text(&room), "--start", "0.5,0.2", "--goal", "1.5,1.8", "--json"]);
+    let reported: Value = serde_json::from_str(&reported).unwrap();
     // Snell's law: the minimum over the crossing point of the times of both segments.
     let time = |x: f64| 2.0 * (x - 0.5).hypot(0.8) + (1.5 - x).hypot(0.8);
     let least = (0..=100_000).map(|x| time(0.5 + 1e-5 * f64::from(x))).fold(f64::INFINITY, f64::min);
-    assert!((told["seconds"].as_f64().unwrap() / least - 1.0).abs() < 1e-4, "{told} {least}");
-    assert!(told["bound"].as_f64().unwrap() <= least);
+    assert!((reported["seconds"].as_f64().unwrap() / least - 1.0).abs() < 1e-4, "{reported} {least}");
+    assert!(reported["bound"].as_f64().unwrap() <= least);
 }
 
 #[test]
-fn where_there_is_no_way_the_exit_status_is_four() {
+fn where_there_is_no_path_the_exit_status_is_four() {
     let folder = tempdir().unwrap();
     let room = folder.path().join("room.txt");
     fs::write(&room, "#######\n#..#..#\n#..#..#\n#######\n").unwrap();
     for method in ["exact", "fmm", "m3r", "octile"] {
-        let asked = ["path", text(&room), "--start", "0.1,0.1", "--goal", "0.28,0.1", "--json", "--method", method];
-        let output = run(&asked);
+        let requested = ["path", text(&room), "--start", "0.1,0.1", "--goal", "0.28,0.1", "--json", "--method", method];
+        let output = run(&requested);
         assert_eq!(output.code, 4, "{}", output.err);
-        let told: Value = serde_json::from_str(&output.out).unwrap();
-        assert!(told["points"].is_null() && told["enclosure"].as_array().unwrap().len() == 4, "{told}");
+        let reported: Value = serde_json::from_str(&output.out).unwrap();
+        assert!(reported["points"].is_null() && reported["enclosure"].as_array().unwrap().len() == 4, "{reported}");
     }
-    let asked = ["navigate", "rh0", "--map", text(&room), "--start", "1,1", "--goal", "3.5,1", "--resolution", "0.6"];
+    let requested =
+        ["navigate", "rh0", "--map", text(&room), "--start", "1,1", "--goal", "3.5,1", "--resolution", "0.6"];
     let plot = folder.path().join("plan.svg");
-    let output = run(&[&asked[..], &["--json", "--plot", text(&plot)]].concat());
+    let output = run(&[&requested[..], &["--json", "--plot", text(&plot)]].concat());
     assert_eq!(output.code, 4, "{}", output.err);
     assert!(output.err.contains("there is no path: "), "{}", output.err);
     // The two cells on that side with space for a body, or one of them and its part that is nearer to the walls.
-    let told: Value = serde_json::from_str(&output.out).unwrap();
-    let cells = told["enclosure"].as_array().unwrap();
-    assert!(told["points"].is_null() && !cells.is_empty() && cells.len() <= 4, "{told}");
-    assert!(cells.iter().all(|at| at[0].as_f64().unwrap() < 1.8 || at[0].as_f64().unwrap() > 2.4), "{told}");
+    let reported: Value = serde_json::from_str(&output.out).unwrap();
+    let cells = reported["enclosure"].as_array().unwrap();
+    assert!(reported["points"].is_null() && !cells.is_empty() && cells.len() <= 4, "{reported}");
+    assert!(cells.iter().all(|at| at[0].as_f64().unwrap() < 1.8 || at[0].as_f64().unwrap() > 2.4), "{reported}");
     let drawn = fs::read_to_string(&plot).unwrap();
     assert!(drawn.contains("no path from (1.00, 1.00) to (3.50, 1.00)") && drawn.contains("class=\"closed\""));
 }
@@ -90,10 +91,10 @@ fn a_humanoid_walks_over_a_map() {
     let [room, csv, svg] = ["room.toml", "walk.csv", "plan.svg"].map(|name| folder.path().join(name));
     fs::write(&room, ROOM).unwrap();
     let goal = ["--start", "0.5,0.5,90", "--goal", "0.9,1.3,0"];
-    let asked = [&["navigate", "rh0", "--map", text(&room)][..], &goal, &["-o", text(&csv), "--plot", text(&svg)]];
-    let told = succeed(&asked.concat());
+    let requested = [&["navigate", "rh0", "--map", text(&room)][..], &goal, &["-o", text(&csv), "--plot", text(&svg)]];
+    let reported = succeed(&requested.concat());
     for word in ["rh0: ", "least margin", "course", "steps refused", "planned in"] {
-        assert!(told.contains(word), "{word}: {told}");
+        assert!(reported.contains(word), "{word}: {reported}");
     }
     let walk = Trajectory::read_csv(&csv).unwrap();
     let last = |name: &str| {
@@ -103,15 +104,18 @@ fn a_humanoid_walks_over_a_map() {
     let middle = (last("left") + last("right")) / 2.0;
     assert!((middle.x - 0.9).abs() < 2e-3 && (middle.y - 1.3).abs() < 2e-3, "{middle}");
     assert!(fs::read_to_string(&svg).unwrap().contains("too near for the body"));
-    let told: Value = serde_json::from_str(&succeed(&[&asked.concat()[..], &["--json"]].concat())).unwrap();
-    assert_eq!((&told["robot"], &told["method"], &told["wide"]), (&"rh0".into(), &"exact".into(), &true.into()));
-    let steps = told["steps"].as_array().unwrap();
+    let reported: Value = serde_json::from_str(&succeed(&[&requested.concat()[..], &["--json"]].concat())).unwrap();
+    assert_eq!(
+        (&reported["robot"], &reported["method"], &reported["wide"]),
+        (&"rh0".into(), &"exact".into(), &true.into())
+    );
+    let steps = reported["steps"].as_array().unwrap();
     let end = |foot: &str| steps.iter().rfind(|step| step["foot"] == foot).unwrap();
     let middle = (end("left")["x"].as_f64().unwrap() + end("right")["x"].as_f64().unwrap()) / 2.0;
-    assert!((middle - 0.9).abs() < 2e-3 && told["margin"].as_f64().unwrap() > 0.0);
-    assert!((told["length"].as_f64().unwrap() - 0.4f64.hypot(0.8)).abs() < 1e-9);
+    assert!((middle - 0.9).abs() < 2e-3 && reported["margin"].as_f64().unwrap() > 0.0);
+    assert!((reported["length"].as_f64().unwrap() - 0.4f64.hypot(0.8)).abs() < 1e-9);
     let seconds = walk.times[walk.times.len() - 1];
-    assert!((told["seconds"].as_f64().unwrap() - seconds).abs() < 0.05, "{} {seconds}", told["seconds"]);
+    assert!((reported["seconds"].as_f64().unwrap() - seconds).abs() < 0.05, "{} {seconds}", reported["seconds"]);
 }
 
 /// Any description with two legs: they are derived by the command. The size of its body is that of its shapes, or
@@ -123,16 +127,16 @@ fn a_robot_from_a_file_walks_over_a_map() {
     succeed(&["export", "teo", "--format", "urdf", "-o", text(&urdf)]);
     fs::write(&room, ROOM).unwrap();
     let soles = ["--left", "l_sole", "--right", "r_sole", "--start", "0.5,0.6,80", "--goal", "0.6,1.1"];
-    let asked = [&["navigate", text(&urdf), "--map", text(&room)][..], &soles].concat();
-    let told = succeed(&asked);
-    assert!(told.contains("steps by one step goal") && told.contains("course          0.510 m"), "{told}");
-    let told = succeed(&[&asked[..], &["--body", "0.2,0.4", "--crouched", "--apart", "0.05"]].concat());
-    assert!(told.contains("course          0.510 m"), "{told}");
-    assert!(refused(&[&asked[..], &["--body", "0.2"]].concat()).contains("--body takes two numbers"));
+    let requested = [&["navigate", text(&urdf), "--map", text(&room)][..], &soles].concat();
+    let reported = succeed(&requested);
+    assert!(reported.contains("steps by one step goal") && reported.contains("course          0.510 m"), "{reported}");
+    let reported = succeed(&[&requested[..], &["--body", "0.2,0.4", "--crouched", "--apart", "0.05"]].concat());
+    assert!(reported.contains("course          0.510 m"), "{reported}");
+    assert!(refused(&[&requested[..], &["--body", "0.2"]].concat()).contains("--body takes two numbers"));
 }
 
 #[test]
-fn bad_input_of_ways_is_refused() {
+fn bad_input_of_paths_is_refused() {
     let folder = tempdir().unwrap();
     let [room, walls] = ["room.toml", "walls.txt"].map(|name| folder.path().join(name));
     fs::write(&room, ROOM).unwrap();
@@ -148,13 +152,13 @@ fn bad_input_of_ways_is_refused() {
         (&["--goal", "2.5,0.5", "--furniture", "wall"], "give NAME=X,Y"),
         (&["--goal", "2.5,0.5", "--method", "potential"], "a local minimum at ("),
     ] {
-        let told = path(more);
-        assert!(told.contains(words), "{words}: {told}");
+        let reported = path(more);
+        assert!(reported.contains(words), "{words}: {reported}");
     }
-    let told = refused(&["path", text(&walls), "--start", "0,0", "--goal", "0.1,0.1", "--furniture", "a=none"]);
-    assert!(told.contains("--furniture needs a room"), "{told}");
-    let told = refused(&["navigate", "nao", "--map", text(&room), "--start", "1.5,0.5", "--goal", "0.5,0.5"]);
-    assert!(told.contains("the nearest free place is ("), "{told}");
-    let told = refused(&["navigate", "nao", "--map", text(&room), "--start", "0.5", "--goal", "0.5,0.5"]);
-    assert!(told.contains("--start takes two or three numbers"), "{told}");
+    let reported = refused(&["path", text(&walls), "--start", "0,0", "--goal", "0.1,0.1", "--furniture", "a=none"]);
+    assert!(reported.contains("--furniture needs a room"), "{reported}");
+    let reported = refused(&["navigate", "nao", "--map", text(&room), "--start", "1.5,0.5", "--goal", "0.5,0.5"]);
+    assert!(reported.contains("the nearest free place is ("), "{reported}");
+    let reported = refused(&["navigate", "nao", "--map", text(&room), "--start", "0.5", "--goal", "0.5,0.5"]);
+    assert!(reported.contains("--start takes two or three numbers"), "{reported}");
 }

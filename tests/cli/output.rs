@@ -239,11 +239,11 @@ fn files_of_an_interrupted_set_are_refused_by_every_reader() {
         &["basis", &system],
         &["follow", &ur5, "--poses", &poses],
     ];
-    let is_refused = |arguments: &[&str]| run(arguments).err.contains("interrupted, or is going on");
+    let is_refused = |arguments: &[&str]| run(arguments).err.contains("interrupted, or is in progress");
     assert!(!arguments.into_iter().any(is_refused));
     at(".groebot-unfinished", "part.stl\nmap.pgm\nsystem.txt\nposes.csv\n");
     for arguments in arguments {
-        assert!(refused(arguments).contains("interrupted, or is going on"), "{arguments:?}");
+        assert!(refused(arguments).contains("interrupted, or is in progress"), "{arguments:?}");
     }
 }
 

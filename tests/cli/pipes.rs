@@ -153,13 +153,13 @@ fn standard_input_is_read_once() {
     }
     assert!(refused_on(&["derive", "-"], &chain).contains("give one by --out"));
     assert!(refused_on(&["info", "-"], "").contains("<stdin>: standard input is empty"));
-    let told = refused_on(&["info", "-"], "<robot name='r'>\n<link name='a'/>\n<link name='a'/></robot>");
-    assert!(told.contains("<stdin>: line 3: link `a`: its name is taken"), "{told}");
+    let reported = refused_on(&["info", "-"], "<robot name='r'>\n<link name='a'/>\n<link name='a'/></robot>");
+    assert!(reported.contains("<stdin>: line 3: link `a`: its name is taken"), "{reported}");
 }
 
 /// The default tip is reported in text and in JSON, and stored if the robot has other leaf links.
 #[test]
-fn the_default_tip_is_told() {
+fn the_default_tip_is_reported() {
     let folder = tempdir().unwrap();
     let file = folder.path().join("arm.urdf");
     let arm = fs::read_to_string(root("tests/corpus/urdf/three_joint_leg.urdf")).unwrap();
@@ -167,8 +167,8 @@ fn the_default_tip_is_told() {
     let (arm, note) = (text(&file), "tip link `robot_tool0`: the only tool0 link; --tip chooses another");
     let task = ["--task", "position"];
     let out = folder.path().join("out");
-    let told = succeed(&[&["derive", arm, "--out", text(&out)], &task[..]].concat());
-    assert!(told.starts_with(note), "{told}");
+    let reported = succeed(&[&["derive", arm, "--out", text(&out)], &task[..]].concat());
+    assert!(reported.starts_with(note), "{reported}");
     assert!(fs::read_to_string(out.join("0_task.toml")).unwrap().contains("tip = \"robot_tool0\""));
     let q = ["--q", "0.1,0.5,-1"];
     assert!(succeed(&[&["fk", arm], &q[..]].concat()).starts_with(note));

@@ -11,18 +11,18 @@ use super::{refused, run, succeed, text};
 fn a_map_is_made_written_and_shown() {
     let folder = tempdir().unwrap();
     let [json, csv, svg, page] = ["map.json", "map.csv", "map.svg", "map.html"].map(|name| folder.path().join(name));
-    let asked =
+    let requested =
         ["reach", "derivations/ur5", "--x=-0.9:0.9:7", "--y", "0.1:0.9:5", "--z", "0.3", "--orientations", "30"];
-    let told = succeed(&[&asked[..], &["-o", text(&json), "--plot", text(&svg)]].concat());
+    let reported = succeed(&[&requested[..], &["-o", text(&json), "--plot", text(&svg)]].concat());
     let map = ReachMap::from_json(&fs::read_to_string(&json).unwrap()).unwrap();
     assert!((map.orientations, map.grid.places(), map.unit.as_str()) == (30, 35, "m") && map.reached() > 100);
     assert!(
-        told.contains("35 points, 30 orientations each")
-            && told.contains(&format!("{} of 1050 targets", map.reached())),
-        "{told}"
+        reported.contains("35 points, 30 orientations each")
+            && reported.contains(&format!("{} of 1050 targets", map.reached())),
+        "{reported}"
     );
     assert!(fs::read_to_string(&svg).unwrap().contains("<svg "));
-    succeed(&[&asked[..], &["-o", text(&csv), "--quiet", "--measure", "manipulability"]].concat());
+    succeed(&[&requested[..], &["-o", text(&csv), "--quiet", "--measure", "manipulability"]].concat());
     assert!(fs::read_to_string(&csv).unwrap().starts_with("x,y,z,reached,answers,open,best,mean\n-0.9,0.1,0.3,"));
     succeed(&["view", "derivations/ur5", "--reach", text(&json), "-o", text(&page)]);
     let shown = fs::read_to_string(&page).unwrap();
@@ -30,12 +30,12 @@ fn a_map_is_made_written_and_shown() {
 }
 
 #[test]
-fn axes_that_are_not_told_are_those_of_the_reach() {
-    let told = succeed(&["reach", "derivations/planar_3r", "--orientations", "8"]);
-    assert!(told.contains("441 points, 8 orientations each"), "{told}");
+fn axes_that_are_not_given_are_those_of_the_reach() {
+    let reported = succeed(&["reach", "derivations/planar_3r", "--orientations", "8"]);
+    assert!(reported.contains("441 points, 8 orientations each"), "{reported}");
     let given = ["--given", "0.4", "--measure", "limits", "--x", "0.4", "--y", "0.1:0.2:2", "--z", "0.5"];
-    let told = succeed(&[&["reach", "derivations/iiwa14", "--orientations", "40"][..], &given].concat());
-    assert!(told.contains("reached within limits: 2 points"), "{told}");
+    let reported = succeed(&[&["reach", "derivations/iiwa14", "--orientations", "40"][..], &given].concat());
+    assert!(reported.contains("reached within limits: 2 points"), "{reported}");
 }
 
 #[test]
@@ -58,8 +58,8 @@ fn bad_questions_are_refused() {
     }
     let other = folder.path().join("puma.json");
     succeed(&["reach", "derivations/puma", "--x", "0.3", "--y", "0.1", "--z", "0.2", "-o", text(&other), "--quiet"]);
-    let told = refused(&["view", "derivations/ur5", "--reach", text(&other), "-o", text(&out)]);
-    assert!(told.contains("this is the map of puma"), "{told}");
+    let reported = refused(&["view", "derivations/ur5", "--reach", text(&other), "-o", text(&out)]);
+    assert!(reported.contains("this is the map of puma"), "{reported}");
     // Prismatic joints have limits, and their range is within the grid.
     assert!(succeed(&["reach", "derivations/gantry", "--orientations", "4"]).contains("9261 points"));
     let broken = folder.path().join("broken.json");

@@ -75,8 +75,8 @@ fn systems_without_finitely_many_solutions() {
         { name = \"Along\", type = \"prismatic\", axis = [1, 0, 0], point = [0, 0, 0] },\n\
         { name = \"Beside\", type = \"prismatic\", axis = [1, 0, 0], point = [0, 0, 0] },\n]\n\
         tip = { point = [0, 0, 1] }\n";
-    let told = ["some of the 2 unknown joints free", "the value of one of the joints `Along`, `Beside`"];
-    refuse_file("0_chain.toml", gantry.as_bytes(), &told);
+    let reported = ["some of the 2 unknown joints free", "the value of one of the joints `Along`, `Beside`"];
+    refuse_file("0_chain.toml", gantry.as_bytes(), &reported);
 }
 
 #[test]

@@ -28,7 +28,7 @@ fn simulated(arguments: &[&str], python: Option<&Path>) -> Ran {
 }
 
 /// The JSON output of a run. Without MuJoCo it is `None`, with a message, or an error with `GROEBOT_REQUIRE_TOOLS=1`.
-fn told(arguments: &[&str], code: i32) -> Option<Value> {
+fn reported(arguments: &[&str], code: i32) -> Option<Value> {
     let ran = simulated(&[arguments, &["--json"]].concat(), None);
     if ran.code == 1 && ran.err.contains("cannot run MuJoCo") {
         let required = std::env::var("GROEBOT_REQUIRE_TOOLS").is_ok_and(|value| value == "1");
@@ -68,7 +68,7 @@ fn what_is_no_walk_is_refused() {
 }
 
 #[test]
-fn without_mujoco_it_says_how_to_get_it() {
+fn without_mujoco_it_reports_how_to_get_it() {
     let (folder, walk) = walked(&["nao", "--steps", "2"]);
     let nowhere = folder.path().join("no_python");
     let ran = simulated(&[&walk], Some(&nowhere));
@@ -92,11 +92,11 @@ fn without_mujoco_it_says_how_to_get_it() {
 #[test]
 fn nao_stands() {
     let (_folder, walk) = walked(&["nao", "--steps", "4"]);
-    let Some(told) = told(&[&walk], 0) else { return };
-    let compared = &told["comparison"];
-    assert_eq!((&told["run"]["fell"], &compared["landings"]), (&Value::Null, &serde_json::json!([4, 4])));
-    assert!((number(&told["run"]["mass"]) - 5.30575).abs() < 1e-4);
-    let [planned, walked] = ["planned", "walked"].map(|way| number(&compared[way]["ahead"]));
+    let Some(reported) = reported(&[&walk], 0) else { return };
+    let compared = &reported["comparison"];
+    assert_eq!((&reported["run"]["fell"], &compared["landings"]), (&Value::Null, &serde_json::json!([4, 4])));
+    assert!((number(&reported["run"]["mass"]) - 5.30575).abs() < 1e-4);
+    let [planned, walked] = ["planned", "walked"].map(|route| number(&compared[route]["ahead"]));
     assert!((planned - 0.12).abs() < 1e-6 && (walked - planned).abs() < 0.02, "{planned} {walked}");
     assert!(number(&compared["tilt"]) < 3f64.to_radians());
 }
@@ -104,14 +104,14 @@ fn nao_stands() {
 /// RH0 6.2 with two steps. The ZMP from contact forces is within 8 mm rms of the plan (of 30 mm that RA_AS permits). The roll error of a hip equals the planned
 /// torque divided by the stiffness within 10 %.
 #[test]
-fn rh0_stands_and_sags_as_its_motors_foretell() {
+fn rh0_sags_as_its_motor_stiffness_predicts() {
     let (folder, walk) = walked(&["rh0", "--gait", "rh0-real", "--crouched", "--plan", "out right, in left"]);
     let at = |name: &str| folder.path().join(name);
     let (out, plot) = (at("answer.csv"), at("joints.svg"));
-    let Some(told) = told(&[&walk, "-o", text(&out), "--plot", text(&plot)], 0) else { return };
-    let compared = &told["comparison"];
-    assert_eq!((&told["run"]["fell"], &compared["landings"]), (&Value::Null, &serde_json::json!([2, 2])));
-    assert_eq!(told["run"]["points"], serde_json::json!(["Trunk"]), "its moments are assumed");
+    let Some(reported) = reported(&[&walk, "-o", text(&out), "--plot", text(&plot)], 0) else { return };
+    let compared = &reported["comparison"];
+    assert_eq!((&reported["run"]["fell"], &compared["landings"]), (&Value::Null, &serde_json::json!([2, 2])));
+    assert_eq!(reported["run"]["points"], serde_json::json!(["Trunk"]), "its moments are assumed");
     assert!(number(&compared["zmp"][1]) < 0.008, "{}", compared["zmp"]);
     let joints = compared["joints"].as_array().unwrap();
     let roll = joints.iter().find(|joint| joint["joint"] == "RHipRoll").or(joints.first()).unwrap();
@@ -123,7 +123,7 @@ fn rh0_stands_and_sags_as_its_motors_foretell() {
     let picture = fs::read_to_string(&plot).unwrap();
     assert_eq!(picture.matches("class=\"title\"").count(), 12);
     // The circle of 30 mm at a height of 0.67 m permits at most 3.4 degrees.
-    let Some(fallen) = self::told(&[&walk, "--slope", "5,0"], 5) else { return };
+    let Some(fallen) = self::reported(&[&walk, "--slope", "5,0"], 5) else { return };
     assert!(number(&fallen["run"]["fell"]) < 46.0);
 }
 

@@ -140,7 +140,7 @@ fn degrees_are_radians_in_degrees() {
 }
 
 #[test]
-fn csv_says_what_json_says_and_reads_its_own_output() {
+fn csv_reports_what_json_reports_and_reads_its_own_output() {
     let ran = stream("60,150\n0,0\n -60 , -150 \n", &[]);
     assert_eq!((ran.code, ran.err.as_str()), (0, ""));
     let rows: Vec<Vec<&str>> = ran.out.lines().map(|line| line.split(',').collect()).collect();

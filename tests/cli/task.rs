@@ -18,11 +18,11 @@ fn a_task_is_done_checked_and_shown() {
     let [room, json, page, svg] =
         ["room.toml", "task.json", "task.html", "plan.svg"].map(|name| folder.path().join(name));
     fs::write(&room, ROOM).unwrap();
-    let asked = ["task", "rh0", "--room", text(&room), "--goal", "chair", "--then", "ball=1.6,2.3@2"];
+    let requested = ["task", "rh0", "--room", text(&room), "--goal", "chair", "--then", "ball=1.6,2.3@2"];
     let files = ["-o", text(&json), "--view", text(&page), "--plot", text(&svg)];
-    let told = succeed(&[&asked[..], &files].concat());
+    let reported = succeed(&[&requested[..], &files].concat());
     for word in ["after step 0, found in", "after step 2, found in", "nearest ", "to floor, ", "rotates at ", "81"] {
-        assert!(told.contains(word), "{word}: {told}");
+        assert!(reported.contains(word), "{word}: {reported}");
     }
     let written = fs::read_to_string(&json).unwrap();
     let walk = Trajectory::from_json(&written).unwrap();
@@ -51,22 +51,22 @@ fn a_task_is_done_checked_and_shown() {
     };
     assert!(data(&page) == data(&again) && data(&page).contains("\"task\":{\"scene\""));
     assert!(fs::read_to_string(&svg).unwrap().contains("rh0: "));
-    let told: Value = serde_json::from_str(&succeed(&[&asked[..], &["--json"]].concat())).unwrap();
-    assert_eq!(told["checks"]["clearances"], checks["clearances"]);
+    let reported: Value = serde_json::from_str(&succeed(&[&requested[..], &["--json"]].concat())).unwrap();
+    assert_eq!(reported["checks"]["clearances"], checks["clearances"]);
 }
 
 #[test]
-fn where_a_change_leaves_no_way_the_exit_status_is_four() {
+fn where_a_change_leaves_no_path_the_exit_status_is_four() {
     let folder = tempdir().unwrap();
     let room = folder.path().join("room.toml");
     fs::write(&room, ROOM.replace("circle = 0.1\nat = [2.8, 2.2]", "box = [0.2, 2.4]\nat = [2.9, 1.2]")).unwrap();
-    let asked = ["task", "rh0", "--room", text(&room), "--goal", "2.2,1.8", "--furniture", "chair=2.7,0.3"];
-    let asked = [&asked[..], &["--then", "ball=1.6,1.2@1", "--json"]].concat();
-    let output = run(&asked);
+    let requested = ["task", "rh0", "--room", text(&room), "--goal", "2.2,1.8", "--furniture", "chair=2.7,0.3"];
+    let requested = [&requested[..], &["--then", "ball=1.6,1.2@1", "--json"]].concat();
+    let output = run(&requested);
     assert_eq!(output.code, 4, "{} {}", output.out, output.err);
     assert!(output.err.contains("there is no path: "), "{}", output.err);
-    let told: Value = serde_json::from_str(&output.out).unwrap();
-    assert!(told["holds"] == false && told["enclosure"].as_array().unwrap().len() > 3, "{told}");
+    let reported: Value = serde_json::from_str(&output.out).unwrap();
+    assert!(reported["holds"] == false && reported["enclosure"].as_array().unwrap().len() > 3, "{reported}");
 }
 
 #[test]
@@ -86,11 +86,11 @@ fn bad_input_of_tasks_is_refused() {
         (&["--goal", "chair", start[0], start[1], "--then", "chair=none@2"], "no piece `chair`"),
         (&["--goal", "chair", "--start", "2.4,1.2"], "the nearest free place is ("),
     ] {
-        let told = task(more);
-        assert!(told.contains(words), "{words}: {told}");
+        let reported = task(more);
+        assert!(reported.contains(words), "{words}: {reported}");
     }
-    let told = refused(&["task", "rh0", "--room", "livingroom", "--goal", "sofa"]);
-    assert!(told.contains("livingroom"), "{told}");
+    let reported = refused(&["task", "rh0", "--room", "livingroom", "--goal", "sofa"]);
+    assert!(reported.contains("livingroom"), "{reported}");
     // A truncated record.
     fs::write(&room, ROOM).unwrap();
     succeed(&["task", "rh0", "--room", text(&room), "--goal", "0.8,1.2", "-o", text(&walk), "--quiet"]);
@@ -109,7 +109,7 @@ fn bad_input_of_tasks_is_refused() {
         let mut value = whole.clone();
         change(&mut value);
         fs::write(&walk, value.to_string()).unwrap();
-        let told = refused(&["view", text(&walk), "-o", text(&folder.path().join("page.html"))]);
-        assert!(told.contains(words), "{words}: {told}");
+        let reported = refused(&["view", text(&walk), "-o", text(&folder.path().join("page.html"))]);
+        assert!(reported.contains(words), "{words}: {reported}");
     }
 }

@@ -128,8 +128,8 @@ fn a_folder_with_neither_program_nor_certificate_is_refused() {
     let folder = leg_copy();
     fs::remove_file(folder.path().join("5_program.json")).unwrap();
     fs::remove_file(folder.path().join("certificate.json")).unwrap();
-    let told = refused(&["solve", text(folder.path()), "--target", "60,150"]);
-    assert!(told.contains("no `5_program.json` and no `certificate.json`"), "{told}");
+    let reported = refused(&["solve", text(folder.path()), "--target", "60,150"]);
+    assert!(reported.contains("no `5_program.json` and no `certificate.json`"), "{reported}");
     let thin = thin_leg();
     fs::write(thin.path().join("certificate.json"), "{}").unwrap();
     assert!(refused(&["solve", text(thin.path()), "--target", "60,150"]).contains("certificate.json"));
@@ -144,8 +144,8 @@ fn hashes_that_groebot_did_not_write_are_left_alone() {
     succeed(&["derive", text(folder.path()), "--quiet"]);
     assert!(folder.path().join("5_program.json").exists());
     assert_eq!(fs::read_to_string(&file).unwrap(), "my own hashes\n");
-    let told = refused(&["derive", text(folder.path()), "--quiet", "--thin"]);
-    assert!(told.contains("`outputs.sha256`") && told.contains("--force"), "{told}");
+    let reported = refused(&["derive", text(folder.path()), "--quiet", "--thin"]);
+    assert!(reported.contains("`outputs.sha256`") && reported.contains("--force"), "{reported}");
     assert!(folder.path().join("5_program.json").exists());
     succeed(&["derive", text(folder.path()), "--quiet", "--thin", "--force"]);
     assert_eq!(names(folder.path()), FILES);

@@ -20,14 +20,14 @@ fn an_arm_follows_and_what_it_does_is_written() {
     let robot = root("tests/corpus/dynamics/rrp.urdf");
     let [robot, trajectory, out_text, plot_text] = [text(&robot), text(&trajectory), text(&out), text(&plot)];
     let law = ["track", robot, "--law", "computed-torque", "--trajectory", trajectory, "--error", "0.02"];
-    let told = succeed(&[&law[..], &["-o", out_text, "--plot", plot_text]].concat());
-    assert!(told.starts_with("2000 steps") && told.contains("slide"), "{told}");
+    let reported = succeed(&[&law[..], &["-o", out_text, "--plot", plot_text]].concat());
+    assert!(reported.starts_with("2000 steps") && reported.contains("slide"), "{reported}");
     let table = fs::read_to_string(&out).unwrap();
     assert!(table.starts_with("t,q0,q1,q2,v0,v1,v2,tau0,tau1,tau2,d0,d1,d2\n"));
     assert_eq!(table.lines().count(), 2002);
     let last: Vec<f64> = table.lines().last().unwrap().split(',').map(|word| word.parse().unwrap()).collect();
     (0..3).for_each(|joint| assert!((last[1 + joint] - last[10 + joint]).abs() < 1e-4, "{last:?}"));
-    assert!(fs::read_to_string(&plot).unwrap().contains("errors: what is less what should be"));
+    assert!(fs::read_to_string(&plot).unwrap().contains("errors: actual minus desired values"));
     let json: serde_json::Value = serde_json::from_str(&succeed(&[&law[..], &["--json"]].concat())).unwrap();
     assert_eq!(json["joints"][2]["name"], "slide");
     assert!((json["joints"][0]["greatest_error"].as_f64().unwrap() - 0.02).abs() < 1e-12);
@@ -46,12 +46,12 @@ fn an_arm_follows_and_what_it_does_is_written() {
     let whole: Vec<String> = log.lines().zip(answers.lines()).map(|(a, b)| format!("{a},{}", torques(b))).collect();
     let file = at("log.csv");
     fs::write(&file, whole.join("\n") + "\n").unwrap();
-    let told = succeed(&["identify", robot, text(&file)]);
+    let reported = succeed(&["identify", robot, text(&file)]);
     assert!(
-        told.contains("12 numbers")
-            && told.contains("1.800000e0  rod.m")
-            && told.contains("physically possible within the noise"),
-        "{told}"
+        reported.contains("12 numbers")
+            && reported.contains("1.800000e0  rod.m")
+            && reported.contains("physically possible within the noise"),
+        "{reported}"
     );
     assert!(refused(&["identify", robot, text(&states)]).contains("tau0.."));
 }

@@ -57,20 +57,23 @@ fn what_is_no_walk_and_no_robot_is_refused() {
         file.to_str().unwrap().to_owned()
     };
     let page = folder.path().join("page.html");
-    let says = |arguments: &[&str], words: &str| {
+    let check_message = |arguments: &[&str], words: &str| {
         let error = refused(&[&["view"], arguments, &["-o", text(&page)]].concat());
         assert!(error.contains(words), "{error}");
         assert!(!page.exists());
     };
-    says(&["nobody"], "`nobody` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo");
-    says(&[&at("a.csv", "x,y\n1,2\n")], "a.csv: line 1: the first line is `x,y`; a trajectory begins with");
-    says(&[&at("b.json", "{\"format\": 1, \"walk\": 3}")], "b.json: line 1: this is no trajectory in JSON");
-    says(&[&at("c.json", "[]")], "c.json");
-    says(&[&at("d.csv", "# groebot trajectory 1\n# robot: teo\ntime [s]\n")], "d.csv: the trajectory has no sample");
-    says(&[&at("e.urdf", "<robot name=\"dot\"><link name=\"a\"/></robot>")], "nothing to see");
-    says(&[&at("f.toml", "unknowns = [\"x\"]\nequations = [\"x - 1\"]\n")], "f.toml");
-    says(&[text(&root("derivations/puma/0_chain.toml"))], "this does not describe a robot with links");
-    says(&["nao", "--robot", "teo"], "--robot names the walking robot, but this is not a walk");
+    check_message(&["nobody"], "`nobody` is neither a file nor a robot of groebot; give a file, nao, rh0 or teo");
+    check_message(&[&at("a.csv", "x,y\n1,2\n")], "a.csv: line 1: the first line is `x,y`; a trajectory begins with");
+    check_message(&[&at("b.json", "{\"format\": 1, \"walk\": 3}")], "b.json: line 1: this is no trajectory in JSON");
+    check_message(&[&at("c.json", "[]")], "c.json");
+    check_message(
+        &[&at("d.csv", "# groebot trajectory 1\n# robot: teo\ntime [s]\n")],
+        "d.csv: the trajectory has no sample",
+    );
+    check_message(&[&at("e.urdf", "<robot name=\"dot\"><link name=\"a\"/></robot>")], "nothing to draw");
+    check_message(&[&at("f.toml", "unknowns = [\"x\"]\nequations = [\"x - 1\"]\n")], "f.toml");
+    check_message(&[text(&root("derivations/puma/0_chain.toml"))], "this does not describe a robot with links");
+    check_message(&["nao", "--robot", "teo"], "--robot names the walking robot, but this is not a walk");
     assert_eq!(run(&["view", "nao"]).code, 2);
 }
 
@@ -93,22 +96,23 @@ fn derivations_and_rooms_become_pages() {
     );
     let solved = read(&[text(&root(ARM)), "--tip", "wrist_3_link"]);
     assert!(solved.contains("\"limbs\":[{\"name\":\"wrist_3_link\"") && solved.len() < 2_000_000);
-    let told = refused(&with(&page, &[text(&root(ARM)), "--tip", "tool9"]));
-    assert!(told.contains("tool9"), "{told}");
-    let told = refused(&with(&page, &["nao", "--tip", "l_sole", "--base", "l_sole"]));
-    assert!(told.contains("nothing moves between"), "{told}");
+    let reported = refused(&with(&page, &[text(&root(ARM)), "--tip", "tool9"]));
+    assert!(reported.contains("tool9"), "{reported}");
+    let reported = refused(&with(&page, &["nao", "--tip", "l_sole", "--base", "l_sole"]));
+    assert!(reported.contains("no joint moves between"), "{reported}");
     let room = root("examples/living_room.toml");
     let running = read(&["rh0", "--room", text(&room), "--start", "1,2.6,90", "--goal", "7.2,3.4"]);
     assert!(running.contains("\"run\":{\"robot\":\"rh0\"") && running.len() < 2_000_000);
-    let told = refused(&with(&page, &[text(&root(ARM)), "--room", text(&room), "--goal", "1,1"]));
-    assert!(told.contains("no walking robot"), "{told}");
+    let reported = refused(&with(&page, &[text(&root(ARM)), "--room", text(&room), "--goal", "1,1"]));
+    assert!(reported.contains("no walking robot"), "{reported}");
     // The default start of the room. A start in the wall is refused by the command, not in the page.
     assert!(read(&["rh0", "--room", "living-room", "--goal", "7.2,3.4"]).contains("\"start\":[1.0,2.6,0.0]"));
-    let told = refused(&with(&page, &["rh0", "--room", "living-room", "--start", "0.05,0.05", "--goal", "7.2,3.4"]));
-    assert!(told.contains("nearest free place"), "{told}");
-    let told = refused(&with(&page, &[text(&root("derivations/ur5")), "--room", text(&room), "--goal", "1,1"]));
-    assert!(told.contains("--room and --tip are for robots at rest"), "{told}");
-    let told = refused(&with(&page, &[text(&root("derivations/nao_legs"))]));
-    assert!(told.contains("is not that of a robot's chain"), "{told}");
+    let reported =
+        refused(&with(&page, &["rh0", "--room", "living-room", "--start", "0.05,0.05", "--goal", "7.2,3.4"]));
+    assert!(reported.contains("nearest free place"), "{reported}");
+    let reported = refused(&with(&page, &[text(&root("derivations/ur5")), "--room", text(&room), "--goal", "1,1"]));
+    assert!(reported.contains("--room and --tip are for robots at rest"), "{reported}");
+    let reported = refused(&with(&page, &[text(&root("derivations/nao_legs"))]));
+    assert!(reported.contains("is not that of a robot's chain"), "{reported}");
     assert_eq!(run(&with(&page, &["rh0", "--room", text(&room)])).code, 2);
 }

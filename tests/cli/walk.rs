@@ -11,9 +11,10 @@ use super::{refused, run, succeed, text};
 fn eight_steps_are_written_as_csv_json_and_svg() {
     let folder = tempdir().unwrap();
     let [csv, json, svg] = ["walk.csv", "walk.json", "walk.svg"].map(|name| folder.path().join(name));
-    let told = succeed(&["walk", "nao", "--steps", "8", "-o", text(&csv), "--json", text(&json), "--plot", text(&svg)]);
+    let reported =
+        succeed(&["walk", "nao", "--steps", "8", "-o", text(&csv), "--json", text(&json), "--plot", text(&svg)]);
     for word in ["8 steps", "0.280 m", "least margin", "joint limits", "none had to be slowed down"] {
-        assert!(told.contains(word), "{word}: {told}");
+        assert!(reported.contains(word), "{word}: {reported}");
     }
     assert!(
         fs::read_to_string(&csv)
@@ -36,12 +37,12 @@ fn eight_steps_are_written_as_csv_json_and_svg() {
 
 #[test]
 fn turns_files_of_footsteps_and_preview_control_are_walked() {
-    let told = succeed(&["walk", "nao", "--length", "0", "--turn=-40", "--first", "right"]);
-    assert!(told.contains("turn -40.0 deg"), "{told}");
-    let told = succeed(&["walk", "nao", "--gait", "preview"]);
-    assert!(told.contains("preview control") && told.contains("5.3 cm/s"), "{told}");
-    let told = succeed(&["walk", "nao", "--sole", "published", "--steps", "2"]);
-    assert!(told.contains("2 steps"), "{told}");
+    let reported = succeed(&["walk", "nao", "--length", "0", "--turn=-40", "--first", "right"]);
+    assert!(reported.contains("turn -40.0 deg"), "{reported}");
+    let reported = succeed(&["walk", "nao", "--gait", "preview"]);
+    assert!(reported.contains("preview control") && reported.contains("5.3 cm/s"), "{reported}");
+    let reported = succeed(&["walk", "nao", "--sole", "published", "--steps", "2"]);
+    assert!(reported.contains("2 steps"), "{reported}");
     assert_eq!(succeed(&["walk", "nao", "--steps", "1", "--quiet"]), "");
     let folder = tempdir().unwrap();
     let (steps, out) = (folder.path().join("steps.csv"), folder.path().join("out.json"));
@@ -66,8 +67,8 @@ fn what_cannot_be_walked_is_refused_and_writes_nothing() {
     for (arguments, word) in refusals {
         let mut all = vec!["walk", "nao", "-o", text(&out)];
         all.extend(arguments);
-        let told = refused(&all);
-        assert!(told.contains(word), "{word}: {told}");
+        let reported = refused(&all);
+        assert!(reported.contains(word), "{word}: {reported}");
         assert!(!out.exists());
     }
     assert!(refused(&["walk", "teapot"]).contains("`nao`, `rh0` or `teo`"));
@@ -81,10 +82,10 @@ fn rh0_walks_in_words_and_in_the_thesis_columns() {
     let folder = tempdir().unwrap();
     let [csv, thesis, svg] = ["walk.csv", "thesis.csv", "walk.svg"].map(|name| folder.path().join(name));
     let plan = "out right, stride left, stride right, in left";
-    let told =
+    let reported =
         succeed(&["walk", "rh0", "--plan", plan, "-o", text(&csv), "--thesis", text(&thesis), "--plot", text(&svg)]);
     for word in ["rh0: 4 steps", "17.50 s", "0.480 m", "a point at the trunk", "none had to be slowed down"] {
-        assert!(told.contains(word), "{word}: {told}");
+        assert!(reported.contains(word), "{word}: {reported}");
     }
     let table = fs::read_to_string(&thesis).unwrap();
     let header = table.lines().next().unwrap();
@@ -93,13 +94,15 @@ fn rh0_walks_in_words_and_in_the_thesis_columns() {
     assert!(table.lines().nth(3).unwrap().starts_with("0.072,"));
     assert_eq!(Trajectory::read_csv(&csv).unwrap().times.len(), table.lines().count() - 1);
     assert!(fs::read_to_string(&svg).unwrap().contains("ankles, oblique view"));
-    let told = succeed(&["walk", "rh0", "--plan", "turn left 90"]);
+    let reported = succeed(&["walk", "rh0", "--plan", "turn left 90"]);
     assert!(
-        told.contains("12 steps") && told.contains("34.99 s of them stepping") && told.contains("turn 90.0 deg"),
-        "{told}"
+        reported.contains("12 steps")
+            && reported.contains("34.99 s of them stepping")
+            && reported.contains("turn 90.0 deg"),
+        "{reported}"
     );
-    let told = succeed(&["walk", "rh0", "--gait", "rh0-real", "--crouched", "--plan", "turn right 20"]);
-    assert!(told.contains("4 steps") && told.contains("turn -20.0 deg"), "{told}");
+    let reported = succeed(&["walk", "rh0", "--gait", "rh0-real", "--crouched", "--plan", "turn right 20"]);
+    assert!(reported.contains("4 steps") && reported.contains("turn -20.0 deg"), "{reported}");
 }
 
 #[test]
@@ -122,8 +125,8 @@ fn three_robots_walk_by_one_step_goal() {
         (&["walk", "rh0", "--plan", "out left", "--length", "0.5"], "out of reach"),
         (&["walk", "teo", "--goal", "1"], "two or three numbers"),
     ] {
-        let told = refused(arguments);
-        assert!(told.contains(word), "{word}: {told}");
+        let reported = refused(arguments);
+        assert!(reported.contains(word), "{word}: {reported}");
     }
     assert!(refused(&["walk", "teapot"]).contains("`nao`, `rh0` or `teo`"));
     for wrong in [
@@ -147,9 +150,9 @@ fn last_soles(file: &std::path::Path) -> [[f64; 3]; 2] {
 fn nao_walks_to_a_goal_without_further_options() {
     let folder = tempdir().unwrap();
     let [csv, svg] = ["goal.csv", "goal.svg"].map(|name| folder.path().join(name));
-    let told = succeed(&["walk", "nao", "--goal", "2,0", "-o", text(&csv), "--plot", text(&svg)]);
+    let reported = succeed(&["walk", "nao", "--goal", "2,0", "-o", text(&csv), "--plot", text(&svg)]);
     for word in ["51 steps by the sine", "2.000 m, turn 0.0 deg", "none had to be slowed down"] {
-        assert!(told.contains(word), "{word}: {told}");
+        assert!(reported.contains(word), "{word}: {reported}");
     }
     let feet = last_soles(&csv).concat();
     for (value, wanted) in feet.iter().zip([2.0, 0.05, 0.0, 2.0, -0.05, 0.0]) {
@@ -159,7 +162,7 @@ fn nao_walks_to_a_goal_without_further_options() {
     let walk = Trajectory::read_csv(&csv).unwrap();
     let margin = walk.figures.iter().find(|figure| figure.name == "margin").unwrap();
     let least = format!("{:.1} mm at", 1e3 * margin.values.iter().copied().fold(f64::INFINITY, f64::min));
-    assert!(told.contains(&format!("least margin    {least}")), "{least}: {told}");
+    assert!(reported.contains(&format!("least margin    {least}")), "{least}: {reported}");
     assert!(fs::read_to_string(&svg).unwrap().contains(&format!("least: {least}")), "{least}");
 }
 
@@ -191,8 +194,8 @@ fn a_goal_that_is_refused_names_the_option_that_helps() {
     ] {
         let mut all = vec!["walk", "nao"];
         all.extend(arguments);
-        let told = refused(&all);
-        assert!(told.starts_with(cause) && told.contains(option), "{arguments:?}: {told}");
+        let reported = refused(&all);
+        assert!(reported.starts_with(cause) && reported.contains(option), "{arguments:?}: {reported}");
     }
     // A rotation in which the feet would touch is reduced.
     assert!(succeed(&["walk", "nao", "--goal", "0,1", "--max-turn", "15"]).contains("1.000 m, turn 97.7 deg"));
@@ -200,7 +203,7 @@ fn a_goal_that_is_refused_names_the_option_that_helps() {
 
 /// Torques are in both tables, and the largest ones are next to the effort limits.
 #[test]
-fn a_walk_tells_what_motors_and_floor_give() {
+fn a_walk_has_joint_torques_and_floor_forces() {
     let folder = tempdir().unwrap();
     let [csv, json] = ["walk.csv", "walk.json"].map(|name| folder.path().join(name));
     let [csv_text, json_text] = [&csv, &json].map(|file| text(file));
@@ -208,8 +211,8 @@ fn a_walk_tells_what_motors_and_floor_give() {
     assert!(ran.code == 0 && ran.out.contains("greatest torques") && ran.out.contains("LKneePitch: "), "{}", ran.out);
     let head = fs::read_to_string(&csv).unwrap();
     assert!(head.lines().nth(2).unwrap().ends_with("right_my [N m],right_mz [N m]"));
-    let told: serde_json::Value = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
-    let figures = told["figures"].as_array().unwrap();
+    let reported: serde_json::Value = serde_json::from_str(&fs::read_to_string(&json).unwrap()).unwrap();
+    let figures = reported["figures"].as_array().unwrap();
     assert!(figures.iter().any(|figure| figure["name"] == "tau:LKneePitch"));
-    assert_eq!(told["walk"]["steps"].as_array().unwrap().len(), 2);
+    assert_eq!(reported["walk"]["steps"].as_array().unwrap().len(), 2);
 }

@@ -37,12 +37,12 @@ pub fn print<M: Solve>(name: &str, mechanism: &M, joints: &[&str], poses: usize)
         for q in &set.joints {
             let target = mechanism.forward(&chain.row(q)).expect("a chain has forward kinematics");
             let found = answers(mechanism, &target, &mut out);
-            let told = chain.is_told(q, &found);
-            lost += usize::from(!told);
+            let reported = chain.is_reported(q, &found);
+            lost += usize::from(!reported);
             wrong += usize::from(found.iter().any(|answer| chain.missed(q, answer) > 1e-11));
             isolated += found.iter().filter(|answer| answer.free == 0).count();
             free += found.iter().filter(|answer| answer.free != 0).count();
-            if !told && std::env::var_os("SHOW_LOST").is_some() {
+            if !reported && std::env::var_os("SHOW_LOST").is_some() {
                 eprintln!("{name},{},{q:?}", set.name);
             }
         }

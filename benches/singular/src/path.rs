@@ -61,9 +61,9 @@ impl<M: Solve> Chain<'_, M> {
         let columns: Vec<DVector<f64>> = moving
             .iter()
             .map(|&joint| {
-                let at = |way: f64| {
+                let at = |path: f64| {
                     let mut q = q.to_vec();
-                    q[joint] += way;
+                    q[joint] += path;
                     self.tip(&q)
                 };
                 (at(WAY) - at(-WAY)) / (2.0 * WAY)
@@ -86,7 +86,7 @@ impl<M: Solve> Chain<'_, M> {
     }
 
     /// Whether joint values are in a list of solutions.
-    pub fn is_told(&self, q: &[f64], answers: &[Answer]) -> bool {
+    pub fn is_reported(&self, q: &[f64], answers: &[Answer]) -> bool {
         let target = self.tip(q);
         answers.iter().any(|answer| distance(&answer.q, q) <= NEAR)
             || answers.iter().any(|answer| answer.free != 0 && self.leads_to(&target, q, answer))
@@ -110,18 +110,18 @@ impl<M: Solve> Chain<'_, M> {
         let free: Vec<usize> = (0..self.joints()).filter(|joint| answer.free >> joint & 1 == 1).collect();
         let others: Vec<usize> = (0..self.joints()).filter(|joint| !free.contains(joint)).collect();
         let short: Vec<f64> = free.iter().map(|&joint| difference(answer.q[joint], q[joint])).collect();
-        let long: Vec<f64> = short.iter().map(|way| way - TAU.copysign(*way)).collect();
-        let arrives = |way: &[f64], step: f64| {
-            let steps = (way.iter().fold(0.0, |most, way| f64::max(most, way.abs())) / step).ceil().max(1.0);
+        let long: Vec<f64> = short.iter().map(|path| path - TAU.copysign(*path)).collect();
+        let arrives = |path: &[f64], step: f64| {
+            let steps = (path.iter().fold(0.0, |most, path| f64::max(most, path.abs())) / step).ceil().max(1.0);
             let end = (1..=steps as usize).try_fold(q.to_vec(), |mut at, k| {
-                for (&joint, way) in free.iter().zip(way) {
-                    at[joint] = q[joint] + way * k as f64 / steps;
+                for (&joint, path) in free.iter().zip(path) {
+                    at[joint] = q[joint] + path * k as f64 / steps;
                 }
                 self.corrected(target, at, &others, None)
             });
             end.is_some_and(|end| distance(&end, &answer.q) <= ARRIVED)
         };
-        STEPS.iter().any(|step| [&short, &long].iter().any(|way| arrives(way, *step)))
+        STEPS.iter().any(|step| [&short, &long].iter().any(|path| arrives(path, *step)))
     }
 
     /// Whether the curve through `q` of joint values with the same target passes through a solution.
@@ -165,9 +165,9 @@ impl<M: Solve> Chain<'_, M> {
         is_one.then(|| parts.v_t.expect("it is asked for").row(order[0]).transpose())
     }
 
-    fn beside(&self, target: &DVector<f64>, q: &[f64], ahead: &DVector<f64>, way: f64) -> Option<Vec<f64>> {
+    fn beside(&self, target: &DVector<f64>, q: &[f64], ahead: &DVector<f64>, path: f64) -> Option<Vec<f64>> {
         let all: Vec<usize> = (0..self.joints()).collect();
-        let moved = q.iter().zip(ahead.iter()).map(|(q, ahead)| q + way * ahead).collect();
+        let moved = q.iter().zip(ahead.iter()).map(|(q, ahead)| q + path * ahead).collect();
         self.corrected(target, moved, &all, Some(ahead))
     }
 
@@ -213,8 +213,8 @@ impl<M: Solve> Chain<'_, M> {
 
 /// The difference of two angles by the shorter rotation.
 fn difference(a: f64, b: f64) -> f64 {
-    let way = a - b;
-    way - TAU * ((way + PI) / TAU).floor()
+    let path = a - b;
+    path - TAU * ((path + PI) / TAU).floor()
 }
 
 /// The largest difference of two rows of angles.

@@ -54,17 +54,17 @@ pub fn sets<M: Solve>(chain: &Chain<'_, M>, names: &[&str], count: usize) -> Vec
     let anywhere = |random: &mut Random| (0..chain.joints()).map(|_| random.angle()).collect::<Vec<f64>>();
     let mut sets = vec![Set::new("random".into(), count, anywhere)];
     for (joint, values) in singular(chain) {
-        let place = |random: &mut Random, way: f64| {
+        let place = |random: &mut Random, route: f64| {
             let mut q = anywhere(random);
             let value = values[(values.len() as f64 * random.unit()) as usize];
             q[joint] = value;
-            q[joint] = exactly(chain, &q, joint) + random.sign() * way;
+            q[joint] = exactly(chain, &q, joint) + random.sign() * route;
             q
         };
         let name = names[joint];
         for digits in (3..=14).filter(|digits| *digits < 11 || digits % 2 == 0) {
-            let way = 10_f64.powi(-digits);
-            sets.push(Set::new(format!("{name} 1e-{digits}"), count, |random| place(random, way)));
+            let route = 10_f64.powi(-digits);
+            sets.push(Set::new(format!("{name} 1e-{digits}"), count, |random| place(random, route)));
         }
         sets.push(Set::new(format!("{name} 0"), count, |random| place(random, 0.0)));
     }

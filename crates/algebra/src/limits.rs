@@ -207,7 +207,7 @@ pub fn number(cell: &str) -> std::result::Result<f64, String> {
         Ok(number) if number.abs() <= LARGEST => Ok(number),
         Ok(number) if number.is_nan() => Err(format!("`{}` is not a number", shown(cell))),
         Ok(_) => Err(format!("`{}` is too large; give at most {LARGEST:e}", shown(cell))),
-        Err(_) => Err(format!("`{}` is no number", shown(cell))),
+        Err(_) => Err(format!("`{}` is not a number", shown(cell))),
     }
 }
 

@@ -150,7 +150,7 @@ impl Watch {
         }
         match self.deadline {
             Some((end, time)) if Instant::now() >= end => {
-                let text = format!("the time budget of {:.1} s is used up; give a larger one", time.as_secs_f64());
+                let text = format!("the time budget of {:.1} s is exhausted; give a larger one", time.as_secs_f64());
                 Err(Error::new(ErrorKind::Budget, text))
             }
             _ => Ok(()),
@@ -181,7 +181,7 @@ impl Watch {
     pub fn check_terms(&self, terms: usize) -> Result<()> {
         match self.terms {
             Some(limit) if terms > limit => {
-                let text = format!("{terms} polynomial terms are alive, the budget allows {limit}; give a larger one");
+                let text = format!("{terms} polynomial terms are in use, the budget allows {limit}; give a larger one");
                 Err(Error::new(ErrorKind::Budget, text))
             }
             _ => Ok(()),

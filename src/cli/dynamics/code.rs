@@ -71,7 +71,7 @@ pub fn run(arguments: &Arguments, language: Language) -> Outcome {
     };
     let left_out = if arguments.functions.is_empty() { choose_functions(&mut printed) } else { None };
     let notes = [&robot.parts().notes[..], equations.notes(), left_out.as_slice()].concat();
-    console::tell(&notes);
+    console::print_notes(&notes);
     write(arguments, &output, language, &printed)
 }
 

@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments, states: &Path) -> Outcome {
     let report = report(&robot, gravity, arguments, (states, table))?;
     let text = if arguments.json { json(&report) } else { csv(&report)? };
     if !arguments.json {
-        console::tell(&report.notes);
+        console::print_notes(&report.notes);
     }
     match &arguments.out {
         Some(file) => output.write(file, if arguments.json { Kind::Json } else { Kind::Plain }, text),

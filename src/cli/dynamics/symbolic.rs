@@ -22,21 +22,21 @@ const MOST_JOINTS: usize = groebot_algebra::limits::SYMBOLIC_JOINTS;
 /// Prints the polynomials, or writes them to a folder.
 pub fn run(arguments: &Arguments) -> Outcome {
     let ends = Ends { base: arguments.part.base.clone(), tip: arguments.part.tip.clone(), ..Ends::default() };
-    let asked = Input::read(&arguments.robot, &ends)?;
-    let numbers = arguments.numbers.then(|| asked.moving.numbers()).transpose()?;
-    let told = numbers.as_deref().map_or(Masses::Symbols, Masses::Numbers);
-    let chain = &asked.moving.chain;
+    let input = Input::read(&arguments.robot, &ends)?;
+    let numbers = arguments.numbers.then(|| input.moving.numbers()).transpose()?;
+    let masses = numbers.as_deref().map_or(Masses::Symbols, Masses::Numbers);
+    let chain = &input.moving.chain;
     let gravity = &arguments.part.gravity.0;
-    let symbolic = equations(chain, told, arguments).map_err(|error| error.in_file(&arguments.robot))?;
-    let tip = asked.tip.as_ref();
-    console::tell(asked.notes());
+    let symbolic = equations(chain, masses, arguments).map_err(|error| error.in_file(&arguments.robot))?;
+    let tip = input.tip.as_ref();
+    console::print_notes(input.notes());
     let Some(folder) = &arguments.out else {
         let text = || TipLink::line(tip) + &symbolic.to_text();
         return console::print(&if arguments.latex { latex(chain, &symbolic, tip) } else { text() });
     };
-    let mut files = asked.files(folder)?;
-    files.extend(motion::files(chain, &symbolic, told, gravity)?);
-    let refuse = || match &asked.source {
+    let mut files = input.files(folder)?;
+    files.extend(motion::files(chain, &symbolic, masses, gravity)?);
+    let refuse = || match &input.source {
         Some(source) => refuse_input(source, folder, &files).map(|()| Vec::new()),
         None => Ok(Vec::new()),
     };

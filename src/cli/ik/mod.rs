@@ -70,19 +70,23 @@ pub struct Arguments {
 
 /// Prints the solutions of each target.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let asked = if arguments.numeric { arguments.mechanism.searched()? } else { arguments.mechanism.asked()? };
-    let method =
-        if arguments.numeric { Method::numeric(asked.chain()?)? } else { Method::Screws(Box::new(asked.solver()?)) };
+    let requested =
+        if arguments.numeric { arguments.mechanism.searched()? } else { arguments.mechanism.requested()? };
+    let method = if arguments.numeric {
+        Method::numeric(requested.chain()?)?
+    } else {
+        Method::Screws(Box::new(requested.solver()?))
+    };
     let question = Question {
-        chain: asked.chain()?,
+        chain: requested.chain()?,
         method: method.name(),
-        tip: asked.tip(),
-        choice: asked.choice.as_ref(),
-        notes: asked.notes(),
+        tip: requested.tip(),
+        choice: requested.choice.as_ref(),
+        notes: requested.notes(),
         degrees: arguments.degrees,
     };
     if !arguments.json {
-        console::tell(asked.notes());
+        console::print_notes(requested.notes());
     }
     let session = Session { question: &question, solver: method.solver(), as_json: arguments.json };
     let nothing = arguments.target.is_empty() && arguments.q.is_empty();
@@ -115,8 +119,8 @@ impl Session<'_> {
         let Question { chain, tip, choice, degrees, .. } = self.question;
         let given = arguments.target.iter().map(|text| (text, target::target(chain, text, *degrees)));
         let reached = arguments.q.iter().map(|text| (text, target::reached(chain, text, *degrees)));
-        let told = || TipLink::line(tip.as_ref()) + &choice.map(choice_text).unwrap_or_default();
-        let mut page = if self.as_json { String::new() } else { told() };
+        let heading = || TipLink::line(tip.as_ref()) + &choice.map(choice_text).unwrap_or_default();
+        let mut page = if self.as_json { String::new() } else { heading() };
         for (text, aim) in given.chain(reached) {
             let context = |error: Error| error.with_context(format!("`{}`", targets::shown(text)));
             let aim = aim.map_err(context)?;

@@ -124,7 +124,7 @@ impl Page<'_> {
     pub fn csv(&self, index: usize) -> String {
         let chain = self.question.chain;
         let mut start = vec![index.to_string()];
-        start.extend(self.asked().into_iter().map(exact));
+        start.extend(self.target_numbers().into_iter().map(exact));
         start.push(self.answers.len().to_string());
         if self.answers.is_empty() {
             start.extend(vec![String::new(); chain.joints().len() + 5]);
@@ -143,7 +143,7 @@ impl Page<'_> {
     }
 
     /// The numbers of the target, then the values of the given joints, angles in the output unit.
-    fn asked(&self) -> Vec<f64> {
+    fn target_numbers(&self) -> Vec<f64> {
         let Question { chain, degrees, .. } = self.question;
         let is_angle = |name: String| Field::of_target(&name).measure == Measure::Angle;
         let shown = |(value, is_angle): (f64, bool)| if is_angle && *degrees { value.to_degrees() } else { value };

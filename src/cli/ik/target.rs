@@ -42,11 +42,11 @@ pub fn aim(chain: &Chain, values: &[f64], degrees: bool) -> Result<Aim> {
     let turns = chain.given_inputs().into_iter().map(|joint| chain.joints()[joint].kind == JointKind::Revolute);
     let inside = |(value, turns): (&f64, bool)| if degrees && turns { value.to_radians() } else { *value };
     let given = values[own..].iter().zip(turns).map(inside).collect();
-    Ok((asked(chain, &values[..own], degrees)?, given))
+    Ok((target_of(chain, &values[..own], degrees)?, given))
 }
 
 /// The target of `values`.
-fn asked(chain: &Chain, values: &[f64], degrees: bool) -> Result<Target> {
+fn target_of(chain: &Chain, values: &[f64], degrees: bool) -> Result<Target> {
     let radians = |value: f64| if degrees { value.to_radians() } else { value };
     let wanted = match chain.task() {
         Task::Pose => {

@@ -43,6 +43,6 @@ impl<'a> Goal<'a> {
 pub(super) fn another_series() -> Error {
     Error::new(
         ErrorKind::BadValue,
-        "the Hilbert series is not that of the ideal; take it from a basis of the same ideal",
+        "the Hilbert series is not that of the ideal; compute it from a basis of the same ideal",
     )
 }

@@ -54,7 +54,10 @@ pub fn dehomogenise<F: Field>(
 ) -> Result<System<F>> {
     let Some(index) = ring.index_of(name) else {
         let known = ring.variables().join(", ");
-        return Err(Error::new(ErrorKind::UnknownName, format!("`{name}` is no variable; the variables are {known}")));
+        return Err(Error::new(
+            ErrorKind::UnknownName,
+            format!("`{name}` is not a variable; the variables are {known}"),
+        ));
     };
     let names: Vec<&String> = ring.variables().iter().filter(|variable| *variable != name).collect();
     let order = order_without(ring.layout().order(), index);

@@ -83,7 +83,7 @@ impl<F: Field> Basis<F> {
             Some(free) if free.is_empty() => Ok(()),
             Some(free) => {
                 let names: Vec<_> = free.iter().map(|&v| self.ring.variables()[v].as_str()).collect();
-                let text = format!("infinitely many solutions; these unknowns stay free: {}", names.join(", "));
+                let text = format!("infinitely many solutions; these unknowns are free: {}", names.join(", "));
                 Err(Error::new(ErrorKind::PositiveDimensional, text))
             }
         }
@@ -242,7 +242,10 @@ pub fn eliminate<F: Field>(
 ) -> Result<Basis<F>> {
     if let Some(name) = eliminated.iter().find(|name| ring.index_of(name).is_none()) {
         let known = ring.variables().join(", ");
-        return Err(Error::new(ErrorKind::UnknownName, format!("`{name}` is no variable; the variables are {known}")));
+        return Err(Error::new(
+            ErrorKind::UnknownName,
+            format!("`{name}` is not a variable; the variables are {known}"),
+        ));
     }
     let kept: Vec<&str> = ring.variables().iter().map(String::as_str).filter(|n| !eliminated.contains(n)).collect();
     let names: Vec<&str> = eliminated.iter().chain(&kept).copied().collect();

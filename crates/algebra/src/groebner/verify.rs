@@ -59,7 +59,7 @@ fn check_forms<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>
     let lists = [("generators:".to_owned(), claim.generators), ("basis:".to_owned(), claim.basis)];
     for (name, list) in lists.into_iter().chain(rows) {
         if let Some(index) = bad(list) {
-            return Err(refuse(format!("{name} element {} is no polynomial of this ring", index + 1)));
+            return Err(refuse(format!("{name} element {} is not a polynomial of this ring", index + 1)));
         }
     }
     match claim.basis.iter().position(Polynomial::is_zero) {
@@ -107,7 +107,10 @@ fn check_cofactors<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Elem
             sum = ring.add(&sum, &ring.checked_mul(cofactor, f)?);
         }
         if sum != *g {
-            return Err(refuse(format!("the cofactors of basis element {} do not multiply out to it", index + 1)));
+            return Err(refuse(format!(
+                "the combination of the generators with the cofactors of basis element {} is not equal to it",
+                index + 1
+            )));
         }
     }
     Ok(())

@@ -116,7 +116,7 @@ fn check_prime(p: u32) -> Result<()> {
     match Zp::new(u64::from(p)) {
         Ok(_) if p < 1 << 31 => Ok(()),
         Ok(_) => Err(refused(p, "is too large")),
-        Err(_) => Err(refused(p, "is no prime")),
+        Err(_) => Err(refused(p, "is not a prime")),
     }
 }
 

@@ -55,7 +55,7 @@ pub fn field_axioms<F: Field>(field: &F, samples: &[F::Element]) {
     ring_axioms(field, samples);
     assert!(field.inverse(&field.zero()).is_none(), "zero has no inverse");
     for a in samples.iter().filter(|a| !field.is_zero(a)) {
-        let inverse = field.inverse(a).expect("all but zero has an inverse");
+        let inverse = field.inverse(a).expect("every nonzero element has an inverse");
         assert!(field.is_one(&field.mul(a, &inverse)), "a / a = 1");
     }
     if field.characteristic() > 0 {

@@ -149,7 +149,7 @@ impl Size {
 
 fn unknown(name: &str) -> Error {
     let shown: String = name.chars().take(40).collect();
-    Error::new(ErrorKind::UnknownName, format!("nothing is called `{shown}` here; declare it or correct its spelling"))
+    Error::new(ErrorKind::UnknownName, format!("`{shown}` is not declared here; declare it or correct its spelling"))
 }
 
 fn number_in<R: Ring>(ring: &R, q: &BigRational) -> Result<R::Element> {

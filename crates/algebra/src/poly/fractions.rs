@@ -66,10 +66,10 @@ impl<F: Field> Fractions<F> {
             let text = format!("there is no parameter {variable}; there are {}, counted from 0", names.len());
             return Err(Error::new(ErrorKind::BadValue, text));
         };
-        let behind = (variable..names.len()).any(|v| self.ring.degree_in(square, v) > 0);
+        let uses_later = (variable..names.len()).any(|v| self.ring.degree_in(square, v) > 0);
         let ordered = self.relations.last().is_none_or(|relation| relation.variable < variable);
         let square = self.reduce(square);
-        if behind || !ordered || square.is_zero() {
+        if uses_later || !ordered || square.is_zero() {
             let text = format!("the square of `{name}` must be a nonzero polynomial of the parameters before it");
             return Err(Error::new(ErrorKind::BadValue, text));
         }

@@ -55,7 +55,7 @@ impl<'a> Parser<'a> {
         match self.peek() {
             Kind::End | Kind::Delimiter(_) => Ok(()),
             Kind::Symbol('=') => Err(self.error("`=` is allowed once, between the two sides of an equation")),
-            Kind::Symbol(')') => Err(self.error("`)` closes nothing; remove it or open a `(`")),
+            Kind::Symbol(')') => Err(self.error("`)` has no matching `(`; remove it or add a `(`")),
             found => Err(self.error(format!("an operator or the end expected, found `{found}`"))),
         }
     }
@@ -100,7 +100,7 @@ impl<'a> Parser<'a> {
         let before = &self.tokens[self.next - 1].kind;
         let digits_touch = matches!((before, self.peek()), (Kind::Number(_), Kind::Number(_)));
         match self.dialect {
-            Dialect::Text => Err(self.error(format!("a product needs its sign; write `{before}*{}`", self.peek()))),
+            Dialect::Text => Err(self.error(format!("a product needs `*`; write `{before}*{}`", self.peek()))),
             Dialect::Latex if digits_touch => Err(self.error("`\\cdot` expected between two numbers")),
             Dialect::Latex => Ok(true),
         }
@@ -180,7 +180,7 @@ impl<'a> Parser<'a> {
     /// Takes the next token and parses one level deeper.
     fn nested(&mut self, read: impl FnOnce(&mut Self) -> Result<Expression>) -> Result<Expression> {
         if self.depth == MAX_DEPTH {
-            return Err(self.error(format!("nested more than {MAX_DEPTH} deep; name a part of it")));
+            return Err(self.error(format!("nested deeper than {MAX_DEPTH}; define a name for a part of it")));
         }
         self.next += 1;
         self.depth += 1;

@@ -98,7 +98,10 @@ fn upright_name(text: &str, column: usize) -> Result<String> {
     if escaped && is_identifier(&name) {
         return Ok(name);
     }
-    Err(syntax(column, "`\\mathrm{...}` holds a name of letters, digits and `\\_` that starts with no digit"))
+    Err(syntax(
+        column,
+        "`\\mathrm{...}` must contain a name of letters, digits and `\\_` that does not start with a digit",
+    ))
 }
 
 /// Parses `_{digits}` or `_digit` at the cursor. Returns the digits; empty when there is no subscript.

@@ -124,6 +124,6 @@ impl<'a> Cursor<'a> {
 
     pub(super) fn unknown_character(&self, allowed: &str) -> Error {
         let shown = self.peek().map_or("end of text".to_owned(), |c| format!("`{}`", c.escape_debug()));
-        syntax(self.column, format!("{shown} has no meaning here; allowed are {allowed}"))
+        syntax(self.column, format!("{shown} is not allowed here; allowed are {allowed}"))
     }
 }

@@ -30,7 +30,10 @@ pub struct RealRoot {
 pub fn real_roots_of(coefficients: &[BigRational], watch: &Watch) -> Result<Vec<RealRoot>> {
     let polynomial = integral(coefficients);
     if polynomial.is_empty() {
-        return Err(Error::new(ErrorKind::BadValue, "every number is a root of the zero polynomial; give another"));
+        return Err(Error::new(
+            ErrorKind::BadValue,
+            "every number is a root of the zero polynomial; give a nonzero polynomial",
+        ));
     }
     let parts = square_free_parts(&polynomial);
     let radical = parts.iter().fold(vec![BigInt::one()], |f, (_, part)| product(&f, part));

@@ -97,7 +97,10 @@ impl Sturm {
     pub fn new(coefficients: &[BigRational]) -> Result<Self> {
         let first = integral(coefficients);
         if first.is_empty() {
-            return Err(Error::new(ErrorKind::BadValue, "every number is a root of the zero polynomial; give another"));
+            return Err(Error::new(
+                ErrorKind::BadValue,
+                "every number is a root of the zero polynomial; give a nonzero polynomial",
+            ));
         }
         let mut sequence = vec![first.clone()];
         let mut next = primitive(derivative(&first));

@@ -110,7 +110,7 @@ impl<'a> Refinement<'a> {
         let sign = |number: &BigInt| value_at(polynomial, number, exponent, GUARD).value.sign();
         let low_sign = sign(&number);
         if low_sign == Sign::NoSign || low_sign != -sign(&(&number + 1)) {
-            let text = "the interval does not isolate a root of the polynomial; give one that was isolated for it";
+            let text = "the interval does not isolate a root of the polynomial; give an isolating interval";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         Ok(Refinement { polynomial, number, exponent, cut: 2, low_sign, is_point: false })

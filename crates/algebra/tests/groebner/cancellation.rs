@@ -20,12 +20,12 @@ const PATIENCE: usize = 1 << 40;
 fn asks_often<T>(often: usize, work: impl Fn(&Watch) -> Result<T>) {
     let left = Arc::new(AtomicUsize::new(PATIENCE));
     work(&Watch::none().with_patience(left.clone())).unwrap_or_else(|error| panic!("{error}"));
-    let asked = PATIENCE - left.load(Relaxed);
-    assert!(asked >= often, "the watch was asked {asked} times");
-    for patience in [0, 1, asked / 4, asked / 2, asked - 1] {
+    let requested = PATIENCE - left.load(Relaxed);
+    assert!(requested >= often, "the watch was asked {requested} times");
+    for patience in [0, 1, requested / 4, requested / 2, requested - 1] {
         let left = Arc::new(AtomicUsize::new(patience));
         let error = work(&Watch::none().with_patience(left.clone())).err().expect("it is cancelled");
-        assert_eq!(error.kind(), ErrorKind::Cancelled, "after {patience} of {asked}");
+        assert_eq!(error.kind(), ErrorKind::Cancelled, "after {patience} of {requested}");
         assert_eq!(left.load(Relaxed), 0);
     }
 }

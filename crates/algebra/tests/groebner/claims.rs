@@ -59,7 +59,7 @@ impl<F: Field> Owned<F> {
 
 fn forge_cofactors<F: Field>(honest: &Owned<F>) {
     for row in 0..honest.basis.len() {
-        let place = format!("cofactors of basis element {} do not", row + 1);
+        let place = format!("the cofactors of basis element {} is not", row + 1);
         for column in 0..honest.generators.len() {
             let plus_one = |claim: &mut Owned<F>| {
                 claim.cofactors[row][column] = claim.ring.add(&claim.cofactors[row][column], &claim.ring.one());
@@ -113,7 +113,7 @@ fn forge_basis<F: Field>(honest: &Owned<F>) {
 fn forge_generators<F: Field>(honest: &Owned<F>) {
     for j in 0..3 {
         let rows = (0..honest.basis.len()).find(|&i| !honest.cofactors[i][j].is_zero());
-        let place = format!("cofactors of basis element {} do not", rows.expect("each generator is used") + 1);
+        let place = format!("the cofactors of basis element {} is not", rows.expect("each generator is used") + 1);
         let shifted =
             |claim: &mut Owned<F>| claim.generators[j] = claim.ring.add(&claim.generators[j], &claim.ring.one());
         honest.forged(shifted).refused(&place);

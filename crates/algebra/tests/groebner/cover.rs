@@ -168,23 +168,23 @@ fn false_covers_are_refused() {
         let pz = read(found.ring.field().ring(), "pz");
         found.strata.iter().position(|stratum| stratum.region.equations == [pz.clone()]).unwrap()
     };
-    let says = |text: &str, part: &str| assert!(text.contains(part), "{text}");
+    let check_message = |text: &str, part: &str| assert!(text.contains(part), "{text}");
     let missing = refusal(|found| drop(found.strata.remove(line(found))));
-    says(&missing, "no stratum contains the points where pz = 0");
-    says(&refusal(|found| found.strata.push(found.strata[0].clone())), "share points");
-    says(&refusal(|found| found.strata[0].region.exclusions.clear()), "share points");
+    check_message(&missing, "no stratum contains the points where pz = 0");
+    check_message(&refusal(|found| found.strata.push(found.strata[0].clone())), "share points");
+    check_message(&refusal(|found| found.strata[0].region.exclusions.clear()), "share points");
     let strange = refusal(|found| {
         let generic = found.strata[0].basis.clone();
         let index = line(found);
         found.strata[index].basis = generic;
     });
-    says(&strange, "leading coefficients vanish");
-    says(&refusal(|found| drop(found.strata[0].basis.pop())), "does not reduce to zero");
+    check_message(&strange, "leading coefficients vanish");
+    check_message(&refusal(|found| drop(found.strata[0].basis.pop())), "does not reduce to zero");
     let shifted = refusal(|found| {
         let f = &mut found.strata[0].basis[0].representatives[0];
         *f = found.ring.add(f, &found.ring.one());
     });
-    says(&shifted, "is not everywhere in the ideal");
+    check_message(&shifted, "is not everywhere in the ideal");
 }
 
 #[test]
@@ -196,7 +196,7 @@ fn denominators_are_refused() {
 }
 
 #[test]
-fn a_cover_stops_when_it_is_told_to() {
+fn a_cover_stops_on_request() {
     let leg = system("nao_leg_symbolic");
     let ring = leg.ring(Rationals);
     let stopped = |watch: &Watch| cover(&ring, &leg.generators(&ring), &Space::all(), watch).unwrap_err().kind();

@@ -131,7 +131,7 @@ fn replays_modulo_other_primes() {
 
 /// a*x + y, x + y with a = 1 has another basis than with a = 2.
 #[test]
-fn a_lane_that_goes_another_way_is_told() {
+fn a_lane_that_differs_is_reported() {
     let ring = ring(101, &["x", "y"], Order::GrevLex);
     let (learned, trace) = Trace::learn(&ring, &read(&ring, &["2*x+y", "x+y"]), &Watch::none()).unwrap();
     assert_eq!(learned.polynomials, read(&ring, &["y", "x"]));

@@ -136,7 +136,7 @@ fn unlucky_primes_do_no_harm() {
 }
 
 #[test]
-fn primes_that_go_another_way_are_counted() {
+fn primes_with_another_result_are_counted() {
     let ring = ring_of(&["x", "y"], Order::GrevLex);
     let generators = system(&ring, &["x^2 + y^2 - 1", "x^2 + y^2 - 1 - P"], &[("P", first_primes(2))]);
     let found = modular(&ring, &generators);

@@ -64,7 +64,7 @@ fn assert_specialises_at(found: &Basis<Field>, generators: &[Poly], p: u64, poin
 }
 
 #[test]
-fn the_ways_agree_on_small_blocks() {
+fn the_methods_agree_on_small_blocks() {
     use Method::{Direct, Interpolation, Modular, Variables};
     let check = |block: Mechanism, methods: &[Method]| {
         let found = agree(&block.ring, &block.generators, methods);
@@ -202,7 +202,7 @@ fn degenerate_input_is_answered() {
 }
 
 #[test]
-fn work_ends_when_the_watch_says_so() {
+fn work_ends_when_the_watch_stops_it() {
     let block = blocks::generic_3r_symbolic();
     let start = std::time::Instant::now();
     let watch = Watch::none().with_time(Duration::from_millis(300));
@@ -250,7 +250,7 @@ proptest! {
     }
 
     #[test]
-    fn the_ways_agree_on_random_ideals(
+    fn the_methods_agree_on_random_ideals(
         generators in prop::collection::vec(prop::collection::vec((sparse(2, 2, 1), 0u32..3, 0u32..2), 1..4), 1..4),
         order in 0usize..2,
     ) {

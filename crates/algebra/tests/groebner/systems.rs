@@ -157,7 +157,7 @@ fn many_primes_find_the_facts_over_the_rationals() {
 
 /// The numbers of solutions in the literature, compared with Singular's.
 #[test]
-fn the_known_degrees_stand_in_the_files() {
+fn the_files_have_the_known_degrees() {
     let degree = |name: &str| system(name).answer("GF(32003)", &Order::GrevLex).expect("an answer").facts.degree;
     assert_eq!(["six_split", "six_raghavan_roth", "six_tangents", "six_dual_quaternions"].map(degree), [16; 4]);
     assert_eq!((degree("stewart"), degree("cyclic_7"), degree("katsura_8")), (40, 924, 256));

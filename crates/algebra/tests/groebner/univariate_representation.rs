@@ -106,7 +106,7 @@ proptest! {
     }
 
     #[test]
-    fn random_quadrics_meet_in_as_many_points_as_the_theorem_of_bezout_says(c in prop::collection::vec(-9i64..10, 18)) {
+    fn random_quadrics_meet_in_the_number_of_points_of_bezouts_theorem(c in prop::collection::vec(-9i64..10, 18)) {
         let quadric = |c: &[i64]| {
             let monomials = ["x^2", "x*y", "y^2", "x", "y", "1"];
             monomials.iter().zip(c).map(|(m, c)| format!("({c})*{m}")).collect::<Vec<_>>().join(" + ")
@@ -142,7 +142,7 @@ fn fat_points_that_no_single_curve_holds() {
 /// A point with smaller multiplicity that shares the value of a coordinate with another point. No coordinate may be
 /// used as a separating form, and the hidden point must be found.
 #[test]
-fn points_above_each_other_are_told_apart() {
+fn points_with_equal_coordinates_are_distinguished() {
     let (ring, generators) = system(&["x", "y"], &["x^2*(x-1)", "y*(y-1)", "x*(x-1)*y", "x*(1-y)*(x-1)"]);
     let representation = represent(&ring, &generators).unwrap();
     assert_represents(&representation, &ring, &generators);

@@ -197,7 +197,7 @@ proptest! {
 /// The NAO leg in the sagittal plane (NAO section 6.7, millimetres) at (60, 150): both solutions satisfy `20580 c4 =
 /// px^2 + pz^2 - 20588.41` (6.7.18), and the knee bends forwards or backwards.
 #[test]
-fn the_nao_leg_bends_its_knee_both_ways() {
+fn the_nao_leg_has_two_solutions() {
     let equations = [
         "102.9*(c3*s4 + s3*c4) + 100*s3 - 60",
         "102.9*(c3*c4 - s3*s4) + 100*c3 - 150",

@@ -143,7 +143,7 @@ fn wilkinson_has_twenty_roots_and_its_perturbation_ten() {
 /// Mignotte's `x^n - 2 (a x - 1)^2` has two roots within `2 a^(-(n + 2) / 2)` of `1/a`; for even n there is one negative root
 /// and a large positive one.
 #[test]
-fn roots_of_mignotte_are_told_apart() {
+fn roots_of_mignotte_are_distinguished() {
     for n in [10, 20, 31] {
         let mut p = vec![rational(0, 1); n + 1];
         p[n] = rational(1, 1);

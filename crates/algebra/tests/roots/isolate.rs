@@ -72,7 +72,7 @@ fn even_polynomials_are_solved() {
 }
 
 #[test]
-fn roots_that_share_their_double_are_told_apart() {
+fn roots_with_the_same_double_are_distinguished() {
     let tiny = BigRational::new(1.into(), BigInt::from(1) << 70);
     let p = with_roots(&[rational(1, 3), rational(1, 3) + &tiny, rational(1, 3) - tiny]);
     assert_eq!(isolate(&p).unwrap().len(), 3);

@@ -11,14 +11,14 @@ use groebot_algebra::watch::Matrix;
 use groebot_algebra::{ErrorKind, Watch};
 
 #[test]
-fn progress_and_matrices_are_told_in_words() {
-    let told = Arc::new(Mutex::new(Vec::new()));
-    let kept = Arc::clone(&told);
+fn progress_and_matrices_are_reported_as_text() {
+    let reported = Arc::new(Mutex::new(Vec::new()));
+    let kept = Arc::clone(&reported);
     let watch = Watch::none().with_listener(move |progress| kept.lock().unwrap().push(progress.to_string()));
     watch.report("basis", 3, 5);
     watch.report_matrix("basis", 4, 9, Matrix { degree: 7, rows: 30, columns: 50, rank: 12 });
     assert_eq!(
-        *told.lock().unwrap(),
+        *reported.lock().unwrap(),
         ["basis: 3 done, 5 open", "basis: 4 done, 9 open; degree 7, matrix 30 x 50, rank 12"]
     );
 }

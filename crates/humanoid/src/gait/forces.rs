@@ -184,6 +184,6 @@ impl Walk {
 /// The body that a wrench on a foot acts on, and the wrench in that body's frame. The given wrench `own` is in the
 /// torso's frame.
 pub(super) fn pushed(tree: &Tree<f64>, data: &Data<f64>, foot: &Foot, own: &Wrench) -> (usize, Six<f64>) {
-    let stands = data.stands(tree, foot.body.checked_sub(1), &Frame::identity());
+    let stands = data.pose_in_base(tree, foot.body.checked_sub(1), &Frame::identity());
     (foot.body, stands.force_inward(&Six::from(*own)))
 }

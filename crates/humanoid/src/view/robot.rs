@@ -40,7 +40,7 @@ pub fn frame(pose: &Pose) -> Frame {
 }
 
 fn link(own: &model::Link, meshes: Option<&Meshes>, notes: &mut Vec<String>) -> Link {
-    let (shapes, hidden) = own.seen(|own| shape(own, meshes, notes));
+    let (shapes, hidden) = own.drawn(|own| shape(own, meshes, notes));
     Link { name: own.name.clone(), shapes, hidden }
 }
 

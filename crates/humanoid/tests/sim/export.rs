@@ -236,7 +236,7 @@ fn what_cannot_be_shown_is_refused() {
     says(&with(&|own| own.base[2].translation.x = f64::INFINITY), ErrorKind::BadValue, "not finite");
     says(&Trajectory { robot: "finger".into(), ..Trajectory::default() }, ErrorKind::BadValue, "no sample");
     let dot = Robot::from_urdf(r#"<robot name="dot"><link name="a"/></robot>"#).unwrap();
-    assert!(Scene::of_robot(&dot, None, None).unwrap_err().message().contains("nothing to see"));
+    assert!(Scene::of_robot(&dot, None, None).unwrap_err().message().contains("nothing to draw"));
 
     let scene = Scene::of_robot(&robot, None, Some(&good)).unwrap();
     let refused = |change: &dyn Fn(&mut Scene), words: &str| {

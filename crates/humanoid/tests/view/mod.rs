@@ -178,7 +178,7 @@ fn what_cannot_be_shown_is_refused() {
 
     let nothing = Robot::from_urdf(r#"<robot name="dot"><link name="a"/></robot>"#).unwrap();
     let nothing = Page::of_robot(&nothing, None).unwrap_err();
-    assert!(nothing.kind() == ErrorKind::BadValue && nothing.message().contains("nothing to see"), "{nothing}");
+    assert!(nothing.kind() == ErrorKind::BadValue && nothing.message().contains("nothing to draw"), "{nothing}");
 }
 
 #[test]

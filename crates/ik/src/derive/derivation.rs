@@ -243,19 +243,6 @@ impl Derivation {
         }
     }
 
-    /// The stage files with their names. Every run gives the same bytes.
-    ///
-    /// # Errors
-    /// As [`Derivation::certificate`].
-    pub fn stage_files(&self) -> Result<Vec<(String, Vec<u8>)>> {
-        match self.view() {
-            AnyView::Equations(view) => view.stage_files(),
-            AnyView::Sequential(view) => view.stage_files(),
-            AnyView::Eigenvalue(view) => Ok(view.stage_files()),
-            AnyView::Coupled(view) => view.stage_files(),
-        }
-    }
-
     /// The number of complex solutions of a generic reachable target, if it was counted.
     pub fn dimension(&self) -> Option<usize> {
         match &self.method {
@@ -305,9 +292,9 @@ fn about(source: &Source, program: &Program) -> About {
 /// The task of the tip, or the task of each chain's tip.
 fn task(source: &Source) -> String {
     match (&source.chain, &source.coupled) {
-        (Some(chain), _) => chain.asked(),
+        (Some(chain), _) => chain.task_text(),
         (None, Some(coupled)) => {
-            let tasks = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.asked()));
+            let tasks = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.task_text()));
             tasks.collect::<Vec<_>>().join("; ")
         }
         (None, None) => "its equations".to_owned(),

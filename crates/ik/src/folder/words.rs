@@ -28,11 +28,11 @@ pub fn proof_words(derivation: &Derivation) -> String {
 fn proved_chain(derived: &Sequential) -> String {
     let relations: usize = derived.steps.iter().map(|step| step.relations.len()).sum();
     let bases: usize =
-        derived.form_bases.iter().flat_map(|form_basis| form_basis.tree.walk()).map(|node| node.proofs().len()).sum();
+        derived.forms.bases.iter().flat_map(|form_basis| form_basis.tree.walk()).map(|node| node.proofs().len()).sum();
     format!(
         "{} steps proved again: {relations} equations follow from the loop, {bases} bases of {} forms",
         derived.steps.len(),
-        derived.form_bases.len()
+        derived.forms.bases.len()
     )
 }
 

@@ -100,7 +100,7 @@ pub struct Pivot {
 
 /// A method for a block's unknowns, valid where its guards hold. All cases that apply are run, and their solutions are
 /// united.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Case {
     /// Its label: `generic`, `pz = 0`, ...
     pub label: String,

@@ -1,7 +1,7 @@
 //! The numeric checks of any derivation: [`check`], and only at round targets: [`check_round`].
 
-use super::chain::{self, coupled};
-use super::{Check, Draws, Options, Report};
+use super::chain::{check_chain, check_within, coupled};
+use super::{Draws, Options, Report, check_equations};
 use crate::derive::{AnyView, ChainProblem, Derivation, Source};
 use crate::solver::Program;
 use crate::{Result, Watch};
@@ -26,7 +26,7 @@ const MISSES: f64 = 2.0;
 /// it.
 ///
 /// # Errors
-/// As [`Check::run`] and [`chain::Check::run`].
+/// As [`check_equations`] and [`check_chain`].
 pub fn check(source: &Source, derivation: &Derivation, watch: &Watch) -> Result<Report> {
     let of = |targets, oracle, exact, seed| Options { targets, oracle, exact, seed, draws: Draws::All };
     let amounts = Amounts {
@@ -55,14 +55,14 @@ pub fn check_round(source: &Source, derivation: &Derivation, targets: usize, wat
 
 fn checked(source: &Source, derivation: &Derivation, amounts: &Amounts, watch: &Watch) -> Result<Report> {
     match derivation.view() {
-        AnyView::Equations(view) => Check::run(source, view.program, &amounts.equations, watch),
+        AnyView::Equations(view) => check_equations(source, view.program, &amounts.equations, watch),
         AnyView::Sequential(view) => {
             let of_ideal = |ideal: &Program| ideal.isolated;
-            check_chain(view.problem, view.program, (view.unpolished()?, of_ideal), amounts, watch)
+            check_problem(view.problem, view.program, (view.unpolished()?, of_ideal), amounts, watch)
         }
         AnyView::Eigenvalue(view) => {
             let of_ideal = |_: &Program| Some(view.method.dimension());
-            check_chain(view.problem, view.program, (view.unpolished()?, of_ideal), amounts, watch)
+            check_problem(view.problem, view.program, (view.unpolished()?, of_ideal), amounts, watch)
         }
         AnyView::Coupled(view) => coupled::check(view, &amounts.coupled, watch),
     }
@@ -70,7 +70,7 @@ fn checked(source: &Source, derivation: &Derivation, amounts: &Amounts, watch: &
 
 /// The checks of a chain's solver. If it polishes the solutions of an ideal chain's solver, the checks of that solver too. `bound` is the maximum number of
 /// solutions of the ideal chain's solver.
-fn check_chain(
+fn check_problem(
     problem: &ChainProblem,
     program: &Program,
     (unpolished, bound): (Option<Program>, impl Fn(&Program) -> Option<usize>),
@@ -78,7 +78,7 @@ fn check_chain(
     watch: &Watch,
 ) -> Result<Report> {
     match unpolished {
-        None => chain::Check::run(&problem.chain, program, bound(program), &amounts.chain, watch),
+        None => check_chain(&problem.chain, program, bound(program), &amounts.chain, watch),
         Some(ideal) => {
             let bound = bound(&ideal);
             check_both(problem.measured(), program, (&problem.chain, &ideal, bound), amounts, watch)
@@ -99,9 +99,9 @@ fn check_both(
         // The search requires that the target is reached exactly, but solutions only need to come near it.
         Some(inexact) => {
             let options = Options { oracle: 0, ..amounts.polished };
-            chain::Check::run_within(described, polished, None, (&options, MISSES * inexact.within), watch)?
+            check_within(described, polished, None, (&options, MISSES * inexact.within), watch)?
         }
-        None => chain::Check::run(described, polished, None, &amounts.polished, watch)?,
+        None => check_chain(described, polished, None, &amounts.polished, watch)?,
     };
-    Ok(report.with_ideal(chain::Check::run(ideal, own, bound, &amounts.ideal, watch)?))
+    Ok(report.with_ideal(check_chain(ideal, own, bound, &amounts.ideal, watch)?))
 }

@@ -1,8 +1,9 @@
 //! The original equations in floating point, the reference of all checks. It uses nothing of the program.
 
-use std::f64::consts::PI;
-
-use super::newton::{jacobian, largest, newton, smallest_singular_value};
+use super::chain::model::Joints;
+use super::chain::singular::smallest_singular_value;
+use super::check::ORDINARY;
+use super::newton::{jacobian, largest, newton};
 use crate::derive::{JointKindUnknown, ParameterSource, Quantity, System};
 use groebot_algebra::poly::Expression;
 use groebot_robot::spatial::angle;
@@ -11,8 +12,6 @@ use groebot_robot::spatial::angle;
 pub(super) const RESIDUAL: f64 = 1e-11;
 /// The value below which a joint vector is certainly a solution, so that no solver may miss it.
 pub(super) const EXACT: f64 = 1e-13;
-/// The lower limit of the scaled Jacobian's smallest singular value at an ordinary joint vector.
-pub(super) const ORDINARY: f64 = 1e-3;
 
 /// A name with its value and its size. A cosine or sine has size one, because its rounding error does not decrease with its value.
 struct Named<'a> {
@@ -39,11 +38,6 @@ impl<'a> Model<'a> {
         Model { system, unit, equations }
     }
 
-    /// Whether joint `index` is an angle.
-    pub fn is_angle(&self, index: usize) -> bool {
-        matches!(self.system.joints[index].kind, JointKindUnknown::Angle { .. })
-    }
-
     /// The typical size of input `index`.
     pub fn input_size(&self, index: usize) -> f64 {
         match self.system.inputs[index].quantity {
@@ -61,7 +55,7 @@ impl<'a> Model<'a> {
     /// The typical size of each joint at `target`: one radian, or a length.
     pub fn joint_sizes(&self, target: &[f64]) -> Vec<f64> {
         let length = self.length(target);
-        (0..self.system.joints.len()).map(|joint| if self.is_angle(joint) { 1.0 } else { length }).collect()
+        (0..self.system.joints.len()).map(|joint| if self.turns(joint) { 1.0 } else { length }).collect()
     }
 
     fn parameters(&self, target: &[f64]) -> Vec<Named<'a>> {
@@ -137,9 +131,7 @@ impl<'a> Model<'a> {
     }
 
     fn differences(&self, to: &[f64], from: &[f64]) -> Vec<f64> {
-        let one = |(joint, (to, from)): (usize, (&f64, &f64))| {
-            if self.is_angle(joint) { angle::difference(*to, *from) } else { to - from }
-        };
+        let one = |(joint, (to, from)): (usize, (&f64, &f64))| self.difference(joint, *to, *from);
         to.iter().zip(from).enumerate().map(one).collect()
     }
 
@@ -185,17 +177,15 @@ impl<'a> Model<'a> {
         let allowed = self.system.inputs.iter().zip(&target).all(|(input, value)| !input.positive || *value > 0.0);
         (allowed && self.misfit(&target, q) <= EXACT).then_some(target)
     }
+}
 
-    /// `q` with every angle in (-pi, pi].
-    pub fn wrapped(&self, q: &[f64]) -> Vec<f64> {
-        let wrap = |(joint, q): (usize, &f64)| if self.is_angle(joint) { angle::wrap(*q) } else { *q };
-        q.iter().enumerate().map(wrap).collect()
+impl Joints for Model<'_> {
+    fn count(&self) -> usize {
+        self.system.joints.len()
     }
 
-    /// Whether `q` has a finite value for each joint, angles in (-pi, pi].
-    pub fn is_well_formed(&self, q: &[f64]) -> bool {
-        let allowed = |(joint, q): (usize, &f64)| q.is_finite() && (!self.is_angle(joint) || (-PI < *q && *q <= PI));
-        q.len() == self.system.joints.len() && q.iter().enumerate().all(allowed)
+    fn turns(&self, joint: usize) -> bool {
+        matches!(self.system.joints[joint].kind, JointKindUnknown::Angle { .. })
     }
 }
 

@@ -53,15 +53,6 @@ pub(super) fn jacobian(x: &[f64], scales: &[f64], residual: &Residual<'_>) -> DM
     DMatrix::from_columns(&columns)
 }
 
-/// The smallest singular value of a matrix with full column rank; zero if it has more columns than rows.
-pub(super) fn smallest_singular_value(matrix: DMatrix<f64>) -> f64 {
-    if matrix.nrows() < matrix.ncols() || !matrix.iter().all(|entry| entry.is_finite()) {
-        return 0.0;
-    }
-    let decomposition = SVD::try_new(matrix, false, false, f64::EPSILON, 200);
-    decomposition.map_or(0.0, |svd| svd.singular_values.min())
-}
-
 fn step(x: &[f64], scales: &[f64], residual: &Residual<'_>) -> Option<Vec<f64>> {
     if x.is_empty() {
         return None;

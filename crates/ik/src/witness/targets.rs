@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 
 use super::Draws;
+use super::chain::model::Joints;
+use super::check::Target;
 use super::model::{EXACT, Model, replaced};
 use super::newton::newton;
 use super::random::Random;
@@ -51,13 +53,6 @@ enum Slot {
     Far,
 }
 
-/// A target, and the joint values that made it, if any.
-pub(super) struct Target {
-    pub kind: Kind,
-    pub inputs: Vec<f64>,
-    pub joints: Option<Vec<f64>>,
-}
-
 /// The source of targets for one program.
 pub(super) struct Targets<'a> {
     model: &'a Model<'a>,
@@ -90,7 +85,7 @@ impl<'a> Targets<'a> {
 
     fn joints(&mut self) -> Vec<f64> {
         let (model, random) = (self.model, &mut self.random);
-        let limit = |joint| if model.is_angle(joint) { PI } else { model.unit };
+        let limit = |joint| if model.turns(joint) { PI } else { model.unit };
         (0..model.system.joints.len()).map(|joint| random.between(-limit(joint), limit(joint))).collect()
     }
 
@@ -120,7 +115,7 @@ impl<'a> Targets<'a> {
         let step = PI / f64::from(180 / degrees);
         (0..DRAWS).find_map(|_| {
             let mut q = self.joints();
-            let angles = (0..q.len()).filter(|&joint| self.model.is_angle(joint));
+            let angles = (0..q.len()).filter(|&joint| self.model.turns(joint));
             angles.for_each(|joint| q[joint] = (q[joint] / step).ceil() * step);
             self.reached(Kind::Round, q)
         })
@@ -134,7 +129,7 @@ impl<'a> Targets<'a> {
 
     /// In turn: each angle at 0 and at pi, and a configuration where the Jacobian is singular.
     fn boundary(&mut self) -> Option<Target> {
-        let angles: Vec<usize> = (0..self.model.system.joints.len()).filter(|&j| self.model.is_angle(j)).collect();
+        let angles: Vec<usize> = (0..self.model.system.joints.len()).filter(|&j| self.model.turns(j)).collect();
         let turn = self.boundaries_done % (2 * angles.len() + 2);
         self.boundaries_done += 1;
         match angles.get(turn / 2) {

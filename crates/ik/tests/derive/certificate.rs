@@ -136,7 +136,7 @@ fn the_certificate_of_another_mechanism_proves_nothing() {
 proptest! {
     #![proptest_config(crate::cases(60))]
 
-    /// After a change of one character, the text either has the same meaning or is refused. Nothing panics.
+    /// After a change of one character, the text either has the same meaning or is refused. It never panics.
     #[test]
     fn one_changed_character_never_proves_something_else(place in 0.0..1.0f64, letter in "[ -~]") {
         let (derivation, text) = leg();

@@ -4,8 +4,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use groebot_ik::Watch;
-use groebot_ik::witness::chain::{Check, Solver};
-use groebot_ik::witness::{Fault, Options, Verdict};
+use groebot_ik::witness::chain::check_within;
+use groebot_ik::witness::{Fault, Options, Solver, Verdict};
 use groebot_robot::kinematics::{BaseAxis, Chain, JointKind, Plane, Solution, Target, Task};
 use groebot_robot::spatial::Pose;
 use nalgebra::{DMatrix, DVector, Translation3};
@@ -175,7 +175,7 @@ fn the_check_takes_self_motions_within_the_tolerance_and_misses_them() {
     let within = program.described.as_ref().unwrap().within;
     let options = Options { targets: 240, oracle: 0, exact: 0, seed: 1, ..Options::default() };
     let missing = |solver: &dyn Solver| {
-        let report = Check::run_within(&described, solver, None, (&options, 2.0 * within), &Watch::none()).unwrap();
+        let report = check_within(&described, solver, None, (&options, 2.0 * within), &Watch::none()).unwrap();
         let is_missing = |verdict: &Verdict| verdict.faults().contains(&Fault::Missing);
         let failed = report.failures().count();
         (report.rows.iter().filter(|row| is_missing(&row.verdict)).count(), failed)
@@ -194,7 +194,7 @@ fn planar_poses_and_yaws_of_rounded_robots_pass_their_checks() {
             let program = derived(&chain);
             let tolerance = 2.0 * program.described.as_ref().unwrap().within;
             let options = Options { targets: 120, oracle: 0, exact: 0, seed: 1, ..Options::default() };
-            let report = Check::run_within(&chain, &program, None, (&options, tolerance), &Watch::none()).unwrap();
+            let report = check_within(&chain, &program, None, (&options, tolerance), &Watch::none()).unwrap();
             let failures: Vec<String> = report.failures().map(ToString::to_string).collect();
             assert!(failures.is_empty(), "{failures:?}");
         }

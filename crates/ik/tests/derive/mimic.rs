@@ -3,7 +3,7 @@
 use groebot_algebra::number::BigRational;
 use groebot_ik::derive::Derivation;
 use groebot_ik::witness::Options;
-use groebot_ik::witness::chain::Check;
+use groebot_ik::witness::chain::check_chain;
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::{Chain, ChainParts, Joint, JointKind, Mimic, Plane, Task, Tip, along_z};
 use groebot_robot::robots;
@@ -32,7 +32,7 @@ fn follows(leader: &str, multiplier: &str, offset: &str) -> Option<Mimic> {
 fn holds(chain: &Chain) {
     let derived = Derivation::sequentially(chain, &Watch::none()).unwrap();
     let options = Options { targets: 60, oracle: 2, ..Options::default() };
-    let report = Check::run(chain, derived.program(), None, &options, &Watch::none()).unwrap();
+    let report = check_chain(chain, derived.program(), None, &options, &Watch::none()).unwrap();
     let wrong: Vec<_> = report.failures().filter(|row| !row.is_weak_spot()).collect();
     assert!(wrong.is_empty(), "{wrong:?}");
 }

@@ -129,9 +129,9 @@ fn files_of_chains_have_an_axis_and_a_usual_direction() {
         )
     };
     let chain = Chain::from_toml(&text("kind = 'position_yaw'")).unwrap();
-    assert_eq!(chain.asked(), "position_yaw about z of [1, 0, 0]");
+    assert_eq!(chain.task_text(), "position_yaw about z of [1, 0, 0]");
     let chain = Chain::from_toml(&text("kind = 'position_yaw'\naxis = 'x'")).unwrap();
-    assert_eq!(chain.asked(), "position_yaw about x of [0, 1, 0]");
+    assert_eq!(chain.task_text(), "position_yaw about x of [0, 1, 0]");
     for (task, what) in [("kind = 'pose'\naxis = 'z'", "no axis"), ("kind = 'position_yaw'\naxis = 'w'", "`z`")] {
         let error = Chain::from_toml(&text(task)).unwrap_err();
         assert!(error.message().contains(what), "{error}");

@@ -178,7 +178,7 @@ fn keys_and_types_are_checked() {
 
 #[test]
 fn expressions_and_names_are_checked() {
-    refused("L1*s2", "L1 s2", Syntax, 27, "column 4: a product needs its sign; write `L1*s2`");
+    refused("L1*s2", "L1 s2", Syntax, 27, "column 4: a product needs `*`; write `L1*s2`");
     refused("L1*s2 + L2*c4", "L1*s2 + L3*c4", UnknownName, 27, "`L3`");
     refused("L1*s2 + L2*c4", "L1*s2/c4", BadValue, 27, "divides by the unknown `c4`");
     refused("L1*s2 + L2*c4", "(s2 + c2 + py)^1000", Overflow, 27, "lower its powers");

@@ -3,7 +3,7 @@
 
 use groebot_algebra::number::{BigRational, parse_rational};
 use groebot_ik::derive::{ChainProblem, Derivation};
-use groebot_ik::witness::chain::Check;
+use groebot_ik::witness::chain::check_chain;
 use groebot_ik::witness::{Options, Report as Checked};
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::Target;
@@ -34,7 +34,7 @@ fn arm(first: [&str; 3], at: [&str; 3]) -> Chain {
 
 fn check(chain: &Chain, derived: &Derivation) -> Checked {
     let options = Options { targets: 100, oracle: 3, ..Options::default() };
-    Check::run(chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap()
+    check_chain(chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap()
 }
 
 #[test]
@@ -44,7 +44,7 @@ fn the_loop_closes_where_the_arm_stands() {
         for at in 0..50 {
             let q: Vec<f64> = (0..5).map(|joint| (f64::from(at * 5 + joint) * 0.731).sin() * 3.1).collect();
             let target = Target::reached(&chain, &q).unwrap();
-            let (_, given) = upright.asked(&target, &[]).unwrap();
+            let (_, given) = upright.loop_target(&target, &[]).unwrap();
             // The loop's rotation may have any value that closes the loop.
             let pose = chain.forward(&q).unwrap();
             let (_, _, yaw) = pose.rotation.euler_angles();

@@ -4,7 +4,7 @@ use groebot_ik::derive::Derivation;
 use groebot_ik::derive::eigenvalue::fits;
 use groebot_ik::derive::planner::joints_to_give;
 use groebot_ik::witness::Options;
-use groebot_ik::witness::chain::Check;
+use groebot_ik::witness::chain::check_chain;
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::{Chain, ChainParts, Joint, Mimic, Task, along_z};
 
@@ -37,7 +37,7 @@ fn an_end_joint_is_given() {
         let derived = Derivation::by_eigenvalues(&chain, &Watch::none()).unwrap();
         assert_eq!(derived.eigenvalue().unwrap().method.six.joints().len(), 6);
         let options = Options { targets: 60, oracle: 1, exact: 4, seed: 3, ..Options::default() };
-        let report = Check::run(&chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap();
+        let report = check_chain(&chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap();
         let failures: Vec<String> =
             report.failures().filter(|row| !row.is_weak_spot()).map(|r| r.to_string()).collect();
         assert!(failures.is_empty(), "{joint}: {}", failures.join("\n"));

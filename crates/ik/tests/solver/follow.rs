@@ -95,7 +95,11 @@ fn a_step_that_is_too_fast_for_its_time_is_a_jump() {
     let at = |time| follow(&chain, &speeds, SOLVER.program(), &poses, &Pace::Every(time), &Watch::none()).unwrap();
     assert!(at(1.0).jumps.is_empty());
     let hasty = at(0.05);
-    assert!(!hasty.jumps.is_empty() && hasty.jumps[0].why.contains("would be faster than it can"), "{:?}", hasty.jumps);
+    assert!(
+        !hasty.jumps.is_empty() && hasty.jumps[0].why.contains("would exceed its maximum velocity"),
+        "{:?}",
+        hasty.jumps
+    );
     assert_eq!(hasty.trajectory.joints[0].speed, Some(1.0));
     assert_eq!(hasty.trajectory.times[9], 0.45);
 }

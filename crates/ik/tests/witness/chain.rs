@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use groebot_algebra::number::BigRational;
-use groebot_ik::witness::chain::{ByScrews, Check, Solver, count_exactly};
-use groebot_ik::witness::{Draws, Fault, Kind, Options, Report, Verdict};
+use groebot_ik::witness::chain::{check_chain, count_exactly};
+use groebot_ik::witness::{ByScrews, Draws, Fault, Kind, Options, Report, Solver, Verdict};
 use groebot_ik::{Result, Watch};
 use groebot_robot::kinematics::oracle::{Oracle, Unknown};
 use groebot_robot::kinematics::{Chain, JointKind, Solution, Task};
@@ -14,7 +14,7 @@ use groebot_robot::robots;
 const KR6: &str = include_str!("../../../../tests/corpus/urdf/kr6_r900.urdf");
 
 fn run(chain: &Chain, solver: &dyn Solver, bound: Option<usize>, options: Options) -> Report {
-    Check::run(chain, solver, bound, &options, &Watch::none()).unwrap()
+    check_chain(chain, solver, bound, &options, &Watch::none()).unwrap()
 }
 
 fn assert_none_fails(report: &Report, classes: &[&str]) {

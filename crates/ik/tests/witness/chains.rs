@@ -3,7 +3,7 @@
 use groebot_ik::Watch;
 use groebot_ik::derive::equations::compile::compile;
 use groebot_ik::solver::{Instruction, Operand, Operation, Program, Step};
-use groebot_ik::witness::{Check, Fault, Kind, Options, Verdict};
+use groebot_ik::witness::{Fault, Kind, Options, Verdict, check_equations};
 
 use super::{assert_passes, check, derive, from_text, read, two_link_text};
 
@@ -255,6 +255,6 @@ fn feeds(code: &[Instruction], index: usize, results: &[Operand]) -> bool {
 fn a_program_of_another_mechanism_is_refused() {
     let (leg, symbolic) = (read("nao_leg_sagittal"), from_text(SYMBOLIC));
     let program = derive(&symbolic).program().clone();
-    let error = Check::run(&leg, &program, &Options::default(), &Watch::none()).unwrap_err();
+    let error = check_equations(&leg, &program, &Options::default(), &Watch::none()).unwrap_err();
     assert_eq!(error.kind(), groebot_ik::ErrorKind::BadValue);
 }

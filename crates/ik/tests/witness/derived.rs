@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use groebot_ik::derive::{Derivation, Ends, InputFile};
-use groebot_ik::witness::chain::{ByScrews, Check, Solver};
-use groebot_ik::witness::{Options, Report};
+use groebot_ik::witness::chain::check_chain;
+use groebot_ik::witness::{ByScrews, Options, Report, Solver};
 use groebot_ik::{Result, Watch};
 use groebot_robot::kinematics::{Chain, Solution};
 use proptest::prelude::*;
@@ -49,7 +49,7 @@ fn chains() -> Vec<(String, Chain)> {
 }
 
 fn check(chain: &Chain, derived: &Derivation, options: &Options) -> Result<Report> {
-    Check::run(chain, derived.program(), derived.dimension(), options, &Watch::none())
+    check_chain(chain, derived.program(), derived.dimension(), options, &Watch::none())
 }
 
 fn failures_text(report: &Report, most: usize) -> String {
@@ -280,9 +280,14 @@ fn a_rounded_robot_is_solved_at_singular_poses_too() {
     let source = read("irb4600_rounded");
     let derived = Derivation::of(&source, &Watch::none()).unwrap();
     let options = Options { targets: 60, oracle: 1, exact: 6, seed: 6, ..Options::default() };
-    let report =
-        Check::run(derived.sequential().unwrap().problem.measured(), derived.program(), None, &options, &Watch::none())
-            .unwrap();
+    let report = check_chain(
+        derived.sequential().unwrap().problem.measured(),
+        derived.program(),
+        None,
+        &options,
+        &Watch::none(),
+    )
+    .unwrap();
     assert_eq!(report.failures().count(), 0, "{}\n{}", report.summary(), failures_text(&report, 6));
 }
 

@@ -13,7 +13,7 @@ mod self_motions;
 use groebot_ik::Watch;
 use groebot_ik::derive::{Derivation, Source};
 use groebot_ik::solver::Program;
-use groebot_ik::witness::{Check, Options, Report};
+use groebot_ik::witness::{Options, Report, check_equations};
 use std::path::Path;
 
 pub fn read(folder: &str) -> Source {
@@ -33,7 +33,7 @@ pub fn derive(source: &Source) -> Derivation {
 
 pub fn check(source: &Source, program: &Program, targets: usize) -> Report {
     let options = Options { targets, oracle: 10, exact: 40, ..Options::default() };
-    Check::run(source, program, &options, &Watch::none()).unwrap()
+    check_equations(source, program, &options, &Watch::none()).unwrap()
 }
 
 pub fn assert_passes(source: &Source, program: &Program, targets: usize) -> Report {

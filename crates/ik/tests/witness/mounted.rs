@@ -3,7 +3,7 @@
 use groebot_ik::Watch;
 use groebot_ik::derive::Derivation;
 use groebot_ik::witness::Options;
-use groebot_ik::witness::chain::Check;
+use groebot_ik::witness::chain::check_chain;
 use groebot_robot::kinematics::{Chain, Geometry};
 use groebot_robot::model::Robot;
 
@@ -30,7 +30,7 @@ fn an_arm_on_a_turned_base_is_solved() {
         }
         let derived = Derivation::sequentially(&chain, &Watch::none()).unwrap();
         let options = Options { targets: 80, oracle: 1, exact: 6, seed: 4, ..Options::default() };
-        let report = Check::run(&chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap();
+        let report = check_chain(&chain, derived.program(), derived.dimension(), &options, &Watch::none()).unwrap();
         let failures: Vec<String> = report.failures().map(|row| row.to_string()).collect();
         assert!(failures.is_empty(), "{rpy}: {}", failures.join("\n"));
         assert_eq!(report.summary().exact, 6, "{rpy}");

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use groebot_ik::Watch;
 use groebot_ik::solver::Program;
-use groebot_ik::witness::{Check, Options};
+use groebot_ik::witness::{Options, check_equations};
 use groebot_robot::kinematics::screw::two_link::TwoLink;
 use groebot_robot::spatial::{Axis, angle};
 use nalgebra::{Point3, Vector3};
@@ -179,7 +179,7 @@ fn the_counts_of_the_design() {
         for (targets, exact) in [(100_000, 0), (1_000, 1_000)] {
             let options = Options { targets, exact, oracle: 0, seed: 2, ..Options::default() };
             let start = std::time::Instant::now();
-            let report = Check::run(&source, &program, &options, &Watch::none()).unwrap();
+            let report = check_equations(&source, &program, &options, &Watch::none()).unwrap();
             println!("{folder}: {}; {:.1} s", report.summary(), start.elapsed().as_secs_f64());
             let failures: Vec<String> = report.failures().take(20).map(|row| row.to_string()).collect();
             assert!(failures.is_empty(), "{}", failures.join("\n"));

@@ -2,7 +2,7 @@
 
 use groebot_ik::Watch;
 use groebot_ik::derive::Derivation;
-use groebot_ik::witness::chain::{ByScrews, Solver};
+use groebot_ik::witness::{ByScrews, Solver};
 use groebot_robot::kinematics::{Chain, Solution};
 
 /// The axes of Unitree's Z1. The second, third and fourth are parallel; the others are perpendicular to them.

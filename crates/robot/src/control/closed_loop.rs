@@ -83,16 +83,16 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
             let wanted = Desired { q: &place, velocity: &rate, acceleration: &change };
             let [of_place, of_rate] = self.disturbance.noise;
             let measured = [noise.added(&q, of_place), noise.added(&velocity, of_rate)];
-            let seen = State::new(&measured[0], &measured[1]);
+            let measured_state = State::new(&measured[0], &measured[1]);
             let at = |error: Error| error.with_context(format!("at {time:.4} s"));
-            let asked = self.law.torques(&wanted, seen).map_err(at)?.to_vec();
-            self.law.integrate(&wanted, seen, self.step);
+            let commanded = self.law.torques(&wanted, measured_state).map_err(at)?.to_vec();
+            self.law.integrate(&wanted, measured_state, self.step);
             let torques = match number.checked_sub(self.disturbance.delay) {
-                _ if self.disturbance.delay == 0 => asked.clone(),
+                _ if self.disturbance.delay == 0 => commanded.clone(),
                 Some(earlier) => samples[earlier].torques.clone(),
-                None => samples.first().map_or(&asked, |first| &first.torques).clone(),
+                None => samples.first().map_or(&commanded, |first| &first.torques).clone(),
             };
-            samples.push(Sample { time, q: q.clone(), velocity: velocity.clone(), torques: asked, desired: place });
+            samples.push(Sample { time, q: q.clone(), velocity: velocity.clone(), torques: commanded, desired: place });
             if number < steps {
                 self.advance(&mut q, &mut velocity, &torques).map_err(at)?;
             }
@@ -123,7 +123,7 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
             velocity[at] += step / 6.0 * (first[at] + 2.0 * second[at] + 2.0 * third[at] + fourth[at]);
         }
         let finite = q.iter().chain(&*velocity).all(|x| x.is_finite());
-        let text = "the motion grows beyond doubles: the law does not hold the robot";
+        let text = "the motion exceeds the range of doubles: the law does not stabilise the robot";
         if finite { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text)) }
     }
 }

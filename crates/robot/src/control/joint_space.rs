@@ -28,7 +28,7 @@ impl Gains {
     fn check(&self, count: usize) -> Result<()> {
         let lists = [&self.proportional, &self.derivative, &self.integral];
         let is_right = |list: &&Vec<f64>| list.len() == count && list.iter().all(|x| x.is_finite() && *x >= 0.0);
-        let text = || format!("give gains of {count} freedoms, each finite and not below zero");
+        let text = || format!("give gains for {count} degrees of freedom, each finite and nonnegative");
         if lists.iter().all(is_right) { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text())) }
     }
 
@@ -39,7 +39,7 @@ impl Gains {
     }
 }
 
-fn endured(sum: &mut [f64], desired: &Desired<'_>, state: &State<'_>, time: f64) {
+fn integrate_errors(sum: &mut [f64], desired: &Desired<'_>, state: &State<'_>, time: f64) {
     let errors = state.q.iter().zip(desired.q).map(|(q, desired)| q - desired);
     sum.iter_mut().zip(errors).for_each(|(sum, error)| *sum += error * time);
 }
@@ -97,7 +97,7 @@ impl Commanded {
 
     /// Integrates the errors over a time \[s\].
     pub(super) fn integrate(&mut self, desired: &Desired<'_>, state: &State<'_>, time: f64) {
-        endured(&mut self.sum, desired, state, time);
+        integrate_errors(&mut self.sum, desired, state, time);
     }
 }
 
@@ -169,6 +169,6 @@ impl Law for GravityCompensation {
     }
 
     fn integrate(&mut self, desired: &Desired<'_>, state: State<'_>, time: f64) {
-        endured(&mut self.sum, desired, &state, time);
+        integrate_errors(&mut self.sum, desired, &state, time);
     }
 }

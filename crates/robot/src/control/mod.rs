@@ -59,10 +59,10 @@ impl<L: Law> Limited<L> {
 
 impl<L: Law> Law for Limited<L> {
     fn torques(&mut self, desired: &Desired<'_>, state: State<'_>) -> Result<&[f64]> {
-        let asked = self.law.torques(desired, state)?;
-        for (at, (asked, most)) in asked.iter().zip(&self.most).enumerate() {
-            self.torques[at] = asked.clamp(-most, *most);
-            self.cut[at] = asked - self.torques[at];
+        let commanded = self.law.torques(desired, state)?;
+        for (at, (commanded, most)) in commanded.iter().zip(&self.most).enumerate() {
+            self.torques[at] = commanded.clamp(-most, *most);
+            self.cut[at] = commanded - self.torques[at];
         }
         Ok(&self.torques)
     }
@@ -88,6 +88,6 @@ impl<L: Law + ?Sized> Law for Box<L> {
 /// Number of degrees of freedom of a law's equations. Joint-space laws need a fixed base.
 fn fixed(equations: &Equations) -> Result<usize> {
     use crate::{Error, ErrorKind};
-    let text = "this law is for a robot whose base is fixed";
+    let text = "this law needs a robot with a fixed base";
     if equations.is_floating() { Err(Error::new(ErrorKind::Unsupported, text)) } else { Ok(equations.freedoms()) }
 }

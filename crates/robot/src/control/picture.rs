@@ -18,7 +18,7 @@ pub fn errors_and_torques(samples: &[Sample], names: &[String]) -> String {
     let mut svg = Svg::default();
     let errors = |joint: usize| samples.iter().map(move |sample| 1e3 * (sample.q[joint] - sample.desired[joint]));
     let torques = |joint: usize| samples.iter().map(move |sample| sample.torques[joint]);
-    let end = panel(&mut svg, GAP, "errors: what is less what should be", "mrad, mm", samples, names, errors);
+    let end = panel(&mut svg, GAP, "errors: actual minus desired values", "mrad, mm", samples, names, errors);
     let end = panel(&mut svg, end + GAP, "torques and forces", "N m, N", samples, names, torques);
     svg.finish(WIDTH, end + GAP)
 }

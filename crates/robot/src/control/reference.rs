@@ -32,7 +32,7 @@ impl Trajectory {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         if times.len() < 2 || times.len() != knots.len() {
             return bad(format!(
-                "{} times and {} places are given; give two or more of each",
+                "{} times and {} positions are given; give two or more of each",
                 times.len(),
                 knots.len()
             ));

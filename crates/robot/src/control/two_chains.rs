@@ -19,7 +19,7 @@ pub struct TwoChains {
     /// The link of each chain's foot.
     feet: [usize; 2],
     trunk: usize,
-    standing: usize,
+    supporting: usize,
     is_coupled: bool,
     commanded: Commanded,
     torques: Vec<f64>,
@@ -27,26 +27,26 @@ pub struct TwoChains {
 }
 
 impl TwoChains {
-    /// Builds the law of a robot with a left and a right foot. `standing` is the index of the supporting foot, 0 or 1.
+    /// Builds the law of a robot with a left and a right foot. `supporting` is the index of the supporting foot, 0 or 1.
     /// The feet are links whose frames have z up when the robot is upright on level ground. The trunk is the robot's
     /// root. With `is_coupled`, the halves exchange a wrench through the trunk; without it, each is a robot of its own.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] for unknown links, [`ErrorKind::BadValue`] for feet with common joints; those of
     /// [`ComputedTorque::new`](super::ComputedTorque::new) for gains.
-    pub fn new(robot: &Robot, feet: [&str; 2], standing: usize, gains: Gains, is_coupled: bool) -> Result<Self> {
+    pub fn new(robot: &Robot, feet: [&str; 2], supporting: usize, gains: Gains, is_coupled: bool) -> Result<Self> {
         let model = Model::new(robot)?;
         let feet = [robot.link(feet[0])?, robot.link(feet[1])?];
         let legs = feet.map(|foot| model.path(model.link(foot).0));
-        if standing > 1 || legs.iter().any(Vec::is_empty) || legs[0].iter().any(|joint| legs[1].contains(joint)) {
+        if supporting > 1 || legs.iter().any(Vec::is_empty) || legs[0].iter().any(|joint| legs[1].contains(joint)) {
             let text = "two chains need feet with different joints, and a supporting foot 0 or 1";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let chain = |half: usize| -> Result<Equations> {
-            let rooted = model.halves(feet)[half].rooted_at(feet[standing]);
+            let rooted = model.halves(feet)[half].rooted_at(feet[supporting]);
             let equations = Equations::of(robot, &rooted, Base::Fixed)?;
             // Rotors and friction are counted once.
-            Ok(if half == standing { equations } else { equations.without_friction().without_rotors() })
+            Ok(if half == supporting { equations } else { equations.without_friction().without_rotors() })
         };
         let chains = [chain(0)?, chain(1)?];
         let count = chains[0].freedoms();
@@ -56,7 +56,7 @@ impl TwoChains {
             trunk: robot.root_place(),
             chains,
             feet,
-            standing,
+            supporting,
             is_coupled,
             torques: vec![0.0; count],
             between: Wrench::zero(),
@@ -73,15 +73,15 @@ impl TwoChains {
 impl Law for TwoChains {
     fn torques(&mut self, desired: &Desired<'_>, state: State<'_>) -> Result<&[f64]> {
         let commanded = self.commanded.accelerations(desired, &state);
-        let swinging = 1 - self.standing;
+        let swinging = 1 - self.supporting;
         // The wrench that moves the half of the swing foot, in the frame of the supporting foot.
         let moves = self.chains[swinging].base_wrench(&mut self.workspaces[swinging], state, commanded)?;
         let held = if self.is_coupled { self.trunk } else { self.feet[swinging] };
-        let stands = self.chains[swinging].pose(&mut self.workspaces[swinging], state.q, held)?;
-        let own = moves.transform(&stands.inverse());
+        let pose = self.chains[swinging].pose(&mut self.workspaces[swinging], state.q, held)?;
+        let own = moves.transform(&pose.inverse());
         let back = [(held, -own)];
         let carried: &[_] = if self.is_coupled { &back } else { &[] };
-        let pushes = [(self.standing, carried), (swinging, &[(held, own)][..])];
+        let pushes = [(self.supporting, carried), (swinging, &[(held, own)][..])];
         self.torques.fill(0.0);
         for (chain, pushes) in pushes {
             let equations = &self.chains[chain];

@@ -68,7 +68,7 @@ impl WorkSpace {
         let count = fixed(equations)?;
         let (Inversion::Exact(share) | Inversion::Damped(share)) = inversion;
         if !gains.iter().chain([&share]).all(|x| x.is_finite() && *x >= 0.0) {
-            return Err(Error::new(ErrorKind::BadValue, "give gains and a share that are finite and not below zero"));
+            return Err(Error::new(ErrorKind::BadValue, "give gains and a fraction that are finite and nonnegative"));
         }
         let [proportional, derivative] = gains;
         Ok(WorkSpace {
@@ -104,12 +104,12 @@ impl WorkSpace {
         error.fixed_rows_mut::<3>(0).copy_from(&(pose.translation.vector - target.pose.translation.vector));
         error.fixed_rows_mut::<3>(3).copy_from(&(pose.rotation * target.pose.rotation.inverse()).scaled_axis());
         let moving = Vector6::from_column_slice(moving.as_slice());
-        let asked = target.acceleration
+        let desired_acceleration = target.acceleration
             - (moving - target.velocity) * self.derivative
             - error * self.proportional
             - Vector6::from_column_slice(drift.as_slice());
         let inverse = self.inverted(&jacobian)?;
-        let commanded = inverse * DVector::from_column_slice(asked.as_slice());
+        let commanded = inverse * DVector::from_column_slice(desired_acceleration.as_slice());
         self.commanded.copy_from_slice(commanded.as_slice());
         self.equations.inverse(&mut self.workspace, state, &self.commanded).map(|torques| torques.as_slice())
     }
@@ -144,7 +144,7 @@ impl WorkSpace {
         let greatest = jacobian.singular_values().max();
         let square = jacobian * jacobian.transpose();
         let damped = &square + DMatrix::identity(square.nrows(), square.ncols()) * (share * greatest).powi(2);
-        let text = "the Jacobian has no damped inverse; damp by more than nothing";
+        let text = "the Jacobian has no damped inverse; give a positive damping";
         let inverse = damped.try_inverse().ok_or_else(|| Error::new(ErrorKind::BadValue, text))?;
         Ok(jacobian.transpose() * inverse)
     }
@@ -154,7 +154,7 @@ impl WorkSpace {
 fn exact(jacobian: &DMatrix<f64>, share: f64) -> Result<DMatrix<f64>> {
     if !jacobian.is_square() {
         let text = format!(
-            "the robot has {} joints and the task six directions: there is no inverse of the Jacobian; take a damped one",
+            "the robot has {} joints and the task six directions: the Jacobian has no inverse; use a damped inverse",
             jacobian.ncols()
         );
         return Err(Error::new(ErrorKind::Unsupported, text));

@@ -11,8 +11,8 @@ use crate::{Error, ErrorKind, Result};
 
 const FORMAT: JsonFormat = JsonFormat {
     what: "certificate",
-    number: 6,
-    renew: "`groebot derive`, or for equations of motion `groebot dynamics --symbolic`, on its folder writes it anew",
+    number: 7,
+    renew: "`groebot derive`, or for equations of motion `groebot dynamics --symbolic`, on its folder writes it again",
 };
 
 /// Subject of a certificate.

@@ -66,10 +66,10 @@ impl Clearance {
             }
         }
         touches.sort_by(|a, b| b.depth.total_cmp(&a.depth));
-        let mut seen = Vec::new();
+        let mut found = Vec::new();
         touches.retain(|touch| {
-            let is_new = !seen.contains(&touch.links);
-            seen.push(touch.links);
+            let is_new = !found.contains(&touch.links);
+            found.push(touch.links);
             is_new
         });
         touches

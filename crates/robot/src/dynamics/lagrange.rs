@@ -47,8 +47,8 @@ impl Model {
         self.check_body(i.max(j) + 1)?;
         let path = self.path(i + 1);
         let Some(start) = path.iter().position(|joint| *joint == j) else { return Ok(Matrix6::zeros()) };
-        let behind = &path[start + 1..];
-        let moved = behind.iter().fold(Pose::identity(), |pose, k| pose * self.joints()[*k].screw.exp(q[*k]));
+        let later = &path[start + 1..];
+        let moved = later.iter().fold(Pose::identity(), |pose, k| pose * self.joints()[*k].screw.exp(q[*k]));
         Ok(pose::adjoint_inverse(&moved))
     }
 

@@ -19,7 +19,7 @@ pub(super) fn check_masses(robot: &Robot, model: &Model) -> Result<Vec<String>> 
         let links =
             || (0..robot.links().len()).filter(|&link| model.link(link).0 == body).map(|link| &robot.links()[link]);
         if let Some(link) = links().find(|link| link.inertia().mass() < 0.0) {
-            let text = format!("mass {} kg: give one that is not below zero", link.inertia().mass());
+            let text = format!("mass {} kg: give a nonnegative one", link.inertia().mass());
             return Err(located(link, Error::new(ErrorKind::BadValue, text)));
         }
         let named = |error: Error, least: f64| {
@@ -32,7 +32,7 @@ pub(super) fn check_masses(robot: &Robot, model: &Model) -> Result<Vec<String>> 
         }
         if let Some(error) = fault(inertia, 0.0) {
             notes.push(format!(
-                "{}; it is less than {least:.0e} kg m^2 off, taken for rounding",
+                "{}; the deviation is below {least:.0e} kg m^2 and is treated as a rounding error",
                 named(error, 0.0).message()
             ));
         }

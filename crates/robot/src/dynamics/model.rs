@@ -65,7 +65,7 @@ impl Model {
         if model.bodies.iter().all(is_finite) {
             return Ok(model);
         }
-        Err(Error::new(ErrorKind::BadValue, "a mass or a frame is beyond the range of doubles; give smaller numbers"))
+        Err(Error::new(ErrorKind::BadValue, "a mass or a frame exceeds the range of doubles; give smaller numbers"))
     }
 
     /// Appends the child link of the robot's joint `place`. Its parent is already in the model. `moving` has the
@@ -95,7 +95,8 @@ impl Model {
     /// # Errors
     /// [`ErrorKind::UnknownName`] when no revolute or prismatic joint has this name.
     pub fn joint(&self, name: &str) -> Result<usize> {
-        let unknown = || Error::new(ErrorKind::UnknownName, format!("no joint `{name}` turns or slides"));
+        let unknown =
+            || Error::new(ErrorKind::UnknownName, format!("there is no revolute or prismatic joint `{name}`"));
         self.joints.iter().position(|joint| joint.name == name).ok_or_else(unknown)
     }
 

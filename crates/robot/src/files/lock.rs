@@ -126,6 +126,6 @@ pub fn refuse_unfinished(path: &Path) -> Result<()> {
     if !listed(&parent(path).join(UNFINISHED)).contains(name) {
         return Ok(());
     }
-    let text = "this file is one of a set whose writing was interrupted, or is going on; run the command that writes the set again";
+    let text = "the writing of a set with this file was interrupted, or is in progress; run the command that writes the set again";
     Err(Error::new(ErrorKind::Io, text).in_file(path))
 }

@@ -36,7 +36,7 @@ impl Target {
         }
         let fail = |kind, text: &str| Err(Error::new(kind, text).in_file(path));
         if path.file_name().is_none() {
-            return fail(ErrorKind::BadValue, "this path names no file; end it in a file name");
+            return fail(ErrorKind::BadValue, "this path has no file name; give one");
         }
         match fs::symlink_metadata(path) {
             Ok(found) if found.is_symlink() => {
@@ -92,7 +92,7 @@ pub fn refuse_foreign(path: &Path, new: &[u8]) -> Result<()> {
         Target::Stream => return Ok(()),
         Target::Link => {
             return fail(
-                "this is a link, and nothing is written through links; give the name of a file, or --force to replace the link",
+                "this is a link, and links are not written through; give the name of a file, or --force to replace the link",
             );
         }
         Target::File => {}
@@ -105,7 +105,7 @@ pub fn refuse_foreign(path: &Path, new: &[u8]) -> Result<()> {
     if is_own(&old, new).map_err(|error| Error::io(path, &error))? {
         return Ok(());
     }
-    fail("this file is there, and groebot did not write it; give another name, or --force to replace it")
+    fail("this file exists, and groebot did not write it; give another name, or --force to replace it")
 }
 
 fn is_own(old: &File, new: &[u8]) -> io::Result<bool> {

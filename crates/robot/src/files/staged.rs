@@ -217,7 +217,7 @@ fn check_name(name: &str) -> Result<()> {
     match (components.next(), components.next()) {
         (Some(Component::Normal(only)), None) if only == name => Ok(()),
         _ => {
-            let text = format!("`{name}` is no plain file name; give a name without folders");
+            let text = format!("`{name}` is not a plain file name; give a name without folders");
             Err(Error::new(ErrorKind::BadValue, text))
         }
     }

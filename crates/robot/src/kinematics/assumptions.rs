@@ -44,8 +44,7 @@ impl Chain {
             return Ok(());
         }
         let text = format!(
-            "the direction {} of the tip is {off:.1e} off a right angle to the base's {}, about which its angle is asked; give one at right \
-             angles (`direction`, `--direction`; by default {}), or another axis (`axis`, `--axis`)",
+            "the direction {} of the tip is not perpendicular to the base's {}, the axis of its angle (deviation {off:.1e}); give a perpendicular one (`direction`, `--direction`; by default {}), or another axis (`axis`, `--axis`)",
             show(self.direction()),
             axis.name(),
             show(&self.task().usual_direction())
@@ -66,8 +65,7 @@ impl Chain {
         let tilts = |joint: &&Joint| joint.kind == JointKind::Revolute && sine(&joint.axis, &normal) > TOLERANCE;
         let name = self.joints().iter().find(tilts).map(|joint| format!("joint `{}`", shown(&joint.name)));
         let text = format!(
-            "{} tilts the tip; the task `position_yaw` is for arms whose tip only turns about the base's {}: SCARAs, gantries, palletizers whose \
-             linkage keeps the tip level (joints that `mimic` others)",
+            "{} tilts the tip; the task `position_yaw` is for arms whose tip rotates only about the base's {}: SCARAs, gantries, palletizers with a linkage that keeps the tip level (mimic joints)",
             name.as_deref().unwrap_or("a joint"),
             axis.name()
         );

@@ -142,7 +142,7 @@ impl From<Chain> for ChainParts {
 
 impl Chain {
     /// Describes the task: `planar_pose in xz`, `ray of [1, 0, 0]`, `position, ElbowYaw given`.
-    pub fn asked(&self) -> String {
+    pub fn task_text(&self) -> String {
         let plane = self.task().plane().map(|plane| format!(" in {}", plane.name())).unwrap_or_default();
         let axis = self.task().axis().map(|axis| format!(" about {}", axis.name())).unwrap_or_default();
         let aimed = if self.task().aims() { format!(" of {}", show(self.direction())) } else { String::new() };
@@ -155,7 +155,7 @@ impl Chain {
 /// A short table, one line for each joint.
 impl fmt::Display for Chain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}: {}, lengths in {}", self.name(), self.asked(), self.length_unit().symbol())?;
+        writeln!(f, "{}: {}, lengths in {}", self.name(), self.task_text(), self.length_unit().symbol())?;
         for joint in self.joints() {
             let (kind, limits) = match (joint.kind, joint.limits) {
                 (JointKind::Revolute, Some((low, high))) => {

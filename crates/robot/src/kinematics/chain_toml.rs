@@ -150,7 +150,7 @@ fn form_of(table: Table<'_>) -> Result<Form> {
         (Some(_), None) => return Ok(Form::Point),
         (None, Some(_)) => return Ok(Form::Origin),
         (None, None) => {
-            "`point` (in the base frame) or `origin` (in the frame of the joint before) is missing; give one"
+            "`point` (in the base frame) or `origin` (in the frame of the previous joint) is missing; give one"
         }
         (Some(_), Some(_)) => return Err(table.error(ErrorKind::BadValue, "`point` and `origin` are given; give one")),
     };
@@ -252,11 +252,11 @@ fn read_kind(table: Table<'_>) -> Result<Task> {
         TaskKind::About(task) => task(axis.map_or(Ok(BaseAxis::Z), |node| node.one_of(&AXES))?),
     };
     if let Some(node) = plane.filter(|_| task.plane().is_none()) {
-        let message = format!("the task `{}` has no plane; leave it out or choose a planar task", task.name());
+        let message = format!("the task `{}` has no plane; omit it or choose a planar task", task.name());
         return Err(node.error(ErrorKind::BadValue, message));
     }
     if let Some(node) = axis.filter(|_| task.axis().is_none()) {
-        let message = format!("the task `{}` has no axis; leave it out or choose `position_yaw`", task.name());
+        let message = format!("the task `{}` has no axis; omit it or choose `position_yaw`", task.name());
         return Err(node.error(ErrorKind::BadValue, message));
     }
     Ok(task)

@@ -128,7 +128,7 @@ impl DhTable {
             return None;
         }
         Some(format!(
-            "joints `{}` and `{}` turn about the same line, as they do where a {} table is read as {}: try `convention = \"{}\"`",
+            "joints `{}` and `{}` are coaxial, which is typical of a {} table that is read as {}: try `convention = \"{}\"`",
             names[0],
             names[1],
             other.name(),

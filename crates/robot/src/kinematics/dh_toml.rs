@@ -119,7 +119,7 @@ fn read_row(table: Table<'_>, index: usize, units: Units) -> Result<DhRow> {
     };
     if let Some(node) = table.optional(moving) {
         let message = format!(
-            "a {} joint moves it; leave it out, and give its value at the joint value zero as `offset`",
+            "it is the value of a {} joint; omit it, and give its value at the joint value zero as `offset`",
             if kind == JointKind::Revolute { "revolute" } else { "prismatic" }
         );
         return Err(node.error(ErrorKind::BadValue, message));

@@ -121,8 +121,8 @@ fn meetings(screws: &[Screw], neighbours: &[Neighbours], tolerance: f64) -> Vec<
         let Some(Relation::Intersecting { point }) = pair.relation else { continue };
         let goes_through = |screw: &Screw| axis(screw).is_some_and(|axis| axis.distance_to(&point) <= tolerance);
         let before = screws[..pair.first].iter().rev().take_while(|screw| goes_through(screw)).count();
-        let behind = screws[pair.first + 2..].iter().take_while(|screw| goes_through(screw)).count();
-        let joints = pair.first - before..pair.first + 2 + behind;
+        let after = screws[pair.first + 2..].iter().take_while(|screw| goes_through(screw)).count();
+        let joints = pair.first - before..pair.first + 2 + after;
         if meetings.last().is_none_or(|last| last.joints != joints) {
             meetings.push(Meeting { joints, point });
         }

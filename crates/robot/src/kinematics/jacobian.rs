@@ -88,7 +88,7 @@ impl Chain {
                 }
                 Screw::Prismatic(direction) => (direction.into_inner(), Vector3::zeros()),
             };
-            self.task().sees(&v, &w, &aim)
+            self.task().components(&v, &w, &aim)
         };
         let entries: Vec<f64> = screws.iter().zip(&befores).enumerate().flat_map(column).collect();
         DMatrix::from_vec(self.task().freedoms(), screws.len(), entries)
@@ -155,7 +155,7 @@ impl Chain {
 impl Task {
     /// The task's components of a tip motion with the linear velocity `v` and the angular velocity `w`. `aim` is the
     /// unit vector of the task's direction.
-    fn sees(self, v: &Vector3<f64>, w: &Vector3<f64>, aim: &Vector3<f64>) -> Vec<f64> {
+    fn components(self, v: &Vector3<f64>, w: &Vector3<f64>, aim: &Vector3<f64>) -> Vec<f64> {
         let across = || {
             let least = Vector3::ith(aim.iamin(), 1.0);
             let first = aim.cross(&least).normalize();

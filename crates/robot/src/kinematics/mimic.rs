@@ -101,9 +101,7 @@ impl Chain {
         let law = self.joints()[follower].mimic.as_ref().map(Mimic::to_string).unwrap_or_default();
         let [leader, name] = [leader, follower].map(|place| shown(&self.joints()[place].name));
         let text = format!(
-            "joint `{name}` is {law} (mimic): a closed form takes turns that follow turns by a whole number up to 8, and slides that follow slides; \
-             a search (`groebot ik --numeric`) finds joint values, and so does a solver to which the value of `{leader}` is given \
-             (`--given {leader}`)"
+            "joint `{name}` is {law} (mimic): a closed form needs revolute joints that follow revolute joints by an integer up to 8, or prismatic joints that follow prismatic joints; use a numeric search (`groebot ik --numeric`), or a solver with the value of `{leader}` as input (`--given {leader}`)"
         );
         Err(Error::new(ErrorKind::Unsupported, text))
     }

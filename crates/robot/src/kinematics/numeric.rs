@@ -36,7 +36,7 @@ impl NumericSolver {
         let unknown: Vec<usize> = (0..chain.joints().len()).filter(is_unknown).collect();
         if unknown.len() > chain.task().freedoms() {
             let text = format!(
-                "the `{}` task leaves some of the {} unknown joints free: give the values of at least {}",
+                "the task `{}` leaves some of the {} unknown joints free: give the values of at least {}",
                 chain.task().name(),
                 unknown.len(),
                 unknown.len() - chain.task().freedoms()

@@ -104,7 +104,7 @@ impl Robot {
         let joints = joined(joints, &telescopes);
         if joints.is_empty() {
             let text = format!(
-                "nothing moves between `{}` and `{}`; choose links with moving joints between them",
+                "no joint moves between `{}` and `{}`; choose links with moving joints between them",
                 shown(&path.base),
                 shown(&path.tip)
             );
@@ -133,7 +133,7 @@ impl Robot {
     /// `path`.
     pub fn ignored(&self, path: &LinkPath) -> Vec<String> {
         let beside = self.faults().iter().filter(|fault| !self.is_on(path, fault));
-        let beside = beside.map(|fault| format!("ignored, as it is not in the chain: {}", fault.error));
+        let beside = beside.map(|fault| format!("ignored, because it is not in the chain: {}", fault.error));
         self.parts().notes.iter().cloned().chain(beside).collect()
     }
 
@@ -165,8 +165,9 @@ impl Robot {
                 let value = value.to_f64().unwrap_or(f64::NAN);
                 notes.push(format!("{name}: its multiplier is zero, so that it is fixed at {value}"));
             } else if let Some(mimic) = joint.mimic.as_ref().filter(|_| alone(joint)) {
-                notes
-                    .push(format!("{name}: in the robot it follows {mimic}, outside this chain; here it moves freely"));
+                notes.push(format!(
+                    "{name}: in the robot it follows {mimic}, outside this chain; here it is independent"
+                ));
             }
         }
         let walked = self.walk(path, Reading::AsDescribed).map(|(joints, _)| joints).unwrap_or_default();
@@ -175,7 +176,7 @@ impl Robot {
         let up: Vec<String> = up.map(|(index, _)| shown(&self.joints()[*index].name)).collect();
         if !up.is_empty() {
             notes.push(format!(
-                "passed from child to parent, axes reversed, values and limits their own: {}",
+                "passed from child to parent, with reversed axes and unchanged values and limits: {}",
                 up.join(", ")
             ));
         }
@@ -186,7 +187,7 @@ impl Robot {
     fn find(&self, what: &str, name: &str) -> Result<usize> {
         self.links().iter().position(|link| link.name == name).ok_or_else(|| {
             let names = some_among(name, self.links().iter().map(|link| link.name.as_str()));
-            let text = format!("the {what} `{}` is no link of the robot{names}", shown(name));
+            let text = format!("the {what} `{}` is not a link of the robot{names}", shown(name));
             Error::new(ErrorKind::UnknownName, text)
         })
     }

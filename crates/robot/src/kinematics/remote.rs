@@ -36,8 +36,7 @@ impl Chain {
             None => "choose a base frame nearer to the arm".to_owned(),
         };
         let text = format!(
-            "`{}` is {far:.0} of its reaches from its base frame, where rounding of targets hides solutions ({FAR} are allowed): {instead}, and \
-             add the place of that frame at run time",
+            "the distance of `{}` from its base frame is {far:.0} times its reach ({FAR} are allowed), so that solutions are lost by rounding of targets: {instead}, and add the pose of that frame at run time",
             shown(self.name())
         );
         Err(Error::new(ErrorKind::Unsupported, text))

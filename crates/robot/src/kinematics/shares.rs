@@ -85,13 +85,13 @@ impl Chain {
         let mut places: Vec<usize> = given.iter().copied().chain([joint]).filter(leads).collect();
         places.sort_unstable();
         let names = places.iter().map(|&place| self.joints()[place].name.clone()).collect();
-        let asked = self.with_task(self.task(), self.direction().clone(), names).ok()?;
-        let solver = ScrewSolver::within(&asked, 0.0).ok()?;
+        let restricted = self.with_task(self.task(), self.direction().clone(), names).ok()?;
+        let solver = ScrewSolver::within(&restricted, 0.0).ok()?;
         let mut draws = self.draws();
         let mut solved = 0;
         for _ in 0..COUNTED {
             let mut q = draws.posture();
-            let target = Target::reached(&asked, &q).ok()?;
+            let target = Target::reached(&restricted, &q).ok()?;
             q[joint] = draws.value(joint);
             let values: Vec<f64> = places.iter().map(|&place| q[place]).collect();
             solved += usize::from(!solver.solve_given(&target, &values).ok()?.is_empty());

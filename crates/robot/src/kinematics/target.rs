@@ -103,7 +103,7 @@ impl Target {
             (Task::PlanarPosition { .. }, &[x, y]) => Target::PlanarPosition([x, y]),
             (Task::PlanarPose { .. }, &[x, y, phi]) => Target::PlanarPose([x, y, phi]),
             _ => {
-                let text = format!("{} numbers are no target of the task `{}`", target.len(), task.name());
+                let text = format!("{} numbers are not a target of the task `{}`", target.len(), task.name());
                 return Err(Error::new(ErrorKind::BadValue, text));
             }
         })

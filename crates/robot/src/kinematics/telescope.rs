@@ -80,7 +80,7 @@ impl Telescope {
         };
         let shares: Vec<String> = self.shares(joints).into_iter().map(share).collect();
         vec![format!(
-            "{}: they slide together and are one joint, whose value is this sum; {}",
+            "{}: coupled prismatic joints are one joint, whose value is this sum; {}",
             self.name(joints),
             shares.join(", ")
         )]

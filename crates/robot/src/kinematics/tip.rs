@@ -59,7 +59,7 @@ impl Robot {
             }
             _ => {
                 let tips = listing(self.suggested_tips(base).into_iter());
-                let message = format!("the robot has several ends; choose a tip link, such as {tips}");
+                let message = format!("the robot has several leaf links; choose a tip link, such as {tips}");
                 Err(Error::new(ErrorKind::MissingKey, message))
             }
         }

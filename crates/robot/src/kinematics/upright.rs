@@ -46,12 +46,11 @@ impl Chain {
         let is_vertical = first.axis[0].is_zero() && first.axis[1].is_zero();
         if first.kind != JointKind::Revolute || !is_vertical || self.given().contains(&0) {
             return unsupported(
-                "the task `position_pitch_roll` is for arms whose first joint turns about a vertical, the base's z, and is not given: \
-                 then the first joint takes up the yaw that is left open",
+                "the task `position_pitch_roll` is for arms whose first joint rotates about the base's z and is not given: it compensates the free yaw",
             );
         }
         if self.joints().iter().any(|joint| joint.mimic.is_some()) {
-            return unsupported("the task `position_pitch_roll` is not for chains with joints that follow others");
+            return unsupported("the task `position_pitch_roll` does not support mimic joints");
         }
         let tip = self.tip();
         let column = |k: usize| tip.rotation.each_ref().map(|row| row[k].clone());
@@ -103,7 +102,7 @@ impl Upright {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a target of another task.
-    pub fn asked(&self, target: &Target, given: &[f64]) -> Result<(Target, Vec<f64>)> {
+    pub fn loop_target(&self, target: &Target, given: &[f64]) -> Result<(Target, Vec<f64>)> {
         let Target::PositionPitchRoll { point, pitch, roll } = *target else {
             return Err(Error::new(
                 ErrorKind::BadValue,

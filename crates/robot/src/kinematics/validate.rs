@@ -133,10 +133,13 @@ fn check_unique(index: usize, joints: &[Joint]) -> Checked {
     let joint = &joints[index];
     for earlier in &joints[..index] {
         let duplicate = if earlier.name == joint.name {
-            Some(("name", "its name is taken by an earlier joint; give each joint its own".to_owned()))
+            Some(("name", "an earlier joint has this name; give each joint a different name".to_owned()))
         } else if earlier.symbol == joint.symbol {
             let other = shown(&earlier.name);
-            Some(("symbol", format!("symbol `{}` is taken by joint `{other}`; give each joint its own", joint.symbol)))
+            Some((
+                "symbol",
+                format!("joint `{other}` has the symbol `{}`; give each joint a different symbol", joint.symbol),
+            ))
         } else {
             None
         };
@@ -167,7 +170,7 @@ pub(super) fn check_plane(index: usize, joint: &Joint, plane: Plane, within: f64
         shown(&show(&joint.axis)),
         plane.name(),
         if off <= WIDEST {
-            format!("; it is {off:.1e} rad off: a wider tolerance, `--snap`, takes it for that")
+            format!("; the deviation is {off:.1e} rad: a larger tolerance, `--snap`, idealises it")
         } else {
             String::new()
         }
@@ -185,7 +188,7 @@ fn check_tip(tip: &Tip) -> Checked {
         return Err(fault(Part::Tip, "point", ErrorKind::BadValue, message));
     }
     if !is_rotation(&tip.rotation) {
-        let message = "the tip's matrix is no rotation; give an exact one: R R^T = 1 and det R = 1".into();
+        let message = "the tip's matrix is not a rotation; give an exact one: R R^T = 1 and det R = 1".into();
         return Err(fault(Part::Tip, "rotation", ErrorKind::BadValue, message));
     }
     Ok(())
@@ -219,18 +222,15 @@ fn check_mimics(parts: &ChainParts) -> Checked {
                 let among = one_among(&mimic.leader, &names);
                 return bad(
                     ErrorKind::UnknownName,
-                    format!("it mimics `{}`, which is no joint{among}", shown(&mimic.leader)),
+                    format!("it mimics `{}`, which is not a joint{among}", shown(&mimic.leader)),
                 );
             }
             Some(leader) if leader.mimic.is_some() => {
-                let text = format!(
-                    "it mimics `{}`, which follows another joint; name the one that leads",
-                    shown(&mimic.leader)
-                );
+                let text = format!("it mimics `{}`, which is a mimic joint; name its leader", shown(&mimic.leader));
                 return bad(ErrorKind::BadValue, text);
             }
             Some(_) if mimic.multiplier.is_zero() => {
-                return bad(ErrorKind::BadValue, "its multiplier is zero; leave the joint out".into());
+                return bad(ErrorKind::BadValue, "its multiplier is zero; omit the joint".into());
             }
             Some(_) => {}
         }
@@ -260,7 +260,7 @@ fn check_given(parts: &ChainParts) -> Checked {
     let is_given =
         |joint: &Joint| parts.given.contains(joint.mimic.as_ref().map_or(&joint.name, |mimic| &mimic.leader));
     if parts.joints.iter().all(is_given) {
-        return bad(ErrorKind::BadValue, "every joint is given; leave one or more to solve for".into());
+        return bad(ErrorKind::BadValue, "every joint is given; leave at least one unknown".into());
     }
     Ok(())
 }

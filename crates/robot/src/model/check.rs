@@ -88,10 +88,13 @@ fn check_actuator(actuator: &Actuator, before: &[Actuator], joints: &[Joint]) ->
     let named =
         |kind, message: String| Err(Error::new(kind, format!("actuator `{}`: {message}", shown(&actuator.name))));
     if before.iter().any(|other| other.name == actuator.name) {
-        return named(ErrorKind::DuplicateName, "its name is taken; give each actuator its own".to_owned());
+        return named(
+            ErrorKind::DuplicateName,
+            "another actuator has this name; give each a different name".to_owned(),
+        );
     }
     if actuator.joints.is_empty() {
-        return named(ErrorKind::BadValue, "it moves no joint; name one".to_owned());
+        return named(ErrorKind::BadValue, "it moves no joint; give a joint".to_owned());
     }
     for (name, _) in &actuator.joints {
         if let Err(error) = place("joint", name, joints.iter().map(|joint| joint.name.as_str())) {
@@ -114,7 +117,8 @@ fn index_links(links: &[Link]) -> Result<HashMap<&str, usize>> {
     for (place, link) in links.iter().enumerate() {
         check_name(&link.name, link.line, "link")?;
         if index.insert(link.name.as_str(), place).is_some() {
-            let message = format!("link `{}`: its name is taken; give each link its own", shown(&link.name));
+            let message =
+                format!("link `{}`: another link has this name; give each a different name", shown(&link.name));
             let error = Error::new(ErrorKind::DuplicateName, message);
             return Err(if let Some(line) = link.line { error.at_line(line) } else { error });
         }
@@ -127,7 +131,9 @@ fn index_joints(joints: &[Joint]) -> Result<HashMap<&str, usize>> {
     for (place, joint) in joints.iter().enumerate() {
         check_name(&joint.name, joint.line, "joint")?;
         if index.insert(joint.name.as_str(), place).is_some() {
-            return Err(joint.error(ErrorKind::DuplicateName, "its name is taken; give each joint its own"));
+            return Err(
+                joint.error(ErrorKind::DuplicateName, "another joint has this name; give each a different name")
+            );
         }
     }
     Ok(index)
@@ -140,7 +146,7 @@ fn check_motion(joint: &Joint) -> Result<()> {
         return bad("axis [0, 0, 0] has no direction; give a non-zero vector");
     }
     let turns = matches!(joint.kind, JointType::Revolute | JointType::Continuous);
-    let remedy = if turns { ", or the type `continuous` for a joint that turns without limits" } else { "" };
+    let remedy = if turns { ", or the type `continuous` for a revolute joint without limits" } else { "" };
     match joint.limits {
         None if joint.kind == JointType::Revolute => {
             bad("a revolute joint needs limits; give <limit lower upper>, or the type `continuous`")
@@ -166,13 +172,13 @@ fn check_mimic(joint: &Joint, joints: &[Joint], index: &HashMap<&str, usize>) ->
                 return Ok(());
             }
             let names = some_among(&mimic.leader, joints.iter().map(|joint| joint.name.as_str()));
-            let message = format!("it mimics `{}`, which is no joint{names}", shown(&mimic.leader));
+            let message = format!("it mimics `{}`, which is not a joint{names}", shown(&mimic.leader));
             return Err(joint.error(ErrorKind::UnknownName, &message));
         };
         (follower, steps) = (&joints[*leader], steps + 1);
         if steps > MAX_FOLLOWERS || follower.name == joint.name {
             let message = format!(
-                "the joints that it mimics mimic one another, or are more than {MAX_FOLLOWERS}; let one of them lead"
+                "the chain of joints that it mimics is a cycle, or longer than {MAX_FOLLOWERS}; remove the mimic law of one"
             );
             return Err(joint.error(ErrorKind::BadValue, &message));
         }
@@ -184,7 +190,7 @@ fn ends_of(joint: &Joint, links: &[Link], index: &HashMap<&str, usize>) -> Resul
     let find = |what: &str, name: &str| {
         index.get(name).copied().ok_or_else(|| {
             let names = some_among(name, links.iter().map(|link| link.name.as_str()));
-            let message = format!("its {what} `{}` is no link{names}", shown(name));
+            let message = format!("its {what} `{}` is not a link{names}", shown(name));
             joint.error(ErrorKind::UnknownName, &message)
         })
     };
@@ -198,8 +204,9 @@ pub fn parents(parts: &RobotParts, ends: &[(usize, usize)]) -> Result<Vec<Option
     for (place, joint) in joints.iter().enumerate() {
         if let Some(other) = above[ends[place].1].replace(place) {
             let (child, other) = (shown(&joint.child), shown(&joints[other].name));
-            let message =
-                format!("its child `{child}` hangs on joint `{other}` already; a robot must be a tree, without loops");
+            let message = format!(
+                "its child `{child}` is already the child of joint `{other}`; a robot must be a tree, without loops"
+            );
             return Err(joint.error(ErrorKind::BadValue, &message));
         }
     }
@@ -212,10 +219,10 @@ pub fn root(links: &[Link], above: &[Option<usize>]) -> Result<usize> {
     match roots.as_slice() {
         [root] => Ok(*root),
         [] if links.is_empty() => Err(Error::new(ErrorKind::MissingKey, "the robot has no <link>; give at least one")),
-        [] => Err(Error::new(ErrorKind::BadValue, "every link hangs on another one: a loop; a robot must be a tree")),
+        [] => Err(Error::new(ErrorKind::BadValue, "every link has a parent: a loop; a robot must be a tree")),
         _ => {
             let names = listing(roots.iter().map(|root| links[*root].name.as_str()));
-            let message = format!("{} links hang on no joint: {names}; connect all but one of them", roots.len());
+            let message = format!("{} links have no parent joint: {names}; only the root may have none", roots.len());
             Err(Error::new(ErrorKind::BadValue, message))
         }
     }

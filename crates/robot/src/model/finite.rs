@@ -62,7 +62,8 @@ fn check<'w>(numbers: impl IntoIterator<Item = (&'w str, Vec<f64>)>) -> std::res
 }
 
 fn fault(part: &str, name: &str, what: &str, line: Option<usize>) -> Error {
-    let text = format!("{part} `{}`: its {what} has a number that no double holds; give at most 1.7e308", shown(name));
+    let text =
+        format!("{part} `{}`: its {what} has a number outside the range of doubles; give at most 1.7e308", shown(name));
     let error = Error::new(ErrorKind::BadValue, text);
     line.map_or(error.clone(), |line| error.at_line(line))
 }

@@ -37,12 +37,12 @@ impl Link {
 
     /// The visual shapes that `show` supports, else the collision shapes that it supports. Also returns whether there
     /// are shapes but none is supported.
-    pub fn seen<T>(&self, mut show: impl FnMut(&Shape) -> Option<T>) -> (Vec<T>, bool) {
+    pub fn drawn<T>(&self, mut show: impl FnMut(&Shape) -> Option<T>) -> (Vec<T>, bool) {
         let mut all = |shapes: &[Shape]| -> Vec<T> { shapes.iter().filter_map(&mut show).collect() };
         let visuals = all(&self.visuals);
-        let seen = if visuals.is_empty() { all(&self.collisions) } else { visuals };
-        let hidden = seen.is_empty() && !(self.visuals.is_empty() && self.collisions.is_empty());
-        (seen, hidden)
+        let drawn = if visuals.is_empty() { all(&self.collisions) } else { visuals };
+        let hidden = drawn.is_empty() && !(self.visuals.is_empty() && self.collisions.is_empty());
+        (drawn, hidden)
     }
 
     /// Its inertia in doubles, in its own frame.

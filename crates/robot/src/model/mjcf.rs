@@ -183,7 +183,7 @@ impl Writer<'_> {
         }
         let surface = self.meshes.triangles_or_note(solid, self.notes)?;
         if surface.is_flat(LEAST_THICKNESS) {
-            self.notes.push(format!("the mesh `{}` is flat; MuJoCo takes no such mesh", shown(path)));
+            self.notes.push(format!("the mesh `{}` is flat; MuJoCo does not support flat meshes", shown(path)));
             return None;
         }
         let file = self.meshes.find(path)?;
@@ -232,8 +232,10 @@ fn inertial(link: &Link, stem: &str, notes: &mut Vec<String>) -> String {
     let tensor = inertia.rotational();
     let raised = raised(&tensor);
     if (raised - tensor).amax() > 2.0 * RAISED * tensor.trace().abs() {
-        notes
-            .push(format!("link `{}`: no body has its moments of inertia; in MJCF they are raised", shown(&link.name)));
+        notes.push(format!(
+            "link `{}`: its moments of inertia are physically impossible; they are increased in MJCF",
+            shown(&link.name)
+        ));
     }
     let moments = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].map(|at| raised[at]);
     format!(

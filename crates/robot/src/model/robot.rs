@@ -252,7 +252,7 @@ impl Robot {
     pub fn unseen(&self, notes: &[String]) -> Error {
         let why: String = notes.iter().map(|note| format!("; {note}")).collect();
         let text = format!(
-            "the robot `{}` has no shape, and no joint away from its parent: there is nothing to see; give a link a visual or a collision{why}",
+            "the robot `{}` has no shape, and no joint at a distance from its parent, so there is nothing to draw; give a link a visual or a collision{why}",
             shown(self.name())
         );
         Error::new(ErrorKind::BadValue, text)

@@ -28,7 +28,7 @@ pub fn is_text(bytes: &[u8]) -> bool {
 }
 
 fn wrong(text: &str) -> Error {
-    Error::new(ErrorKind::Syntax, format!("this is no STL: {text}"))
+    Error::new(ErrorKind::Syntax, format!("this is not an STL file: {text}"))
 }
 
 fn begins_solid(bytes: &[u8]) -> bool {
@@ -49,15 +49,16 @@ fn expected_length(bytes: &[u8]) -> Option<usize> {
 fn binary(mut bytes: Vec<u8>) -> Result<Vec<Triangle>> {
     let length = bytes.len();
     let (Some(count), Some(expected)) = (count(&bytes), expected_length(&bytes)) else {
-        let text = format!("a text begins with `solid`, a binary file has a head of {HEAD} bytes; this has {length}");
+        let text =
+            format!("a text begins with `solid`, a binary file has a header of {HEAD} bytes; this file has {length}");
         return Err(wrong(&text));
     };
     if length != expected {
         let place = match length < expected {
             true => format!("in triangle {}", (length - HEAD) / TRIANGLE + 1),
-            false => "behind the last one".to_owned(),
+            false => "after the last triangle".to_owned(),
         };
-        let text = format!("its head counts {count} triangles, which end at byte {expected}");
+        let text = format!("its header has the number {count} of triangles, which end at byte {expected}");
         return Err(wrong(&format!("{text}; the file ends at byte {length}, {place}")));
     }
     // The header must not look like a text.

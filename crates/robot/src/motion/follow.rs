@@ -96,7 +96,7 @@ pub fn follow_from(
     start.map(|start| chain.forward(start)).transpose()?;
     if chain.task() != Task::Pose || !chain.given().is_empty() {
         let text =
-            format!("the task is `{}`; a path of poses is followed by `pose` without given joints", chain.asked());
+            format!("the task is `{}`; a path of poses is followed by `pose` without given joints", chain.task_text());
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     let times = times(pace, poses.len())?;
@@ -123,7 +123,7 @@ pub fn follow_from(
 fn times(pace: &Pace, count: usize) -> Result<Vec<f64>> {
     let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
     match pace {
-        _ if count == 0 => bad("there is no pose; give one at least".to_owned()),
+        _ if count == 0 => bad("there is no pose; give at least one".to_owned()),
         Pace::Every(time) if !(time.is_finite() && *time > 0.0) => {
             bad(format!("the time between two poses is {time}; give a positive number"))
         }
@@ -288,7 +288,7 @@ impl Path<'_> {
         let start = self.start?;
         let (joint, _) = self.furthest(0, start, &first.q).filter(|(_, share)| *share > 1.0)?;
         let step = self.distance(joint, start[joint], first.q[joint]);
-        Some(Jump { sample: 0, joint, step, why: "the path begins away from where the arm stands".to_owned() })
+        Some(Jump { sample: 0, joint, step, why: "the path does not begin at the current joint values".to_owned() })
     }
 
     /// The jump to a pose, if it is one, with the reason: how the branch before it ends.
@@ -301,19 +301,19 @@ impl Path<'_> {
         let same = layers[sample].iter().find(|state| state.branch == before.branch);
         let why = if goes_on {
             let blocked = self.end_of_branch(sample, layers, best);
-            format!("the branch goes on, but ends {blocked}")
+            format!("the branch continues, but ends {blocked}")
         } else if let Some(same) = same {
             let (fast, _) = self.furthest(sample, &before.q, &same.q)?;
             let turns = self.chain.joints()[fast].kind == JointKind::Revolute;
             if turns && self.distance(fast, before.q[fast], same.q[fast]).abs() > std::f64::consts::PI {
-                format!("`{}` would leave its limits; it turns back by a whole turn", name(fast))
+                format!("`{}` would leave its limits; it is moved back by a whole turn", name(fast))
             } else {
-                format!("the branch goes on, but `{}` would be faster than it can", name(fast))
+                format!("the branch continues, but `{}` would exceed its maximum velocity", name(fast))
             }
         } else if let Some(limited) = self.at_limit(&before.q) {
             format!("`{}` is at its limit", name(limited))
         } else {
-            "the branch ends: its solutions are no more, or beyond limits".to_owned()
+            "the branch ends: its solutions no longer exist, or are beyond limits".to_owned()
         };
         Some(Jump { sample, joint, step, why })
     }
@@ -330,7 +330,7 @@ impl Path<'_> {
             }
             alive = next;
         }
-        "behind the path".to_owned()
+        "after the path".to_owned()
     }
 
     /// A joint that is near a limit, if there is one.

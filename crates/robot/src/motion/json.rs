@@ -77,7 +77,7 @@ impl Trajectory {
             points: self.points.iter().map(track).collect(),
             figures: self.figures.iter().map(figure).collect(),
         };
-        serde_json::to_value(written).expect("a trajectory holds nothing that JSON cannot say")
+        serde_json::to_value(written).expect("JSON can represent every trajectory")
     }
 
     /// Reads a trajectory in the format of [`Trajectory::to_json`]. Other keys are ignored.

@@ -207,9 +207,9 @@ impl Header {
             places.iter().zip(POSE).try_for_each(|(at, (_, unit))| check_unit(names[*at], &[unit]))
         };
         header.base.iter().try_for_each(check_pose)?;
-        let mut seen: Vec<usize> = header.base.into_iter().flatten().collect();
+        let mut used: Vec<usize> = header.base.into_iter().flatten().collect();
         for (place, (name, unit)) in names.iter().enumerate().skip(1) {
-            if seen.contains(&place) {
+            if used.contains(&place) {
                 continue;
             }
             if let Some(joint) = name.strip_prefix("q:") {
@@ -233,12 +233,12 @@ impl Header {
                     check_pose(&places)?;
                     trajectory.contacts.push(Contact { name: stem.to_owned(), poses: Vec::new(), stands: Vec::new() });
                     header.contacts.push((places, stands));
-                    seen.extend(places);
-                    seen.push(stands);
+                    used.extend(places);
+                    used.push(stands);
                 }
                 (None, Some((stem, places))) => {
                     trajectory.points.push(Track { name: stem.to_owned(), at: Vec::new() });
-                    seen.extend(&places);
+                    used.extend(&places);
                     header.points.push([places[0], places[1], places[2]]);
                 }
                 (None, None) => {
@@ -262,7 +262,7 @@ impl Header {
             let syntax = |text: String| Error::new(ErrorKind::Syntax, text);
             match cell.trim().parse::<f64>() {
                 Ok(value) if value.is_finite() => limits::number(cell).map_err(syntax),
-                _ => Err(syntax(format!("`{}` is no finite number", shown(cell)))),
+                _ => Err(syntax(format!("`{}` is not a finite number", shown(cell)))),
             }
         };
         let numbers = cells.iter().map(number).collect::<Result<Vec<f64>>>()?;

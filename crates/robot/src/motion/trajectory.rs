@@ -142,7 +142,7 @@ impl Trajectory {
             names.iter().try_for_each(|name| check_name("track", name))?;
             let twice = names.iter().enumerate().find(|(place, name)| names[..*place].contains(name));
             if let Some((_, name)) = twice {
-                let text = format!("`{}` is given twice; give each its own name", crate::document::shown(name));
+                let text = format!("`{}` is given twice; give each a different name", crate::document::shown(name));
                 return Err(Error::new(ErrorKind::DuplicateName, text));
             }
         }

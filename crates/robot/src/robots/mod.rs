@@ -81,7 +81,7 @@ limbs! {
     /// NAO's right arm, torso to hand: five joints.
     nao_right_arm: nao_v5, "Torso" to "r_hand", "five joints: few poses are reachable, so use poses from forward kinematics";
     /// NAO's head, torso to HeadPitch: two joints.
-    nao_head: nao_v5, "Torso" to "Head", "two joints whose axes meet in the tip: it reaches directions of view only";
+    nao_head: nao_v5, "Torso" to "Head", "two joints whose axes intersect at the tip: it reaches view directions only";
 }
 
 /// The chain `name`; `None` when [`ALL`] does not contain it.

@@ -41,7 +41,9 @@ impl Inertia {
         } else if (rotational - rotational.transpose()).norm() > ASYMMETRY * rotational.norm() {
             format!("inertia {rows:?}: give a symmetric matrix")
         } else if !is_distribution_of_mass(&rotational) {
-            format!("inertia {rows:?}: no body has it; each principal moment is at most the sum of the other two")
+            format!(
+                "inertia {rows:?} is physically impossible; each principal moment is at most the sum of the other two"
+            )
         } else {
             return Ok(Inertia { mass, centre_of_mass, rotational: (rotational + rotational.transpose()) / 2.0 });
         };

@@ -53,6 +53,6 @@ pub fn point_from_homogeneous(coordinates: &Vector4<f64>) -> Result<Point3<f64>>
         return Ok(point);
     }
     let [x, y, z, w] = (*coordinates).into();
-    let text = format!("[{x}, {y}, {z}, {w}] is no point; give finite coordinates, the fourth not zero");
+    let text = format!("[{x}, {y}, {z}, {w}] is not a point; give finite coordinates, the fourth not zero");
     Err(Error::new(ErrorKind::BadValue, text))
 }

@@ -16,7 +16,7 @@ pub(super) fn axis(line: &Vector3<f64>, moment: &Vector3<f64>) -> Result<Axis> {
         return Axis::new(*moment, Point3::origin());
     }
     if !pitch(line, moment).is_finite() {
-        let text = format!("pitch {}: give a line part that is not so small", pitch(line, moment));
+        let text = format!("pitch {}: give a larger line part", pitch(line, moment));
         return Err(Error::new(ErrorKind::BadValue, text));
     }
     Axis::new(*line, Point3::from((line / size).cross(&(moment / size))))

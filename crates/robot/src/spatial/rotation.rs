@@ -75,7 +75,7 @@ pub fn from_matrix(matrix: &Matrix3<f64>) -> Result<UnitQuaternion<f64>> {
         return Ok(UnitQuaternion::new_normalize(rotation.into_inner()));
     }
     let text = format!(
-        "no rotation matrix: R'R is off the identity by {off:e}, det R = {determinant}; \
+        "not a rotation matrix: R'R differs from the identity by {off:e}, det R = {determinant}; \
          give orthonormal columns (to {ORTHONORMAL:e}) and determinant 1"
     );
     Err(Error::new(ErrorKind::BadValue, text))

@@ -69,7 +69,7 @@ fn worst(samples: &[Sample]) -> f64 {
 }
 
 #[test]
-fn errors_die_out_as_computed_torque_says() {
+fn errors_decay_as_predicted_by_computed_torque() {
     for plant in [ur5(), stanford()] {
         let law = || ComputedTorque::new(&plant, Gains::critical(6, FREQUENCY)).unwrap();
         let [coarse, fine] = [1e-3, 5e-4].map(|step| deviation(&run(&plant, law(), step, 5.0, Disturbance::default())));
@@ -128,7 +128,7 @@ fn gravity_compensation_comes_to_rest_and_open_loop_does_not_pull_back() {
 }
 
 #[test]
-fn torques_are_cut_and_what_is_cut_is_told() {
+fn torques_are_limited_and_the_excess_is_reported() {
     let plant = ur5();
     let law = ComputedTorque::new(&plant, Gains::critical(6, FREQUENCY)).unwrap();
     let mut limited = Limited::new(law, vec![10.0; 6]);
@@ -180,8 +180,8 @@ fn work_space_is_that_of_the_thesis() {
     error.rows_mut(3, 3).copy_from(&(pose.rotation * target.pose.rotation.inverse()).scaled_axis());
     let six = |vector: &nalgebra::Vector6<f64>| DVector::from_column_slice(vector.as_slice());
     let late = moving - six(&target.velocity);
-    let asked = six(&target.acceleration) - late * 40.0 - error * 400.0;
-    let force = effective.inertia * asked + effective.coriolis * moving + effective.gravity;
+    let requested = six(&target.acceleration) - late * 40.0 - error * 400.0;
+    let force = effective.inertia * requested + effective.coriolis * moving + effective.gravity;
     near(&torques, (jacobian.transpose() * force).as_slice(), 1e-9, "(2-50)");
     assert_eq!(law.damped(), 0.0);
 }
@@ -227,16 +227,16 @@ fn trajectories_go_through_their_knots_smoothly() {
     let spline = Trajectory::through(times.clone(), places.clone()).unwrap();
     for (time, place) in times.iter().zip(&places) {
         near(&spline.at(*time)[0], place, 1e-14, "knot");
-        let (before, behind) = (spline.at(time - 1e-9), spline.at(time + 1e-9));
+        let (before, after) = (spline.at(time - 1e-9), spline.at(time + 1e-9));
         if *time > 0.0 && *time < 2.0 {
-            near(&before[1], &behind[1], 1e-6, "rate");
-            near(&before[2], &behind[2], 1e-6, "change");
+            near(&before[1], &after[1], 1e-6, "rate");
+            near(&before[2], &after[2], 1e-6, "change");
         }
     }
     let step = 1e-5;
-    let (ahead, here, behind) = (spline.at(0.8 + step), spline.at(0.8), spline.at(0.8 - step));
-    let rate: Vec<f64> = (0..2).map(|i| (ahead[0][i] - behind[0][i]) / (2.0 * step)).collect();
-    let change: Vec<f64> = (0..2).map(|i| (ahead[1][i] - behind[1][i]) / (2.0 * step)).collect();
+    let (ahead, here, after) = (spline.at(0.8 + step), spline.at(0.8), spline.at(0.8 - step));
+    let rate: Vec<f64> = (0..2).map(|i| (ahead[0][i] - after[0][i]) / (2.0 * step)).collect();
+    let change: Vec<f64> = (0..2).map(|i| (ahead[1][i] - after[1][i]) / (2.0 * step)).collect();
     near(&here[1], &rate, 1e-8, "rate");
     near(&here[2], &change, 1e-8, "change");
     near(&spline.at(0.0)[2], &[0.0, 0.0], 1e-14, "natural");

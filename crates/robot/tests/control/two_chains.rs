@@ -13,7 +13,7 @@ use crate::dynamics::samples::{Random, near};
 const SOLES: [&str; 2] = ["l_sole", "r_sole"];
 
 /// A robot whose foot is fixed to the floor.
-fn standing(robot: &Robot, foot: &str) -> Equations {
+fn supporting(robot: &Robot, foot: &str) -> Equations {
     let model = Model::new(robot).unwrap().rooted_at(robot.link(foot).unwrap());
     Equations::of(robot, &model, Base::Fixed).unwrap().without_friction()
 }
@@ -21,16 +21,15 @@ fn standing(robot: &Robot, foot: &str) -> Equations {
 /// The pose of a link, and its velocity and acceleration in its own frame.
 fn moving(equations: &Equations, link: usize, state: State<'_>, acceleration: &[f64]) -> [Vec<f64>; 3] {
     let mut room = equations.workspace();
-    let stands: Pose = equations.pose(&mut room, state.q, link).unwrap();
+    let is_at: Pose = equations.pose(&mut room, state.q, link).unwrap();
     let [jacobian, change] = equations.jacobian(&mut room, state, link).unwrap();
     let [rates, changes] = [state.velocity, acceleration].map(DVector::from_column_slice);
     let (twist, classical) = (jacobian * &rates, jacobian * changes + change * &rates);
-    let own = |six: &nalgebra::Vector6<f64>| {
-        [0, 3].map(|at| stands.rotation.inverse() * six.fixed_rows::<3>(at).into_owned())
-    };
+    let own =
+        |six: &nalgebra::Vector6<f64>| [0, 3].map(|at| is_at.rotation.inverse() * six.fixed_rows::<3>(at).into_owned());
     let [v, w] = own(&twist);
     let [a, turning] = own(&classical);
-    let place = stands.translation.vector.iter().chain(stands.rotation.coords.iter()).copied().collect();
+    let place = is_at.translation.vector.iter().chain(is_at.rotation.coords.iter()).copied().collect();
     let pair = |first: &Vector3<f64>, second: &Vector3<f64>| first.iter().chain(second).copied().collect();
     [place, pair(&v, &w), pair(&(a - w.cross(&v)), &turning)]
 }
@@ -48,7 +47,7 @@ fn a_foot_as_root_is_a_floating_base_with_a_contact_force() {
         let robot = robots::robot(name).unwrap();
         let free = Equations::new(&robot, Base::Floating).unwrap().without_friction();
         for foot in SOLES {
-            let held = standing(&robot, foot);
+            let held = supporting(&robot, foot);
             assert_eq!(held.joints(), free.joints());
             let link = robot.link(foot).unwrap();
             let mut room = held.workspace();
@@ -79,7 +78,7 @@ fn coupled_chains_are_one_tree() {
     for name in ["nao_v5", "teo", "rh0"] {
         let robot = robots::robot(name).unwrap();
         for (side, foot) in SOLES.into_iter().enumerate() {
-            let tree = standing(&robot, foot);
+            let tree = supporting(&robot, foot);
             let gains = || Gains::critical(tree.freedoms(), FREQUENCY);
             let mut one = ComputedTorque::new(&tree, gains()).unwrap();
             let mut two = TwoChains::new(&robot, SOLES, side, gains(), true).unwrap();
@@ -108,7 +107,7 @@ fn a_chain_alone_is_that_of_its_matrices() {
     let links = SOLES.map(|sole| robot.link(sole).unwrap());
     let halves = model.halves(links);
     assert!((halves[0].mass() + halves[1].mass() - model.mass()).abs() < 1e-12 * model.mass());
-    let tree = standing(&robot, SOLES[1]);
+    let tree = supporting(&robot, SOLES[1]);
     let [q, velocity, acceleration] = random_state(&mut random, tree.freedoms());
     let state = State::new(&q, &velocity);
     let desired = Desired { q: &q, velocity: &velocity, acceleration: &acceleration };
@@ -143,7 +142,7 @@ fn a_chain_alone_is_that_of_its_matrices() {
 #[test]
 fn chains_that_are_not_coupled_do_not_hold_a_robot_on_one_foot() {
     let robot = robots::robot("teo").unwrap();
-    let plant = standing(&robot, SOLES[1]);
+    let plant = supporting(&robot, SOLES[1]);
     let count = plant.freedoms();
     let place = |name: &str| plant.joints().iter().position(|joint| joint == name).unwrap();
     let bent: Vec<(usize, f64)> = plant
@@ -188,8 +187,8 @@ fn chains_that_are_not_coupled_do_not_hold_a_robot_on_one_foot() {
 #[test]
 fn feet_must_be_two() {
     let robot = robots::robot("teo").unwrap();
-    let new = |feet: [&str; 2], standing: usize| {
-        TwoChains::new(&robot, feet, standing, Gains::critical(12, FREQUENCY), true).unwrap_err().kind()
+    let new = |feet: [&str; 2], supporting: usize| {
+        TwoChains::new(&robot, feet, supporting, Gains::critical(12, FREQUENCY), true).unwrap_err().kind()
     };
     assert_eq!(new(["l_sole", "l_sole"], 0), ErrorKind::BadValue);
     assert_eq!(new(["l_sole", "RootWaist"], 0), ErrorKind::BadValue);

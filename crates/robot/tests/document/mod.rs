@@ -80,7 +80,7 @@ fn a_line_ends_with_its_newline() {
 }
 
 #[test]
-fn every_wrong_type_says_what_is_allowed() {
+fn every_wrong_type_reports_what_is_allowed() {
     type Read = fn(Node<'_>) -> Result<()>;
     let cases: [(&str, Read, usize, &str); 11] = [
         ("whole", |n| n.text().map(drop), 3, "a string"),

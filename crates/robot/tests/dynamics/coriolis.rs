@@ -82,7 +82,7 @@ proptest! {
     }
 
     #[test]
-    fn coriolis_times_velocity_is_what_lagrange_asks(case in case()) {
+    fn coriolis_times_velocity_satisfies_the_lagrange_equations(case in case()) {
         let found = case.arm.coriolis(&case.q, &case.velocity).unwrap() * case.rates();
         let energy = |q: &[f64]| case.rates().dot(&(inertia(&case, q) * case.rates())) / 2.0;
         let along = slope(|t| inertia(&case, &case.after(t))) * case.rates();

@@ -100,12 +100,12 @@ fn a_free_root_has_the_momentum_of_all_bodies() {
 
     // In the base's own frame only joints change the inertia matrix.
     let step = 1e-6;
-    let mut at = |way: f64| {
-        q[7..].iter_mut().zip(&velocity[6..]).for_each(|(q, rate)| *q += way * rate);
+    let mut at = |path: f64| {
+        q[7..].iter_mut().zip(&velocity[6..]).for_each(|(q, rate)| *q += path * rate);
         equations.inertia(&mut room, &q).unwrap().clone()
     };
-    let (ahead, behind) = (at(step), at(-2.0 * step));
-    let change = (ahead - behind) / (2.0 * step);
+    let (ahead, after) = (at(step), at(-2.0 * step));
+    let change = (ahead - after) / (2.0 * step);
     let left = change - (&coriolis + coriolis.transpose());
     assert!(left.amax() < 1e-6, "{}", left.amax());
 }
@@ -177,19 +177,19 @@ fn derivatives_are_finite_differences() {
             let mut unit = vec![0.0; equations.freedoms()];
             unit[freedom] = 1.0;
             let along =
-                |list: &[f64], way: f64| -> Vec<f64> { list.iter().zip(&unit).map(|(x, u)| x + way * u).collect() };
-            let mut torques = |way: f64| {
-                let q = moved(base, q, &unit, way);
+                |list: &[f64], path: f64| -> Vec<f64> { list.iter().zip(&unit).map(|(x, u)| x + path * u).collect() };
+            let mut torques = |path: f64| {
+                let q = moved(base, q, &unit, path);
                 let by_q = equations.inverse(room, State::new(&q, velocity), acceleration).unwrap().clone();
-                let faster = along(velocity, way);
+                let faster = along(velocity, path);
                 let by_velocity =
                     equations.inverse(room, State { velocity: &faster, ..state }, acceleration).unwrap().clone();
-                let pushed = along(acceleration, way);
+                let pushed = along(acceleration, path);
                 [by_q, by_velocity, equations.inverse(room, state, &pushed).unwrap().clone()]
             };
-            let (ahead, behind) = (torques(step), torques(-step));
-            for (which, (ahead, behind)) in ahead.iter().zip(&behind).enumerate() {
-                let slope = (ahead - behind) / (2.0 * step);
+            let (ahead, after) = (torques(step), torques(-step));
+            for (which, (ahead, after)) in ahead.iter().zip(&after).enumerate() {
+                let slope = (ahead - after) / (2.0 * step);
                 let what = format!("{} {base:?} freedom {freedom} matrix {which}", robot.name());
                 near(exact[which].column(freedom).as_slice(), slope.as_slice(), 1e-6, &what);
             }
@@ -288,9 +288,9 @@ fn jacobians_and_momenta_are_those_of_motions() {
                 let pose = equations.pose(room, &q, link).unwrap();
                 (pose, equations.jacobian(room, State::new(&q, &still), link).unwrap()[0].clone())
             };
-            let ((ahead, jacobian_ahead), (behind, jacobian_behind)) = (at(step), at(-step));
-            let linear = (ahead.translation.vector - behind.translation.vector) / (2.0 * step);
-            let angular = (ahead.rotation * behind.rotation.inverse()).scaled_axis() / (2.0 * step);
+            let ((ahead, jacobian_ahead), (after, jacobian_behind)) = (at(step), at(-step));
+            let linear = (ahead.translation.vector - after.translation.vector) / (2.0 * step);
+            let angular = (ahead.rotation * after.rotation.inverse()).scaled_axis() / (2.0 * step);
             let moving = &jacobian * &v;
             near(moving.as_slice(), &[linear.as_slice(), angular.as_slice()].concat(), 1e-7, robot.name());
             let change = (jacobian_ahead - jacobian_behind) / (2.0 * step);

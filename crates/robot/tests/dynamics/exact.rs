@@ -30,7 +30,7 @@ fn agree(robot: &Robot, tip: &str) {
     let path = robot.path(None, Some(tip)).unwrap();
     let chain = robot.chain(None, Some(tip)).unwrap().ideal().0;
     let numbers = masses(robot, &path, &chain).unwrap();
-    let told = symbolic(&chain, Masses::Numbers(&numbers));
+    let equations_text = symbolic(&chain, Masses::Numbers(&numbers));
     let (equations, mut random) = (Equations::unchecked(robot, Base::Fixed).unwrap().without_friction(), Random(11));
     let places: Vec<usize> = chain
         .joints()
@@ -48,7 +48,7 @@ fn agree(robot: &Robot, tip: &str) {
         values.extend(unknowns.into_iter().zip(of_value));
         values.insert(format!("v{}", joint.symbol), velocity[*place]);
     }
-    let entries: HashMap<String, f64> = told
+    let entries: HashMap<String, f64> = equations_text
         .entries()
         .into_iter()
         .map(|(name, text)| (name, parse(&text).unwrap().evaluate_f64(&|name| values.get(name).copied()).unwrap()))
@@ -90,8 +90,8 @@ fn polynomials_are_what_the_recursions_compute() {
 fn base_parameters_are_as_many_as_others_count() {
     // 36: the count of M. Gautier for arms of this kind.
     let chain = ur5().chain(None, Some("wrist_3_link")).unwrap().ideal().0;
-    let told = symbolic(&chain, Masses::Symbols);
-    let base = told.base_parameters().unwrap();
+    let equations_text = symbolic(&chain, Masses::Symbols);
+    let base = equations_text.base_parameters().unwrap();
     assert_eq!(base.forms.len(), 36);
     // Numerically: the singular values of many regressors.
     let robot = ur5();
@@ -108,11 +108,11 @@ fn base_parameters_are_as_many_as_others_count() {
 }
 
 #[test]
-fn what_is_told_otherwise_is_not_proved() {
+fn other_equations_are_not_proved() {
     let chain = Chain::from_toml(include_str!("../../../../derivations/polar/0_chain.toml")).unwrap();
-    let told = symbolic(&chain, Masses::Symbols);
-    let certificate = Certificate::new(&told, &chain, Masses::Symbols, &down());
-    let text = told.to_text();
+    let equations_text = symbolic(&chain, Masses::Symbols);
+    let certificate = Certificate::new(&equations_text, &chain, Masses::Symbols, &down());
+    let text = equations_text.to_text();
     let proof = certificate.prove(&chain, &text).unwrap();
     assert_eq!((proof.joints, proof.base_parameters), (3, Some(14)));
     assert_eq!(Certificate::from_json(&certificate.to_json(), chain.name()).unwrap(), certificate);

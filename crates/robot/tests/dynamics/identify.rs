@@ -77,7 +77,7 @@ fn bounds_hold_as_often_as_they_say() {
 }
 
 #[test]
-fn what_no_bodies_weigh_is_told() {
+fn physically_impossible_parameters_are_reported() {
     let robot = rrp();
     let equations = Equations::new(&robot, Base::Fixed).unwrap();
     let mut numbers = equations.parameters();
@@ -96,7 +96,7 @@ fn what_no_bodies_weigh_is_told() {
 }
 
 #[test]
-fn a_log_that_does_not_tell_is_refused() {
+fn an_uninformative_log_is_refused() {
     let robot = rrp();
     let equations = Equations::new(&robot, Base::Fixed).unwrap();
     let mut log = log(&equations, 100, |_, _, _| vec![0.0; 3]);
@@ -255,7 +255,7 @@ fn bodies_of_any_mass_are_found() {
 }
 
 #[test]
-fn bad_logs_are_told_by_their_kind() {
+fn bad_logs_are_reported_by_their_kind() {
     let equations = arm();
     let good = swinging(&equations, 300, 77, 0.01);
     let find = |change: &dyn Fn(&mut Vec<Logged>)| {
@@ -265,8 +265,8 @@ fn bad_logs_are_told_by_their_kind() {
         (kinds(&found), found.findings)
     };
     let expect = |kind: FindingKind, (kinds, findings): (Vec<FindingKind>, Vec<groebot_robot::dynamics::Finding>)| {
-        let told: Vec<String> = findings.iter().map(ToString::to_string).collect();
-        assert!(kinds.contains(&kind), "{kind:?}: {told:?}");
+        let reported: Vec<String> = findings.iter().map(ToString::to_string).collect();
+        assert!(kinds.contains(&kind), "{kind:?}: {reported:?}");
     };
     let degrees = |log: &mut Vec<Logged>| {
         for row in log {

@@ -62,7 +62,7 @@ fn along(w: &[f64], vector: &DVector<f64>) -> [f64; 2] {
 }
 
 #[test]
-fn a_thousand_states_of_each_robot_are_what_pinocchio_says() {
+fn a_thousand_states_of_each_robot_agree_with_pinocchio() {
     for (seed, (name, description, base, table)) in TABLES.into_iter().enumerate() {
         let robot = Robot::from_urdf(description).unwrap();
         let equations = Equations::unchecked(&robot, base).unwrap();
@@ -72,7 +72,7 @@ fn a_thousand_states_of_each_robot_are_what_pinocchio_says() {
         let mut worst = 0.0_f64;
         let mut rows = 0;
         for line in table.lines().skip(1) {
-            let told: Vec<f64> = line.split(',').map(|word| word.parse().unwrap()).collect();
+            let reported: Vec<f64> = line.split(',').map(|word| word.parse().unwrap()).collect();
             let mut q = if base == Base::Fixed { Vec::new() } else { floating(&mut random, 0) };
             q.extend(random.numbers(joints, 3.0));
             let [v, a, w, x] = [2.0, 5.0, 1.0, 1.0].map(|most| random.numbers(count, most));
@@ -94,10 +94,10 @@ fn a_thousand_states_of_each_robot_are_what_pinocchio_says() {
             for part in [momentum.linear, momentum.angular] {
                 found.extend(part.iter().map(|x| [*x, part.norm()]));
             }
-            for (column, ([found, size], told)) in found.into_iter().zip(told).enumerate() {
-                let miss = (found - told).abs() / size;
+            for (column, ([found, size], reported)) in found.into_iter().zip(reported).enumerate() {
+                let miss = (found - reported).abs() / size;
                 worst = worst.max(miss);
-                assert!(miss < 1e-10, "{name} row {rows} column {column}: {found} beside {told}, off by {miss:e}");
+                assert!(miss < 1e-10, "{name} row {rows} column {column}: {found} beside {reported}, off by {miss:e}");
             }
             // Forward dynamics is the inverse of inverse dynamics, and agrees with the inertia matrix.
             let bias = equations.bias(&mut room, state).unwrap().clone();

@@ -62,11 +62,11 @@ pub fn moved(base: Base, q: &[f64], velocity: &[f64], time: f64) -> Vec<f64> {
     let joints = if base == Base::Fixed { 0 } else { 7 };
     if base == Base::Floating {
         let turn = UnitQuaternion::from_quaternion(Quaternion::new(q[6], q[3], q[4], q[5]));
-        let way = groebot_robot::spatial::Twist {
+        let path = groebot_robot::spatial::Twist {
             v: Vector3::from_column_slice(&velocity[..3]) * time,
             w: Vector3::from_column_slice(&velocity[3..6]) * time,
         };
-        let pose = Pose::from_parts(Vector3::from_column_slice(&q[..3]).into(), turn) * way.exp(1.0);
+        let pose = Pose::from_parts(Vector3::from_column_slice(&q[..3]).into(), turn) * path.exp(1.0);
         q[..3].copy_from_slice(pose.translation.vector.as_slice());
         q[3..7].copy_from_slice(pose.rotation.coords.as_slice());
     }

@@ -199,7 +199,7 @@ fn the_number_of_joints_is_limited() {
 }
 
 #[test]
-fn mistakes_of_form_b_are_told_too() {
+fn mistakes_of_form_b_are_reported_too() {
     let form_b = FORM_A
         .replace("point = [0, 0, 0]", "origin = { xyz = [0, 0, 0] }")
         .replace("point = [1, 0, 0]\nrpy_deg = [0, 0, 90]", "origin = { xyz = [1, 0, 0], rpy_deg = [0, 0, 90] }");

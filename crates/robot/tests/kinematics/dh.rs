@@ -61,7 +61,7 @@ fn the_documented_example() {
 }
 
 #[test]
-fn base_and_tool_stand_before_and_behind() {
+fn base_and_tool_are_applied() {
     let text = "name = 't'\nangle_unit = 'deg'\nbase = { xyz = [1, 2, 3], rpy = [90, 0, 0] }\ntool = { xyz = [0, 0, 0.5] }\n\
                 [dh]\nconvention = 'standard'\n[[joint]]\nname = 'j'\ntype = 'revolute'\n";
     let chain = Chain::from_dh_toml(text).unwrap();

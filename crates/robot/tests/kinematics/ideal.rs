@@ -90,7 +90,7 @@ fn an_exact_chain_is_not_changed() {
 }
 
 #[test]
-fn what_is_almost_there_is_told() {
+fn almost_exact_relations_are_reported() {
     let text = IRB4600
         .replace("axis = [1, 0, 0]\npoint = [1.135, 0, 1.57]", "axis = [1, 0, 0]\npoint = [1.135, 0.00004, 1.57003]");
     let chain =
@@ -100,9 +100,9 @@ fn what_is_almost_there_is_told() {
         ))
         .unwrap();
     let near = chain.ideal_within(1e-4).unwrap().1.relations;
-    let told: Vec<_> = near.iter().map(|near| (near.joints.clone(), near.kind)).collect();
+    let reported: Vec<_> = near.iter().map(|near| (near.joints.clone(), near.kind)).collect();
     let expected = [(1..3, RelationKind::Parallel), (3..6, RelationKind::Meeting)];
-    assert_eq!(told, expected);
+    assert_eq!(reported, expected);
     assert!((near[0].by - 2e-5).abs() < 1e-14);
     // Axis 6 passes the intersection of axes 4 and 5 at 4e-5 m in y and 3e-5 m in z.
     assert!((near[1].by - 5e-5).abs() < 1e-14, "{}", near[1].by);

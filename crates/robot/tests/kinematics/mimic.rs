@@ -69,15 +69,15 @@ fn a_joint_that_turns_follows() {
 
 #[test]
 fn where_the_leader_is_given_the_others_are() {
-    let asked =
+    let requested =
         chain(FINGER).with_task(Task::Position, groebot_robot::kinematics::along_z(), vec!["knuckle".into()]).unwrap();
-    assert_eq!((asked.given(), asked.given_inputs()), (vec![2, 3, 4], vec![2]));
-    let solver = ScrewSolver::new(&asked);
-    let numeric = NumericSolver::new(&asked).unwrap();
+    assert_eq!((requested.given(), requested.given_inputs()), (vec![2, 3, 4], vec![2]));
+    let solver = ScrewSolver::new(&requested);
+    let numeric = NumericSolver::new(&requested).unwrap();
     for at in 0..20 {
         let mut q = vec![0.37 * f64::from(at) - 3.0, 0.2 * f64::from(at) - 2.0, 0.1 * f64::from(at), 0.0, 0.0];
-        asked.follow(&mut q);
-        let target = Target::reached(&asked, &q).unwrap();
+        requested.follow(&mut q);
+        let target = Target::reached(&requested, &q).unwrap();
         let found = |answers: Vec<groebot_robot::kinematics::Solution>| {
             answers.iter().any(|answer| answer.q.iter().zip(&q).all(|(a, b)| (a - b).sin().abs() < 1e-7))
         };
@@ -89,12 +89,12 @@ fn where_the_leader_is_given_the_others_are() {
 #[test]
 fn a_search_finds_a_leader_and_what_follows_it() {
     // The position of a fingertip: three unknown numbers, for any multipliers.
-    let asked = chain(FINGER).with_task(Task::Position, groebot_robot::kinematics::along_z(), Vec::new()).unwrap();
+    let requested = chain(FINGER).with_task(Task::Position, groebot_robot::kinematics::along_z(), Vec::new()).unwrap();
     let mut q = vec![0.5, -0.4, 0.6, 0.0, 0.0];
-    asked.follow(&mut q);
-    let target = Target::reached(&asked, &q).unwrap();
-    let answers = NumericSolver::new(&asked).unwrap().solve(&target, &[]).unwrap();
-    assert!(answers.iter().all(|answer| asked.strays(&answer.q) < 1e-12));
+    requested.follow(&mut q);
+    let target = Target::reached(&requested, &q).unwrap();
+    let answers = NumericSolver::new(&requested).unwrap().solve(&target, &[]).unwrap();
+    assert!(answers.iter().all(|answer| requested.strays(&answer.q) < 1e-12));
     assert!(answers.iter().any(|answer| (0..5).all(|joint| (answer.q[joint] - q[joint]).abs() < 1e-8)), "{answers:?}");
 }
 
@@ -112,8 +112,8 @@ fn a_toml_chain_may_have_followers_too() {
     let again: Chain = serde_json::from_str(&serde_json::to_string(&chain).unwrap()).unwrap();
     assert_eq!(again, chain);
     for (mimic, kind, words) in [
-        ("{ joint = \"c\" }", ErrorKind::UnknownName, "mimics `c`, which is no joint"),
-        ("{ joint = \"b\" }", ErrorKind::BadValue, "follows another joint"),
+        ("{ joint = \"c\" }", ErrorKind::UnknownName, "mimics `c`, which is not a joint"),
+        ("{ joint = \"b\" }", ErrorKind::BadValue, "is a mimic joint"),
         ("{ joint = \"a\", multiplier = 0 }", ErrorKind::BadValue, "multiplier is zero"),
         ("{ joint = \"a\", factor = 2 }", ErrorKind::UnknownKey, "factor"),
         ("{ multiplier = 2 }", ErrorKind::MissingKey, "joint"),

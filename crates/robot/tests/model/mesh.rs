@@ -53,7 +53,7 @@ fn corners_of_triangles_are_read_and_scaled() {
     let refused = [
         ("package://poor/a.stl", ErrorKind::Io, "is not found"),
         ("a.dae", ErrorKind::Unsupported, "only meshes in STL"),
-        ("broken.stl", ErrorKind::Syntax, "no STL"),
+        ("broken.stl", ErrorKind::Syntax, "not an STL file"),
     ];
     for (path, _, _) in &refused[1..] {
         fs::write(package.join("urdf").join(path), "solid").unwrap();
@@ -138,7 +138,7 @@ fn damage_is_named_with_its_place() {
     let short = changed(&|bytes| bytes.truncate(84 + 2 * 50 + 7));
     assert!(short.message().contains("counts 4 triangles") && short.message().contains("in triangle 3"), "{short}");
     let long = changed(&|bytes| bytes.extend([0; 50]));
-    assert!(long.message().contains("behind the last one"), "{long}");
+    assert!(long.message().contains("after the last triangle"), "{long}");
     let infinite = changed(&|bytes| bytes[84 + 50 + 12..][..4].copy_from_slice(&f32::INFINITY.to_le_bytes()));
     assert!(infinite.message().contains("triangle 2 is not finite"), "{infinite}");
     assert!(fault("").unwrap().message().contains("this has 0"));

@@ -184,7 +184,7 @@ const HARD: &str = r#"<robot name="a &amp; b">
 </robot>"#;
 
 #[test]
-fn what_mujoco_does_not_take_is_written_in_another_way() {
+fn unsupported_features_are_converted_for_mujoco() {
     let folder = tempfile::tempdir().unwrap();
     let solid = |corners: [&str; 4]| {
         let facet = |[a, b, c]: [usize; 3]| {

@@ -69,7 +69,7 @@ fn naos_five_chains() {
 }
 
 #[test]
-fn naos_hip_axis_is_exact_and_its_follower_is_told() {
+fn naos_hip_axis_is_exact_and_its_follower_is_reported() {
     let hip = &limb("l_sole").joints()[0].axis.clone();
     assert_eq!(*hip, ["0", "1", "-1"].map(exact));
     let tree = nao();
@@ -125,7 +125,7 @@ fn what_is_no_tree_is_refused() {
     refused(&["a", "b", "c"], vec![joint("j", "a", "b"), joint("j", "b", "c")], DuplicateName, "joint `j`");
     refused(&["a", "b"], vec![joint("j", "a", "x")], UnknownName, "joint `j`: its child `x` is no link");
     refused(&["a", "base"], vec![joint("j", "bass", "a")], UnknownName, "did you mean `base`?");
-    refused(&["a", "b", "c"], vec![joint("j", "a", "b")], BadValue, "2 links hang on no joint: `a`, `c`");
+    refused(&["a", "b", "c"], vec![joint("j", "a", "b")], BadValue, "2 links have no parent joint: `a`, `c`");
     refused(&["a", "b"], vec![joint("j", "a", "b"), joint("k", "b", "a")], BadValue, "loop");
     refused(
         &["a", "b", "c"],
@@ -137,7 +137,7 @@ fn what_is_no_tree_is_refused() {
         &["a", "b"],
         vec![joint("j", "a", "b"), joint("k", "a", "b")],
         BadValue,
-        "joint `k`: its child `b` hangs on joint `j`",
+        "joint `k`: its child `b` is already the child of joint `j`",
     );
     refused(&["a"], vec![joint("j", "a", "a")], BadValue, "loop");
     refused(&[" "], vec![], BadValue, "visible characters");
@@ -211,7 +211,7 @@ fn what_is_no_chain_is_refused() {
 }
 
 #[test]
-fn too_long_a_way_is_refused() {
+fn too_long_a_path_is_refused() {
     let count = 70;
     let links: Vec<String> = (0..=count).map(|i| format!("l{i}")).collect();
     let links: Vec<&str> = links.iter().map(String::as_str).collect();
@@ -227,7 +227,7 @@ proptest! {
 
     /// The path from hand to hand, up one arm and down the other, equals the path through the torso.
     #[test]
-    fn the_way_up_undoes_the_way_down(q in prop::collection::vec(-2.0f64..2.0, 10)) {
+    fn the_path_up_is_the_inverse_of_the_path_down(q in prop::collection::vec(-2.0f64..2.0, 10)) {
         let across = nao().chain(Some("l_hand"), Some("r_hand")).unwrap();
         let (left, right) = (limb("l_hand"), limb("r_hand"));
         let reversed: Vec<f64> = q[..5].iter().rev().copied().collect();

@@ -116,9 +116,9 @@ fn an_inertia_is_turned_into_its_link() {
     let robot = Robot::from_urdf(RICH).unwrap();
     let link = &robot.links()[0];
     let turn = nalgebra::Rotation3::from_euler_angles(0.1, 1.2345, -0.7);
-    let told = nalgebra::Matrix3::new(0.1, 0.001, -0.002, 0.001, 0.12, 6.1e-17, -0.002, 6.1e-17, 0.09);
+    let reported = nalgebra::Matrix3::new(0.1, 0.001, -0.002, 0.001, 0.12, 6.1e-17, -0.002, 6.1e-17, 0.09);
     let inertia = link.inertia();
-    assert!((inertia.rotational() - turn * told * turn.transpose()).amax() < 1e-16);
+    assert!((inertia.rotational() - turn * reported * turn.transpose()).amax() < 1e-16);
     assert!((inertia.centre_of_mass().coords - Vector3::new(0.01, -0.02, 0.3)).amax() < 1e-17);
 }
 
@@ -140,11 +140,11 @@ fn a_robot_is_the_same_when_it_is_written_and_read() {
             assert!((a.inertia().generalised() - b.inertia().generalised()).amax() < 1e-16);
         }
         for (a, b) in again.joints().iter().zip(robot.joints()) {
-            let told = |joint: &groebot_robot::model::Joint| {
+            let reported = |joint: &groebot_robot::model::Joint| {
                 let joint = joint.clone();
                 (joint.name, joint.kind, joint.parent, joint.child, joint.axis, joint.limits, joint.speed, joint.mimic)
             };
-            assert_eq!(told(a), told(b));
+            assert_eq!(reported(a), reported(b));
             assert_eq!((a.effort, a.damping, a.friction, a.armature), (b.effort, b.damping, b.friction, b.armature));
             assert_eq!(a.origin.placement.origin, b.origin.placement.origin, "{}", a.name);
             assert!((a.origin.pose().to_homogeneous() - b.origin.pose().to_homogeneous()).amax() < 1e-15, "{}", a.name);
@@ -153,7 +153,7 @@ fn a_robot_is_the_same_when_it_is_written_and_read() {
 }
 
 #[test]
-fn what_is_wrong_with_a_mass_is_refused_and_with_a_shape_told() {
+fn faults_of_masses_are_refused_and_faults_of_shapes_reported() {
     let cases = [
         ("<mass value=\"1.25\"/>", "", "link `a`: <inertial> has no <mass"),
         ("<mass value=\"1.25\"/>", "<mass/>", "link `a`: <mass> has no `value`"),
@@ -174,16 +174,16 @@ fn what_is_wrong_with_a_mass_is_refused_and_with_a_shape_told() {
     }
     let doubts = |from: &str, to: &str| Robot::from_urdf(&RICH.replacen(from, to, 1)).unwrap().doubts();
     let heavy = doubts("izz=\"0.09\"", "izz=\"0.9\"");
-    assert!(heavy[0].starts_with("link `a`: inertia") && heavy[0].contains("no body has it"), "{heavy:?}");
+    assert!(heavy[0].starts_with("link `a`: inertia") && heavy[0].contains("physically impossible"), "{heavy:?}");
     for (from, to, words) in [
         ("size=\"0.1 0.2 0.3\"", "size=\"0.1 0.2\"", "<box> has `size`"),
         ("radius=\"0.05\" ", "", "<cylinder> has no `radius`"),
         ("<geometry><sphere radius=\"0.1\"/></geometry>", "", "<collision> has no <geometry>"),
     ] {
-        let told = doubts(from, to);
+        let reported = doubts(from, to);
         assert!(
-            told.iter().any(|doubt| doubt.starts_with("link `a`: left out: ") && doubt.contains(words)),
-            "{told:?}"
+            reported.iter().any(|doubt| doubt.starts_with("link `a`: left out: ") && doubt.contains(words)),
+            "{reported:?}"
         );
     }
 }

@@ -35,7 +35,7 @@ fn the_documented_example_is_read() {
 
 /// A capsule between two points has its ends there, in any direction.
 #[test]
-fn a_capsule_lies_between_its_ends() {
+fn a_capsule_is_between_its_ends() {
     for (from, to) in
         [([1.0, 2.0, 3.0], [2.0, 0.0, 2.5]), ([0.0, 0.0, 1.0], [0.0, 0.0, 0.0]), ([0.0; 3], [0.0, 0.3, 0.0])]
     {

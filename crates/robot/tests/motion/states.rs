@@ -16,7 +16,7 @@ fn lines_end_as_any_program_ends_them() {
 }
 
 #[test]
-fn columns_stand_in_any_order() {
+fn columns_may_be_in_any_order() {
     let table = StateTable::from_csv("\u{feff}v1, q0 ,q1,v0,t\n\n 4,1,2,3,0.5\n-4e-1,1,2,3e8,1\n").unwrap();
     assert_eq!((table.coordinates, table.rows.len()), (2, 2));
     let row = &table.rows[0];

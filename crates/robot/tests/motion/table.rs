@@ -36,10 +36,10 @@ fn json_is_read_back() {
     assert_eq!(Trajectory::from_json(&value.to_string()).unwrap(), path);
     value["walk"] = 1.into();
     assert!(Trajectory::from_json(&value.to_string()).is_ok(), "what others add is ignored");
-    for (format, told) in [(2.into(), "has `format` 2"), (serde_json::Value::Null, "has no `format`")] {
+    for (format, reported) in [(2.into(), "has `format` 2"), (serde_json::Value::Null, "has no `format`")] {
         value["format"] = format;
         let error = Trajectory::from_json(&value.to_string()).unwrap_err();
-        assert!(error.kind() == ErrorKind::Unsupported && error.message().contains(told), "{error}");
+        assert!(error.kind() == ErrorKind::Unsupported && error.message().contains(reported), "{error}");
     }
     assert_eq!(Trajectory::from_json("{").unwrap_err().kind(), ErrorKind::Syntax);
 }
@@ -91,8 +91,8 @@ fn mistakes_have_a_line() {
         ("time [s]", "t [s]", MissingKey, 3, "give `time [s]`"),
         ("q:hip [rad]", "q:hip", Syntax, 3, "has no unit"),
         (last, "0.3,1", BadValue, 6, "2 cells; there are 22 columns"),
-        ("0.1,0.1,", "0.1,x,", Syntax, 5, "`x` is no finite number"),
-        ("0.1,0.1,", "0.1,nan,", Syntax, 5, "`nan` is no finite number"),
+        ("0.1,0.1,", "0.1,x,", Syntax, 5, "`x` is not a finite number"),
+        ("0.1,0.1,", "0.1,nan,", Syntax, 5, "`nan` is not a finite number"),
     ];
     for (from, to, kind, line, words) in cases {
         let error = Trajectory::from_csv(&text.replacen(from, to, 1)).unwrap_err();

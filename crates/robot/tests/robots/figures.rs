@@ -195,7 +195,7 @@ fn limits_hold_a_posture_that_the_robot_takes() {
 /// RH0 Fig. 5-16: knee -3.902 and ankle and hip 1.951 degrees at 0.180 s, feet at 0.112 m, no roll: the trunk is level,
 /// above the middle, and lower by less than a millimetre.
 #[test]
-fn rh0_crouches_as_its_table_says() {
+fn rh0_crouches_as_in_its_table() {
     let q = [0.0, 1.951, -3.902, 1.951, 0.0, 0.0].map(f64::to_radians);
     for chain in [robots::rh0_left_leg(), robots::rh0_right_leg()] {
         let pose = chain.forward(&q).unwrap();

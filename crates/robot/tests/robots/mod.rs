@@ -33,7 +33,7 @@ fn every_file_of_data_is_a_robot() {
 }
 
 #[test]
-fn at_zero_the_tip_stands_where_the_file_says() {
+fn at_zero_the_tip_is_where_the_file_specifies() {
     for robot in robots::ALL {
         let chain = robot.chain();
         let pose = chain.forward(&vec![0.0; chain.joints().len()]).unwrap();

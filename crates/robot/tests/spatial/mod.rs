@@ -85,7 +85,7 @@ fn wrap_keeps_the_upper_end_and_moves_the_lower() {
 }
 
 #[test]
-fn difference_takes_the_short_way() {
+fn difference_is_the_shorter_rotation() {
     assert!((angle::difference(PI - 0.1, 0.1 - PI) + 0.2).abs() < 1e-15);
     assert_eq!(angle::difference(FRAC_PI_2, -FRAC_PI_2), PI);
     assert_eq!(angle::difference(-FRAC_PI_2, FRAC_PI_2), PI);

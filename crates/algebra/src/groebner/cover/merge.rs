@@ -64,7 +64,7 @@ impl<F: Field> Merging<'_, F> {
         let mut strata = Vec::new();
         while let Some((&first, rest)) = open.split_first() {
             let mut members = vec![first];
-            let mut best = self.stratum(&members)?.expect("a piece has a basis of its own");
+            let mut best = self.stratum(&members)?.expect("a part has a separate basis");
             let mut left = rest.to_vec();
             let mut grew = true;
             while std::mem::take(&mut grew) {

@@ -157,7 +157,7 @@ fn in_lanes(
         5..=6 => Run::<6>::new(ring, bits, elimination).basis(generators, guide, watch),
         7..=8 => Run::<8>::new(ring, bits, elimination).basis(generators, guide, watch),
         _ => {
-            let text = format!("{} variables are more than the keys of F4 hold", ring.variables().len());
+            let text = format!("{} variables exceed the keys of F4", ring.variables().len());
             Err(Error::new(ErrorKind::Overflow, text))
         }
     }

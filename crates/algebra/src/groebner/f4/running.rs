@@ -40,7 +40,7 @@ pub(super) struct Running<const W: usize> {
 
 /// The error after which the caller tries again with wider lanes.
 pub(super) fn overflow() -> Error {
-    Error::new(ErrorKind::Overflow, "a monomial's degree exceeds what the widest lanes hold")
+    Error::new(ErrorKind::Overflow, "a monomial's degree exceeds the widest lanes")
 }
 
 impl<const W: usize> Running<W> {

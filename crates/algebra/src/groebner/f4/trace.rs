@@ -93,7 +93,7 @@ impl Trace {
     fn nonzero_generators<const N: usize>(&self, generators: &[Vec<[u32; N]>]) -> Result<Vec<Vec<[u32; N]>>> {
         let fits = |&(index, terms): &(usize, usize)| generators.get(index).is_some_and(|f| f.len() == terms);
         if !self.generators.iter().all(fits) {
-            let text = "a replay takes generators with the very terms of those that were learned from";
+            let text = "the generators must have the same terms as the generators of the learned run";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         Ok(self.generators.iter().map(|&(index, _)| generators[index].clone()).collect())

@@ -220,7 +220,7 @@ fn relation<F: Field>(
 /// [`ErrorKind::UnknownName`], [`ErrorKind::BadValue`] for another field.
 fn sources<F: Field>(ring: &PolynomialRing<F>, target: &PolynomialRing<F>) -> Result<Vec<usize>> {
     if target.field() != ring.field() {
-        return Err(Error::new(ErrorKind::BadValue, "a change of order stays over the field of the basis"));
+        return Err(Error::new(ErrorKind::BadValue, "a change of order needs the field of the basis"));
     }
     let source = |name: &String| {
         let known = || ring.variables().join(", ");
@@ -234,5 +234,5 @@ fn require_member<F: Field>(ring: &PolynomialRing<F>, f: &Polynomial<F::Element>
     if ring.is_well_formed(f) {
         return Ok(());
     }
-    Err(Error::new(ErrorKind::BadValue, "a minimal polynomial is that of a polynomial in the ring of the basis"))
+    Err(Error::new(ErrorKind::BadValue, "the polynomial must be in the ring of the basis"))
 }

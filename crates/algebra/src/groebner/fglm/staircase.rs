@@ -148,7 +148,7 @@ pub(super) fn variables<F: Field>(ring: &PolynomialRing<F>) -> Vec<Monomial> {
 fn product_of<F: Field>(ring: &PolynomialRing<F>, a: &Monomial, b: &Monomial) -> Result<Monomial> {
     ring.layout().checked_mul(a, b).ok_or_else(|| {
         let limit = ring.layout().width().max_degree();
-        let text = format!("a standard monomial or its multiple exceeds degree {limit}; give a ring with wider lanes");
+        let text = format!("a standard monomial or its multiple exceeds degree {limit}; use a ring with wider lanes");
         Error::new(ErrorKind::Overflow, text)
     })
 }

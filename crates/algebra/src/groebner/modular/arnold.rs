@@ -57,7 +57,7 @@ pub fn prove(
 fn check_reduced(ring: &PolynomialRing<Rationals>, basis: &[Polynomial<BigRational>]) -> Result<()> {
     let monic = |f: &Polynomial<BigRational>| f.leading().is_some_and(|t| ring.field().is_one(&t.coefficient));
     if !basis.iter().all(|f| ring.is_well_formed(f) && monic(f)) {
-        return Err(refuse("a basis element is no monic polynomial of the ring"));
+        return Err(refuse("a basis element is not a monic polynomial of the ring"));
     }
     let leads: Vec<&Monomial> = basis.iter().filter_map(|f| f.leading()).map(|term| &term.monomial).collect();
     let sorted = leads.windows(2).all(|pair| ring.layout().compare(pair[0], pair[1]).is_lt());
@@ -120,7 +120,7 @@ fn check_leads(
     if image.leading_monomials().into_iter().eq(basis.iter().map(Integral::lead)) {
         return Ok(());
     }
-    Err(refuse(format!("modulo {p} the leading monomials are others")))
+    Err(refuse(format!("modulo {p} the leading monomials differ")))
 }
 
 /// A proved basis of the ideal of `generators` in graded reverse order. It is not reduced.

@@ -42,7 +42,7 @@ pub(super) fn learn(functions: &impl Functions, watch: &Watch) -> Result<Learned
             return Ok(search.into_learned());
         }
     }
-    let text = "the coefficients are too dense to be interpolated; compute over the fractions instead";
+    let text = "the coefficients are too dense for interpolation; compute over the field of fractions instead";
     Err(Error::new(ErrorKind::Unsupported, text))
 }
 

@@ -60,8 +60,7 @@ fn next_factors(
             return Ok((field, factors));
         }
     }
-    let text =
-        "ten primes in a row do not fit the supports that the first prime gave; compute over the fractions instead";
+    let text = "ten consecutive primes do not fit the supports of the first prime; compute over the field of fractions instead";
     Err(Error::new(ErrorKind::Unsupported, text))
 }
 

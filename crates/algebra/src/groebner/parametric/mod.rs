@@ -139,7 +139,7 @@ fn is_free(ideal: &Ideal<'_>) -> bool {
 /// The basis with interpolated coefficients.
 fn interpolated(ideal: &Ideal<'_>, watch: &Watch) -> Result<Basis<Fractions<Rationals>>> {
     if !is_free(ideal) {
-        let text = "interpolation needs parameters, and none with a relation; take another method";
+        let text = "interpolation needs parameters without relations; use another method";
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
     at_points(ideal, &system::System::new(ideal, watch)?, watch)

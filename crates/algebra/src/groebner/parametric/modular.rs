@@ -60,7 +60,7 @@ pub(super) fn rebuilt_basis(
             }
         }
     }
-    Err(Error::new(ErrorKind::Unsupported, "the computations modulo too many primes differ; take another method"))
+    Err(Error::new(ErrorKind::Unsupported, "the computations modulo too many primes differ; use another method"))
 }
 
 fn coefficients(chosen: &[usize], basis: &[Polynomial<u64>]) -> Vec<u64> {

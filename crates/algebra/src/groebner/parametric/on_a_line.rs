@@ -106,7 +106,7 @@ fn shared(field: Prime, mut a: Vec<u64>, mut b: Vec<u64>) -> Vec<u64> {
         }
         while a.len() >= b.len() {
             let (shift, lead) = (a.len() - b.len(), b[b.len() - 1]);
-            let top = field.neg(a.pop().expect("it is as long as the other"));
+            let top = field.neg(a.pop().expect("both have equal length"));
             for (k, c) in a.iter_mut().enumerate() {
                 let other = if k >= shift { top * b[k - shift] } else { 0 };
                 *c = field.reduce(*c * lead + other);

@@ -86,7 +86,7 @@ impl Guide for Pilot<'_> {
             return Ok(());
         }
         self.is_refused = true;
-        Err(Error::new(ErrorKind::Budget, "the parameters as variables take more terms than they are worth"))
+        Err(Error::new(ErrorKind::Budget, "the computation with the parameters as variables needs too many terms"))
     }
 
     fn goal(&self) -> Option<&[Vec<u32>]> {

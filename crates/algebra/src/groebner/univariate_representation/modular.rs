@@ -96,7 +96,7 @@ impl<'a> QuotientModulo<'a> {
         let field = &self.field;
         let columns = self.columns(form);
         let sequences = self.sequences(&columns, watch)?;
-        let (powers, coordinates) = sequences.split_first().expect("the powers of the form come first");
+        let (powers, coordinates) = sequences.split_first().expect("the powers of the form are first");
         let minimal = field.minimal_polynomial(powers);
         let repeated = field.gcd(&minimal, &field.derivative(&minimal));
         let polynomial = field.div_rem(&minimal, &repeated).0;

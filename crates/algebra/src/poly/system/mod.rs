@@ -91,7 +91,8 @@ impl Heading {
     pub fn modulo(self, p: u64) -> Result<Self> {
         Zp::new(p)?;
         if ![0, p].contains(&self.characteristic) {
-            let text = format!("the coefficients are modulo {} already; give that, or nothing", self.characteristic);
+            let text =
+                format!("the coefficients are already modulo {}; give this modulus or none", self.characteristic);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         Ok(Heading { characteristic: p, ..self })

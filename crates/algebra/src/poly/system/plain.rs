@@ -72,7 +72,7 @@ impl Header {
                 let at = reader.at();
                 self.order = Some((order(reader)?, at));
             }
-            _ => return Err(at.error(ErrorKind::UnknownKey, format!("no such header line; allowed are {KEYS}"))),
+            _ => return Err(at.error(ErrorKind::UnknownKey, format!("unknown header line; allowed are {KEYS}"))),
         }
         self.keys.push(key);
         match reader.peek() {

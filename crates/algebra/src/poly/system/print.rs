@@ -64,7 +64,7 @@ impl Heading {
     fn singular(&self, lines: &[String]) -> Result<String> {
         if let Some(name) = self.variables.iter().chain(&self.parameters).find(|name| name.starts_with('_')) {
             let text =
-                format!("Singular takes no name that starts with `_`; rename `{name}`, or choose another format");
+                format!("Singular does not allow names that start with `_`; rename `{name}`, or use another format");
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
         let field = match self.parameters.as_slice() {

@@ -165,12 +165,12 @@ impl Names {
     /// [`ErrorKind::DuplicateName`]; [`ErrorKind::BadValue`] for more than [`MAX_NAMES`].
     pub(super) fn declare(&mut self, name: &str, at: At) -> Result<()> {
         if self.known.len() >= MAX_NAMES {
-            let text = format!("more than {MAX_NAMES} variables and parameters; leave some out");
+            let text = format!("more than {MAX_NAMES} variables and parameters; omit some");
             return Err(at.error(ErrorKind::BadValue, text));
         }
         check_name("variable", name).map_err(|error| at.error(error.kind(), error.message()))?;
         if !self.known.insert(name.to_owned()) {
-            let text = format!("`{}` is declared already; give each name once", shown(name));
+            let text = format!("`{}` is already declared; give each name once", shown(name));
             return Err(at.error(ErrorKind::DuplicateName, text));
         }
         Ok(())
@@ -186,7 +186,7 @@ impl Names {
         names.sort_unstable();
         let more = if names.len() > 20 { ", ..." } else { "" };
         names.truncate(20);
-        let text = format!("nothing is called `{}`; declared are {}{more}", shown(name), names.join(", "));
+        let text = format!("`{}` is not declared; declared are {}{more}", shown(name), names.join(", "));
         at.error(ErrorKind::UnknownName, text)
     }
 

@@ -53,14 +53,15 @@ impl File {
             "ring" if self.heading.is_some() => Err(at.error(ErrorKind::Unsupported, "a second ring; give one")),
             "ring" => self.ring(reader),
             "poly" | "ideal" if self.heading.is_none() => {
-                Err(at.error(ErrorKind::Syntax, format!("a ring stands above this `{word}`; give one")))
+                Err(at.error(ErrorKind::Syntax, format!("a ring is required before this `{word}`; give one")))
             }
             "poly" => self.polynomial(reader),
             "ideal" if self.ideal.is_some() => Err(at.error(ErrorKind::Unsupported, "a second ideal; give one")),
             "ideal" => self.ideal(reader),
             _ => {
                 let word = shown(&word);
-                let text = format!("`{word}` is not read; allowed are `ring`, `poly` and `ideal` with their values");
+                let text =
+                    format!("`{word}` is not supported; allowed are `ring`, `poly` and `ideal` with their values");
                 Err(at.error(ErrorKind::Unsupported, text))
             }
         }
@@ -132,7 +133,7 @@ impl File {
         }
         reader.expect(')')?;
         if last < first || last - first >= MAX_NAMES as u64 {
-            let text = format!("indices run upwards, over at most {MAX_NAMES} names");
+            let text = format!("indices must increase, with at most {MAX_NAMES} names");
             return Err(at.error(ErrorKind::BadValue, text));
         }
         for index in first..=last {
@@ -291,7 +292,7 @@ fn block(reader: &mut Reader<'_>, left: usize) -> Result<Option<Block>> {
         "c" | "C" => return Ok(None),
         _ => {
             let text = format!(
-                "the order `{}` is not read; allowed are `dp`, `lp` and blocks of them such as `(dp(2),lp(3))`",
+                "the order `{}` is not supported; allowed are `dp`, `lp` and blocks of them such as `(dp(2),lp(3))`",
                 shown(&name)
             );
             return Err(at.error(ErrorKind::Unsupported, text));
@@ -303,7 +304,7 @@ fn block(reader: &mut Reader<'_>, left: usize) -> Result<Option<Block>> {
         reader.expect(')')?;
     }
     if size == 0 {
-        return Err(at.error(ErrorKind::BadValue, "the blocks before this one cover all variables; leave it out"));
+        return Err(at.error(ErrorKind::BadValue, "the blocks before this one cover all variables; omit it"));
     }
     Ok(Some(Block { size, graded }))
 }

@@ -102,7 +102,7 @@ impl<'a> Words<'a> {
                     return Ok(());
                 }
             } else if !self.next_line() {
-                return Err(open.error(ErrorKind::Syntax, "this comment is not closed; end it by `*/`"));
+                return Err(open.error(ErrorKind::Syntax, "this comment is not closed; end it with `*/`"));
             }
         }
     }

@@ -30,7 +30,7 @@ impl Scene {
         let values = values(robot, trajectory)?;
         let mut scene = Scene { title: robot.name().to_owned(), ..Scene::default() };
         let mut link = |own: &Link| {
-            let (parts, hidden) = own.seen(|shape| part(shape, meshes, &mut scene.notes));
+            let (parts, hidden) = own.drawn(|shape| part(shape, meshes, &mut scene.notes));
             Seen { parts, hidden }
         };
         let mut seen: Vec<Seen> = robot.links().iter().map(&mut link).collect();

@@ -28,7 +28,7 @@ pub struct ScrewJoint {
     pub point: ExactVector,
     /// If the joint follows another one: the index of that joint, the factor and the offset.
     pub follows: Option<(usize, [f64; 2])>,
-    /// The same law in exact form, if the leader is not given.
+    /// The law in exact form, if the leader is not given.
     pub coupling: Option<Coupling>,
     /// The limits of a prismatic joint, if it has both, in the chain's unit.
     pub travel: Option<(f64, f64)>,

@@ -12,7 +12,7 @@ mod explain;
 mod method;
 mod model;
 mod reader;
-mod stages;
+mod titles;
 
 pub use explain::{Disagreement, Explanation};
 pub use method::{ChainStage, Coupled, CoupledView};

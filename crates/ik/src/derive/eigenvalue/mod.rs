@@ -6,10 +6,10 @@ mod method;
 mod profile;
 mod program;
 mod rank;
+mod report;
 mod residue;
 mod rows;
 mod screw;
-mod stages;
 mod survey;
 mod vector;
 

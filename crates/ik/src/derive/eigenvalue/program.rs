@@ -35,16 +35,7 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
         joints: six.places().map(|place| frame.joints[place].value),
         target,
     })?;
-    let case = Case {
-        label: "six axes".to_owned(),
-        guard_code: Vec::new(),
-        guards: Vec::new(),
-        pivot: None,
-        steps: vec![Step::SixAxes(Box::new(step))],
-        free: Vec::new(),
-        open: false,
-        first_branch: 0,
-    };
+    let case = Case { label: "six axes".to_owned(), steps: vec![Step::SixAxes(Box::new(step))], ..Case::default() };
     let mut blocks = frame.blocks.clone();
     blocks.push(Block::numbered("all joints", assembler.take(), vec![case]));
     let program = Program { blocks, capacity: ROOM, isolated: Some(dimension), nearby: false, ..frame };

@@ -139,9 +139,7 @@ impl<'a> Compiler<'a> {
         let mut assembler = Assembler::default();
         let guards = self.near_guards(path, &mut assembler)?;
         let guard_code = assembler.take();
-        let label = node.label.clone();
-        let (pivot, steps, free) = (None, Vec::new(), Vec::new());
-        Ok(Case { label, guard_code, guards, pivot, steps, free, open: true, first_branch: 0 })
+        Ok(Case { label: node.label.clone(), guard_code, guards, open: true, ..Case::default() })
     }
 
     fn case(
@@ -167,9 +165,7 @@ impl<'a> Compiler<'a> {
         for stair in &solved.triangular.stairs {
             self.stair(setting, &solved.triangular.ring, stair, &mut assembler, &mut steps)?;
         }
-        let label = node.label.clone();
-        let (pivot, free) = (None, free.to_vec());
-        Ok(Case { label, guard_code, guards, pivot, steps, free, open: false, first_branch: 0 })
+        Ok(Case { label: node.label.clone(), guard_code, guards, steps, free: free.to_vec(), ..Case::default() })
     }
 
     fn near_guards(&self, path: &[Condition<'_>], assembler: &mut Assembler) -> Result<Vec<Guard>> {

@@ -60,6 +60,17 @@ pub struct Evidence {
     pub degrees: Vec<usize>,
 }
 
+impl fmt::Display for Evidence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Evidence { prime, seed, dimension, degrees } = self;
+        let degrees = degrees.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
+        write!(
+            f,
+            "A random pose modulo {prime} (seed {seed}) has {dimension} complex solutions; values of the joints: {degrees}."
+        )
+    }
+}
+
 /// The order in which the joints are found, one at a time.
 ///
 /// Every relation is in the ideal of the loop, so no solution is lost. The product of the degrees is the number of complex solutions, so there are no

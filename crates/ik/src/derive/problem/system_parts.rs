@@ -119,7 +119,7 @@ pub struct SystemParts {
     pub name: String,
     /// One line about the mechanism.
     pub description: String,
-    /// Where the equations come from, such as `NAO (6.7.1)-(6.7.4)`.
+    /// The source of the equations, such as `NAO (6.7.1)-(6.7.4)`.
     pub source: String,
     /// The unit of all lengths.
     pub length_unit: LengthUnit,

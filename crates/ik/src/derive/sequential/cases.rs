@@ -181,16 +181,7 @@ impl<'a> Builder<'a> {
         steps: Vec<Step>,
         free: Vec<usize>,
     ) -> Case {
-        Case {
-            label: label.to_owned(),
-            guard_code,
-            guards: self.guards,
-            pivot: None,
-            steps,
-            free,
-            open: false,
-            first_branch: 0,
-        }
+        Case { label: label.to_owned(), guard_code, guards: self.guards, steps, free, ..Case::default() }
     }
 
     /// The case of one direction of the half angle.

@@ -11,13 +11,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::eliminate::{self, Elimination};
-use super::form_basis::{Form, FormBasis};
-use super::half_angle::{self, HalfAngles};
+use super::forms::{Forms, NamedForm};
 use super::shape::{eliminated, shape};
 use super::{ProvedStep, Sequential, SequentialView};
-use crate::derive::Orders;
 use crate::derive::closure::{self, Mechanism};
-use crate::derive::equations::certificate::{Entry, entries, refused, replay};
+use crate::derive::equations::certificate::refused;
 use crate::derive::planner::{Plan, PlanStep, Way};
 use crate::derive::problem::ChainProblem;
 use crate::solver::Program;
@@ -29,22 +27,11 @@ use groebot_robot::document::{Certificate, Proves};
 #[serde(deny_unknown_fields)]
 pub(in crate::derive) struct Claims {
     plan: Plan,
-    form_bases: Vec<Proof>,
+    forms: Vec<NamedForm>,
     /// The eliminations, in the order of the steps that need one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     eliminations: Vec<eliminate::Stored>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    half_angles: Option<Vec<half_angle::Stored>>,
 }
-
-/// The claims about a form.
-#[derive(Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Proof {
-    form: Form,
-    strata: Vec<Entry>,
-}
-
 /// The text of `certificate.json`.
 ///
 /// # Errors
@@ -60,7 +47,7 @@ pub(in crate::derive) fn write(derived: SequentialView<'_>) -> Result<String> {
 pub(in crate::derive) fn certificate(derived: SequentialView<'_>) -> Result<Certificate<Claims>> {
     let claims = Claims {
         plan: derived.method.plan.clone(),
-        form_bases: form_proofs(&derived.method.form_bases)?,
+        forms: derived.method.forms.named(),
         eliminations: derived
             .method
             .steps
@@ -68,7 +55,6 @@ pub(in crate::derive) fn certificate(derived: SequentialView<'_>) -> Result<Cert
             .filter_map(|step| step.elimination.as_ref())
             .map(Elimination::stored)
             .collect(),
-        half_angles: derived.method.half_angles.as_ref().map(HalfAngles::stored),
     };
     Ok(Certificate::new(Proves::Chain, derived.problem.chain.name(), claims))
 }
@@ -97,44 +83,8 @@ pub(in crate::derive) fn prove_claims(problem: &ChainProblem, claims: Claims) ->
     if stored.next().is_some() {
         return Err(refused("an elimination is superfluous".to_owned()));
     }
-    let (form_bases, half_angles) = prove_forms(&steps, &claims.form_bases, claims.half_angles.as_deref())?;
-    Sequential { plan: claims.plan, steps, form_bases, half_angles }.compiled(problem, &mechanism)
-}
-
-/// The claims about the bases of forms.
-///
-/// # Errors
-/// If a form's field cannot be built. This does not occur for a derivation that this crate made.
-pub(super) fn form_proofs(form_bases: &[FormBasis]) -> Result<Vec<Proof>> {
-    let proof = |form_basis: &FormBasis| Ok(Proof { form: form_basis.form, strata: entries(&form_basis.tree)? });
-    form_bases.iter().map(proof).collect()
-}
-
-/// The forms that `steps` use, proved again from their stored claims.
-///
-/// # Errors
-/// [`crate::ErrorKind::Certificate`] for a claim that is false, missing or superfluous.
-pub(super) fn prove_forms(
-    steps: &[ProvedStep],
-    form_bases: &[Proof],
-    half_angles: Option<&[half_angle::Stored]>,
-) -> Result<(Vec<FormBasis>, Option<HalfAngles>)> {
-    let half_angles = half_angles.map(HalfAngles::again).transpose()?;
-    if half_angles.is_some() != HalfAngles::are_needed(steps) {
-        return Err(refused("half angles are missing or superfluous".to_owned()));
-    }
-    let form_bases = form_bases.iter().map(prove_form).collect::<Result<Vec<_>>>()?;
-    if form_bases.iter().map(|form_basis| form_basis.form).ne(FormBasis::needed(steps)) {
-        return Err(refused("the bases are not those of the steps' forms, in their order".to_owned()));
-    }
-    Ok((form_bases, half_angles))
-}
-
-fn prove_form(proof: &Proof) -> Result<FormBasis> {
-    let system = proof.form.system()?;
-    let tree = replay(&system, Orders::Requested, &proof.strata)
-        .map_err(|error| refused(format!("form `{}`: {}", proof.form.name(), error.message())))?;
-    Ok(FormBasis { form: proof.form, system, tree })
+    let forms = Forms::again(&steps, &claims.forms)?;
+    Sequential { plan: claims.plan, steps, forms }.compiled(problem, &mechanism)
 }
 
 /// A function that returns the proved elimination of joints from a step.

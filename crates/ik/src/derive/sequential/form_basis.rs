@@ -6,7 +6,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ProvedStep;
 use crate::derive::equations::tree::Node;
 use crate::derive::{
     Equation, Input, JointKindUnknown, JointUnknown, Orders, Parameter, ParameterSource, Quantity, System, SystemParts,
@@ -92,7 +91,7 @@ impl Form {
             Form::Angle => &[Form::Angle],
             Form::Turn => &[Form::Turn],
             Form::Pair => &[Form::Pair, Form::Angle],
-            Form::Quartic => &[],
+            Form::Quartic => &[Form::Quartic],
             Form::Lengths => &[Form::Lengths],
             Form::Linear => &[Form::Linear],
             Form::Quadratic => &[Form::Quadratic],
@@ -162,14 +161,6 @@ pub struct FormBasis {
 }
 
 impl FormBasis {
-    /// The forms that `steps` use, each once.
-    pub(super) fn needed(steps: &[ProvedStep]) -> Vec<Form> {
-        let mut forms: Vec<Form> = steps.iter().flat_map(|step| step.shape.form.needs()).copied().collect();
-        forms.sort_unstable();
-        forms.dedup();
-        forms
-    }
-
     /// Derives and proves `form`.
     ///
     /// # Errors

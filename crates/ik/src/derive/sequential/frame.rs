@@ -67,15 +67,6 @@ pub(super) fn given(mechanism: &Mechanism, layout: &Layout, joint: usize) -> Blo
     let values = layout.given[joint].iter().map(|&parameter| Operand::Parameter(parameter));
     let steps = unknowns.into_iter().zip(values).map(|(unknown, value)| Step::Set { unknown, value }).collect();
     let label = mechanism.joints()[joint].name.as_str();
-    let case = Case {
-        label: "given".to_owned(),
-        guard_code: Vec::new(),
-        guards: Vec::new(),
-        pivot: None,
-        steps,
-        free: Vec::new(),
-        open: false,
-        first_branch: 0,
-    };
+    let case = Case { label: "given".to_owned(), steps, ..Case::default() };
     Block::numbered(label, Vec::new(), vec![case])
 }

@@ -8,8 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ProvedStep;
-use super::form_basis::{Form, QUARTIC, QUARTIC_SYMBOLS};
+use super::form_basis::{QUARTIC, QUARTIC_SYMBOLS};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::groebner::verify::{Claim, verify};
 use groebot_algebra::groebner::{Options, Strategy, basis};
@@ -48,11 +47,6 @@ pub(super) struct Stored {
 }
 
 impl HalfAngles {
-    /// Whether a step has an equation of degree two in cosine and sine.
-    pub(super) fn are_needed(steps: &[ProvedStep]) -> bool {
-        steps.iter().any(|step| step.shape.form == Form::Quartic)
-    }
-
     /// Computes and proves the bases.
     ///
     /// # Errors

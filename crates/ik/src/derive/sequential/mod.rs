@@ -11,6 +11,7 @@ mod determinant;
 mod eliminate;
 mod emit;
 mod form_basis;
+mod forms;
 mod frame;
 mod half_angle;
 mod layout;
@@ -21,7 +22,6 @@ mod shape;
 mod simultaneous;
 mod slack;
 mod squares;
-mod stages;
 mod standing;
 mod symbolic;
 mod symbols;
@@ -29,13 +29,13 @@ mod target;
 
 pub use eliminate::{Elimination, SymbolPlace};
 pub use form_basis::{Form, FormBasis};
+pub use forms::Forms;
 pub(super) use frame::frame_of;
 pub use half_angle::{HalfAngle, HalfAngles};
 pub(super) use program::checks_on;
 pub use shape::Shape;
 pub(super) use simultaneous::Stored as StoredSimultaneous;
 pub use simultaneous::{Side, Simultaneous};
-pub(super) use stages::{joint_unknowns, name};
 pub(super) use symbolic::{Symbolic, TargetPoly};
 
 use slack::Slack;
@@ -70,9 +70,7 @@ pub struct Sequential {
     /// The steps.
     pub steps: Vec<ProvedStep>,
     /// The forms that the steps use, solved.
-    pub form_bases: Vec<FormBasis>,
-    /// The half angles, if a step has an equation of degree two in cosine and sine.
-    pub half_angles: Option<HalfAngles>,
+    pub forms: Forms,
 }
 
 /// The view of a chain that is solved one joint at a time.
@@ -104,8 +102,8 @@ impl Sequential {
     pub(super) fn of_plan(mechanism: &Mechanism, plan: Plan, watch: &Watch) -> Result<Self> {
         let mut eliminate = |step: &PlanStep, away: &[usize]| Elimination::derive(mechanism, step, away, watch);
         let steps = certificate::prove_plan(mechanism, &plan, &mut eliminate)?;
-        let (form_bases, half_angles) = forms(&steps, watch)?;
-        Ok(Sequential { plan, steps, form_bases, half_angles })
+        let forms = Forms::of(&steps)?;
+        Ok(Sequential { plan, steps, forms })
     }
 
     /// Adds the program of `problem`, whose mechanism is `mechanism`.
@@ -131,14 +129,4 @@ impl SequentialView<'_> {
             || program::compile(&self.problem.chain, &Mechanism::new(&self.problem.chain)?, self.method, Slack::NONE);
         self.problem.truth.as_ref().map(|_| ideal()).transpose()
     }
-}
-
-/// Solves and proves the forms that `steps` use.
-///
-/// # Errors
-/// The error of `watch` if it stops the computation.
-fn forms(steps: &[ProvedStep], watch: &Watch) -> Result<(Vec<FormBasis>, Option<HalfAngles>)> {
-    let half_angles = HalfAngles::are_needed(steps).then(|| HalfAngles::derive(watch)).transpose()?;
-    let form_bases = FormBasis::needed(steps).into_iter().map(|form| FormBasis::derive(form, watch));
-    Ok((form_bases.collect::<Result<_>>()?, half_angles))
 }

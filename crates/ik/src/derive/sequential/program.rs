@@ -3,9 +3,9 @@
 use super::cases::{Place, SizedValue, cases, quartic, set_spread};
 use super::checks::{checks, polishing};
 use super::context::Context;
-use super::form_basis::{Form, FormBasis};
+use super::form_basis::Form;
+use super::forms::Forms;
 use super::frame::{framed, given, reach};
-use super::half_angle::HalfAngles;
 use super::layout::Layout;
 use super::ray;
 use super::samples::Samples;
@@ -28,7 +28,6 @@ const DEPENDENT: f64 = 1e-6;
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a problem that a program cannot represent.
 pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Sequential, slack: Slack) -> Result<Program> {
-    let form_bases = parts.form_bases.as_slice();
     let mut layout = Layout::new(mechanism, chain.length_unit());
     let reach = reach(chain);
     let mut known = mechanism.given().to_vec();
@@ -39,7 +38,7 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Sequential, 
         let free = free(mechanism, &parts.steps[index..]);
         let context =
             Context { mechanism, known: &known, step, free, reach, slack, samples, spreads: &spreads, partner: None };
-        let mut block = context.block(&mut layout, form_bases, parts.half_angles.as_ref())?;
+        let mut block = context.block(&mut layout, &parts.forms)?;
         let has_roots = parts.steps[index + 1..].iter().any(|later| later.shape.form.degree() > 1);
         if has_roots && block.cases.iter().any(|case| !case.free.is_empty()) {
             let spread = layout.unknown(&format!("f{}", mechanism.joints()[step.joint].symbol));
@@ -127,11 +126,6 @@ fn is_overdetermined(mechanism: &Mechanism) -> bool {
         || freedoms > mechanism.unknown().len()
 }
 
-fn form_basis(form_bases: &[FormBasis], form: Form) -> Result<&FormBasis> {
-    let missing = || Error::new(ErrorKind::Certificate, format!("the form `{}` is missing", form.name()));
-    form_bases.iter().find(|form_basis| form_basis.form == form).ok_or_else(missing)
-}
-
 /// The joint that is reported as free where the first of these steps leaves its joint free.
 ///
 /// It is that joint itself, or its leader if it has one. The hidden joint belongs to no solution; the first joint that follows from it replaces it.
@@ -143,12 +137,7 @@ fn free(mechanism: &Mechanism, steps: &[ProvedStep]) -> usize {
 
 impl Context<'_> {
     /// The block of the step.
-    pub fn block(
-        &self,
-        layout: &mut Layout,
-        form_bases: &[FormBasis],
-        half_angles: Option<&HalfAngles>,
-    ) -> Result<Block> {
+    pub fn block(&self, layout: &mut Layout, forms: &Forms) -> Result<Block> {
         let joint = self.step.joint;
         let screw = &self.mechanism.joints()[joint];
         let auxiliary = match self.step.shape.form {
@@ -168,18 +157,18 @@ impl Context<'_> {
             slack: self.slack,
             spreads: self.spreads.to_vec(),
         };
-        match (self.step.shape.form, half_angles) {
+        match (self.step.shape.form, &forms.half_angles) {
             (Form::Pair, _) => {}
             (Form::Quartic, Some(half_angles)) => {
                 let list = quartic(half_angles, &place(symbols), &assembler)?;
                 return Ok(Block::numbered(&screw.name, code, list));
             }
             (form, _) => {
-                let list = cases(form_basis(form_bases, form)?, &place(symbols), &assembler, &[])?;
+                let list = cases(forms.basis(form)?, &place(symbols), &assembler, &[])?;
                 return Ok(Block::numbered(&screw.name, code, list));
             }
         }
-        let (both, single) = (form_basis(form_bases, Form::Pair)?, form_basis(form_bases, Form::Angle)?);
+        let (both, single) = (forms.basis(Form::Pair)?, forms.basis(Form::Angle)?);
         let [a, b, e, f, x, y] = symbols[..] else {
             return Err(Error::new(ErrorKind::Unsupported, "a pair has six symbols"));
         };

@@ -35,12 +35,9 @@ pub(super) fn across([first, second]: [[usize; 3]; 2]) -> Block {
         Case {
             label: format!("across {}", ["x", "y", "z"][axis]),
             guard_code,
-            guards: Vec::new(),
             pivot: Some(Pivot { group: 0, value: square }),
             steps: [Step::Compute(assembler.take())].into_iter().chain(sets).collect(),
-            free: Vec::new(),
-            open: false,
-            first_branch: 0,
+            ..Case::default()
         }
     };
     Block::numbered("directions across the ray", Vec::new(), (0..3).map(case).collect())

@@ -8,18 +8,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::certificate::{Proof, form_proofs, prove_forms};
+use super::ProvedStep;
 use super::context::Context;
 use super::eliminate::{self, Elimination};
-use super::form_basis::{Form, FormBasis};
+use super::form_basis::Form;
+use super::forms::{Forms, NamedForm};
 use super::frame::{given, reach};
-use super::half_angle::{self, HalfAngles};
 use super::layout::Layout;
 use super::samples::Samples;
 use super::shape::{Shape, eliminated};
 use super::slack::Slack;
 use super::symbolic::Symbolic;
-use super::{ProvedStep, forms};
 use crate::derive::closure::{Mechanism, Relation, Word, prove};
 use crate::derive::equations::certificate::refused;
 use crate::derive::planner::{PlanStep, Way};
@@ -49,9 +48,7 @@ pub struct Simultaneous {
     /// finds it from the same relations.
     pub steps: Vec<ProvedStep>,
     /// The forms that the steps use, solved.
-    pub form_bases: Vec<FormBasis>,
-    /// The half angles, if an equation has degree two in cosine and sine.
-    pub half_angles: Option<HalfAngles>,
+    pub forms: Forms,
     /// The program that finds the shared joints. Its checks cover only the given joints, because programs of the chains follow.
     pub program: Program,
 }
@@ -65,9 +62,7 @@ pub(in crate::derive) struct Stored {
     relations: [Relation; 2],
     #[serde(default, skip_serializing_if = "Option::is_none")]
     elimination: Option<eliminate::Stored>,
-    form_bases: Vec<Proof>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    half_angles: Option<Vec<half_angle::Stored>>,
+    forms: Vec<NamedForm>,
 }
 
 impl Simultaneous {
@@ -79,8 +74,8 @@ impl Simultaneous {
     pub fn derive(sides: [Side<'_>; 2], shared: usize, watch: &Watch) -> Result<Self> {
         let common = Common::new(sides, shared)?;
         let steps = common.search(watch)?;
-        let (form_bases, half_angles) = forms(&steps, watch)?;
-        common.assemble(steps, form_bases, half_angles)
+        let forms = Forms::of(&steps)?;
+        common.assemble(steps, forms)
     }
 
     /// The stored form of the proof.
@@ -94,8 +89,7 @@ impl Simultaneous {
             joints: self.steps.iter().map(|step| step.joint).collect(),
             relations: [f.clone(), g.clone()],
             elimination: elimination.map(Elimination::stored),
-            form_bases: form_proofs(&self.form_bases)?,
-            half_angles: self.half_angles.as_ref().map(HalfAngles::stored),
+            forms: self.forms.named(),
         })
     }
 
@@ -130,8 +124,8 @@ impl Simultaneous {
             _ => return Err(refused("the elimination of a shared joint is missing or superfluous".to_owned())),
         };
         let steps = common.steps(&stored.joints, stored.relations.clone(), elimination)?;
-        let (form_bases, half_angles) = prove_forms(&steps, &stored.form_bases, stored.half_angles.as_deref())?;
-        common.assemble(steps, form_bases, half_angles)
+        let forms = Forms::again(&steps, &stored.forms)?;
+        common.assemble(steps, forms)
     }
 
     /// The maximum number of complex values of the shared joints together. Two dependent equations in one joint have two common solutions.
@@ -255,12 +249,7 @@ impl<'a> Common<'a> {
         Ok(vec![ProvedStep { joint: leading, relations, elimination: Some(elimination), shape }, by_pair(following)])
     }
 
-    fn assemble(
-        &self,
-        steps: Vec<ProvedStep>,
-        form_bases: Vec<FormBasis>,
-        half_angles: Option<HalfAngles>,
-    ) -> Result<Simultaneous> {
+    fn assemble(&self, steps: Vec<ProvedStep>, forms: Forms) -> Result<Simultaneous> {
         let unit = self.sides[0].chain.length_unit();
         let [mechanism, partner] = &self.mechanisms;
         let (mut layout, mut other) = (Layout::new(mechanism, unit), Layout::new(partner, unit));
@@ -275,11 +264,11 @@ impl<'a> Common<'a> {
             let (free, partner) = (step.joint, Some((partner, &other)));
             let context =
                 Context { mechanism, known: &known, step, free, reach, slack, samples, spreads: &[], partner };
-            blocks.push(context.block(&mut layout, &form_bases, half_angles.as_ref())?);
+            blocks.push(context.block(&mut layout, &forms)?);
             known.push(step.joint);
         }
         let program = self.program(layout, other, blocks, reach);
-        Ok(Simultaneous { shared: self.shared, steps, form_bases, half_angles, program })
+        Ok(Simultaneous { shared: self.shared, steps, forms, program })
     }
 
     /// The program that finds the shared joints. The inputs and parameters of the second chain's target come last.

@@ -57,13 +57,9 @@ fn block(standing: &Standing, [c, s]: [usize; 2], first: [usize; 2], radius: usi
         let compute = (!code.is_empty()).then_some(Step::Compute(code));
         Case {
             label: label.to_owned(),
-            guard_code: Vec::new(),
             guards: vec![guard(near)],
-            pivot: None,
             steps: compute.into_iter().chain(set).collect(),
-            free: Vec::new(),
-            open: false,
-            first_branch: 0,
+            ..Case::default()
         }
     };
     let cases = vec![case("generic", false, code, [cosine, sine]), case("radius = 0", true, still, [c, straight])];

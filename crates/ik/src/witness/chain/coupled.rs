@@ -6,12 +6,13 @@
 
 use nalgebra::DMatrix;
 
+use super::Moving;
 use super::count::Counter;
-use super::model::{Configuration, Model, RESIDUAL};
+use super::model::{Configuration, Joints, Model, RESIDUAL};
 use super::rational::Rationals;
-use super::targets::{Target, Targets};
-use super::{Check, Solver};
+use super::targets::Targets;
 use crate::derive::coupled::{ChainStage, CoupledView};
+use crate::witness::check::{Check, Solver, Target};
 use crate::witness::screws::Screws;
 use crate::witness::{Options, Report};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -20,7 +21,7 @@ use groebot_robot::kinematics::{Chain, Solution};
 /// Checks the solver of `derived`. One chain at a time gets targets of all kinds.
 ///
 /// # Errors
-/// As [`Check::run`].
+/// As [`super::check_chain`].
 pub(crate) fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) -> Result<Report> {
     let model = CoupledModel::new(derived);
     let leading = derived.method.stages.iter().map(|stage| leading(derived, stage)).collect::<Result<Vec<Chain>>>()?;
@@ -30,22 +31,20 @@ pub(crate) fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) 
     let counts = derived.method.simultaneous.as_ref().is_none_or(|simultaneous| simultaneous.steps.len() < 2);
     let counter = if counts { model.counter() } else { None };
     let mut rationals = counter.map(|counter| Rationals::new(counter, options.seed));
+    let subject = Moving { model: &model, bound: Some(derived.method.dimension()), tolerance: RESIDUAL };
     let check = Check {
-        model: &model,
+        subject: &subject,
         solver: derived.program,
-        bound: Some(derived.method.dimension()),
         screws: ByScrews::new(&model).map(|screws| Box::new(screws) as Box<dyn Solver>),
-        tolerance: RESIDUAL,
         options: Options { oracle: if derived.method.simultaneous.is_some() { 0 } else { options.oracle }, ..*options },
         watch,
     };
-    let rows = check.rows(&mut |number| match &mut rationals {
+    let inputs = derived.program.inputs.iter().map(|input| input.name.clone()).collect();
+    let joints = derived.program.joints.iter().map(|joint| joint.name.clone()).collect();
+    check.report(inputs, joints, &mut |number| match &mut rationals {
         Some(rationals) => rationals.in_place_of(&model, targets.draw(number), options.exact, watch),
         None => Ok((targets.draw(number), None)),
-    })?;
-    let inputs = derived.program.inputs.iter().map(|input| input.name.clone());
-    let joints = derived.program.joints.iter().map(|joint| joint.name.clone());
-    Ok(Report { inputs: inputs.collect(), joints: joints.collect(), rows })
+    })
 }
 
 /// The chain of a stage with joints given such that its task determines the others. These are the joints that earlier chains find. If both chains find them
@@ -145,17 +144,19 @@ impl Member<'_> {
     }
 }
 
-impl Configuration for CoupledModel<'_> {
+impl Joints for CoupledModel<'_> {
     fn count(&self) -> usize {
         self.count
     }
 
-    fn unknown(&self) -> &[usize] {
-        &self.unknown
-    }
-
     fn turns(&self, joint: usize) -> bool {
         self.joint(joint).is_some_and(|(member, joint)| member.whole.turns(joint))
+    }
+}
+
+impl Configuration for CoupledModel<'_> {
+    fn unknown(&self) -> &[usize] {
+        &self.unknown
     }
 
     fn length(&self) -> f64 {

@@ -17,8 +17,6 @@ pub(super) const RESIDUAL: f64 = 1e-11;
 pub(super) const EXACT: f64 = 1e-13;
 /// Same as [`EXACT`], but next to a singular configuration. There, a target at a distance of 1e-13 may have other solutions, or a self-motion.
 pub(super) const SHARP: f64 = 1e-14;
-/// The lower limit of the scaled Jacobian's smallest singular value at an ordinary joint vector.
-pub(super) const ORDINARY: f64 = 1e-3;
 
 /// The chain, its task, and which of its joints are unknown.
 pub(super) struct Model<'a> {
@@ -42,11 +40,6 @@ impl<'a> Model<'a> {
     pub fn slide(&self, joint: usize) -> (f64, f64) {
         let limits = self.chain.joints()[joint].limits.filter(|(low, high)| low < high);
         limits.unwrap_or((-self.length, self.length))
-    }
-
-    /// Whether joint `index` is revolute.
-    pub fn turns(&self, index: usize) -> bool {
-        self.chain.joints()[index].kind == JointKind::Revolute
     }
 
     /// The names of a target's numbers: those of the task, then those of the given joints.
@@ -78,13 +71,6 @@ impl<'a> Model<'a> {
             Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,
             Task::Direction | Task::Rotation => 0,
         }
-    }
-
-    /// The target that joint values reach, as inputs of a program.
-    pub fn target(&self, q: &[f64]) -> Vec<f64> {
-        let mut target = self.seen(&self.forward(q));
-        target.extend(self.chain.given_inputs().iter().map(|&joint| q[joint]));
-        target
     }
 
     pub fn forward(&self, q: &[f64]) -> Pose {
@@ -123,27 +109,6 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// The error of joint values in each number of a target: fractions of the reach, then plain numbers or radians.
-    pub fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
-        let seen = self.compared(&self.seen(&self.forward(q)));
-        let target = &self.compared(target)[..];
-        let size = self.size(q);
-        let turn = match self.chain.task() {
-            Task::PlanarPose { .. } => Some(2),
-            Task::PositionYaw { .. } => Some(3),
-            _ => None,
-        };
-        let miss = |(index, (seen, wanted)): (usize, (&f64, &f64))| match index {
-            index if index < self.lengths() => (seen - wanted) / size,
-            index if turn == Some(index) => angle::difference(*seen, *wanted),
-            _ => seen - wanted,
-        };
-        let misses = seen.iter().zip(target).enumerate().map(miss);
-        // Without followers, the task has no such number.
-        let strays = self.chain.joints().iter().any(|joint| joint.mimic.is_some()).then(|| self.chain.strays(q));
-        misses.chain(strays).collect()
-    }
-
     /// A target's numbers for comparison. Pitch and roll are discontinuous; the vertical direction in the tip frame replaces them.
     fn compared(&self, target: &[f64]) -> Vec<f64> {
         match (self.chain.task(), target) {
@@ -159,38 +124,38 @@ impl<'a> Model<'a> {
         let slides = q.iter().enumerate().filter(|(joint, _)| !self.turns(*joint));
         self.length + slides.map(|(_, q)| q.abs()).sum::<f64>()
     }
+}
 
-    /// The residual of joint values: the larger of the position error (a fraction of the reach) and the orientation error \[rad\].
-    pub fn residual(&self, target: &[f64], q: &[f64]) -> f64 {
-        let misses = self.misses(target, q);
-        let (position, turn) = misses.split_at(self.lengths());
-        let norm = |part: &[f64]| part.iter().map(|miss| miss * miss).sum::<f64>().sqrt();
-        // A small rotation by an angle changes the nine entries of a matrix by sqrt(2) times the angle in all (Frobenius norm).
-        let whole = matches!(self.chain.task(), Task::Pose | Task::Rotation);
-        let turn = norm(turn) / if whole { 2.0_f64.sqrt() } else { 1.0 };
-        let worst = norm(position).max(turn);
-        if worst.is_nan() { f64::INFINITY } else { worst }
+/// The joints of a mechanism under check.
+pub(in crate::witness) trait Joints {
+    /// The number of joints, including given ones.
+    fn count(&self) -> usize;
+
+    /// Whether a joint is revolute.
+    fn turns(&self, joint: usize) -> bool;
+
+    /// `a - b`; for angles the difference modulo 2 pi in (-pi, pi].
+    fn difference(&self, joint: usize, a: f64, b: f64) -> f64 {
+        if self.turns(joint) { angle::difference(a, b) } else { a - b }
     }
 
-    /// The derivative of the task's numbers by the unknown joints, with which their followers move: lengths as fractions of the reach, angles in radians. It
-    /// has as many rows as the task has freedoms.
-    pub fn jacobian(&self, q: &[f64]) -> DMatrix<f64> {
-        let mut q = q.to_vec();
-        self.chain.follow(&mut q);
-        self.chain.coupled_jacobian(&q, &self.given).select_columns(&self.unknown)
+    /// `q` with every angle in (-pi, pi].
+    fn wrapped(&self, q: &[f64]) -> Vec<f64> {
+        let wrap = |(joint, q): (usize, &f64)| if self.turns(joint) { angle::wrap(*q) } else { *q };
+        q.iter().enumerate().map(wrap).collect()
+    }
+
+    /// Whether `q` has a finite value for each joint, angles in (-pi, pi].
+    fn is_well_formed(&self, q: &[f64]) -> bool {
+        let allowed = |(joint, q): (usize, &f64)| q.is_finite() && (!self.turns(joint) || (-PI < *q && *q <= PI));
+        q.len() == self.count() && q.iter().enumerate().all(allowed)
     }
 }
 
 /// The interface of a mechanism and its task for checks: its joints, and the errors of joint values at a target.
-pub(super) trait Configuration {
-    /// The number of joints, including given ones.
-    fn count(&self) -> usize;
-
+pub(super) trait Configuration: Joints {
     /// The unknown joints.
     fn unknown(&self) -> &[usize];
-
-    /// Whether a joint is revolute.
-    fn turns(&self, joint: usize) -> bool;
 
     /// A typical length of the mechanism.
     fn length(&self) -> f64;
@@ -235,36 +200,21 @@ pub(super) trait Configuration {
         let one = |&joint: &usize| self.difference(joint, a[joint], b[joint]).abs() / self.unit(joint);
         self.unknown().iter().map(one).fold(0.0, f64::max)
     }
-
-    /// `a - b`; for angles the difference modulo 2 pi in (-pi, pi].
-    fn difference(&self, joint: usize, a: f64, b: f64) -> f64 {
-        if self.turns(joint) { angle::difference(a, b) } else { a - b }
-    }
-
-    /// `q` with every angle in (-pi, pi].
-    fn wrapped(&self, q: &[f64]) -> Vec<f64> {
-        let wrap = |(joint, q): (usize, &f64)| if self.turns(joint) { angle::wrap(*q) } else { *q };
-        q.iter().enumerate().map(wrap).collect()
-    }
-
-    /// Whether `q` has a finite value for each joint, angles in (-pi, pi].
-    fn is_well_formed(&self, q: &[f64]) -> bool {
-        let allowed = |(joint, q): (usize, &f64)| q.is_finite() && (!self.turns(joint) || (-PI < *q && *q <= PI));
-        q.len() == self.count() && q.iter().enumerate().all(allowed)
-    }
 }
 
-impl Configuration for Model<'_> {
+impl Joints for Model<'_> {
     fn count(&self) -> usize {
         self.chain.joints().len()
     }
 
+    fn turns(&self, index: usize) -> bool {
+        self.chain.joints()[index].kind == JointKind::Revolute
+    }
+}
+
+impl Configuration for Model<'_> {
     fn unknown(&self) -> &[usize] {
         &self.unknown
-    }
-
-    fn turns(&self, joint: usize) -> bool {
-        Model::turns(self, joint)
     }
 
     fn length(&self) -> f64 {
@@ -272,19 +222,46 @@ impl Configuration for Model<'_> {
     }
 
     fn target(&self, q: &[f64]) -> Vec<f64> {
-        Model::target(self, q)
+        let mut target = self.seen(&self.forward(q));
+        target.extend(self.chain.given_inputs().iter().map(|&joint| q[joint]));
+        target
     }
 
     fn misses(&self, target: &[f64], q: &[f64]) -> Vec<f64> {
-        Model::misses(self, target, q)
+        let seen = self.compared(&self.seen(&self.forward(q)));
+        let target = &self.compared(target)[..];
+        let size = self.size(q);
+        let turn = match self.chain.task() {
+            Task::PlanarPose { .. } => Some(2),
+            Task::PositionYaw { .. } => Some(3),
+            _ => None,
+        };
+        let miss = |(index, (seen, wanted)): (usize, (&f64, &f64))| match index {
+            index if index < self.lengths() => (seen - wanted) / size,
+            index if turn == Some(index) => angle::difference(*seen, *wanted),
+            _ => seen - wanted,
+        };
+        let misses = seen.iter().zip(target).enumerate().map(miss);
+        // Without followers, the task has no such number.
+        let strays = self.chain.joints().iter().any(|joint| joint.mimic.is_some()).then(|| self.chain.strays(q));
+        misses.chain(strays).collect()
     }
 
     fn residual(&self, target: &[f64], q: &[f64]) -> f64 {
-        Model::residual(self, target, q)
+        let misses = self.misses(target, q);
+        let (position, turn) = misses.split_at(self.lengths());
+        let norm = |part: &[f64]| part.iter().map(|miss| miss * miss).sum::<f64>().sqrt();
+        // A small rotation by an angle changes the nine entries of a matrix by sqrt(2) times the angle in all (Frobenius norm).
+        let whole = matches!(self.chain.task(), Task::Pose | Task::Rotation);
+        let turn = norm(turn) / if whole { 2.0_f64.sqrt() } else { 1.0 };
+        let worst = norm(position).max(turn);
+        if worst.is_nan() { f64::INFINITY } else { worst }
     }
 
     fn jacobian(&self, q: &[f64]) -> DMatrix<f64> {
-        Model::jacobian(self, q)
+        let mut q = q.to_vec();
+        self.chain.follow(&mut q);
+        self.chain.coupled_jacobian(&q, &self.given).select_columns(&self.unknown)
     }
 
     fn search(&self, target: &[f64], seeds: usize) -> Result<Vec<Vec<f64>>> {

@@ -4,7 +4,7 @@ use super::count::Counter;
 use super::exact::Value;
 use super::is_random;
 use super::model::{Configuration, Model};
-use super::targets::Target;
+use crate::witness::check::Target;
 use crate::witness::random::Random;
 use crate::witness::report::Kind;
 use crate::{Result, Watch};

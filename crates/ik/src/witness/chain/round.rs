@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-use super::model::Model;
+use super::model::{Joints, Model};
 use crate::witness::random::Random;
 use groebot_robot::spatial::Pose;
 

@@ -3,9 +3,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::model::{Configuration, ORDINARY, RESIDUAL};
+use super::model::{Configuration, RESIDUAL};
 use super::singular::{least_squares, null_vector};
 use crate::solver::BLUR;
+use crate::witness::check::ORDINARY;
 use groebot_robot::kinematics::Solution;
 
 /// The maximum sigma of a configuration in a self-motion.

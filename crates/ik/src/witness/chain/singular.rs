@@ -8,7 +8,7 @@ const SWEEPS: usize = 30;
 /// The smallest singular value; zero for a matrix with more columns than rows.
 ///
 /// One-sided Jacobi rotations (Hestenes 1958), which keep small singular values accurate.
-pub(super) fn smallest_singular_value(mut a: DMatrix<f64>) -> f64 {
+pub(in crate::witness) fn smallest_singular_value(mut a: DMatrix<f64>) -> f64 {
     let columns = a.ncols();
     if a.nrows() < columns || !a.iter().all(|entry| entry.is_finite()) {
         return 0.0;

@@ -5,10 +5,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-use super::model::{Configuration, Model};
+use super::model::{Configuration, Joints, Model};
 use super::round::RoundTargets;
 use super::singular::null_vector;
 use crate::witness::Draws;
+use crate::witness::check::Target;
 use crate::witness::random::Random;
 use crate::witness::report::Kind;
 use groebot_robot::spatial::Pose;
@@ -73,13 +74,6 @@ enum Slot {
     Edge,
     Anywhere,
     Far,
-}
-
-/// A target, and the joint values that made it, if any.
-pub(super) struct Target {
-    pub kind: Kind,
-    pub inputs: Vec<f64>,
-    pub joints: Option<Vec<f64>>,
 }
 
 /// The source of targets for one chain.

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use groebot_ik::Watch;
 use groebot_ik::derive::Derivation;
-use groebot_ik::witness::chain::Check;
+use groebot_ik::witness::chain::check_chain;
 use groebot_ik::witness::{Options, Report};
 use groebot_robot::kinematics::Chain;
 
@@ -52,7 +52,7 @@ impl Tally {
     fn check(&mut self, number: usize, chain: &Chain, derived: &Derivation, options: &Options) {
         let dimension = derived.dimension().unwrap();
         *self.dimensions.entry(dimension).or_default() += 1;
-        match Check::run(chain, derived.program(), Some(dimension), options, &Watch::none()) {
+        match check_chain(chain, derived.program(), Some(dimension), options, &Watch::none()) {
             Ok(report) => self.add(number, &report),
             Err(error) => self.failures.push(format!("chain {number}: {error}\n{chain}")),
         }

@@ -48,7 +48,7 @@ fn a_forged_plan_fails_at_its_step() {
 }
 
 #[test]
-fn a_forged_relation_or_basis_is_refused() {
+fn a_forged_relation_or_form_is_refused() {
     let text = refused(|value| {
         let way = &mut value["plan"]["steps"][1]["way"];
         let relation = if way["single"].is_null() { &mut way["pair"][0] } else { &mut way["single"] };
@@ -56,10 +56,12 @@ fn a_forged_relation_or_basis_is_refused() {
         object[0] = "7/3".into();
     });
     assert!(text.contains("step 2") && text.contains("does not follow"), "{text}");
-    let text = refused(|value| value["form_bases"][0]["strata"][0]["claim"]["basis"][0] = "w^2 - A^2".into());
+    let text = refused(|value| value["forms"][0]["hash"] = "0".repeat(64).into());
     assert!(text.contains("form `angle`"), "{text}");
-    let text = refused(|value| drop(value["form_bases"].as_array_mut().unwrap().pop()));
-    assert!(text.contains("the bases are not those of the steps' forms"), "{text}");
+    let text = refused(|value| value["forms"].as_array_mut().unwrap().swap(0, 1));
+    assert!(text.contains("names another form"), "{text}");
+    let text = refused(|value| drop(value["forms"].as_array_mut().unwrap().pop()));
+    assert!(text.contains("the forms are not those of the steps"), "{text}");
 }
 
 /// A position does not specify other points of the tip. An equation about such a point holds in the loop, but not for all poses with that position.

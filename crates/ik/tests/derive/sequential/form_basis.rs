@@ -3,10 +3,16 @@
 use groebot_algebra::number::{Ring, Style};
 use groebot_ik::Watch;
 use groebot_ik::derive::equations::tree::Outcome;
-use groebot_ik::derive::sequential::{Form, FormBasis};
+use groebot_ik::derive::sequential::{Form, FormBasis, Forms};
 
 fn form_basis(form: Form) -> FormBasis {
     FormBasis::derive(form, &Watch::none()).unwrap()
+}
+
+/// The proofs in `forms.json`, which certificates name by their hashes, are those that the Groebner engine derives.
+#[test]
+fn the_stored_forms_are_those_that_are_derived() {
+    assert_eq!(Forms::derive_stored(&Watch::none()).unwrap(), Forms::stored());
 }
 
 /// Derived by hand: the line A c + B s + C = 0 has the distance |C| / sqrt(A^2 + B^2) from the centre of the circle.

@@ -21,13 +21,13 @@ pub(super) fn check_freedoms(robot: &Robot) -> Result<Vec<String>> {
         let (parent, child) = robot.ends(place);
         if parent != robot.root_place() {
             let text = format!(
-                "the type `{kind}` has several freedoms, which equations of motion leave out; choose links between which joints turn or slide, by --base and --tip, or give it the type `fixed`"
+                "the type `{kind}` has several degrees of freedom, which equations of motion do not support; choose links with revolute and prismatic joints between them (--base, --tip), or give it the type `fixed`"
             );
             return Err(joint.error(ErrorKind::Unsupported, &text));
         }
         let [name, child] = [&joint.name, &robot.links()[child].name].map(|name| shown(name));
         notes.push(format!(
-            "joint `{name}` of the type `{kind}` is held at zero: `{child}` is fixed to the root, whose free motion is that of --floating"
+            "joint `{name}` of the type `{kind}` is held at zero: `{child}` is fixed to the root; --floating makes the root free"
         ));
     }
     Ok(notes)
@@ -38,7 +38,7 @@ pub(super) fn check_drives(robot: &Robot) -> Result<()> {
     for joint in robot.joints() {
         let values = [("damping", joint.damping), ("friction", joint.friction), ("rotor inertia", joint.armature)];
         if let Some((name, value)) = values.into_iter().find(|(_, value)| *value < 0.0) {
-            let text = format!("its {name} is {value}; give one that is not below zero");
+            let text = format!("its {name} is {value}; give a nonnegative one");
             return Err(joint.error(ErrorKind::BadValue, &text));
         }
     }
@@ -55,7 +55,7 @@ impl Equations {
             self.check_link(*link)?;
             if !wrench.to_vector().iter().all(|x| x.is_finite()) {
                 let text = format!(
-                    "what acts on link {link} from outside is {:?}; give finite numbers",
+                    "the external wrench on link {link} is {:?}; give finite numbers",
                     wrench.to_vector().as_slice()
                 );
                 return Err(Error::new(ErrorKind::BadValue, text));

@@ -108,7 +108,7 @@ impl Equations {
                 "link `{}` of joint `{}` and the links that it carries have no mass that the joint moves, so the acceleration is infinite; give masses",
                 self.links[joint], self.names[joint]
             ),
-            None => "the base and what it carries have no mass that torques move; give masses".to_owned(),
+            None => "the base and the links that it carries have no mass; give masses".to_owned(),
         };
         Error::new(ErrorKind::BadValue, text)
     }

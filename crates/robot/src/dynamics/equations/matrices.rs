@@ -133,7 +133,7 @@ impl Equations {
         let moving = (&workspace.base[0], &workspace.rates[..]);
         let own = workspace.data.jacobian(&self.tree, moving, (*joint, frame), self.first(), &mut workspace.columns);
         let world_from_link =
-            self.world_from_root(state.q).rotation * rotation(&workspace.data.stands(&self.tree, *joint, frame));
+            self.world_from_root(state.q).rotation * rotation(&workspace.data.pose_in_base(&self.tree, *joint, frame));
         let turning = Vector3::from(own.angular);
         workspace.jacobian.iter_mut().for_each(|matrix| matrix.fill(0.0));
         for (at, [column, change]) in workspace.columns.iter().enumerate() {
@@ -163,8 +163,8 @@ impl Equations {
         self.check_link(link)?;
         self.prepare_still(workspace, q);
         let (joint, frame) = &self.frames[link];
-        let stands = workspace.data.stands(&self.tree, *joint, frame);
-        let own = Isometry3::from_parts(Vector3::from(stands.position).into(), rotation(&stands));
+        let pose = workspace.data.pose_in_base(&self.tree, *joint, frame);
+        let own = Isometry3::from_parts(Vector3::from(pose.position).into(), rotation(&pose));
         Ok(self.world_from_root(q) * own)
     }
 

@@ -151,7 +151,7 @@ impl Equations {
         let drive = |(joint, law): (&&Joint, &crate::model::Mimic)| {
             let [factor, offset] = law.law();
             let unknown =
-                || joint.error(ErrorKind::BadValue, &format!("it follows `{}`, which does not move", law.leader));
+                || joint.error(ErrorKind::BadValue, &format!("it mimics `{}`, which does not move", law.leader));
             let freedom = names.iter().position(|name| *name == law.leader).ok_or_else(unknown)?;
             let Joint { armature, damping, friction, .. } = **joint;
             Ok(Drive { freedom, factor, offset, armature, damping, friction })
@@ -167,14 +167,15 @@ impl Equations {
             (joint, Frame::of(&body_from_link))
         };
         // Of the two links at a joint, the child belongs to the joint's body.
-        let behind = |(joint, place): (usize, usize)| {
+        let child_link = |(joint, place): (usize, usize)| {
             let (parent, child) = robot.ends(place);
             if model.link(child).0 == joint + 1 { child } else { parent }
         };
         let of_base = |link: &usize| model.link(*link) == (0, Pose::identity());
         let root = Some(robot.root_place()).filter(of_base).or_else(|| (0..robot.links().len()).find(of_base));
-        let behind = robot.moving().into_iter().enumerate().map(behind);
-        let parameter_links: Vec<usize> = std::iter::once(root.unwrap_or(robot.root_place())).chain(behind).collect();
+        let child_link = robot.moving().into_iter().enumerate().map(child_link);
+        let parameter_links: Vec<usize> =
+            std::iter::once(root.unwrap_or(robot.root_place())).chain(child_link).collect();
         let parameter_link_names: Vec<String> =
             parameter_links.iter().map(|link| robot.links()[*link].name.clone()).collect();
         let leads = |(joint, drive): &(usize, &Drive)| names[drive.freedom] == moving[*joint].name;

@@ -128,7 +128,7 @@ impl Certificate {
             self.claims.masses.as_ref().map(|all| all.iter().map(numbers).collect::<Result<_>>()).transpose()?;
         let fault = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         if self.name != chain.name() {
-            return fault(format!("it is about `{}`, the chain is `{}`", self.name, chain.name()));
+            return fault(format!("it belongs to `{}`, the chain is `{}`", self.name, chain.name()));
         }
         if masses.as_ref().is_some_and(|all| all.len() != chain.joints().len()) {
             return fault("it does not have ten numbers for each joint".to_owned());
@@ -193,7 +193,7 @@ impl ParsedEntries {
             (model.has_symbols && !model.setting.has_roots()).then(|| base_parameters(model, &forms)).transpose()?;
         match entries.keys().min() {
             None => Ok(ParsedEntries { inertia, coriolis, gravity, potential, base }),
-            Some(name) => Err(Error::new(ErrorKind::UnknownName, format!("`{name}` is none of M, C, N, V and B"))),
+            Some(name) => Err(Error::new(ErrorKind::UnknownName, format!("`{name}` is not one of M, C, N, V and B"))),
         }
     }
 
@@ -205,14 +205,14 @@ impl ParsedEntries {
             return Ok(());
         }
         let same = text.lines().zip(expected.lines()).take_while(|(a, b)| a == b).count();
-        let text = "this line is not what the certificate proves; `groebot dynamics --symbolic` writes the right one";
+        let text = "this line differs from the certificate; `groebot dynamics --symbolic` writes the correct one";
         Err(Error::new(ErrorKind::Certificate, text).at_line(same + 1))
     }
 
     fn prove(&self, model: &ExactModel) -> Result<Proof> {
         let count = model.joints.len();
         let same = |name: String, found: &Exact, expected: &Exact| {
-            let text = || format!("`{name}` is not what the chain has");
+            let text = || format!("`{name}` differs from that of the chain");
             if found == expected { Ok(()) } else { Err(Error::new(ErrorKind::BadValue, text())) }
         };
         let (inertia, potential) = inertia_and_potential(model);

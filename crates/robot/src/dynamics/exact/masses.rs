@@ -26,7 +26,7 @@ pub fn masses(robot: &Robot, path: &LinkPath, chain: &Chain) -> Result<Vec<[BigR
     let moving: Vec<usize> =
         path.joints.iter().map(|(joint, _)| *joint).filter(|joint| robot.joints()[*joint].kind.is_single()).collect();
     if moving.len() != chain.joints().len() {
-        return refused("joints of the path are coupled; choose links between which each joint is independent");
+        return refused("joints of the path are coupled; choose links with independent joints between them");
     }
     let base = robot.link(&path.base)?;
     // For each link, its pose in the base frame and the joint of the path that moves it.

@@ -72,7 +72,7 @@ impl ExactModel {
         let place = |(at, (joint, direction)): (usize, (&Joint, &Direction))| {
             if joint.mimic.is_some() {
                 let text = format!(
-                    "joint `{}` follows another one; choose links between which each joint is on its own",
+                    "joint `{}` is a mimic joint; choose links with independent joints between them",
                     joint.name
                 );
                 return Err(Error::new(ErrorKind::Unsupported, text));

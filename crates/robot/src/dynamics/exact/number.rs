@@ -66,7 +66,7 @@ impl Setting {
     /// Fails when a sum exceeded the limit of terms.
     pub(super) fn check(&self) -> Result<()> {
         let (most, terms) = (self.most, self.exceeded.load(Ordering::Relaxed));
-        let text = || format!("a sum of {terms} terms comes up; at most {most} are allowed");
+        let text = || format!("a sum has {terms} terms; at most {most} are allowed");
         if terms == 0 { Ok(()) } else { Err(Error::new(ErrorKind::Overflow, text())) }
     }
 
@@ -232,7 +232,7 @@ impl Mul for Exact {
                 setting.admitted(scaled)
             }
             (Kind::Sum(setting, f), Kind::Sum(_, g)) => {
-                let product = setting.ring.checked_mul(&f, &g).expect("degrees of a few joints fit");
+                let product = setting.ring.checked_mul(&f, &g).expect("the degrees fit");
                 setting.number(product)
             }
         }

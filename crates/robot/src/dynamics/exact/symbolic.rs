@@ -80,19 +80,19 @@ impl Symbolic {
     /// Name and text of all entries: `M11` and so on from 1, the lower triangle of M, all of C, N and V.
     pub fn entries(&self) -> Vec<(String, String)> {
         let mut entries = Vec::new();
-        let mut tell = |name: String, number: &Exact| entries.push((name, self.text(number, Style::Text)));
+        let mut entry = |name: String, number: &Exact| entries.push((name, self.text(number, Style::Text)));
         for (i, row) in self.inertia.iter().enumerate() {
-            (0..=i).for_each(|j| tell(format!("M{}{}", i + 1, j + 1), &row[j]));
+            (0..=i).for_each(|j| entry(format!("M{}{}", i + 1, j + 1), &row[j]));
         }
         for (i, row) in self.coriolis.iter().enumerate() {
-            (0..row.len()).for_each(|j| tell(format!("C{}{}", i + 1, j + 1), &row[j]));
+            (0..row.len()).for_each(|j| entry(format!("C{}{}", i + 1, j + 1), &row[j]));
         }
         for (i, number) in self.gravity.iter().enumerate() {
-            tell(format!("N{}", i + 1), number);
+            entry(format!("N{}", i + 1), number);
         }
-        tell("V".to_owned(), &self.potential);
+        entry("V".to_owned(), &self.potential);
         for (i, form) in self.base.iter().flat_map(|base| &base.forms).enumerate() {
-            tell(format!("B{}", i + 1), &self.model.linear(form));
+            entry(format!("B{}", i + 1), &self.model.linear(form));
         }
         entries
     }
@@ -123,13 +123,13 @@ impl Symbolic {
             ));
         }
         lines.push(
-            "Of the body behind a joint $m$ is the mass, $mx$, $my$, $mz$ that times its centre, and $Ixx$ to $Izz$ the inertia tensor, all about the joint's point and along the \
+            "For the body that a joint moves, $m$ is the mass, $mx$, $my$, $mz$ are the mass times its centre, and $Ixx$ to $Izz$ the inertia tensor, about the joint's point and along the \
              axes of the base where all joints are at zero."
                 .to_owned(),
         );
         if let Some(base) = &self.base {
             lines.push(format!(
-                "$M$, $C$ and $N$ depend on {} base parameters alone, $B1$ and so on; no fewer would do.",
+                "$M$, $C$ and $N$ depend only on {} base parameters, $B1$ and so on; this is the minimal number.",
                 base.forms.len()
             ));
         }
@@ -155,8 +155,8 @@ pub(super) fn base_parameters(
     inertia: &[Vec<Exact>],
     gravity: &[Exact],
 ) -> Result<Option<BaseParameters>> {
-    let tells = model.has_symbols && !model.setting.has_roots();
-    tells.then(|| BaseParameters::of(model, dependent(inertia, gravity))).transpose()
+    let is_rational = model.has_symbols && !model.setting.has_roots();
+    is_rational.then(|| BaseParameters::of(model, dependent(inertia, gravity))).transpose()
 }
 
 /// The entries that contain inertial parameters.

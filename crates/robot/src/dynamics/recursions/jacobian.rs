@@ -21,23 +21,23 @@ impl<S: Scalar> Data<S> {
         let velocity = body.map_or(base, |joint| &self.velocities[joint]);
         let own = link.motion_inward(velocity);
         // The velocity of a carrier's axis in the frame, which rotates itself.
-        let seen = |frame: &Frame<S>, axis: &Six<S>, velocity: &Six<S>| {
+        let velocity_of = |frame: &Frame<S>, axis: &Six<S>, velocity: &Six<S>| {
             let column = frame.motion_inward(axis);
             let change = frame.motion_inward(velocity).add(&own.negated()).moving(&column);
             [column, change]
         };
         let (mut frame, mut at) = (link.clone(), body);
         while let Some(joint) = at {
-            columns[first + joint] = seen(&frame, &tree.bodies[joint].axis(), &self.velocities[joint]);
+            columns[first + joint] = velocity_of(&frame, &tree.bodies[joint].axis(), &self.velocities[joint]);
             frame = self.frames[joint].then(&frame);
             at = tree.bodies[joint].parent;
         }
-        (0..first).for_each(|freedom| columns[freedom] = seen(&frame, &unit(freedom), base));
+        (0..first).for_each(|freedom| columns[freedom] = velocity_of(&frame, &unit(freedom), base));
         own
     }
 
     /// The pose in the base of a frame in a body (`None`: the base).
-    pub fn stands(&self, tree: &Tree<S>, body: Option<usize>, link: &Frame<S>) -> Frame<S> {
+    pub fn pose_in_base(&self, tree: &Tree<S>, body: Option<usize>, link: &Frame<S>) -> Frame<S> {
         let up = |joint: &usize| tree.bodies[*joint].parent;
         std::iter::successors(body, up).fold(link.clone(), |frame, joint| self.frames[joint].then(&frame))
     }

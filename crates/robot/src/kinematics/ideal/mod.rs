@@ -46,7 +46,7 @@ impl Chain {
     pub fn ideal_within(&self, tolerance: f64) -> Result<(Chain, Report)> {
         if !(0.0..=WIDEST).contains(&tolerance) {
             let text = format!(
-                "the tolerance is {tolerance}; give radians, which are shares of the reach as well, from 0 to {WIDEST}, such as 1e-5"
+                "the tolerance is {tolerance}; give radians (and fractions of the reach) from 0 to {WIDEST}, such as 1e-5"
             );
             return Err(Error::new(ErrorKind::BadValue, text));
         }

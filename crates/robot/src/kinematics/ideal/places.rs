@@ -46,8 +46,8 @@ impl Placed {
     fn joint(&self, joint: &Joint) -> Joint {
         let Line { point, direction } = &self.line;
         let turns = joint.kind == JointKind::Revolute;
-        let stands = if turns { self.line.distance(&joint.point) == 0.0 } else { joint.point == *point };
-        let point = if stands { joint.point.clone() } else { point.clone() };
+        let is_on_line = if turns { self.line.distance(&joint.point) == 0.0 } else { joint.point == *point };
+        let point = if is_on_line { joint.point.clone() } else { point.clone() };
         Joint { axis: direction.clone(), point, ..joint.clone() }
     }
 }

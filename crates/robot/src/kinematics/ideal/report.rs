@@ -7,7 +7,6 @@ use super::meeting::gatherings;
 use super::{SAME, line, size, turn};
 use crate::kinematics::{Chain, Joint, JointKind, LengthUnit};
 use crate::spatial::exact::vector::{Line, cosine, cross, is_zero, length, sine, sub};
-use groebot_algebra::escape::markdown;
 
 /// Kind of relation between consecutive joints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,9 +143,9 @@ fn of_pair(first: usize, own: &[Joint], meant: &[Joint]) -> Vec<Relation> {
 /// Whether the middle one of three axes, which do not intersect in one point, has no offset.
 fn level(first: usize, own: &[Joint], meant: &[Joint]) -> Option<Relation> {
     let offset = |axes: &[Joint]| {
-        let [before, own, behind] = [0, 1, 2].map(|place| line(&axes[place]));
+        let [before, own, after] = [0, 1, 2].map(|place| line(&axes[place]));
         let bends = |other: &Line| !is_zero(&cross(&own.direction, &other.direction));
-        let feet = (bends(&before) && bends(&behind)).then(|| (own.nearest(&before), own.nearest(&behind)));
+        let feet = (bends(&before) && bends(&after)).then(|| (own.nearest(&before), own.nearest(&after)));
         feet.map(|(a, b)| (a == b, length(&sub(&a, &b))))
     };
     let meets = |pair: &[Joint]| line(&pair[0]).gap(&line(&pair[1])) == 0.0;
@@ -201,13 +200,12 @@ impl Relation {
 }
 
 impl Report {
-    /// The paragraph of a mechanism's README, in Markdown.
-    pub fn paragraph(&self) -> String {
+    /// The sentence of a README that introduces [`Report::lines`].
+    pub fn sentence(&self) -> String {
         format!(
             "The solver is derived for the ideal robot within {:e} rad, or of the reach. Each answer is polished by Newton's method on the robot as \
-             described, and measured on it. What was taken to be meant:\n\n{}\n",
+             described, and measured on it. What was taken to be meant:",
             self.tolerance,
-            self.lines().iter().map(|line| format!("* {}\n", markdown(line))).collect::<String>()
         )
     }
 

@@ -39,8 +39,7 @@ impl Model {
         let (joints, given, task) = (chain.joints().len(), chain.given(), chain.task());
         if chain.independent().len() <= task.freedoms() && joints - given.len() > task.freedoms() {
             let text = format!(
-                "screw theory takes at most {} unknown joints for the task `{}`, those that follow others included; `groebot derive` finds what the \
-                 {} independent joints are, and a search (`groebot ik --numeric`) does",
+                "screw theory supports at most {} unknown joints for the task `{}`, mimic joints included; use `groebot derive` for the {} independent joints, or a numeric search (`groebot ik --numeric`)",
                 task.freedoms(),
                 task.name(),
                 chain.independent().len()
@@ -65,7 +64,7 @@ impl Model {
         }
         if screws.len() > MOST_JOINTS {
             let text = format!(
-                "the screw solver takes {MOST_JOINTS} joints, a ray's turn included; there are {}",
+                "the screw solver supports {MOST_JOINTS} joints, including the rotation about a ray; there are {}",
                 screws.len()
             );
             return Err(Error::new(ErrorKind::Unsupported, text));
@@ -102,7 +101,8 @@ fn spherical_image(chain: &Chain) -> Result<Vec<Screw>> {
     let image = |(screw, joint): (&Screw, &crate::kinematics::Joint)| match screw {
         Screw::Revolute(axis) => Screw::revolute(axis.direction().into_inner(), Point3::origin()),
         Screw::Prismatic(_) => {
-            let text = format!("joint `{}` slides: it has no part in the task `{}`", joint.name, chain.task().name());
+            let text =
+                format!("joint `{}` is prismatic: it has no effect on the task `{}`", joint.name, chain.task().name());
             Err(Error::new(ErrorKind::PositiveDimensional, text))
         }
     };

@@ -101,8 +101,8 @@ pub fn rotate_line_to_plane(
         let step = (a * c + b * d) / (c * c + d * d);
         if step.abs() <= 1e-6 { angle::wrap(q - step) } else { q }
     };
-    let lies = |q: &f64| misses(*q).0.iter().all(|miss| miss.abs() <= reach.slack(1.0));
-    let mut kept = turned.iter().map(refined).filter(lies);
+    let is_in_plane = |q: &f64| misses(*q).0.iter().all(|miss| miss.abs() <= reach.slack(1.0));
+    let mut kept = turned.iter().map(refined).filter(is_in_plane);
     match (kept.next(), kept.next()) {
         (Some(q), Some(r)) => Values::Two(q, r),
         (Some(q), None) => Values::One(q),

@@ -176,8 +176,8 @@ fn downhill<const N: usize>(
     let units = screws.each_ref().map(|screw| if screw.axis().is_some() { 1.0 } else { size });
     let hessian = SMatrix::<f64, N, N>::from_fn(|i, j| {
         // A joint rotates the velocities of the later joints.
-        let (before, behind) = (i.min(j), i.max(j));
-        let curvature = columns[before].1.cross(&columns[behind].0).dot(miss);
+        let (before, after) = (i.min(j), i.max(j));
+        let curvature = columns[before].1.cross(&columns[after].0).dot(miss);
         (columns[i].0.dot(&columns[j].0) - curvature) * units[i] * units[j]
     });
     let projected = SVector::<f64, N>::from_fn(|i, _| columns[i].0.dot(miss) * units[i]);

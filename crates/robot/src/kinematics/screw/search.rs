@@ -246,8 +246,8 @@ fn relative(rest: usize, turns: &[usize], relations: &[Relation]) -> Vec<(Kind, 
     for (i, (first, places)) in relations.iter().zip(&left).enumerate() {
         match places[..] {
             [_] => steps.push((Kind::Between(*first), places.clone())),
-            [before, behind] if before < first.start && behind > first.start => {
-                if !(turns.contains(&before) && turns.contains(&behind)) {
+            [before, after] if before < first.start && after > first.start => {
+                if !(turns.contains(&before) && turns.contains(&after)) {
                     continue;
                 }
                 let others = (i + 1..relations.len()).filter(|&j| left[j] == *places);

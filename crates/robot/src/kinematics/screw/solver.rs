@@ -160,7 +160,7 @@ impl ScrewSolver {
         if let Some(parts) = &self.upright {
             let (upright, inner) = &**parts;
             target.check(&self.chain)?;
-            let (closed, values) = upright.asked(target, given)?;
+            let (closed, values) = upright.loop_target(target, given)?;
             let found = inner.solve_given(&closed, &values)?;
             return Ok(upright::on_chain(&self.chain, upright, target, found));
         }
@@ -372,12 +372,10 @@ fn unsolved(chain: &Chain) -> Error {
     let there =
         if there.is_empty() { "no neighbouring axes meet or are parallel".to_owned() } else { there.join(", ") };
     let text = format!(
-        "`{}`: no order of the known subproblems solves its {} joints for the task `{}`: {there}; six joints need three \
-         axes in a row that meet or are parallel, or three parallel pairs; `groebot derive` solves most other chains, six joints in any \
-         place among them, and finds all answers; a search (`groebot ik --numeric`) may find some",
+        "`{}`: no order of the known subproblems solves its {} joints for the task `{}`: {there}; six joints need three consecutive axes that meet or are parallel, or three parallel pairs; `groebot derive` solves most other chains, also six general joints, and finds all solutions; a numeric search (`groebot ik --numeric`) may find some",
         chain.name(),
         chain.joints().len(),
-        chain.asked()
+        chain.task_text()
     );
     Error::new(ErrorKind::Unsupported, text)
 }

@@ -156,13 +156,13 @@ fn turned(
 ) -> Candidates {
     let kept = Invariants::new(first, k, &second.point());
     let turn = Turn::new(&second.direction(), kept.a);
-    let seen = |q: f64| third.carry(q, p) - second.point();
+    let relative = |q: f64| third.carry(q, p) - second.point();
     let condition = |q: f64| {
-        let y = seen(q);
+        let y = relative(q);
         turn.condition(&y, kept.sides(&y))
     };
     let angles = |q: f64| {
-        let y = seen(q);
+        let y = relative(q);
         let flat = (y - second.direction().scale(second.direction().dot(&y))).norm();
         if flat <= TOLERANCE * size { [Some(0.0), None] } else { turn.angles(&y, kept.sides(&y)) }
     };

@@ -50,7 +50,7 @@ fn read_whole_joint(element: &Element, bare: Joint, is_recent: bool) -> Result<J
     let axis = read_axis(element.child("axis")?)?;
     if recognised(&axis).is_some() {
         notes.push(
-            "its axis is taken as the unit vector with 1/2, sqrt 2 / 2 or sqrt 3 / 2 that it is the decimal of, where solvers are derived"
+            "solvers are derived with its axis as the unit vector with 1/2, sqrt 2 / 2 or sqrt 3 / 2 that these decimals approximate"
                 .to_owned(),
         );
     }
@@ -115,15 +115,12 @@ fn read_rpy(element: &Element, rpy: &ExactVector) -> Result<(Placement, Vec<Stri
             Some(degrees) => {
                 let whole = (angle / std::f64::consts::TAU - f64::from(degrees) / 360.0).round();
                 let degrees = f64::from(degrees) + 360.0 * whole;
-                let interpretation = if turn.is_exact() {
-                    "exactly"
-                } else {
-                    "where solvers are derived; poses are those of the number"
-                };
-                notes.push(format!("{name} {angle} rad is taken as {degrees} deg {interpretation}"));
+                let interpretation =
+                    if turn.is_exact() { "exactly" } else { "when a solver is derived; poses use the number" };
+                notes.push(format!("{name} {angle} rad is interpreted as {degrees} deg {interpretation}"));
             }
             None => {
-                let note = "has no exact sine; its rotation is exactly orthogonal, right to 1e-15";
+                let note = "has no exact sine; its rotation is exactly orthogonal, with an error of 1e-15";
                 notes.push(format!("{name} {angle} rad {note}"));
             }
         }

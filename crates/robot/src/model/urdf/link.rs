@@ -32,13 +32,13 @@ pub fn read_link(element: &Element, colours: &HashMap<&str, [f64; 4]>) -> Result
         match read_shape(child, colours) {
             Ok(shape) => shapes.extend(shape),
             // A description with an invalid visual shape is still usable.
-            Err(error) => link.notes.push(format!("left out: {error}")),
+            Err(error) => link.notes.push(format!("omitted: {error}")),
         }
     }
     let mut inertials = element.children.iter().filter(|child| child.name == "inertial");
     let inertial = inertials.next();
     // urdfdom, the most common URDF parser, uses the first one.
-    let extra = |second: &Element| format!("<inertial> of line {} is left out: the first one is taken", second.line);
+    let extra = |second: &Element| format!("<inertial> of line {} is ignored: the first one is used", second.line);
     link.notes.extend(inertials.map(extra));
     let mass = || refuse_slips(element, &PARTS).and_then(|()| inertial.map(read_mass).transpose());
     let named = |error: Error| error.with_context(format_args!("link `{}`", shown(name))).at_line(element.line);

@@ -75,7 +75,7 @@ fn colours<'e>(root: &'e Element, notes: &mut Vec<String>) -> HashMap<&'e str, [
             (Some(name), Ok(Some(colour))) => {
                 colours.insert(name, colour);
             }
-            (_, Err(error)) => notes.push(format!("left out: {error}")),
+            (_, Err(error)) => notes.push(format!("omitted: {error}")),
             _ => {}
         }
     }
@@ -87,7 +87,7 @@ fn refuse_slips(element: &Element, parts: &[&str]) -> Result<()> {
     for child in element.children.iter().filter(|child| !parts.contains(&child.name.as_str())) {
         let advice = did_you_mean(&child.name, parts);
         if !advice.is_empty() {
-            let text = format!("is no element of a {}{advice}", element.name);
+            let text = format!("is not an element of a {}{advice}", element.name);
             return Err(child.error(ErrorKind::UnknownKey, &text));
         }
     }

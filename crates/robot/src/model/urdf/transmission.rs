@@ -34,7 +34,10 @@ pub fn reflected_rotor(element: &Element) -> Result<f64> {
     let ratio = value("drake:gear_ratio")?.unwrap_or(1.0);
     let reflected = value("drake:rotor_inertia")?.unwrap_or(0.0) * ratio * ratio;
     let beyond = || {
-        element.error(ErrorKind::BadValue, "has a rotor whose inertia times the gear ratio squared is beyond doubles")
+        element.error(
+            ErrorKind::BadValue,
+            "has a rotor whose inertia times the squared gear ratio exceeds the range of doubles",
+        )
     };
     if reflected.is_finite() { Ok(reflected) } else { Err(beyond()) }
 }
@@ -77,7 +80,7 @@ fn add_rotor(
             Ok(())
         }
         None => Err::<(), Error>(
-            joint.error(ErrorKind::UnknownName, "is no joint of the robot, and an actuator has a rotor for it"),
+            joint.error(ErrorKind::UnknownName, "is not a joint of the robot, but an actuator has a rotor for it"),
         ),
     }
 }

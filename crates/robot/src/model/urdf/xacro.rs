@@ -23,9 +23,7 @@ pub fn unused(root: &Element) -> Result<Vec<String>> {
     }
     let names: Vec<&str> = own().map(|child| child.attribute("name").unwrap_or("")).collect();
     let line = own().next().map(|first| first.line);
-    let note = |line| {
-        format!("line {line}: definitions of xacro that nothing uses are ignored: {}", listing(names.into_iter()))
-    };
+    let note = |line| format!("line {line}: unused definitions of xacro are ignored: {}", listing(names.into_iter()));
     Ok(line.map(note).into_iter().collect())
 }
 

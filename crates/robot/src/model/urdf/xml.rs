@@ -19,7 +19,7 @@ const MOST_TEXT: usize = limits::XML_TEXT;
 const DEEPEST: usize = limits::XML_DEPTH;
 
 /// Advice about xacro in messages.
-pub const EXPAND: &str = "a language that makes URDF; run `xacro robot.urdf.xacro > robot.urdf` first";
+pub const EXPAND: &str = "a macro language for URDF; run `xacro robot.urdf.xacro > robot.urdf` first";
 
 /// An element with its attributes and children.
 #[derive(Debug)]
@@ -124,7 +124,7 @@ impl Element {
         if floats.iter().all(|number| number.is_finite()) {
             return Ok(Some(floats));
         }
-        Err(self.error(ErrorKind::BadValue, &format!("has a number in `{name}` that no double holds")))
+        Err(self.error(ErrorKind::BadValue, &format!("has a number in `{name}` outside the range of doubles")))
     }
 
     /// The double of an attribute.
@@ -147,7 +147,7 @@ fn decimal(word: &str) -> std::result::Result<BigRational, String> {
     let value = if is_plain { parse_rational(word).ok() } else { None };
     value.ok_or_else(|| match word.parse::<f64>() {
         Ok(value) if !value.is_finite() => format!("{} is not finite", shown(word)),
-        _ => format!("`{}` is no number", shown(word)),
+        _ => format!("`{}` is not a number", shown(word)),
     })
 }
 

@@ -139,7 +139,7 @@ fn any_three_joints_before_a_spherical_wrist() {
 }
 
 #[test]
-fn any_three_joints_behind_a_spherical_hip() {
+fn any_three_joints_after_a_spherical_hip() {
     check("hip", 100, poses(joined(wrist(), anywhere(3))), 8);
 }
 
@@ -209,7 +209,7 @@ fn a_chain_in_general_position_is_refused() {
 }
 
 #[test]
-fn two_parallel_pairs_alone_are_refused_and_told() {
+fn two_parallel_pairs_alone_are_refused() {
     let mut runner = TestRunner::new(Config::with_cases(10));
     let chains = poses(joined(joined(parallel(2), parallel(2)), anywhere(2)));
     let outcome = runner.run(&chains, |chain| {

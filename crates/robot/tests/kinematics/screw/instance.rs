@@ -123,8 +123,8 @@ impl Question<'_> {
                 moved[i] += step * self.units[i];
                 (self.misses)(&moved)
             };
-            let (ahead, behind) = (at(STEP), at(-STEP));
-            ahead.iter().zip(behind).map(|(a, b)| (a - b) / (2.0 * STEP)).collect::<Vec<_>>()
+            let (ahead, after) = (at(STEP), at(-STEP));
+            ahead.iter().zip(after).map(|(a, b)| (a - b) / (2.0 * STEP)).collect::<Vec<_>>()
         };
         let columns: Vec<f64> = (0..q.len()).flat_map(column).collect();
         let jacobian = DMatrix::from_column_slice(columns.len() / q.len(), q.len(), &columns);

@@ -60,8 +60,8 @@ fn all_four_quadrants() {
 fn a_right_triangle_gives_right_angles() {
     // Radii 3 and 4 at a distance of 5 enclose a right angle, on both sides.
     let (p, k) = (Point3::new(4.0, 2.0, 0.0), Point3::new(5.0, 2.0, 0.0));
-    let Values::Two(ahead, behind) = rotate_to_distance(&upright(), &p, &k, 5.0) else { panic!("two angles") };
-    assert!((ahead - FRAC_PI_2).abs() < 1e-15 && (behind + FRAC_PI_2).abs() < 1e-15);
+    let Values::Two(ahead, after) = rotate_to_distance(&upright(), &p, &k, 5.0) else { panic!("two angles") };
+    assert!((ahead - FRAC_PI_2).abs() < 1e-15 && (after + FRAC_PI_2).abs() < 1e-15);
 }
 
 #[test]
@@ -118,8 +118,8 @@ fn any_magnitude_will_do() {
     let axis = Axis::new(Vector3::z(), Point3::origin()).unwrap();
     for unit in [1e-300, 1e-200, 1e-9, 1e9, 1e200, 1e300] {
         let (p, k) = (Point3::new(3.0 * unit, 0.0, 0.0), Point3::new(4.0 * unit, 0.0, 0.0));
-        let Values::Two(ahead, behind) = rotate_to_distance(&axis, &p, &k, 5.0 * unit) else { panic!("{unit}") };
-        assert!((ahead - FRAC_PI_2).abs() < 1e-15 && (behind + FRAC_PI_2).abs() < 1e-15);
+        let Values::Two(ahead, after) = rotate_to_distance(&axis, &p, &k, 5.0 * unit) else { panic!("{unit}") };
+        assert!((ahead - FRAC_PI_2).abs() < 1e-15 && (after + FRAC_PI_2).abs() < 1e-15);
     }
 }
 

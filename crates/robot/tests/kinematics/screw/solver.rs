@@ -133,9 +133,9 @@ fn plans_are_those_of_the_thesis() {
     for (chain, expected) in plans() {
         let plan = ScrewSolver::new(&chain).unwrap().plan().clone();
         println!("{}\n{plan}\n", chain.name());
-        let told: Vec<_> = plan.steps.iter().map(|step| (step.subproblem, step.joints.clone())).collect();
+        let reported: Vec<_> = plan.steps.iter().map(|step| (step.subproblem, step.joints.clone())).collect();
         if !expected.is_empty() {
-            assert_eq!(told, expected, "{}", chain.name());
+            assert_eq!(reported, expected, "{}", chain.name());
         }
     }
 }
@@ -292,7 +292,7 @@ fn poses_near_singular_ones_keep_their_answers() {
 }
 
 #[test]
-fn a_free_joint_is_told_and_any_value_of_it_does() {
+fn a_free_joint_is_reported_and_any_value_solves() {
     // The wrist is stretched: theta4 and theta6 rotate about one line.
     let solver = ScrewSolver::new(&robots::puma()).unwrap();
     let mut q = vec![0.4, -0.7, 1.1, 0.6, PI / 2.0, -0.5];

@@ -94,7 +94,7 @@ fn the_joints_that_made_a_target_are_among_its_answers() {
 
 /// NAO's head by hand: yaw rotates about z, then pitch about y. The view is along x.
 #[test]
-fn a_head_looks_two_ways() {
+fn a_head_has_two_solutions() {
     let solver = ScrewSolver::new(&described("nao_head")).unwrap();
     let view = Vector3::new(2.0, 1.0, -1.0).normalize();
     let answers = solver.solve(&Target::Direction(view)).unwrap();
@@ -111,7 +111,7 @@ fn a_head_looks_two_ways() {
 }
 
 #[test]
-fn what_is_asked_must_fit() {
+fn requested_tasks_must_fit() {
     let arm = described("nao_left_arm_position");
     let solver = ScrewSolver::new(&arm).unwrap();
     let target = Target::reached(&arm, &[0.1, 0.2, 0.3, -0.4]).unwrap();

@@ -112,12 +112,12 @@ fn the_longest_reach_is_crossed_in_order() {
     let axis = |w: Vector3<f64>, x: f64| Screw::revolute(w, Point3::new(x, 0.0, 0.0)).unwrap();
     let screws = [axis(Vector3::z(), 0.0), axis(Vector3::y(), 0.0), axis(Vector3::y(), 1.0)];
     let p = Point3::new(2.0, 0.0, 0.0);
-    let way = Vector3::new(0.6, 0.0, 0.8).normalize();
+    let path = Vector3::new(0.6, 0.0, 0.8).normalize();
     for exponent in 1..=16 {
         let step = 10f64.powi(-exponent);
-        let inside = solve(&screws, &p, &Point3::from(way * (2.0 - step)), Reach::EXACT);
+        let inside = solve(&screws, &p, &Point3::from(path * (2.0 - step)), Reach::EXACT);
         assert!(!inside.is_empty(), "{exponent}");
-        let outside = Point3::from(way * (2.0 + step));
+        let outside = Point3::from(path * (2.0 + step));
         let count = solve(&screws, &p, &outside, Reach::EXACT).len();
         assert!(exponent == 12 || exponent == 11 || (count == 0) == (exponent < 12), "{exponent}: {count}");
         let wide = solve(&screws, &p, &outside, Reach::Within(1e-6));

@@ -112,7 +112,7 @@ fn parallel_slides_leave_the_second_free() {
 }
 
 #[test]
-fn a_short_way_far_from_the_origin_is_reached() {
+fn a_short_distance_far_from_the_origin_is_reached() {
     let mut random = Random(1);
     for exponent in 1..=16 {
         let screws = [random.screw(false), random.screw(false)];

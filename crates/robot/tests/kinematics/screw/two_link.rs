@@ -81,7 +81,7 @@ fn check(solver: &TwoLink, target: &Point3<f64>, answers: &[Solution], tolerance
 }
 
 #[test]
-fn a_leg_bends_both_ways() {
+fn a_leg_bends_in_both_directions() {
     // Thigh 3, shank 4, target 5 below the hip: a right angle at the knee.
     let answers = leg(3.0, 4.0).solve(&Point3::new(0.0, 0.0, -5.0)).unwrap();
     let hip = (4.0_f64 / 5.0).asin();

@@ -6,7 +6,7 @@ use num_traits::One;
 
 use crate::Result;
 use crate::derive::closure::{Factor, Mechanism, Relation};
-use crate::derive::sequential::{Symbolic, TargetPoly, name};
+use crate::derive::sequential::{Symbolic, TargetPoly};
 use groebot_algebra::number::{BigRational, Ring, Style};
 
 /// The maximum number of terms that the report prints.
@@ -75,6 +75,38 @@ impl Sorted {
             }
         };
         signs(parts.iter().rev().map(term))
+    }
+}
+
+/// `c1, s1`; `s1'` is the sine divided by the length of the axis vector where that is not one.
+pub fn joint_unknowns(mechanism: &Mechanism, joint: usize) -> String {
+    let screw = &mechanism.joints()[joint];
+    let names = unknowns(mechanism, joint).into_iter().map(|factor| name(mechanism, factor));
+    let text = names.collect::<Vec<_>>().join(", ");
+    if screw.square.is_one() {
+        return text;
+    }
+    let letter = if screw.is_revolute() { 's' } else { 'd' };
+    format!("{text}, {letter}{0}' = {letter}{0} / sqrt({1})", screw.symbol, screw.square)
+}
+
+/// The unknowns of a joint.
+pub fn unknowns(mechanism: &Mechanism, joint: usize) -> Vec<Factor> {
+    match mechanism.joints()[joint].is_revolute() {
+        true => vec![Factor::Cosine(joint), Factor::Sine(joint)],
+        false => vec![Factor::Length(joint)],
+    }
+}
+
+/// The name of an unknown: `c1`, `s1'`, `d3'^2`.
+pub fn name(mechanism: &Mechanism, factor: Factor) -> String {
+    let joint = &mechanism.joints()[factor.joint()];
+    let prime = if joint.square.is_one() { "" } else { "'" };
+    match factor {
+        Factor::Cosine(_) => format!("c{}", joint.symbol),
+        Factor::Sine(_) => format!("s{}{prime}", joint.symbol),
+        Factor::Length(_) => format!("d{}{prime}", joint.symbol),
+        Factor::LengthSquared(_) => format!("d{}{prime}^2", joint.symbol),
     }
 }
 

@@ -1,33 +1,52 @@
 //! The report of a chain that is solved joint by joint.
 
-use super::document::{Document, Line};
+use super::algebra::joint_unknowns;
+use super::document::{Document, Line, Stage};
 use super::{forms, geometry, step};
 use crate::Result;
 use crate::derive::closure::{Mechanism, show};
-use crate::derive::sequential::{SequentialView, joint_unknowns};
+use crate::derive::sequential::SequentialView;
 use crate::solver::{Block, Program};
 use groebot_robot::kinematics::Task;
 
-/// The report of `derived`.
+/// The report of `derived`, or of one of its stages.
 ///
 /// # Errors
 /// When a field cannot be built: never for a derivation that was made by this crate.
-pub fn document(derived: SequentialView<'_>) -> Result<Document> {
+pub fn document(derived: SequentialView<'_>, stage: Option<Stage>) -> Result<Document> {
     let mechanism = Mechanism::new(&derived.problem.chain)?;
-    let mut page = Document::new(&format!("{}: its inverse kinematics, explained", derived.problem.chain.name()));
-    introduce(&mut page, derived);
-    chain(&mut page, derived, &mechanism);
-    closure(&mut page);
-    plan(&mut page, derived, &mechanism);
-    for index in 0..derived.method.steps.len() {
-        step::explain(&mut page, derived, &mechanism, index)?;
+    let mut page = Document::of(derived.problem.chain.name(), stage);
+    if stage.is_none() {
+        introduce(&mut page, derived);
     }
-    branches(&mut page, derived);
-    singularities(&mut page);
-    forms::explain(&mut page, derived)?;
-    proof(&mut page, derived, &mechanism);
+    if Stage::Equations.is_in(stage) {
+        chain(&mut page, derived, &mechanism);
+        closure(&mut page);
+    }
+    if Stage::Plan.is_in(stage) {
+        plan(&mut page, derived, &mechanism);
+    }
+    for index in 0..derived.method.steps.len() {
+        step::explain(&mut page, derived, &mechanism, (index, stage))?;
+    }
+    if stage.is_none() {
+        branches(&mut page, derived);
+        singularities(&mut page);
+    }
+    if Stage::Basis.is_in(stage) {
+        forms::explain(&mut page, derived)?;
+    }
+    if stage.is_none() {
+        proof(&mut page, derived);
+    }
     Ok(page)
 }
+
+/// How the loop is cut where the yaw is left open.
+pub(super) const STANDING: &str = "The yaw is left open, and the first joint turns about a vertical as the yaw does. So the loop is cut \
+     there: behind the tip follow the roll and the pitch, which are given, the turn about the vertical that is left, the way from the first \
+     axis to the tip and the tip's height, which are given, and last the first joint, counted from where the tip is to be, seen from above. \
+     This loop closes where its tip is back at the base: its target never changes.";
 
 fn introduce(page: &mut Document, derived: SequentialView<'_>) {
     let parts = derived.problem.chain.parts();
@@ -37,11 +56,9 @@ fn introduce(page: &mut Document, derived: SequentialView<'_>) {
     let inputs: Vec<&str> = derived.program.inputs.iter().map(|input| input.name.as_str()).collect();
     page.paragraph(
         Line::of(&format!("Given is {}: ", task(derived.problem.chain.task()))).formula(&inputs.join(", ")).and(&format!(
-            ", lengths in {}. Wanted are all values of the joints that reach it. A generic target has {} complex solutions, and no \
-             more than that many real ones. They are found one joint at a time: a step is an equation or two in a single unknown \
-             joint, for the others cancel in it, are known from the steps before, or are eliminated.",
+            ", lengths in {}. Wanted are all values of the joints that reach it. They are found one joint at a time: a step is an \
+             equation or two in a single unknown joint, for the others cancel in it, are known from the steps before, or are eliminated.",
             derived.problem.chain.length_unit().symbol(),
-            derived.method.plan.dimension
         )),
     );
 }
@@ -90,12 +107,7 @@ fn chain(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism
         false => page.items(common),
     }
     if mechanism.standing().is_some() {
-        page.say(
-            "The yaw is left open, and the first joint turns about a vertical as the yaw does. So the loop is cut there: behind the tip follow the \
-             roll and the pitch, which are given, the turn about the vertical that is left, the way from the first axis to the tip and the tip's \
-             height, which are given, and last the first joint, counted from where the tip is to be, seen from above. This loop closes where its \
-             tip is back at the base: its target never changes.",
-        );
+        page.say(STANDING);
     } else if let Some(hidden) = mechanism.hidden() {
         page.say(&format!(
             "A ray does not say how the tip is turned about it. Any turn is chosen, two directions across the ray, which makes the target a \
@@ -133,6 +145,12 @@ fn closure(page: &mut Document) {
 
 fn plan(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism) {
     page.section(Line::of("The order of the joints"));
+    page.say(&format!(
+        "A generic target has {} complex solutions, and no more than that many real ones. That was counted modulo primes at random targets \
+         which the chain reaches, as the dimension of the quotient by all equations, from a Groebner basis of them:",
+        derived.method.plan.dimension
+    ));
+    page.items(derived.method.plan.evidence.iter().map(|evidence| Line::of(&evidence.to_string())).collect());
     let mut rows = vec![["step", "joint", "name", "form", "solutions"].map(Line::of).to_vec()];
     for (index, (step, planned)) in derived.method.steps.iter().zip(&derived.method.plan.steps).enumerate() {
         rows.push(vec![
@@ -212,29 +230,18 @@ fn singularities(page: &mut Document) {
     );
 }
 
-fn proof(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism) {
+fn proof(page: &mut Document, derived: SequentialView<'_>) {
     page.section(Line::of("Why no solution is lost and none is added"));
     let relations: usize = derived.method.steps.iter().map(|step| step.relations.len()).sum();
     page.say(&format!(
         "None is lost: all {relations} equations of the steps are members of the ideal of the loop, by exact computation, and \
          every form is proved on all its strata."
     ));
-    page.say(
-        "None is added: at random targets that the chain reaches, modulo primes, the number of complex solutions was counted as \
-         the dimension of the quotient by all equations, from a Groebner basis of them:",
-    );
-    let mut head = vec![Line::of("prime"), Line::of("solutions")];
-    head.extend(mechanism.joints().iter().enumerate().map(|(index, _)| Line::of(&format!("joint {}", index + 1))));
-    let mut rows = vec![head];
-    for evidence in &derived.method.plan.evidence {
-        let numbers = [evidence.prime as usize, evidence.dimension].into_iter().chain(evidence.degrees.iter().copied());
-        rows.push(numbers.map(|number| Line::of(&number.to_string())).collect());
-    }
-    page.table(rows);
     let tight = derived.method.plan.product() == derived.method.plan.dimension;
     page.say(&format!(
-        "The numbers under a joint say how many values it takes. The degrees of the steps multiply to {}, {}. Besides, each answer \
-         of the program is measured by forward kinematics before it is returned.",
+        "None is added: a random target modulo a prime has {} complex solutions, and the degrees of the steps multiply to {}, {}. Besides, \
+         each answer of the program is measured by forward kinematics before it is returned.",
+        derived.method.plan.dimension,
         derived.method.plan.product(),
         match tight {
             true => "just this number, so that a branch of the steps is a solution",

@@ -1,59 +1,93 @@
 //! The report of coupled chains: their composition, then the report of each chain.
 
-use super::chain;
-use super::document::{Document, Line};
+use super::algebra::joint_unknowns;
+use super::document::{Document, Line, Stage};
+use super::{chain, step};
 use crate::Result;
 use crate::derive::closure::Mechanism;
 use crate::derive::coupled::CoupledView;
+use crate::derive::sequential::Simultaneous;
+use groebot_algebra::number::{Ring, Style};
 
-/// The report of `derived`.
+/// The report of `derived`, or of one of its stages.
 ///
 /// # Errors
 /// When a field cannot be built: never for a derivation that was made by this crate.
-pub fn document(derived: CoupledView<'_>) -> Result<Document> {
+pub fn document(derived: CoupledView<'_>, stage: Option<Stage>) -> Result<Document> {
     let parts = derived.problem.parts();
-    let mut page = Document::new(&format!("{}: its inverse kinematics, explained", parts.name));
-    for text in [&parts.description, &parts.source].into_iter().flatten() {
-        page.paragraph(Line::plain(text));
+    let mut page = Document::of(&parts.name, stage);
+    if stage.is_none() {
+        for text in [&parts.description, &parts.source].into_iter().flatten() {
+            page.paragraph(Line::plain(text));
+        }
+        actuators(&mut page, derived);
+        page.say(&format!(
+            "The chains are solved one after the other. A joint whose actuator a chain has found is given for the chains after it. Every \
+             solution of all chains is one of the first chain, continued by one of the next with the shared joints held, and so on: none \
+             is lost. A generic target that the chains can reach has {} complex solutions. Each answer is polished and measured on the \
+             equations of all chains together.",
+            derived.method.dimension()
+        ));
     }
-    actuators(&mut page, derived);
-    page.say(&format!(
-        "The chains are solved one after the other. A joint whose actuator a chain has found is given for the chains after it. Every \
-         solution of all chains is one of the first chain, continued by one of the next with the shared joints held, and so on: none \
-         is lost. A generic target that the chains can reach has {} complex solutions. Each answer is polished and measured on the \
-         equations of all chains together.",
-        derived.method.dimension()
-    ));
-    shared(&mut page, derived)?;
-    for stage in &derived.method.stages {
-        page.section(Line::default().name(&derived.title(stage)));
-        page.parts.extend(chain::document(stage.view())?.parts);
+    if stage != Some(Stage::Basis) {
+        shared(&mut page, derived, stage)?;
+    }
+    for chain_stage in &derived.method.stages {
+        page.section(Line::default().name(&derived.title(chain_stage)));
+        page.parts.extend(chain::document(chain_stage.view(), stage)?.parts);
     }
     Ok(page)
 }
 
 /// Adds how shared joints are found from both chains together.
-fn shared(page: &mut Document, derived: CoupledView<'_>) -> Result<()> {
+fn shared(page: &mut Document, derived: CoupledView<'_>, stage: Option<Stage>) -> Result<()> {
     let Some(simultaneous) = &derived.method.simultaneous else { return Ok(()) };
     page.section(Line::default().name(&derived.simultaneous_names().join(", ")).and(": from both chains at once"));
-    page.say(
-        "Of each chain an equation is taken that holds no unknown joint but shared ones. What is measured stays the same on the arc whose \
-         joints drop out, which has been computed; so the equation follows from the chain's loop.",
-    );
-    for (index, (member, relation)) in derived.problem.chains().iter().zip(simultaneous.relations()?).enumerate() {
-        let meaning = relation.meaning(&Mechanism::new(&member.chain)?);
-        page.paragraph(Line::default().name(&member.name).and(&format!(": {meaning}.")));
-        page.equation(&format!("0.{}", index + 2), relation.to_string());
+    if Stage::Equations.is_in(stage) {
+        page.say(
+            "Of each chain an equation is taken that holds no unknown joint but shared ones. What is measured stays the same on the arc whose \
+             joints drop out, which has been computed; so the equation follows from the chain's loop.",
+        );
+        for (index, (member, relation)) in derived.problem.chains().iter().zip(simultaneous.relations()?).enumerate() {
+            let meaning = relation.meaning(&Mechanism::new(&member.chain)?);
+            page.paragraph(Line::default().name(&member.name).and(&format!(": {meaning}.")));
+            page.equation(&format!("0.{}", index + FIRST), relation.to_string());
+        }
     }
-    page.say(match simultaneous.steps.as_slice() {
-        [_] => "Both are linear in the cosine and sine of the joint, and each is solved alone where the other vanishes.",
+    if Stage::Plan.is_in(stage) {
+        page.say(shared_order(simultaneous));
+    }
+    let mechanism = Mechanism::new(&derived.problem.chains()[0].chain)?;
+    for step in simultaneous.steps.iter().filter(|_| Stage::Triangular.is_in(stage)) {
+        let name = derived.program.joints[step.joint].name.as_str();
+        page.paragraph(
+            Line::of("The joint ").name(name).and(" is found by the form ").name(step.shape.form.name()).and("."),
+        );
+        if let Some(elimination) = &step.elimination {
+            page.items(step::symbol_lines(&mechanism, elimination, (0, FIRST)));
+            let unknowns = joint_unknowns(&mechanism, step.joint);
+            page.paragraph(Line::of("What is left, with $x2, x3$ for ").formula(&unknowns).and(":"));
+            page.display(format!("{} = 0", elimination.ring.format(&elimination.member, Style::Decimal)));
+        }
+    }
+    Ok(())
+}
+
+/// How the equations of shared joints determine them.
+pub fn shared_order(simultaneous: &Simultaneous) -> &'static str {
+    match simultaneous.steps.as_slice() {
+        [_] => {
+            "Both are linear in the cosine and sine of the joint, and each is solved alone where the other vanishes."
+        }
         _ => {
             "Both are linear in the cosine and sine of the second joint. Their determinant is an equation in the first joint, of \
              degree two in its cosine and sine; its cofactors are multiplied out in the proof."
         }
-    });
-    Ok(())
+    }
 }
+
+/// The number of the first relation of shared joints, behind that of the loop.
+const FIRST: usize = 2;
 
 /// Adds a table of the actuators and the joints that each moves.
 fn actuators(page: &mut Document, derived: CoupledView<'_>) {

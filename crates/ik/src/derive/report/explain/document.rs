@@ -2,6 +2,26 @@
 //!
 //! A formula is plain text in the notation of the stage files, `A*c1 + B*s1 = 0`. [`super::latex`] typesets it.
 
+/// A stage of a derivation: a part of its report with a file of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// The equations.
+    Equations,
+    /// The order of the unknowns or of the joints.
+    Plan,
+    /// The Groebner bases on all strata, with their proofs.
+    Basis,
+    /// The formulas, one unknown after the other.
+    Triangular,
+}
+
+impl Stage {
+    /// Whether the report of `requested`, or of all stages, contains this one.
+    pub(in crate::derive) fn is_in(self, requested: Option<Stage>) -> bool {
+        requested.is_none_or(|requested| requested == self)
+    }
+}
+
 /// A report.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
@@ -54,7 +74,14 @@ impl Line {
 
     /// A line of text from the input, used unchanged.
     pub fn plain(text: &str) -> Self {
-        Line(vec![Span::Words(text.to_owned())])
+        Line::default().words(text)
+    }
+
+    /// With somebody else's words, taken as they are.
+    #[must_use]
+    pub fn words(mut self, text: &str) -> Self {
+        self.0.push(Span::Words(text.to_owned()));
+        self
     }
 
     /// Appends report text, as in [`Line::of`].
@@ -98,6 +125,18 @@ impl Document {
     /// An empty report.
     pub fn new(title: &str) -> Self {
         Document { title: title.to_owned(), parts: Vec::new() }
+    }
+
+    /// The empty report of a stage, or of all stages, of the derivation for the mechanism `name`.
+    pub(in crate::derive) fn of(name: &str, stage: Option<Stage>) -> Self {
+        let about = match stage {
+            None => "its inverse kinematics, explained",
+            Some(Stage::Equations) => "equations",
+            Some(Stage::Plan) => "plan",
+            Some(Stage::Basis) => "Groebner bases with proofs",
+            Some(Stage::Triangular) => "one unknown at a time",
+        };
+        Document::new(&format!("{name}: {about}"))
     }
 
     /// Adds a heading.

@@ -20,15 +20,30 @@ pub fn equations(form: Form) -> &'static [&'static str] {
     }
 }
 
+/// How a form determines its joint, and where its branches come from, in short.
+pub fn why(form: Form) -> &'static str {
+    match form {
+        Form::Angle => "one linear equation in cosine and sine, a chord of the circle with two ends",
+        Form::Turn => "two equations that turn a known vector to a known place, one angle",
+        Form::Pair => "two independent linear equations in cosine and sine, one angle",
+        Form::Quartic => {
+            "an equation of degree two in cosine and sine, by the tangent of half the angle up to four angles"
+        }
+        Form::Lengths => "an equation of degree four at most, up to four lengths",
+        Form::Linear => "a linear equation, one length",
+        Form::Quadratic => "a quadratic equation, two lengths",
+    }
+}
+
 /// The triangular form where no denominator vanishes. Each polynomial is text `f = 0`.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Certificate`] for half angles without a quartic.
 pub fn triangular(derived: SequentialView<'_>, form: Form) -> Result<Vec<String>> {
-    if let (Form::Quartic, Some(halves)) = (form, &derived.method.half_angles) {
+    if let (Form::Quartic, Some(halves)) = (form, &derived.method.forms.half_angles) {
         return half_angle(halves);
     }
-    let form_basis = derived.method.form_bases.iter().find(|form_basis| form_basis.form == form);
+    let form_basis = derived.method.forms.bases.iter().find(|form_basis| form_basis.form == form);
     Ok(form_basis.and_then(|form_basis| form_basis.tree.solved()).map(strata::stairs).unwrap_or_default())
 }
 
@@ -119,10 +134,10 @@ pub fn explain(page: &mut Document, derived: SequentialView<'_>) -> Result<()> {
          what the cofactors show. That nothing is missing is Buchberger's criterion: the S-polynomial of every two members, the \
          simplest combination in which their leading terms cancel, leaves the remainder zero.",
     );
-    for form_basis in &derived.method.form_bases {
+    for form_basis in &derived.method.forms.bases {
         form(page, form_basis)?;
     }
-    derived.method.half_angles.iter().for_each(|halves| half_angles(page, halves));
+    derived.method.forms.half_angles.iter().for_each(|halves| half_angles(page, halves));
     Ok(())
 }
 

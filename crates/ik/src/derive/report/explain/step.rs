@@ -2,26 +2,34 @@
 
 use num_traits::One;
 
-use super::algebra::{Sorted, product, renamed, signs};
-use super::document::{Document, Line};
+use super::algebra::{Sorted, name, product, renamed, signs, unknowns};
+use super::document::{Document, Line, Stage};
 use super::{forms, geometry, strata};
 use crate::Result;
 use crate::derive::closure::{Factor, Mechanism, ScrewJoint};
 use crate::derive::planner::Way;
-use crate::derive::sequential::{Elimination, Form, ProvedStep, SequentialView, name};
+use crate::derive::sequential::{Elimination, Form, ProvedStep, SequentialView};
 use groebot_algebra::number::{BigRational, Ring, Style};
 
 /// The maximum length of a printed combination, in characters.
 const LONGEST: usize = 1500;
 
-/// Adds the section of step `index`.
-pub fn explain(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism, index: usize) -> Result<()> {
+/// Adds the section of step `index`: its relations are of the stage of equations, its formulas of the triangular stage.
+pub fn explain(
+    page: &mut Document,
+    derived: SequentialView<'_>,
+    mechanism: &Mechanism,
+    (index, stage): (usize, Option<Stage>),
+) -> Result<()> {
+    if matches!(stage, Some(Stage::Plan | Stage::Basis)) {
+        return Ok(());
+    }
     let step = &derived.method.steps[index];
     let laws: Vec<String> = step.relations.iter().filter_map(|relation| relation.law(mechanism)).collect();
     let relations = if laws.len() == step.relations.len() { &[] } else { step.relations.as_slice() };
     let sorted = relations.iter().map(|relation| Sorted::new(mechanism, relation, step.joint));
     let sorted = sorted.collect::<Result<Vec<_>>>()?;
-    Writer { page, derived, mechanism, step, index, sorted, numbers: step.relations.len() }.section()
+    Writer { page, derived, mechanism, step, index, sorted, numbers: step.relations.len() }.section(stage)
 }
 
 struct Writer<'a> {
@@ -37,15 +45,20 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn section(mut self) -> Result<()> {
+    fn section(mut self, stage: Option<Stage>) -> Result<()> {
         let heading = format!("Step {}: joint {}, ", self.index + 1, self.step.joint + 1);
         self.page.section(Line::of(&heading).name(&self.joint().name));
-        self.known();
+        if Stage::Equations.is_in(stage) {
+            self.known();
+            (0..self.sorted.len()).for_each(|number| self.relation(number));
+        }
         if self.sorted.is_empty() {
             self.follows();
             return Ok(());
         }
-        (0..self.step.relations.len()).for_each(|number| self.relation(number));
+        if !Stage::Triangular.is_in(stage) {
+            return Ok(());
+        }
         match &self.step.elimination {
             Some(elimination) => self.elimination(elimination),
             None => self.symbols(),
@@ -110,11 +123,11 @@ impl Writer<'_> {
     fn symbols(&mut self) {
         let form = self.step.shape.form;
         self.page.say(match form {
-            Form::Angle => "This is linear in the cosine and the sine of one angle:",
+            Form::Angle => "The equation is linear in the cosine and the sine of one angle:",
             Form::Turn => "The two equations turn a vector that is known before to a place that is known after:",
-            Form::Pair => "These are two linear equations in the cosine and the sine of one angle:",
-            Form::Linear => "This is linear in the length:",
-            Form::Quadratic => "This is quadratic in the length:",
+            Form::Pair => "The two equations are linear in the cosine and the sine of one angle:",
+            Form::Linear => "The equation is linear in the length:",
+            Form::Quadratic => "The equation is quadratic in the length:",
             Form::Quartic | Form::Lengths => "This is one equation in the joint alone:",
         });
         let own = self.own_names();
@@ -195,15 +208,7 @@ impl Writer<'_> {
             "Still unknown in these equations is {away} as well; it is eliminated by a Groebner basis with its unknowns first or, where \
              the equations turn a vector by it, by the sum of their squares. What is known is written as symbols:"
         ));
-        let lines = elimination.symbols.iter().enumerate().map(|(number, place)| {
-            let (what, relation) = (product(self.mechanism, &place.factors), place.relation + 1);
-            let what = if what.is_empty() { "1" } else { &what };
-            Line::of(&format!("$S{number}$ is the coefficient of "))
-                .formula(what)
-                .and(&format!(" in ({}.{relation}) when it is sorted by the unknown joints.", self.index + 1))
-        });
-        let lines = lines.collect();
-        self.page.items(lines);
+        self.page.items(symbol_lines(self.mechanism, elimination, (self.index + 1, 1)));
         self.page.say("The generators, the circles behind the relations:");
         let text = |f| renamed(&elimination.ring.format(f, Style::Decimal), &names);
         for (number, f) in elimination.generators.iter().enumerate() {
@@ -232,11 +237,7 @@ impl Writer<'_> {
             Way::Eliminated { away, .. } => away,
             _ => &[],
         };
-        let unknowns = |joint: &usize| match self.mechanism.joints()[*joint].is_revolute() {
-            true => vec![Factor::Cosine(*joint), Factor::Sine(*joint)],
-            false => vec![Factor::Length(*joint)],
-        };
-        let factors = away.iter().chain([&self.step.joint]).flat_map(unknowns);
+        let factors = away.iter().chain([&self.step.joint]).flat_map(|&joint| unknowns(self.mechanism, joint));
         let names = elimination.ring.variables().iter().zip(factors);
         names.map(|(old, factor)| (old.clone(), name(self.mechanism, factor))).collect()
     }
@@ -248,7 +249,7 @@ impl Writer<'_> {
         self.page.paragraph(
             Line::of("The Groebner basis of the form ")
                 .name(form.name())
-                .and(", proved below for symbols that may be anything, is triangular: one unknown after the other."),
+                .and(", proved for all values of the symbols, is triangular: one unknown after the other."),
         );
         for stair in stairs {
             self.equation(renamed(&stair, &own));
@@ -291,6 +292,18 @@ impl Writer<'_> {
             }
         }
     }
+}
+
+/// What the symbols of an elimination stand for; its first relation has the number `(step.first)`.
+pub fn symbol_lines(mechanism: &Mechanism, elimination: &Elimination, (step, first): (usize, usize)) -> Vec<Line> {
+    let lines = elimination.symbols.iter().enumerate().map(|(number, place)| {
+        let (what, relation) = (product(mechanism, &place.factors), place.relation + first);
+        let what = if what.is_empty() { "1" } else { &what };
+        Line::of(&format!("$S{number}$ is the coefficient of "))
+            .formula(what)
+            .and(&format!(" in ({step}.{relation}) when it is sorted by the unknown joints."))
+    });
+    lines.collect()
 }
 
 /// A definition as text, such as `A = text/sqrt(3)`.

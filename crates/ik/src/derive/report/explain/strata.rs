@@ -85,6 +85,11 @@ pub fn degenerate(page: &mut Document, tree: &Node, free: &dyn Fn(&Node) -> Stri
         page.say("A basis with symbols as coefficients divides by some of them. Where such a denominator vanishes the equations are taken anew:");
     }
     page.items(items);
+    for node in tree.walk().into_iter().skip(1) {
+        let Some(solved) = node.solved().filter(|solved| !solved.inherited) else { continue };
+        page.paragraph(Line::of("Where ").formula(&node.label).and(" the basis is"));
+        stairs(solved).into_iter().for_each(|stair| page.display(stair));
+    }
     let never = |node: &Node| {
         let excluded = node.excluded.iter();
         excluded.map(|e| (e.factor.to_string(), e.reason.clone())).collect::<Vec<_>>()

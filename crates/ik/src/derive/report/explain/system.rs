@@ -1,29 +1,38 @@
 //! The report of equations that are solved as one system.
 
-use super::document::{Document, Line};
+use super::document::{Document, Line, Stage};
 use super::strata;
 use crate::Result;
 use crate::derive::equations::EquationsView;
+use crate::derive::equations::plan::score;
 use crate::derive::equations::tree::{Node, Outcome, Solved};
-use crate::derive::{JointKindUnknown, ParameterSource, System};
+use crate::derive::{JointKindUnknown, ParameterSource, Root, System};
 use crate::solver::Program;
+use groebot_algebra::groebner::Basis;
 use groebot_algebra::number::{Ring, Style};
 use groebot_algebra::poly::Order;
 
-/// The report of `derivation`.
+/// The report of `derivation`, or of one of its stages.
 ///
 /// # Errors
 /// If a field cannot be built. This does not occur for a derivation that this crate made.
-pub fn document(derivation: EquationsView<'_>) -> Result<Document> {
-    let system = derivation.problem;
-    let mut page = Document::new(&format!("{}: its inverse kinematics, explained", system.name));
-    introduce(&mut page, system);
-    equations(&mut page, derivation)?;
-    for (index, (title, node)) in derivation.method.trees().into_iter().enumerate() {
-        tree(&mut page, derivation, (index, title), node)?;
+pub fn document(derivation: EquationsView<'_>, stage: Option<Stage>) -> Result<Document> {
+    let mut page = Document::of(&derivation.problem.name, stage);
+    if Stage::Equations.is_in(stage) {
+        introduce(&mut page, derivation.problem);
+        equations(&mut page, derivation)?;
     }
-    branches(&mut page, derivation);
-    closing(&mut page);
+    if Stage::Plan.is_in(stage) {
+        plan(&mut page, derivation)?;
+    }
+    let trees = derivation.method.trees();
+    for (index, (title, node)) in trees.into_iter().enumerate().filter(|_| stage != Some(Stage::Equations)) {
+        tree(&mut page, derivation, (index, title, stage), node)?;
+    }
+    if stage.is_none() {
+        branches(&mut page, derivation);
+        closing(&mut page);
+    }
     Ok(page)
 }
 
@@ -43,6 +52,9 @@ fn equations(page: &mut Document, derivation: EquationsView<'_>) -> Result<()> {
     let system = derivation.problem;
     page.section(Line::of("The equations"));
     let mut items = Vec::new();
+    for input in system.inputs.iter().filter(|input| input.positive) {
+        items.push(Line::of("Assumed: ").formula(&format!("{} > 0", input.name)).and("."));
+    }
     for parameter in &system.parameters {
         let input = |index: usize| system.inputs[index].name.as_str();
         let value = match parameter.source {
@@ -75,10 +87,57 @@ fn equations(page: &mut Document, derivation: EquationsView<'_>) -> Result<()> {
         let number = if is_number { label.to_owned() } else { format!("0.{}", index + 1) };
         page.equation(&number, format!("f{} = {} = 0", index + 1, ring.format(&f, Style::Decimal)));
     }
+    if let Some(choice) = &system.choice {
+        let root = if choice.root == Root::Minus { "minus" } else { "plus" };
+        page.say(&format!("The published solution has the {root} root of ${}$.", choice.unknown));
+    }
     Ok(())
 }
 
-fn tree(page: &mut Document, derivation: EquationsView<'_>, (index, title): (usize, &str), node: &Node) -> Result<()> {
+/// The orders of the unknowns, by the denominators of their formulas that may vanish.
+fn plan(page: &mut Document, derivation: EquationsView<'_>) -> Result<()> {
+    page.section(Line::of("The order of the unknowns"));
+    page.say("All unknowns are solved together, the smallest first. A denominator that may vanish costs a stratum; the codimension is its zero set's.");
+    let head = [
+        "order",
+        "greatest first",
+        "strata of codimension one",
+        "smaller",
+        "without description",
+        "candidates",
+        "terms",
+    ];
+    let mut rows = vec![head.map(Line::of).to_vec()];
+    for (title, node) in derivation.method.trees() {
+        let Some(solved) = node.solved() else { continue };
+        let (ring, polynomials) = (solved.triangular.ring.clone(), solved.certified.basis.clone());
+        let score = score(&node.setting, &Basis { ring, polynomials, cofactors: Vec::new() })?;
+        let mut row = vec![Line::of(title), Line::default().formula(&solved.certified.order.join(" > "))];
+        let numbers = [score.surfaces, score.thin, score.open, score.candidates, score.terms];
+        row.extend(numbers.iter().map(|number| Line::of(&number.to_string())));
+        rows.push(row);
+    }
+    page.table(rows);
+    for joint in &derivation.problem.joints {
+        let value = match &joint.kind {
+            JointKindUnknown::Angle { cosine, sine } => format!("atan2({sine}, {cosine})"),
+            JointKindUnknown::Value { unknown } => unknown.clone(),
+        };
+        page.display(format!("{} = {value}", joint.name));
+    }
+    Ok(())
+}
+
+/// A tree of strata: its bases with their proofs, or the formulas of one unknown after the other.
+fn tree(
+    page: &mut Document,
+    derivation: EquationsView<'_>,
+    (index, title, stage): (usize, &str, Option<Stage>),
+    node: &Node,
+) -> Result<()> {
+    if stage == Some(Stage::Plan) {
+        return Ok(());
+    }
     page.section(Line::of(if index == 0 { "The basis" } else { "The basis that the program uses" }));
     if index > 0 {
         page.say(
@@ -88,7 +147,12 @@ fn tree(page: &mut Document, derivation: EquationsView<'_>, (index, title): (usi
     }
     if let Some(solved) = node.solved() {
         basis(page, (index, title), solved);
-        strata::proof(page, &node.setting, &solved.certified)?;
+        if Stage::Triangular.is_in(stage) {
+            page.items(values(solved));
+        }
+        if Stage::Basis.is_in(stage) {
+            strata::proof(page, &node.setting, &solved.certified)?;
+        }
     }
     let names = |node: &Node| match &node.outcome {
         Outcome::SelfMotion(self_motion) => {
@@ -99,11 +163,6 @@ fn tree(page: &mut Document, derivation: EquationsView<'_>, (index, title): (usi
         _ => String::new(),
     };
     strata::degenerate(page, node, &names);
-    for node in node.walk().into_iter().skip(1) {
-        let Some(solved) = node.solved().filter(|solved| !solved.inherited) else { continue };
-        page.paragraph(Line::of("Where ").formula(&node.label).and(" the basis is"));
-        strata::stairs(solved).into_iter().for_each(|stair| page.display(stair));
-    }
     Ok(())
 }
 
@@ -115,6 +174,10 @@ fn basis(page: &mut Document, (index, title): (usize, &str), solved: &Solved) {
     for (number, stair) in strata::stairs(solved).into_iter().enumerate() {
         page.equation(&format!("{}.{}", index + 1, number + 1), stair);
     }
+}
+
+/// How many values each unknown of a triangular form takes.
+fn values(solved: &Solved) -> Vec<Line> {
     let degrees = solved.triangular.stairs.iter().zip(solved.triangular.degrees());
     let ways = degrees.map(|(stair, degree)| {
         let unknown = &solved.triangular.ring.variables()[stair.unknown];
@@ -125,7 +188,7 @@ fn basis(page: &mut Document, (index, title): (usize, &str), solved: &Solved) {
         };
         Line::default().formula(unknown).and(": ").and(&count).and(".")
     });
-    page.items(ways.collect());
+    ways.collect()
 }
 
 fn branches(page: &mut Document, derivation: EquationsView<'_>) {

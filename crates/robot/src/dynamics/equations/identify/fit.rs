@@ -31,7 +31,10 @@ impl Fit {
         // Columns of equal length give the best condition.
         let sizes = DVector::from_iterator(matrix.ncols(), matrix.column_iter().map(|column| column.norm()));
         let blind = |unknown: usize| {
-            let text = format!("the log does not determine `{}`; move more joints, and faster", name(unknown));
+            let text = format!(
+                "the log does not determine `{}`; record a motion of more joints at higher velocities",
+                name(unknown)
+            );
             Error::new(ErrorKind::BadValue, text)
         };
         if let Some(unknown) = sizes.iter().position(|size| *size <= 1e-12 * sizes.amax()) {

@@ -88,22 +88,22 @@ impl fmt::Display for Finding {
             FindingKind::Unexplained => {
                 write!(
                     f,
-                    "{:.0} % of the torques are unexplained; are angles in radians, torques in N m, and both of the same times?",
+                    "{:.0} % of the torques are unexplained; check that angles are in radians, torques in N m, and both are synchronous",
                     100.0 * size
                 )
             }
             FindingKind::Correlated => {
                 write!(
                     f,
-                    "what torques miss is correlated from row to row ({size:.2}), so that intervals are too narrow; is there friction (--friction), a delay, a filter?"
+                    "the torque residuals are correlated from row to row ({size:.2}), so that intervals are too narrow; check for friction (--friction), a delay, a filter"
                 )
             }
             FindingKind::Clipped => write!(
                 f,
-                "{size:.0} rows have the extreme torque, and bodies need more; remove rows where the drive is at its limit"
+                "{size:.0} rows have the extreme torque, although the bodies need a larger one; remove rows with a drive at its limit"
             ),
             FindingKind::Outliers => {
-                write!(f, "{size:.0} rows miss by more than {OUTLYING} robust deviations; remove outliers")
+                write!(f, "{size:.0} rows have residuals above {OUTLYING} robust standard deviations; remove outliers")
             }
             FindingKind::Sign => write!(
                 f,
@@ -111,12 +111,12 @@ impl fmt::Display for Finding {
             ),
             FindingKind::Unit => write!(
                 f,
-                "torques are {size:.3e} times those of the description; are they in N m, or N of a joint that slides?"
+                "torques are {size:.3e} times those of the description; check that they are in N m, or N for a prismatic joint"
             ),
             FindingKind::NoBodies => {
                 write!(
                     f,
-                    "no physically consistent bodies have the identified parameters: all are at least {size:.1} deviations off"
+                    "no physically consistent bodies have the identified parameters: all are at least {size:.1} standard deviations away"
                 )
             }
         }

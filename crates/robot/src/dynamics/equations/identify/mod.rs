@@ -174,16 +174,16 @@ impl Equations {
     fn check_identified(&self) -> Result<()> {
         let refused = |text: &str| Err(Error::new(ErrorKind::Unsupported, text));
         if self.is_floating() {
-            return refused("a robot whose root moves freely is not identified");
+            return refused("a robot with a floating base is not supported");
         }
         if self.names.is_empty() {
-            return refused("the robot has no joint that moves; there is nothing to identify");
+            return refused("the robot has no moving joint; there is nothing to identify");
         }
         let negative = |drive: &super::Drive| drive.damping < 0.0 || drive.friction < 0.0 || drive.armature < 0.0;
         match self.drives.iter().position(negative) {
             Some(joint) => {
                 let text = format!(
-                    "the joint of link `{}` has a damping, friction or rotor inertia below zero; give numbers that are not",
+                    "the joint of link `{}` has a negative damping, friction or rotor inertia; give nonnegative numbers",
                     self.parameter_link_names[joint + 1]
                 );
                 Err(Error::new(ErrorKind::BadValue, text))
@@ -199,7 +199,7 @@ impl Equations {
         let (rows, unknowns) = (log.len() * count, friction + parameters);
         if rows < unknowns || unknowns == 0 {
             let text =
-                format!("{} rows of {count} torques are given; {unknowns} numbers are to be identified", log.len());
+                format!("{} rows of {count} torques are given for {unknowns} parameters; give more rows", log.len());
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let (mut matrix, mut right) = (DMatrix::zeros(rows, unknowns), DVector::zeros(rows));

@@ -1,6 +1,6 @@
 //! Shortest paths compared with published lengths, and their times.
 //!
-//!     cargo run --release > ../record/YYYY-MM-DD-navigation-ways.csv
+//!     cargo run --release > ../record/YYYY-MM-DD-navigation-paths.csv
 //!
 //! It fails if an octile length differs from Moving AI's, or an exact length from Polyanya's, or if an exact length exceeds the octile one. The published
 //! lengths have six digits; Polyanya's are f32. `difference` is the largest difference from them. `bound` is the worst proved bound as a fraction of the
@@ -56,8 +56,8 @@ fn main() {
 fn octile(name: &str, map: &Map, problems: &[Problem]) {
     let [mut octile, mut exact] = [(); 2].map(|()| Results::default());
     for problem in problems {
-        let way = octile.time(|| map.octile_path(&problem.start, &problem.goal, &Watch::none()));
-        let length = way.expect("free places").expect("a way").length();
+        let path = octile.time(|| map.octile_path(&problem.start, &problem.goal, &Watch::none()));
+        let length = path.expect("free places").expect("a path").length();
         octile.compare(length, problem.length, 1e-5 * problem.length);
         let shorter = exact.exact(map, &problem.start, &problem.goal, &Guide::default()).length();
         assert!(shorter <= length + 1e-9, "{shorter} {length}");
@@ -77,15 +77,15 @@ fn own(name: &str, map: &Map) {
         if map.octile_path(&start, &goal, &watch).expect("free places").is_err() {
             continue;
         }
-        octile.time(|| map.octile_path(&start, &goal, &watch)).expect("free places").expect("a way");
+        octile.time(|| map.octile_path(&start, &goal, &watch)).expect("free places").expect("a path");
         let length = exact.exact(map, &start, &goal, &Guide::default()).length();
         let field = Field::new(map, &[goal], Method::FastMarching(2), &watch).expect("a free goal");
         let guide = Guide { field: Some(&field), effort: Some(EFFORT) };
         let near = guided.exact(map, &start, &goal, &guide).length();
         guided.compare(near, length, 0.1 * length);
         let distances = made.time(|| Distances::new(map, &goal, &watch)).expect("a free goal");
-        let way = known.time(|| distances.path(map, &start, &watch)).expect("free places").expect("a way");
-        known.compare(way.path.length(), length, 1e-9 * length);
+        let path = known.time(|| distances.path(map, &start, &watch)).expect("free places").expect("a path");
+        known.compare(path.path.length(), length, 1e-9 * length);
     }
     exact.print(name, "exact");
     guided.print(name, &format!("exact by a field and {EFFORT} steps"));
@@ -113,7 +113,7 @@ impl Results {
 
     fn exact(&mut self, map: &Map, start: &Point2<f64>, goal: &Point2<f64>, guide: &Guide) -> Path {
         let found = self.time(|| map.shortest_path(start, goal, guide, &Watch::none()));
-        let found = found.expect("free places").expect("a way");
+        let found = found.expect("free places").expect("a path");
         self.proved += usize::from(found.is_proved());
         let share = found.bound / found.path.length();
         self.bound = Some(self.bound.unwrap_or(1.0).min(if share.is_nan() { 1.0 } else { share }));
@@ -121,7 +121,7 @@ impl Results {
     }
 
     fn compare(&mut self, found: f64, expected: f64, most: f64) {
-        assert!((found - expected).abs() <= most, "{found} where {expected} is told");
+        assert!((found - expected).abs() <= most, "{found} instead of the published {expected}");
         self.difference = Some(self.difference.unwrap_or(0.0).max((found - expected).abs()));
     }
 

@@ -1,14 +1,9 @@
-//! The numbered text files of the derivation of six axes, and its README, written for students.
-
-use std::fmt::Write;
+//! The report of the derivation of six axes, written for students.
 
 use super::EigenvalueView;
 use super::rank::Determinant;
-use crate::derive::report::explain::Document;
-use crate::derive::report::stages::{MARK, PAGE, STAGES};
+use crate::derive::report::explain::{Document, Line, Stage};
 use crate::solver::eigenvalue::Formulation;
-use groebot_algebra::escape::markdown;
-use groebot_robot::document::word;
 use groebot_robot::kinematics::JointKind;
 
 /// The origin of the equations, line by line.
@@ -41,39 +36,10 @@ const SLIDING: [&str; 3] = [
 ];
 
 impl EigenvalueView<'_> {
-    /// The stage files with their names. Every run gives the same bytes.
-    pub fn stage_files(&self) -> Vec<(String, Vec<u8>)> {
-        let [equations, plan, .., program, certificate] = STAGES;
-        let files = [
-            (equations, self.equations_text()),
-            (plan, self.plan_text()),
-            (program, self.program.to_json()),
-            (certificate, self.certificate()),
-            (PAGE, self.readme()),
-        ];
-        files.map(|(name, text)| (name.to_owned(), text.into_bytes())).to_vec()
-    }
-
-    fn equations_text(&self) -> String {
-        let mut text = format!("{}: the equations of any six joints\n", self.problem.chain.name());
-        for (number, line) in self.told_equations().enumerate() {
-            let _ = write!(text, "\n({}) {line}\n", number + 1);
-        }
-        text
-    }
-
     /// The origin of the equations, and the differences for prismatic joints if there are any.
     fn told_equations(&self) -> impl Iterator<Item = &'static str> {
         let slides = self.method.six.joints().iter().any(|joint| joint.kind == JointKind::Prismatic);
         EQUATIONS.into_iter().chain(SLIDING.into_iter().filter(move |_| slides))
-    }
-
-    fn plan_text(&self) -> String {
-        let mut text = format!("{}: plan\n\n", self.problem.chain.name());
-        for line in self.given().into_iter().chain(self.counts()).chain(self.choices()) {
-            let _ = writeln!(text, "{line}");
-        }
-        text
     }
 
     /// Text on the treatment of given joints.
@@ -92,17 +58,7 @@ impl EigenvalueView<'_> {
 
     /// The counts of random targets modulo primes, as text.
     pub fn counts(&self) -> Vec<String> {
-        let line = |evidence: &crate::derive::planner::Evidence| {
-            let degrees: Vec<String> = evidence.degrees.iter().map(usize::to_string).collect();
-            format!(
-                "A random pose modulo {} (seed {}) has {} complex solutions; values of the joints: {}.",
-                evidence.prime,
-                evidence.seed,
-                evidence.dimension,
-                degrees.join(", ")
-            )
-        };
-        self.method.evidence.iter().map(line).collect()
+        self.method.evidence.iter().map(ToString::to_string).collect()
     }
 
     /// The formulations with their proofs, as text.
@@ -134,40 +90,16 @@ impl EigenvalueView<'_> {
         format!("The {what} of {} is the eigenvalue, {second}", name(hidden))
     }
 
-    fn readme(&self) -> String {
-        let parts = self.problem.chain.parts();
-        let mut text = format!("# {}\n\n", markdown(self.problem.chain.name()));
-        for line in [&parts.description, &parts.source].into_iter().flatten() {
-            let _ = writeln!(text, "{}\n", markdown(line));
+    /// The report for students, or one of its stages. The stages of bases and formulas are empty.
+    pub(in crate::derive) fn document(&self, stage: Option<Stage>) -> Document {
+        let mut page = Document::of(self.problem.chain.name(), stage);
+        if Stage::Equations.is_in(stage) {
+            page.items(self.told_equations().map(Line::of).collect());
         }
-        let _ = writeln!(
-            text,
-            "Up to {} solutions, all found together: no order of joints with few solutions each exists. `1_equations.txt` tells how they \
-             become one eigenvalue problem. Answers that rounding loses are rare and counted: `6_check.csv`.\n",
-            self.method.dimension()
-        );
-        if let Some((_, report)) = &self.problem.truth {
-            let _ = writeln!(text, "{}", report.paragraph());
+        if Stage::Plan.is_in(stage) {
+            let lines = self.given().into_iter().chain(self.counts()).chain(self.choices());
+            lines.for_each(|line| page.paragraph(Line::plain(&line)));
         }
-        for line in self
-            .given()
-            .map(|line| markdown(&line) + "\n")
-            .into_iter()
-            .chain(self.choices().iter().map(|line| markdown(line)))
-        {
-            let _ = writeln!(text, "{line}");
-        }
-        let inputs = vec!["..."; self.program.inputs.len()].join(",");
-        let _ = writeln!(text, "\n{MARK}; `groebot check` proves it again from `certificate.json`. Solve with\n");
-        let _ = writeln!(text, "    groebot solve derivations/{} --target {inputs}", word(self.problem.chain.name()));
-        text
-    }
-
-    /// The report for students.
-    pub fn document(&self) -> Document {
-        let mut page = Document::new(&format!("{}: its inverse kinematics, explained", self.problem.chain.name()));
-        self.told_equations().for_each(|line| page.say(line));
-        self.given().iter().chain(&self.counts()).chain(&self.choices()).for_each(|line| page.say(line));
         page
     }
 }

@@ -26,12 +26,12 @@ const SEVEN: &str = r#"<robot name="seven"><link name="base"/>
 <link name="tool"/><joint name="flange" type="fixed"><parent link="l7"/><child link="tool"/><origin xyz="0 0 0.126"/></joint></robot>"#;
 
 /// The options, as both commands accept them.
-struct Asked<'a> {
+struct Requested<'a> {
     robot: &'a str,
     ends: &'a [&'a str],
 }
 
-impl Asked<'_> {
+impl Requested<'_> {
     /// Derives into a new folder, and checks it with `groebot check`.
     fn derive(&self) -> TempDir {
         let folder = tempdir().unwrap();
@@ -72,7 +72,7 @@ fn task_file(folder: &TempDir) -> String {
 #[test]
 fn a_leg_between_two_links() {
     let robot = urdf("nao.urdf");
-    let leg = Asked { robot: &robot, ends: &["--base", "torso", "--tip", "l_sole"] };
+    let leg = Requested { robot: &robot, ends: &["--base", "torso", "--tip", "l_sole"] };
     let folder = leg.derive();
     assert_eq!(task_file(&folder), "base = \"torso\"\ntip = \"l_sole\"\n");
     leg.assert_solves(folder.path(), "0.02,0.06,-0.29,0,0.1,0,0.99498743710662", 8);
@@ -82,7 +82,7 @@ fn a_leg_between_two_links() {
 #[test]
 fn a_robot_of_one_chain_needs_no_task_file() {
     let robot = urdf("ur5.urdf");
-    let arm = Asked { robot: &robot, ends: &[] };
+    let arm = Requested { robot: &robot, ends: &[] };
     let folder = arm.derive();
     assert!(!content(folder.path()).contains_key("0_task.toml"));
     arm.assert_solves(folder.path(), "0.3,0.2,0.4,0,0.6,0,0.8", 8);
@@ -98,13 +98,13 @@ fn seven() -> (TempDir, String) {
 }
 
 #[test]
-fn a_ray_along_the_direction_that_is_asked() {
+fn a_ray_along_the_requested_direction() {
     let (_kept, robot) = seven();
     let ends = ["--tip", "l6", "--task", "ray", "--direction", "1/2,0,1", "--free", "A3"];
-    let arm = Asked { robot: &robot, ends: &ends };
+    let arm = Requested { robot: &robot, ends: &ends };
     let folder = arm.derive();
-    let asked = "given = [\"A3\"]\n\n[task]\nkind = \"ray\"\ndirection = [\"1/2\", \"0\", \"1\"]\n";
-    assert_eq!(task_file(&folder), format!("tip = \"l6\"\n{asked}"));
+    let requested = "given = [\"A3\"]\n\n[task]\nkind = \"ray\"\ndirection = [\"1/2\", \"0\", \"1\"]\n";
+    assert_eq!(task_file(&folder), format!("tip = \"l6\"\n{requested}"));
     arm.assert_solves(folder.path(), "0.3,0.2,0.7,0.6,0,0.8,0.3", 8);
 }
 
@@ -113,7 +113,7 @@ fn a_position_with_given_joints() {
     let robot = urdf("nao.urdf");
     let ends =
         ["--base", "torso", "--tip", "l_hand", "--task", "position", "--given", "LElbowYaw", "--given", "LWristYaw"];
-    let arm = Asked { robot: &robot, ends: &ends };
+    let arm = Requested { robot: &robot, ends: &ends };
     let folder = arm.derive();
     assert!(task_file(&folder).contains("given = [\"LElbowYaw\", \"LWristYaw\"]\n\n[task]\nkind = \"position\"\n"));
     arm.assert_solves(folder.path(), "0.1,0.15,0.1,-0.4,0.2", 4);
@@ -122,20 +122,20 @@ fn a_position_with_given_joints() {
 #[test]
 fn seven_joints_with_one_of_them_free() {
     let (_kept, robot) = seven();
-    let arm = Asked { robot: &robot, ends: &["--free", "A3"] };
+    let arm = Requested { robot: &robot, ends: &["--free", "A3"] };
     arm.assert_solves(arm.derive().path(), "0.4,0.1,0.6,0,0.6,0,0.8,0.3", 8);
 }
 
 #[test]
 fn the_planner_chooses_the_joint_that_is_given() {
     let (_kept, robot) = seven();
-    let arm = Asked { robot: &robot, ends: &[] };
+    let arm = Requested { robot: &robot, ends: &[] };
     let folder = arm.derive();
     assert_eq!(task_file(&folder), "given = [\"A7\"]\n");
-    Asked { robot: &robot, ends: &["--free", "A7"] }.assert_solves(folder.path(), "0.4,0.1,0.6,0,0.6,0,0.8,0.3", 8);
+    Requested { robot: &robot, ends: &["--free", "A7"] }.assert_solves(folder.path(), "0.4,0.1,0.6,0,0.6,0,0.8,0.3", 8);
     let out = tempdir().unwrap();
-    let told = succeed(&["derive", &robot, "--out", text(out.path())]);
-    assert!(told.starts_with("Given with each target: the value of `A7`. The planner chose"), "{told}");
+    let reported = succeed(&["derive", &robot, "--out", text(out.path())]);
+    assert!(reported.starts_with("Given with each target: the value of `A7`. The planner chose"), "{reported}");
 }
 
 /// Names in URDFs may have any characters. Function names in generated solvers may not.
@@ -155,7 +155,7 @@ fn a_robot_of_any_name_is_derived() {
 /// have more solutions than generic ones.
 #[test]
 fn five_joints_for_a_pose_are_solved_where_it_is_consistent() {
-    let arm = Asked { robot: &urdf("kr6_r900.urdf"), ends: &["--tip", "link_5"] };
+    let arm = Requested { robot: &urdf("kr6_r900.urdf"), ends: &["--tip", "link_5"] };
     let folder = arm.derive();
     // The pose of the tip at 0.3, -0.5, 0.7, 0.4, 0.6 rad, by forward kinematics.
     let reached = "0.8052354099031206,-0.24908850175229894,0.5689998313554302,\
@@ -187,7 +187,7 @@ fn axes_that_almost_meet_do_so_within_the_tolerance() {
         "{page}"
     );
     let robot = urdf("ur5.urdf");
-    let arm = Asked { robot: &robot, ends: &["--snap", "5e-5"] };
+    let arm = Requested { robot: &robot, ends: &["--snap", "5e-5"] };
     let folder = arm.derive();
     assert_eq!(task_file(&folder), "snap = \"1/20000\"\n");
     let solved = solutions(&succeed(&["solve", text(folder.path()), "--json", "--target", "0.3,0.2,0.4,0,0.6,0,0.8"]));
@@ -196,9 +196,10 @@ fn axes_that_almost_meet_do_so_within_the_tolerance() {
 
 /// A folder stores its options. Deriving it again uses the same options, and writes the same bytes.
 #[test]
-fn the_folder_is_derived_again_as_it_was_asked() {
+fn the_folder_is_derived_again_with_its_options() {
     let robot = urdf("nao.urdf");
-    let folder = Asked { robot: &robot, ends: &["--tip", "Head", "--base", "torso", "--task", "direction"] }.derive();
+    let folder =
+        Requested { robot: &robot, ends: &["--tip", "Head", "--base", "torso", "--task", "direction"] }.derive();
     let before = content(folder.path());
     assert_eq!(succeed(&["derive", text(folder.path()), "--quiet"]), "");
     assert_eq!(content(folder.path()), before);
@@ -214,7 +215,7 @@ fn what_the_robot_does_not_have_is_refused() {
     let cases = [
         (derive(&["--tip", "nose"]), &["`nose`"][..]),
         (derive(&["--base", "torso", "--tip", "torso"]), &["torso"]),
-        (derive(&[]), &["several ends", "choose a tip link"]),
+        (derive(&[]), &["several leaf links", "choose a tip link"]),
         (with(&["--free", "LElbow"]), &["`LElbow`", "`LElbowYaw`"]),
         (with(&["--free", "LElbowYaw", "--free", "LElbowYaw"]), &["`LElbowYaw`", "twice"]),
         (with(&["--direction", "1,0,0"]), &["`pose`", "orients no direction"]),
