@@ -45,7 +45,7 @@ pub use groebot_robot::control;
 
 // Shared by the command line, the wheel and the fuzz targets; not part of the interface.
 #[doc(hidden)]
-pub use groebot_algebra::{escape, limits};
+pub use groebot_algebra::{escape, limits, random};
 #[doc(hidden)]
 pub use groebot_robot::{document, files};
 
@@ -98,8 +98,9 @@ pub mod model {
 pub mod kinematics {
     pub use groebot_robot::kinematics::{
         Ball, BaseAxis, Chain, ChainParts, Choice, DhConvention, DhRow, DhTable, ExactMatrix, ExactRotation,
-        ExactVector, Geometry, InverseKinematics, Joint, JointKind, LengthUnit, LinkPath, Meant, Mimic, Placed,
-        Placement, Plane, Root, Solution, Target, Task, Tip, TipChoice, Turn, jacobian, numeric, screw,
+        ExactVector, Geometry, InverseKinematics, Joint, JointKind, Layout, LengthUnit, LinkPath, Meant, Mimic, Placed,
+        Placement, Plane, Quantity, Root, Solution, Stated, Target, TargetNumber, Task, Tip, TipChoice, Turn, jacobian,
+        numeric, screw,
     };
     /// The nearest ideal robot, and what it changes.
     pub mod ideal {
@@ -116,7 +117,8 @@ pub mod robots {
 /// Motions in time: trajectories, tables of states, and paths of a chain's tip.
 pub mod motion {
     pub use groebot_robot::motion::{
-        Contact, Figure, Followed, JointTrack, Jump, Pace, StateRow, StateTable, Track, Trajectory, follow, follow_from,
+        Contact, Figure, Followed, JointTrack, Jump, Pace, Spline, StateRow, StateTable, Track, Trajectory, follow,
+        follow_from,
     };
 }
 

@@ -10,6 +10,7 @@ mod phrases;
 mod scan;
 mod scanner;
 mod table;
+mod tolerances;
 
 use std::collections::HashMap;
 use std::fs;

@@ -28,7 +28,7 @@ impl std::fmt::Debug for ByKernel<'_> {
 impl InverseKinematics for ByKernel<'_> {
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> groebot::Result<()> {
         out.clear();
-        self.0.kernel.solve(&[&target.numbers()[..], given].concat(), &mut |answer| out.push(answer.into()))
+        self.0.kernel.solve(&self.0.program.numbers(target, given)?, &mut |answer| out.push(answer.into()))
     }
 }
 

@@ -74,7 +74,7 @@ impl Solver {
     /// The task of the tip: `pose`, `position`, `ray of [1, 0, 0]`, `pose, A3 given`, ...
     #[getter]
     fn task(&self) -> String {
-        self.0.program.about.as_ref().map_or_else(|| "its equations".to_owned(), |about| about.task.clone())
+        self.0.program.task_text()
     }
 
     /// The names of the joints from base to tip: the order of joint values.

@@ -162,13 +162,13 @@ impl Stored {
 
     /// The names of the joints whose values are given.
     pub fn given(&self) -> Vec<&str> {
-        self.program.inputs[self.program.given()].iter().map(|input| input.name.as_str()).collect()
+        if self.program.tip().is_some() { self.program.given_names() } else { Vec::new() }
     }
 }
 
 /// The shape of a program's targets.
 fn target_shape(program: &Program) -> TargetShape {
-    let given = program.given().len();
+    let given = program.tip().map_or(0, |_| program.given_joints.len());
     let own = program.inputs.len() - given;
     let mut rotations = program.conditions.iter().filter_map(|condition| match condition {
         Condition::Rotation(first) => Some(*first),

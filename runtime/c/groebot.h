@@ -132,6 +132,7 @@ typedef double gb_real;
 #if (defined(GB_ROBOT) || defined(GB_RUNTIME)) && !defined(GB_SHARED)
 #define GB_SHARED
 #include "groebot/shared.h"
+#include "groebot/tolerances.h"
 #endif
 
 #if defined(GB_ROBOT) && !(defined(GB_WIDTH) && GB_WIDTH == 0)
@@ -155,7 +156,7 @@ typedef double gb_real;
 #else
 #include "groebot/mechanism.h"
 #ifdef GB_SHORTS
-#include "groebot/ways.h"
+#include "groebot/approaches.h"
 #endif
 #include "groebot/answers.h"
 #include "groebot/described.h"

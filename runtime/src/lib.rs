@@ -20,6 +20,7 @@ pub mod derivatives;
 mod described;
 mod double;
 pub mod dynamics;
+mod effort;
 mod exactly;
 mod freedom;
 mod joints;
@@ -47,9 +48,11 @@ mod starts;
 mod steps;
 pub mod storage;
 mod strays;
+#[doc(hidden)]
 pub mod tolerances;
 pub mod trigonometry;
 
+pub use effort::MOST_STEPS;
 pub use lanes::Lanes;
 pub use mechanism::{Candidates, Condition, Facts, Found, Joint, Mechanism, Preference, Reached, Short, rarely};
 pub use number::{Guard, Number, With};

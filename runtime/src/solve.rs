@@ -4,6 +4,7 @@ use crate::answers::Answers;
 use crate::batch::solve_widest;
 use crate::conditions::conform;
 use crate::described::{reached, read_off, solve_described, within_limits};
+use crate::effort::MOST_STEPS;
 use crate::joints::place;
 use crate::limits::{self, strides_within, turned_within};
 use crate::mechanism::{Inputs, Joints, Mechanism};
@@ -11,7 +12,6 @@ use crate::problem::Problem;
 use crate::singly::{pairs_of, solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
 use crate::steps::Steps;
-use crate::tolerances::MOST_STEPS;
 
 /// Inverse kinematics of a mechanism.
 ///

@@ -91,9 +91,8 @@ fn limits(program: &Program, joint: usize) -> Option<(f64, f64)> {
 
 /// Moves each angle into its joint's limits by whole turns, where that is possible; given joints stay unchanged.
 pub fn turned(program: &Program, mut solutions: Vec<Solution>) -> Vec<Solution> {
-    let given = &program.inputs[program.given()];
-    let turns = |joint: &Joint| joint.unit == Unit::Radian && given.iter().all(|input| input.name != joint.name);
-    for (index, _) in program.joints.iter().enumerate().filter(|(_, joint)| turns(joint)) {
+    let turns = |index: &usize| program.joints[*index].unit == Unit::Radian && !program.is_given(*index);
+    for index in (0..program.joints.len()).filter(turns) {
         let limits = limits(program, index);
         solutions.iter_mut().for_each(|solution| solution.q[index] = Placed::turned(solution.q[index], limits).value);
     }

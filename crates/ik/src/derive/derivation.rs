@@ -253,7 +253,7 @@ impl Derivation {
         }
     }
 
-    /// Same derivation, with metadata of `source` in its program: task, links, hash, limits and followers.
+    /// Same derivation, with metadata of `source` in its program: links, hash, limits and followers.
     #[must_use]
     pub fn about(mut self, source: &Source) -> Self {
         let solutions = self.dimension();
@@ -279,25 +279,12 @@ fn about(source: &Source, program: &Program) -> About {
     let request = source.task_file().map_or_else(Vec::new, |(_, text)| text);
     let [base, tip] = source.links.clone().map_or([None, None], |links| links.map(Some));
     About {
-        task: task(source),
         base,
         tip,
         solutions: None,
         hash: format!("{:016x}", hash(source.text.bytes().chain(request))),
         limits: if limits.iter().all(Option::is_none) { Vec::new() } else { limits },
         follows: if follows.iter().all(Option::is_none) { Vec::new() } else { follows },
-    }
-}
-
-/// The task of the tip, or the task of each chain's tip.
-fn task(source: &Source) -> String {
-    match (&source.chain, &source.coupled) {
-        (Some(chain), _) => chain.task_text(),
-        (None, Some(coupled)) => {
-            let tasks = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.task_text()));
-            tasks.collect::<Vec<_>>().join("; ")
-        }
-        (None, None) => "its equations".to_owned(),
     }
 }
 

@@ -11,15 +11,13 @@ use super::map::{Entry, ReachMap};
 use super::poses::Poses;
 use super::request::{Measure, Request};
 use crate::solver::{JointValue, Program, Solved, Solver};
+use crate::tolerances::REACH;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::{Ball, Chain, Solution};
+use groebot_runtime::tolerances::ACCEPTANCE;
 
 /// Number of targets that are solved at once.
 const PIECE: usize = 2048;
-/// Relative margin by which the ball is enlarged, to allow for rounding.
-const BEYOND: f64 = 1e-6;
-/// Tolerance for a joint at its limit, to allow for rounding.
-const SLACK: f64 = 1e-9;
 
 /// A solver for many targets.
 pub trait Solves: Sync {
@@ -95,7 +93,7 @@ impl<'a> Survey<'a> {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let turning = chain.filter(|_| poses.are_in_space() && turns.iter().all(|turns| *turns));
-        let wider = |chain: &Chain, ball: Ball| Ball { radius: ball.radius + BEYOND * chain.reach(), ..ball };
+        let wider = |chain: &Chain, ball: Ball| Ball { radius: ball.radius + REACH.beyond * chain.reach(), ..ball };
         let ball = turning.map(|chain| wider(chain, chain.ball()));
         let wrist = turning.and_then(|chain| Some(wider(chain, chain.wrist_ball()?)));
         let poses = match wrist {
@@ -257,7 +255,7 @@ fn check(limits: &[[f64; 2]], program: &Program) -> Result<()> {
 /// Whether each joint is within its limits, an angle with at least one of its turns.
 fn has_turn_within(turns: &[bool], q: &[f64], limits: &[[f64; 2]]) -> bool {
     turns.iter().zip(q).zip(limits).all(|((turns, value), [low, high])| {
-        let (low, high) = (low - SLACK, high + SLACK);
+        let (low, high) = (low - ACCEPTANCE.input, high + ACCEPTANCE.input);
         match turns {
             false => (low..=high).contains(value),
             true => ((low - value) / TAU).ceil() <= ((high - value) / TAU).floor(),

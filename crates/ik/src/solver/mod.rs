@@ -12,6 +12,7 @@ pub(crate) mod facts;
 mod forward;
 mod instruction;
 mod joint;
+mod json;
 mod layout;
 pub(crate) mod mirror;
 mod pairs;
@@ -19,6 +20,8 @@ mod prepared;
 mod program;
 mod prune;
 mod rule;
+mod target;
+mod tips;
 mod tolerant;
 mod validate;
 
@@ -34,12 +37,7 @@ pub use prepared::{Batch, Nearest, Solved, Solver};
 pub(crate) use program::square;
 pub use program::{Block, Case, Checks, Condition, Described, Guard, Input, Pivot, Preference, Program, Short, Step};
 pub use rule::{Following, ParameterRule, Rule};
+pub use tips::{GivenJoint, TipTask};
 
-pub use groebot_runtime::tolerances::{
-    ACCEPT, ADRIFT, ALIKE, ALONE, ALONG, APART, APPROACHES, ARRIVED, ASIDE, ASTRAY, BESIDE, BLUR, CHORD, CONSISTENT,
-    DAMPINGS, DISTINCT, DOUBLINGS, FARTHER, FARTHEST, GRAZING, INVERSIONS, LEAPS, LEAPT, LEVER, MEETING, MERGE, MILD,
-    NARROWS, NEAR, OVERSHOT, PACES, PATIENCE, PIVOT, PLAIN, POLISH_STEPS, POLISHED, REGULAR, RETURNS, ROUNDING, SHORT,
-    SINGULAR, STEEP, STIFF, TINY, TURN, TWIN, TWIN_AT, TWIN_WITHIN,
-};
 /// The maximum number of joints of a program.
 pub const MAX_JOINTS: usize = groebot_algebra::limits::SOLVER_JOINTS;

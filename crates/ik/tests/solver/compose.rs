@@ -6,7 +6,7 @@ use super::assert_joints;
 use crate::codegen::builder::*;
 use crate::codegen::samples::{pan_tilt, polar};
 use groebot_ik::ErrorKind;
-use groebot_ik::solver::{Block, Case, Checks, Program, Rule, Step, Unit};
+use groebot_ik::solver::{Block, Case, Checks, GivenJoint, Program, Rule, Step, Unit};
 
 fn case(steps: Vec<Step>) -> Case {
     Case {
@@ -44,6 +44,8 @@ fn slide() -> Program {
     Program {
         name: "slide".into(),
         about: None,
+        tasks: vec![],
+        given_joints: vec![GivenJoint { joint: 0, input: 0 }],
         inputs: vec![input("pan", Unit::Radian), input("x", Unit::Metre)],
         conditions: vec![],
         parameters: vec![rule("c", Rule::Cosine(0)), rule("s", Rule::Sine(0)), rule("x", Rule::Input(1))],

@@ -10,7 +10,8 @@ use super::series::SeriesFactors;
 use crate::poly::gcd::modular::Search;
 use crate::poly::words::dense::{self, Dense};
 use crate::poly::words::skeleton::{Orbit, Rows, Skeleton, base_point};
-use crate::poly::words::{Flat, Packing, Random, WordField};
+use crate::poly::words::{Flat, Packing, WordField};
+use crate::random::SplitMix64;
 use crate::{Result, Watch};
 
 /// A polynomial and the point where its factors are known: the invariant data of a lifting.
@@ -72,7 +73,7 @@ impl<'a, K: WordField> Lifting<'a, K> {
     }
 
     /// Lifts the factors of the image to the monic factors of `f`; `None` when the point was unlucky.
-    pub fn factors(&self, images: &[Dense], random: &mut Random, watch: &Watch) -> Result<Option<Vec<Flat>>> {
+    pub fn factors(&self, images: &[Dense], random: &mut SplitMix64, watch: &Watch) -> Result<Option<Vec<Flat>>> {
         let lead = self.leads[0].values.first().copied().unwrap_or(0);
         let scaled = |image: &Dense| {
             Flat::from_dense(self.packing, self.main, &dense::scale(self.field, &dense::monic(self.field, image), lead))
@@ -93,7 +94,13 @@ impl<'a, K: WordField> Lifting<'a, K> {
     }
 
     /// Lifts the scaled factors to one more variable.
-    fn extended(&self, level: usize, known: &[Flat], random: &mut Random, watch: &Watch) -> Result<Option<Vec<Flat>>> {
+    fn extended(
+        &self,
+        level: usize,
+        known: &[Flat],
+        random: &mut SplitMix64,
+        watch: &Watch,
+    ) -> Result<Option<Vec<Flat>>> {
         let (field, packing) = (self.field, self.packing);
         let pair = [self.main, self.others[level]];
         let degrees = |f: &Flat| f.degrees(packing);

@@ -7,7 +7,8 @@
 use super::finite;
 use super::lift::Lifting;
 use crate::poly::words::dense::Dense;
-use crate::poly::words::{Extension, Flat, Packing, Prime, Random, WordField, dense};
+use crate::poly::words::{Extension, Flat, Packing, Prime, WordField, dense};
+use crate::random::SplitMix64;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// Maximum number of points that are tried in one field.
@@ -52,7 +53,7 @@ fn split_in<K: WordField>(
 ) -> Result<Option<Vec<Flat>>> {
     let mut others: Vec<usize> =
         (0..packing.variables()).filter(|&v| v != main && f.degree_in(packing, v) > 0).collect();
-    let mut random = Random::new(2);
+    let mut random = SplitMix64::new(2);
     for _ in 0..POINTS {
         watch.check()?;
         others.rotate_left(1);

@@ -7,7 +7,7 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 use groebot_robot::document::shown;
 use groebot_robot::kinematics::upright::Upright;
-use groebot_robot::kinematics::{BaseAxis, Chain, ExactMatrix, ExactVector, Joint, JointKind, Mimic, Plane, Task};
+use groebot_robot::kinematics::{Chain, ExactMatrix, ExactVector, Joint, JointKind, Mimic, TargetNumber, Task};
 
 /// A joint's screw in the base frame in the zero configuration. A revolute joint has the unknowns c, the cosine of its angle, and s' = s / |w|. A prismatic
 /// joint has d' = d / |w|. So the algebra needs no square root.
@@ -279,16 +279,6 @@ impl Mechanism {
     pub fn parameters(&self) -> Vec<String> {
         numbers(self.seen())
     }
-
-    /// The names of the numbers of the target that the user gives.
-    pub(crate) fn inputs(&self) -> Vec<String> {
-        match self.task {
-            Task::PositionYaw { axis } => {
-                ["px", "py", "pz"].map(str::to_owned).into_iter().chain(yaw_names(axis).map(|(_, name)| name)).collect()
-            }
-            task => numbers(task),
-        }
-    }
 }
 
 /// The law by which a joint follows the joint at index `leader`.
@@ -307,29 +297,11 @@ fn coupling([joint, other]: [&ScrewJoint; 2], leader: usize, mimic: &Mimic) -> R
 
 /// The names of the numbers of a task's target.
 fn numbers(task: Task) -> Vec<String> {
-    let coordinates = |prefix: char, axes: &[usize]| -> Vec<String> {
-        axes.iter().map(|&axis| format!("{prefix}{}", ["x", "y", "z"][axis])).collect()
+    let names = |number: &TargetNumber| match number {
+        TargetNumber::PlaneAngle(_) | TargetNumber::Yaw(_) => vec!["cphi".to_owned(), "sphi".to_owned()],
+        number => vec![number.name()],
     };
-    let position = || coordinates('p', &[0, 1, 2]);
-    let rotation = || (1..=3).flat_map(|row| (1..=3).map(move |column| format!("r{row}{column}")));
-    let planar = |plane: Plane| coordinates('p', &plane.coordinates());
-    match task {
-        Task::Pose => position().into_iter().chain(rotation()).collect(),
-        Task::Position => position(),
-        Task::PlanarPosition { plane } => planar(plane),
-        Task::PlanarPose { plane } => planar(plane).into_iter().chain(["cphi".into(), "sphi".into()]).collect(),
-        Task::Ray => position().into_iter().chain(coordinates('d', &[0, 1, 2])).collect(),
-        Task::Direction => coordinates('d', &[0, 1, 2]),
-        Task::Rotation => rotation().collect(),
-        Task::PositionYaw { .. } => position().into_iter().chain(["cphi".into(), "sphi".into()]).collect(),
-        Task::PositionPitchRoll => position().into_iter().chain(["pitch".to_owned(), "roll".to_owned()]).collect(),
-    }
-}
-
-/// The names of an angle about `axis`, and of its cosine and its sine: `yaw`, `yaw_x`, `yaw_y`.
-pub fn yaw_names(axis: BaseAxis) -> [(String, String); 2] {
-    let yaw = if axis == BaseAxis::Z { "yaw".to_owned() } else { format!("yaw_{}", axis.name()) };
-    ["c", "s"].map(|letter| (yaw.clone(), format!("{letter}{yaw}")))
+    task.layout().numbers().iter().flat_map(names).collect()
 }
 
 /// A symbol that no joint uses.

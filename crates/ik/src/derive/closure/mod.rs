@@ -29,7 +29,6 @@ pub(crate) use evaluate::carry;
 pub use evaluate::{Image, Vector, evaluate};
 pub(crate) use explain::show;
 pub(super) use feature::common_point_of as common_point;
-pub(super) use mechanism::yaw_names;
 pub use mechanism::{Mechanism, ScrewJoint, Standing};
 pub use prove::prove;
 pub use relation::{Letter, Measure, Object, Relation, Word};

@@ -6,7 +6,7 @@ use crate::derive::planner::{self, Plan, PlanStep, Way};
 use crate::derive::problem::ChainProblem;
 use crate::derive::sequential::{Sequential, SequentialView, Side, Simultaneous};
 use crate::derive::view::View;
-use crate::solver::{Input, MAX_JOINTS, Program};
+use crate::solver::{MAX_JOINTS, Program, TipTask};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The solution of one chain, and its part of the common solver.
@@ -92,6 +92,7 @@ impl Coupled {
         let most = 2 * all.dimension() + program.blocks.len();
         program.capacity = most.min(program.capacity);
         all.name_actuators(coupled, &mut program);
+        all.name_tasks(coupled, &mut program);
         Ok((all, program))
     }
 
@@ -112,6 +113,17 @@ impl Coupled {
                     actuator.map(|actuator| coupled.actuators()[actuator].name.clone()).unwrap_or_default();
             }
         }
+    }
+
+    /// Sets the tasks of the solver: one for each chain, with its name.
+    fn name_tasks(&self, coupled: &CoupledChains, program: &mut Program) {
+        let task = |(member, chain): (usize, &CoupledChain)| {
+            let stage = self.stages.iter().find(|stage| stage.member == member)?;
+            let tip = stage.solver.tip()?;
+            let Origin::Target(first_input) = *stage.inputs.get(tip.first_input)? else { return None };
+            Some(TipTask { chain: Some(chain.name.clone()), first_input, ..tip.clone() })
+        };
+        program.tasks = coupled.chains().iter().enumerate().filter_map(task).collect();
     }
 }
 
@@ -159,18 +171,9 @@ impl CoupledView<'_> {
         Ok(target)
     }
 
-    /// Writes the values of joints that the user gives to both chains into a target of the solver.
+    /// Writes the values of the joints that the user gives into a target of the solver.
     pub(crate) fn write_given(&self, q: &[f64], target: &mut [f64]) {
-        let (Some(_), CoupledChain { prefix, chain, .. }) = (&self.method.simultaneous, &self.problem.chains()[0])
-        else {
-            return;
-        };
-        for joint in chain.given() {
-            let name = format!("{prefix}{}", chain.joints()[joint].name);
-            if let Some(place) = self.program.inputs.iter().position(|input| input.name == name) {
-                target[place] = q[joint];
-            }
-        }
+        self.program.given_joints.iter().for_each(|given| target[given.input] = q[given.joint]);
     }
 }
 
@@ -198,10 +201,13 @@ impl ChainStage {
         let shared: Vec<(usize, usize)> =
             found.iter().enumerate().filter_map(|(joint, &found)| found.map(|place| (place, joint))).collect();
         let last = before.program();
-        let program = last.map_or_else(|| Ok(own.clone()), |last| last.followed_by(&own, &shared))?;
+        let (program, places) = match last {
+            Some(last) => last.joined(&own, &shared)?,
+            None => (own.clone(), (0..own.inputs.len()).map(Some).collect()),
+        };
         let mut fresh = last.map_or(0, |last| last.joints.len())..MAX_JOINTS;
         let joints: Vec<usize> = found.iter().filter_map(|found| found.or_else(|| fresh.next())).collect();
-        let inputs = origins(&method.plan.given, &own.inputs, &program.inputs, &found);
+        let inputs = origins(&own, &places, &found);
         Ok(ChainStage { member, problem, method, solver, program, joints, inputs })
     }
 
@@ -258,13 +264,13 @@ impl ChainStage {
     }
 }
 
-/// The sources of the chain's inputs `own`. The inputs of its target come first, then the `given` joints from the base. Those in `found` are joints of earlier
-/// chains; all others are inputs of the solver, by name.
-fn origins(given: &[usize], own: &[Input], inputs: &[Input], found: &[Option<usize>]) -> Vec<Origin> {
-    let target = own.len() - given.len();
-    let known = std::iter::repeat_n(None, target).chain(given.iter().map(|&joint| found[joint].map(Origin::Joint)));
-    let named = |name: &str| inputs.iter().position(|input| input.name == name).map(Origin::Target);
-    known.zip(own).filter_map(|(known, input)| known.or_else(|| named(&input.name))).collect()
+/// The origins of the inputs of a chain's own program `own`: inputs of the solver, by their `places`, and joints that are `found` before.
+fn origins(own: &Program, places: &[Option<usize>], found: &[Option<usize>]) -> Vec<Origin> {
+    let joint =
+        |input: usize| own.given_joints.iter().find(|given| given.input == input).and_then(|given| found[given.joint]);
+    let origin =
+        |(input, place): (usize, &Option<usize>)| joint(input).map(Origin::Joint).or(place.map(Origin::Target));
+    places.iter().enumerate().filter_map(origin).collect()
 }
 
 /// The part that is derived so far.

@@ -11,10 +11,10 @@ use super::residue::Residue;
 use super::rows::{Doubled, FAR, MOVING, Row, Rows};
 use super::screw::{Axis, Figure};
 use super::vector::dot;
-use crate::derive::samples::random_sample::Random;
 use crate::solver::eigenvalue::Formulation;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::Zp;
+use groebot_algebra::random::SplitMix64;
 use groebot_robot::kinematics::{Chain, JointKind};
 
 /// The number of rows and columns of a pencil before elimination.
@@ -48,8 +48,8 @@ impl Determinant {
 }
 
 fn determinant(chain: &Chain, formulation: Formulation, field: Zp, seed: u64) -> Option<u64> {
-    let mut random = Random::new(seed);
-    let mut draw = || Residue::new(random.below(field.modulus()), field);
+    let mut random = SplitMix64::new(seed);
+    let mut draw = || Residue::new(random.unit(field.modulus()), field);
     let axes = axes(chain, field)?;
     let mut turns = [[draw(); 2]; 6];
     for (turn, axis) in turns.iter_mut().zip(&axes) {

@@ -23,9 +23,9 @@ pub use types::{Evidence, Plan, PlanStep, Way};
 
 use crate::derive::closure::{Mechanism, Relation, prove};
 use crate::derive::samples;
-use crate::derive::samples::random_sample::Random;
 use crate::derive::samples::sampled_relations::SampledRelations;
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_algebra::random::SplitMix64;
 use search::{Reach, Search};
 
 /// The extents of elimination, in the order in which they are tried. The first that gives the right number of solutions is used.
@@ -73,7 +73,7 @@ fn sampled_relations<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) ->
     let (_, arithmetic) = lucky.ok_or_else(|| {
         Error::new(ErrorKind::Unsupported, "no tried prime is coprime to the denominators of the chain's constants")
     })?;
-    SampledRelations::new(mechanism, relations, arithmetic, &mut Random::new(SEED))
+    SampledRelations::new(mechanism, relations, arithmetic, &mut SplitMix64::new(SEED))
 }
 
 /// The steps of the best plan, if its number of solutions is acceptable.

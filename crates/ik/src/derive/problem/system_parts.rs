@@ -3,7 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use groebot_algebra::poly::Expression;
-use groebot_robot::kinematics::{Choice, LengthUnit};
+use groebot_robot::kinematics::{Choice, LengthUnit, Task};
+
+pub use groebot_robot::kinematics::Quantity;
 
 /// The maximum number of unknowns of a system.
 pub(crate) const MAX_UNKNOWNS: usize = 16;
@@ -15,19 +17,6 @@ pub(crate) const MAX_TERMS: f64 = 1e5;
 pub(crate) const MAX_DEGREE: u64 = 1000;
 /// The maximum number of bits of a coefficient in such an expansion.
 pub(crate) const MAX_BITS: f64 = 2e5;
-
-/// The quantity that an input measures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Quantity {
-    /// A length, in the system's unit.
-    #[default]
-    Length,
-    /// An angle in radians.
-    Angle,
-    /// A number without unit.
-    Number,
-}
 
 /// One value that a user gives as the target.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -123,6 +112,9 @@ pub struct SystemParts {
     pub source: String,
     /// The unit of all lengths.
     pub length_unit: LengthUnit,
+    /// The task whose numbers are the inputs, of equations of a chain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub task: Option<Task>,
     /// The values that a user gives as the target, in this order.
     pub inputs: Vec<Input>,
     /// The names in the equations other than the unknowns.

@@ -3,7 +3,7 @@
 use super::checks::checks;
 use super::layout::Layout;
 use crate::derive::closure::Mechanism;
-use crate::solver::{Block, Case, Joint, JointValue, Operand, Program, Step, Unit};
+use crate::solver::{Block, Case, Joint, JointValue, Operand, Program, Step, TipTask, Unit};
 use groebot_robot::document::word;
 use groebot_robot::kinematics::{Chain, LengthUnit};
 
@@ -22,6 +22,8 @@ pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Pr
         about: None,
         checks: checks(mechanism, &layout, reach),
         joints: joints(chain, &layout),
+        tasks: vec![TipTask::of(chain)],
+        given_joints: layout.given_joints,
         inputs: layout.inputs,
         conditions: layout.conditions,
         parameters: layout.parameters,

@@ -15,13 +15,11 @@ use super::{ProvedStep, Sequential, standing};
 use crate::derive::closure::Mechanism;
 use crate::derive::equations::assemble::Assembler;
 use crate::derive::problem::ChainProblem;
-use crate::solver::{Block, Checks, Described, Guard, NEAR, Operand, Program};
+use crate::solver::{Block, Checks, Described, Guard, Operand, Program};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, Task};
-
-/// Two linear equations are nearly dependent if their determinant is below this fraction of its size.
-const DEPENDENT: f64 = 1e-6;
+use groebot_runtime::tolerances::{PIVOTS, STRATA};
 
 /// The program of a chain whose plan has been derived. `slack` bounds the error of its formulas on the chain on which solutions are measured.
 ///
@@ -190,6 +188,6 @@ fn dependent([a, b, e, f]: [SizedValue; 4], slack: Slack, assembler: &mut Assemb
         if sum { assembler.add(left, right) } else { assembler.sub(left, right) }
     };
     let (value, size) = (determinant(|s| s.value, false), determinant(|s| s.size, true));
-    let scale = assembler.mul(Operand::Constant(slack.share(DEPENDENT) / NEAR), size);
+    let scale = assembler.mul(Operand::Constant(slack.share(PIVOTS.regular) / STRATA.near), size);
     Guard { text: "A*F - B*E".to_owned(), value, scale, near: true }
 }

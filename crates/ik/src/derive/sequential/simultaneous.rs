@@ -23,7 +23,8 @@ use crate::derive::closure::{Mechanism, Relation, Word, prove};
 use crate::derive::equations::certificate::refused;
 use crate::derive::planner::{PlanStep, Way};
 use crate::solver::{
-    Block, Checks, Condition, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Program, Rule, Unit,
+    Block, Checks, Condition, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Program, Rule,
+    TipTask, Unit,
 };
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
@@ -278,6 +279,8 @@ impl<'a> Common<'a> {
             name: "shared".to_owned(),
             about: None,
             joints: layout.joints.iter().zip(self.sides[0].chain.joints()).take(self.shared).map(joint).collect(),
+            tasks: vec![TipTask::of(self.sides[0].chain)],
+            given_joints: layout.given_joints,
             inputs: layout.inputs,
             conditions: layout.conditions,
             parameters: layout.parameters,
@@ -293,6 +296,7 @@ impl<'a> Common<'a> {
         }
         .prefixed(self.sides[0].prefix);
         let (first, prefix) = (program.inputs.len(), self.sides[1].prefix);
+        program.tasks.push(TipTask { first_input: first, ..TipTask::of(self.sides[1].chain) });
         let (inputs, parameters) =
             (other.inputs.len() - self.mechanisms[1].given().len(), self.mechanisms[1].parameters().len());
         for mut input in other.inputs.into_iter().take(inputs) {

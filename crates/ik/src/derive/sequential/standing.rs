@@ -15,6 +15,9 @@ pub(super) fn close(standing: &Standing, layout: &mut Layout, blocks: &mut Vec<B
     for case in blocks.iter_mut().flat_map(|block| &mut block.cases) {
         case.free = case.free.iter().filter_map(|&joint| standing.upright.place(joint)).collect();
     }
+    for given in &mut layout.given_joints {
+        given.joint = standing.upright.place(given.joint).unwrap_or(0);
+    }
     let radius =
         standing.upright.chain.given().get(count_of_own(standing) + 2).map_or(0, |&joint| layout.given[joint][0]);
     if let Some(JointValue::Angle { cosine, sine }) = layout.joints.last().copied() {

@@ -21,7 +21,7 @@ use self::shaped::Shaped;
 use self::storage::{Dynamic, SixJoints};
 use super::program::Program;
 use super::{Facts, Layout, Pairs};
-use crate::{Error, ErrorKind, Result};
+use crate::Result;
 use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
 
 /// A [`Program`] prepared for evaluation. It is made once and solves any number of targets, also from several threads
@@ -89,19 +89,7 @@ impl Solver {
     }
 
     fn solve_target(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
-        let (numbers, inputs) = (target.numbers(), shaped!(self, shaped => &shaped.inputs));
-        let named = inputs.iter().take(numbers.len()).all(|input| target.has(&input.name));
-        if inputs.len() != numbers.len() + given.len() || !named {
-            let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
-            let text = format!(
-                "a target of {} numbers and {} given values; the solver needs {}",
-                numbers.len(),
-                given.len(),
-                names.join(", ")
-            );
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
-        self.solve_numbers(&[&numbers[..], given].concat())
+        self.solve_numbers(&shaped!(self, shaped => shaped.target.numbers(target, given))?)
     }
 
     /// Same as [`Solver::solve`], but for a target in numbers: one per input, in order and unit of [`Program::inputs`].

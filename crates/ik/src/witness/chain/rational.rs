@@ -5,10 +5,10 @@ use super::exact::Value;
 use super::is_random;
 use super::model::{Configuration, Model};
 use crate::witness::check::Target;
-use crate::witness::random::Random;
 use crate::witness::report::Kind;
 use crate::{Result, Watch};
 use groebot_algebra::number::{BigInt, BigRational};
+use groebot_algebra::random::SplitMix64;
 use groebot_robot::kinematics::Chain;
 
 /// The maximum numerator and denominator of the half-angle tangents.
@@ -39,13 +39,13 @@ pub fn count_exactly(chain: &Chain, number: usize, seed: u64, watch: &Watch) -> 
 /// The source of such targets.
 pub(super) struct Rationals {
     counter: Counter,
-    random: Random,
+    random: SplitMix64,
     done: usize,
 }
 
 impl Rationals {
     pub fn new(counter: Counter, seed: u64) -> Self {
-        Rationals { counter, random: Random::new(seed ^ 0x5eed), done: 0 }
+        Rationals { counter, random: SplitMix64::new(seed ^ 0x5eed), done: 0 }
     }
 
     /// A counted target in place of a random one, while fewer than `wanted` were counted. Other targets are returned unchanged.

@@ -20,6 +20,7 @@ use crate::groebner::Basis;
 use crate::number::{Ring, Zp};
 use crate::poly::univariate::Univariate;
 use crate::poly::{Monomial, Polynomial, PolynomialRing};
+use crate::random::SplitMix64;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// Number of terms that must agree with a recurrence before it is accepted. A wrong one passes with a probability of
@@ -192,15 +193,10 @@ fn project(
     Ok(recurrence)
 }
 
-/// A deterministic row of pseudorandom residues, by SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+/// A deterministic row of pseudorandom residues.
 fn random_row(modulus: Modulus, length: usize) -> Vec<u32> {
-    let mut state = 0u64;
-    let next = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (state ^ state >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        modulus.residue(mixed ^ mixed >> 31)
-    };
+    let mut random = SplitMix64::new(0);
+    let next = || modulus.residue(random.word());
     let mut row: Vec<u32> = std::iter::repeat_with(next).take(length).collect();
     row.resize(kernel::padded(length), 0);
     row
