@@ -60,7 +60,7 @@ pub mod number {
 pub mod poly {
     pub use groebot_algebra::poly::{
         Block, ExpansionBound, Expression, Factorisation, Fraction, Fractions, Layout, Monomial, Order, Polynomial,
-        PolynomialRing, Term, Width, factor, gcd, parse, parse_equation, parse_latex, system,
+        PolynomialRing, Term, factor, gcd, parse, parse_equation, parse_latex, system,
     };
 }
 
@@ -99,7 +99,7 @@ pub mod kinematics {
     pub use groebot_robot::kinematics::{
         Ball, BaseAxis, Chain, ChainParts, Choice, DhConvention, DhRow, DhTable, ExactMatrix, ExactRotation,
         ExactVector, Geometry, InverseKinematics, Joint, JointKind, Layout, LengthUnit, LinkPath, Meant, Mimic, Placed,
-        Placement, Plane, Quantity, Root, Solution, Stated, Target, TargetNumber, Task, Tip, TipChoice, Turn, jacobian,
+        Placement, Plane, Quantity, Root, Solution, Target, TargetNumber, Task, Tip, TipChoice, Turn, jacobian,
         numeric, screw,
     };
     /// The nearest ideal robot, and what it changes.
@@ -137,9 +137,9 @@ pub mod dynamics {
 /// Derived solvers: their programs, targets in batches, and solutions.
 pub mod solver {
     pub use groebot_ik::solver::{
-        About, Batch, Block, Case, Checks, Condition, Described, Following, Forward, Guard, Input, Instruction, Joint,
-        JointValue, MAX_JOINTS, Nearest, Operand, Operation, Pairs, ParameterRule, Pivot, Preference, Program, Reached,
-        Rule, Short, Solved, Solver, Step, Unit,
+        About, Batch, Block, Case, Checks, Condition, Described, Following, Forward, GivenJoint, Guard, Input,
+        Instruction, Joint, JointValue, MAX_JOINTS, Nearest, Operand, Operation, Pairs, ParameterRule, Pivot,
+        Preference, Program, Reached, Rule, Short, Solved, Solver, Step, TipTask, Unit,
     };
 }
 

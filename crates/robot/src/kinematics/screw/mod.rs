@@ -25,6 +25,7 @@ pub mod three_joints;
 mod trigonometric;
 mod turn;
 pub mod two_joints;
+#[doc(hidden)]
 pub mod two_link;
 mod upright;
 pub mod values;
