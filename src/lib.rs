@@ -117,8 +117,8 @@ pub mod robots {
 /// Motions in time: trajectories, tables of states, and paths of a chain's tip.
 pub mod motion {
     pub use groebot_robot::motion::{
-        Contact, Figure, Followed, JointTrack, Jump, Pace, Spline, StateRow, StateTable, Track, Trajectory, follow,
-        follow_from,
+        Contact, Figure, Followed, JointTrack, Jump, Pace, PathRequest, Spline, StateRow, StateTable, Track,
+        Trajectory, follow,
     };
 }
 

@@ -4,8 +4,10 @@
 
 use crate::arithmetic::Arithmetic;
 use crate::number::Scale;
-use crate::tolerances::{PIVOTS, POLISHING, ROOTS};
+use crate::tolerances::{POLISHING, ROOTS};
 
+/// The leading coefficient of an ordinary quartic exceeds this fraction of the largest coefficient. Then the division by it costs few digits.
+const ORDINARY_LEAD: f64 = 1e-2;
 /// Maximal number of Newton steps for the resolvent.
 const RESOLVENT_STEPS: usize = 24;
 
@@ -17,7 +19,7 @@ type Ordinary = ([f64; 4], usize);
 pub(crate) fn ordinary_roots(coefficients: &[f64; 5], scale: Scale) -> Option<Ordinary> {
     let [e, d, c, b, lead] = *coefficients;
     let largest = coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()));
-    if !(lead.abs() > PIVOTS.weak * largest && largest < f64::INFINITY) {
+    if !(lead.abs() > ORDINARY_LEAD * largest && largest < f64::INFINITY) {
         return None;
     }
     let inverse = 1.0 / lead;

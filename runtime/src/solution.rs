@@ -140,6 +140,8 @@ pub enum Error {
     OpenStratum(usize),
     /// The [steps](crate::MOST_STEPS) of the target were used up before a solution was found. Solutions may exist.
     Unsettled,
+    /// The task is not the pose of one tip. The base and the tool cannot be removed from the target.
+    NotPose,
 }
 
 impl fmt::Display for Error {
@@ -157,6 +159,9 @@ impl fmt::Display for Error {
             }
             Error::OpenStratum(number) => {
                 write!(f, "the target is on stratum {number}, for which no derivation exists")
+            }
+            Error::NotPose => {
+                f.write_str("the task is not the pose of one tip; give the target in the frame of the base")
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Source text of the run time, from which single-file solvers are assembled.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 37] = [
+pub const RUST: [(&str, &str); 38] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -24,6 +24,7 @@ pub const RUST: [(&str, &str); 37] = [
     ("members", include_str!("members.rs")),
     ("newton", include_str!("newton.rs")),
     ("number", include_str!("number.rs")),
+    ("placement", include_str!("placement.rs")),
     ("problem", include_str!("problem.rs")),
     ("quartic", include_str!("quartic.rs")),
     ("refine", include_str!("refine.rs")),

@@ -126,7 +126,7 @@ targets! {
     pivots_weak: crx, ORDINARY, 4, 0;
     /// 0: 8 solutions.
     self_motions_member: crx, BESIDE_A_CURVE, 16, 0;
-    /// 0: 14 solutions, because members of one self-motion are told as several.
+    /// 0: 14 solutions, because one self-motion is returned several times.
     self_motions_curve: irb120,
         [0.16173555615872015, 2.105824803791804, 1.9651190922675807, -2.455255332926444, -1.5707963267938965, -2.9217282671524805], 7, 1;
     /// 0: 8 solutions.

@@ -13,7 +13,7 @@ use groebot_robot::kinematics::{Joint, JointKind, Quantity, TargetNumber, Task};
 /// Units at the end of a column's name.
 const UNITS: [&str; 4] = ["_mm", "_m", "_rad", "_deg"];
 /// Columns that the commands write in addition to targets and joints.
-const BESIDE: [&str; 11] = [
+const BESIDE: [&str; 13] = [
     "target",
     "solutions",
     "branch",
@@ -24,6 +24,8 @@ const BESIDE: [&str; 11] = [
     "settled",
     "free",
     "outside_limits",
+    "closest_distance",
+    "closest_angle",
     "time",
 ];
 /// Numbers of poses that are numbers of no task, without units.

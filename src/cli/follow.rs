@@ -17,7 +17,7 @@ use groebot_robot::dynamics::{Clearance, Model};
 use groebot_robot::kinematics::{Chain, LengthUnit, Quantity};
 use groebot_robot::model::Robot;
 use groebot_robot::motion::table::pose_of;
-use groebot_robot::motion::{Followed, Pace, follow};
+use groebot_robot::motion::{Followed, Pace, PathRequest, follow};
 use groebot_robot::spatial::Pose;
 
 /// The tolerance for the length of a quaternion, for example one with 0.707.
@@ -88,7 +88,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (Some(times), _) => Pace::At(times),
         (None, every) => Pace::Every(every.unwrap_or(1.0)),
     };
-    let followed = follow(&chain, &description, &solver.program().solver(), &poses, &pace, &session.watch)
+    let request = PathRequest::new(&poses, &pace).speeds(&description);
+    let followed = follow(&chain, &solver.program().solver(), &request, &session.watch)
         .map_err(|error| error.in_file(&arguments.poses))?;
     drop(session);
     if let Some(jump) = followed.jumps.first().filter(|_| arguments.strict) {

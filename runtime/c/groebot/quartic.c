@@ -96,7 +96,7 @@ static void gb_merge_pairs(gb_real *roots)
 static int gb_ordinary_roots(const gb_real *coefficients, gb_scale scale, gb_real *roots)
 {
     const gb_real lead = coefficients[4], largest = gb_largest(coefficients, 5);
-    if (!(gb_magnitude(lead) > GB_PIVOTS_WEAK * largest && gb_is_finite(largest))) {
+    if (!(gb_magnitude(lead) > R(1e-2) * largest && gb_is_finite(largest))) {
         return -1;
     }
     gb_real monic[4];

@@ -24,7 +24,13 @@ const GUARD: u64 = 64;
 /// # Errors
 /// [`ErrorKind::BadValue`] when the polynomial does not change its sign over the interval; the error with which `watch`
 /// stops the work.
-pub fn refine(polynomial: &[BigInt], interval: &Interval, bits: u64, watch: &Watch) -> Result<Interval> {
+pub fn refine<'w>(
+    polynomial: &[BigInt],
+    interval: &Interval,
+    bits: u64,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Interval> {
+    let watch = Watch::or_none(watch);
     if interval.is_point() {
         return Ok(interval.clone());
     }
@@ -47,7 +53,13 @@ pub(crate) fn has_root(polynomial: &[BigInt], interval: &Interval) -> bool {
 ///
 /// # Errors
 /// Those of [`refine()`].
-pub fn sign_at_root(polynomial: &[BigInt], interval: &Interval, other: &[BigInt], watch: &Watch) -> Result<Ordering> {
+pub fn sign_at_root<'w>(
+    polynomial: &[BigInt],
+    interval: &Interval,
+    other: &[BigInt],
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Ordering> {
+    let watch = Watch::or_none(watch);
     let zero = BigInt::zero();
     let mut interval = interval.clone();
     for bits in (0..).map(|k| GUARD << k) {

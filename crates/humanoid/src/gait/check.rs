@@ -3,7 +3,7 @@
 use super::balance::Balance;
 use super::biped::Biped;
 use super::footprint::{Footprint, Side};
-use super::motion::Motion;
+use super::motion::{Motion, Samples};
 use super::polygon::Polygon;
 use super::reference::Reference;
 use super::schedule::{Action, Schedule};
@@ -77,12 +77,12 @@ pub struct Demand {
 /// All faults of a motion in the order of time, at most one of each kind for a sample.
 pub(crate) fn faults(
     biped: &Biped,
-    references: &[Reference],
+    samples: &Samples<'_>,
     motion: &Motion,
     balances: &[Balance],
     demand: &Demand,
-    tick: f64,
 ) -> Vec<Found> {
+    let (references, tick) = (samples.references, samples.tick);
     let mut found = Vec::new();
     for (sample, (reference, balance)) in references.iter().zip(balances).enumerate() {
         let mut add = |fault: Fault| found.push(Found { sample, phase: reference.phase, fault });

@@ -51,7 +51,8 @@ impl Derivation {
     ///
     /// # Errors
     /// As [`Source::check_base`], [`Problem::of`] and [`Derivation::of_problem`].
-    pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
+    pub fn of<'w>(source: &Source, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         source.check_base()?;
         Derivation::of_problem(Problem::of(source)?, watch).map_err(|error| match error.kind() {
             ErrorKind::Unsupported | ErrorKind::PositiveDimensional => source.advised(error),
@@ -64,7 +65,8 @@ impl Derivation {
     /// # Errors
     /// As [`Chain::check_base`] and [`Chain::check_task`]. [`ErrorKind::Inconsistent`] for equations without a solution. [`ErrorKind::PositiveDimensional`]
     /// with the names of the free joints. [`ErrorKind::Unsupported`] for a problem that no method solves. The error of `watch` if it stops the derivation.
-    pub fn of_problem(problem: impl Into<Problem>, watch: &Watch) -> Result<Self> {
+    pub fn of_problem<'w>(problem: impl Into<Problem>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         match problem.into() {
             Problem::System(system) => {
                 let solved = Equations::derive(&system, watch)?;
@@ -98,7 +100,8 @@ impl Derivation {
     /// # Errors
     /// [`ErrorKind::PositiveDimensional`] if joints are free; [`ErrorKind::Unsupported`] for a chain without such an order of joints. The error of `watch` if
     /// it stops the derivation.
-    pub fn sequentially(problem: impl Into<ChainProblem>, watch: &Watch) -> Result<Self> {
+    pub fn sequentially<'w>(problem: impl Into<ChainProblem>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let problem = problem.into();
         let solved = Sequential::derive(&problem, watch)?;
         Ok(Derivation::assemble(problem.into(), solved, Method::Sequential))
@@ -110,7 +113,8 @@ impl Derivation {
     /// [`ErrorKind::Unsupported`] for a chain that does not fit the eigenvalue problem ([`fits`]), that has infinitely many solutions, or that has no regular
     /// and accurate formulation. The error of `watch` if it stops the derivation.
     #[doc(hidden)]
-    pub fn by_eigenvalues(problem: impl Into<ChainProblem>, watch: &Watch) -> Result<Self> {
+    pub fn by_eigenvalues<'w>(problem: impl Into<ChainProblem>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let problem = problem.into();
         let solved = Eigenvalue::derive(&problem, watch)?;
         Ok(Derivation::assemble(problem.into(), solved, Method::Eigenvalue))

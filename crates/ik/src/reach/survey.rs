@@ -127,7 +127,8 @@ impl<'a> Survey<'a> {
     ///
     /// # Panics
     /// If the grid does not have these places.
-    pub fn entries(&self, places: Range<usize>, watch: &Watch) -> Result<Vec<Entry>> {
+    pub fn entries<'w>(&self, places: Range<usize>, watch: impl Into<Option<&'w Watch>>) -> Result<Vec<Entry>> {
+        let watch = Watch::or_none(watch);
         assert!(places.end <= self.request.grid.places(), "the grid has {} places", self.request.grid.places());
         let share = (PIECE / self.orientations()).max(1);
         let done = AtomicUsize::new(0);
@@ -146,7 +147,8 @@ impl<'a> Survey<'a> {
     ///
     /// # Errors
     /// Same as [`Survey::entries`].
-    pub fn map(&self, watch: &Watch) -> Result<ReachMap> {
+    pub fn map<'w>(&self, watch: impl Into<Option<&'w Watch>>) -> Result<ReachMap> {
+        let watch = Watch::or_none(watch);
         let entries = self.entries(0..self.request.grid.places(), watch)?;
         Ok(ReachMap::of(self.program, self.request, self.orientations(), entries))
     }

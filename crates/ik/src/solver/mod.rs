@@ -3,6 +3,7 @@
 //! A program is plain data: it prints and serialises, and every language of [`crate::codegen`] is printed from it.
 
 mod about;
+mod closest;
 mod compose;
 mod condition;
 mod demand;
@@ -16,6 +17,7 @@ mod json;
 mod layout;
 pub(crate) mod mirror;
 mod pairs;
+mod placed;
 mod prepared;
 mod program;
 mod prune;
@@ -26,6 +28,7 @@ mod tolerant;
 mod validate;
 
 pub use about::About;
+pub use closest::{Closest, ClosestOptions};
 pub(crate) use demand::{Demand, ParameterDemand};
 pub(crate) use facts::Facts;
 pub use forward::{Forward, Reached};
@@ -33,6 +36,7 @@ pub use instruction::{Instruction, Operand, Operation};
 pub use joint::{Joint, JointValue, Unit};
 pub(crate) use layout::Layout;
 pub use pairs::Pairs;
+pub use placed::{PlacedSolver, Placement, TaskPlacement};
 pub use prepared::{Batch, Nearest, Solved, Solver};
 pub(crate) use program::square;
 pub use program::{Block, Case, Checks, Condition, Described, Guard, Input, Pivot, Preference, Program, Short, Step};

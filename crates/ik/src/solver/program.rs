@@ -176,7 +176,7 @@ pub struct Preference {
 }
 
 /// The derived solver of one mechanism and task.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Program {
     /// Name of the mechanism: letters, digits and `_`.
     pub name: String,

@@ -18,7 +18,13 @@ use groebot_robot::kinematics::{Chain, Solution};
 /// # Errors
 /// [`ErrorKind::BadValue`] for an invalid program, or one with other inputs or joints than the source. [`ErrorKind::Unsupported`] if no reachable target is
 /// found. The error of `watch` if it stops the check. Failed checks are in the report.
-pub fn check_equations(source: &Source, program: &Program, options: &Options, watch: &Watch) -> Result<Report> {
+pub fn check_equations<'w>(
+    source: &Source,
+    program: &Program,
+    options: &Options,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Report> {
+    let watch = Watch::or_none(watch);
     program.validate()?;
     let text = "the source has no equations to be solved together";
     let none = || Error::new(ErrorKind::BadValue, text).in_file(&source.path);

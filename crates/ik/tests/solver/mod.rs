@@ -1,11 +1,13 @@
 //! The meaning of a program's blocks, pivots, samples and conditions, on programs with solutions computed by hand.
 
 mod batch;
+mod closest;
 mod compose;
 mod damaged;
 mod derivatives;
 mod follow;
 mod formats;
+mod placed;
 mod refused;
 mod task;
 

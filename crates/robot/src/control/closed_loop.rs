@@ -63,13 +63,14 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
     ///
     /// # Errors
     /// Those of [`Law::torques`] and [`Equations::forward`], with the time; those of [`Watch::check`].
-    pub fn run(
+    pub fn run<'w>(
         &mut self,
         start: [&[f64]; 2],
         duration: f64,
         desired: impl Fn(f64) -> [Vec<f64>; 3],
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<Vec<Sample>> {
+        let watch = Watch::or_none(watch);
         let [mut q, mut velocity] = start.map(<[f64]>::to_vec);
         // A quotient outside the range of integers becomes the largest integer.
         let steps = (duration / self.step).round() as usize;

@@ -6,6 +6,7 @@
 mod check;
 mod follow;
 mod json;
+mod path_request;
 mod spline;
 mod states;
 pub mod table;
@@ -14,7 +15,8 @@ mod trajectory;
 pub use table::pose_numbers;
 
 pub use check::{Bounds, Fault, Finding, beyond_limit, findings, too_fast};
-pub use follow::{Followed, Jump, Pace, follow, follow_from};
+pub use follow::{Followed, Jump, follow};
+pub use path_request::{Pace, PathRequest};
 pub use spline::Spline;
 pub use states::{StateRow, StateTable};
 pub use trajectory::{Contact, Figure, JointTrack, Track, Trajectory};

@@ -66,12 +66,13 @@ impl Trace {
     /// # Errors
     /// [`ErrorKind::BadValue`] when the numbers of terms of the generators differ from the learned ones; the error with
     /// which `watch` stops the work.
-    pub fn replay<const N: usize>(
+    pub fn replay<'w, const N: usize>(
         &self,
         moduli: [u32; N],
         generators: &[Vec<[u32; N]>],
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<[Option<Vec<Vec<u32>>>; N]> {
+        let watch = Watch::or_none(watch);
         let mut coefficients = self.nonzero_generators(generators)?;
         let mut alive = [true; N];
         for (index, round) in self.rounds.iter().enumerate() {

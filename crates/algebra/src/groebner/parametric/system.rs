@@ -36,7 +36,8 @@ impl System {
     ///
     /// # Errors
     /// Those of the engine.
-    pub fn new(ideal: &Ideal<'_>, watch: &Watch) -> Result<Self> {
+    pub fn new<'w>(ideal: &Ideal<'_>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let ring = ideal.ring;
         let mut equations = Vec::new();
         for f in ideal.generators {

@@ -14,6 +14,16 @@ use crate::poly::words::{Flat, Packing, WordField};
 use crate::random::SplitMix64;
 use crate::{Result, Watch};
 
+/// The variables of a lifting.
+pub struct Variables<'a> {
+    /// The variable of the image.
+    pub main: usize,
+    /// The variables that are lifted, in this order.
+    pub others: &'a [usize],
+    /// The values of the others at the point of the image.
+    pub anchor: Vec<u64>,
+}
+
 /// A polynomial and the point where its factors are known: the invariant data of a lifting.
 pub struct Lifting<'a, K> {
     field: &'a K,
@@ -28,14 +38,8 @@ pub struct Lifting<'a, K> {
 impl<'a, K: WordField> Lifting<'a, K> {
     /// Starts the lifting of `f`, primitive in `main`, from the point `anchor` of the variables `others`. Returns
     /// `None` when the degree in `main` drops there or the image has multiple factors.
-    pub fn new(
-        field: &'a K,
-        packing: &'a Packing,
-        f: &Flat,
-        main: usize,
-        others: &[usize],
-        anchor: Vec<u64>,
-    ) -> Option<Self> {
+    pub fn new(field: &'a K, packing: &'a Packing, f: &Flat, variables: Variables<'_>) -> Option<Self> {
+        let Variables { main, others, anchor } = variables;
         let others = others.to_vec();
         let nothing_stops = Watch::none();
         let search = Search::new(field, packing, &nothing_stops);

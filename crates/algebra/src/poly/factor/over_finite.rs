@@ -5,7 +5,7 @@
 //! conjugates. Factors with coefficients outside GF(p) are refused.
 
 use super::finite;
-use super::lift::Lifting;
+use super::lift::{Lifting, Variables};
 use crate::poly::words::dense::Dense;
 use crate::poly::words::{Extension, Flat, Packing, Prime, WordField, dense};
 use crate::random::SplitMix64;
@@ -58,7 +58,9 @@ fn split_in<K: WordField>(
         watch.check()?;
         others.rotate_left(1);
         let anchor = others.iter().map(|_| random.below(field.size())).collect();
-        let Some(lifting) = Lifting::new(field, packing, f, main, &others, anchor) else { continue };
+        let Some(lifting) = Lifting::new(field, packing, f, Variables { main, others: &others, anchor }) else {
+            continue;
+        };
         let line = finite::factors(field, &lifting.line(), watch)?;
         if line.len() == 1 {
             return Ok(Some(vec![f.monic(field)]));

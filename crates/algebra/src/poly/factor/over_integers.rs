@@ -7,7 +7,7 @@
 use num_traits::{One, Pow, Zero};
 
 use super::integers::{self, Integers};
-use super::lift::Lifting;
+use super::lift::{Lifting, Variables};
 use crate::number::BigInt;
 use crate::poly::words::dense::{self, Dense};
 use crate::poly::words::{Images, Integral, Packing, Prime, primes, residue};
@@ -105,7 +105,8 @@ impl Task<'_> {
             let field = Prime::new(p);
             let point = anchor.point.iter().map(|&x| residue(&BigInt::from(x), &field)).collect();
             let image = self.f.image(&field);
-            let lifting = Lifting::new(&field, self.packing, &image, self.main, &self.others, point);
+            let variables = Variables { main: self.main, others: &self.others, anchor: point };
+            let lifting = Lifting::new(&field, self.packing, &image, variables);
             let Some(lifting) = lifting else { continue };
             let lines: Vec<Dense> = anchor.factors.iter().map(|line| residues(line, &field)).collect();
             if parts.is_none() {

@@ -165,7 +165,7 @@ impl Printed<'_> {
                 ([_], true) => "Matrix",
                 (_, true) => "[Matrix; 2]",
             },
-            reads_displacements: code.iter().any(|line| line.contains("way[")),
+            reads_displacements: code.iter().any(|line| line.contains("displacement[")),
             code,
             answer,
             is_recursive,

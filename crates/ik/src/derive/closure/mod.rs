@@ -25,7 +25,7 @@ mod vector;
 pub use arithmetic::{Arithmetic, Exact, Factor, Factors, Modular, Multilinear, Polynomials};
 pub use assignment::{Assignment, JointValue, Target, TargetRotation};
 pub use coupling::{Coupling, Law};
-pub(crate) use evaluate::carry;
+pub(crate) use evaluate::Evaluation;
 pub use evaluate::{Image, Vector, evaluate};
 pub(crate) use explain::show;
 pub(super) use feature::common_point_of as common_point;

@@ -16,7 +16,8 @@ const MAX_DEPTH: usize = 8;
 /// # Errors
 /// For generic parameters: [`ErrorKind::Inconsistent`], and [`ErrorKind::PositiveDimensional`] with the free unknowns. The error of `watch` if it stops the
 /// derivation.
-pub fn derive_tree(system: &System, orders: Orders, watch: &Watch) -> Result<Node> {
+pub fn derive_tree<'w>(system: &System, orders: Orders, watch: impl Into<Option<&'w Watch>>) -> Result<Node> {
+    let watch = Watch::or_none(watch);
     let node = grow(system, &mut Engine { system, orders, watch })?;
     match &node.outcome {
         Outcome::Solved(_) => Ok(node),

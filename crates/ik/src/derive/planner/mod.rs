@@ -42,7 +42,8 @@ const SEED: u64 = 5;
 /// # Errors
 /// [`ErrorKind::PositiveDimensional`] if joints are free, with those that may be given. [`ErrorKind::Unsupported`] if there is no such plan, with the number of
 /// solutions, the degrees of the joints and the missing geometric properties. The error of `watch` if it stops the search.
-pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
+pub fn plan<'w>(mechanism: &Mechanism, watch: impl Into<Option<&'w Watch>>) -> Result<Plan> {
+    let watch = Watch::or_none(watch);
     if mechanism.independent() > mechanism.seen().freedoms() {
         return Err(refuse::free(mechanism, watch)?);
     }

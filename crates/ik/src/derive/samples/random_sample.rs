@@ -1,8 +1,8 @@
 //! Random reachable targets modulo a prime. The joints are at rational points of their circles; forward kinematics gives the target.
 
 use crate::derive::closure::{
-    Arithmetic, Assignment, Coupling, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear, Object,
-    Relation, Target, TargetRotation, Word, carry, evaluate,
+    Arithmetic, Assignment, Coupling, Evaluation, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear,
+    Object, Relation, Target, TargetRotation, Word, evaluate,
 };
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Field, Ring, Zp};
@@ -91,7 +91,7 @@ fn followed(coupling: &Coupling, leader: &JointValue<u64>, arithmetic: &mut Modu
 fn parameters(mechanism: &Mechanism, at: &Assignment<u64>, arithmetic: &mut Modular) -> Result<Vec<u64>> {
     let word = Word((0..mechanism.joints().len()).map(Letter::Joint).collect());
     let mut image = |object: Object| -> Result<[u64; 3]> {
-        match carry(mechanism, &word, &object, Measure::Offset, at, arithmetic)? {
+        match Evaluation::new(mechanism, at, arithmetic).carry(&word, &object, Measure::Offset)? {
             Image::Point(x) | Image::Direction(x) => Ok(x.map(|entry| entry.constant_term().copied().unwrap_or(0))),
             _ => Err(Error::new(ErrorKind::BadValue, "forward kinematics carries points and directions")),
         }

@@ -165,7 +165,8 @@ impl FormBasis {
     ///
     /// # Errors
     /// The error of `watch` if it stops the derivation.
-    pub fn derive(form: Form, watch: &Watch) -> Result<Self> {
+    pub fn derive<'w>(form: Form, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let system = form.system()?;
         let tree = derive_tree(&system, Orders::Requested, watch)?;
         Ok(FormBasis { form, system, tree })

@@ -117,7 +117,8 @@ impl Forms {
     ///
     /// # Errors
     /// The error of `watch` if it stops the derivation.
-    pub fn derive_stored(watch: &Watch) -> Result<String> {
+    pub fn derive_stored<'w>(watch: impl Into<Option<&'w Watch>>) -> Result<String> {
+        let watch = Watch::or_none(watch);
         let proof = |form| Ok(Proof { form, strata: entries(&FormBasis::derive(form, watch)?.tree)? });
         let form_bases = ALL.into_iter().map(proof).collect::<Result<_>>()?;
         Ok(json_text(&Stored { form_bases, half_angles: HalfAngles::derive(watch)?.stored() }))

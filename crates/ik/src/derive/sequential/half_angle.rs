@@ -51,7 +51,8 @@ impl HalfAngles {
     ///
     /// # Errors
     /// The error of `watch` if it stops the computation.
-    pub fn derive(watch: &Watch) -> Result<Self> {
+    pub fn derive<'w>(watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let derive = |direction| {
             let (ring, generators) = setting(direction)?;
             let options = Options { strategy: Strategy::Sugar, cofactors: true };

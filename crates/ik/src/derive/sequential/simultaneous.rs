@@ -72,7 +72,8 @@ impl Simultaneous {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] if the unknown shared joints are not one or two revolute ones, or if no relations fit. As [`Mechanism::new`].
-    pub fn derive(sides: [Side<'_>; 2], shared: usize, watch: &Watch) -> Result<Self> {
+    pub fn derive<'w>(sides: [Side<'_>; 2], shared: usize, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let common = Common::new(sides, shared)?;
         let steps = common.search(watch)?;
         let forms = Forms::of(&steps)?;
@@ -277,7 +278,6 @@ impl<'a> Common<'a> {
         let checks = held(&layout, self.mechanisms[0].given(), self.shared);
         let mut program = Program {
             name: "shared".to_owned(),
-            about: None,
             joints: layout.joints.iter().zip(self.sides[0].chain.joints()).take(self.shared).map(joint).collect(),
             tasks: vec![TipTask::of(self.sides[0].chain)],
             given_joints: layout.given_joints,
@@ -287,12 +287,9 @@ impl<'a> Common<'a> {
             unknowns: layout.unknowns,
             blocks,
             checks,
-            preference: None,
             capacity: 1,
-            isolated: None,
-            nearby: false,
-            described: None,
             scale,
+            ..Program::default()
         }
         .prefixed(self.sides[0].prefix);
         let (first, prefix) = (program.inputs.len(), self.sides[1].prefix);

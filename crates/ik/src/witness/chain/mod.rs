@@ -30,13 +30,14 @@ use targets::Targets;
 ///
 /// # Errors
 /// Those of the solver, except for gaps. The error of `watch` if it stops the check. Failed checks are in the report.
-pub fn check_chain(
+pub fn check_chain<'w>(
     chain: &Chain,
     solver: &dyn Solver,
     bound: Option<usize>,
     options: &Options,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Report> {
+    let watch = Watch::or_none(watch);
     check_within(chain, solver, bound, (options, WITNESS.residual), watch)
 }
 
@@ -45,13 +46,14 @@ pub fn check_chain(
 ///
 /// # Errors
 /// As [`check_chain`].
-pub fn check_within(
+pub fn check_within<'w>(
     chain: &Chain,
     solver: &dyn Solver,
     bound: Option<usize>,
     (options, tolerance): (&Options, f64),
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Report> {
+    let watch = Watch::or_none(watch);
     let model = Model::new(chain);
     let mut rationals = Rationals::new(Counter::new(chain, &model.given), options.seed);
     let mut targets = Targets::new(&model, options.draws, options.seed);

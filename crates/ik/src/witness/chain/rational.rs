@@ -30,7 +30,13 @@ pub struct Counted {
 ///
 /// # Errors
 /// The error of `watch` if it stops the count.
-pub fn count_exactly(chain: &Chain, number: usize, seed: u64, watch: &Watch) -> Result<Vec<Counted>> {
+pub fn count_exactly<'w>(
+    chain: &Chain,
+    number: usize,
+    seed: u64,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Vec<Counted>> {
+    let watch = Watch::or_none(watch);
     let model = Model::new(chain);
     let mut rationals = Rationals::new(Counter::new(chain, &model.given), seed);
     (0..number).map(|_| rationals.counted(&model, watch)).collect()

@@ -33,7 +33,12 @@ const AGREED: usize = 12;
 ///
 /// # Errors
 /// Those of [`Quotient::new`] and [`Quotient::basis_in`].
-pub fn change_order(basis: &Basis<Zp>, target: &PolynomialRing<Zp>, watch: &Watch) -> Result<Basis<Zp>> {
+pub fn change_order<'w>(
+    basis: &Basis<Zp>,
+    target: &PolynomialRing<Zp>,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Basis<Zp>> {
+    let watch = Watch::or_none(watch);
     match Modulus::new(basis.ring.field().modulus()) {
         None => Quotient::new(basis)?.basis_in(target, watch),
         Some(modulus) => Table::new(basis, modulus)?.basis_in(target, watch),
@@ -52,7 +57,8 @@ impl WordQuotient {
     /// # Errors
     /// [`ErrorKind::BadValue`] when the prime is not below 2^31; those of [`Quotient::new`]; the error with which
     /// `watch` stops the work.
-    pub fn new(basis: &Basis<Zp>, watch: &Watch) -> Result<Self> {
+    pub fn new<'w>(basis: &Basis<Zp>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let p = basis.ring.field().modulus();
         let modulus = Modulus::new(p).ok_or_else(|| {
             Error::new(ErrorKind::BadValue, format!("the prime {p} is not below 2^31; use `Quotient` for larger ones"))
@@ -71,7 +77,8 @@ impl WordQuotient {
     ///
     /// # Errors
     /// Those of [`Quotient::basis_in`].
-    pub fn basis_in(&self, target: &PolynomialRing<Zp>, watch: &Watch) -> Result<Basis<Zp>> {
+    pub fn basis_in<'w>(&self, target: &PolynomialRing<Zp>, watch: impl Into<Option<&'w Watch>>) -> Result<Basis<Zp>> {
+        let watch = Watch::or_none(watch);
         self.table.clone().basis_in(target, watch)
     }
 
@@ -80,7 +87,12 @@ impl WordQuotient {
     ///
     /// # Errors
     /// Those of [`Quotient::minimal_polynomial`].
-    pub fn minimal_polynomial(&self, f: &Polynomial<u64>, watch: &Watch) -> Result<Univariate<u64>> {
+    pub fn minimal_polynomial<'w>(
+        &self,
+        f: &Polynomial<u64>,
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Univariate<u64>> {
+        let watch = Watch::or_none(watch);
         require_member(&self.table.ring, f)?;
         let matrix = self.table.multiplication(f, watch)?;
         let projected = project(&matrix, self.table.modulus, watch, |_, _| ())?;
