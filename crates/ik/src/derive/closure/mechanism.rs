@@ -77,13 +77,13 @@ pub struct Mechanism {
     /// Motions of the tip that the task does not constrain, as joints after the last one.
     unseen: Vec<ScrewJoint>,
     /// The chain and its loop for the task `position_pitch_roll`; the joints are then those of the loop.
-    upright: Option<Box<Standing>>,
+    upright: Option<Box<UprightLoop>>,
 }
 
 /// The loop of a [chain with a vertical first axis](Chain::upright), as a mechanism with a constant target.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Standing {
+pub struct UprightLoop {
     /// The chain itself.
     pub plain: Mechanism,
     /// The loop.
@@ -103,8 +103,8 @@ impl Mechanism {
         let plain = Mechanism::of_chain(chain)?;
         let closed = Mechanism::of_joints(&upright.chain)?;
         let given = upright.chain.given();
-        let standing = Some(Box::new(Standing { plain, upright }));
-        Ok(Mechanism { task: Task::PositionPitchRoll, given, upright: standing, ..closed })
+        let upright_loop = Some(Box::new(UprightLoop { plain, upright }));
+        Ok(Mechanism { task: Task::PositionPitchRoll, given, upright: upright_loop, ..closed })
     }
 
     /// The mechanism of `chain` itself, without the loop of its task, for forward kinematics.
@@ -150,7 +150,7 @@ impl Mechanism {
     pub fn with_given(mut self, given: &[usize]) -> Result<Self> {
         match &self.upright {
             None => {}
-            Some(standing) if given == standing.plain.given() => return Ok(self),
+            Some(upright_loop) if given == upright_loop.plain.given() => return Ok(self),
             Some(_) => {
                 let text = "the task `position_pitch_roll` needs as many independent joints as it has numbers: name the given joints (`given`)";
                 return Err(Error::new(ErrorKind::Unsupported, text));
@@ -177,19 +177,19 @@ impl Mechanism {
     /// The joints of the chain itself.
     pub(crate) fn driven(&self) -> &[ScrewJoint] {
         match &self.upright {
-            Some(standing) => &standing.plain.joints,
+            Some(upright_loop) => &upright_loop.plain.joints,
             None => &self.joints[..self.hidden().unwrap_or(self.joints.len())],
         }
     }
 
     /// The chain itself and the loop of these joints, for the task `position_pitch_roll`.
-    pub fn standing(&self) -> Option<&Standing> {
+    pub fn upright_loop(&self) -> Option<&UprightLoop> {
         self.upright.as_deref()
     }
 
     /// The mechanism of the chain itself.
     pub(crate) fn plain(&self) -> &Mechanism {
-        self.standing().map_or(self, |standing| &standing.plain)
+        self.upright_loop().map_or(self, |upright_loop| &upright_loop.plain)
     }
 
     /// The index of the hidden joint, if the task leaves a rotation of the tip open. It rotates the tip about the ray, after the last joint, or about the

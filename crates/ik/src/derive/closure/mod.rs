@@ -29,7 +29,7 @@ pub(crate) use evaluate::Evaluation;
 pub use evaluate::{Image, Vector, evaluate};
 pub(crate) use explain::show;
 pub(super) use feature::common_point_of as common_point;
-pub use mechanism::{Mechanism, ScrewJoint, Standing};
+pub use mechanism::{Mechanism, ScrewJoint, UprightLoop};
 pub use prove::prove;
 pub use relation::{Letter, Measure, Object, Relation, Word};
 pub(super) use vector::parallel;

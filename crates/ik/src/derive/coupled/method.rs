@@ -2,7 +2,7 @@
 
 use super::model::{CoupledChain, CoupledChains, JointPlace};
 use crate::derive::closure::Mechanism;
-use crate::derive::planner::{self, Plan, PlanStep, Way};
+use crate::derive::planner::{self, Plan, PlanStep, StepMethod};
 use crate::derive::problem::ChainProblem;
 use crate::derive::sequential::{Sequential, SequentialView, Side, Simultaneous};
 use crate::derive::view::View;
@@ -361,13 +361,13 @@ fn derived(problem: &ChainProblem, least: usize, watch: &Watch) -> Result<(Seque
 fn without(known: &[usize], steps: Vec<PlanStep>) -> Vec<PlanStep> {
     let (gone, mut kept): (Vec<PlanStep>, Vec<PlanStep>) =
         steps.into_iter().partition(|step| known.contains(&step.joint));
-    for other in gone.iter().flat_map(|step| step.way.relations()) {
+    for other in gone.iter().flat_map(|step| step.method.relations()) {
         let left: Vec<usize> = other.joints().into_iter().filter(|joint| !known.contains(joint)).collect();
         for step in &mut kept {
-            if let Way::Single(own) = &step.way
+            if let StepMethod::Single(own) = &step.method
                 && left == [step.joint]
             {
-                step.way = Way::Pair([own.clone(), other.clone()]);
+                step.method = StepMethod::Pair([own.clone(), other.clone()]);
                 step.degree = 1;
             }
         }

@@ -22,10 +22,10 @@ mod shape;
 mod simultaneous;
 mod slack;
 mod squares;
-mod standing;
 mod symbolic;
 mod symbols;
 mod target;
+mod upright_loop;
 
 pub use eliminate::{Elimination, SymbolPlace};
 pub use form_basis::{Form, FormBasis};

@@ -21,7 +21,7 @@ use super::slack::Slack;
 use super::symbolic::Symbolic;
 use crate::derive::closure::{Mechanism, Relation, Word, prove};
 use crate::derive::equations::certificate::refused;
-use crate::derive::planner::{PlanStep, Way};
+use crate::derive::planner::{PlanStep, StepMethod};
 use crate::solver::{
     Block, Checks, Condition, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Program, Rule,
     TipTask, Unit,
@@ -244,8 +244,8 @@ impl<'a> Common<'a> {
         let (&[leading, following], Some(elimination)) = (joints, elimination) else {
             return Ok(self.unknown.iter().map(|joint| by_pair(*joint)).collect());
         };
-        let way = Way::Eliminated { relations: relations.to_vec(), away: vec![following] };
-        let leader = PlanStep { joint: leading, way, degree: 4 };
+        let method = StepMethod::Eliminated { relations: relations.to_vec(), away: vec![following] };
+        let leader = PlanStep { joint: leading, method, degree: 4 };
         let shape = eliminated(&self.mechanisms[0], &leader, &elimination)?;
         let relations = relations.to_vec();
         Ok(vec![ProvedStep { joint: leading, relations, elimination: Some(elimination), shape }, by_pair(following)])

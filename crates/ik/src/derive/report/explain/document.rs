@@ -2,7 +2,7 @@
 //!
 //! A formula is plain text in the notation of the stage files, `A*c1 + B*s1 = 0`. [`super::latex`] typesets it.
 
-/// A stage of a derivation: a part of its report with a file of its own.
+/// A stage of a derivation: a part of its report with a separate file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// The equations.
@@ -77,7 +77,7 @@ impl Line {
         Line::default().words(text)
     }
 
-    /// With somebody else's words, taken as they are.
+    /// Appends text from the input, unchanged.
     #[must_use]
     pub fn words(mut self, text: &str) -> Self {
         self.0.push(Span::Words(text.to_owned()));
