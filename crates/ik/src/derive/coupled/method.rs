@@ -154,7 +154,7 @@ impl CoupledView<'_> {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for another number of joints.
-    pub fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
+    pub(crate) fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
         let mut target = vec![0.0; self.program.inputs.len()];
         for stage in &self.method.stages {
             stage.write(&stage.problem.reached(&self.joints_of(stage.member, q)?)?, &mut target);
@@ -164,7 +164,7 @@ impl CoupledView<'_> {
     }
 
     /// Writes the values of the joints that the user gives into a target of the solver.
-    pub fn write_given(&self, q: &[f64], target: &mut [f64]) {
+    pub(crate) fn write_given(&self, q: &[f64], target: &mut [f64]) {
         self.program.given_joints.iter().for_each(|given| target[given.input] = q[given.joint]);
     }
 }
