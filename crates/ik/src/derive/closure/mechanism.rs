@@ -53,7 +53,7 @@ impl ScrewJoint {
     }
 
     /// Whether the joint is revolute.
-    pub fn is_revolute(&self) -> bool {
+    pub(crate) fn is_revolute(&self) -> bool {
         self.kind == JointKind::Revolute
     }
 }
@@ -111,7 +111,7 @@ impl Mechanism {
     ///
     /// # Errors
     /// As [`Chain::check_leaders`].
-    pub fn of_chain(chain: &Chain) -> Result<Self> {
+    pub(crate) fn of_chain(chain: &Chain) -> Result<Self> {
         Mechanism::of_joints(chain)?.with_given(&chain.given())
     }
 
@@ -175,7 +175,7 @@ impl Mechanism {
     }
 
     /// The joints of the chain itself.
-    pub fn driven(&self) -> &[ScrewJoint] {
+    pub(crate) fn driven(&self) -> &[ScrewJoint] {
         match &self.upright {
             Some(upright_loop) => &upright_loop.plain.joints,
             None => &self.joints[..self.hidden().unwrap_or(self.joints.len())],
@@ -188,7 +188,7 @@ impl Mechanism {
     }
 
     /// The mechanism of the chain itself.
-    pub fn plain(&self) -> &Mechanism {
+    pub(crate) fn plain(&self) -> &Mechanism {
         self.upright_loop().map_or(self, |upright_loop| &upright_loop.plain)
     }
 
@@ -204,13 +204,13 @@ impl Mechanism {
     }
 
     /// The origin of the tip in the zero configuration, in the base frame.
-    pub fn tip_point(&self) -> &ExactVector {
+    pub(crate) fn tip_point(&self) -> &ExactVector {
         &self.tip_point
     }
 
     /// The rotation of the tip in the zero configuration, base_from_tip. It is the identity for a planar pose, a ray and an angle about an axis, whose angles
     /// are relative to the zero configuration.
-    pub fn tip_rotation(&self) -> &ExactMatrix {
+    pub(crate) fn tip_rotation(&self) -> &ExactMatrix {
         &self.tip_rotation
     }
 
@@ -226,12 +226,12 @@ impl Mechanism {
     }
 
     /// The task that relations use: the pose for a ray and for `position_pitch_roll`, else the task itself.
-    pub fn seen(&self) -> Task {
+    pub(crate) fn seen(&self) -> Task {
         if matches!(self.task, Task::Ray | Task::PositionPitchRoll) { Task::Pose } else { self.task }
     }
 
     /// The indices of the joints that the user gives, ascending.
-    pub fn given(&self) -> &[usize] {
+    pub(crate) fn given(&self) -> &[usize] {
         &self.given
     }
 
@@ -241,18 +241,18 @@ impl Mechanism {
     }
 
     /// The indices of the joints that follow others and are not given, ascending, each with its law.
-    pub fn followers(&self) -> Vec<(usize, &Coupling)> {
+    pub(crate) fn followers(&self) -> Vec<(usize, &Coupling)> {
         let coupled = |place: usize| self.joints[place].coupling.as_ref().map(|coupling| (place, coupling));
         self.unknown().into_iter().filter_map(coupled).collect()
     }
 
     /// The number of joints that are not given and follow no other, including the hidden one.
-    pub fn independent(&self) -> usize {
+    pub(crate) fn independent(&self) -> usize {
         self.unknown().len() - self.followers().len()
     }
 
     /// The relations of the joints that follow others.
-    pub fn couplings(&self) -> Vec<Relation> {
+    pub(crate) fn couplings(&self) -> Vec<Relation> {
         let each = |(place, coupling): (usize, &Coupling)| {
             Relation::following(place, coupling.leader, self.joints[place].is_revolute())
         };
@@ -260,13 +260,13 @@ impl Mechanism {
     }
 
     /// Whether the task has at most as many numbers as there are independent joints.
-    pub fn is_tight(&self) -> bool {
+    pub(crate) fn is_tight(&self) -> bool {
         self.seen().freedoms() <= self.independent()
     }
 
     /// Whether the steps of a plan must have as many solutions as the loop. If the task is overdetermined (more numbers than independent joints), or joints
     /// follow others, steps may have more. The unused equations are then evaluated at run time.
-    pub fn counts_exactly(&self) -> bool {
+    pub(crate) fn counts_exactly(&self) -> bool {
         self.is_tight() && self.followers().is_empty()
     }
 

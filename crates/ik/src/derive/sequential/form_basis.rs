@@ -100,7 +100,7 @@ impl Form {
     }
 
     /// The number of solutions if they are finitely many and the equations are independent.
-    pub fn degree(self) -> usize {
+    pub(crate) fn degree(self) -> usize {
         match self {
             Form::Angle | Form::Quadratic => 2,
             Form::Quartic | Form::Lengths => 4,

@@ -124,7 +124,7 @@ impl SequentialView<'_> {
     ///
     /// # Errors
     /// As [`Mechanism::new`].
-    pub fn unpolished(&self) -> Result<Option<Program>> {
+    pub(crate) fn unpolished(&self) -> Result<Option<Program>> {
         let ideal =
             || program::compile(&self.problem.chain, &Mechanism::new(&self.problem.chain)?, self.method, Slack::NONE);
         self.problem.truth.as_ref().map(|_| ideal()).transpose()

@@ -99,7 +99,7 @@ impl Simultaneous {
     ///
     /// # Errors
     /// [`ErrorKind::Certificate`] if there are not two. This does not occur for a derivation that this crate made.
-    pub fn relations(&self) -> Result<[&Relation; 2]> {
+    pub(crate) fn relations(&self) -> Result<[&Relation; 2]> {
         match self.steps.first().map(|step| step.relations.as_slice()) {
             Some([f, g]) => Ok([f, g]),
             _ => Err(refused("shared joints follow from two relations".to_owned())),

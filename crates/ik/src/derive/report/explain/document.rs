@@ -140,12 +140,12 @@ impl Document {
     }
 
     /// Adds a heading.
-    pub fn section(&mut self, line: Line) {
+    pub(crate) fn section(&mut self, line: Line) {
         self.parts.push(Part::Section(line));
     }
 
     /// Adds a paragraph of report text, as in [`Line::of`].
-    pub fn say(&mut self, prose: &str) {
+    pub(crate) fn say(&mut self, prose: &str) {
         self.paragraph(Line::of(prose));
     }
 
@@ -155,7 +155,7 @@ impl Document {
     }
 
     /// Adds a formula without a number.
-    pub fn display(&mut self, formula: impl Into<String>) {
+    pub(crate) fn display(&mut self, formula: impl Into<String>) {
         self.equation("", formula);
     }
 
