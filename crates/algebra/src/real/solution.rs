@@ -72,7 +72,7 @@ impl RealSolution {
     }
 
     /// The requested precision in bits: every coordinate is at most `2^-precision` wide.
-    pub fn precision(&self) -> u64 {
+    pub(crate) fn precision(&self) -> u64 {
         self.precision
     }
 
@@ -85,7 +85,7 @@ impl RealSolution {
     ///
     /// # Errors
     /// The error with which `watch` stops the work.
-    pub fn refine<'w>(&self, precision: u64, watch: impl Into<Option<&'w Watch>>) -> Result<RealSolution> {
+    pub(crate) fn refine<'w>(&self, precision: u64, watch: impl Into<Option<&'w Watch>>) -> Result<RealSolution> {
         let watch = Watch::or_none(watch);
         let (coordinates, root) = locate(&self.representation, self.root.clone(), precision, watch)?;
         Ok(RealSolution { coordinates, root, precision, ..self.clone() })

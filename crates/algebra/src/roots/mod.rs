@@ -16,5 +16,6 @@ pub const TANGENT: f64 = groebot_runtime::tolerances::ROOTS.tangent;
 
 pub use descartes::{RealRoot, isolate_square_free, real_roots_of};
 pub use isolate::{Interval, Sturm, isolate, rounded_roots};
-pub use refine::{enclose, has_root, refine, sign_at_root};
+pub(crate) use refine::{enclose, has_root};
+pub use refine::{refine, sign_at_root};
 pub use square_free::{gcd, square_free_parts};

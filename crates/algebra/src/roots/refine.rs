@@ -43,7 +43,7 @@ pub fn refine<'w>(
 }
 
 /// Whether a square-free polynomial has a root in `interval`. It has at most one there.
-pub fn has_root(polynomial: &[BigInt], interval: &Interval) -> bool {
+pub(crate) fn has_root(polynomial: &[BigInt], interval: &Interval) -> bool {
     let (low, high) = (sign_at(polynomial, interval.low()), sign_at(polynomial, interval.high()));
     if interval.is_point() { low == Sign::NoSign } else { low == -high && low != Sign::NoSign }
 }
@@ -88,7 +88,7 @@ fn order(sign: Sign) -> Ordering {
 
 /// Two integers `low <= high` such that the polynomial's values on `interval` are between `low / 2^bits` and `high /
 /// 2^bits`: Horner's rule in interval arithmetic.
-pub fn enclose(polynomial: &[BigInt], interval: &Interval, bits: u64) -> (BigInt, BigInt) {
+pub(crate) fn enclose(polynomial: &[BigInt], interval: &Interval, bits: u64) -> (BigInt, BigInt) {
     let scale = BigInt::one() << bits;
     let down = (interval.low().numer() * &scale).div_floor(interval.low().denom());
     let up = (interval.high().numer() * &scale).div_ceil(interval.high().denom());

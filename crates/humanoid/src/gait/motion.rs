@@ -69,7 +69,7 @@ impl<'a> Samples<'a> {
 /// # Errors
 /// [`ErrorKind::BadValue`] with the time when a foot is out of reach; [`ErrorKind::Cancelled`] and
 /// [`ErrorKind::Budget`].
-pub fn realise<'w>(
+pub(crate) fn realise<'w>(
     biped: &Biped,
     legs: &Legs,
     samples: &Samples<'_>,

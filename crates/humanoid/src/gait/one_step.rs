@@ -57,7 +57,7 @@ pub struct Instant<'a> {
 
 impl OneStep {
     /// The phases of a walk of `steps` steps.
-    pub fn actions(&self, steps: usize) -> Vec<Action> {
+    pub(crate) fn actions(&self, steps: usize) -> Vec<Action> {
         let step = |step| [Action::Shift(step), Action::Swing(step), Action::Balance(step)];
         let walk = (0..steps).flat_map(step);
         if self.upright.is_some() {
@@ -68,7 +68,13 @@ impl OneStep {
     }
 
     /// The reference at an instant of the schedule. A foot pitches about its ankle, `ankle_height` \[m\] above the sole.
-    pub fn reference(&self, style: &Style, schedule: &Schedule, at: &Instant<'_>, ankle_height: f64) -> Reference {
+    pub(crate) fn reference(
+        &self,
+        style: &Style,
+        schedule: &Schedule,
+        at: &Instant<'_>,
+        ankle_height: f64,
+    ) -> Reference {
         let Instant { phase: place, feet, share } = *at;
         let phase = &schedule.phases[place];
         let (world_from_soles, stands) = self.soles(style, schedule, phase.action, feet, (share, ankle_height));

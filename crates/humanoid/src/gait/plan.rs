@@ -64,7 +64,7 @@ pub fn plan<'w>(biped: &Biped, legs: &Legs, request: &Request, watch: impl Into<
 ///
 /// # Errors
 /// As [`plan`].
-pub fn plan_actions<'w>(
+pub(crate) fn plan_actions<'w>(
     biped: &Biped,
     legs: &Legs,
     request: &Request,

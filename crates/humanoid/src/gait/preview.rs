@@ -135,7 +135,7 @@ fn riccati(a: &Matrix4<f64>, b: &Vector4<f64>) -> Option<Matrix4<f64>> {
 
 /// The reference of the zero moment point: above the supporting foot in single support, and on a smooth path from foot
 /// to foot in double support.
-pub fn zmp_reference(
+pub(crate) fn zmp_reference(
     style: &Style,
     schedule: &Schedule,
     action: Action,

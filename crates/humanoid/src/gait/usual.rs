@@ -121,7 +121,7 @@ impl Usual {
 
     /// The durations of the phases. A step of a one-step-goal walk has two phases in double support, one on each side
     /// of the swing; a step of the other gaits has one.
-    pub fn durations(&self) -> Durations {
+    pub(crate) fn durations(&self) -> Durations {
         let (double, phases) = (self.period * self.double_support, if self.gait.is_one_step() { 2.0 } else { 1.0 });
         Durations { rest: self.rest, shift: double / phases, swing: self.period - double, lower: None }
     }

@@ -221,7 +221,8 @@ impl Run {
     ///
     /// # Errors
     /// As [`Journey::finish`].
-    pub fn finish<'w>(self, watch: impl Into<Option<&'w Watch>>) -> Result<Walk> {
+    #[cfg(feature = "clearance")]
+    pub(crate) fn finish<'w>(self, watch: impl Into<Option<&'w Watch>>) -> Result<Walk> {
         let watch = Watch::or_none(watch);
         self.journey.finish(watch)
     }

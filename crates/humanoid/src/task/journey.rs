@@ -92,7 +92,7 @@ impl<'p> Journey<'p> {
     }
 
     /// The steps that were planned and not taken, with their reasons.
-    pub fn refusals(&self) -> &[Refusal] {
+    pub(crate) fn refusals(&self) -> &[Refusal] {
         &self.refusals
     }
 
@@ -143,7 +143,7 @@ impl<'p> Journey<'p> {
     }
 
     /// The journey with its own copy of the pilot.
-    pub fn into_owned(self) -> Journey<'static> {
+    pub(crate) fn into_owned(self) -> Journey<'static> {
         let Journey { pilot, walk, lead, side, corner, searched, lattice, searches, refused, refusals } = self;
         let pilot = Cow::Owned(pilot.into_owned());
         Journey { pilot, walk, lead, side, corner, searched, lattice, searches, refused, refusals }

@@ -94,7 +94,7 @@ impl Pilot {
 
     /// Same as [`Pilot::within`], but without a test of the greatest steps.
     #[must_use]
-    pub fn at_most(mut self, ahead: f64, turn: f64) -> Self {
+    pub(crate) fn at_most(mut self, ahead: f64, turn: f64) -> Self {
         self.reach.at_most(ahead, turn);
         self
     }
@@ -164,7 +164,12 @@ impl Pilot {
     ///
     /// # Errors
     /// As [`crate::gait::plan`].
-    pub fn stand<'w>(&self, feet: [Footprint; 2], action: Action, watch: impl Into<Option<&'w Watch>>) -> Result<Walk> {
+    pub(crate) fn stand<'w>(
+        &self,
+        feet: [Footprint; 2],
+        action: Action,
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Walk> {
         let watch = Watch::or_none(watch);
         self.walk(Route::at_rest(feet), &[action], watch)
     }

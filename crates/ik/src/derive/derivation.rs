@@ -112,6 +112,7 @@ impl Derivation {
     /// # Errors
     /// [`ErrorKind::Unsupported`] for a chain that does not fit the eigenvalue problem ([`fits`]), that has infinitely many solutions, or that has no regular
     /// and accurate formulation. The error of `watch` if it stops the derivation.
+    #[doc(hidden)]
     pub fn by_eigenvalues<'w>(problem: impl Into<ChainProblem>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
         let watch = Watch::or_none(watch);
         let problem = problem.into();
@@ -159,6 +160,7 @@ impl Derivation {
     }
 
     /// The problem that is solved.
+    #[doc(hidden)]
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
@@ -179,6 +181,7 @@ impl Derivation {
     }
 
     /// The problem and the method with their types.
+    #[doc(hidden)]
     pub fn view(&self) -> AnyView<'_> {
         let program = &self.program;
         match (&self.problem, &self.method) {
@@ -202,16 +205,19 @@ impl Derivation {
     }
 
     /// The view of a chain solved one joint at a time; `None` for another method.
+    #[doc(hidden)]
     pub fn sequential(&self) -> Option<SequentialView<'_>> {
         if let AnyView::Sequential(view) = self.view() { Some(view) } else { None }
     }
 
     /// The view of a chain whose six joints are solved together; `None` for another method.
+    #[doc(hidden)]
     pub fn eigenvalue(&self) -> Option<EigenvalueView<'_>> {
         if let AnyView::Eigenvalue(view) = self.view() { Some(view) } else { None }
     }
 
     /// The view of coupled chains; `None` for another method.
+    #[doc(hidden)]
     pub fn coupled(&self) -> Option<CoupledView<'_>> {
         if let AnyView::Coupled(view) = self.view() { Some(view) } else { None }
     }

@@ -5,7 +5,7 @@ use groebot_runtime::tolerances::ACCEPTANCE;
 
 impl Condition {
     /// The index of the first input, and the number of inputs.
-    pub fn inputs(&self) -> (usize, usize) {
+    pub(crate) fn inputs(&self) -> (usize, usize) {
         match *self {
             Condition::Rotation(first) => (first, 9),
             Condition::Unit(first) => (first, 3),

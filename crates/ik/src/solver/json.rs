@@ -1,4 +1,4 @@
-//! Programs as JSON: format 3, and format 2, which describes the target in words ([`Program::from_json`]).
+//! Programs as JSON: format 3, and format 2, which describes the target as text ([`Program::from_json`]).
 
 use serde::{Deserialize, Serialize};
 
@@ -50,14 +50,15 @@ struct Described {
 
 #[derive(Deserialize)]
 struct AboutTask {
-    /// `pose`, `ray of [1, 0, 0], A3 given`, `left: pose; right: position`, `its equations`.
+    /// Text such as `pose`, `ray of [1, 0, 0], A3 given`, `left: pose; right: position`, `its equations`.
     task: Option<String>,
 }
 
 impl Program {
-    /// Sets the tasks and the given joints of a program of format 2: each task of `described` at inputs with the names
-    /// of its numbers; other inputs are given joints of the same name. Without a description the task is the one with
-    /// the most numbers that are the first inputs.
+    /// Sets the tasks and the given joints of a program of format 2.
+    ///
+    /// Each task of `described` is assigned to the inputs with the names of its numbers. Other inputs are given joints with the same name. Without a
+    /// description, the task is the one with the most numbers that match the first inputs.
     fn interpret(&mut self, described: Option<&str>) {
         let tasks = match described {
             Some(text) => text.split("; ").filter_map(|text| self.described_task(text)).collect(),
@@ -96,8 +97,8 @@ impl Program {
         Some(TipTask { chain: chain.map(str::to_owned), task, direction, first_input })
     }
 
-    /// Whether the inputs from `first` on have the names and the condition of the numbers of `task`; before those of a
-    /// chain is its name.
+    /// Whether the inputs from `first` on have the names and the condition of the numbers of `task`. In a program of several chains, the names have the chain's
+    /// name as prefix.
     fn is_at(&self, task: Task, first: usize, chain: Option<&str>) -> bool {
         let layout = task.layout();
         let Some(inputs) = self.inputs.get(first..first + layout.numbers().len()) else { return false };
@@ -112,7 +113,7 @@ impl Program {
     }
 }
 
-/// The vector that a text starts with: `[1/2, 0, 1]`.
+/// The vector at the start of a text such as `[1/2, 0, 1]`.
 fn vector(text: &str) -> Option<ExactVector> {
     let (inner, _) = text.strip_prefix('[')?.split_once(']')?;
     let entries: Option<Vec<_>> = inner.split(", ").map(|entry| parse_rational(entry).ok()).collect();

@@ -176,7 +176,7 @@ pub struct Preference {
 }
 
 /// The derived solver of one mechanism and task.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Program {
     /// Name of the mechanism: letters, digits and `_`.
     pub name: String,
@@ -266,13 +266,13 @@ impl Program {
     }
 
     /// The highest degree of a polynomial whose roots a case needs; 0 without one.
-    pub fn degree(&self) -> usize {
+    pub(crate) fn degree(&self) -> usize {
         let steps = self.cases().filter(|case| !case.open).flat_map(|case| &case.steps);
         steps.filter(|step| matches!(step, Step::Roots { .. })).map(Step::slots).max().unwrap_or(0)
     }
 
     /// The joints that some case leaves free, ascending.
-    pub fn freed(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn freed(&self) -> impl Iterator<Item = usize> {
         (0..self.joints.len()).filter(|joint| self.cases().any(|case| case.free.contains(joint)))
     }
 
@@ -350,7 +350,7 @@ impl Block {
 
 impl Step {
     /// The number of solutions of the step: the largest degree among the polynomials of a root step, else one.
-    pub fn slots(&self) -> usize {
+    pub(crate) fn slots(&self) -> usize {
         match self {
             Step::Roots { polynomials, .. } => {
                 polynomials.iter().map(|coefficients| coefficients.len().saturating_sub(1)).max().unwrap_or(0)

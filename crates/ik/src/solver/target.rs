@@ -15,7 +15,7 @@ impl Program {
         }
     }
 
-    /// Describes the target: `pose`, `position, ElbowYaw given`, `left: pose; right: ray of [0, 0, 1]`, `its equations`.
+    /// Describes the target, for example `pose`, `position, ElbowYaw given`, `left: pose; right: ray of [0, 0, 1]`, `its equations`.
     pub fn task_text(&self) -> String {
         let tasks: Vec<String> = self.tasks.iter().map(TipTask::to_string).collect();
         let tasks = if tasks.is_empty() { "its equations".to_owned() } else { tasks.join("; ") };
@@ -60,7 +60,7 @@ impl TargetInputs {
         }
     }
 
-    /// As [`Program::numbers`].
+    /// Same as [`Program::numbers`].
     pub fn numbers(&self, target: &Target, given: &[f64]) -> Result<Vec<f64>> {
         let Some((layout, first)) = &self.tip else { return Err(self.refusal("a target of one tip")) };
         let values = layout.values(target)?;
@@ -86,7 +86,7 @@ pub(super) fn condition(tip: &TipTask) -> Option<Condition> {
     rotation.or(layout.direction().map(|place| Condition::Unit(tip.first_input + place)))
 }
 
-/// What is wrong with the tasks and the given joints of a program, if anything is.
+/// The fault in the tasks and the given joints of a program, if there is one.
 pub(super) fn fault(program: &Program) -> Option<&'static str> {
     let count = program.inputs.len();
     let mut users = vec![0_usize; count];

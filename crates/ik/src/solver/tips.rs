@@ -16,7 +16,7 @@ pub struct TipTask {
     pub chain: Option<String>,
     /// The task.
     pub task: Task,
-    /// The direction in the tip frame, of a task that [uses one](Task::aims).
+    /// The direction in the tip frame, for a task that [orients one](Task::aims).
     #[serde(default, skip_serializing_if = "Option::is_none", with = "exact_serde::optional_vector")]
     pub direction: Option<ExactVector>,
     /// The index of the input that is the first number of the task.
@@ -56,7 +56,7 @@ impl TipTask {
     }
 }
 
-/// The task with its chain: `pose`, `right: ray of [0, 0, 1]`.
+/// The task with its chain, such as `pose` or `right: ray of [0, 0, 1]`.
 impl fmt::Display for TipTask {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.chain.as_ref().map_or(Ok(()), |chain| write!(f, "{chain}: "))?;

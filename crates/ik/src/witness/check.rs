@@ -59,16 +59,16 @@ impl Solver for ByScrews {
     }
 }
 
-/// A target and, if it was made from joint values, these.
+/// A target, and the joint values that made it, if any.
 pub(super) struct Target {
     pub kind: Kind,
     pub inputs: Vec<f64>,
     pub joints: Option<Vec<f64>>,
 }
 
-/// The mechanism of a solver under check. Nothing of the solver is used here.
+/// The interface to the mechanism of a solver under check. It is independent of the solver.
 pub(super) trait Subject {
-    /// The largest smallest singular value of a singular row.
+    /// The maximum of the smallest singular value of a row that counts as singular.
     fn singular(&self) -> f64;
 
     /// Whether a search of a round target must find all ordinary solutions.
@@ -101,7 +101,7 @@ pub(super) trait Subject {
     /// The target that `q` reaches with each joint moved by a fraction of a displacement; `shift` gives that displacement for the number of a joint.
     fn moved_target(&self, target: &[f64], q: Vec<f64>, shift: &dyn Fn(usize) -> f64) -> Option<Vec<f64>>;
 
-    /// The joint vectors that the numeric oracle finds from a number of starting points.
+    /// The joint vectors that the numeric oracle finds from `seeds` starting points.
     ///
     /// # Errors
     /// As [`groebot_robot::kinematics::oracle::Oracle::search`].

@@ -26,7 +26,7 @@ const MISSES: f64 = 2.0;
 /// it.
 ///
 /// # Errors
-/// As [`check_equations`], [`check_chain`] and [`coupled::check`].
+/// As [`check_equations`] and [`check_chain`].
 pub fn check<'w>(source: &Source, derivation: &Derivation, watch: impl Into<Option<&'w Watch>>) -> Result<Report> {
     let watch = Watch::or_none(watch);
     let of = |targets, oracle, exact, seed| Options { targets, oracle, exact, seed, draws: Draws::All };

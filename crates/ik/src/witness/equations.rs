@@ -1,4 +1,4 @@
-//! The check of a program that solves equations together: [`check_equations`].
+//! The check of a program that solves equations as one system: [`check_equations`].
 
 use super::chain::model::Joints;
 use super::check::{ByScrews, Check, Subject};
@@ -49,7 +49,7 @@ pub fn check_equations<'w>(
     })
 }
 
-/// Equations, with the chain that they are of.
+/// Equations, with their chain if they have one.
 struct InEquations<'a> {
     model: Model<'a>,
     chain: Option<&'a Chain>,
@@ -109,7 +109,7 @@ impl Subject for InEquations<'_> {
         answers.len() > self.bound
     }
 
-    /// The distance is without free joints.
+    /// Free joints do not contribute to the distance.
     fn known(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> (Option<f64>, Option<Fault>) {
         let gap = |answer: &Solution| self.model.distance(target, q, &member(answer, q));
         let is_found = answers.iter().any(|answer| self.represents(target, answer, q));

@@ -160,3 +160,14 @@ fn the_nearest_candidate_is_none_where_there_are_only_answers() {
     assert_eq!((nearest.residual, nearest.relative), (0.25, 0.25));
     assert!((nearest.q[0] - 0.3).abs() < 0.3, "{nearest:?}");
 }
+
+/// The value of a given joint and a number with its name are two inputs.
+#[test]
+fn a_given_joint_is_no_number_of_its_name() {
+    let mut next = slide();
+    next.given_joints.clear();
+    let program = slide().followed_by(&next, &[]).unwrap();
+    let inputs: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
+    assert_eq!(inputs, ["pan", "x", "pan"]);
+    assert_eq!(program.given_joints, [GivenJoint { joint: 0, input: 0 }]);
+}

@@ -18,6 +18,7 @@ impl Chain {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] with the joint, or with the direction that is not perpendicular to the axis.
+    #[doc(hidden)]
     pub fn check_task(&self) -> Result<()> {
         if let Some(axis) = self.task().axis() {
             self.check_aim(axis)?;

@@ -98,7 +98,7 @@ impl Chain {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] with their names.
-    pub fn check_given(&self, values: &[f64]) -> Result<()> {
+    pub(crate) fn check_given(&self, values: &[f64]) -> Result<()> {
         let count = self.given_inputs().len();
         if values.len() == count && values.iter().all(|value| value.is_finite()) {
             return Ok(());
@@ -109,16 +109,19 @@ impl Chain {
     }
 
     /// All unknowns from the greatest to the smallest, if a term order is requested.
+    #[doc(hidden)]
     pub fn order(&self) -> Option<&[String]> {
         self.parts.order.as_deref()
     }
 
     /// The selected root, if one is selected.
+    #[doc(hidden)]
     pub fn choice(&self) -> Option<&Choice> {
         self.parts.choice.as_ref()
     }
 
     /// The names of all unknowns, joint by joint from the base: c1, s1, c2, s2, d3 ...
+    #[doc(hidden)]
     pub fn unknowns(&self) -> Vec<String> {
         self.joints().iter().flat_map(Joint::unknowns).collect()
     }

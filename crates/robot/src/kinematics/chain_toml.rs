@@ -43,6 +43,7 @@ impl Chain {
     ///
     /// # Errors
     /// Those of [`Chain::from_toml`].
+    #[doc(hidden)]
     pub fn from_table(root: Table<'_>) -> Result<Chain> {
         root.deny_unknown(&ROOT_KEYS)?;
         let joints = root.required("joint")?.tables()?;

@@ -101,6 +101,7 @@ impl Chain {
     ///
     /// # Panics
     /// When `q` has fewer values than the chain has joints.
+    #[doc(hidden)]
     pub fn coupled_jacobian(&self, q: &[f64], held: &[usize]) -> DMatrix<f64> {
         let mut jacobian = self.task_jacobian(q, &[]);
         self.fold_followers(&mut jacobian, |_| 1.0);

@@ -9,7 +9,7 @@ use crate::spatial::exact::vector::unit;
 /// Default tolerance of the idealisation: radians, and fractions of the reach.
 pub const TOLERANCE: f64 = 1e-6;
 /// Maximum tolerance of the idealisation.
-pub const WIDEST: f64 = 0.1;
+pub(crate) const WIDEST: f64 = 0.1;
 
 /// Type of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -43,12 +43,12 @@ impl Trace {
     }
 
     /// Entries of the matrices of a replay.
-    pub fn terms(&self) -> usize {
+    pub(crate) fn terms(&self) -> usize {
         self.rounds.iter().map(|round| round.shape.entries.len()).sum::<usize>() + self.last.entries.len()
     }
 
     /// Size of the trace in bytes.
-    pub fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         let supports = |list: &[Box<[u32]>]| list.iter().map(|s| 4 * s.len()).sum::<usize>();
         let rounds: usize = self.rounds.iter().map(|round| round.shape.bytes() + supports(&round.supports)).sum();
         rounds + self.last.bytes() + supports(&self.supports)

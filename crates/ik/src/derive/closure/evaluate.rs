@@ -51,20 +51,6 @@ pub fn evaluate<A: Arithmetic>(
     Ok(left.sub(&right, arithmetic))
 }
 
-/// `measure(fixed, word moved)`: one side of `relation`.
-///
-/// # Errors
-/// As [`evaluate`].
-pub fn evaluate_side<A: Arithmetic>(
-    mechanism: &Mechanism,
-    relation: &Relation,
-    word: &Word,
-    assignment: &Assignment<A::Value>,
-    arithmetic: &mut A,
-) -> Result<Multilinear<A::Value>> {
-    Evaluation { mechanism, assignment, arithmetic }.side(relation, word)
-}
-
 /// An evaluation in progress.
 #[non_exhaustive]
 pub struct Evaluation<'a, A: Arithmetic> {

@@ -26,10 +26,10 @@ pub use arithmetic::{Arithmetic, Exact, Factor, Factors, Modular, Multilinear, P
 pub use assignment::{Assignment, JointValue, Target, TargetRotation};
 pub use coupling::{Coupling, Law};
 pub(crate) use evaluate::Evaluation;
-pub use evaluate::{Image, Vector, evaluate, evaluate_side};
+pub use evaluate::{Image, Vector, evaluate};
 pub(crate) use explain::show;
 pub(super) use feature::common_point_of as common_point;
-pub use mechanism::{Mechanism, ScrewJoint, Standing};
+pub use mechanism::{Mechanism, ScrewJoint, UprightLoop};
 pub use prove::prove;
 pub use relation::{Letter, Measure, Object, Relation, Word};
 pub(super) use vector::parallel;

@@ -1,8 +1,9 @@
 //! From coupled chains to one solver: [`Coupled`].
 
 use super::model::{CoupledChain, CoupledChains, JointPlace};
+use super::origin::{Origin, origins};
 use crate::derive::closure::Mechanism;
-use crate::derive::planner::{self, Plan, PlanStep, Way};
+use crate::derive::planner::{self, Plan, PlanStep, StepMethod};
 use crate::derive::problem::ChainProblem;
 use crate::derive::sequential::{Sequential, SequentialView, Side, Simultaneous};
 use crate::derive::view::View;
@@ -27,15 +28,6 @@ pub struct ChainStage {
     pub joints: Vec<usize>,
     /// By input of the chain's own solver: the source of its value.
     pub(super) inputs: Vec<Origin>,
-}
-
-/// The source of the value of a chain's input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Origin {
-    /// The input of the whole solver with this index.
-    Target(usize),
-    /// The joint of the whole solver with this index.
-    Joint(usize),
 }
 
 /// A function that returns the solution of one of the chains, and its solver.
@@ -162,7 +154,7 @@ impl CoupledView<'_> {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for another number of joints.
-    pub fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
+    pub(crate) fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
         let mut target = vec![0.0; self.program.inputs.len()];
         for stage in &self.method.stages {
             stage.write(&stage.problem.reached(&self.joints_of(stage.member, q)?)?, &mut target);
@@ -172,7 +164,7 @@ impl CoupledView<'_> {
     }
 
     /// Writes the values of the joints that the user gives into a target of the solver.
-    pub fn write_given(&self, q: &[f64], target: &mut [f64]) {
+    pub(crate) fn write_given(&self, q: &[f64], target: &mut [f64]) {
         self.program.given_joints.iter().for_each(|given| target[given.input] = q[given.joint]);
     }
 }
@@ -264,15 +256,6 @@ impl ChainStage {
     }
 }
 
-/// The origins of the inputs of a chain's own program `own`: inputs of the solver, by their `places`, and joints that are `found` before.
-fn origins(own: &Program, places: &[Option<usize>], found: &[Option<usize>]) -> Vec<Origin> {
-    let joint =
-        |input: usize| own.given_joints.iter().find(|given| given.input == input).and_then(|given| found[given.joint]);
-    let origin =
-        |(input, place): (usize, &Option<usize>)| joint(input).map(Origin::Joint).or(place.map(Origin::Target));
-    places.iter().enumerate().filter_map(origin).collect()
-}
-
 /// The part that is derived so far.
 struct Found<'a> {
     coupled: &'a CoupledChains,
@@ -361,13 +344,13 @@ fn derived(problem: &ChainProblem, least: usize, watch: &Watch) -> Result<(Seque
 fn without(known: &[usize], steps: Vec<PlanStep>) -> Vec<PlanStep> {
     let (gone, mut kept): (Vec<PlanStep>, Vec<PlanStep>) =
         steps.into_iter().partition(|step| known.contains(&step.joint));
-    for other in gone.iter().flat_map(|step| step.way.relations()) {
+    for other in gone.iter().flat_map(|step| step.method.relations()) {
         let left: Vec<usize> = other.joints().into_iter().filter(|joint| !known.contains(joint)).collect();
         for step in &mut kept {
-            if let Way::Single(own) = &step.way
+            if let StepMethod::Single(own) = &step.method
                 && left == [step.joint]
             {
-                step.way = Way::Pair([own.clone(), other.clone()]);
+                step.method = StepMethod::Pair([own.clone(), other.clone()]);
                 step.degree = 1;
             }
         }

@@ -35,7 +35,7 @@ pub struct Determinant {
 }
 
 impl Determinant {
-    /// Evaluates the determinant of `formulation` for `chain`, which has six joints. The formulation must be valid ([`Formulation::is_valid`]).
+    /// Evaluates the determinant of `formulation` for `chain`, which has six joints. The formulation must be valid.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] if the prime divides a denominator of the chain, or if a random number is zero.

@@ -34,15 +34,12 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
     let tip = system.task.map(|task| TipTask { chain: None, task, direction: None, first_input: 0 });
     let program = Program {
         name: system.name.clone(),
-        about: None,
         tasks: tip.into_iter().collect(),
-        given_joints: Vec::new(),
         inputs: system
             .inputs
             .iter()
             .map(|i| Input { name: i.name.clone(), unit: Unit::of(i.quantity, system.length_unit) })
             .collect(),
-        conditions: Vec::new(),
         parameters: compiler.parameters()?,
         unknowns: system.order.clone(),
         joints: system.joints.iter().map(|joint| compiler.joint(joint)).collect::<Result<_>>()?,
@@ -52,8 +49,7 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
         preference: compiler.preference()?,
         capacity,
         isolated,
-        nearby: false,
-        described: None,
+        ..Program::default()
     }
     .pruned();
     program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;

@@ -144,7 +144,7 @@ fn open_node(node: &Node, factor: Expression, reason: String) -> Node {
 }
 
 /// One line that summarises the solution of a stratum.
-pub fn describe(node: &Node) -> String {
+pub(crate) fn describe(node: &Node) -> String {
     match &node.outcome {
         Outcome::Solved(solved) if solved.inherited => "the formulas of the stratum around it hold here too".to_owned(),
         Outcome::Solved(solved) => match solved.triangular.bound() {

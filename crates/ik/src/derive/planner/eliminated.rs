@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::one_joint::Candidate;
-use super::types::{PlanStep, Way};
+use super::types::{PlanStep, StepMethod};
 use crate::derive::closure::{Factor, Mechanism};
 use crate::derive::samples::echelon::Echelon;
 use crate::derive::samples::evidence::Space;
@@ -66,8 +66,8 @@ pub fn eliminations(
             let effort = 10 * places.len() + symbols + HARD * hard;
             if best[at].as_ref().is_none_or(|(step, least)| (degree, effort) < (step.degree, *least)) {
                 let relations = some.iter().map(|(index, _)| sampled.relations[*index].clone()).collect();
-                let way = Way::Eliminated { relations, away };
-                best[at] = Some((PlanStep { joint: places[at], way, degree }, effort));
+                let method = StepMethod::Eliminated { relations, away };
+                best[at] = Some((PlanStep { joint: places[at], method, degree }, effort));
             }
         }
     }
@@ -81,7 +81,7 @@ pub fn eliminations(
 /// # Errors
 /// As [`SampledRelations::of`]. The error of `watch` if it stops the count.
 pub fn count(sampled: &mut SampledRelations<'_>, step: &PlanStep, watch: &Watch) -> Result<usize> {
-    let Way::Eliminated { relations, away } = &step.way else { return Ok(step.degree) };
+    let StepMethod::Eliminated { relations, away } = &step.method else { return Ok(step.degree) };
     let places = members(set(away) | 1 << step.joint);
     let mut some: Vec<IndexedRelation> = Vec::with_capacity(relations.len());
     for relation in relations {

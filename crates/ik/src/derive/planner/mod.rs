@@ -19,7 +19,7 @@ pub use fitting::fitting_task;
 pub use given::{Candidate, Choice, joints_to_give};
 pub(super) use recount::{same_degrees, same_evidence};
 pub(super) use refuse::not_derived;
-pub use types::{Evidence, Plan, PlanStep, Way};
+pub use types::{Evidence, Plan, PlanStep, StepMethod};
 
 use crate::derive::closure::{Mechanism, Relation, prove};
 use crate::derive::samples;
@@ -53,7 +53,7 @@ pub fn plan<'w>(mechanism: &Mechanism, watch: impl Into<Option<&'w Watch>>) -> R
     };
     let dimension = evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(0);
     let steps = search(mechanism, &relations, &evidence[0], dimension, watch)?;
-    for relation in steps.iter().flat_map(|step| step.way.relations()) {
+    for relation in steps.iter().flat_map(|step| step.method.relations()) {
         watch.check()?;
         prove(mechanism, relation)?;
     }

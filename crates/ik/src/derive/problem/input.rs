@@ -340,7 +340,7 @@ impl Source {
     }
 
     /// The chain, if it is solved joint by joint. A chain with an order of unknowns or a choice of root is solved as one system instead.
-    pub fn chain_by_steps(&self) -> Option<&Chain> {
+    pub(crate) fn chain_by_steps(&self) -> Option<&Chain> {
         self.chain.as_ref().filter(|chain| chain.order().is_none() && chain.choice().is_none())
     }
 }

@@ -8,15 +8,15 @@ use groebot_robot::kinematics::{Choice, LengthUnit, Task};
 pub use groebot_robot::kinematics::Quantity;
 
 /// The maximum number of unknowns of a system.
-pub const MAX_UNKNOWNS: usize = 16;
+pub(crate) const MAX_UNKNOWNS: usize = 16;
 /// The maximum number of inputs, and of parameters, of a system.
-pub const MAX_PARAMETERS: usize = 64;
+pub(crate) const MAX_PARAMETERS: usize = 64;
 /// The maximum number of terms in the expansion of an equation or a square, by [`Expression::expansion_bound`].
-pub const MAX_TERMS: f64 = 1e5;
+pub(crate) const MAX_TERMS: f64 = 1e5;
 /// The maximum total degree of an equation or a square.
-pub const MAX_DEGREE: u64 = 1000;
+pub(crate) const MAX_DEGREE: u64 = 1000;
 /// The maximum number of bits of a coefficient in such an expansion.
-pub const MAX_BITS: f64 = 2e5;
+pub(crate) const MAX_BITS: f64 = 2e5;
 
 /// One value that a user gives as the target.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -75,7 +75,7 @@ pub enum JointKindUnknown {
 
 impl JointKindUnknown {
     /// The unknowns of this joint: cosine and sine, or the one value.
-    pub fn unknowns(&self) -> Vec<&str> {
+    pub(crate) fn unknowns(&self) -> Vec<&str> {
         match self {
             JointKindUnknown::Angle { cosine, sine } => vec![cosine, sine],
             JointKindUnknown::Value { unknown } => vec![unknown],

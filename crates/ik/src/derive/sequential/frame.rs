@@ -19,7 +19,6 @@ pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Pr
     let reach = reach(chain);
     Program {
         name: word(chain.name()),
-        about: None,
         checks: checks(mechanism, &layout, reach),
         joints: joints(chain, &layout),
         tasks: vec![TipTask::of(chain)],
@@ -30,11 +29,7 @@ pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Pr
         unknowns: layout.unknowns,
         scale: reach,
         capacity: 1,
-        isolated: None,
-        nearby: false,
-        described: None,
-        blocks: Vec::new(),
-        preference: None,
+        ..Program::default()
     }
 }
 

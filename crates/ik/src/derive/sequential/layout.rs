@@ -5,7 +5,7 @@ use num_traits::ToPrimitive;
 use super::emit::{Emitted, Emitter};
 use super::ray;
 use crate::Result;
-use crate::derive::closure::{self, Arithmetic, Assignment, Mechanism, ScrewJoint, Standing, Target};
+use crate::derive::closure::{self, Arithmetic, Assignment, Mechanism, ScrewJoint, Target, UprightLoop};
 use crate::derive::equations::assemble::Assembler;
 use crate::solver::{
     Condition, Following, GivenJoint, Input, Instruction, JointValue, Operand, Operation, ParameterRule, Rule, Unit,
@@ -28,7 +28,7 @@ pub(super) struct Layout {
     /// By joint: the parameters with its value if it is given: a cosine and a sine, or a length.
     pub given: Vec<Vec<usize>>,
     /// For a target with pitch and roll, the parameters with the cosine and the sine of the roll, and of the pitch.
-    pub told: Option<[usize; 4]>,
+    pub pitch_roll: Option<[usize; 4]>,
     /// For such a target, the unknowns with the cosine and the sine of the arm's first joint.
     pub swing: Option<[usize; 2]>,
     /// The index of the first parameter of the target.
@@ -47,7 +47,7 @@ impl Layout {
             joints: Vec::new(),
             across: None,
             given: vec![Vec::new(); mechanism.joints().len()],
-            told: None,
+            pitch_roll: None,
             swing: None,
             first: 0,
         };
@@ -62,13 +62,13 @@ impl Layout {
             };
             layout.joints.push(value);
         }
-        layout.swing = mechanism.standing().map(|standing| {
-            let symbol = &standing.plain.joints()[0].symbol;
+        layout.swing = mechanism.upright_loop().map(|upright_loop| {
+            let symbol = &upright_loop.plain.joints()[0].symbol;
             ["c", "s"].map(|letter| layout.unknown(&format!("{letter}{symbol}")))
         });
         layout.across = mechanism
             .hidden()
-            .filter(|_| mechanism.standing().is_none())
+            .filter(|_| mechanism.upright_loop().is_none())
             .map(|_| ["u", "v"].map(|letter| ["x", "y", "z"].map(|axis| layout.unknown(&format!("{letter}{axis}")))));
         layout.givens(mechanism, unit);
         layout
@@ -76,8 +76,8 @@ impl Layout {
 
     /// Adds the inputs and parameters of the given joints. Those that follow others come last.
     fn givens(&mut self, mechanism: &Mechanism, length: LengthUnit) {
-        if let Some(standing) = mechanism.standing() {
-            return self.standing_givens(mechanism, standing, length);
+        if let Some(upright_loop) = mechanism.upright_loop() {
+            return self.upright_givens(mechanism, upright_loop, length);
         }
         let (followers, inputs): (Vec<usize>, Vec<usize>) =
             mechanism.given().iter().partition(|&&index| mechanism.joints()[index].follows.is_some());
@@ -110,22 +110,22 @@ impl Layout {
 
     /// Adds the given joints of a loop that replaces a target with pitch and roll. The loop's own given joints (pitch, roll, distance from the first axis,
     /// height) get their values from the target.
-    fn standing_givens(&mut self, mechanism: &Mechanism, standing: &Standing, length: LengthUnit) {
-        let (own, told) = mechanism.given().split_at(mechanism.given().len() - GIVEN.len());
+    fn upright_givens(&mut self, mechanism: &Mechanism, upright_loop: &UprightLoop, length: LengthUnit) {
+        let (own, of_target) = mechanism.given().split_at(mechanism.given().len() - GIVEN.len());
         self.give_inputs(mechanism, own, length);
         let turn = |input| [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)];
-        let way = Rule::Root { code: Vec::new(), value: Operand::Constant(0.0) };
+        let unused = Rule::Root { code: Vec::new(), value: Operand::Constant(0.0) };
         let layout = mechanism.task().layout();
         let number = |number| turn(layout.place(number).unwrap_or(0));
         let height = number(TargetNumber::Position(BaseAxis::Z));
-        let distance = [way.clone(), way, radius(standing)];
+        let distance = [unused.clone(), unused, radius(upright_loop)];
         let rules = [number(TargetNumber::Roll), number(TargetNumber::Pitch), distance, height];
-        for (&index, rules) in told.iter().zip(rules) {
+        for (&index, rules) in of_target.iter().zip(rules) {
             self.give(&mechanism.joints()[index], index, rules);
         }
-        let of = |k: usize| told.get(k).map(|&index| self.given[index].clone()).unwrap_or_default();
+        let of = |k: usize| of_target.get(k).map(|&index| self.given[index].clone()).unwrap_or_default();
         if let (&[cr, sr], &[cp, sp]) = (&of(0)[..], &of(1)[..]) {
-            self.told = Some([cr, sr, cp, sp]);
+            self.pitch_roll = Some([cr, sr, cp, sp]);
         }
     }
 
@@ -187,7 +187,7 @@ impl Layout {
         let emitter = &mut Emitter(assembler);
         let parameters = match self.across {
             Some(across) => ray::turned(mechanism, across, emitter),
-            None if mechanism.standing().is_some() => closed(Emitted::integer),
+            None if mechanism.upright_loop().is_some() => closed(Emitted::integer),
             None => {
                 let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
                 let factor =
@@ -231,7 +231,7 @@ impl Layout {
         let emitter = &mut super::emit::Sizes(assembler);
         let lengths = mechanism.seen().layout().lengths();
         let size = |index: usize| if index < lengths { Emitted::code(Operand::Magnitude) } else { Emitted::integer(1) };
-        let parameters: Vec<Emitted> = match mechanism.standing() {
+        let parameters: Vec<Emitted> = match mechanism.upright_loop() {
             Some(_) => closed(Emitted::integer),
             None => (0..mechanism.parameters().len()).map(size).collect(),
         };
@@ -274,9 +274,9 @@ fn closed(integer: impl Fn(i32) -> Emitted) -> Vec<Emitted> {
 }
 
 /// The rule for the distance of the target from the first axis. The first two parameters are its position seen from above.
-fn radius(standing: &Standing) -> Rule {
+fn radius(upright_loop: &UprightLoop) -> Rule {
     let register = Operand::Register;
-    let [x, y] = standing.upright.axis.each_ref().map(|x| Operand::Constant(x.to_f64().unwrap_or(0.0)));
+    let [x, y] = upright_loop.upright.axis.each_ref().map(|x| Operand::Constant(x.to_f64().unwrap_or(0.0)));
     let operations = [
         Operation::Sub(Operand::Parameter(0), x),
         Operation::Sub(Operand::Parameter(1), y),

@@ -21,7 +21,7 @@ use super::slack::Slack;
 use super::symbolic::Symbolic;
 use crate::derive::closure::{Mechanism, Relation, Word, prove};
 use crate::derive::equations::certificate::refused;
-use crate::derive::planner::{PlanStep, Way};
+use crate::derive::planner::{PlanStep, StepMethod};
 use crate::solver::{
     Block, Checks, Condition, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Program, Rule,
     TipTask, Unit,
@@ -99,7 +99,7 @@ impl Simultaneous {
     ///
     /// # Errors
     /// [`ErrorKind::Certificate`] if there are not two. This does not occur for a derivation that this crate made.
-    pub fn relations(&self) -> Result<[&Relation; 2]> {
+    pub(crate) fn relations(&self) -> Result<[&Relation; 2]> {
         match self.steps.first().map(|step| step.relations.as_slice()) {
             Some([f, g]) => Ok([f, g]),
             _ => Err(refused("shared joints follow from two relations".to_owned())),
@@ -244,8 +244,8 @@ impl<'a> Common<'a> {
         let (&[leading, following], Some(elimination)) = (joints, elimination) else {
             return Ok(self.unknown.iter().map(|joint| by_pair(*joint)).collect());
         };
-        let way = Way::Eliminated { relations: relations.to_vec(), away: vec![following] };
-        let leader = PlanStep { joint: leading, way, degree: 4 };
+        let method = StepMethod::Eliminated { relations: relations.to_vec(), away: vec![following] };
+        let leader = PlanStep { joint: leading, method, degree: 4 };
         let shape = eliminated(&self.mechanisms[0], &leader, &elimination)?;
         let relations = relations.to_vec();
         Ok(vec![ProvedStep { joint: leading, relations, elimination: Some(elimination), shape }, by_pair(following)])
@@ -278,7 +278,6 @@ impl<'a> Common<'a> {
         let checks = held(&layout, self.mechanisms[0].given(), self.shared);
         let mut program = Program {
             name: "shared".to_owned(),
-            about: None,
             joints: layout.joints.iter().zip(self.sides[0].chain.joints()).take(self.shared).map(joint).collect(),
             tasks: vec![TipTask::of(self.sides[0].chain)],
             given_joints: layout.given_joints,
@@ -288,12 +287,9 @@ impl<'a> Common<'a> {
             unknowns: layout.unknowns,
             blocks,
             checks,
-            preference: None,
             capacity: 1,
-            isolated: None,
-            nearby: false,
-            described: None,
             scale,
+            ..Program::default()
         }
         .prefixed(self.sides[0].prefix);
         let (first, prefix) = (program.inputs.len(), self.sides[1].prefix);

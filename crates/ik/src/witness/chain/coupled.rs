@@ -23,7 +23,11 @@ use groebot_robot::kinematics::{Chain, Solution};
 ///
 /// # Errors
 /// As [`super::check_chain`].
-pub fn check<'w>(derived: CoupledView<'_>, options: &Options, watch: impl Into<Option<&'w Watch>>) -> Result<Report> {
+pub(crate) fn check<'w>(
+    derived: CoupledView<'_>,
+    options: &Options,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Report> {
     let watch = Watch::or_none(watch);
     let model = CoupledModel::new(derived);
     let leading = derived.method.stages.iter().map(|stage| leading(derived, stage)).collect::<Result<Vec<Chain>>>()?;

@@ -138,13 +138,13 @@ impl Subject for Moving<'_> {
         (residual, residual > self.tolerance)
     }
 
-    /// Several members may represent one self-motion.
+    /// Several members may represent one self-motion, so only solutions without free joints are counted.
     fn are_too_many(&self, answers: &[Solution]) -> bool {
         let single = answers.iter().filter(|answer| answer.free.is_empty()).count();
         self.bound.is_some_and(|bound| single > bound)
     }
 
-    /// The fault also if a self-motion with the joint values is not reported as one.
+    /// There is also a fault if a self-motion with the joint values is not reported as one.
     fn known(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> (Option<f64>, Option<Fault>) {
         if self.is_member(target, answers, q) {
             return (None, None);
@@ -167,8 +167,8 @@ impl Subject for Moving<'_> {
         !is_sure || some.iter().any(is_same) || self.is_member(target, some, &answer.q)
     }
 
-    /// The screw solver loses solutions next to singular configurations and for tasks that ask for more than the joints can do. There, forward kinematics alone
-    /// checks ours.
+    /// The screw solver loses solutions next to singular configurations and for overdetermined tasks (more numbers than independent joints). There, forward
+    /// kinematics alone checks ours.
     fn is_found_by_screws(&self, answer: &Solution) -> bool {
         let jacobian = self.model.jacobian(&answer.q);
         self.model.sigma(&answer.q) > WITNESS.ordinary && jacobian.nrows() <= jacobian.ncols()

@@ -38,7 +38,13 @@ pub struct Regressor<'a, S> {
 impl<S: Scalar> Data<S> {
     /// Computes the regressor in row-major order. Columns are the ten inertial parameters of each body, a floating base
     /// first. `links` are the frames, relative to the bodies' own, in which the parameters are given, the base first.
-    pub fn regressor(&mut self, tree: &Tree<S>, motion: &Motion<'_, S>, links: &[Frame<S>], into: Regressor<'_, S>) {
+    pub(crate) fn regressor(
+        &mut self,
+        tree: &Tree<S>,
+        motion: &Motion<'_, S>,
+        links: &[Frame<S>],
+        into: Regressor<'_, S>,
+    ) {
         let Regressor { torques, first, rows: out } = into;
         self.inverse(tree, motion, &[], torques);
         let counts = usize::from(first > 0);

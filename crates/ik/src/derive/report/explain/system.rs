@@ -152,7 +152,7 @@ fn plan(page: &mut Document, derivation: EquationsView<'_>) -> Result<()> {
     Ok(())
 }
 
-/// A tree of strata: its bases with their proofs, or the formulas of one unknown after the other.
+/// Adds a tree of strata: its bases with their proofs, or the formulas of one unknown after the other.
 fn tree(
     page: &mut Document,
     derivation: EquationsView<'_>,
@@ -200,10 +200,10 @@ fn basis(page: &mut Document, (index, title): (usize, &str), solved: &Solved) {
     }
 }
 
-/// How many values each unknown of a triangular form takes.
+/// The number of values of each unknown of a triangular form, as text.
 fn values(solved: &Solved) -> Vec<Line> {
     let degrees = solved.triangular.stairs.iter().zip(solved.triangular.degrees());
-    let ways = degrees.map(|(stair, degree)| {
+    let degrees = degrees.map(|(stair, degree)| {
         let unknown = &solved.triangular.ring.variables()[stair.unknown];
         let count = if degree == 1 {
             "one value, for its polynomial is linear".to_owned()
@@ -212,7 +212,7 @@ fn values(solved: &Solved) -> Vec<Line> {
         };
         Line::default().formula(unknown).and(": ").and(&count).and(".")
     });
-    ways.collect()
+    degrees.collect()
 }
 
 fn branches(page: &mut Document, derivation: EquationsView<'_>) {
