@@ -1,6 +1,7 @@
 //! From coupled chains to one solver: [`Coupled`].
 
 use super::model::{CoupledChain, CoupledChains, JointPlace};
+use super::origin::{Origin, origins};
 use crate::derive::closure::Mechanism;
 use crate::derive::planner::{self, Plan, PlanStep, StepMethod};
 use crate::derive::problem::ChainProblem;
@@ -27,15 +28,6 @@ pub struct ChainStage {
     pub joints: Vec<usize>,
     /// By input of the chain's own solver: the source of its value.
     pub(super) inputs: Vec<Origin>,
-}
-
-/// The source of the value of a chain's input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Origin {
-    /// The input of the whole solver with this index.
-    Target(usize),
-    /// The joint of the whole solver with this index.
-    Joint(usize),
 }
 
 /// A function that returns the solution of one of the chains, and its solver.
@@ -262,15 +254,6 @@ impl ChainStage {
         };
         self.inputs.iter().map(value).collect()
     }
-}
-
-/// The origins of the inputs of a chain's own program `own`: inputs of the solver, by their `places`, and joints that are `found` before.
-fn origins(own: &Program, places: &[Option<usize>], found: &[Option<usize>]) -> Vec<Origin> {
-    let joint =
-        |input: usize| own.given_joints.iter().find(|given| given.input == input).and_then(|given| found[given.joint]);
-    let origin =
-        |(input, place): (usize, &Option<usize>)| joint(input).map(Origin::Joint).or(place.map(Origin::Target));
-    places.iter().enumerate().filter_map(origin).collect()
 }
 
 /// The part that is derived so far.
