@@ -97,10 +97,9 @@ pub mod model {
 /// Serial chains: forward kinematics, Jacobians, screw theory, and the interface of all solvers.
 pub mod kinematics {
     pub use groebot_robot::kinematics::{
-        Ball, BaseAxis, Chain, ChainParts, Choice, DhConvention, DhRow, DhTable, ExactMatrix, ExactRotation,
-        ExactVector, Geometry, InverseKinematics, Joint, JointKind, Layout, LengthUnit, LinkPath, Meant, Mimic, Placed,
-        Placement, Plane, Quantity, Root, Solution, Target, TargetNumber, Task, Tip, TipChoice, Turn, jacobian,
-        numeric, screw,
+        BaseAxis, Chain, ChainParts, Choice, DhConvention, DhRow, DhTable, ExactMatrix, ExactRotation, ExactVector,
+        Geometry, InverseKinematics, Joint, JointKind, Layout, LengthUnit, LinkPath, Meant, Mimic, Placed, Placement,
+        Plane, Quantity, Root, Solution, Target, TargetNumber, Task, Tip, TipChoice, Turn, jacobian, numeric, screw,
     };
     /// The nearest ideal robot, and what it changes.
     pub mod ideal {
