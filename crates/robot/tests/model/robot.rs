@@ -161,8 +161,8 @@ fn what_is_no_joint_is_refused() {
     refused(links, with(&|joint| joint.kind = JointType::Prismatic), BadValue, "needs limits");
     refused(links, with(&|joint| joint.limits = Some((2.0, 1.0))), BadValue, "inverted");
     refused(links, with(&|joint| joint.limits = Some((f64::NEG_INFINITY, 1.0))), BadValue, "not finite");
-    refused(links, with(&|joint| joint.mimic = follows("k")), UnknownName, "mimics `k`, which is no joint");
-    refused(links, with(&|joint| joint.mimic = follows("j")), BadValue, "mimic one another");
+    refused(links, with(&|joint| joint.mimic = follows("k")), UnknownName, "mimics `k`, which is not a joint");
+    refused(links, with(&|joint| joint.mimic = follows("j")), BadValue, "is a cycle");
 }
 
 /// Joints j0 to j(n-1) from the link l0; each follows the previous one.
@@ -203,8 +203,8 @@ fn what_is_no_chain_is_refused() {
     refused(None, None, ErrorKind::MissingKey, "choose a tip link, such as `c`");
     refused(None, Some("e"), ErrorKind::UnknownName, "the tip `e` is no link");
     refused(Some("x"), Some("d"), ErrorKind::UnknownName, "the base `x` is no link");
-    refused(Some("b"), Some("d"), ErrorKind::BadValue, "nothing moves between `b` and `d`");
-    refused(Some("d"), Some("d"), ErrorKind::BadValue, "nothing moves between");
+    refused(Some("b"), Some("d"), ErrorKind::BadValue, "no joint moves between `b` and `d`");
+    refused(Some("d"), Some("d"), ErrorKind::BadValue, "no joint moves between");
     let chain = tree.chain(None, Some("d")).unwrap();
     assert_eq!((chain.joints().len(), chain.joints()[0].kind), (1, JointKind::Revolute));
     assert!((chain.base_from_tip().translation.x - 0.5).abs() < 1e-15, "the fixed joint counts");
