@@ -188,7 +188,8 @@ fn a_damaged_mesh_is_named() {
         let mesh = "<visual><geometry><mesh filename='part.stl'/></geometry></visual>";
         fs::write(&urdf, format!("<robot name='r'><link name='a'>{mesh}{shape}</link></robot>")).unwrap();
     };
-    let check_message = |reported: &str| assert!(reported.contains("part.stl: line 3: this is no STL"), "{reported}");
+    let check_message =
+        |reported: &str| assert!(reported.contains("part.stl: line 3: this is not an STL file"), "{reported}");
     robot("");
     check_message(&refused(&["export", text(&urdf), "--meshes", "--to", "glb", "-o", text(&out)]));
     check_message(&refused(&["view", text(&urdf), "--meshes", "-o", text(&out)]));

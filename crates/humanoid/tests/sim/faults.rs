@@ -175,7 +175,7 @@ fn what_the_tree_rests_on_is_refused_everywhere() {
     for (from, to, words) in [
         ("<parent link=\"base\"/>", "", "joint `pan`: <joint> has no <parent"),
         ("<parent link=\"base\"/>", "<parnt link=\"base\"/>", "did you mean `parent`?"),
-        ("<parent link=\"base\"/>", "<parent link=\"bse\"/>", "joint `pan`: its parent `bse` is no link"),
+        ("<parent link=\"base\"/>", "<parent link=\"bse\"/>", "joint `pan`: its parent `bse` is not a link"),
         ("<child link=\"cam\"/>", "<child link=\"tip\"/>", "is already the child of joint `j2`"),
         ("<parent link=\"base\"/>", "<parent link=\"cam\"/>", "loop"),
         ("name=\"pan\"", "", "<joint> has no `name`"),

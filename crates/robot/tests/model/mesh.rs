@@ -136,7 +136,10 @@ fn damage_is_named_with_its_place() {
         fault(bytes).unwrap()
     };
     let short = changed(&|bytes| bytes.truncate(84 + 2 * 50 + 7));
-    assert!(short.message().contains("counts 4 triangles") && short.message().contains("in triangle 3"), "{short}");
+    assert!(
+        short.message().contains("the number 4 of triangles") && short.message().contains("in triangle 3"),
+        "{short}"
+    );
     let long = changed(&|bytes| bytes.extend([0; 50]));
     assert!(long.message().contains("after the last triangle"), "{long}");
     let infinite = changed(&|bytes| bytes[84 + 50 + 12..][..4].copy_from_slice(&f32::INFINITY.to_le_bytes()));

@@ -123,7 +123,7 @@ fn what_is_no_tree_is_refused() {
     refused(&[], vec![], MissingKey, "no <link>");
     refused(&["a", "a"], vec![], DuplicateName, "link `a`");
     refused(&["a", "b", "c"], vec![joint("j", "a", "b"), joint("j", "b", "c")], DuplicateName, "joint `j`");
-    refused(&["a", "b"], vec![joint("j", "a", "x")], UnknownName, "joint `j`: its child `x` is no link");
+    refused(&["a", "b"], vec![joint("j", "a", "x")], UnknownName, "joint `j`: its child `x` is not a link");
     refused(&["a", "base"], vec![joint("j", "bass", "a")], UnknownName, "did you mean `base`?");
     refused(&["a", "b", "c"], vec![joint("j", "a", "b")], BadValue, "2 links have no parent joint: `a`, `c`");
     refused(&["a", "b"], vec![joint("j", "a", "b"), joint("k", "b", "a")], BadValue, "loop");
@@ -201,8 +201,8 @@ fn what_is_no_chain_is_refused() {
     };
     refused(None, Some("c"), ErrorKind::Unsupported, "joint `bc`: the type `planar` is not supported");
     refused(None, None, ErrorKind::MissingKey, "choose a tip link, such as `c`");
-    refused(None, Some("e"), ErrorKind::UnknownName, "the tip `e` is no link");
-    refused(Some("x"), Some("d"), ErrorKind::UnknownName, "the base `x` is no link");
+    refused(None, Some("e"), ErrorKind::UnknownName, "the tip `e` is not a link");
+    refused(Some("x"), Some("d"), ErrorKind::UnknownName, "the base `x` is not a link");
     refused(Some("b"), Some("d"), ErrorKind::BadValue, "no joint moves between `b` and `d`");
     refused(Some("d"), Some("d"), ErrorKind::BadValue, "no joint moves between");
     let chain = tree.chain(None, Some("d")).unwrap();

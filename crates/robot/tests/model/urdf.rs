@@ -129,7 +129,7 @@ fn mistakes_have_a_line_and_a_name() {
             "<parent link=\"palm\"/>",
             "<parent link=\"plam\"/>",
             UnknownName,
-            "joint `knuckle`: its parent `plam` is no link",
+            "joint `knuckle`: its parent `plam` is not a link",
         ),
         ("<parent link=\"palm\"/>", "<parent link=\"fingertip\"/>", BadValue, "loop"),
         ("<link name=\"palm\"/>", "<link name=\"palm\"/><link name=\"thumb\"/>", BadValue, "`palm`, `thumb`"),
