@@ -171,7 +171,7 @@ fn subproblems(c: &mut Criterion) {
         let term = |i: usize| h[i].dot(&(Rotation3::from_axis_angle(&k[i], q[i % 2]) * p[i]));
         (h, k, p, term(0) + term(1), term(2) + term(3))
     };
-    each(c, "four_circles", equations, |(h, k, p, d1, d2)| four_circles(*h, *k, *p, *d1, *d2, exact).len());
+    each(c, "four_circles", equations, |(h, k, p, d1, d2)| four_circles(*h, *k, *p, [*d1, *d2], exact).len());
 }
 
 criterion_group!(benches, subproblems, solve, plan);

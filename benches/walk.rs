@@ -8,7 +8,7 @@ use groebot::gait::{Biped, Footprint, Regular, Request, Route, Side, Usual, Walk
 use groebot::model::Meshes;
 use groebot::nav::Room;
 use groebot::robots::{NAO_PREVIEW, NAO_SINE, Outline, nao_walker, rh0, rh0_walker};
-use groebot::task::{Body, Floor, Goal, Method, Pilot, Plan};
+use groebot::task::{Body, Floor, Goal, Pilot, Plan};
 use nalgebra::Point2;
 
 fn request(usual: &Usual, robot: &Biped, length: f64, turn: f64) -> Request {
@@ -51,7 +51,7 @@ fn navigate(c: &mut Criterion) {
         let feet = Footprint { x: 0.5, y: 0.7, yaw: 0.2 }.feet(pilot.half_width());
         let find = || {
             let floor = Floor::new(black_box(&map), 0.02).expect("a floor");
-            Plan::find(&pilot, &floor, feet, Goal { place: goal, heading: None }, Method::Exact, &Watch::none())
+            Plan::find(&pilot, &floor, feet, Goal { place: goal, heading: None }, &Watch::none())
         };
         let steps = find().expect("a walk").expect("a way").walk.schedule.route.steps.len();
         group.bench_function(format!("{name}_{steps}_steps"), |b| b.iter(find));

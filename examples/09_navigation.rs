@@ -2,12 +2,12 @@
 //!
 //!     cargo run --release --example 09_navigation > docs/navigation.svg
 
+use groebot::Result;
 use groebot::gait::Footprint;
 use groebot::model::Meshes;
 use groebot::nav::Room;
 use groebot::robots::{Outline, rh0, walker};
-use groebot::task::{Body, Floor, Goal, Method, Pilot, Plan};
-use groebot::{Result, Watch};
+use groebot::task::{Body, Floor, Goal, Pilot, Plan};
 use nalgebra::Point2;
 
 const PLACES: [(&str, f64, f64); 7] = [
@@ -25,15 +25,14 @@ fn main() -> Result<()> {
     for (name, x, y) in PLACES {
         room = room.with_moved(name, Point2::new(x, y), 0.0)?;
     }
-    let watch = Watch::none();
     let walker = walker("rh0", Outline::Measured).expect("RH0 is one of groebot's robots")?;
     let body = Body::new(&rh0(), &walker.biped, &Meshes::default())?;
     let usual = walker.gaits[0].1.clone();
-    let pilot = Pilot::new(walker, usual, body, true, &watch)?;
+    let pilot = Pilot::new(walker, usual, body, true, None)?;
     let floor = Floor::new(&room.map()?, 0.02)?;
     let start = Footprint { x: 3.0, y: 3.0, yaw: 0.0 }.feet(pilot.half_width());
     let goal = Goal { place: Point2::new(7.0, 3.0), heading: Some(0.0) };
-    match Plan::find(&pilot, &floor, start, goal, Method::Exact, &watch)? {
+    match Plan::find(&pilot, &floor, start, goal, None)? {
         Ok(plan) => print!("{}", plan.to_svg(&pilot, &floor)),
         Err(blocked) => eprintln!("{blocked}"),
     }

@@ -34,10 +34,79 @@
 #![cfg_attr(test, allow(missing_docs))]
 
 pub use groebot_algebra::{Error, ErrorKind, Result, Watch};
-pub use groebot_algebra::{error, escape, groebner, limits, number, poly, real, roots, watch};
-pub use groebot_humanoid::{gait, nav, sim, task, view};
-pub use groebot_ik::{codegen, derive, folder, reach, solver, witness};
-pub use groebot_robot::{control, document, dynamics, files, kinematics, model, motion, spatial};
+pub use groebot_ik::derive::derive;
+/// Version of nalgebra whose types the interface has.
+pub use nalgebra;
+
+pub use groebot_algebra::real;
+pub use groebot_humanoid::{gait, nav, sim, view};
+pub use groebot_ik::{codegen, reach};
+pub use groebot_robot::control;
+
+// Shared by the command line, the wheel and the fuzz targets; not part of the interface.
+#[doc(hidden)]
+pub use groebot_algebra::{escape, limits, random};
+#[doc(hidden)]
+pub use groebot_robot::{document, files};
+
+/// Exact numbers: rings and fields as values.
+pub mod number {
+    pub use groebot_algebra::number::{
+        BigInt, BigRational, Extension, Field, PrimeElement, Rationals, Ring, Style, Zp, parse_rational,
+    };
+}
+
+/// Polynomials over any field: parser, printer, orders, gcd, factorization, rational functions.
+pub mod poly {
+    pub use groebot_algebra::poly::{
+        Block, ExpansionBound, Expression, Factorisation, Fraction, Fractions, Layout, Monomial, Order, Polynomial,
+        PolynomialRing, Term, factor, gcd, parse, parse_equation, parse_latex, system,
+    };
+}
+
+/// Groebner bases: Buchberger, F4, FGLM, modular, parametric.
+pub mod groebner {
+    pub use groebot_algebra::groebner::{
+        Basis, Division, HilbertSeries, Options, Quotient, Settings, Strategy, System, UnivariateRepresentation, basis,
+        basis_modulo_prime, buchberger, change_order, cover, dehomogenise, divide, f4_with, hilbert_driven, homogenise,
+        ideal, modular, normal_form, parametric, reduced_basis, s_polynomial, univariate_representation, verify,
+    };
+}
+
+/// Real roots of univariate polynomials: exact over Q, and in `f64` as in the run time.
+pub mod roots {
+    pub use groebot_algebra::roots::{Interval, RealRoot, Sturm, isolate_square_free, real_roots};
+}
+
+/// Rigid motions: poses, twists, wrenches, screws, inertias.
+pub mod spatial {
+    pub use groebot_robot::spatial::{
+        Axis, Inertia, Pose, RollPitchYaw, Screw, ScrewCoordinates, Twist, Wrench, angle, intersection, matrix, pose,
+        roll_pitch_yaw, rotation,
+    };
+}
+
+/// Robots as described: a tree of links and joints with masses, shapes and limits.
+pub mod model {
+    pub use groebot_robot::model::{
+        Actuator, Fault, Joint, JointType, LengthUnit, Link, Mass, Meshes, Mimic, Origin, Part, Robot, RobotParts,
+        Shape, Solid, Surface,
+    };
+}
+
+/// Serial chains: forward kinematics, Jacobians, screw theory, and the interface of all solvers.
+pub mod kinematics {
+    pub use groebot_robot::kinematics::{
+        Ball, BaseAxis, Chain, ChainParts, Choice, DhConvention, DhRow, DhTable, ExactMatrix, ExactRotation,
+        ExactVector, Geometry, InverseKinematics, Joint, JointKind, Layout, LengthUnit, LinkPath, Meant, Mimic, Placed,
+        Placement, Plane, Quantity, Root, Solution, Target, TargetNumber, Task, Tip, TipChoice, Turn, jacobian,
+        numeric, screw,
+    };
+    /// The nearest ideal robot, and what it changes.
+    pub mod ideal {
+        pub use groebot_robot::kinematics::ideal::Report;
+    }
+}
 
 /// Robots by name: chains and descriptions, and humanoids with their walks.
 pub mod robots {
@@ -45,5 +114,72 @@ pub mod robots {
     pub use groebot_robot::robots::*;
 }
 
+/// Motions in time: trajectories, tables of states, and paths of a chain's tip.
+pub mod motion {
+    pub use groebot_robot::motion::{
+        Contact, Figure, Followed, JointTrack, Jump, Pace, PathRequest, Spline, StateRow, StateTable, Track,
+        Trajectory, follow,
+    };
+}
+
+/// Rigid-body dynamics: RNEA, CRBA, ABA, regressor, identification.
+pub mod dynamics {
+    pub use groebot_robot::dynamics::{
+        Base, Clearance, Consistency, Equations, Estimate, Finding, FindingKind, Identification, Logged, Model,
+        ModelJoint, Momentum, Placed, State, Touch, Workspace,
+    };
+    /// Polynomial equations of motion with a certificate.
+    pub mod exact {
+        pub use groebot_robot::dynamics::exact::{Certificate, ExactModel, Masses, Symbolic};
+    }
+}
+
+/// Derived solvers: their programs, targets in batches, and solutions.
+pub mod solver {
+    pub use groebot_ik::solver::{
+        About, Batch, Block, Case, Checks, Condition, Described, Following, Forward, GivenJoint, Guard, Input,
+        Instruction, Joint, JointValue, MAX_JOINTS, Nearest, Operand, Operation, Pairs, ParameterRule, Pivot,
+        Preference, Program, Reached, Rule, Short, Solved, Solver, Step, TipTask, Unit,
+    };
+}
+
+/// From a description to a proved solver.
+pub mod derive {
+    pub use groebot_ik::derive::{
+        Choice, Derivation, Description, Ends, Equation, Input, InputFile, JointKindUnknown, JointUnknown, LengthUnit,
+        Method, Options, Parameter, ParameterSource, Quantity, Recount, Root, Source, System, SystemParts, derive,
+        formulate,
+    };
+    /// Chains whose joints share actuators.
+    pub mod coupled {
+        pub use groebot_ik::derive::coupled::{Actuator, CoupledChain, CoupledChains, CoupledParts, JointPlace};
+    }
+    /// Reports of derivations.
+    pub mod report {
+        pub use groebot_ik::derive::report::explain;
+    }
+}
+
+/// From a map to a path, to footsteps, to joint angles: the whole task of a walking robot.
+pub mod task {
+    pub use groebot_humanoid::task::{
+        Blocked, Body, Floor, Goal, Method, Obstacle, Pilot, Plan, Reach, Reason, Refusal,
+    };
+}
+
+/// Numeric checks of derived solvers by independent witnesses.
+pub mod witness {
+    pub use groebot_ik::witness::{Accuracy, Class, Draws, Fault, Kind, Options, Report, Row, Summary, Verdict, check};
+}
+
+/// Folders of mechanisms: their files, and the check of a stored folder.
+pub mod folder {
+    pub use groebot_ik::folder::{
+        CERTIFICATE, CHECKS, Checked, DYNAMICS, DYNAMICS_TEXT, Finding, OUTPUTS, Outputs, PROGRAM, Stored, Verdict,
+        Written, check, check_by, derived, is_thin, program, prove_text, reprove, thin,
+    };
+}
+
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;

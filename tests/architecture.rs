@@ -9,7 +9,10 @@ mod links;
 mod phrases;
 mod scan;
 mod scanner;
+mod signatures;
 mod table;
+mod tolerances;
+mod watches;
 
 use std::collections::HashMap;
 use std::fs;

@@ -7,21 +7,23 @@ pose of shape (4, 4) is that of the tip in the frame of the chain's base.
 
 from ._batch import Batch, PaddedBatch, Status
 from ._errors import BadValueError, GroebotError, NoPathError
-from ._groebot import Robot, Solution, Solver, __version__, derive, navigate
+from ._groebot import PlacedSolver, Robot, Solution, Solver, __version__, derive, navigate
 from ._reach import ReachMap, reach_map
-from ._records import Check, Explanation, Jump, Path, Walk
+from ._records import Check, Closest, Explanation, Jump, Path, Walk
 from ._view import View, view
 
 __all__ = [
     "BadValueError",
     "Batch",
     "Check",
+    "Closest",
     "Explanation",
     "GroebotError",
     "Jump",
     "NoPathError",
     "PaddedBatch",
     "Path",
+    "PlacedSolver",
     "ReachMap",
     "Robot",
     "Solution",

@@ -6,10 +6,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ._batch import Batch, PaddedBatch
-from ._records import Check, Explanation, Path, Walk
+from ._records import Check, Closest, Explanation, Path, Walk
 from ._view import View
 
-__all__ = ["Robot", "Solution", "Solver", "__version__", "_reach", "_reach_as", "_run", "derive", "navigate"]
+__all__ = ["PlacedSolver", "Robot", "Solution", "Solver", "__version__", "_reach", "_reach_as", "_run", "derive", "navigate"]
 __version__: str
 
 class _Matrix(Protocol):
@@ -112,6 +112,14 @@ class Solver:
         threads: int | None = None,
         strict: bool = False,
     ) -> PaddedBatch: ...
+    def closest(
+        self,
+        target: _Target,
+        *,
+        length: float | None = None,
+        given: npt.ArrayLike | None = None,
+        limits: _Limits | None = None,
+    ) -> Closest: ...
     def forward(self, q: npt.ArrayLike) -> _Floats: ...
     def jacobian(self, q: npt.ArrayLike, frame: Literal["base", "tip", "spatial"] = "base") -> _Floats: ...
     def solve_path(
@@ -122,11 +130,75 @@ class Solver:
         dt: float | None = None,
         speeds: npt.ArrayLike | None = None,
     ) -> Path: ...
+    def placed(self, *, base: npt.ArrayLike | None = None, tool: npt.ArrayLike | None = None) -> PlacedSolver: ...
     def check(self, *, progress: _Progress | None = None, threads: int | None = None) -> Check: ...
     def explain(self, *, progress: _Progress | None = None, threads: int | None = None) -> Explanation: ...
     def c_source(self, *, single: bool = False) -> str: ...
     def rust_source(self, *, alone: bool = True) -> str: ...
     def view(self, path: _File | None = None, *, open: bool | None = None, height: int = 600, reach: _File | None = None) -> View: ...
+
+@final
+class PlacedSolver:
+    @property
+    def base(self) -> _Floats: ...
+    @property
+    def tool(self) -> _Floats: ...
+    def solve(
+        self, target: _Target, *, given: npt.ArrayLike | None = None, limits: _Limits | None = None
+    ) -> list[Solution]: ...
+    def nearest(
+        self,
+        target: _Target,
+        q0: npt.ArrayLike,
+        *,
+        given: npt.ArrayLike | None = None,
+        limits: _Limits | None = None,
+    ) -> Solution | None: ...
+    @overload
+    def solve_batch(
+        self,
+        targets: _Target,
+        *,
+        given: npt.ArrayLike | None = None,
+        layout: Literal["ragged"] = "ragged",
+        limits: _Limits | None = None,
+        near: npt.ArrayLike | None = None,
+        out: _Floats | None = None,
+        dtype: npt.DTypeLike | None = None,
+        threads: int | None = None,
+        strict: bool = False,
+    ) -> Batch: ...
+    @overload
+    def solve_batch(
+        self,
+        targets: _Target,
+        *,
+        given: npt.ArrayLike | None = None,
+        layout: Literal["padded"],
+        limits: _Limits | None = None,
+        near: npt.ArrayLike | None = None,
+        out: _Floats | None = None,
+        dtype: npt.DTypeLike | None = None,
+        threads: int | None = None,
+        strict: bool = False,
+    ) -> PaddedBatch: ...
+    def closest(
+        self,
+        target: _Target,
+        *,
+        length: float | None = None,
+        given: npt.ArrayLike | None = None,
+        limits: _Limits | None = None,
+    ) -> Closest: ...
+    def forward(self, q: npt.ArrayLike) -> _Floats: ...
+    def solve_path(
+        self,
+        poses: _Target,
+        q0: npt.ArrayLike | None = None,
+        *,
+        dt: float | None = None,
+        speeds: npt.ArrayLike | None = None,
+    ) -> Path: ...
 
 @final
 class Robot:

@@ -22,6 +22,28 @@ class Check:
     """One line for each target, as CSV."""
 
 
+@dataclass(frozen=True, eq=False)
+class Closest:
+    """The joint values whose target has the least error."""
+
+    q: npt.NDArray[np.float64]
+    """The joint values. Angles are in (-pi, pi] unless limits were given."""
+    reached: npt.NDArray[np.float64]
+    """The target that they reach: (4, 4) for a pose, else the numbers of `inputs` without those of given joints."""
+    distance: float
+    """The distance of `reached` from the target, in the solver's unit of length."""
+    angle: float
+    """The angle between `reached` and the target [rad]."""
+    reachable: bool
+    """Whether the target is reachable, within the limits if these were given. `q` is then one of its solutions."""
+    is_minimum: bool
+    """Whether `q` is a local minimum of the error, by its first and second derivatives."""
+    starts: int
+    """Number of starting points of the search; zero for a reachable target."""
+    agreeing: int
+    """Number of starting points from which the search ended at this error. If it is small, another minimum may have been missed."""
+
+
 @dataclass(frozen=True)
 class Explanation:
     """An explanation of a derivation for students. Notebooks display it; `str` is its Markdown."""

@@ -86,7 +86,8 @@ impl TargetShape {
         };
         let (form, width, one) = found.ok_or_else(|| bad_value(self.refusal(shape)))?;
         let includes_given = form == Form::Numbers && width == whole;
-        let targets = Targets { data, form, width, inputs: whole, rotation: self.rotation, given: &[], single };
+        let targets =
+            Targets { data, form, width, inputs: whole, rotation: self.rotation, given: &[], single, placement: None };
         let expected = if includes_given { 0 } else { self.given };
         let values = given.unwrap_or(&[]);
         if values.len() == expected || (expected > 0 && values.len() == expected * targets.len()) {

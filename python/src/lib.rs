@@ -3,6 +3,7 @@
 mod arrays;
 mod batch;
 mod choose;
+mod closest;
 mod command;
 mod derive;
 mod dynamics;
@@ -13,6 +14,7 @@ mod many;
 mod navigate;
 mod origin;
 mod path;
+mod placed;
 mod reach;
 mod robot;
 mod sink;
@@ -29,6 +31,7 @@ fn _groebot(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<robot::Robot>()?;
     module.add_class::<solver::Solver>()?;
+    module.add_class::<placed::PlacedSolver>()?;
     module.add_class::<solution::Solution>()?;
     module.add_function(wrap_pyfunction!(derive::derive, module)?)?;
     module.add_function(wrap_pyfunction!(navigate::navigate, module)?)?;

@@ -41,6 +41,7 @@ pub fn solve_batch<'py>(
     let borrowed = numbers.array.try_readonly()?;
     let data = borrowed.as_slice()?;
     let (rows, one) = stored.target_shape.targets(numbers.shape(), data, given.as_deref(), numbers.single)?;
+    let rows = rows.placed(stored.placement.as_ref());
     if one {
         return Err(bad_value("`targets` holds one target; use solve, or give it an axis more: targets[None]"));
     }
@@ -202,7 +203,10 @@ pub fn forward<'py>(py: Python<'py>, stored: &Stored, q: &Bound<'py, PyAny>) -> 
     let reached = py.detach(|| {
         let mut all = Vec::new();
         for row in list.chunks(joints) {
-            let numbers = stored.kernel.forward(row)?;
+            let mut numbers = stored.kernel.forward(row)?;
+            if let Some(placement) = &stored.placement {
+                placement.to_world(&mut numbers);
+            }
             if shape.is_pose {
                 for i in 0..3 {
                     all.extend_from_slice(&numbers[3 + 3 * i..6 + 3 * i]);

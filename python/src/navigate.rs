@@ -47,7 +47,7 @@ pub fn navigate<'py>(
         let floor = Floor::new(&map, apart)?;
         let [x, y, yaw] = start;
         let feet = Footprint { x, y, yaw }.feet(pilot.half_width());
-        let found = Plan::find(&pilot, &floor, feet, goal, method, watch)?;
+        let found = Plan::find(&pilot, &floor, feet, goal.by(method), watch)?;
         Ok((pilot, found))
     })?;
     match found {

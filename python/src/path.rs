@@ -1,7 +1,7 @@
 //! Paths of an arm through poses: `Solver.solve_path`.
 
 use groebot::kinematics::{InverseKinematics, Solution, Target};
-use groebot::motion::{Pace, follow_from};
+use groebot::motion::{Pace, PathRequest, follow};
 use groebot::spatial::Pose;
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
 use numpy::PyArrayMethods;
@@ -28,7 +28,7 @@ impl std::fmt::Debug for ByKernel<'_> {
 impl InverseKinematics for ByKernel<'_> {
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> groebot::Result<()> {
         out.clear();
-        self.0.kernel.solve(&[&target.numbers()[..], given].concat(), &mut |answer| out.push(answer.into()))
+        self.0.kernel.solve(&self.0.program.numbers(target, given)?, &mut |answer| out.push(answer.into()))
     }
 }
 
@@ -53,7 +53,9 @@ pub fn solve_path<'py>(
     let pace = Pace::Every(dt.unwrap_or(1.0));
     let solver = ByKernel(stored);
     let followed = watched(py, None, threads(Some(1)), |watch| {
-        follow_from(chain, &speeds, &solver, start.as_deref(), &poses, &pace, watch)
+        let request = PathRequest::new(&poses, &pace).speeds(&speeds);
+        let request = start.as_deref().map_or(request, |start| request.start(start));
+        follow(chain, &solver, &request, watch)
     })?;
     let q = followed.trajectory.q.concat();
     let q = shaped(py, q, &[poses.len(), joints])?;
@@ -73,6 +75,7 @@ fn poses(stored: &Stored, poses: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
     }
     let borrowed = numbers.array.try_readonly()?;
     let (targets, one) = stored.target_shape.targets(numbers.shape(), borrowed.as_slice()?, None, numbers.single)?;
+    let targets = targets.placed(stored.placement.as_ref());
     if one {
         return Err(bad_value("`poses` holds one pose; give it an axis more: poses[None]"));
     }

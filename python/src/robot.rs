@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use groebot::derive::Ends;
 use groebot::document::{XmlText, as_utf8, read_xml};
 use groebot::dynamics::{Base, Equations, State};
-use groebot::model::urdf::URDF_LIMIT;
+use groebot::limits::XML_BYTES;
 use groebot::{ErrorKind, model, robots};
 use nalgebra::Vector3;
 use pyo3::prelude::*;
@@ -54,7 +54,7 @@ impl Robot {
                 Some(text) => XmlText { text: as_utf8(text).into_owned(), notes: Vec::new() },
                 None => {
                     let path: PathBuf = path_or_text.extract()?;
-                    read_xml(&path, URDF_LIMIT).map_err(|error| raised(&error))?
+                    read_xml(&path, XML_BYTES).map_err(|error| raised(&error))?
                 }
             };
         let robot = model::Robot::from_urdf(&text).map_err(|error| raised(&error))?.with_notes(notes);

@@ -5,15 +5,18 @@ use std::sync::Arc;
 
 use groebot::codegen::{rust, single_file};
 use groebot::derive::report::explain::explain;
+use groebot::solver::TaskPlacement;
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
 use crate::arrays::{self, Numbers, joint_rows};
 use crate::choose::moved;
+use crate::closest;
 use crate::errors::{bad_value, raised, unsupported};
 use crate::kernel::Answer;
 use crate::many::{self, Wanted};
+use crate::placed::PlacedSolver;
 use crate::solution::Solution;
 use crate::stored::Stored;
 use crate::{known, origin, path, work};
@@ -74,7 +77,7 @@ impl Solver {
     /// The task of the tip: `pose`, `position`, `ray of [1, 0, 0]`, `pose, A3 given`, ...
     #[getter]
     fn task(&self) -> String {
-        self.0.program.about.as_ref().map_or_else(|| "its equations".to_owned(), |about| about.task.clone())
+        self.0.program.task_text()
     }
 
     /// The names of the joints from base to tip: the order of joint values.
@@ -126,7 +129,7 @@ impl Solver {
     /// For other tasks it is the numbers of `inputs`. `given` are the values of the given joints. With `limits`, only solutions are returned that are within
     /// them after whole turns. `limits` has the shape (joints, 2), or is `True` for those of the description.
     #[pyo3(signature = (target, *, given=None, limits=None))]
-    fn solve<'py>(
+    pub fn solve<'py>(
         &self,
         py: Python<'py>,
         target: &Bound<'py, PyAny>,
@@ -140,7 +143,7 @@ impl Solver {
     /// Returns the solution of one target that is nearest to the joint values `q0` after whole turns, within `limits` if these are given. `None` if there is
     /// none. Its angles are not wrapped.
     #[pyo3(signature = (target, q0, *, given=None, limits=None))]
-    fn nearest(
+    pub fn nearest(
         &self,
         target: &Bound<'_, PyAny>,
         q0: &Bound<'_, PyAny>,
@@ -177,7 +180,7 @@ impl Solver {
     /// exception. `threads` is by default the number of processors.
     #[pyo3(signature = (targets, *, given=None, layout="ragged", limits=None, near=None, out=None, dtype=None, threads=None, strict=false))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
-    fn solve_batch<'py>(
+    pub fn solve_batch<'py>(
         &self,
         py: Python<'py>,
         targets: &Bound<'py, PyAny>,
@@ -199,7 +202,7 @@ impl Solver {
 
     /// Forward kinematics of joint values of shape (joints,) or (N, joints). Returns matrices (4, 4) or (N, 4, 4) for poses, else the numbers of `inputs`
     /// without those of given joints.
-    fn forward<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    pub fn forward<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         many::forward(py, &self.0, q)
     }
 
@@ -218,7 +221,7 @@ impl Solver {
     /// `q0` are the joint values before the first pose. A step is a jump if it exceeds `speeds` (joints,) \[rad/s, m/s\] times `dt` \[s\]. Without these, a
     /// jump is a step above half a radian or a tenth of the reach. Limits are those of the description.
     #[pyo3(signature = (poses, q0=None, *, dt=None, speeds=None))]
-    fn solve_path<'py>(
+    pub fn solve_path<'py>(
         &self,
         py: Python<'py>,
         poses: &Bound<'py, PyAny>,
@@ -227,6 +230,29 @@ impl Solver {
         speeds: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         path::solve_path(py, &self.0, poses, q0, dt, speeds)
+    }
+
+    /// Returns the joint values whose target has the least error: see `groebot.Closest`. They are a solution if the target is reachable.
+    ///
+    /// The error is distance^2 + (2 length sin(angle / 2))^2. `length` is by default the reach. With `limits`, of shape (joints, 2) or `True` for those of the
+    /// description, the joint values are within them; without, limits are not respected.
+    #[pyo3(signature = (target, *, length=None, given=None, limits=None))]
+    pub fn closest<'py>(
+        &self,
+        py: Python<'py>,
+        target: &Bound<'py, PyAny>,
+        length: Option<f64>,
+        given: Option<&Bound<'py, PyAny>>,
+        limits: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        closest::closest(py, self, target, length, given, limits)
+    }
+
+    /// Returns the solver for targets of a tool in a world frame, world_from_tool: see `groebot.PlacedSolver`. `base` is world_from_base and `tool` is
+    /// tip_from_tool, each a matrix (4, 4); the default is the identity. Other tasks than `pose` allow the placements that do not change their kind of target.
+    #[pyo3(signature = (*, base=None, tool=None))]
+    fn placed(&self, base: Option<&Bound<'_, PyAny>>, tool: Option<&Bound<'_, PyAny>>) -> PyResult<PlacedSolver> {
+        PlacedSolver::new(&self.0, base, tool)
     }
 
     /// Proves the derivation again from its certificate, without the Groebner engine. Then checks the solutions of all kinds of targets against forward
@@ -291,7 +317,7 @@ impl Solver {
         given: Option<&Bound<'_, PyAny>>,
         limits: Option<&[[f64; 2]]>,
     ) -> PyResult<Vec<Solution>> {
-        let numbers = self.one_target(target, given)?;
+        let numbers = self.one_target(target, given, self.0.placement.as_ref())?;
         let (kernel, mut all) = (&self.0.kernel, Vec::with_capacity(8));
         let solved = match limits {
             None => kernel.solve(&numbers, &mut |answer| all.push(answer.into())),
@@ -302,8 +328,13 @@ impl Solver {
         solved.map(|()| all).map_err(|error| raised(&error))
     }
 
-    /// The numbers of one target.
-    fn one_target(&self, target: &Bound<'_, PyAny>, given: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<f64>> {
+    /// The numbers of one target, converted by a placement.
+    pub fn one_target(
+        &self,
+        target: &Bound<'_, PyAny>,
+        given: Option<&Bound<'_, PyAny>>,
+        placement: Option<&TaskPlacement>,
+    ) -> PyResult<Vec<f64>> {
         let numbers = Numbers::of(target)?;
         let values = given.map(|given| Numbers::of(given)?.to_vec()).transpose()?;
         let borrowed = numbers.array.try_readonly()?;
@@ -312,6 +343,7 @@ impl Solver {
         if !one {
             return Err(bad_value("`target` holds many targets; use solve_batch"));
         }
+        let targets = targets.placed(placement);
         let mut out = vec![0.0; targets.inputs];
         match targets.row(0, &mut out) {
             crate::sink::Status::Solved => Ok(out),

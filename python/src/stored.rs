@@ -7,7 +7,7 @@ use groebot::derive::{Derivation, Source};
 use groebot::document::read_text;
 use groebot::folder::{self, PROGRAM};
 use groebot::kinematics::Chain;
-use groebot::solver::{Condition, Program};
+use groebot::solver::{self, Condition, Placement, Program, TaskPlacement};
 use groebot::{Error, ErrorKind, Result, Watch};
 use serde_json::{Value, json};
 
@@ -34,6 +34,10 @@ pub struct Stored {
     certificate: Option<String>,
     proved: OnceLock<Arc<Derivation>>,
     pub target_shape: TargetShape,
+    /// Where base and tool are.
+    pub placement: Option<TaskPlacement>,
+    /// The solver of the library, prepared at its first use.
+    library: OnceLock<solver::Solver>,
 }
 
 impl Stored {
@@ -46,7 +50,46 @@ impl Stored {
         };
         let target_shape = target_shape(&program);
         let is_printed = printed.is_some();
-        Stored { program, kernel, is_printed, chain, origin, certificate, proved: OnceLock::new(), target_shape }
+        Stored {
+            program,
+            kernel,
+            is_printed,
+            chain,
+            origin,
+            certificate,
+            proved: OnceLock::new(),
+            target_shape,
+            placement: None,
+            library: OnceLock::new(),
+        }
+    }
+
+    /// The same solver for targets of a tool in a world frame.
+    ///
+    /// # Errors
+    /// As [`TaskPlacement::new`].
+    pub fn placed(&self, placement: &Placement) -> Result<Self> {
+        let placement = Some(TaskPlacement::new(&self.program, placement)?);
+        let (program, kernel) = (self.program.clone(), Arc::clone(&self.kernel));
+        let (chain, origin) = (self.chain.clone(), self.origin.clone());
+        let (is_printed, target_shape) = (self.is_printed, self.target_shape);
+        Ok(Stored {
+            program,
+            kernel,
+            is_printed,
+            chain,
+            origin,
+            certificate: None,
+            proved: OnceLock::new(),
+            target_shape,
+            placement,
+            library: OnceLock::new(),
+        })
+    }
+
+    /// The solver of the library for this program.
+    pub fn library(&self) -> &solver::Solver {
+        self.library.get_or_init(|| self.program.solver())
     }
 
     /// Returns a solver of the wheel.
@@ -162,13 +205,13 @@ impl Stored {
 
     /// The names of the joints whose values are given.
     pub fn given(&self) -> Vec<&str> {
-        self.program.inputs[self.program.given()].iter().map(|input| input.name.as_str()).collect()
+        if self.program.tip().is_some() { self.program.given_names() } else { Vec::new() }
     }
 }
 
 /// The shape of a program's targets.
 fn target_shape(program: &Program) -> TargetShape {
-    let given = program.given().len();
+    let given = program.tip().map_or(0, |_| program.given_joints.len());
     let own = program.inputs.len() - given;
     let mut rotations = program.conditions.iter().filter_map(|condition| match condition {
         Condition::Rotation(first) => Some(*first),

@@ -1,5 +1,6 @@
 //! Targets in the numpy forms that are accepted. Main type: [`Targets`].
 
+use groebot::solver::TaskPlacement;
 use groebot::spatial::rotation::rows_of_quaternion;
 
 use crate::sink::Status;
@@ -34,9 +35,16 @@ pub struct Targets<'a> {
     pub given: &'a [f64],
     /// Whether rotations are in single precision. They are then made orthogonal.
     pub single: bool,
+    /// Where base and tool are.
+    pub placement: Option<&'a TaskPlacement>,
 }
 
-impl Targets<'_> {
+impl<'a> Targets<'a> {
+    /// The same targets, seen from a world in which base and tool are placed.
+    pub fn placed(self, placement: Option<&'a TaskPlacement>) -> Self {
+        Targets { placement, ..self }
+    }
+
     pub fn len(&self) -> usize {
         self.data.len() / self.width
     }
@@ -59,8 +67,10 @@ impl Targets<'_> {
             Some(first) if self.single && status == Status::Solved => rounded(&mut out[first..first + 9]),
             _ => status,
         };
-        if status != Status::Solved {
-            out[0] = f64::NAN;
+        match (status, self.placement) {
+            (Status::Solved, None) => {}
+            (Status::Solved, Some(placement)) => placement.to_base(out),
+            _ => out[0] = f64::NAN,
         }
         status
     }

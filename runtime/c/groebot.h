@@ -49,6 +49,8 @@ typedef double gb_real;
 #define GB_NOT_UNIT (-4)
 /* The steps of the target were used up before a solution was found. Solutions may exist. */
 #define GB_UNSETTLED (-5)
+/* The task is not the pose of one tip. The base and the tool cannot be removed from the target. */
+#define GB_NOT_POSE (-6)
 /* Default of the maximal number of polishing steps for a target (define it when you compile the robot's file and groebot.c). A step is one linear system of
  * Newton's method, or one evaluation of the equations at joint values. When they are used up, candidates are no longer polished, and solutions are not
  * settled. */
@@ -78,13 +80,15 @@ typedef double gb_real;
  * NAME_solve_or_nearest: same as NAME_solve. Where there is no solution, nearest has the least relative residual found; its residual is infinite if none was
  * found.
  * NAME_solve_pairs: same as NAME_solve by cosines and sines; at ordinary targets no arc tangent is computed.
+ * NAME_solve_placed: same as NAME_solve for a target whose first 12 numbers are world_from_tool, the pose of a tool in a world frame. base is world_from_base,
+ * and tool is tip_from_tool; NULL is the identity. Returns GB_NOT_POSE if the task is not the pose of one tip.
  * NAME_solve_batch: same as NAME_solve for many targets; the lanes of registers process several at once. The solutions of a target follow those of the target
  * before in out. An entry of counts is their number or an error code. Returns the number of solved targets: all, unless out has no room for the solutions of
  * the next one. Each solution is bitwise equal to that of NAME_solve.
  * NAME_residual: the largest magnitude of an equation's value at joint values q. NaN for a target that NAME_solve rejects, and where equations read numbers
  * that follow from no joint.
  * NAME_forward: the target that joint values reach. Returns false for equations that do not compare the tip with the target.
- * NAME_target_of: the target for which the tool is at a pose. base is the pose of the base, and tool that of the tool in the frame of the tip.
+ * NAME_target_of: the target base_from_tip for a pose world_from_tool. base is world_from_base, and tool is tip_from_tool.
  * NAME_count_turns: the number of joint values that differ from q by whole turns of angles and are within limits. limits has the least and the greatest value
  * of each joint in turn. They hold within 1e-9. An angle that lacks a limit counts once.
  * NAME_turn: writes the turn with this index to out. The last joint changes fastest.
@@ -116,6 +120,7 @@ typedef double gb_real;
     GB_API int name##_solve_bounded(const gb_real *target, size_t most, name##_solution *out);                                     \
     GB_API int name##_solve_or_nearest(const gb_real *target, name##_solution *out, name##_solution *nearest);                     \
     GB_API int name##_solve_pairs(const gb_real *target, name##_pairs *out);                                                       \
+    GB_API int name##_solve_placed(const gb_real *base, const gb_real *tool, const gb_real *target, name##_solution *out);         \
     GB_API size_t name##_solve_batch(const gb_real *targets, size_t count, name##_solution *out, size_t room, int *counts);        \
     GB_API size_t name##_solve_pairs_batch(const gb_real *targets, size_t count, name##_pairs *out, size_t room, int *counts);     \
     GB_API gb_real name##_residual(const gb_real *target, const gb_real *q);                                                       \
@@ -132,6 +137,7 @@ typedef double gb_real;
 #if (defined(GB_ROBOT) || defined(GB_RUNTIME)) && !defined(GB_SHARED)
 #define GB_SHARED
 #include "groebot/shared.h"
+#include "groebot/tolerances.h"
 #endif
 
 #if defined(GB_ROBOT) && !(defined(GB_WIDTH) && GB_WIDTH == 0)
@@ -155,7 +161,7 @@ typedef double gb_real;
 #else
 #include "groebot/mechanism.h"
 #ifdef GB_SHORTS
-#include "groebot/ways.h"
+#include "groebot/approaches.h"
 #endif
 #include "groebot/answers.h"
 #include "groebot/described.h"

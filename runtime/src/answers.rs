@@ -2,7 +2,8 @@
 
 use core::ops::Range;
 
-use crate::approach::{LANES, Ways};
+use crate::approach::{Approaches, LANES};
+use crate::effort::{MILD, STEEP};
 use crate::measure::{Fits, joints};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places, elected};
 use crate::number::Guard;
@@ -12,10 +13,10 @@ use crate::starts::Starts;
 use crate::steps::settle;
 use crate::storage::Array;
 use crate::strays::{Loners, Merged, Strays, Trails};
-use crate::tolerances::{BLUR, MILD, ROUNDING, STEEP};
+use crate::tolerances::{ACCEPTANCE, MERGING};
 
-/// Two angles differ by more than [`BLUR`] where the cosine of their difference is below this.
-pub(crate) const FAR_APART: f64 = 1.0 - 0.52 * BLUR * BLUR;
+/// Two angles differ by more than `MERGING.blur` where the cosine of their difference is below this.
+pub(crate) const FAR_APART: f64 = 1.0 - 0.52 * MERGING.blur * MERGING.blur;
 
 /// The solutions found so far.
 pub(crate) struct Answers<'a, M: Mechanism> {
@@ -229,8 +230,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         let facts = self.problem.facts();
         let joints = joints::<M, W>(&facts, &self.at, self.are_ordinary());
         if self.problem.facts().nearby.is_some() {
-            let ways = Ways::new::<W>(&self.problem, &self.at, self.waiting);
-            return self.flush_nearby(&joints, &ways);
+            let approaches = Approaches::new::<W>(&self.problem, &self.at, self.waiting);
+            return self.flush_nearby(&joints, &approaches);
         }
         let twins = self.twins::<W>();
         let fits = Fits::new::<W>(&self.problem, &self.at, self.waiting, twins);
@@ -242,7 +243,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             let q = self.joints_of(&joints, k);
             let (residual, relative) = (fits.residual.as_ref()[k], fits.relative.as_ref()[k]);
             let fit = Fit { residual, relative, accepted: true };
-            let holds = free == 0 && !close && relative < ROUNDING && fits.sound.as_ref()[k] > 0.0;
+            let holds = free == 0 && !close && relative < ACCEPTANCE.rounding && fits.sound.as_ref()[k] > 0.0;
             // The second of two twins has the same distance to earlier candidates as the first.
             let nearest = if k % twins == 0 { 0 } else { k - 1 };
             if holds && usual && self.write_apart(nearest..k, k, &q, &fit) {
@@ -259,16 +260,18 @@ impl<'a, M: Mechanism> Answers<'a, M> {
     }
 
     /// Processes candidates of a nearby mechanism's formulas: Newton steps lead them to solutions.
-    fn flush_nearby(&mut self, joints: &Joints<M, Abreast<M>>, ways: &Ways<M>) {
+    fn flush_nearby(&mut self, joints: &Joints<M, Abreast<M>>, approaches: &Approaches<M>) {
         let room = self.problem.facts().candidates;
         let waiting = core::mem::take(&mut self.waiting).min(room);
         let mut usual = self.count == 0;
         for k in 0..waiting {
             let found = self.found.as_ref()[k];
             let q = self.joints_of(joints, k);
-            let is_short = found.free == 0 && ways.sound.as_ref()[k] > 0.0 && ways.relative.as_ref()[k] < ROUNDING;
+            let is_short = found.free == 0
+                && approaches.sound.as_ref()[k] > 0.0
+                && approaches.relative.as_ref()[k] < ACCEPTANCE.rounding;
             let approached = if is_short {
-                Some(ways.approach(&self.problem, k, &q))
+                Some(approaches.approach(&self.problem, k, &q))
             } else if found.free == 0 {
                 let at = self.places_of(k);
                 self.problem.approached(&at, &q)
@@ -350,7 +353,8 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         for k in 0..waiting {
             let Found { branch, close, free, .. } = self.found.as_ref()[k];
             let residual = fits.residual.as_ref()[k];
-            let holds = free == 0 && !close && fits.relative.as_ref()[k] < ROUNDING && fits.sound.as_ref()[k] > 0.0;
+            let holds =
+                free == 0 && !close && fits.relative.as_ref()[k] < ACCEPTANCE.rounding && fits.sound.as_ref()[k] > 0.0;
             let joints: Joints<M, [f64; 2]> = Array::by(facts.joints.len(), |i| {
                 let number = |place: usize| self.at.as_ref()[place].as_ref()[k] + 0.0;
                 match facts.joints[i] {

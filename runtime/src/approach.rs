@@ -1,12 +1,13 @@
-//! Newton steps from a candidate of a nearby mechanism's formulas to the solution next to it: [`Problem::approached`], and [`Ways`] for several candidates.
+//! Newton steps from a candidate of a nearby mechanism's formulas to the solution next to it: [`Problem::approached`], and [`Approaches`] for several candidates.
 
 use crate::counters::{Event, Phase};
+use crate::effort::{APPROACHES, TURN};
 use crate::lanes::Lanes;
 use crate::mechanism::{Abreast, Joint, Joints, Mechanism, Parameters, Places, Shorts};
 use crate::number::{Number, With};
 use crate::problem::{Fit, Problem, everywhere, fit};
 use crate::storage::Array;
-use crate::tolerances::{APPROACHES, CHORD, PLAIN, ROUNDING, TURN};
+use crate::tolerances::{ACCEPTANCE, PIVOTS, POLISHING};
 use crate::trigonometry::{cosine_and_sine, in_turn};
 
 /// The end of the Newton steps from a candidate.
@@ -40,13 +41,13 @@ impl<M: Mechanism> Problem<'_, M> {
             let missed = missed_by::<M, f64>(&here.value, &here.size);
             first = first.or(Some((missed, normal.pivot)));
             let mut value = here.value;
-            for second in 0..if missed > CHORD { 1 } else { 2 } {
+            for second in 0..if missed > POLISHING.chord { 1 } else { 2 } {
                 if second > 0 {
                     value = self.mechanism.short(self.parameters, &at).value;
                 }
                 self.step_back(&normal.step(&value), &mut at, &mut end)?;
                 let fit = self.measure_at(&at, &end);
-                if fit.relative < ROUNDING {
+                if fit.relative < ACCEPTANCE.rounding {
                     let (missed, pivot) = first?;
                     return fit.accepted.then_some(Approach { end, fit, missed, pivot });
                 }
@@ -59,17 +60,17 @@ impl<M: Mechanism> Problem<'_, M> {
     fn step_back(&self, step: &Joints<M>, at: &mut Places<M>, q: &mut Joints<M>) -> Option<()> {
         let at = at.as_mut();
         for (i, joint) in self.facts().joints.iter().enumerate() {
-            let (way, value) = (step.as_ref()[i], q.as_ref()[i] - step.as_ref()[i]);
+            let (delta, value) = (step.as_ref()[i], q.as_ref()[i] - step.as_ref()[i]);
             match *joint {
                 Joint::Angle([c, s]) => {
                     let angle = in_turn(value);
-                    let ([cosine_back, sine_back], norm) = turned_back(way, [at[c], at[s]]);
+                    let ([cosine_back, sine_back], norm) = turned_back(delta, [at[c], at[s]]);
                     let is_round = (norm - 1.0).abs() <= TURN;
                     if !is_round {
                         return None;
                     }
                     q.as_mut()[i] = angle;
-                    let is_long = way.abs() > TURN;
+                    let is_long = delta.abs() > TURN;
                     [at[c], at[s]] = if is_long { cosine_and_sine(angle) } else { [cosine_back, sine_back] };
                 }
                 Joint::Length(place) => {
@@ -87,12 +88,12 @@ const PARTS: [f64; 3] = [1.0 / 20.0, 1.0 / 6.0, 1.0 / 12.0];
 
 /// A pair of a cosine and a sine turned back by a small angle and normalised, and the normalising factor.
 #[inline(always)]
-fn turned_back<N: Number>(way: N, [c, s]: [N; 2]) -> ([N; 2], N)
+fn turned_back<N: Number>(delta: N, [c, s]: [N; 2]) -> ([N; 2], N)
 where
     f64: With<N>,
 {
-    let (norm, square) = (1.5 - 0.5 * (c * c + s * s), way * way);
-    let across = norm * way * (1.0 - square * (1.0 - square * PARTS[0]) * PARTS[1]);
+    let (norm, square) = (1.5 - 0.5 * (c * c + s * s), delta * delta);
+    let across = norm * delta * (1.0 - square * (1.0 - square * PARTS[0]) * PARTS[1]);
     let along = norm * (1.0 - 0.5 * square * (1.0 - square * PARTS[2]));
     ([along * c + across * s, along * s - across * c], norm)
 }
@@ -136,7 +137,7 @@ impl<M: Mechanism, N: Number> Normal<M, N> {
         let rows = square.as_mut();
         for k in 0..joints {
             let pivot = rows[k].as_ref()[k];
-            *sound = sound.where_below(size * PLAIN - pivot, 0.0);
+            *sound = sound.where_below(size * PIVOTS.regular - pivot, 0.0);
             least = least.lesser(pivot);
             inverse.as_mut()[k] = N::of(1.0) / pivot;
             for i in k + 1..joints {
@@ -156,15 +157,15 @@ impl<M: Mechanism, N: Number> Normal<M, N> {
         let (square, inverse) = (self.square.as_ref(), self.inverse.as_ref());
         let joints = inverse.len();
         let mut step: Joints<M, N> = Array::by(joints, |i| dot::<M, N>(&self.columns.as_ref()[i], value));
-        let way = step.as_mut();
+        let delta = step.as_mut();
         for k in 0..joints {
             for i in k + 1..joints {
-                way[i] = way[i] - square[i].as_ref()[k] * inverse[k] * way[k];
+                delta[i] = delta[i] - square[i].as_ref()[k] * inverse[k] * delta[k];
             }
         }
         for k in (0..joints).rev() {
-            let above = (k + 1..joints).fold(way[k], |sum, j| sum - square[j].as_ref()[k] * way[j]);
-            way[k] = above * inverse[k];
+            let above = (k + 1..joints).fold(delta[k], |sum, j| sum - square[j].as_ref()[k] * delta[j]);
+            delta[k] = above * inverse[k];
         }
         step
     }
@@ -172,7 +173,7 @@ impl<M: Mechanism, N: Number> Normal<M, N> {
 
 /// Newton steps of several candidates: their sums, the residuals at their ends, and the relative residuals and least pivots at the candidates. `sound` is 1
 /// where the equations are regular and the steps short, else 0.
-pub(crate) struct Ways<M: Mechanism> {
+pub(crate) struct Approaches<M: Mechanism> {
     steps: Joints<M, Abreast<M>>,
     residual: Abreast<M>,
     pub relative: Abreast<M>,
@@ -181,14 +182,14 @@ pub(crate) struct Ways<M: Mechanism> {
     pub sound: Abreast<M>,
 }
 
-impl<M: Mechanism> Ways<M> {
+impl<M: Mechanism> Approaches<M> {
     /// Takes the steps for the first `waiting` candidates, `W` at once.
     #[inline(always)]
     pub fn new<const W: usize>(problem: &Problem<'_, M>, at: &Places<M, Abreast<M>>, waiting: usize) -> Self {
         let _phase = Phase::Waiting.begin();
         let (joints, room) = (problem.joints(), problem.facts().candidates);
         let none = || Array::by(room, |_| 0.0);
-        let mut ways = Ways {
+        let mut approaches = Approaches {
             steps: Array::by(joints, |_| none()),
             residual: none(),
             relative: none(),
@@ -198,9 +199,9 @@ impl<M: Mechanism> Ways<M> {
         };
         let p = everywhere::<M, W>(problem);
         for first in (0..waiting.min(room)).step_by(W) {
-            ways.run(problem, &p, at, first, waiting);
+            approaches.run(problem, &p, at, first, waiting);
         }
-        ways
+        approaches
     }
 
     /// Takes the steps for `W` candidates. The result of one does not depend on the others.
@@ -238,7 +239,7 @@ impl<M: Mechanism> Ways<M> {
                 return;
             }
             // The first candidate is representative of all.
-            if self.missed.as_ref()[0] > CHORD {
+            if self.missed.as_ref()[0] > POLISHING.chord {
                 continue;
             }
             let value = problem.mechanism.short(p, &walkers.here).value;
@@ -270,7 +271,7 @@ impl<M: Mechanism> Ways<M> {
             (self.residual.as_mut()[k], self.relative.as_mut()[k]) = (residual.0[lane], relative.0[lane]);
             self.sound.as_mut()[k] = walkers.sound.0[lane];
             let is_sound = walkers.sound.0[lane] > 0.0;
-            walkers.are_done[lane] = !is_sound || relative.0[lane] < ROUNDING;
+            walkers.are_done[lane] = !is_sound || relative.0[lane] < ACCEPTANCE.rounding;
         }
         walkers.are_done.iter().all(|is_done| *is_done)
     }
@@ -315,16 +316,16 @@ impl<M: Mechanism, const W: usize> Walkers<M, W> {
     #[inline(always)]
     fn step_back(&mut self, problem: &Problem<'_, M>, step: &Joints<M, Lanes<W>>) {
         let at = self.here.as_mut();
-        for (way, joint) in step.as_ref().iter().zip(problem.facts().joints) {
+        for (delta, joint) in step.as_ref().iter().zip(problem.facts().joints) {
             match *joint {
                 Joint::Angle([c, s]) => {
-                    let (pair, norm) = turned_back(*way, [at[c], at[s]]);
+                    let (pair, norm) = turned_back(*delta, [at[c], at[s]]);
                     [at[c], at[s]] = pair;
-                    self.sound = self.sound.where_below(way.abs(), TURN).where_below((norm - 1.0).abs(), TURN);
+                    self.sound = self.sound.where_below(delta.abs(), TURN).where_below((norm - 1.0).abs(), TURN);
                 }
                 Joint::Length(place) => {
-                    at[place] = at[place] - *way;
-                    self.sound = self.sound.where_below(way.abs(), f64::MAX);
+                    at[place] = at[place] - *delta;
+                    self.sound = self.sound.where_below(delta.abs(), f64::MAX);
                 }
             }
         }

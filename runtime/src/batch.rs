@@ -3,6 +3,7 @@
 use crate::angles::{acute, unfold};
 use crate::answers::FAR_APART;
 use crate::conditions::fulfil;
+use crate::effort::MOST_STEPS;
 use crate::lanes::{Lanes, Mask};
 use crate::mechanism::{
     Abreast, Answered, Candidates, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places, elected,
@@ -14,7 +15,7 @@ use crate::singly::{solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
 use crate::steps::Steps;
 use crate::storage::Array;
-use crate::tolerances::{MOST_STEPS, ROUNDING};
+use crate::tolerances::ACCEPTANCE;
 
 /// The output format of a solution: angles or pairs.
 pub(crate) trait Answer<M: Mechanism>: Clone {
@@ -295,7 +296,7 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
             let [residual, relative] = fit::<M, W>(mechanism, p, &self.at.as_ref()[k]);
             self.residual.as_mut()[k..k + facts.twins].fill(residual);
             self.relative.as_mut()[k..k + facts.twins].fill(relative);
-            let holds = Lanes::of(ROUNDING).exceeds(relative);
+            let holds = Lanes::of(ACCEPTANCE.rounding).exceeds(relative);
             self.doubt = self.doubt | holds.or_not(self.dead.as_ref()[k]);
         }
     }
@@ -333,7 +334,7 @@ impl<M: Mechanism, const W: usize> Bundle<M, W> {
                     Joint::Angle([c, s]) => {
                         let (c, s) = (at[k].as_ref()[c], at[k].as_ref()[s]);
                         if k % facts.runs[i] == 0 {
-                            sound = Lanes::of(ROUNDING).exceeds((c * c + s * s - 1.0).abs());
+                            sound = Lanes::of(ACCEPTANCE.rounding).exceeds((c * c + s * s - 1.0).abs());
                             size = if wants_angles { acute(c.abs(), s.abs()) } else { size };
                         }
                         if wants_angles {

@@ -3,7 +3,7 @@
 use crate::mechanism::Condition;
 use crate::number::{Number, With};
 use crate::solution::Error;
-use crate::tolerances::CONSISTENT;
+use crate::tolerances::ACCEPTANCE;
 
 /// Projects a target onto its conditions; an error if it is farther from them than the tolerance.
 #[inline(always)]
@@ -57,7 +57,7 @@ where
         let moved = row[0] * given[column] + row[1] * given[column + 3] + row[2] * given[column + 6];
         r[i] = r[i] - 0.5 * moved;
     }
-    N::of(0.0).at_most(determinant) & deviation.at_most(N::of(CONSISTENT))
+    N::of(0.0).at_most(determinant) & deviation.at_most(N::of(ACCEPTANCE.input))
 }
 
 /// Takes one Newton step towards the nearest unit vector. False when the vector is far from it.
@@ -70,7 +70,7 @@ where
     for value in v {
         *value = *value - 0.5 * (excess * *value);
     }
-    excess.abs().at_most(N::of(CONSISTENT))
+    excess.abs().at_most(N::of(ACCEPTANCE.input))
 }
 
 #[inline(always)]

@@ -10,16 +10,12 @@ use crate::joints::{beyond, differences, is_in, moved, stepped};
 use crate::mechanism::{Equations, Found, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::starts::{Starts, product};
-use crate::tolerances::{ACCEPT, ALONE, NEAR, REGULAR, ROUNDING};
+use crate::tolerances::{ACCEPTANCE, PIVOTS, SELF_MOTIONS, STRATA};
 
 /// Maximal number of least-squares steps that correct a place onto the curve.
 const ROUNDS: usize = 6;
 /// Maximal movement of a joint in such a step (rad, or relative to the length scale).
 const BOUND: f64 = 0.5;
-/// Movement of all joints at which a correction has converged.
-const SETTLED: f64 = 1e-8;
-/// Where a second joint changes the equations by less than this share of what the others do, the solution set has more than one dimension.
-const RANK: f64 = 1e-3;
 /// The shortest, the first and the longest step along the curve (rad, or relative to the length scale).
 const PACE: [f64; 3] = [1.5e-3, 2.5e-2, 0.1];
 /// Maximal number of steps of a walk in one direction.
@@ -39,7 +35,7 @@ const FALLEN: f64 = 0.5;
 /// The search stops after so many such vertices.
 const STALLS: usize = 2;
 /// A curve whose relative residual nowhere exceeds this is a self-motion. The factor leaves room for the tolerance of solutions next to an exact self-motion.
-const WHOLE: f64 = 10.0 * ACCEPT;
+const WHOLE: f64 = 10.0 * ACCEPTANCE.residual;
 
 /// A place on a curve.
 struct Place<M: Mechanism> {
@@ -77,7 +73,7 @@ impl<M: Mechanism> Place<M> {
     fn goes_on(&self, other: &Place<M>) -> bool {
         let [here, there, along] = [self.along(self), other.along(other), self.along(other)];
         let is_aligned = along * along > ALIGNED * here * there;
-        let is_flat = (ROUNDING..=WHOLE).contains(&self.most);
+        let is_flat = (ACCEPTANCE.rounding..=WHOLE).contains(&self.most);
         is_aligned && !is_flat && (along < 0.0 || f64::max(here, there) <= FEWFOLD * f64::min(here, there))
     }
 }
@@ -123,13 +119,13 @@ impl<M: Mechanism> Answers<'_, M> {
     /// member is kept.
     fn walk_curve(&mut self, found: &Found, q: Joints<M>, starts: &mut Starts<M>) {
         let Some((home, held)) = self.problem.start(&q, found.free) else { return };
-        let sides = [-PACE[1], PACE[1]].map(|way| {
-            let side = moved::<M>(&self.problem.facts(), &home.q, held, way);
+        let sides = [-PACE[1], PACE[1]].map(|delta| {
+            let side = moved::<M>(&self.problem.facts(), &home.q, held, delta);
             self.problem.settled(side, held)
         });
         let most = home.most;
         let mut walk = Walk { found: Found { free: 0, ..*found }, best: home.clone(), home, most };
-        if walk.home.most <= ALONE {
+        if walk.home.most <= SELF_MOTIONS.member {
             self.keep_on_curve(&walk.found, walk.home.q.clone());
         }
         if let [Some(before), Some(behind)] = &sides {
@@ -153,9 +149,9 @@ impl<M: Mechanism> Answers<'_, M> {
             let facts = self.problem.facts();
             starts.pass(&facts, &before.q, &at.q);
             walk.pass(&at);
-            let way = facts.farthest(at.q.as_ref(), walk.home.q.as_ref());
-            is_away |= way > 3.0 * PACE[2];
-            if is_away && way <= PACE[2] {
+            let delta = facts.farthest(at.q.as_ref(), walk.home.q.as_ref());
+            is_away |= delta > 3.0 * PACE[2];
+            if is_away && delta <= PACE[2] {
                 self.change(&walk.found, &at, &walk.home);
                 return true;
             }
@@ -163,8 +159,11 @@ impl<M: Mechanism> Answers<'_, M> {
             self.change(&walk.found, &at, &next);
             self.dip(&walk.found, [&before, &at, &next]);
             // Consecutive places with residuals within rounding are one solution, or several close together.
-            if (at.most <= ALONE) != (next.most <= ALONE) {
-                self.keep_on_curve(&walk.found, if at.most <= ALONE { at.q.clone() } else { next.q.clone() });
+            if (at.most <= SELF_MOTIONS.member) != (next.most <= SELF_MOTIONS.member) {
+                self.keep_on_curve(
+                    &walk.found,
+                    if at.most <= SELF_MOTIONS.member { at.q.clone() } else { next.q.clone() },
+                );
             }
             (before, at, last) = (at, next, length);
         }
@@ -174,7 +173,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Keeps the solution between two places where the residual changes its sign, by false position (the Illinois rule: M. Dowell and P. Jarratt, BIT 11 (1971)
     /// 168-174).
     fn change(&mut self, found: &Found, a: &Place<M>, b: &Place<M>) {
-        if a.along(b) > 0.0 || f64::max(a.most, b.most) <= ALONE {
+        if a.along(b) > 0.0 || f64::max(a.most, b.most) <= SELF_MOTIONS.member {
             return;
         }
         let unit = if a.most > b.most { a } else { b };
@@ -182,7 +181,7 @@ impl<M: Mechanism> Answers<'_, M> {
         let (mut near, mut far, mut side) = (a.clone(), b.clone(), 0.0);
         for _ in 0..NARROWED {
             let Some(middle) = self.problem.between(&near, &far, low / (low - high)) else { break };
-            let (value, is_exact) = (middle.along(unit), middle.most <= ROUNDING);
+            let (value, is_exact) = (middle.along(unit), middle.most <= ACCEPTANCE.rounding);
             if (value <= 0.0) == (low <= 0.0) {
                 high = if side < 0.0 { 0.5 * high } else { far.along(unit) };
                 (near, low, side) = (middle, value, -1.0);
@@ -201,20 +200,20 @@ impl<M: Mechanism> Answers<'_, M> {
     fn dip(&mut self, found: &Found, [a, b, c]: [&Place<M>; 3]) {
         let unit = if a.most > c.most { a } else { c };
         let (middle, ends) = (b.along(unit), f64::min(a.along(unit), c.along(unit)));
-        let is_zero = b.most <= ALONE;
-        if !(f64::min(a.most, c.most) > ALONE && ends > middle && (is_zero || middle > 0.0)) {
+        let is_zero = b.most <= SELF_MOTIONS.member;
+        if !(f64::min(a.most, c.most) > SELF_MOTIONS.member && ends > middle && (is_zero || middle > 0.0)) {
             return;
         }
         let (mut least, mut sides, mut stalls) = (b.clone(), [a.clone(), c.clone()], 0);
         for _ in 0..PARABOLAS {
-            if f64::max(sides[0].most, sides[1].most) <= ALONE {
+            if f64::max(sides[0].most, sides[1].most) <= SELF_MOTIONS.member {
                 break;
             }
             let Some((side, vertex)) = self.problem.vertex(unit, &least, &sides) else { break };
             if vertex.along(unit) < 0.0 {
                 sides.iter().for_each(|side| self.change(found, &vertex, side));
                 // Rounding alone may have changed the sign.
-                return if least.most <= ALONE {
+                return if least.most <= SELF_MOTIONS.member {
                     self.keep_on_curve(found, least.q)
                 };
             }
@@ -224,7 +223,7 @@ impl<M: Mechanism> Answers<'_, M> {
             } else {
                 sides[side] = vertex;
             }
-            if least.most > ALONE && stalls >= STALLS {
+            if least.most > SELF_MOTIONS.member && stalls >= STALLS {
                 break;
             }
         }
@@ -239,7 +238,7 @@ impl<M: Mechanism> Answers<'_, M> {
         if self.is_listed(&end.0) {
             return;
         }
-        let is_singular = self.problem.regularity(&end.0) <= REGULAR;
+        let is_singular = self.problem.regularity(&end.0) <= PIVOTS.regular;
         let free = if is_singular { self.problem.joint_on_long_self_motion(&end.0) } else { None }.unwrap_or(0);
         self.keep(&Found { free, ..*found }, end);
     }
@@ -268,7 +267,7 @@ impl<M: Mechanism> Problem<'_, M> {
     /// The place next to `q` reached with one joint held, if it is on a curve along which all other joints follow.
     fn start_with(&mut self, q: &Joints<M>, held: usize) -> Option<(Place<M>, usize)> {
         let place = self.settled(q.clone(), held)?;
-        (self.regularity_of(&place.q, 1 << held) > RANK).then_some((place, held))
+        (self.regularity_of(&place.q, 1 << held) > PIVOTS.weak).then_some((place, held))
     }
 
     /// Takes least-squares steps with one joint held, until they are short.
@@ -284,13 +283,13 @@ impl<M: Mechanism> Problem<'_, M> {
                 return None;
             }
             q = stepped::<M>(&self.facts(), &q, &step);
-            if longest <= SETTLED {
+            if longest <= SELF_MOTIONS.curve {
                 for (value, row) in miss.as_mut().iter_mut().zip(derivatives.as_ref()) {
                     let slopes = row.as_ref().iter().zip(step.as_ref());
-                    *value = slopes.fold(*value, |rest, (slope, way)| rest - slope * way);
+                    *value = slopes.fold(*value, |rest, (slope, delta)| rest - slope * delta);
                 }
                 let most = miss.as_ref().iter().fold(0.0, |most, value| f64::max(most, value.abs()));
-                return (most <= NEAR).then_some(Place { q, miss, most });
+                return (most <= STRATA.near).then_some(Place { q, miss, most });
             }
         }
         None
@@ -329,14 +328,14 @@ impl<M: Mechanism> Problem<'_, M> {
         let [low, middle, high] = [&sides[0], least, &sides[1]].map(|place| place.along(unit));
         let lengths = sides.each_ref().map(|side| self.facts().farthest(side.q.as_ref(), least.q.as_ref()));
         let (fall, rise) = ((middle - low) / lengths[0], (high - middle) / lengths[1]);
-        let way = 0.5 * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
-        let side = usize::from(way >= 0.0);
-        Some((side, self.between(least, &sides[side], way.abs() / lengths[side])?))
+        let delta = 0.5 * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
+        let side = usize::from(delta >= 0.0);
+        Some((side, self.between(least, &sides[side], delta.abs() / lengths[side])?))
     }
 }
 
 /// The index of the entry with the greatest magnitude, the first of equals.
-fn farthest(way: &[f64]) -> usize {
-    let farther = |best: usize, i: usize| if way[i].abs() > way[best].abs() { i } else { best };
-    (1..way.len()).fold(0, farther)
+fn farthest(delta: &[f64]) -> usize {
+    let farther = |best: usize, i: usize| if delta[i].abs() > delta[best].abs() { i } else { best };
+    (1..delta.len()).fold(0, farther)
 }

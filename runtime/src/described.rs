@@ -6,6 +6,7 @@
 
 use crate::angles::angle;
 use crate::conditions::conform;
+use crate::effort::{LEAPS, MOST_STEPS};
 use crate::exactly::solve_ideal;
 use crate::joints::place;
 use crate::limits::{strides_within, turned_within};
@@ -17,7 +18,7 @@ use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Solution};
 use crate::steps::{Steps, settle};
 use crate::storage::Array;
-use crate::tolerances::{ACCEPT, BLUR, LEAPS, MERGE, MOST_STEPS, POLISHED, ROUNDING};
+use crate::tolerances::{ACCEPTANCE, MERGING, POLISHING};
 
 /// A mechanism as described.
 pub(crate) struct Described<'a, M>(pub &'a M);
@@ -151,7 +152,7 @@ fn closest<M: Mechanism>(mechanism: &M, p: &Parameters<M>, steps: &mut Steps) ->
         if is_nearer {
             best = Some(end);
         }
-        best.as_ref().is_some_and(|(_, fit)| fit.relative <= POLISHED)
+        best.as_ref().is_some_and(|(_, fit)| fit.relative <= POLISHING.done)
     })?;
     Ok((best, free))
 }
@@ -186,7 +187,7 @@ fn onto_self_motion<M: Mechanism>(
     let p = ideal_parameters(problem.mechanism, &q)?;
     let is_near = is_within(problem.measure(&q));
     let mut ideal = Problem::new(problem.mechanism, &p, problem.steps);
-    (is_near && ideal.lies_on_self_motion(&q, free, ROUNDING)).then_some(q)
+    (is_near && ideal.is_on_self_motion(&q, free, ACCEPTANCE.rounding)).then_some(q)
 }
 
 /// Adds joint values with which the ideal mechanism also reaches the target within the tolerance, and which are far from all solutions of the nearby target.
@@ -207,7 +208,7 @@ fn add_others<M: Mechanism>(
     };
     propose(mechanism, p, |found, q| {
         let is_far = |q: &Joints<M>| {
-            let is_close = |other: &Solution<M>| facts.is_close(other.q.as_ref(), q.as_ref(), other.free, BLUR);
+            let is_close = |other: &Solution<M>| facts.is_close(other.q.as_ref(), q.as_ref(), other.free, MERGING.blur);
             !out[..count].iter().any(is_close)
         };
         if count == out.len() || found.free == 0 && !is_far(&q) {
@@ -215,7 +216,7 @@ fn add_others<M: Mechanism>(
         }
         let (q, fit) = problem.fitted(q, 0, LEAPS[0]);
         // On a stratum a joint may only appear free, because the remaining equations determine it: then no other joint values nearby are within the tolerance.
-        let mut is_alone = || found.free == 0 || problem.regularity(&q) * BLUR > within;
+        let mut is_alone = || found.free == 0 || problem.regularity(&q) * MERGING.blur > within;
         if fit.relative <= within && is_far(&q) && is_alone() && !is_member(&q, problem.steps) {
             let Fit { residual, relative, .. } = fit;
             out[count] = Solution { q, residual, relative, branch: found.branch, ..Solution::empty(mechanism) };
@@ -246,7 +247,7 @@ pub(crate) fn solve_described<M: Mechanism>(
     let p = mechanism.parameters(target);
     let described = Described(mechanism);
     let (Some((q, fit)), free) = closest(mechanism, &p, steps)? else { return Ok((0, None)) };
-    let within = f64::max(within, ACCEPT);
+    let within = f64::max(within, ACCEPTANCE.residual);
     let is_reached = fit.relative <= within;
     if !is_reached {
         let mut nearest = Solution::empty(mechanism);
@@ -277,7 +278,7 @@ fn ideal_parameters<M: Mechanism>(mechanism: &M, q: &Joints<M>) -> Option<Parame
 
 /// Moves a solution of the ideal mechanism to where the mechanism as described is nearest to the target.
 fn fit_to<M: Mechanism>(problem: &mut Problem<'_, Described<'_, M>>, answer: &mut Solution<M>) {
-    let (q, fit) = problem.fitted(answer.q.clone(), answer.free, BLUR);
+    let (q, fit) = problem.fitted(answer.q.clone(), answer.free, MERGING.blur);
     (answer.q, answer.residual, answer.relative) = (q, fit.residual, fit.relative);
 }
 
@@ -289,7 +290,7 @@ fn fit_all<M: Mechanism>(problem: &mut Problem<'_, Described<'_, M>>, out: &mut 
     for k in 0..out.len() {
         let is_new = |answer: &Solution<M>, before: &[Solution<M>]| {
             let is_same =
-                |a: &Solution<M>| facts.is_close(a.q.as_ref(), answer.q.as_ref(), a.free | answer.free, MERGE);
+                |a: &Solution<M>| facts.is_close(a.q.as_ref(), answer.q.as_ref(), a.free | answer.free, MERGING.joints);
             !before.iter().any(is_same)
         };
         let mut answer = out[k].clone();
@@ -316,7 +317,7 @@ pub(crate) fn within_limits<M: Mechanism>(
 ) -> Option<(Joints<M>, f64)> {
     let mut steps = Steps::at_most(MOST_STEPS);
     let strides = |steps: &mut Steps| {
-        let within = f64::max(mechanism.facts().within?, ACCEPT);
+        let within = f64::max(mechanism.facts().within?, ACCEPTANCE.residual);
         let mut own = Problem::new(mechanism, p, steps);
         let q =
             if answer.free == 0 { None } else { onto_self_motion(&mut own, answer.q.clone(), answer.free, within) }?;

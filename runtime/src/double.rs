@@ -2,7 +2,7 @@
 
 use crate::number::{Number, Roots, Scale};
 use crate::roots;
-use crate::tolerances::TINY;
+use crate::tolerances::STRATA;
 
 impl Number for f64 {
     type Truth = bool;
@@ -54,6 +54,6 @@ impl Number for f64 {
 
     #[inline(always)]
     fn is_away(self, scale: f64) -> bool {
-        self.abs() > TINY * scale
+        self.abs() > STRATA.denominator * scale
     }
 }

@@ -1,11 +1,12 @@
 //! Joint values next to a target at which a joint can move while the tip does not: [`Problem::freed`].
 
+use crate::effort::LEAPS;
 use crate::joints::{is_in, shifted, stepped};
 use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::newton::Triangle;
 use crate::problem::Problem;
 use crate::storage::Array;
-use crate::tolerances::{BENT, DAMPINGS, FREEING, LEAPS, STIFF};
+use crate::tolerances::{PIVOTS, POLISHING};
 
 impl<M: Mechanism> Problem<'_, M> {
     /// Joint values next to `q` at which the first of the joints `free` can move, to first order, while the others keep the equations' values. Among these,
@@ -14,7 +15,7 @@ impl<M: Mechanism> Problem<'_, M> {
     /// The component of the free joint's derivative orthogonal to the derivatives by the other joints must vanish. Gauss-Newton steps achieve this (variable
     /// projection: G. Golub, V. Pereyra 1973). The weight of the equations themselves decreases to zero over the steps.
     pub fn freed(&mut self, mut q: Joints<M>, free: u32) -> Option<Joints<M>> {
-        for share in FREEING {
+        for share in POLISHING.freeing {
             let step = self.freeing_step(&q, free, share)?;
             let is_near = self.facts().longest(step.as_ref()) <= LEAPS[0];
             if !is_near {
@@ -27,9 +28,9 @@ impl<M: Mechanism> Problem<'_, M> {
 
     fn freeing_step(&mut self, q: &Joints<M>, free: u32, share: f64) -> Option<Joints<M>> {
         let (rows, joints) = (self.shared(q).0, self.joints());
-        let (missed, way) = self.across(&rows, &rows, free.trailing_zeros() as usize, free)?;
-        let bends = self.bends(q, &way);
-        let nearer = self.shares(q, STIFF, free);
+        let (missed, direction) = self.across(&rows, &rows, free.trailing_zeros() as usize, free)?;
+        let bends = self.bends(q, &direction);
+        let nearer = self.shares(q, PIVOTS.regular, free);
         let mut triangle = self.no_triangle();
         for i in 0..=joints {
             if i == joints {
@@ -55,25 +56,25 @@ impl<M: Mechanism> Problem<'_, M> {
     ) -> Option<(Equations<M>, Joints<M>)> {
         let count = self.facts().size_of.len();
         let whole: Equations<M> = Array::by(count, |i| columns.as_ref()[i].as_ref()[column]);
-        let triangle: Triangle<M> = self.triangle_of(rows, &whole, DAMPINGS[1], free);
+        let triangle: Triangle<M> = self.triangle_of(rows, &whole, POLISHING.dampings[1], free);
         let along = triangle.substituted()?;
         let rest = |i: usize| {
             let of_joints = rows.as_ref()[i].as_ref().iter().zip(along.as_ref()).enumerate();
             of_joints.fold(whole.as_ref()[i], |sum, (k, (x, y))| if is_in(free, k) { sum } else { sum - x * y })
         };
-        let way = Array::by(self.joints(), |k| match k {
+        let direction = Array::by(self.joints(), |k| match k {
             k if k == column => 1.0,
             k if is_in(free, k) => 0.0,
             k => -along.as_ref()[k],
         });
-        Some((Array::by(count, rest), way))
+        Some((Array::by(count, rest), direction))
     }
 
     /// The change of the Jacobian along a displacement of the joints.
-    fn bends(&self, q: &Joints<M>, way: &Joints<M>) -> Equations<M, Joints<M>> {
-        let width = BENT / f64::max(self.facts().longest(way.as_ref()), 1.0);
+    fn bends(&self, q: &Joints<M>, direction: &Joints<M>) -> Equations<M, Joints<M>> {
+        let width = POLISHING.difference / f64::max(self.facts().longest(direction.as_ref()), 1.0);
         let moved = |by: f64| {
-            let part: Joints<M> = Array::by(self.joints(), |i| by * way.as_ref()[i]);
+            let part: Joints<M> = Array::by(self.joints(), |i| by * direction.as_ref()[i]);
             self.shared(&shifted::<M>(&self.facts(), q, &part)).0
         };
         let (ahead, behind) = (moved(width), moved(-width));

@@ -58,8 +58,8 @@ impl Facts<'_> {
 
     /// The largest difference of a joint: an angle, or relative to the magnitude of a length.
     pub(crate) fn farthest(&self, a: &[f64], b: &[f64]) -> f64 {
-        let way = |i: usize| self.shortest(i, a[i] - b[i]).abs() / self.span(i, a[i]);
-        (0..self.joints.len()).fold(0.0, |farthest, i| f64::max(farthest, way(i)))
+        let delta = |i: usize| self.shortest(i, a[i] - b[i]).abs() / self.span(i, a[i]);
+        (0..self.joints.len()).fold(0.0, |farthest, i| f64::max(farthest, delta(i)))
     }
 
     /// Whether joint values differ by at most `tolerance`, the joints of a set left out.
@@ -70,8 +70,8 @@ impl Facts<'_> {
 
     /// The largest movement of a joint in a step: an angle, or relative to the length scale.
     pub(crate) fn longest(&self, step: &[f64]) -> f64 {
-        let way = |i: usize| if self.joints[i].is_angle() { step[i].abs() } else { step[i].abs() / self.scale };
-        (0..self.joints.len()).fold(0.0, |longest, i| f64::max(longest, way(i)))
+        let delta = |i: usize| if self.joints[i].is_angle() { step[i].abs() } else { step[i].abs() / self.scale };
+        (0..self.joints.len()).fold(0.0, |longest, i| f64::max(longest, delta(i)))
     }
 }
 
@@ -85,22 +85,22 @@ pub(crate) fn stepped<M: Mechanism>(facts: &Facts<'_>, q: &Joints<M>, step: &Joi
     Array::by(facts.joints.len(), |i| facts.wrapped(i, q.as_ref()[i] - step.as_ref()[i]))
 }
 
-/// `q + way`, angles in (-pi, pi].
-pub(crate) fn shifted<M: Mechanism>(facts: &Facts<'_>, q: &Joints<M>, way: &Joints<M>) -> Joints<M> {
-    Array::by(facts.joints.len(), |i| facts.wrapped(i, q.as_ref()[i] + way.as_ref()[i]))
+/// `q + delta`, angles in (-pi, pi].
+pub(crate) fn shifted<M: Mechanism>(facts: &Facts<'_>, q: &Joints<M>, delta: &Joints<M>) -> Joints<M> {
+    Array::by(facts.joints.len(), |i| facts.wrapped(i, q.as_ref()[i] + delta.as_ref()[i]))
 }
 
-/// `q` with one joint moved: an angle by `way`, a length by `way` times its magnitude.
-pub(crate) fn moved<M: Mechanism>(facts: &Facts<'_>, q: &Joints<M>, joint: usize, way: f64) -> Joints<M> {
+/// `q` with one joint moved: an angle by `delta`, a length by `delta` times its magnitude.
+pub(crate) fn moved<M: Mechanism>(facts: &Facts<'_>, q: &Joints<M>, joint: usize, delta: f64) -> Joints<M> {
     let (mut next, value) = (q.clone(), q.as_ref()[joint]);
-    next.as_mut()[joint] = facts.wrapped(joint, value + way * facts.span(joint, value));
+    next.as_mut()[joint] = facts.wrapped(joint, value + delta * facts.span(joint, value));
     next
 }
 
 /// Linear extrapolation from `a` through `b`, by `ahead` times their distance.
 pub(crate) fn beyond<M: Mechanism>(facts: &Facts<'_>, a: &Joints<M>, b: &Joints<M>, ahead: f64) -> Joints<M> {
-    let way = differences::<M>(facts, b, a);
-    Array::by(facts.joints.len(), |i| b.as_ref()[i] + ahead * way.as_ref()[i])
+    let delta = differences::<M>(facts, b, a);
+    Array::by(facts.joints.len(), |i| b.as_ref()[i] + ahead * delta.as_ref()[i])
 }
 
 /// The numbers that the equations read of joint values. `like` provides the numbers that follow from no joint.

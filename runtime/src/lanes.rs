@@ -6,7 +6,7 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 use crate::arithmetic::Arithmetic;
 use crate::number::{Number, Roots, Scale};
 use crate::roots::{self, MOST};
-use crate::tolerances::{MEETING, TINY};
+use crate::tolerances::{ROOTS, STRATA};
 
 /// `W` numbers on which operations act at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,7 +139,7 @@ impl<const W: usize> Number for Lanes<W> {
     fn roots_of_square(constant: Self, scale: Self, tangent: f64) -> Roots<Self, 2> {
         let dead = constant.at_most(tangent * constant.max(scale * scale)).inverted();
         let root = constant.each(constant, |a, _| Arithmetic::sqrt(-a));
-        let close = root.exceeds(MEETING * scale).inverted();
+        let close = root.exceeds(ROOTS.close * scale).inverted();
         Roots { values: [-root, root], count: 2, doubts: [Doubt { dead, close }; 2] }
     }
 
@@ -163,7 +163,7 @@ impl<const W: usize> Number for Lanes<W> {
     /// NaN counts as true: it belongs to no candidate.
     #[inline(always)]
     fn is_away(self, scale: Self) -> Mask<W> {
-        self.abs().at_most(TINY * scale).inverted()
+        self.abs().at_most(STRATA.denominator * scale).inverted()
     }
 }
 

@@ -3,12 +3,13 @@
 use core::f64::consts::TAU;
 
 use crate::arithmetic::Arithmetic;
+use crate::effort::{MOST_STEPS, STRIDE, STRIDES};
 use crate::joints::{is_in, moved};
 use crate::mechanism::{Facts, Joint, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::solution::Solution;
 use crate::steps::Steps;
-use crate::tolerances::{MOST_STEPS, SLACK, STRIDE, STRIDES};
+use crate::tolerances::ACCEPTANCE;
 
 /// Maximal number of turns that are counted.
 pub const MOST_TURNS: usize = 1_000_000;
@@ -21,7 +22,7 @@ impl Joint {
 
     /// The least and the greatest number of turns that bring the joint within its limits. The first is greater when none does.
     fn turns_within(self, value: f64, limit: [f64; 2]) -> (f64, f64) {
-        let (low, high) = (limit[0] - SLACK - value, limit[1] + SLACK - value);
+        let (low, high) = (limit[0] - ACCEPTANCE.input - value, limit[1] + ACCEPTANCE.input - value);
         if self.is_angle() {
             return (Arithmetic::ceil(low / TAU), Arithmetic::floor(high / TAU));
         }
@@ -98,9 +99,9 @@ pub(crate) fn strides_within<M: Mechanism>(
     for i in (0..2 * problem.joints()).filter(|i| is_in(answer.free, i / 2)) {
         let mut q = answer.q.clone();
         for _ in 0..STRIDES {
-            let way = if i % 2 == 0 { STRIDE } else { -STRIDE };
+            let delta = if i % 2 == 0 { STRIDE } else { -STRIDE };
             let (next, fit) = {
-                let start = moved::<M>(&problem.facts(), &q, i / 2, way);
+                let start = moved::<M>(&problem.facts(), &q, i / 2, delta);
                 problem.polished(start, answer.free)
             };
             if !fit.accepted {

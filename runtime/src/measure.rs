@@ -10,7 +10,7 @@ use crate::mechanism::{Abreast, Facts, Joint, Joints, Mechanism, Places};
 use crate::number::Number;
 use crate::problem::{Problem, everywhere, fit};
 use crate::storage::Array;
-use crate::tolerances::ROUNDING;
+use crate::tolerances::ACCEPTANCE;
 
 /// Residuals of candidates, and whether a candidate is valid: 1, else 0.
 pub(crate) struct Fits<M: Mechanism> {
@@ -53,7 +53,7 @@ fn sound<M: Mechanism, const W: usize>(facts: &Facts<'_>, at: &Places<M, Lanes<W
     let (mut sound, at) = (Lanes([1.0; W]), at.as_ref());
     for joint in facts.joints {
         sound = match *joint {
-            Joint::Angle([c, s]) => sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).abs(), ROUNDING),
+            Joint::Angle([c, s]) => sound.where_below((at[c] * at[c] + at[s] * at[s] - 1.0).abs(), ACCEPTANCE.rounding),
             Joint::Length(place) => sound.where_below(at[place].abs(), f64::MAX),
         };
     }

@@ -193,7 +193,7 @@ pub enum Joint {
     Length(usize),
 }
 
-/// A condition on numbers of a target. Deviations within [`crate::tolerances::CONSISTENT`] are corrected; larger ones are an error.
+/// A condition on numbers of a target. Deviations within `tolerances::ACCEPTANCE.input` are corrected; larger ones are an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Condition {
     /// The nine numbers from this index on, by rows, are a rotation matrix.

@@ -2,14 +2,12 @@
 
 use crate::arithmetic::Arithmetic;
 use crate::counters::Event;
+use crate::effort::{FITTING_STEPS, INVERSIONS, LEAPS, OVERSHOT, PATIENCE, POLISH_STEPS, RETURNS, STEEP};
 use crate::joints::{beyond, is_in, shifted, stepped};
 use crate::mechanism::{Equations, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::{Array, Storage};
-use crate::tolerances::{
-    ALONE, BLUR, DAMPINGS, FITTING_STEPS, INVERSIONS, LEAPS, NEAR, OVERSHOT, PATIENCE, POLISH_STEPS, POLISHED, RETURNS,
-    ROUNDING, SHORT, STEEP, STIFF,
-};
+use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS, POLISHING, SELF_MOTIONS, STRATA};
 
 /// A QR factorisation, stored by columns; the right side is the last one.
 pub(crate) struct Triangle<M: Mechanism> {
@@ -28,14 +26,14 @@ impl<M: Mechanism> Problem<'_, M> {
     pub fn polish(&mut self, start: End<M>, held: u32) -> End<M> {
         let (mut end, mut slow) = (start, 0);
         for _ in 0..POLISH_STEPS {
-            if end.1.relative <= POLISHED || slow == PATIENCE || self.steps.are_spent() {
+            if end.1.relative <= POLISHING.done || slow == PATIENCE || self.steps.are_spent() {
                 return end;
             }
             let Some(next) = self.improved(&end, held) else { return end };
-            slow = if next.1.relative <= f64::max(0.5 * end.1.relative, ROUNDING) { 0 } else { slow + 1 };
+            slow = if next.1.relative <= f64::max(0.5 * end.1.relative, ACCEPTANCE.rounding) { 0 } else { slow + 1 };
             let step: Joints<M> = Array::by(self.joints(), |i| next.0.as_ref()[i] - end.0.as_ref()[i]);
             end = next;
-            if end.1.relative < ROUNDING && self.facts().longest(step.as_ref()) <= SHORT {
+            if end.1.relative < ACCEPTANCE.rounding && self.facts().longest(step.as_ref()) <= POLISHING.step {
                 return end;
             }
         }
@@ -51,19 +49,22 @@ impl<M: Mechanism> Problem<'_, M> {
     /// The least damped step that lowers the relative residual. Where the residual exceeds rounding, the first choice is a step that halves it, then a leap,
     /// then any decrease. Where it is within rounding, a short plain step is the last one.
     fn improved(&mut self, (q, fit): &End<M>, held: u32) -> Option<End<M>> {
-        let leaps = (ROUNDING..=NEAR).contains(&fit.relative);
+        let leaps = (ACCEPTANCE.rounding..=STRATA.near).contains(&fit.relative);
         let enough = if leaps { 0.5 * fit.relative } else { fit.relative };
-        let last = if held == 0 { ALONE } else { ROUNDING };
+        let last = if held == 0 { SELF_MOTIONS.member } else { ACCEPTANCE.rounding };
         let (derivatives, values) = self.slopes(q);
         let mut fallen = None;
-        for damping in DAMPINGS {
+        for damping in POLISHING.dampings {
             let triangle = self.triangle_of(&derivatives, &values, damping, held);
             let Some(step) = triangle.substituted() else { continue };
             let next = self.measured(stepped::<M>(&self.facts(), q, &step));
             if next.1.relative < enough {
                 return Some(next);
             }
-            if damping == 0.0 && fit.relative < ROUNDING && self.facts().longest(step.as_ref()) <= SHORT {
+            if damping == 0.0
+                && fit.relative < ACCEPTANCE.rounding
+                && self.facts().longest(step.as_ref()) <= POLISHING.step
+            {
                 return None;
             }
             if damping == 0.0 && fit.relative > last && triangle.is_regular() {
@@ -107,10 +108,10 @@ impl<M: Mechanism> Problem<'_, M> {
         }
         for most in LEAPS {
             let share = f64::min(most / longest, 1.0);
-            let way: Joints<M> = Array::by(self.joints(), |i| share * step.as_ref()[i]);
-            let mut next = stepped::<M>(&self.facts(), q, &way);
+            let direction: Joints<M> = Array::by(self.joints(), |i| share * step.as_ref()[i]);
+            let mut next = stepped::<M>(&self.facts(), q, &direction);
             for _ in 0..RETURNS {
-                let Some(back) = self.newton_step(&next, STIFF, held) else { break };
+                let Some(back) = self.newton_step(&next, PIVOTS.regular, held) else { break };
                 next = stepped::<M>(&self.facts(), &next, &back);
                 let fit = self.measure(&next);
                 if fit.relative < enough {
@@ -123,7 +124,7 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// Whether the equations hold within `bound` half-way between two close configurations, on a path that may be curved.
     pub fn are_joined(&mut self, a: &Joints<M>, b: &Joints<M>, bound: f64, held: u32) -> bool {
-        if self.facts().farthest(a.as_ref(), b.as_ref()) > BLUR {
+        if self.facts().farthest(a.as_ref(), b.as_ref()) > MERGING.blur {
             return false;
         }
         let mut middle = beyond::<M>(&self.facts(), a, b, -0.5);
@@ -132,7 +133,7 @@ impl<M: Mechanism> Problem<'_, M> {
             if fit.relative <= bound {
                 return true;
             }
-            let Some(back) = self.newton_step(&middle, STIFF, held) else { return false };
+            let Some(back) = self.newton_step(&middle, PIVOTS.regular, held) else { return false };
             middle = stepped::<M>(&self.facts(), &middle, &back);
             fit = self.measure(&middle);
         }
@@ -152,12 +153,12 @@ impl<M: Mechanism> Problem<'_, M> {
     pub fn fitted(&mut self, q: Joints<M>, held: u32, most: f64) -> End<M> {
         let (mut q, mut squares) = (q.clone(), self.squares(&q));
         for _ in 0..FITTING_STEPS {
-            if squares <= POLISHED * POLISHED || self.steps.are_spent() {
+            if squares <= POLISHING.done * POLISHING.done || self.steps.are_spent() {
                 break;
             }
             let Some((next, fallen, longest)) = self.fallen(&q, squares, held, most) else { break };
             (q, squares) = (next, fallen);
-            if longest <= SHORT {
+            if longest <= POLISHING.step {
                 break;
             }
         }
@@ -166,7 +167,7 @@ impl<M: Mechanism> Problem<'_, M> {
 
     /// The end of the least damped step that lowers the sum of squares, the sum there, and the length of the step.
     fn fallen(&mut self, q: &Joints<M>, squares: f64, held: u32, most: f64) -> Option<(Joints<M>, f64, f64)> {
-        for damping in DAMPINGS {
+        for damping in POLISHING.dampings {
             let Some(step) = self.shares(q, damping, held).substituted() else { continue };
             let longest = self.facts().longest(step.as_ref());
             if longest <= most {
@@ -211,33 +212,33 @@ impl<M: Mechanism> Problem<'_, M> {
         }
         let joints = self.joints();
         let most = (0..joints).fold(0.0, |most, i| f64::max(most, triangle.entry(i, i).abs()));
-        let mut way: Joints<M> = Array::by(joints, |_| 1.0);
+        let mut direction: Joints<M> = Array::by(joints, |_| 1.0);
         let mut share = 1.0;
         for _ in 0..INVERSIONS {
             for row in 0..joints {
-                let above =
-                    (0..row).fold(way.as_ref()[row], |sum, k| sum - triangle.entry(row, k) * triangle.entry(joints, k));
+                let above = (0..row)
+                    .fold(direction.as_ref()[row], |sum, k| sum - triangle.entry(row, k) * triangle.entry(joints, k));
                 let solved = above / triangle.entry(row, row);
                 triangle.column_mut(joints)[row] = solved;
             }
             let before = norm(&triangle.column(joints)[..joints]);
-            way = triangle.substituted()?;
-            share = before / (norm(way.as_ref()) * most);
+            direction = triangle.substituted()?;
+            share = before / (norm(direction.as_ref()) * most);
         }
-        let longest = self.facts().longest(way.as_ref());
-        let unit = Array::by(joints, |i| way.as_ref()[i] / longest);
+        let longest = self.facts().longest(direction.as_ref());
+        let unit = Array::by(joints, |i| direction.as_ref()[i] / longest);
         (longest.is_finite() && longest > 0.0).then_some((unit, share))
     }
 
-    /// The distance along `way` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`.
-    pub fn second_root(&mut self, root: &Joints<M>, way: &Joints<M>, ahead: f64) -> Option<f64> {
-        let there: Joints<M> = Array::by(self.joints(), |i| ahead * way.as_ref()[i]);
+    /// The distance along `direction` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`.
+    pub fn second_root(&mut self, root: &Joints<M>, direction: &Joints<M>, ahead: f64) -> Option<f64> {
+        let there: Joints<M> = Array::by(self.joints(), |i| ahead * direction.as_ref()[i]);
         let start = shifted::<M>(&self.facts(), root, &there);
         let step = self.newton_step(&start, 0.0, 0)?;
         let (mut along, mut square) = (0.0, 0.0);
-        for (step, way) in step.as_ref().iter().zip(way.as_ref()) {
-            along += step * way;
-            square += way * way;
+        for (step, direction) in step.as_ref().iter().zip(direction.as_ref()) {
+            along += step * direction;
+            square += direction * direction;
         }
         let arrived = ahead - along / square;
         let distance = 2.0 * ahead - ahead * ahead / arrived;

@@ -3,7 +3,7 @@
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
 use crate::arithmetic::Arithmetic;
-use crate::tolerances::{BESIDE, GRAZING, NEAR, TANGENT};
+use crate::tolerances::{ACCEPTANCE, ROOTS, STRATA};
 use crate::trigonometry;
 
 /// A scalar operand on the left of an operation with several numbers.
@@ -59,13 +59,13 @@ pub trait Number:
     /// The real roots of `x^2 + constant`, whose typical size is `scale`.
     #[inline(always)]
     fn square_roots(constant: Self, scale: Self) -> Roots<Self, 2> {
-        Self::roots_of_square(constant, scale, TANGENT)
+        Self::roots_of_square(constant, scale, ROOTS.tangent)
     }
 
     /// Same as [`Number::square_roots`], with a larger tolerance, after roots of polynomials of higher degree.
     #[inline(always)]
     fn grazing_roots(constant: Self, scale: Self) -> Roots<Self, 2> {
-        Self::roots_of_square(constant, scale, GRAZING)
+        Self::roots_of_square(constant, scale, ACCEPTANCE.unsettled)
     }
 
     /// The magnitude.
@@ -143,7 +143,7 @@ pub trait Number:
     /// Where a factor is so close to zero that the case of a stratum runs.
     #[inline(always)]
     fn near(self, scale: Self) -> Guard<Self> {
-        Guard { here: self.abs().at_most(scale * NEAR), beside: self.abs().at_most(scale * BESIDE) }
+        Guard { here: self.abs().at_most(scale * STRATA.near), beside: self.abs().at_most(scale * STRATA.beside) }
     }
 
     /// Where a factor is not zero.

@@ -8,7 +8,7 @@ use crate::mechanism::{Equations, Facts, Joints, Mechanism, Parameters, Places, 
 use crate::number::Number;
 use crate::steps::Steps;
 use crate::storage::Array;
-use crate::tolerances::ACCEPT;
+use crate::tolerances::ACCEPTANCE;
 
 /// A mechanism's equations at a target.
 pub(crate) struct Problem<'a, M: Mechanism> {
@@ -83,7 +83,7 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         let mut largest: Sizes<M> = Array::by(self.facts().sizes, |_| 0.0);
         for (value, &size) in values.as_ref().iter().zip(size_of) {
             largest.as_mut()[size] = f64::max(largest.as_ref()[size], value.abs());
-            fit.accepted &= value.abs() <= ACCEPT * sizes[size];
+            fit.accepted &= value.abs() <= ACCEPTANCE.residual * sizes[size];
         }
         for (largest, size) in largest.as_ref().iter().zip(sizes) {
             fit.residual = f64::max(fit.residual, *largest);

@@ -4,17 +4,10 @@
 
 use crate::arithmetic::Arithmetic;
 use crate::number::Scale;
+use crate::tolerances::{POLISHING, ROOTS};
 
-/// Least leading coefficient, relative to the largest one: the change of the unknown then loses few digits.
-const LED: f64 = 1e-2;
-/// Largest relative difference between the product of the two quadratics and the quartic.
-const FACTORED: f64 = 1e-8;
-/// Least relative distance of roots, real or complex.
-const DISTINCT: f64 = 2e-3;
-/// Longest last Newton step, relative to a root: the next one would be within rounding.
-const SETTLED: f64 = 1e-9;
-/// Relative length of the last Newton step for a root of the resolvent: half of the digits are then correct.
-const RESOLVED: f64 = 1e-5;
+/// The leading coefficient of an ordinary quartic exceeds this fraction of the largest coefficient. Then the division by it costs few digits.
+const ORDINARY_LEAD: f64 = 1e-2;
 /// Maximal number of Newton steps for the resolvent.
 const RESOLVENT_STEPS: usize = 24;
 
@@ -26,7 +19,7 @@ type Ordinary = ([f64; 4], usize);
 pub(crate) fn ordinary_roots(coefficients: &[f64; 5], scale: Scale) -> Option<Ordinary> {
     let [e, d, c, b, lead] = *coefficients;
     let largest = coefficients.iter().fold(0.0, |largest, c| f64::max(largest, c.abs()));
-    if !(lead.abs() > LED * largest && largest < f64::INFINITY) {
+    if !(lead.abs() > ORDINARY_LEAD * largest && largest < f64::INFINITY) {
         return None;
     }
     let inverse = 1.0 / lead;
@@ -40,7 +33,7 @@ pub(crate) fn ordinary_roots(coefficients: &[f64; 5], scale: Scale) -> Option<Or
         roots = [f64::min(roots[0], roots[2]), f64::min(low, high), f64::max(low, high), f64::max(roots[1], roots[3])];
     }
     // A root that has not converged is NaN, and fails every comparison.
-    let apart = |pair: &[f64]| pair[1] - pair[0] > DISTINCT * f64::max(scale.at(pair[0]), scale.at(pair[1]));
+    let apart = |pair: &[f64]| pair[1] - pair[0] > ROOTS.distinct * f64::max(scale.at(pair[0]), scale.at(pair[1]));
     roots[..count].windows(2).all(apart).then_some((roots, count))
 }
 
@@ -59,10 +52,6 @@ fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: Scale) -> Option<Ordinary>
     let (mean, half) = (0.5 * (p + z), 0.5 * q / h);
     let (f, g) = (mean - half, mean + half);
     let size = f64::max(f64::max(z, f.abs()), g.abs());
-    let is_product = (f * g - r).abs() <= FACTORED * size * size;
-    if !is_product {
-        return None;
-    }
     let (mut roots, mut count) = ([0.0; 4], 0);
     for (other, discriminant, middle) in [(g, z - 4.0 * f, -0.5 * h), (f, z - 4.0 * g, 0.5 * h)] {
         let apart = 0.5 * Arithmetic::sqrt(discriminant.abs());
@@ -70,8 +59,8 @@ fn approximate_roots(&[e, d, c, b]: &[f64; 4], scale: Scale) -> Option<Ordinary>
             roots[count] = middle - apart - quarter;
             roots[count + 1] = middle + apart - quarter;
             count += 2;
-        } else if !(apart > DISTINCT * scale.at(Arithmetic::sqrt(size))
-            && (other + 0.75 * z).abs() > DISTINCT * f64::max(size, typical * typical))
+        } else if !(apart > ROOTS.distinct * scale.at(Arithmetic::sqrt(size))
+            && (other + 0.75 * z).abs() > ROOTS.distinct * f64::max(size, typical * typical))
         {
             return None;
         }
@@ -90,7 +79,7 @@ fn resolved(u: f64, v: f64, w: f64, typical: f64) -> Option<f64> {
         let slope = (3.0 * z + 2.0 * u) * z + v;
         let step = value / slope;
         z -= step;
-        if step.abs() <= RESOLVED * z {
+        if step.abs() <= ROOTS.close * z {
             return (w > 0.0).then_some(z);
         }
     }
@@ -106,5 +95,5 @@ fn settled(&[e, d, c, b]: &[f64; 4], mut x: f64, scale: f64) -> f64 {
         step = value / slope;
         x -= step;
     }
-    if f64::abs(step) <= SETTLED * f64::max(scale, x.abs()) { x } else { f64::NAN }
+    if f64::abs(step) <= POLISHING.step * f64::max(scale, x.abs()) { x } else { f64::NAN }
 }

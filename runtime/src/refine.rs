@@ -4,6 +4,7 @@ use crate::answers::Answers;
 use crate::approach::Approach;
 use crate::arithmetic::Arithmetic;
 use crate::counters::Phase;
+use crate::effort::{APART, FARTHER, FARTHEST, LEVER, MILD, STEEP, TWIN, TWIN_AT, TWIN_WITHIN};
 use crate::joints::{differences, moved, shifted};
 use crate::mechanism::{Found, Joints, Mechanism};
 use crate::newton::Triangle;
@@ -11,10 +12,7 @@ use crate::problem::{End, Fit, Problem};
 use crate::solution::Solution;
 use crate::storage::Array;
 use crate::strays::Loners;
-use crate::tolerances::{
-    ACCEPT, ALIKE, APART, BLUR, DISTINCT, FARTHER, FARTHEST, LEVER, MERGE, MILD, NEAR, OFF, REGULAR, ROUNDING, STEEP,
-    TWIN, TWIN_AT, TWIN_WITHIN, UNSETTLED,
-};
+use crate::tolerances::{ACCEPTANCE, MERGING, NEARBY_ROBOTS, PIVOTS, STRATA};
 
 /// Maximal number of solutions of a target.
 const MOST: usize = 4096;
@@ -35,10 +33,11 @@ impl<M: Mechanism> Answers<'_, M> {
         let missed = start.1.relative;
         let end = self.problem.polish(start, 0);
         let miss = end.1.relative;
-        let way = self.problem.facts().farthest(q.as_ref(), end.0.as_ref());
+        let delta = self.problem.facts().farthest(q.as_ref(), end.0.as_ref());
         let is_nearby = self.problem.facts().nearby.is_some();
-        let is_beside = (ROUNDING..=if is_nearby { OFF } else { NEAR }).contains(&missed);
-        let holds = missed < ROUNDING || miss < ROUNDING && way <= MERGE;
+        let is_beside =
+            (ACCEPTANCE.rounding..=if is_nearby { NEARBY_ROBOTS.off } else { STRATA.near }).contains(&missed);
+        let holds = missed < ACCEPTANCE.rounding || miss < ACCEPTANCE.rounding && delta <= MERGING.joints;
         if !(end.1.accepted && holds) {
             self.unsound = number;
         }
@@ -53,15 +52,15 @@ impl<M: Mechanism> Answers<'_, M> {
         if is_nearby && self.leads_to_curve(found, (&q, is_beside), &end, regularity) {
             return self.miss(end);
         }
-        if (ROUNDING..=NEAR).contains(&miss) {
+        if (ACCEPTANCE.rounding..=STRATA.near).contains(&miss) {
             self.around(found, &end, miss);
-        } else if is_beside && way > LEVER * Arithmetic::sqrt(missed) {
-            if !is_nearby || regularity <= DISTINCT {
+        } else if is_beside && delta > LEVER * Arithmetic::sqrt(missed) {
+            if !is_nearby || regularity <= PIVOTS.isolated {
                 self.around(found, &end, missed);
             }
             // Such a candidate is between two solutions: starts again from the other side.
-            let way = differences::<M>(&self.problem.facts(), &q, &end.0);
-            let start = shifted::<M>(&self.problem.facts(), &q, &way);
+            let delta = differences::<M>(&self.problem.facts(), &q, &end.0);
+            let start = shifted::<M>(&self.problem.facts(), &q, &delta);
             let start = self.problem.polished(start, 0);
             self.keep(found, start);
         }
@@ -80,10 +79,10 @@ impl<M: Mechanism> Answers<'_, M> {
         end: &End<M>,
         regularity: f64,
     ) -> bool {
-        if is_beside && self.is_curve(found, end, regularity) && end.1.relative >= ROUNDING {
+        if is_beside && self.is_curve(found, end, regularity) && end.1.relative >= ACCEPTANCE.rounding {
             return true;
         }
-        if self.problem.facts().farthest(q.as_ref(), end.0.as_ref()) > BLUR {
+        if self.problem.facts().farthest(q.as_ref(), end.0.as_ref()) > MERGING.blur {
             self.begin_curve(found, q);
         }
         false
@@ -99,7 +98,7 @@ impl<M: Mechanism> Answers<'_, M> {
         self.unsound = number;
         let triangle = self.problem.triangle(&end, 0.0, 0);
         let regularity = triangle.regularity();
-        if regularity <= REGULAR {
+        if regularity <= PIVOTS.regular {
             if self.keep_moving(found, &(end.clone(), fit), regularity) {
                 return;
             }
@@ -112,7 +111,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Keeps a solution that is a member of a self-motion of one joint that a case frees. The formulas of a nearby mechanism do not distinguish these from
     /// isolated solutions. Returns whether it is one.
     fn keep_moving(&mut self, found: &Found, end: &End<M>, regularity: f64) -> bool {
-        let may_move = end.1.relative <= ROUNDING && regularity <= REGULAR;
+        let may_move = end.1.relative <= ACCEPTANCE.rounding && regularity <= PIVOTS.regular;
         let joint = if may_move { self.problem.joint_on_long_self_motion(&end.0) } else { None };
         if let Some(free) = joint {
             self.keep(&Found { free, ..*found }, end.clone());
@@ -122,7 +121,8 @@ impl<M: Mechanism> Answers<'_, M> {
 
     /// Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed.
     fn is_curve(&mut self, found: &Found, (q, fit): &End<M>, regularity: f64) -> bool {
-        let is_singular = (ROUNDING..=NEAR).contains(&fit.relative) || fit.accepted && regularity <= REGULAR;
+        let is_singular =
+            (ACCEPTANCE.rounding..=STRATA.near).contains(&fit.relative) || fit.accepted && regularity <= PIVOTS.regular;
         is_singular && self.begin_curve(found, q)
     }
 
@@ -131,15 +131,15 @@ impl<M: Mechanism> Answers<'_, M> {
     fn twin(&mut self, found: &Found, end: &Joints<M>, triangle: Triangle<M>, missed: f64) {
         let _phase = Phase::Twin.begin();
         let nearby = Arithmetic::sqrt(missed);
-        let Some((way, share)) = self.problem.stillest(triangle) else { return };
+        let Some((delta, share)) = self.problem.stillest(triangle) else { return };
         if share > TWIN * nearby {
             return;
         }
-        let Some(distance) = self.problem.second_root(end, &way, TWIN_AT * nearby) else { return };
+        let Some(distance) = self.problem.second_root(end, &delta, TWIN_AT * nearby) else { return };
         if distance.abs() > TWIN_WITHIN * nearby {
             return;
         }
-        let step: Joints<M> = Array::by(self.problem.joints(), |i| distance * way.as_ref()[i]);
+        let step: Joints<M> = Array::by(self.problem.joints(), |i| distance * delta.as_ref()[i]);
         let start = shifted::<M>(&self.problem.facts(), end, &step);
         let at = self.problem.place(&start);
         let end = match self.problem.approached(&at, &start) {
@@ -160,8 +160,8 @@ impl<M: Mechanism> Answers<'_, M> {
             for i in 0..self.problem.joints() {
                 for sign in [-1.0, 1.0] {
                     let weight = if end.1.accepted { 1.0 } else { weights.as_ref()[i] };
-                    let way = f64::min(farther * Arithmetic::sqrt(missed / weight), APART);
-                    let start = moved::<M>(&self.problem.facts(), &end.0, i, 2.0 * sign * way);
+                    let delta = f64::min(farther * Arithmetic::sqrt(missed / weight), APART);
+                    let start = moved::<M>(&self.problem.facts(), &end.0, i, 2.0 * sign * delta);
                     let start = self.problem.polished(start, 0);
                     is_found |= start.1.accepted;
                     self.keep(found, start);
@@ -189,7 +189,7 @@ impl<M: Mechanism> Answers<'_, M> {
             return self.miss((q, fit));
         }
         let is_apart = |other: &Solution<M>| {
-            let is_near = self.problem.facts().is_within(other.q.as_ref(), q.as_ref(), BLUR);
+            let is_near = self.problem.facts().is_within(other.q.as_ref(), q.as_ref(), MERGING.blur);
             other.branch != found.branch && other.is_isolated() && !is_near
         };
         let is_first = found.free == 0 && self.out[..self.count].iter().all(is_apart);
@@ -203,7 +203,7 @@ impl<M: Mechanism> Answers<'_, M> {
     fn may_stay(&self, q: &Joints<M>, fit: &Fit) -> bool {
         let are_finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
         let is_whole = are_finite(q.as_ref()) && self.problem.extras.as_ref().is_none_or(|at| are_finite(at.as_ref()));
-        self.problem.steps.are_spent() && fit.relative <= UNSETTLED && is_whole
+        self.problem.steps.are_spent() && fit.relative <= ACCEPTANCE.unsettled && is_whole
     }
 
     /// Same as [`Answers::keep`], where other solutions are near.
@@ -306,15 +306,16 @@ impl<M: Mechanism> Answers<'_, M> {
         let answers = &mut self.out[..self.count];
         let least = answers.iter().map(value).fold(f64::INFINITY, f64::min);
         for answer in answers {
-            answer.chosen = value(answer) <= least + MERGE;
+            answer.chosen = value(answer) <= least + MERGING.joints;
         }
     }
 
-    /// Whether two solutions are one: members of one self-motion, one singular configuration, or within [`MERGE`] without the joints that are free in either.
+    /// Whether two solutions are one: members of one self-motion, one singular configuration, or within `MERGING.joints` without the joints that are free in
+    /// either.
     fn is_one(&mut self, index: usize, b: &Solution<M>) -> bool {
         let Answers { problem, out, is_another, suffices, loners, .. } = self;
         let a = &out[index];
-        if problem.facts().is_close(a.q.as_ref(), b.q.as_ref(), a.free | b.free, MERGE) {
+        if problem.facts().is_close(a.q.as_ref(), b.q.as_ref(), a.free | b.free, MERGING.joints) {
             return true;
         }
         if problem.steps.are_spent() {
@@ -323,7 +324,7 @@ impl<M: Mechanism> Answers<'_, M> {
         match (a.is_isolated(), b.is_isolated()) {
             (true, true) => problem.are_blurred((&a.q, a.relative), (&b.q, b.relative)),
             (false, false) => {
-                let are_apart = *is_another && a.relative <= ROUNDING && a.branch == b.branch;
+                let are_apart = *is_another && a.relative <= ACCEPTANCE.rounding && a.branch == b.branch;
                 let is_alike = a.free == b.free && !are_apart;
                 is_alike && (are_by_branch(problem, a, b) || problem.leads_to(&a.q, &b.q, a.free))
             }
@@ -334,12 +335,12 @@ impl<M: Mechanism> Answers<'_, M> {
 }
 
 impl<M: Mechanism> Problem<'_, M> {
-    /// Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than [`MERGE`]. Half-way between
-    /// them the residual is then no larger than at the worse of the two.
+    /// Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than `MERGING.joints`. Half-way
+    /// between them the residual is then no larger than at the worse of the two.
     pub fn are_blurred(&mut self, (a, of_a): (&Joints<M>, f64), (b, of_b): (&Joints<M>, f64)) -> bool {
-        let bound = f64::max(f64::max(of_a, of_b), ALIKE);
-        let is_near = self.facts().farthest(a.as_ref(), b.as_ref()) <= BLUR;
-        if bound <= ROUNDING && is_near && self.regularity(b) > DISTINCT {
+        let bound = f64::max(f64::max(of_a, of_b), MERGING.halfway);
+        let is_near = self.facts().farthest(a.as_ref(), b.as_ref()) <= MERGING.blur;
+        if bound <= ACCEPTANCE.rounding && is_near && self.regularity(b) > PIVOTS.isolated {
             return false;
         }
         self.are_joined(a, b, bound, 0)
@@ -356,10 +357,10 @@ fn is_on<M: Mechanism>(
     suffices: bool,
 ) -> bool {
     let free = member.free;
-    if member.relative > ROUNDING || loners.contains(&isolated.q, free) {
+    if member.relative > ACCEPTANCE.rounding || loners.contains(&isolated.q, free) {
         return false;
     }
-    if !problem.lies_on_self_motion(&isolated.q, free, ROUNDING) {
+    if !problem.is_on_self_motion(&isolated.q, free, ACCEPTANCE.rounding) {
         loners.remember(&isolated.q, free);
         return false;
     }
@@ -368,7 +369,7 @@ fn is_on<M: Mechanism>(
 
 /// Whether members of one branch count as one self-motion: where it is not a curve, or its residual exceeds rounding.
 fn are_by_branch<M: Mechanism>(problem: &mut Problem<'_, M>, a: &Solution<M>, b: &Solution<M>) -> bool {
-    let are_sharp = f64::max(a.relative, b.relative) <= ROUNDING;
+    let are_sharp = f64::max(a.relative, b.relative) <= ACCEPTANCE.rounding;
     a.branch == b.branch && !(are_sharp && problem.tangent(&b.q, b.free).is_some())
 }
 
@@ -376,8 +377,8 @@ fn are_by_branch<M: Mechanism>(problem: &mut Problem<'_, M>, a: &Solution<M>, b:
 fn are_alike<M: Mechanism>(problem: &Problem<'_, M>, a: &Solution<M>, b: &Solution<M>) -> bool {
     match (a.is_isolated(), b.is_isolated()) {
         (true, true) => {
-            let is_loose = f64::max(a.relative, b.relative) > ACCEPT;
-            is_loose && problem.facts().farthest(a.q.as_ref(), b.q.as_ref()) <= BLUR
+            let is_loose = f64::max(a.relative, b.relative) > ACCEPTANCE.residual;
+            is_loose && problem.facts().farthest(a.q.as_ref(), b.q.as_ref()) <= MERGING.blur
         }
         _ => (a.branch, a.free) == (b.branch, b.free),
     }
@@ -387,8 +388,8 @@ fn are_alike<M: Mechanism>(problem: &Problem<'_, M>, a: &Solution<M>, b: &Soluti
 /// first member to the later ones.
 fn holds_against<M: Mechanism>(a: &Solution<M>, b: &Solution<M>) -> bool {
     match (a.is_isolated(), b.is_isolated()) {
-        (true, false) if b.relative <= ROUNDING => false,
-        (false, _) if a.relative <= ROUNDING => true,
+        (true, false) if b.relative <= ACCEPTANCE.rounding => false,
+        (false, _) if a.relative <= ACCEPTANCE.rounding => true,
         _ => a.relative <= b.relative,
     }
 }

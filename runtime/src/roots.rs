@@ -4,7 +4,7 @@ use crate::arithmetic::Arithmetic;
 pub use crate::number::Roots;
 use crate::number::{Number, Scale};
 use crate::quartic;
-use crate::tolerances::{MEETING, NEGLIGIBLE, PIVOT, TANGENT};
+use crate::tolerances::ROOTS;
 
 /// The sign of `p(x)` is undetermined up to `degree ROUNDING sum |a_i x^i|`.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
@@ -44,13 +44,14 @@ pub(crate) fn of_square(constant: f64, scale: f64, tangent: f64) -> Roots<f64, 2
         return Roots { values: [0.0; 2], count: 1, doubts: [true; 2] };
     }
     let root = Arithmetic::sqrt(-constant);
-    Roots { values: [-root, root], count: 2, doubts: [root <= MEETING * scale; 2] }
+    Roots { values: [-root, root], count: 2, doubts: [root <= ROOTS.close * scale; 2] }
 }
 
 /// The roots of the first polynomial whose leading coefficient is not negligible, or of the last one.
 pub(crate) fn of_the_leading<const D: usize>(polynomials: &[&[f64]], scale: Scale) -> Roots<f64, D> {
-    let leads =
-        |coefficients: &&&[f64]| coefficients.last().is_some_and(|lead| lead.abs() > PIVOT * largest(coefficients));
+    let leads = |coefficients: &&&[f64]| {
+        coefficients.last().is_some_and(|lead| lead.abs() > ROOTS.pivot * largest(coefficients))
+    };
     let Some((last, earlier)) = polynomials.split_last() else { return Roots::NONE };
     scaled_roots(earlier.iter().find(leads).unwrap_or(last), scale)
 }
@@ -69,7 +70,7 @@ fn scaled_roots<const D: usize>(coefficients: &[f64], scale: Scale) -> Roots<f64
     }
     let mut roots = all_real_roots::<MOST>(coefficients, scale);
     let is_double = roots.count > 0 && roots.count % 2 == coefficients.len() % 2;
-    let is_close = |pair: &[f64]| pair[1] - pair[0] <= MEETING * scale.at(0.0);
+    let is_close = |pair: &[f64]| pair[1] - pair[0] <= ROOTS.close * scale.at(0.0);
     roots.doubts[0] = is_double || roots.as_slice().windows(2).any(is_close);
     roots.within()
 }
@@ -103,7 +104,7 @@ impl Polynomial {
     fn new(coefficients: &[f64], scale: Scale) -> Option<Self> {
         let largest = largest(coefficients);
         let mut length = coefficients.len();
-        while length > 0 && coefficients[length - 1].abs() <= NEGLIGIBLE * largest {
+        while length > 0 && coefficients[length - 1].abs() <= ROOTS.zero * largest {
             length -= 1;
         }
         if length == 0 || length > MOST || !coefficients.iter().all(|c| c.is_finite()) {
@@ -138,7 +139,7 @@ impl Polynomial {
         let discriminant = b * b - 4.0 * a * c;
         let size = b * b + (4.0 * a * c).abs();
         let (typical, spread) = (2.0 * a * self.scale.at(0.0), self.scale.spread);
-        if discriminant < -TANGENT * f64::max(size * (spread * spread), typical * typical) {
+        if discriminant < -ROOTS.tangent * f64::max(size * (spread * spread), typical * typical) {
             return roots;
         }
         if discriminant <= ROUNDING * size {
@@ -212,7 +213,7 @@ impl Polynomial {
     /// Whether `p(x)` is negligible.
     fn touches(&self, x: f64) -> bool {
         let (value, size) = self.value_and_size(x, self.scale.at(x));
-        size.is_finite() && value.abs() <= TANGENT * size
+        size.is_finite() && value.abs() <= ROOTS.tangent * size
     }
 
     /// `p(x)` and `sum |a_i y^i|`.

@@ -2,30 +2,30 @@
 
 use core::f64::consts::TAU;
 
+use crate::effort::{ALONG, ASIDE, DOUBLINGS, LEAPT, NARROWS, PACES, RETURNS};
 use crate::joints::{beyond, differences, is_in, moved, stepped};
 use crate::mechanism::{Equations, Facts, Joints, Mechanism};
 use crate::problem::{End, Problem};
 use crate::storage::Array;
-use crate::tolerances::{
-    ALONG, ARRIVED, ASIDE, ASTRAY, DAMPINGS, DOUBLINGS, LEAPT, NARROWS, PACES, REGULAR, RETURNS, ROUNDING, SINGULAR,
-};
+use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS, POLISHING, SELF_MOTIONS};
 
 impl<M: Mechanism> Problem<'_, M> {
     /// Whether the equations also hold, within `bound` or rounding, when the joints `free` are moved and the others follow. One direction suffices, because in
     /// the other one the self-motion may branch. Where `q` is not singular this is false without a trial. A self-motion may cover only a small part of the
     /// circle. Where `q` is singular within rounding, shorter displacements are therefore tried, each an eighth of the one before.
-    pub fn lies_on_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64) -> bool {
+    pub fn is_on_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64) -> bool {
         let regularity = self.regularity(q);
         self.leads_to_self_motion(q, free, bound, regularity)
     }
 
-    /// Same as [`Problem::lies_on_self_motion`] within rounding, without self-motions that cover only a small part of the circle.
-    pub fn lies_on_long_self_motion(&mut self, q: &Joints<M>, free: u32) -> bool {
-        self.regularity(q) <= REGULAR && self.leads_far_aside(q, free)
+    /// Same as [`Problem::is_on_self_motion`] within rounding, without self-motions that cover only a small part of the circle.
+    pub fn is_on_long_self_motion(&mut self, q: &Joints<M>, free: u32) -> bool {
+        self.regularity(q) <= PIVOTS.regular && self.leads_far_aside(q, free)
     }
 
     fn leads_far_aside(&mut self, q: &Joints<M>, free: u32) -> bool {
-        !self.steps.are_spent() && [ASIDE, -ASIDE].iter().any(|way| self.leads_aside(q, free, *way, ROUNDING))
+        !self.steps.are_spent()
+            && [ASIDE, -ASIDE].iter().any(|delta| self.leads_aside(q, free, *delta, ACCEPTANCE.rounding))
     }
 
     /// A joint that alone parametrises a self-motion, as a set. Of the joints that some case frees, it is the one found first. If the formulas are those of a
@@ -53,47 +53,48 @@ impl<M: Mechanism> Problem<'_, M> {
     /// Whether joint values next to `q` reach the target and are on a self-motion of one of the joints `free`.
     pub fn has_member(&mut self, q: &Joints<M>, free: u32) -> bool {
         let (q, fit) = self.polished(q.clone(), 0);
-        fit.accepted && (0..self.joints()).any(|i| is_in(free, i) && self.lies_on_self_motion(&q, 1 << i, ROUNDING))
+        fit.accepted
+            && (0..self.joints()).any(|i| is_in(free, i) && self.is_on_self_motion(&q, 1 << i, ACCEPTANCE.rounding))
     }
 
     fn leads_to_self_motion(&mut self, q: &Joints<M>, free: u32, bound: f64, regularity: f64) -> bool {
-        let bound = f64::max(bound, ROUNDING);
-        if regularity > REGULAR || self.steps.are_spent() {
+        let bound = f64::max(bound, ACCEPTANCE.rounding);
+        if regularity > PIVOTS.regular || self.steps.are_spent() {
             return false;
         }
-        let narrows = if bound > ROUNDING || regularity > SINGULAR { 1 } else { NARROWS };
+        let narrows = if bound > ACCEPTANCE.rounding || regularity > PIVOTS.singular { 1 } else { NARROWS };
         // If the last displacement but one fails, longer ones fail too.
         let may =
             narrows == 1 || [1.0, -1.0].iter().any(|side| self.sets_out(q, free, side * narrowed(NARROWS - 2), bound));
         may && (0..narrows).any(|narrow| {
-            let way = narrowed(narrow);
-            self.leads_aside(q, free, way, bound) || self.leads_aside(q, free, -way, bound)
+            let delta = narrowed(narrow);
+            self.leads_aside(q, free, delta, bound) || self.leads_aside(q, free, -delta, bound)
         })
     }
 
     /// Whether the others follow when the joints `free` are moved by the first stage of a displacement.
-    fn sets_out(&mut self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
-        let start = self.moved_all(q, q, free, way / FIRST_STAGE);
+    fn sets_out(&mut self, q: &Joints<M>, free: u32, delta: f64, bound: f64) -> bool {
+        let start = self.moved_all(q, q, free, delta / FIRST_STAGE);
         self.polished(start, free).1.relative <= bound
     }
 
     /// The joint values `others`, with those that are `free` displaced from `q`.
-    fn moved_all(&self, others: &Joints<M>, q: &Joints<M>, free: u32, way: f64) -> Joints<M> {
+    fn moved_all(&self, others: &Joints<M>, q: &Joints<M>, free: u32, delta: f64) -> Joints<M> {
         let mut next = others.clone();
         for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
-            next.as_mut()[i] = moved::<M>(&self.facts(), q, i, way).as_ref()[i];
+            next.as_mut()[i] = moved::<M>(&self.facts(), q, i, delta).as_ref()[i];
         }
         next
     }
 
     /// Whether the others follow in one direction. The displacement is doubled until it has its full length. From a short one the joints must return to `q`:
     /// steps may lead from an isolated solution to a self-motion next to it, but not back.
-    fn leads_aside(&mut self, q: &Joints<M>, free: u32, way: f64, bound: f64) -> bool {
+    fn leads_aside(&mut self, q: &Joints<M>, free: u32, delta: f64, bound: f64) -> bool {
         let (mut before, mut at) = (q.clone(), q.clone());
         let mut share = 1.0 / FIRST_STAGE;
         for stage in 0..DOUBLINGS {
             let ahead = beyond::<M>(&self.facts(), &before, &at, if stage == 1 { 1.0 } else { 2.0 });
-            let start = self.moved_all(&ahead, q, free, share * way);
+            let start = self.moved_all(&ahead, q, free, share * delta);
             let start = self.measured(start);
             let (next, fit) = if start.1.relative <= bound { start } else { self.polish(start, free) };
             if fit.relative > bound || (stage == 1 && !self.leads_back(q, free, &at, &next, bound)) {
@@ -125,7 +126,7 @@ impl<M: Mechanism> Problem<'_, M> {
         let joint = free.trailing_zeros() as usize;
         let ahead: Equations<M> = Array::by(self.facts().size_of.len(), |i| derivatives.as_ref()[i].as_ref()[joint]);
         let triangle = self.triangle_of(&derivatives, &ahead, 0.0, free);
-        let back = if triangle.regularity() > REGULAR { triangle.substituted() } else { None }?;
+        let back = if triangle.regularity() > PIVOTS.regular { triangle.substituted() } else { None }?;
         Some(Array::by(self.joints(), |i| if i == joint { 1.0 } else { -back.as_ref()[i] }))
     }
 
@@ -139,13 +140,13 @@ impl<M: Mechanism> Problem<'_, M> {
     /// Same as [`Problem::leads_to`] along a straight line, on which one joint may rotate in the longer direction.
     pub fn leads_straight_to(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32) -> bool {
         let short = differences::<M>(&self.facts(), b, a);
-        self.is_straight(a, &short) || self.other_way(&short, free).is_some_and(|long| self.is_straight(a, &long))
+        self.is_straight(a, &short) || self.opposite(&short, free).is_some_and(|long| self.is_straight(a, &long))
     }
 
     /// Same as [`Problem::leads_to`] where the free joints move and the others follow.
     pub fn leads_round_to(&mut self, a: Member<'_, M>, b: Member<'_, M>, free: u32) -> bool {
         let short = differences::<M>(&self.facts(), b.q, a.q);
-        let long = self.other_way(&short, free);
+        let long = self.opposite(&short, free);
         if self.are_joined_by_cubics(&a, &b, free, [Some(&short), long.as_ref()]) {
             return true;
         }
@@ -154,21 +155,21 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The displacement in which the free joint rotates in the opposite direction, if it is revolute.
-    fn other_way(&self, way: &Joints<M>, free: u32) -> Option<Joints<M>> {
+    fn opposite(&self, delta: &Joints<M>, free: u32) -> Option<Joints<M>> {
         let joint = free.trailing_zeros() as usize;
         let turns = free.is_power_of_two() && self.facts().joints[joint].is_angle();
-        let mut other = way.clone();
+        let mut other = delta.clone();
         if turns {
-            other.as_mut()[joint] -= if way.as_ref()[joint] < 0.0 { -TAU } else { TAU };
+            other.as_mut()[joint] -= if delta.as_ref()[joint] < 0.0 { -TAU } else { TAU };
         }
         turns.then_some(other)
     }
 
-    /// Whether the equations hold on the straight line along `way`, as for coincident axes.
-    fn is_straight(&mut self, a: &Joints<M>, way: &Joints<M>) -> bool {
+    /// Whether the equations hold on the straight line along `delta`, as for coincident axes.
+    fn is_straight(&mut self, a: &Joints<M>, delta: &Joints<M>) -> bool {
         [0.5, 0.25, 0.75].iter().all(|share| {
-            let at = Array::by(self.joints(), |i| a.as_ref()[i] + share * way.as_ref()[i]);
-            self.measure(&at).relative <= ROUNDING
+            let at = Array::by(self.joints(), |i| a.as_ref()[i] + share * delta.as_ref()[i]);
+            self.measure(&at).relative <= ACCEPTANCE.rounding
         })
     }
 
@@ -179,18 +180,18 @@ impl<M: Mechanism> Problem<'_, M> {
         a: &Member<'_, M>,
         b: &Member<'_, M>,
         free: u32,
-        ways: [Option<&Joints<M>>; 2],
+        deltas: [Option<&Joints<M>>; 2],
     ) -> bool {
         let joint = free.trailing_zeros() as usize;
-        let is_far = |way: &&Joints<M>| free.is_power_of_two() && way.as_ref()[joint].abs() > ALONG[1];
-        if !ways[0].is_some_and(|way| is_far(&way)) {
+        let is_far = |delta: &&Joints<M>| free.is_power_of_two() && delta.as_ref()[joint].abs() > ALONG[1];
+        if !deltas[0].is_some_and(|delta| is_far(&delta)) {
             return false;
         }
         let mut tangent = |member: &Member<'_, M>| member.tangent.clone().or_else(|| self.tangent(member.q, free));
         let (Some(at_a), Some(at_b)) = (tangent(a), tangent(b)) else { return false };
-        ways.into_iter().flatten().any(|way| {
-            let way = way.as_ref()[joint];
-            let ends = [(a.q, &at_a, 0.0), (b.q, &at_b, way)];
+        deltas.into_iter().flatten().any(|delta| {
+            let delta = delta.as_ref()[joint];
+            let ends = [(a.q, &at_a, 0.0), (b.q, &at_b, delta)];
             self.is_interpolated(
                 ends.map(|(q, tangent, gone)| Knot { q: q.clone(), tangent: tangent.clone(), gone }),
                 joint,
@@ -199,8 +200,8 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Whether cubic Hermite curves approximate the self-motion between two of its places. Half-way along each curve, the correction of the other joints must
-    /// be at most [`ARRIVED`]. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their
-    /// error is of fourth order in their length.)
+    /// be at most `MERGING.apart`. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends.
+    /// Their error is of fourth order in their length.)
     fn is_interpolated(&mut self, [first, last]: [Knot<M>; 2], joint: usize) -> bool {
         let (facts, free, start) = (self.facts(), 1 << joint, first.q.as_ref()[joint]);
         let (mut at, mut count) = (Some(first), 1);
@@ -211,7 +212,7 @@ impl<M: Mechanism> Problem<'_, M> {
             let (mut middle, gone) = (near.half_way(&facts, far), 0.5 * (near.gone + far.gone));
             middle.as_mut()[joint] = facts.wrapped(joint, start + gone);
             let Some((q, _)) = self.corrected(middle.clone(), free) else { return false };
-            if facts.farthest(q.as_ref(), middle.as_ref()) <= ARRIVED {
+            if facts.farthest(q.as_ref(), middle.as_ref()) <= MERGING.apart {
                 count -= 1;
                 at = ends[count].take();
             } else if count < DIVISIONS {
@@ -225,11 +226,11 @@ impl<M: Mechanism> Problem<'_, M> {
         true
     }
 
-    /// Whether the joints arrive at `b` as the free ones are displaced by `way` from `a` and the others follow, with step size control. `None` where they do
+    /// Whether the joints arrive at `b` as the free ones are displaced by `delta` from `a` and the others follow, with step size control. `None` where they do
     /// not follow.
-    fn leads_along(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32, way: &Joints<M>) -> Option<bool> {
+    fn leads_along(&mut self, a: &Joints<M>, b: &Joints<M>, free: u32, delta: &Joints<M>) -> Option<bool> {
         let facts = self.facts();
-        let freed: Joints<M> = Array::by(self.joints(), |i| if is_in(free, i) { way.as_ref()[i] } else { 0.0 });
+        let freed: Joints<M> = Array::by(self.joints(), |i| if is_in(free, i) { delta.as_ref()[i] } else { 0.0 });
         let (length, [shortest, first, longest]) = (facts.longest(freed.as_ref()), ALONG);
         let (mut before, mut at) = (a.clone(), a.clone());
         let (mut gone, mut last, mut pace) = (0.0, 1.0, first);
@@ -241,7 +242,7 @@ impl<M: Mechanism> Problem<'_, M> {
             let (step, share) = if is_last { (length - gone, 1.0) } else { (pace, (gone + pace) / length) };
             let mut ahead = beyond::<M>(&facts, &before, &at, step / last);
             for i in (0..self.joints()).filter(|&i| is_in(free, i)) {
-                ahead.as_mut()[i] = facts.wrapped(i, a.as_ref()[i] + share * way.as_ref()[i]);
+                ahead.as_mut()[i] = facts.wrapped(i, a.as_ref()[i] + share * delta.as_ref()[i]);
             }
             let next = self.followed(ahead, free);
             if let Some(next) = next {
@@ -269,20 +270,20 @@ impl<M: Mechanism> Problem<'_, M> {
     fn corrected(&mut self, ahead: Joints<M>, free: u32) -> Option<End<M>> {
         let mut end = self.measured(ahead);
         for _ in 0..RETURNS {
-            if end.1.relative <= ASTRAY || self.steps.are_spent() {
+            if end.1.relative <= SELF_MOTIONS.curve || self.steps.are_spent() {
                 break;
             }
-            let step = self.newton_step(&end.0, DAMPINGS[1], free)?;
+            let step = self.newton_step(&end.0, POLISHING.dampings[1], free)?;
             end = self.measured(stepped::<M>(&self.facts(), &end.0, &step));
         }
-        (end.1.relative <= ASTRAY).then_some(end)
+        (end.1.relative <= SELF_MOTIONS.curve).then_some(end)
     }
 
     /// Whether joint values next to a member of a self-motion are on that self-motion: the equations hold half-way too.
     fn is_there(&mut self, end: End<M>, b: &Joints<M>, free: u32) -> bool {
         let (q, fit) = self.polish(end, free);
-        let is_close = fit.accepted && self.facts().is_within(q.as_ref(), b.as_ref(), ARRIVED);
-        is_close && self.are_joined(&q, b, ROUNDING, free)
+        let is_close = fit.accepted && self.facts().is_within(q.as_ref(), b.as_ref(), MERGING.apart);
+        is_close && self.are_joined(&q, b, ACCEPTANCE.rounding, free)
     }
 }
 
@@ -318,5 +319,5 @@ const FIRST_STAGE: f64 = (1 << (DOUBLINGS - 1)) as f64;
 
 /// One of the trial displacements, each an eighth of the one before.
 fn narrowed(narrow: usize) -> f64 {
-    (0..narrow).fold(ASIDE, |way, _| way / 8.0)
+    (0..narrow).fold(ASIDE, |delta, _| delta / 8.0)
 }

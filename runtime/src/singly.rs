@@ -3,13 +3,13 @@
 use crate::answers::Answers;
 use crate::conditions::conform;
 use crate::described::solve_described;
+use crate::effort::MOST_STEPS;
 use crate::exactly::solve_ideal;
 use crate::mechanism::{Answered, Inputs, Joint, Mechanism};
 use crate::problem::Problem;
 use crate::solution::{Error, Pairs, Solution};
 use crate::steps::Steps;
 use crate::storage::Array;
-use crate::tolerances::MOST_STEPS;
 use crate::trigonometry::cosine_and_sine;
 
 /// Same as [`crate::Solve::solve`].

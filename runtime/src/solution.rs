@@ -19,8 +19,8 @@ pub struct Solution<M: Mechanism> {
     pub chosen: bool,
     /// Bit `j` is set where joint `j` is free: this is one member of a self-motion.
     pub free: u32,
-    /// False where the [steps](crate::tolerances::MOST_STEPS) of the target were used up before all work was done. This holds for all of its solutions, and
-    /// others may be missing. [`Solution::relative`] is then at most [`crate::tolerances::UNSETTLED`].
+    /// False where the [steps](crate::MOST_STEPS) of the target were used up before all work was done. This holds for all of its solutions, and
+    /// others may be missing. [`Solution::relative`] is then at most `tolerances::ACCEPTANCE.unsettled`.
     pub settled: bool,
 }
 
@@ -132,14 +132,16 @@ impl<M: Mechanism> PartialEq for Pairs<M> {
 pub enum Error {
     /// A target number is infinite or NaN.
     NotFinite,
-    /// The rotation of the target is not orthogonal within [`crate::tolerances::CONSISTENT`].
+    /// The rotation of the target is not orthogonal within `tolerances::ACCEPTANCE.input`.
     NotRotation,
-    /// The direction of the target does not have length one within [`crate::tolerances::CONSISTENT`].
+    /// The direction of the target does not have length one within `tolerances::ACCEPTANCE.input`.
     NotUnit,
     /// The target is on the stratum with this number, for which no derivation exists.
     OpenStratum(usize),
-    /// The [steps](crate::tolerances::MOST_STEPS) of the target were used up before a solution was found. Solutions may exist.
+    /// The [steps](crate::MOST_STEPS) of the target were used up before a solution was found. Solutions may exist.
     Unsettled,
+    /// The task is not the pose of one tip. The base and the tool cannot be removed from the target.
+    NotPose,
 }
 
 impl fmt::Display for Error {
@@ -157,6 +159,9 @@ impl fmt::Display for Error {
             }
             Error::OpenStratum(number) => {
                 write!(f, "the target is on stratum {number}, for which no derivation exists")
+            }
+            Error::NotPose => {
+                f.write_str("the task is not the pose of one tip; give the target in the frame of the base")
             }
         }
     }

@@ -4,14 +4,15 @@ use crate::answers::Answers;
 use crate::batch::solve_widest;
 use crate::conditions::conform;
 use crate::described::{reached, read_off, solve_described, within_limits};
+use crate::effort::MOST_STEPS;
 use crate::joints::place;
 use crate::limits::{self, strides_within, turned_within};
-use crate::mechanism::{Inputs, Joints, Mechanism};
+use crate::mechanism::{Condition, Inputs, Joints, Mechanism};
+use crate::placement::Placement;
 use crate::problem::Problem;
 use crate::singly::{pairs_of, solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
 use crate::steps::Steps;
-use crate::tolerances::MOST_STEPS;
 
 /// Inverse kinematics of a mechanism.
 ///
@@ -81,6 +82,26 @@ pub trait Solve: Mechanism {
     /// A solution by cosines and sines.
     fn pairs_of(&self, solution: &Solution<Self>) -> Pairs<Self> {
         pairs_of(self, solution)
+    }
+
+    /// Same as [`Solve::solve`], for a target whose first 12 numbers are world_from_tool, the pose of a tool in a world frame. The values of
+    /// given joints are after them.
+    ///
+    /// # Errors
+    /// As [`Solve::solve`]; [`Error::NotPose`] if the task is not the pose of one tip.
+    fn solve_placed(
+        &self,
+        placement: &Placement,
+        target: &Inputs<Self>,
+        out: &mut [Solution<Self>],
+    ) -> Result<usize, Error> {
+        if !matches!(self.facts().conditions, [Condition::Rotation(3)]) {
+            return Err(Error::NotPose);
+        }
+        let (mut target, mut world_from_tool) = (target.clone(), [0.0; 12]);
+        world_from_tool.copy_from_slice(&target.as_ref()[..12]);
+        target.as_mut()[..12].copy_from_slice(&placement.target(&world_from_tool));
+        self.solve(&target, out)
     }
 
     /// Same as [`Solve::solve`], for many targets; the lanes of a vector register process several at once. The solutions of a target follow those of the target
@@ -194,22 +215,3 @@ pub trait Solve: Mechanism {
 }
 
 impl<M: Mechanism> Solve for M {}
-
-/// The target for which the tool is at `pose`. `base` is the pose of the base, `tool` that of the tool in the frame of the tip; the result is `base^-1 pose
-/// tool^-1`. A pose is 12 numbers, a position and a rotation by rows. They are the first 12 target numbers.
-pub fn target_of(base: &[f64; 12], tool: &[f64; 12], pose: &[f64; 12]) -> [f64; 12] {
-    let mut target = [0.0; 12];
-    for i in 0..3 {
-        for j in 0..3 {
-            for k in 0..9 {
-                target[3 + 3 * i + j] += base[3 + 3 * (k / 3) + i] * pose[3 + k] * tool[3 + 3 * j + k % 3];
-            }
-        }
-    }
-    for i in 0..3 {
-        for k in 0..3 {
-            target[i] += base[3 + 3 * k + i] * (pose[k] - base[k]) - target[3 + 3 * i + k] * tool[k];
-        }
-    }
-    target
-}

@@ -1,7 +1,7 @@
 //! Source text of the run time, from which single-file solvers are assembled.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 36] = [
+pub const RUST: [(&str, &str); 38] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -13,6 +13,7 @@ pub const RUST: [(&str, &str); 36] = [
     ("derivatives", include_str!("derivatives.rs")),
     ("described", include_str!("described.rs")),
     ("double", include_str!("double.rs")),
+    ("effort", include_str!("effort.rs")),
     ("exactly", include_str!("exactly.rs")),
     ("freedom", include_str!("freedom.rs")),
     ("joints", include_str!("joints.rs")),
@@ -23,6 +24,7 @@ pub const RUST: [(&str, &str); 36] = [
     ("members", include_str!("members.rs")),
     ("newton", include_str!("newton.rs")),
     ("number", include_str!("number.rs")),
+    ("placement", include_str!("placement.rs")),
     ("problem", include_str!("problem.rs")),
     ("quartic", include_str!("quartic.rs")),
     ("refine", include_str!("refine.rs")),
@@ -77,7 +79,7 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// The files that the C sources include, each by its path.
-pub const C_PARTS: [(&str, &str); 48] = [
+pub const C_PARTS: [(&str, &str); 49] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -104,8 +106,9 @@ pub const C_PARTS: [(&str, &str); 48] = [
     ("groebot/shared.h", include_str!("../c/groebot/shared.h")),
     ("groebot/solve.h", include_str!("../c/groebot/solve.h")),
     ("groebot/strays.c", include_str!("../c/groebot/strays.c")),
+    ("groebot/tolerances.h", include_str!("../c/groebot/tolerances.h")),
     ("groebot/trigonometry.c", include_str!("../c/groebot/trigonometry.c")),
-    ("groebot/ways.h", include_str!("../c/groebot/ways.h")),
+    ("groebot/approaches.h", include_str!("../c/groebot/approaches.h")),
     ("groebot/width.h", include_str!("../c/groebot/width.h")),
     ("groebot/six_axes/answers.c", include_str!("../c/groebot/six_axes/answers.c")),
     ("groebot/six_axes/candidates.c", include_str!("../c/groebot/six_axes/candidates.c")),

@@ -2,11 +2,10 @@
 
 use crate::joints::{beyond, differences};
 use crate::mechanism::{Facts, Found, Joints, Mechanism};
+use crate::tolerances::MERGING;
 
 /// Maximal number of stored starts.
 const ROOM: usize = 32;
-/// A start within this distance of a step is on the same curve (rad, or relative to the length scale).
-const PASSED: f64 = 1e-2;
 
 /// Starts of walks: the candidates, and joint values on the curves next to them.
 pub(crate) struct Starts<M: Mechanism> {
@@ -29,14 +28,14 @@ impl<M: Mechanism> Starts<M> {
 
     /// Removes the starts that a step passes.
     pub fn pass(&mut self, facts: &Facts<'_>, from: &Joints<M>, to: &Joints<M>) {
-        let way = differences::<M>(facts, to, from);
+        let delta = differences::<M>(facts, to, from);
         for start in &mut self.list[..self.count] {
             let is_passed = |(_, q): &(Found, Joints<M>)| {
                 let aside = differences::<M>(facts, q, from);
-                let share = product(aside.as_ref(), way.as_ref()) / product(way.as_ref(), way.as_ref());
+                let share = product(aside.as_ref(), delta.as_ref()) / product(delta.as_ref(), delta.as_ref());
                 let share = share.clamp(0.0, 1.0);
                 let nearest = beyond::<M>(facts, to, from, -share);
-                facts.farthest(q.as_ref(), nearest.as_ref()) <= PASSED
+                facts.farthest(q.as_ref(), nearest.as_ref()) <= MERGING.known
             };
             if start.as_ref().is_some_and(is_passed) {
                 *start = None;

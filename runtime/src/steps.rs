@@ -4,7 +4,7 @@ use crate::counters::Event;
 use crate::mechanism::Mechanism;
 use crate::solution::{Error, Solution};
 
-/// The remaining steps of a target ([`crate::tolerances::MOST_STEPS`]).
+/// The remaining steps of a target ([`crate::MOST_STEPS`]).
 pub(crate) struct Steps {
     left: usize,
 }

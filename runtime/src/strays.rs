@@ -1,7 +1,7 @@
 //! Candidates for members of self-motions that turn out to be none ([`Strays`]), and solutions that are not members ([`Loners`]).
 
 use crate::mechanism::{Facts, Found, Joints, Mechanism};
-use crate::tolerances::DOUBTED;
+use crate::tolerances::ACCEPTANCE;
 
 /// Maximal number of kinds that are distinguished.
 const KINDS: usize = 16;
@@ -57,7 +57,8 @@ impl Strays {
     /// Whether a solution may have been lost. This is possible where a kind exists only on a part of the circle and its candidates are close to the stratum:
     /// rounding may have hidden a solution at the end of that part.
     pub fn are_doubtful(&self) -> bool {
-        let is_doubtful = |kind: &Kind| kind.is_astray && kind.missed <= DOUBTED && !kind.count.is_multiple_of(PLACES);
+        let is_doubtful =
+            |kind: &Kind| kind.is_astray && kind.missed <= ACCEPTANCE.unsettled && !kind.count.is_multiple_of(PLACES);
         self.are_too_many || self.kinds[..self.count].iter().any(is_doubtful)
     }
 

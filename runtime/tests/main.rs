@@ -4,6 +4,7 @@ mod angles;
 mod arm;
 mod real_roots;
 mod singular;
+mod tolerances;
 
 /// Random numbers in `[0, 1)`, equal in every run (xorshift, G. Marsaglia 2003).
 fn random() -> impl FnMut() -> f64 {

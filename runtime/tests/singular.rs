@@ -4,7 +4,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use groebot_runtime::tolerances::UNSETTLED;
+use groebot_runtime::tolerances::ACCEPTANCE;
 use groebot_runtime::{Error, Solve};
 
 use super::random;
@@ -77,7 +77,10 @@ fn too_few_steps_leave_answers_that_are_not_settled() {
                     assert!(count > 0, "{q:?}: no solution with {steps} steps, and no error");
                     let found = &out[..count];
                     assert!(found.iter().all(|answer| !answer.settled), "{steps} {q:?}: {found:?}");
-                    assert!(found.iter().all(|answer| answer.relative <= UNSETTLED), "{steps} {q:?}: {found:?}");
+                    assert!(
+                        found.iter().all(|answer| answer.relative <= ACCEPTANCE.unsettled),
+                        "{steps} {q:?}: {found:?}"
+                    );
                     assert!(found.iter().all(|answer| missed(&answer.q, &target) < 1e-5), "{steps} {q:?}: {found:?}");
                     unsettled += 1;
                 }

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::closest::{self, Search};
 use super::columns::heading;
 use super::following::{followers, leaders};
 use super::json::FORMAT;
@@ -22,6 +23,15 @@ impl Angles {
     pub fn to_radians(self, program: &Program, target: &[f64]) -> Vec<f64> {
         let value = |(index, value): (usize, &f64)| match program.inputs.get(index).map(|input| input.unit) {
             Some(Unit::Radian) if self == Angles::Degrees => value.to_radians(),
+            _ => *value,
+        };
+        target.iter().enumerate().map(value).collect()
+    }
+
+    /// Converts `target` from the units of the program.
+    pub fn of_target(self, program: &Program, target: &[f64]) -> Vec<f64> {
+        let value = |(index, value): (usize, &f64)| match program.inputs.get(index).map(|input| input.unit) {
+            Some(Unit::Radian) if self == Angles::Degrees => value.to_degrees(),
             _ => *value,
         };
         target.iter().enumerate().map(value).collect()
@@ -49,6 +59,8 @@ pub struct Answer<'a> {
     pub solutions: Vec<Solution>,
     /// The reason why there is no solution, if it is known.
     pub reason: Option<String>,
+    /// The closest joint values, if they were requested.
+    pub closest: Search,
     /// The unit of angles in the target, in JSON and in CSV.
     pub angles: Angles,
 }
@@ -64,7 +76,7 @@ impl Answer<'_> {
     }
 
     /// The joints that are outside their limits, also after adding whole turns.
-    fn outside_names(&self, solution: &Solution) -> Vec<&str> {
+    pub fn outside_names(&self, solution: &Solution) -> Vec<&str> {
         let outside = |(index, _): &(usize, &Joint)| {
             let placed = Placed::fixed(solution.q[*index], limits(self.program, *index));
             !solution.free.contains(index) && !placed.is_within
@@ -72,7 +84,17 @@ impl Answer<'_> {
         self.program.joints.iter().enumerate().filter(outside).map(|(_, joint)| joint.name.as_str()).collect()
     }
 
-    fn shown(&self, solution: &Solution) -> Vec<f64> {
+    /// The joint values with both units of each angle.
+    pub fn joint_cells(&self, solution: &Solution) -> Vec<String> {
+        let cell = |(joint, value): (&Joint, &f64)| match joint.unit {
+            Unit::Radian => format!("{:.6} deg ({value:.9} rad)", value.to_degrees()),
+            unit => format!("{value:.9} {}", self.angles.symbol(unit)).trim_end().to_owned(),
+        };
+        self.program.joints.iter().zip(&solution.q).map(cell).collect()
+    }
+
+    /// The joint values in the unit of angles.
+    pub fn shown(&self, solution: &Solution) -> Vec<f64> {
         let joints = self.program.joints.iter().zip(&solution.q);
         joints.map(|(joint, value)| self.angles.shown(joint, *value)).collect()
     }
@@ -91,9 +113,8 @@ fn limits(program: &Program, joint: usize) -> Option<(f64, f64)> {
 
 /// Moves each angle into its joint's limits by whole turns, where that is possible; given joints stay unchanged.
 pub fn turned(program: &Program, mut solutions: Vec<Solution>) -> Vec<Solution> {
-    let given = &program.inputs[program.given()];
-    let turns = |joint: &Joint| joint.unit == Unit::Radian && given.iter().all(|input| input.name != joint.name);
-    for (index, _) in program.joints.iter().enumerate().filter(|(_, joint)| turns(joint)) {
+    let turns = |index: &usize| program.joints[*index].unit == Unit::Radian && !program.is_given(*index);
+    for index in (0..program.joints.len()).filter(turns) {
         let limits = limits(program, index);
         solutions.iter_mut().for_each(|solution| solution.q[index] = Placed::turned(solution.q[index], limits).value);
     }
@@ -110,7 +131,8 @@ pub fn text(answer: &Answer<'_>) -> String {
     let title = format!("{} at {}", program.name, target.collect::<Vec<_>>().join(", "));
     if answer.solutions.is_empty() {
         let reason = answer.reason.as_ref().map(|reason| format!(": {reason}")).unwrap_or_default();
-        return format!("{title}: unreachable: no solution{reason}\n");
+        let closest = answer.closest.found().map(|found| closest::text(answer, found)).unwrap_or_default();
+        return format!("{title}: unreachable: no solution{reason}\n{closest}");
     }
     let plural = if answer.solutions.len() == 1 { "solution" } else { "solutions" };
     let mut text = format!("{title}: {} {plural}\n", answer.solutions.len());
@@ -136,12 +158,7 @@ fn header(program: &Program) -> Vec<String> {
 
 fn cells(answer: &Answer<'_>, solution: &Solution) -> Vec<String> {
     let mut row = vec![solution.branch.to_string()];
-    for (joint, value) in answer.program.joints.iter().zip(&solution.q) {
-        row.push(match joint.unit {
-            Unit::Radian => format!("{:.6} deg ({value:.9} rad)", value.to_degrees()),
-            unit => format!("{value:.9} {}", answer.angles.symbol(unit)).trim_end().to_owned(),
-        });
-    }
+    row.extend(answer.joint_cells(solution));
     row.push(if solution.residual == 0.0 { "0".to_owned() } else { format!("{:.1e}", solution.residual) });
     let mut notes: Vec<String> = answer.free_names(solution).iter().map(|name| format!("{name} is free")).collect();
     notes.extend(answer.outside_names(solution).iter().map(|name| format!("{name} outside its limits")));
@@ -189,6 +206,9 @@ struct Page<'a> {
     /// The reason why there is no solution, if it is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<&'a str>,
+    /// The closest joint values, if they were requested and there is no solution.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    closest: Option<closest::Entry<'a>>,
 }
 
 /// The unit of each number of the target and of each joint.
@@ -237,32 +257,36 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
         settled: answer.are_settled(),
         solutions: answer.solutions.iter().map(entry).collect(),
         reason: answer.reason.as_deref(),
+        closest: answer.closest.found().map(|found| closest::Entry::new(answer, found)),
     };
     let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
     text.expect("an answer can be represented in JSON") + "\n"
 }
 
-/// The names of the columns.
-pub fn csv_header(program: &Program, angles: Angles) -> String {
+/// The names of the columns; with `closest` those of the closest joint values after them.
+pub fn csv_header(program: &Program, angles: Angles, closest: bool) -> String {
     let named = |name: &str, unit: Unit| heading(name, unit == Unit::Radian, angles == Angles::Degrees);
     let mut cells = vec!["target".to_owned()];
     cells.extend(program.inputs.iter().map(|input| named(&input.name, input.unit)));
     cells.extend(["solutions".to_owned(), "branch".to_owned()]);
     cells.extend(program.joints.iter().map(|joint| named(&joint.name, joint.unit)));
     cells.extend(["residual", "chosen", "settled", "free", "outside_limits"].map(str::to_owned));
+    if closest {
+        cells.extend(closest::COLUMNS.map(|name| heading(name, name.ends_with("angle"), angles == Angles::Degrees)));
+    }
     csv_line(&cells)
 }
 
-/// One row per solution; an unreachable target has one row with 0 solutions and empty cells. `index` counts targets
-/// from 1.
+/// One row per solution; an unreachable target has one row with 0 solutions and empty cells, or with the closest joint
+/// values. `index` counts targets from 1.
 pub fn csv_rows(answer: &Answer<'_>, index: usize) -> String {
     let mut start = vec![index.to_string()];
     start.extend(answer.target.iter().map(|value| exact(*value)));
     start.push(answer.solutions.len().to_string());
     if answer.solutions.is_empty() {
-        start.extend(vec![String::new(); answer.program.joints.len() + 6]);
-        return csv_line(&start);
+        return csv_line(&unreachable_row(answer, start));
     }
+    let beside = if answer.closest.is_on() { closest::cells(answer) } else { Vec::new() };
     let row = |solution: &Solution| {
         let mut cells = start.clone();
         cells.push(solution.branch.to_string());
@@ -272,9 +296,27 @@ pub fn csv_rows(answer: &Answer<'_>, index: usize) -> String {
         cells.push(solution.settled.to_string());
         cells.push(answer.free_names(solution).join(" "));
         cells.push(answer.outside_names(solution).join(" "));
+        cells.extend(beside.iter().cloned());
         csv_line(&cells)
     };
     answer.solutions.iter().map(row).collect()
+}
+
+/// The row of a target without a solution.
+fn unreachable_row(answer: &Answer<'_>, start: Vec<String>) -> Vec<String> {
+    let joints = answer.program.joints.len();
+    let Some(found) = answer.closest.found() else {
+        let blank = joints + 6 + if answer.closest.is_on() { closest::COLUMNS.len() } else { 0 };
+        return start.into_iter().chain(vec![String::new(); blank]).collect();
+    };
+    let row = closest::solution(found);
+    let mut cells = start;
+    cells.push(String::new());
+    cells.extend(answer.shown(&row).iter().map(|value| exact(*value)));
+    cells.extend(vec![String::new(); 4]);
+    cells.push(answer.outside_names(&row).join(" "));
+    cells.extend(closest::cells(answer));
+    cells
 }
 
 /// Cells separated by commas, quoted where necessary (RFC 4180).

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-use super::basis_question::Question;
+use super::basis_question::{Question, Required};
 use super::console;
 use super::output::{Force, Kind, Output};
 use super::progress::{Budget, Session};
@@ -159,7 +159,14 @@ impl Arguments {
     fn question(&self) -> Result<Question> {
         let (system, given) = self.system()?;
         let format = self.output_format.and_then(|choice| choice.0).unwrap_or(given);
-        Question::new(system, self.order.clone(), &self.eliminate, format, self.certificate.is_some(), self.prove)
+        let required = Required {
+            order: self.order.clone(),
+            eliminated: &self.eliminate,
+            format,
+            certificate: self.certificate.is_some(),
+            prove: self.prove,
+        };
+        Question::new(system, required)
     }
 
     /// The file of the certificate, if one is requested.

@@ -5,6 +5,17 @@ use groebot_algebra::number::Rationals;
 use groebot_algebra::poly::system::{Format, Heading, PolynomialSystem};
 use groebot_algebra::poly::{Block, Order};
 
+/// The required properties of a basis.
+pub struct Required<'a> {
+    /// The order of monomials; by default that of the system.
+    pub order: Option<Order>,
+    pub eliminated: &'a [String],
+    pub format: Format,
+    pub certificate: bool,
+    /// Whether a probabilistic result is excluded.
+    pub prove: bool,
+}
+
 /// The question.
 pub struct Question {
     pub system: PolynomialSystem,
@@ -20,21 +31,14 @@ pub struct Question {
 }
 
 impl Question {
-    /// Builds the question for the basis of `system` in `order` (by default its own), without the variables
-    /// `eliminated`.
+    /// Builds the question for the basis of `system`.
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] and [`ErrorKind::DuplicateName`] for names to eliminate; [`ErrorKind::BadValue`] when
     /// none is left, or the order does not cover the remaining ones; [`ErrorKind::Unsupported`] when `format` cannot
     /// represent the answer.
-    pub fn new(
-        system: PolynomialSystem,
-        order: Option<Order>,
-        eliminated: &[String],
-        format: Format,
-        certificate: bool,
-        prove: bool,
-    ) -> Result<Question> {
+    pub fn new(system: PolynomialSystem, required: Required<'_>) -> Result<Question> {
+        let Required { order, eliminated, format, certificate, prove } = required;
         check_eliminated(&system.heading, eliminated)?;
         let kept = system.heading.variables.iter().filter(|name| !eliminated.contains(name));
         let target = Heading { variables: kept.cloned().collect(), ..system.heading.clone() };

@@ -8,12 +8,12 @@ use csv::StringRecord;
 
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::shown;
-use groebot_robot::kinematics::{Joint, JointKind};
+use groebot_robot::kinematics::{Joint, JointKind, Quantity, TargetNumber, Task};
 
 /// Units at the end of a column's name.
 const UNITS: [&str; 4] = ["_mm", "_m", "_rad", "_deg"];
 /// Columns that the commands write in addition to targets and joints.
-const BESIDE: [&str; 11] = [
+const BESIDE: [&str; 13] = [
     "target",
     "solutions",
     "branch",
@@ -24,24 +24,12 @@ const BESIDE: [&str; 11] = [
     "settled",
     "free",
     "outside_limits",
+    "closest_distance",
+    "closest_angle",
     "time",
 ];
-/// The numbers of poses and of all tasks, without units.
-const NUMBERS: [&str; 28] = [
-    "x", "y", "z", "px", "py", "pz", "qx", "qy", "qz", "qw", "roll", "pitch", "yaw", "yaw_x", "yaw_y", "phi", "dx",
-    "dy", "dz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33",
-];
-
-/// The quantity of a number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
-    /// A length in the reader's unit.
-    Length,
-    /// An angle in the reader's unit.
-    Angle,
-    /// No unit.
-    Plain,
-}
+/// Numbers of poses that are numbers of no task, without units.
+const POSES: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
 /// A number that a reader needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,18 +37,28 @@ pub struct Field {
     /// Its name, such as `px` or that of a joint.
     pub name: String,
     /// Its quantity.
-    pub measure: Measure,
+    pub quantity: Quantity,
+    /// The number of a target that it is; `None` for a joint and others.
+    pub number: Option<TargetNumber>,
 }
 
 impl Field {
-    /// The field with this name: `px` is a length, `phi` an angle, `r11` neither.
-    pub fn of_target(name: &str) -> Field {
-        let measure = match name {
-            "px" | "py" | "pz" => Measure::Length,
-            "phi" | "roll" | "pitch" | "yaw" | "yaw_x" | "yaw_y" => Measure::Angle,
-            _ => Measure::Plain,
-        };
-        Field { name: name.to_owned(), measure }
+    /// The field with this name and quantity.
+    pub fn new(name: &str, quantity: Quantity) -> Field {
+        Field { name: name.to_owned(), quantity, number: None }
+    }
+
+    /// The field of a number of a target.
+    pub fn of_target(number: TargetNumber) -> Field {
+        Field { number: Some(number), ..Field::new(&number.name(), number.quantity()) }
+    }
+
+    /// Another name of its column, without unit: `x` for `px`.
+    fn short(&self) -> Option<&'static str> {
+        match self.number {
+            Some(TargetNumber::Position(axis)) => Some(axis.name()),
+            _ => None,
+        }
     }
 }
 
@@ -131,7 +129,8 @@ impl Columns {
     /// # Errors
     /// [`ErrorKind::UnknownName`] when every form lacks a number, and for a name that is neither read nor ignored.
     pub fn find(&self, names: &StringRecord) -> Result<Found> {
-        let places = |form: &Vec<Field>| form.iter().map(|field| self.place(field, names)).collect::<Option<Vec<_>>>();
+        let places =
+            |form: &Vec<Field>| (0..form.len()).map(|index| self.place(form, index, names)).collect::<Option<Vec<_>>>();
         let found = self.forms.iter().enumerate().find_map(|(form, fields)| Some((form, places(fields)?)));
         let (form, columns) = found.ok_or_else(|| self.missing(names))?;
         if let Some(unknown) = names.iter().find(|name| !self.is_known(name)) {
@@ -140,8 +139,10 @@ impl Columns {
         // In tables of these commands, a joint may have the same name as a number of the pose, and a given joint has
         // two columns.
         let is_written = names.iter().any(|name| name == "outside_limits");
-        let is_repeated =
-            |(place, name): &(usize, &str)| !is_written && names.iter().take(*place).any(|before| before == *name);
+        let room = |name: &str| self.forms[form].iter().filter(|field| field.name == name).count().max(1);
+        let is_repeated = |(place, name): &(usize, &str)| {
+            !is_written && names.iter().take(*place).filter(|before| before == name).count() >= room(name)
+        };
         if let Some((place, name)) = names.iter().enumerate().find(is_repeated) {
             let text =
                 format!("column {} of the first row, `{}`, is given twice; give it once", place + 1, shown(name));
@@ -151,26 +152,44 @@ impl Columns {
         Ok(Found { form, columns, count: names.len(), solutions: solutions.filter(|_| self.skips_unsolved) })
     }
 
-    /// The column of a number: that with its own name, else the first with it in some unit.
-    fn place(&self, field: &Field, names: &StringRecord) -> Option<(usize, Scale)> {
-        let own = names.iter().position(|name| name == field.name).map(|place| (place, Scale::Same));
-        let held = |(place, name): (usize, &str)| Some((place, self.scale(field, name)?));
-        own.or_else(|| names.iter().enumerate().find_map(held))
+    /// The column of a number of a form: the one with its own name, else the first with its name in some unit. Of
+    /// several numbers with one name each has a column, in order. `fk` writes joints before poses: in its tables a
+    /// number of a target with the name of a joint has the last column with its name in some unit.
+    fn place(&self, form: &[Field], index: usize, names: &StringRecord) -> Option<(usize, Scale)> {
+        let field = &form[index];
+        let with_name = |fields: &[Field]| fields.iter().filter(|other| other.name == field.name).count();
+        let (rank, twins) = (with_name(&form[..index]), with_name(form));
+        let own: Vec<usize> = (0..names.len()).filter(|place| names[*place] == field.name).collect();
+        let all: Vec<(usize, &str)> = names.iter().enumerate().collect();
+        let scaled = |&(place, name): &(usize, &str)| Some((place, self.scale(field, name)?));
+        let has = |name: &str| names.iter().any(|own| own == name);
+        let is_joint = self.joints.iter().any(|joint| *joint == field.name);
+        if field.number.is_some() && is_joint && has("outside_limits") && !has("solutions") {
+            return all.iter().rev().find_map(scaled);
+        }
+        let own = if own.len() >= twins {
+            return Some((own[rank], Scale::Same));
+        } else if field.number.is_some() {
+            own.first()
+        } else {
+            own.last()
+        };
+        all.iter().find_map(scaled).or(own.map(|place| (*place, Scale::Same)))
     }
 
     /// The conversion of the numbers under `name`, if they are those of `field`.
     fn scale(&self, field: &Field, name: &str) -> Option<Scale> {
         let (bare, unit) = split(name);
-        let position = field.measure == Measure::Length && field.name.strip_prefix('p') == Some(bare);
+        let position = field.short() == Some(bare);
         if bare != field.name && !position || unit.is_empty() && self.joints.iter().any(|joint| joint == name) {
             return None;
         }
-        match (field.measure, unit) {
+        match (field.quantity, unit) {
             (_, "") => Some(Scale::Same),
-            (Measure::Length, "_m") => Some(if self.millimetres { Scale::Times(1000.0) } else { Scale::Same }),
-            (Measure::Length, "_mm") => Some(if self.millimetres { Scale::Same } else { Scale::Over(1000.0) }),
-            (Measure::Angle, "_rad") => Some(if self.degrees { Scale::ToDegrees } else { Scale::Same }),
-            (Measure::Angle, "_deg") => Some(if self.degrees { Scale::Same } else { Scale::ToRadians }),
+            (Quantity::Length, "_m") => Some(if self.millimetres { Scale::Times(1000.0) } else { Scale::Same }),
+            (Quantity::Length, "_mm") => Some(if self.millimetres { Scale::Same } else { Scale::Over(1000.0) }),
+            (Quantity::Angle, "_rad") => Some(if self.degrees { Scale::ToDegrees } else { Scale::Same }),
+            (Quantity::Angle, "_deg") => Some(if self.degrees { Scale::Same } else { Scale::ToRadians }),
             _ => None,
         }
     }
@@ -179,19 +198,21 @@ impl Columns {
     fn is_known(&self, name: &str) -> bool {
         let bare = split(name).0;
         let own = self.forms.iter().flatten().map(|field| field.name.as_str());
-        let mut known = own.chain(self.joints.iter().map(String::as_str)).chain(BESIDE).chain(NUMBERS);
+        let mut known = own.chain(self.joints.iter().map(String::as_str)).chain(BESIDE).chain(POSES);
+        let mut numbers = Task::all().into_iter().flat_map(|task| task.layout().numbers());
         known.any(|known| known == name || known == bare)
+            || numbers.any(|number| [name, bare].contains(&&*number.name()))
     }
 
     fn missing(&self, names: &StringRecord) -> Error {
         let fewest = self.forms.iter().min_by_key(|form| form.len()).map_or(&[][..], Vec::as_slice);
-        let lacking = fewest.iter().find(|field| self.place(field, names).is_none());
+        let lacking = (0..fewest.len()).find(|index| self.place(fewest, *index, names).is_none());
         let found: Vec<String> = names.iter().take(8).map(shown).collect();
         let wanted: Vec<&str> = fewest.iter().map(|field| field.name.as_str()).collect();
         let text = format!(
             "the first row (`{}`) has neither numbers nor the names of the inputs: `{}` is missing; {} are allowed",
             found.join(","),
-            lacking.map_or("", |field| &field.name),
+            lacking.map_or("", |index| &fewest[index].name),
             wanted.join(", ")
         );
         Error::new(ErrorKind::UnknownName, text)
@@ -238,8 +259,8 @@ pub fn heading(name: &str, is_angle: bool, degrees: bool) -> String {
 
 /// The fields of a chain's joints.
 pub fn of_joints(joints: &[Joint]) -> Vec<Field> {
-    let measure = |kind| if kind == JointKind::Revolute { Measure::Angle } else { Measure::Length };
-    joints.iter().map(|joint| Field { name: joint.name.clone(), measure: measure(joint.kind) }).collect()
+    let quantity = |kind| if kind == JointKind::Revolute { Quantity::Angle } else { Quantity::Length };
+    joints.iter().map(|joint| Field::new(&joint.name, quantity(joint.kind))).collect()
 }
 
 /// A column's name without its unit, and the unit.

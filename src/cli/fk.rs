@@ -12,7 +12,7 @@ use super::targets::{self, Row};
 use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result};
 use groebot_ik::derive::{Description, InputFile};
-use groebot_robot::kinematics::{Chain, Joint, JointKind, LengthUnit, Target};
+use groebot_robot::kinematics::{Chain, Joint, JointKind, LengthUnit, Quantity, Target, TargetNumber};
 use groebot_robot::spatial::Pose;
 
 const EXAMPLES: &str = "Examples:
@@ -127,9 +127,11 @@ impl Edge<'_> {
 
     /// The quantities of the chain's task that are not part of a pose, by name: the direction of its aim, or its angle
     /// \[rad\].
-    fn task_numbers(&self) -> Vec<(usize, String)> {
-        let beyond = |(_, name): &(usize, String)| ["dx", "dy", "dz", "phi"].contains(&name.as_str());
-        self.chain.task().numbers().into_iter().enumerate().filter(beyond).collect()
+    fn task_numbers(&self) -> Vec<(usize, TargetNumber)> {
+        let beyond = |(_, number): &(usize, TargetNumber)| {
+            matches!(number, TargetNumber::Direction(_) | TargetNumber::PlaneAngle(_))
+        };
+        self.chain.task().layout().numbers().iter().copied().enumerate().filter(beyond).collect()
     }
 
     fn turns(&self, joint: &Joint) -> bool {
@@ -164,7 +166,7 @@ impl Edge<'_> {
         let beyond =
             |(joint, value): &(&Joint, &f64)| joint.limits.is_some_and(|(low, high)| **value < low || **value > high);
         let outside = joints.iter().zip(&values).filter(beyond).map(|(joint, _)| joint.name.clone()).collect();
-        let target = Target::reached(self.chain, &values)?.numbers();
+        let target = self.chain.task().layout().values(&Target::of_pose(self.chain, &pose))?;
         Ok(Answer { q, pose, rpy: [roll, pitch, yaw].map(positive_zero), outside, target })
     }
 }
@@ -346,9 +348,10 @@ fn csv_header(edge: &Edge<'_>) -> String {
     cells.extend(["x", "y", "z"].map(|name| format!("{name}_{length}")));
     cells.extend(["qx", "qy", "qz", "qw"].map(str::to_owned));
     cells.extend(["roll", "pitch", "yaw"].map(|name| format!("{name}_{angle}")));
-    cells.extend(
-        edge.task_numbers().into_iter().map(|(_, name)| if name == "phi" { format!("phi_{angle}") } else { name }),
-    );
+    cells.extend(edge.task_numbers().into_iter().map(|(_, number)| match number.quantity() {
+        Quantity::Angle => format!("{}_{angle}", number.name()),
+        _ => number.name(),
+    }));
     cells.push("outside_limits".to_owned());
     super::answers::csv_line(&cells)
 }
@@ -358,9 +361,9 @@ fn csv_row(edge: &Edge<'_>, answer: &Answer) -> String {
     values.extend(answer.position());
     values.extend(answer.quaternion());
     values.extend(answer.rpy.map(|angle| edge.angle(angle)));
-    values.extend(edge.task_numbers().into_iter().map(|(place, name)| match answer.target[place] {
-        phi if name == "phi" => edge.angle(phi),
-        number => number,
+    values.extend(edge.task_numbers().into_iter().map(|(place, number)| match number.quantity() {
+        Quantity::Angle => edge.angle(answer.target[place]),
+        _ => answer.target[place],
     }));
     let mut cells: Vec<String> = values.iter().map(f64::to_string).collect();
     cells.push(answer.outside.join(" "));

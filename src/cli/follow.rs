@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-use super::columns::{Columns, Field, Measure};
+use super::columns::{Columns, Field};
 use super::ends::{IdealEndArguments, TipLink};
 use super::output::{Force, Kind};
 use super::progress::{Limits, Session};
@@ -14,10 +14,10 @@ use groebot_algebra::limits;
 use groebot_ik::derive::{Description, InputFile, Options};
 use groebot_robot::document::{is_stdin, open};
 use groebot_robot::dynamics::{Clearance, Model};
-use groebot_robot::kinematics::{Chain, LengthUnit};
+use groebot_robot::kinematics::{Chain, LengthUnit, Quantity};
 use groebot_robot::model::Robot;
 use groebot_robot::motion::table::pose_of;
-use groebot_robot::motion::{Followed, Pace, follow};
+use groebot_robot::motion::{Followed, Pace, PathRequest, follow};
 use groebot_robot::spatial::Pose;
 
 /// The tolerance for the length of a quaternion, for example one with 0.707.
@@ -88,7 +88,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (Some(times), _) => Pace::At(times),
         (None, every) => Pace::Every(every.unwrap_or(1.0)),
     };
-    let followed = follow(&chain, &description, &solver.program().solver(), &poses, &pace, &session.watch)
+    let request = PathRequest::new(&poses, &pace).speeds(&description);
+    let followed = follow(&chain, &solver.program().solver(), &request, &session.watch)
         .map_err(|error| error.in_file(&arguments.poses))?;
     drop(session);
     if let Some(jump) = followed.jumps.first().filter(|_| arguments.strict) {
@@ -131,8 +132,7 @@ fn read_poses(file: &Path, chain: &Chain) -> Result<(Vec<Pose>, Option<Vec<f64>>
 /// The columns of poses, with times and without.
 fn columns(chain: &Chain) -> Columns {
     let field = |name: &str| {
-        let measure = if ["x", "y", "z"].contains(&name) { Measure::Length } else { Measure::Plain };
-        Field { name: name.to_owned(), measure }
+        Field::new(name, if ["x", "y", "z"].contains(&name) { Quantity::Length } else { Quantity::Number })
     };
     Columns {
         forms: vec![["time"].into_iter().chain(POSE).map(field).collect(), POSE.map(field).to_vec()],

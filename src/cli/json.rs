@@ -37,7 +37,7 @@ impl Derived<'_> {
         json!({
             "format": FORMAT,
             "name": program.name,
-            "task": program.about.as_ref().map(|about| about.task.as_str()),
+            "task": program.about.as_ref().map(|_| program.task_text()),
             "inputs": program.inputs.iter().map(|input| input.name.as_str()).collect::<Vec<_>>(),
             "joints": program.joints.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>(),
             "follows": leaders(program.follows().into_iter()),

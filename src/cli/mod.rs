@@ -14,6 +14,7 @@ mod basis_cover;
 mod basis_question;
 mod chain_report;
 mod check;
+mod closest;
 mod codegen;
 mod columns;
 mod console;

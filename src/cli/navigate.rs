@@ -104,7 +104,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let (start, goal) = (arguments.places.start(default_start)?, arguments.places.goal()?);
     let begun = Instant::now();
     let feet = start.feet(pilot.half_width());
-    let found = Plan::find(&pilot, &floor, feet, goal, arguments.method.method(), &session.watch)?;
+    let found = Plan::find(&pilot, &floor, feet, goal.by(arguments.method.method()), &session.watch)?;
     let milliseconds = 1e3 * begun.elapsed().as_secs_f64();
     drop(session);
     match &found {

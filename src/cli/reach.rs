@@ -15,7 +15,7 @@ use groebot_ik::derive::{Ends, InputFile};
 use groebot_ik::reach::{Axis, Grid, Measure, ReachMap, Request, Survey};
 use groebot_ik::solver::Program;
 use groebot_robot::document::shown;
-use groebot_robot::kinematics::{Chain, Joint, JointKind};
+use groebot_robot::kinematics::{BaseAxis, Chain, Joint, JointKind, TargetNumber};
 
 /// The default number of points per axis.
 const USUAL: usize = 21;
@@ -109,11 +109,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 impl Arguments {
     fn request(&self, program: &Program, chain: Option<&Chain>) -> Result<Request> {
-        let is_input = |name: &str| program.inputs.iter().any(|input| input.name == name);
+        let has = |axis: BaseAxis| program.tip().is_some_and(|tip| tip.input(TargetNumber::Position(axis)).is_some());
         let around = chain.and_then(around);
         let axis = |given: Option<Axis>, place: usize| match (given, &around) {
             (Some(axis), _) => Ok(axis),
-            _ if !is_input(["px", "py", "pz"][place]) => Axis::new(0.0, 0.0, 1),
+            _ if !has(BaseAxis::ALL[place]) => Axis::new(0.0, 0.0, 1),
             (None, Some((middle, reach))) => Axis::new(middle[place] - reach, middle[place] + reach, USUAL),
             _ => {
                 let name = ["x", "y", "z"][place];

@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use super::answers::{Angles, Answer, csv_header, csv_rows, json, text, turned};
+use super::closest::Search;
 use super::files::is_derived;
 use super::forms::Forms;
 use super::targets::{self, Row};
@@ -13,12 +14,13 @@ use groebot_algebra::limits::PROGRAM_BYTES;
 use groebot_ik::derive::Source;
 use groebot_ik::derive::problem::input::COUPLED_NAME;
 use groebot_ik::folder::{self, PROGRAM, is_thin};
-use groebot_ik::solver::{Program, Solver};
+use groebot_ik::solver::{ClosestOptions, Program, Solver};
 use groebot_robot::document::read_text;
 
 const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal --target 60,150
   groebot solve derivations/nao_leg_sagittal --target -60,-150 --json
+  groebot solve derivations/planar_2r --target 3,4 --closest
   groebot solve derivations/nao_leg_sagittal < targets.csv > answers.csv
   groebot fk derivations/ur5 < joints.csv | groebot solve derivations/ur5 | groebot fk derivations/ur5
 
@@ -32,7 +34,9 @@ ignored; unknown names are errors.
 
 Angles of solutions are moved into their joint's limits by whole turns where possible. A target
 without a solution is not an error. The output is \"unreachable: no solution\", an empty list of
-solutions (JSON), or a row with 0 solutions (CSV). For chains that share actuators, text and JSON of
+solutions (JSON), or a row with 0 solutions (CSV). With --closest it has the joint values with the
+least error, too: distance^2 + (2 LENGTH sin(angle / 2))^2. They do not respect joint limits, and the
+exit status is 0 as well. For chains that share actuators, text and JSON of
 a --target name the chain that fails, and the reason.";
 
 /// Computes all solutions of targets with a derived solver
@@ -50,6 +54,12 @@ pub struct Arguments {
     /// Use degrees instead of radians in targets and in JSON and CSV output (text has both)
     #[arg(long)]
     degrees: bool,
+    /// For a target out of reach, also compute the joint values whose target has the least error
+    #[arg(long)]
+    closest: bool,
+    /// The distance that counts as an angle of 1 rad in this error [unit of the inputs; default: the reach]
+    #[arg(long, value_name = "LENGTH", requires = "closest")]
+    length: Option<f64>,
 }
 
 /// Solves the targets.
@@ -70,7 +80,13 @@ pub fn run(arguments: &Arguments) -> Outcome {
 impl Arguments {
     fn stream(&self, program: &Program, angles: Angles) -> Outcome {
         targets::is_free(&self.derivation, "--target")?;
-        stream(program, angles, self.json)
+        stream(&Question::new(program, angles, self), self.json)
+    }
+
+    /// The options of the closest joint values, if they are requested.
+    fn closest(&self) -> Option<ClosestOptions> {
+        let options = ClosestOptions::default();
+        self.closest.then(|| self.length.map_or(options.clone(), |length| options.length(length)))
     }
 }
 
@@ -97,15 +113,32 @@ fn program_folder(path: &Path) -> Option<&Path> {
     if path.is_dir() { Some(path) } else { parent() }
 }
 
-fn answer<'a>(
-    (program, solver): (&'a Program, &Solver),
-    forms: &Forms,
-    numbers: Vec<f64>,
+/// A prepared program with the forms of its targets and the options of the command.
+struct Question<'a> {
+    program: &'a Program,
+    solver: Solver,
+    forms: Forms,
     angles: Angles,
-) -> Result<Answer<'a>> {
-    let target = forms.inputs(numbers)?;
-    let solutions = turned(program, solver.solve_numbers(&angles.to_radians(program, &target))?);
-    Ok(Answer { program, target, solutions, reason: None, angles })
+    closest: Option<ClosestOptions>,
+}
+
+impl<'a> Question<'a> {
+    fn new(program: &'a Program, angles: Angles, arguments: &Arguments) -> Self {
+        Question { program, solver: program.solver(), forms: Forms::new(program), angles, closest: arguments.closest() }
+    }
+
+    fn answer(&self, numbers: Vec<f64>) -> Result<Answer<'a>> {
+        let (program, angles) = (self.program, self.angles);
+        let target = self.forms.inputs(numbers)?;
+        let own = angles.to_radians(program, &target);
+        let solutions = turned(program, self.solver.solve_numbers(&own)?);
+        let closest = match &self.closest {
+            None => Search::Off,
+            Some(_) if !solutions.is_empty() => Search::Needless,
+            Some(options) => Search::run(program, &self.solver, &own, options)?,
+        };
+        Ok(Answer { program, target, solutions, reason: None, closest, angles })
+    }
 }
 
 /// The reason why `target`, in radians, has no solution, for chains that share actuators.
@@ -124,13 +157,13 @@ fn reason(folder: &Path, target: &[f64]) -> Result<Option<String>> {
 /// Solves the targets of the command line; prints text, or JSON.
 fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Arguments) -> Outcome {
     let mut page = String::new();
-    let (solver, forms) = (program.solver(), Forms::new(program));
+    let question = Question::new(program, angles, arguments);
     for (index, target) in given.iter().enumerate() {
         let count = target.split(',').count();
-        let lists = forms.names();
+        let lists = question.forms.names();
         let names = lists.iter().find(|names| names.len() == count).unwrap_or(&lists[0]);
         let mut answer = targets::parse(names, target)
-            .and_then(|numbers| answer((program, &solver), &forms, numbers, angles))
+            .and_then(|numbers| question.answer(numbers))
             .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;
         if answer.solutions.is_empty() {
             answer.reason = reason(&arguments.derivation, &angles.to_radians(program, &answer.target))?;
@@ -146,22 +179,21 @@ fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Argum
 }
 
 /// Solves the targets from standard input, one per row; writes CSV, or one JSON object per line.
-fn stream(program: &Program, angles: Angles, as_json: bool) -> Outcome {
+fn stream(question: &Question<'_>, as_json: bool) -> Outcome {
+    let (program, angles) = (question.program, question.angles);
     let mut out = BufWriter::new(io::stdout().lock());
     let mut write = |text: &str| out.write_all(text.as_bytes()).map_err(|error| console::unwritten(&error));
-    let (solver, forms) = (program.solver(), Forms::new(program));
-    let columns = forms.columns(program, angles == Angles::Degrees);
+    let columns = question.forms.columns(program, angles == Angles::Degrees);
     let mut rows = targets::Reader::new(columns, io::stdin().lock(), Path::new(targets::STDIN));
     if !as_json {
-        write(&csv_header(program, angles))?;
+        write(&csv_header(program, angles, question.closest.is_some()))?;
     }
     let mut index = 0;
     let outcome = loop {
         let solved = match rows.next() {
             None => break Ok(()),
             Some(row) => row.and_then(|Row { line, target }| {
-                answer((program, &solver), &forms, target, angles)
-                    .map_err(|error| error.at_line(line).in_file(Path::new(targets::STDIN)))
+                question.answer(target).map_err(|error| error.at_line(line).in_file(Path::new(targets::STDIN)))
             }),
         };
         match solved {

@@ -12,11 +12,11 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::number::{BigRational, parse_rational};
 use groebot_robot::control::{
     ClosedLoop, ComputedTorque, Desired, Disturbance, Gains, GravityCompensation, Inversion, Law, Limited, OpenLoop,
-    Sample, Trajectory, WorkSpace, errors_and_torques,
+    Sample, WorkSpace, errors_and_torques,
 };
 use groebot_robot::dynamics::{Base, Equations, State, Workspace};
 use groebot_robot::model::Robot;
-use groebot_robot::motion::StateTable;
+use groebot_robot::motion::{Spline, StateTable};
 
 const EXAMPLES: &str = "Examples:
   groebot track ur5.urdf --law computed-torque --trajectory t.csv --plot p.svg
@@ -199,7 +199,7 @@ fn law(arguments: &Arguments, robot: &Robot, known: &Equations) -> Result<Box<dy
     })
 }
 
-fn read(arguments: &Arguments, names: &[String]) -> Result<Trajectory> {
+fn read(arguments: &Arguments, names: &[String]) -> Result<Spline> {
     let fault = |error: Error| error.in_file(&arguments.trajectory);
     let table = StateTable::read_csv(&arguments.trajectory)?.in_order_of(names).map_err(fault)?;
     let joints = names.len();
@@ -212,8 +212,8 @@ fn read(arguments: &Arguments, names: &[String]) -> Result<Trajectory> {
     }
     let known = table.rows.iter().map(|row| Some([row.q.clone(), row.velocity.clone()?, row.acceleration.clone()?]));
     match known.collect::<Option<Vec<_>>>() {
-        Some(knots) => Trajectory::new(times, knots).map_err(fault),
-        None => Trajectory::through(times, table.rows.into_iter().map(|row| row.q).collect()).map_err(fault),
+        Some(knots) => Spline::new(times, knots).map_err(fault),
+        None => Spline::through(times, table.rows.into_iter().map(|row| row.q).collect()).map_err(fault),
     }
 }
 

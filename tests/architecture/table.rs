@@ -1,7 +1,7 @@
 //! The permitted dependencies between modules.
 
 /// Modules at the root of a crate that every module may use. They use only each other.
-const ROOT: [&str; 5] = ["error", "escape", "limits", "watch", "files"];
+const ROOT: [&str; 7] = ["error", "escape", "limits", "random", "watch", "files", "tolerances"];
 
 /// The reader of input files: every module below it may use it.
 const DOCUMENT: &str = "document";
@@ -28,7 +28,7 @@ const TABLE: [(&str, Uses); 28] = [
         "witness",
         Uses::Only(&["number", "poly", "groebner", "roots", "real", "spatial", "kinematics", "solver", "derive"]),
     ),
-    ("codegen", Uses::Only(&["number", "dynamics", "solver"])),
+    ("codegen", Uses::Only(&["number", "kinematics", "dynamics", "solver"])),
     ("motion", Uses::Only(&["spatial", "model", "kinematics"])),
     ("gait", Uses::Only(&["drawing", "spatial", "model", "kinematics", "dynamics", "motion"])),
     ("walkers", Uses::Only(&["spatial", "model", "kinematics", "robots", "gait"])),

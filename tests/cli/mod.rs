@@ -4,6 +4,7 @@ mod basis;
 mod browser;
 mod budgets;
 mod check;
+mod closest;
 mod codegen;
 mod committed;
 mod coupled;

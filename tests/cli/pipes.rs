@@ -202,3 +202,53 @@ fn the_default_tip_is_reported() {
     let leg = refused(&[&["derive", &urdf("three_joint_leg.urdf")], &task[..]].concat());
     assert!(leg.contains("choose a tip link, such as `foot`\n"), "{leg}");
 }
+
+/// A given joint with the name of a coordinate: each has its own column.
+#[test]
+fn a_given_joint_may_have_the_name_of_a_number_of_the_task() {
+    let chain = fs::read_to_string(root("derivations/nao_left_arm_position/0_chain.toml")).unwrap();
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("chain.toml");
+    fs::write(&file, chain.replace("ElbowYaw", "px")).unwrap();
+    let poses = pipe(&["fk", text(&file)], "0.3,0.2,0.7,-0.6\n");
+    let x = table(&poses)[0]["x_m"];
+    let mut answers = pipe(&["ik", text(&file)], &poses);
+    let own = pipe(&["ik", text(&file)], &format!("x_m,y_m,z_m,px\n{},0.7\n", cells(&poses, ["x_m", "y_m", "z_m"])));
+    assert_eq!(own, answers);
+    for _ in 0..2 {
+        let rows: Vec<Vec<&str>> = answers.lines().map(|line| line.split(',').collect()).collect();
+        let places: Vec<usize> = (0..rows[0].len()).filter(|place| rows[0][*place] == "px").collect();
+        assert_eq!((places.len(), places[0], rows.len() > 1), (3, 1, true), "{answers}");
+        for row in &rows[1..] {
+            let [number, given, joint] = [0, 1, 2].map(|k| row[places[k]].parse::<f64>().unwrap());
+            assert!((number - x).abs() < 1e-12 && given == 0.7 && (joint - 0.7).abs() < 1e-12, "{answers}");
+        }
+        answers = pipe(&["ik", text(&file)], &answers);
+    }
+}
+
+/// The cells of the first row in these columns.
+fn cells(table: &str, names: [&str; 3]) -> String {
+    let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    let cell = |name: &str| rows[1][rows[0].iter().position(|own| *own == name).unwrap()];
+    names.map(cell).join(",")
+}
+
+/// Two joints of the upright arm have the names of numbers of its task.
+#[test]
+fn joints_with_the_names_of_numbers_are_told_from_them() {
+    let folder = derivation("upright_arm");
+    for units in [&[][..], &["--degrees"]] {
+        let with = |command| [&[command, folder.as_str()], units].concat();
+        let poses = pipe(&with("fk"), "0.124,0.516,0.47,0.19,0.322\n");
+        let unit = if units.is_empty() { "rad" } else { "deg" };
+        let pitch =
+            cells(&poses, ["x_m", "y_m", "z_m"]) + "," + poses.lines().nth(1).unwrap().split(',').nth(13).unwrap();
+        let header: Vec<&str> = poses.lines().next().unwrap().split(',').collect();
+        assert_eq!((header[12], header[13]), (&*format!("roll_{unit}"), &*format!("pitch_{unit}")));
+        let answers = pipe(&with("solve"), &poses);
+        let first: Vec<&str> = answers.lines().nth(1).unwrap().split(',').collect();
+        assert_eq!(first[1..5].join(","), pitch, "{answers}");
+        assert_eq!(first[5], poses.lines().nth(1).unwrap().split(',').nth(12).unwrap());
+    }
+}

@@ -8,6 +8,8 @@ pub mod error;
 pub mod escape;
 // Limits of all readers and options, in one table.
 pub mod limits;
+// Deterministic pseudorandom numbers.
+pub mod random;
 // Progress, cancellation and budgets of long computations.
 pub mod watch;
 

@@ -66,6 +66,21 @@ impl Watch {
         Watch::default()
     }
 
+    /// The watch of a function whose watch is optional: the given one, or for `None` one without listener, cancel flag and
+    /// budget.
+    pub fn or_none<'a>(watch: impl Into<Option<&'a Watch>>) -> &'a Watch {
+        static NONE: Watch = Watch {
+            listener: None,
+            cancel: None,
+            deadline: None,
+            terms: None,
+            memory: None,
+            meter: None,
+            patience: None,
+        };
+        watch.into().unwrap_or(&NONE)
+    }
+
     /// Sets a listener. It is called from time to time on the working thread.
     #[must_use]
     pub fn with_listener(mut self, listener: impl Fn(Progress<'_>) + Send + Sync + 'static) -> Self {

@@ -5,6 +5,7 @@ mod escape;
 mod groebner;
 mod number;
 mod poly;
+mod random;
 mod real;
 mod roots;
 mod watch;

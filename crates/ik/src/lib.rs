@@ -5,6 +5,7 @@ pub mod derive;
 pub mod folder;
 pub mod reach;
 pub mod solver;
+mod tolerances;
 pub mod witness;
 
 pub use derive::derive;

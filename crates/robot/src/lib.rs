@@ -27,3 +27,5 @@ pub mod drawing;
 pub mod control;
 
 pub use groebot_algebra::{Error, ErrorKind, Result, Watch};
+/// Version of nalgebra whose types the interface has.
+pub use nalgebra;

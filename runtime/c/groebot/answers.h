@@ -159,8 +159,8 @@ GB_INLINE void gb_joints_of(gb_real (*joints)[GB_CANDIDATES], size_t k, gb_real 
 /* Keeps the solutions near the waiting candidates of a nearby mechanism's formulas. */
 static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
 {
-    gb_ways ways;
-    gb_find_ways(c, &ways);
+    gb_approaches approaches;
+    gb_find_approaches(c, &approaches);
     const size_t waiting = c->waiting;
     bool is_usual = c->all.count == 0;
     for (size_t k = 0; k < waiting; k++) {
@@ -168,7 +168,7 @@ static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
         gb_real q[GB_JOINTS];
         gb_joints_of(joints, k, q);
         c->waiting = 0;
-        if (!gb_lead(c, &ways, k, q, &approach)) {
+        if (!gb_lead(c, &approaches, k, q, &approach)) {
             is_usual = false;
             gb_look_closer(c, k, waiting, q, NULL);
             continue;
@@ -193,7 +193,7 @@ static void gb_keep_waiting(gb_sink_1 *c, gb_real (*joints)[GB_CANDIDATES])
     bool is_usual = c->all.count == 0;
     for (size_t k = 0; k < c->waiting; k++) {
         const gb_fit fit = {fits.residual[k], fits.relative[k], true};
-        const bool holds = c->found[k].free == 0 && !c->found[k].close && fit.relative < GB_ROUNDING && fits.sound[k] > R(0.0);
+        const bool holds = c->found[k].free == 0 && !c->found[k].close && fit.relative < GB_ACCEPTANCE_ROUNDING && fits.sound[k] > R(0.0);
         gb_real q[GB_JOINTS];
         gb_joints_of(joints, k, q);
         /* The second of two twins has the same distance to earlier candidates as the first. */
@@ -253,7 +253,7 @@ static void gb_keep_pairs(gb_sink_1 *c)
     gb_measure_waiting(c, gb_twins(c), &fits);
     c->is_usual = c->is_usual && !gb_this.is_nearby;
     for (size_t k = 0; c->is_usual && k < c->waiting; k++) {
-        const bool holds = c->found[k].free == 0 && !c->found[k].close && fits.relative[k] < GB_ROUNDING && fits.sound[k] > R(0.0);
+        const bool holds = c->found[k].free == 0 && !c->found[k].close && fits.relative[k] < GB_ACCEPTANCE_ROUNDING && fits.sound[k] > R(0.0);
         c->is_usual = holds && gb_write_pairs(c, k, fits.residual[k]);
     }
 }
@@ -263,13 +263,13 @@ static void gb_keep_pairs(gb_sink_1 *c)
 static bool gb_are_within(const gb_real *a, const gb_real *b, uint32_t free, gb_real tolerance)
 {
     for (size_t i = 0; i < GB_JOINTS; i++) {
-        gb_real way = a[i] - b[i], span = R(1.0);
+        gb_real delta = a[i] - b[i], span = R(1.0);
         if (gb_joints[i].is_angle) {
-            way = way > GB_PI ? way - GB_TAU : way < -GB_PI ? way + GB_TAU : way;
+            delta = delta > GB_PI ? delta - GB_TAU : delta < -GB_PI ? delta + GB_TAU : delta;
         } else {
             span = gb_larger(GB_SCALE, gb_magnitude(a[i]));
         }
-        if (!(free >> i & 1) && !(gb_magnitude(way) <= tolerance * span)) {
+        if (!(free >> i & 1) && !(gb_magnitude(delta) <= tolerance * span)) {
             return false;
         }
     }
@@ -303,7 +303,7 @@ static void gb_take_member(gb_answers *all, const gb_found_1 *found, gb_real *q)
 static bool gb_is_far(const gb_sink_1 *c, const gb_real *q)
 {
     for (size_t i = 0; i < c->all.count; i++) {
-        if (gb_are_within(c->out[i].q, q, c->out[i].free, GB_BLUR)) {
+        if (gb_are_within(c->out[i].q, q, c->out[i].free, GB_MERGING_BLUR)) {
             return false;
         }
     }
@@ -313,13 +313,13 @@ static bool gb_is_far(const gb_sink_1 *c, const gb_real *q)
 /* Adds a candidate within the tolerance that is far from all solutions and on no self-motion. */
 static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, gb_real *q)
 {
-    const gb_real within = gb_larger(GB_WITHIN, GB_ACCEPT);
+    const gb_real within = gb_larger(GB_WITHIN, GB_ACCEPTANCE_RESIDUAL);
     if (c->all.count == GB_CAPACITY || (found->free == 0 && !gb_is_far(c, q))) {
         return;
     }
     const gb_fit fit = gb_fitted(&c->all.problem, q, 0, R(0.5));
     /* On a stratum a joint may only appear free, because the remaining equations determine it: then no other joint values nearby are within the tolerance. */
-    if (fit.relative <= within && gb_is_far(c, q) && (found->free == 0 || gb_regularity(&c->all.problem, q) * GB_BLUR > within)
+    if (fit.relative <= within && gb_is_far(c, q) && (found->free == 0 || gb_regularity(&c->all.problem, q) * GB_MERGING_BLUR > within)
         && !(c->ideal && gb_has_member(c->ideal, q, c->moving))) {
         gb_solution *out = &c->out[c->all.count++];
         memcpy(out->q, q, sizeof out->q);
@@ -334,7 +334,7 @@ static void gb_take_other(gb_sink_1 *c, const gb_found_1 *found, gb_real *q)
 /* Whether no more candidates are needed. */
 static bool gb_has_enough(const gb_sink_1 *c)
 {
-    return c->all.has_nearest && (c->sought == GB_MEMBER || c->all.nearest_fit.relative <= GB_POLISHED);
+    return c->all.has_nearest && (c->sought == GB_MEMBER || c->all.nearest_fit.relative <= GB_POLISHING_DONE);
 }
 
 /* Processes the waiting candidates, until no more are needed. */

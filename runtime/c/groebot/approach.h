@@ -1,11 +1,11 @@
 /* Newton steps from a candidate of a nearby mechanism's formulas to the solution next to it */
 
 /* A pair of a cosine and a sine turned back by a small angle and normalised. Returns the normalising factor. */
-GB_INLINE T GB_(turn_back)(T way, T *cosine, T *sine)
+GB_INLINE T GB_(turn_back)(T delta, T *cosine, T *sine)
 {
     const T c = *cosine, s = *sine;
-    const T norm = R(1.5) - R(0.5) * (c * c + s * s), square = way * way;
-    const T across = norm * way * (R(1.0) - square * (R(1.0) - square * (R(1.0) / R(20.0))) * (R(1.0) / R(6.0)));
+    const T norm = R(1.5) - R(0.5) * (c * c + s * s), square = delta * delta;
+    const T across = norm * delta * (R(1.0) - square * (R(1.0) - square * (R(1.0) / R(20.0))) * (R(1.0) / R(6.0)));
     const T along = norm * (R(1.0) - R(0.5) * square * (R(1.0) - square * (R(1.0) / R(12.0))));
     *cosine = along * c + across * s;
     *sine = along * s - across * c;
@@ -39,7 +39,7 @@ GB_INLINE void GB_(eliminate)(GB_(normal) *normal, T *sound)
     }
     for (int k = 0; k < GB_JOINTS; k++) {
         const T pivot = normal->square[k][k];
-        *sound = GB_(where_below)(*sound, size * GB_PLAIN - pivot, R(0.0));
+        *sound = GB_(where_below)(*sound, size * GB_PIVOTS_REGULAR_STEPS - pivot, R(0.0));
         least = GB_(lesser)(least, pivot);
         normal->inverse[k] = R(1.0) / pivot;
         for (int i = k + 1; i < GB_JOINTS; i++) {

@@ -30,7 +30,7 @@ GB_INLINE void GB_(measure)(GB_(sink) *c, const T *p)
             c->residual[k + twin] = residual;
             c->relative[k + twin] = relative;
         }
-        c->doubt |= ~(GB_(exceeds)(GB_(of)(GB_ROUNDING), relative) | c->dead[k]);
+        c->doubt |= ~(GB_(exceeds)(GB_(of)(GB_ACCEPTANCE_ROUNDING), relative) | c->dead[k]);
     }
 }
 
@@ -78,7 +78,7 @@ GB_INLINE void GB_(find_joints)(GB_(sink) *c, bool wants_angles)
                 sound = GB_(exceeds)(GB_(of)(GB_GREATEST), GB_(abs)(cosine));
             } else {
                 if (k % gb_runs[i] == 0) {
-                    sound = GB_(exceeds)(GB_(of)(GB_ROUNDING), GB_(abs)(cosine * cosine + sine * sine - R(1.0)));
+                    sound = GB_(exceeds)(GB_(of)(GB_ACCEPTANCE_ROUNDING), GB_(abs)(cosine * cosine + sine * sine - R(1.0)));
                     acute = wants_angles ? GB_(acute)(GB_(abs)(cosine), GB_(abs)(sine)) : acute;
                 }
                 if (wants_angles) {

@@ -22,7 +22,7 @@ GB_INLINE GB_(truth) GB_(make_rotation)(T *r)
         const T *row = excess[i / 3], *column = given + i % 3;
         r[i] = r[i] - R(0.5) * (row[0] * column[0] + row[1] * column[3] + row[2] * column[6]);
     }
-    return (GB_(truth))(GB_(at_most)(GB_(of)(R(0.0)), determinant) & GB_(at_most)(deviation, GB_(of)(GB_CONSISTENT)));
+    return (GB_(truth))(GB_(at_most)(GB_(of)(R(0.0)), determinant) & GB_(at_most)(deviation, GB_(of)(GB_ACCEPTANCE_INPUT)));
 }
 
 /* Takes one Newton step towards the nearest unit vector. False when the vector is far from it. */
@@ -32,7 +32,7 @@ GB_INLINE GB_(truth) GB_(make_unit)(T *v)
     for (int i = 0; i < 3; i++) {
         v[i] = v[i] - R(0.5) * (excess * v[i]);
     }
-    return GB_(at_most)(GB_(abs)(excess), GB_(of)(GB_CONSISTENT));
+    return GB_(at_most)(GB_(abs)(excess), GB_(of)(GB_ACCEPTANCE_INPUT));
 }
 
 /* Projects a target onto a condition; false where it is farther from it than the tolerance. */

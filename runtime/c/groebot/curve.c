@@ -4,21 +4,18 @@
  * because the equations change little along the curve. A walk holds one joint after the other while the remaining ones minimise the residual. At each
  * solution the residual changes its sign. (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990, chapter 3.) */
 
-/* The tolerances are those of curve.rs, where they are documented. */
+/* The constants are those of curve.rs, where they are documented. */
 #define GB_CURVE_ROUNDS 6
 #define GB_CURVE_BOUND R(0.5)
-#define GB_CURVE_SETTLED GB_EITHER(1e-8, 1e-3)
 #define GB_CURVE_PACES 400
-#define GB_CURVE_PASSED R(1e-2)
 #define GB_CURVE_STRAIGHT R(0.5)
 #define GB_CURVE_NARROWED 24
 #define GB_CURVE_PARABOLAS 12
 #define GB_CURVE_FALLEN R(0.5)
 #define GB_CURVE_STALLS 2
-#define GB_CURVE_RANK GB_EITHER(1e-3, 1e-2)
 #define GB_CURVE_ALIGNED R(0.5)
 #define GB_CURVE_FEWFOLD R(30.0)
-#define GB_CURVE_WHOLE (R(10.0) * GB_ACCEPT)
+#define GB_CURVE_WHOLE (R(10.0) * GB_ACCEPTANCE_RESIDUAL)
 /* The shortest, the first and the longest step along a curve. */
 static const gb_real gb_curve_pace[] = {R(1.5e-3), R(2.5e-2), R(0.1)};
 
@@ -40,11 +37,11 @@ typedef struct {
 static bool gb_is_listed(const gb_answers *all, const gb_real *q);
 
 /* The index of the entry with the greatest magnitude, the first of equals. */
-static size_t gb_greatest(const gb_real *way, size_t count)
+static size_t gb_greatest(const gb_real *delta, size_t count)
 {
     size_t best = 0;
     for (size_t i = 1; i < count; i++) {
-        best = gb_magnitude(way[i]) > gb_magnitude(way[best]) ? i : best;
+        best = gb_magnitude(delta[i]) > gb_magnitude(delta[best]) ? i : best;
     }
     return best;
 }
@@ -52,9 +49,9 @@ static size_t gb_greatest(const gb_real *way, size_t count)
 /* The joint with the largest difference between `b` and `a`. */
 static size_t gb_farthest_joint(const gb_mechanism *m, const gb_real *a, const gb_real *b)
 {
-    gb_real way[GB_MAX_JOINTS];
-    gb_differences(m, a, b, way);
-    return gb_greatest(way, m->joints);
+    gb_real delta[GB_MAX_JOINTS];
+    gb_differences(m, a, b, delta);
+    return gb_greatest(delta, m->joints);
 }
 
 static gb_real gb_scalar_product(const gb_real *a, const gb_real *b, size_t count)
@@ -76,7 +73,7 @@ static gb_real gb_miss_along(const gb_mechanism *m, const gb_spot *a, const gb_s
 static bool gb_goes_on(const gb_mechanism *m, const gb_spot *spot, const gb_spot *other)
 {
     const gb_real here = gb_miss_along(m, spot, spot), there = gb_miss_along(m, other, other), along = gb_miss_along(m, spot, other);
-    const bool is_flat = gb_is_between(spot->most, GB_ROUNDING, GB_CURVE_WHOLE);
+    const bool is_flat = gb_is_between(spot->most, GB_ACCEPTANCE_ROUNDING, GB_CURVE_WHOLE);
     return along * along > GB_CURVE_ALIGNED * here * there && !is_flat
         && (along < R(0.0) || gb_larger(here, there) <= GB_CURVE_FEWFOLD * gb_smaller(here, there));
 }
@@ -103,7 +100,7 @@ static bool gb_settle_on_curve(const gb_problem *problem, size_t held, gb_spot *
             return false;
         }
         gb_stepped(m, spot->q, step, spot->q);
-        if (longest <= GB_CURVE_SETTLED) {
+        if (longest <= GB_SELF_MOTIONS_CURVE) {
             spot->most = R(0.0);
             for (size_t i = 0; i < m->equations; i++) {
                 for (size_t k = 0; k < m->joints; k++) {
@@ -111,7 +108,7 @@ static bool gb_settle_on_curve(const gb_problem *problem, size_t held, gb_spot *
                 }
                 spot->most = gb_larger(spot->most, gb_magnitude(spot->miss[i]));
             }
-            return spot->most <= GB_NEAR;
+            return spot->most <= GB_STRATA_NEAR;
         }
     }
     return false;
@@ -121,7 +118,7 @@ static bool gb_settle_on_curve(const gb_problem *problem, size_t held, gb_spot *
 static bool gb_start_with(const gb_problem *problem, const gb_real *q, size_t held, gb_spot *spot)
 {
     gb_copy(spot->q, q, problem->mechanism->joints);
-    return gb_settle_on_curve(problem, held, spot) && gb_regularity_of(problem, spot->q, (uint32_t)1 << held) > GB_CURVE_RANK;
+    return gb_settle_on_curve(problem, held, spot) && gb_regularity_of(problem, spot->q, (uint32_t)1 << held) > GB_PIVOTS_WEAK;
 }
 
 /* The place on the curve next to `q`, and the joint that is held to reach it. This is a free joint. Where none is free, or the others move without it, it is
@@ -129,7 +126,7 @@ static bool gb_start_with(const gb_problem *problem, const gb_real *q, size_t he
 static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint32_t free, gb_spot *spot, size_t *held)
 {
     gb_triangle triangle;
-    gb_real way[GB_MAX_JOINTS], share;
+    gb_real delta[GB_MAX_JOINTS], share;
     if (free != 0) {
         for (*held = 0; !gb_is_in(free, *held); (*held)++) {
         }
@@ -138,10 +135,10 @@ static bool gb_start_on_curve(const gb_problem *problem, const gb_real *q, uint3
         }
     }
     gb_make_triangle(problem, q, R(0.0), 0, &triangle);
-    if (!gb_stillest(problem, &triangle, way, &share)) {
+    if (!gb_stillest(problem, &triangle, delta, &share)) {
         return false;
     }
-    *held = gb_greatest(way, problem->mechanism->joints);
+    *held = gb_greatest(delta, problem->mechanism->joints);
     return gb_start_with(problem, q, *held, spot);
 }
 
@@ -182,7 +179,7 @@ static void gb_keep_on_curve(gb_answers *all, const gb_found_1 *found, const gb_
     if (gb_is_listed(all, end.q)) {
         return;
     }
-    moving.free = gb_regularity(&all->problem, end.q) <= GB_REGULAR ? gb_joint_on_long_self_motion(&all->problem, end.q) : 0;
+    moving.free = gb_regularity(&all->problem, end.q) <= GB_PIVOTS_REGULAR ? gb_joint_on_long_self_motion(&all->problem, end.q) : 0;
     gb_keep(all, &moving, end.q, &end.fit);
 }
 
@@ -191,7 +188,7 @@ static void gb_keep_on_curve(gb_answers *all, const gb_found_1 *found, const gb_
 static void gb_keep_change(gb_answers *all, const gb_found_1 *found, const gb_spot *a, const gb_spot *b)
 {
     const gb_mechanism *m = all->problem.mechanism;
-    if (gb_miss_along(m, a, b) > R(0.0) || gb_larger(a->most, b->most) <= GB_ALONE) {
+    if (gb_miss_along(m, a, b) > R(0.0) || gb_larger(a->most, b->most) <= GB_SELF_MOTIONS_MEMBER) {
         return;
     }
     const gb_spot unit = a->most > b->most ? *a : *b;
@@ -214,7 +211,7 @@ static void gb_keep_change(gb_answers *all, const gb_found_1 *found, const gb_sp
             high = value;
             side = 1;
         }
-        if (middle.most <= GB_ROUNDING) {
+        if (middle.most <= GB_ACCEPTANCE_ROUNDING) {
             break;
         }
     }
@@ -229,9 +226,9 @@ static bool gb_find_vertex(const gb_problem *problem, const gb_spot *unit, const
     const gb_real low = gb_miss_along(m, &sides[0], unit), middle = gb_miss_along(m, least, unit), high = gb_miss_along(m, &sides[1], unit);
     const gb_real lengths[2] = {gb_farthest(m, sides[0].q, least->q), gb_farthest(m, sides[1].q, least->q)};
     const gb_real fall = (middle - low) / lengths[0], rise = (high - middle) / lengths[1];
-    const gb_real way = R(0.5) * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
-    *side = way >= R(0.0);
-    return gb_between_spots(problem, least, &sides[*side], gb_magnitude(way) / lengths[*side], vertex);
+    const gb_real delta = R(0.5) * (fall * lengths[1] + rise * lengths[0]) / (fall - rise);
+    *side = delta >= R(0.0);
+    return gb_between_spots(problem, least, &sides[*side], gb_magnitude(delta) / lengths[*side], vertex);
 }
 
 /* Searches for two solutions, or a double one, where the residual has a minimum without a change of sign: at the vertex of a parabola. */
@@ -240,14 +237,14 @@ static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot 
     const gb_mechanism *m = all->problem.mechanism;
     const gb_spot unit = a->most > c->most ? *a : *c;
     const gb_real middle = gb_miss_along(m, b, &unit), ends = gb_smaller(gb_miss_along(m, a, &unit), gb_miss_along(m, c, &unit));
-    const bool is_zero = b->most <= GB_ALONE;
-    if (!(gb_smaller(a->most, c->most) > GB_ALONE && ends > middle && (is_zero || middle > R(0.0)))) {
+    const bool is_zero = b->most <= GB_SELF_MOTIONS_MEMBER;
+    if (!(gb_smaller(a->most, c->most) > GB_SELF_MOTIONS_MEMBER && ends > middle && (is_zero || middle > R(0.0)))) {
         return;
     }
     gb_spot least = *b, sides[2] = {*a, *c}, vertex;
     size_t side;
     int stalls = 0;
-    for (int k = 0; k < GB_CURVE_PARABOLAS && gb_larger(sides[0].most, sides[1].most) > GB_ALONE; k++) {
+    for (int k = 0; k < GB_CURVE_PARABOLAS && gb_larger(sides[0].most, sides[1].most) > GB_SELF_MOTIONS_MEMBER; k++) {
         if (!gb_find_vertex(&all->problem, &unit, &least, sides, &side, &vertex)) {
             break;
         }
@@ -255,7 +252,7 @@ static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot 
             gb_keep_change(all, found, &vertex, &sides[0]);
             gb_keep_change(all, found, &vertex, &sides[1]);
             /* Rounding alone may have changed the sign. */
-            if (least.most <= GB_ALONE) {
+            if (least.most <= GB_SELF_MOTIONS_MEMBER) {
                 gb_keep_on_curve(all, found, least.q);
             }
             return;
@@ -267,7 +264,7 @@ static void gb_keep_dip(gb_answers *all, const gb_found_1 *found, const gb_spot 
         } else {
             sides[side] = vertex;
         }
-        if (least.most > GB_ALONE && stalls >= GB_CURVE_STALLS) {
+        if (least.most > GB_SELF_MOTIONS_MEMBER && stalls >= GB_CURVE_STALLS) {
             break;
         }
     }
@@ -290,12 +287,12 @@ static void gb_keep_whole_curve(gb_answers *all, const gb_found_1 *found, size_t
 /* Whether joint values are next to a step of a walk. */
 static bool gb_is_passed(const gb_mechanism *m, const gb_real *q, const gb_real *from, const gb_real *to)
 {
-    gb_real way[GB_MAX_JOINTS], aside[GB_MAX_JOINTS], nearest[GB_MAX_JOINTS];
-    gb_differences(m, to, from, way);
+    gb_real delta[GB_MAX_JOINTS], aside[GB_MAX_JOINTS], nearest[GB_MAX_JOINTS];
+    gb_differences(m, to, from, delta);
     gb_differences(m, q, from, aside);
-    const gb_real share = gb_scalar_product(aside, way, m->joints) / gb_scalar_product(way, way, m->joints);
+    const gb_real share = gb_scalar_product(aside, delta, m->joints) / gb_scalar_product(delta, delta, m->joints);
     gb_beyond(m, to, from, -gb_smaller(gb_larger(share, R(0.0)), R(1.0)), nearest);
-    return gb_farthest(m, q, nearest) <= GB_CURVE_PASSED;
+    return gb_farthest(m, q, nearest) <= GB_MERGING_KNOWN;
 }
 
 /* Records a new place of a walk, and removes the starts next to the step. */
@@ -318,9 +315,9 @@ static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, c
     gb_keep_change(all, &curve->found, &before, &at);
     for (int k = 0; k < GB_CURVE_PACES; k++) {
         gb_pass(m, starts, curve, &before, &at);
-        const gb_real way = gb_farthest(m, at.q, curve->home.q);
-        is_away |= way > R(3.0) * gb_curve_pace[2];
-        if (is_away && way <= gb_curve_pace[2]) {
+        const gb_real delta = gb_farthest(m, at.q, curve->home.q);
+        is_away |= delta > R(3.0) * gb_curve_pace[2];
+        if (is_away && delta <= gb_curve_pace[2]) {
             gb_keep_change(all, &curve->found, &at, &curve->home);
             return true;
         }
@@ -330,8 +327,8 @@ static bool gb_leads_home(gb_answers *all, gb_starts *starts, gb_curve *curve, c
         gb_keep_change(all, &curve->found, &at, &next);
         gb_keep_dip(all, &curve->found, &before, &at, &next);
         /* Consecutive places with residuals within rounding are one solution, or several close together. */
-        if ((at.most <= GB_ALONE) != (next.most <= GB_ALONE)) {
-            gb_keep_on_curve(all, &curve->found, at.most <= GB_ALONE ? at.q : next.q);
+        if ((at.most <= GB_SELF_MOTIONS_MEMBER) != (next.most <= GB_SELF_MOTIONS_MEMBER)) {
+            gb_keep_on_curve(all, &curve->found, at.most <= GB_SELF_MOTIONS_MEMBER ? at.q : next.q);
         }
         before = at;
         at = next;
@@ -360,7 +357,7 @@ static void gb_walk_curve(gb_answers *all, gb_starts *starts, const gb_found_1 *
     curve.found.free = 0;
     curve.best = curve.home;
     curve.most = curve.home.most;
-    if (curve.home.most <= GB_ALONE) {
+    if (curve.home.most <= GB_SELF_MOTIONS_MEMBER) {
         gb_keep_on_curve(all, &curve.found, curve.home.q);
     }
     if (is_there[0] && is_there[1]) {

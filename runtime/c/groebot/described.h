@@ -70,19 +70,19 @@ static gb_fit gb_measure_of(const gb_problem *problem, const gb_real *q)
 /* Moves q to where the ideal mechanism has a self-motion of the joints `free` and reaches the target within the tolerance. False where there is none. */
 static bool gb_onto_self_motion(const gb_problem *problem, gb_real *q, uint32_t free)
 {
-    const gb_real within = gb_larger(GB_WITHIN, GB_ACCEPT);
+    const gb_real within = gb_larger(GB_WITHIN, GB_ACCEPTANCE_RESIDUAL);
     gb_real p[GB_PARAMETERS];
     const gb_problem ideal = {&gb_this, p, NULL, problem->steps};
     if (!(gb_fitted(problem, q, free, R(0.5)).relative <= within) || !gb_free_joints(problem, q, free) || !gb_ideal_parameters(q, p)) {
         return false;
     }
-    return gb_measure_of(problem, q).relative <= within && gb_lies_on_self_motion(&ideal, q, free, GB_ROUNDING);
+    return gb_measure_of(problem, q).relative <= within && gb_is_on_self_motion(&ideal, q, free, GB_ACCEPTANCE_ROUNDING);
 }
 
 /* Moves a solution of the ideal mechanism to where the mechanism as described is nearest to the target. */
 static void gb_fit_to(const gb_problem *problem, gb_solution *answer)
 {
-    const gb_fit fit = gb_fitted(problem, answer->q, answer->free, GB_BLUR);
+    const gb_fit fit = gb_fitted(problem, answer->q, answer->free, GB_MERGING_BLUR);
     answer->residual = fit.residual;
     answer->relative = fit.relative;
 }
@@ -118,7 +118,7 @@ static int gb_add_others(const gb_real *target, const gb_real *q, gb_solution *o
 static bool gb_is_new(const gb_solution *before, size_t count, const gb_solution *answer)
 {
     for (size_t i = 0; i < count; i++) {
-        if (gb_are_within(before[i].q, answer->q, before[i].free | answer->free, GB_MERGE)) {
+        if (gb_are_within(before[i].q, answer->q, before[i].free | answer->free, GB_MERGING_JOINTS)) {
             return false;
         }
     }
@@ -158,7 +158,7 @@ static GB_APART int gb_solve_described(const gb_real *target, gb_solution *out, 
         return code;
     }
     memcpy(q, c.all.nearest, sizeof q);
-    if (!(c.all.nearest_fit.relative <= gb_larger(GB_WITHIN, GB_ACCEPT))) {
+    if (!(c.all.nearest_fit.relative <= gb_larger(GB_WITHIN, GB_ACCEPTANCE_RESIDUAL))) {
         if (nearest) {
             memcpy(nearest->q, q, sizeof q);
             gb_fit_to(&problem, nearest);

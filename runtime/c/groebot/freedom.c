@@ -2,7 +2,7 @@
 
 /* The component of a column orthogonal to the derivatives by the joints that are not `free`, and the joint velocities that cancel the rest. False where
  * there are none. */
-static bool gb_across(const gb_problem *problem, const gb_real *rows, const gb_real *columns, size_t column, uint32_t free, gb_real *rest, gb_real *way)
+static bool gb_across(const gb_problem *problem, const gb_real *rows, const gb_real *columns, size_t column, uint32_t free, gb_real *rest, gb_real *direction)
 {
     const gb_mechanism *m = problem->mechanism;
     gb_triangle triangle;
@@ -22,24 +22,24 @@ static bool gb_across(const gb_problem *problem, const gb_real *rows, const gb_r
         }
     }
     for (size_t k = 0; k < m->joints; k++) {
-        way[k] = k == column ? R(1.0) : gb_is_in(free, k) ? R(0.0) : -along[k];
+        direction[k] = k == column ? R(1.0) : gb_is_in(free, k) ? R(0.0) : -along[k];
     }
     return true;
 }
 
 /* The change of the Jacobian along a displacement of the joints. */
-static void gb_bend(const gb_problem *problem, const gb_real *q, const gb_real *way, gb_real *bends)
+static void gb_bend(const gb_problem *problem, const gb_real *q, const gb_real *direction, gb_real *bends)
 {
     const gb_mechanism *m = problem->mechanism;
-    const gb_real width = GB_BENT / gb_larger(gb_longest(m, way), R(1.0));
+    const gb_real width = GB_POLISHING_DIFFERENCE / gb_larger(gb_longest(m, direction), R(1.0));
     gb_real back[GB_MAX_JOINTS], moved[GB_MAX_JOINTS], behind[GB_MAX_EQUATIONS * GB_MAX_JOINTS], values[GB_MAX_EQUATIONS];
     for (size_t i = 0; i < m->joints; i++) {
-        back[i] = -width * way[i];
+        back[i] = -width * direction[i];
     }
     gb_stepped(m, q, back, moved);
     gb_share(problem, moved, bends, values);
     for (size_t i = 0; i < m->joints; i++) {
-        back[i] = width * way[i];
+        back[i] = width * direction[i];
     }
     gb_stepped(m, q, back, moved);
     gb_share(problem, moved, behind, values);
@@ -53,21 +53,21 @@ static bool gb_freeing_step(const gb_problem *problem, const gb_real *q, uint32_
 {
     const gb_mechanism *m = problem->mechanism;
     gb_triangle nearer, triangle;
-    gb_real rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS], bends[GB_MAX_EQUATIONS * GB_MAX_JOINTS], values[GB_MAX_EQUATIONS], way[GB_MAX_JOINTS];
+    gb_real rows[GB_MAX_EQUATIONS * GB_MAX_JOINTS], bends[GB_MAX_EQUATIONS * GB_MAX_JOINTS], values[GB_MAX_EQUATIONS], direction[GB_MAX_JOINTS];
     size_t first = 0;
     while (first + 1 < m->joints && !gb_is_in(free, first)) {
         first++;
     }
     gb_clear_triangle(m, &triangle);
     gb_share(problem, q, rows, values);
-    if (!gb_across(problem, rows, rows, first, free, gb_column(&triangle, m->joints), way)) {
+    if (!gb_across(problem, rows, rows, first, free, gb_column(&triangle, m->joints), direction)) {
         return false;
     }
-    gb_bend(problem, q, way, bends);
-    gb_make_shares(problem, q, GB_STIFF, free, &nearer);
+    gb_bend(problem, q, direction, bends);
+    gb_make_shares(problem, q, GB_PIVOTS_REGULAR_STEPS, free, &nearer);
     for (size_t i = 0; i <= m->joints; i++) {
         gb_real *filled = gb_column(&triangle, i);
-        if (i < m->joints && !gb_is_in(free, i) && !gb_across(problem, rows, bends, i, free, filled, way)) {
+        if (i < m->joints && !gb_is_in(free, i) && !gb_across(problem, rows, bends, i, free, filled, direction)) {
             return false;
         }
         for (size_t k = 0; k <= i && k < m->joints; k++) {

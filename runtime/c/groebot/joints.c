@@ -85,10 +85,10 @@ static void gb_stepped(const gb_mechanism *m, const gb_real *q, const gb_real *s
     }
 }
 
-/* A joint's value moved: an angle by `way`, a length by `way` times its magnitude. */
-static gb_real gb_moved(const gb_mechanism *m, const gb_real *q, size_t joint, gb_real way)
+/* A joint's value moved: an angle by `delta`, a length by `delta` times its magnitude. */
+static gb_real gb_moved(const gb_mechanism *m, const gb_real *q, size_t joint, gb_real delta)
 {
-    return gb_wrapped(m, joint, q[joint] + way * gb_span(m, joint, q[joint]));
+    return gb_wrapped(m, joint, q[joint] + delta * gb_span(m, joint, q[joint]));
 }
 
 /* Linear extrapolation from `a` through `b`, by `ahead` times their distance. */

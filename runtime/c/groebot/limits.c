@@ -3,7 +3,7 @@
 /* The least and the greatest number of turns that bring a joint within its limits. The first is greater when none does. */
 static void gb_turns_within(const gb_joint *joint, gb_real value, const gb_real *limit, gb_real *first, gb_real *last)
 {
-    const gb_real low = limit[0] - GB_SLACK - value, high = limit[1] + GB_SLACK - value;
+    const gb_real low = limit[0] - GB_ACCEPTANCE_INPUT_LIMITS - value, high = limit[1] + GB_ACCEPTANCE_INPUT_LIMITS - value;
     const bool is_within = low <= R(0.0) && R(0.0) <= high;
     *first = joint->is_angle ? gb_ceiling(low / GB_TAU) : R(0.0);
     *last = joint->is_angle ? gb_floor(high / GB_TAU) : is_within ? R(0.0) : R(-1.0);
@@ -71,13 +71,13 @@ static bool gb_turn_within(const gb_mechanism *m, const gb_real *q, const gb_rea
 }
 
 /* Moves one joint in short steps along a self-motion from q until it is within limits; false when no such place is found. */
-static bool gb_stride_within(const gb_problem *problem, const gb_real *q, uint32_t free, size_t joint, gb_real way, const gb_real *limits, gb_end *place)
+static bool gb_stride_within(const gb_problem *problem, const gb_real *q, uint32_t free, size_t joint, gb_real delta, const gb_real *limits, gb_end *place)
 {
     const gb_mechanism *m = problem->mechanism;
     gb_end end;
     gb_copy(end.q, q, m->joints);
     for (int i = 0; i < GB_STRIDES; i++) {
-        end.q[joint] = gb_moved(m, end.q, joint, way);
+        end.q[joint] = gb_moved(m, end.q, joint, delta);
         gb_polish_from(problem, &end, free);
         if (!end.fit.accepted) {
             return false;
@@ -96,8 +96,8 @@ static bool gb_strides_within(const gb_answers *all, size_t answer, const gb_rea
     const uint32_t free = *gb_free_of(all, answer);
     *all->problem.steps = gb_steps_at_most(GB_MOST_STEPS);
     for (size_t i = 0; i < 2 * all->problem.mechanism->joints; i++) {
-        const gb_real way = i % 2 == 0 ? GB_STRIDE : -GB_STRIDE;
-        if (gb_is_in(free, i / 2) && gb_stride_within(&all->problem, gb_q_of(all, answer), free, i / 2, way, limits, place)) {
+        const gb_real delta = i % 2 == 0 ? GB_STRIDE : -GB_STRIDE;
+        if (gb_is_in(free, i / 2) && gb_stride_within(&all->problem, gb_q_of(all, answer), free, i / 2, delta, limits, place)) {
             return true;
         }
     }

@@ -59,7 +59,7 @@ GB_INLINE T GB_(sound)(const T *at)
     GB_UNROLL
     for (int i = 0; i < GB_JOINTS; i++) {
         const T first = at[gb_joints[i].places[0]], second = at[gb_joints[i].places[1]];
-        sound = gb_joints[i].is_angle ? GB_(where_below)(sound, GB_(abs)(first * first + second * second - R(1.0)), GB_ROUNDING)
+        sound = gb_joints[i].is_angle ? GB_(where_below)(sound, GB_(abs)(first * first + second * second - R(1.0)), GB_ACCEPTANCE_ROUNDING)
                                       : GB_(where_below)(sound, GB_(abs)(first), GB_GREATEST);
     }
     for (int i = 0; GB_EXTRAS && i < GB_PLACES; i++) {

@@ -95,7 +95,7 @@ static bool gb_approach_from(const gb_problem *problem, const gb_real *from, con
         if (!(sound > R(0.0))) {
             return false;
         }
-        for (int second = 0; second < (missed > GB_CHORD ? 1 : 2); second++) {
+        for (int second = 0; second < (missed > GB_POLISHING_CHORD ? 1 : 2); second++) {
             if (second) {
                 gb_second_step_1(problem->p, at, step, &normal);
             }
@@ -103,7 +103,7 @@ static bool gb_approach_from(const gb_problem *problem, const gb_real *from, con
                 return false;
             }
             approach->fit = gb_measure_at(problem, at, approach->end);
-            if (approach->fit.relative < GB_ROUNDING) {
+            if (approach->fit.relative < GB_ACCEPTANCE_ROUNDING) {
                 return approach->fit.accepted;
             }
         }

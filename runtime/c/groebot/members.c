@@ -28,7 +28,7 @@ static bool gb_is_remembered(const gb_answers *all, const gb_real *q, uint32_t f
 {
     size_t place;
     for (size_t k = 1; gb_look_back(all, k, &place); k++) {
-        if (all->trails_of[place].free == free && gb_is_close(all->problem.mechanism, all->trails[place], q, 0, GB_MERGE)) {
+        if (all->trails_of[place].free == free && gb_is_close(all->problem.mechanism, all->trails[place], q, 0, GB_MERGING_JOINTS)) {
             return true;
         }
     }
@@ -60,7 +60,7 @@ static void gb_keep_on_trail(gb_answers *all, const gb_found_1 *found, const gb_
 static bool gb_is_on_trail(gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
     size_t place;
-    if (!gb_find_trail(all, found->branch, 0, &place) || gb_regularity(&all->problem, q) > GB_REGULAR
+    if (!gb_find_trail(all, found->branch, 0, &place) || gb_regularity(&all->problem, q) > GB_PIVOTS_REGULAR
         || !gb_leads_to(&all->problem, all->trails[place], q, all->trails_of[place].free)) {
         return false;
     }
@@ -71,7 +71,7 @@ static bool gb_is_on_trail(gb_answers *all, const gb_found_1 *found, const gb_re
 /* Keeps a candidate if it is a member of a self-motion. Returns whether it is. */
 static bool gb_keep_member(gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
-    const bool is_member = end->fit.accepted && gb_lies_on_self_motion(&all->problem, end->q, found->free, end->fit.relative);
+    const bool is_member = end->fit.accepted && gb_is_on_self_motion(&all->problem, end->q, found->free, end->fit.relative);
     if (is_member) {
         gb_keep_on_trail(all, found, end);
     }
@@ -82,7 +82,7 @@ static bool gb_keep_member(gb_answers *all, const gb_found_1 *found, const gb_en
 static bool gb_is_listed(const gb_answers *all, const gb_real *q)
 {
     for (size_t i = 0; i < all->count; i++) {
-        if (*gb_free_of(all, i) == 0 && gb_is_close(all->problem.mechanism, gb_q_of(all, i), q, 0, GB_MERGE)) {
+        if (*gb_free_of(all, i) == 0 && gb_is_close(all->problem.mechanism, gb_q_of(all, i), q, 0, GB_MERGING_JOINTS)) {
             return true;
         }
     }
@@ -93,7 +93,7 @@ static bool gb_is_listed(const gb_answers *all, const gb_real *q)
  * or an isolated solution. A new isolated solution may have a second one next to it. */
 static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end *end, gb_real missed)
 {
-    if (end->fit.relative > GB_ALONE) {
+    if (end->fit.relative > GB_SELF_MOTIONS_MEMBER) {
         gb_miss(all, end->q, &end->fit);
         return;
     }
@@ -105,15 +105,15 @@ static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end
     alone.free = is_listed ? 0 : gb_joint_on_self_motion(&all->problem, end->q, end->fit.relative);
     const size_t known = all->count;
     gb_keep_on_trail(all, &alone, end);
-    if (alone.free == 0 && all->count > known && gb_is_between(missed, GB_ROUNDING, GB_NEAR)) {
+    if (alone.free == 0 && all->count > known && gb_is_between(missed, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR)) {
         gb_around(all, &alone, end, missed);
     }
 }
 
 /* Whether a solution in the list is a member of a self-motion within rounding, with the branch and the free joints of a candidate. */
-static bool gb_is_told(const gb_answers *all, size_t i, const gb_found_1 *found)
+static bool gb_is_member_of(const gb_answers *all, size_t i, const gb_found_1 *found)
 {
-    return *gb_relative_of(all, i) <= GB_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free;
+    return *gb_relative_of(all, i) <= GB_ACCEPTANCE_ROUNDING && *gb_branch_of(all, i) == found->branch && *gb_free_of(all, i) == found->free;
 }
 
 /* Whether a member of a candidate's self-motion is known. */
@@ -125,7 +125,7 @@ static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
         }
     }
     for (size_t i = 0; i < all->count; i++) {
-        if (gb_is_told(all, i, found)) {
+        if (gb_is_member_of(all, i, found)) {
             return true;
         }
     }
@@ -135,7 +135,7 @@ static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
 /* Keeps a member of a long self-motion within rounding if no solution is lost without further tests. Returns whether it was kept. */
 static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end, bool is_known)
 {
-    if (end->fit.relative <= GB_ROUNDING && gb_lies_on_long_self_motion(&all->problem, end->q, found->free)) {
+    if (end->fit.relative <= GB_ACCEPTANCE_ROUNDING && gb_is_on_long_self_motion(&all->problem, end->q, found->free)) {
         gb_keep_on_trail(all, found, end);
         return true;
     }
@@ -156,7 +156,7 @@ static bool gb_is_on_known(gb_answers *all, const gb_found_1 *found, const gb_en
     size_t place = 0;
     const bool has_last = gb_find_trail(all, found->branch, found->free, &place);
     /* First, because it is the fastest test. */
-    if (end->fit.relative > GB_ROUNDING || (has_last && gb_leads_straight_to(problem, all->trails[place], end->q, found->free))) {
+    if (end->fit.relative > GB_ACCEPTANCE_ROUNDING || (has_last && gb_leads_straight_to(problem, all->trails[place], end->q, found->free))) {
         gb_remember(all, found->branch, found->free, end->q, NULL);
         return true;
     }
@@ -166,7 +166,7 @@ static bool gb_is_on_known(gb_answers *all, const gb_found_1 *found, const gb_en
     bool joins = !is_on_curve || (has_last && gb_leads_round_to(problem, last, here, found->free));
     for (size_t i = all->count; i > 0 && !joins;) {
         i--;
-        joins = gb_is_told(all, i, found) && gb_leads_to(problem, gb_q_of(all, i), end->q, found->free);
+        joins = gb_is_member_of(all, i, found) && gb_leads_to(problem, gb_q_of(all, i), end->q, found->free);
     }
     if (joins) {
         gb_remember(all, found->branch, found->free, end->q, is_on_curve ? tangent : NULL);
@@ -188,7 +188,7 @@ static bool gb_has_member_of_branch(const gb_answers *all, const gb_found_1 *fou
 /* Whether joints with residuals within rounding are the same singular configuration as an isolated solution in the list. */
 static bool gb_is_joined_to_listed(const gb_answers *all, const gb_end *end)
 {
-    for (size_t i = 0; end->fit.relative <= GB_ROUNDING && i < all->count; i++) {
+    for (size_t i = 0; end->fit.relative <= GB_ACCEPTANCE_ROUNDING && i < all->count; i++) {
         if (*gb_free_of(all, i) == 0
             && gb_are_blurred(&all->problem, gb_q_of(all, i), *gb_relative_of(all, i), end->q, end->fit.relative)) {
             return true;
@@ -212,12 +212,12 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
     gb_copy(end.q, q, all->problem.mechanism->joints);
     end.fit = gb_measure(&all->problem, q);
     const gb_real missed = end.fit.relative;
-    if (all->suffices && (missed > GB_ADRIFT || gb_are_known(&all->strays, found, missed))) {
+    if (all->suffices && (missed > GB_ACCEPTANCE_UNSETTLED || gb_are_known(&all->strays, found, missed))) {
         gb_miss(all, end.q, &end.fit);
         return;
     }
     /* Repeated to find a solution next to a self-motion's end, but not where that end is far. */
-    if (missed > GB_NEAR && gb_are_astray(&all->strays, found)) {
+    if (missed > GB_STRATA_NEAR && gb_are_astray(&all->strays, found)) {
         gb_miss(all, end.q, &end.fit);
         return;
     }
@@ -226,13 +226,13 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
         return;
     }
     const bool may_miss = all->problem.mechanism->is_nearby && gb_is_single(found->free) && !is_known;
-    if (may_miss && missed > GB_ROUNDING && gb_begin_curve(all, found, end.q)) {
+    if (may_miss && missed > GB_ACCEPTANCE_ROUNDING && gb_begin_curve(all, found, end.q)) {
         return;
     }
-    if (gb_is_between(missed, GB_ROUNDING, GB_ADRIFT)) {
+    if (gb_is_between(missed, GB_ACCEPTANCE_ROUNDING, GB_ACCEPTANCE_UNSETTLED)) {
         gb_polish(&all->problem, &end, found->free);
     }
-    if (end.fit.relative > GB_ROUNDING && gb_has_member_of_branch(all, found)) {
+    if (end.fit.relative > GB_ACCEPTANCE_ROUNDING && gb_has_member_of_branch(all, found)) {
         return;
     }
     if (is_known && gb_is_on_known(all, found, &end)) {

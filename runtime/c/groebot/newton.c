@@ -218,7 +218,7 @@ static bool gb_is_regular(gb_triangle *triangle)
 
 /* The direction in which the equations change least, with its largest component equal to one, and that change relative to the largest pivot. Computed by
  * inverse iteration from the triangular factor. False where a pivot is zero, or no steps are left. */
-static bool gb_stillest(const gb_problem *problem, gb_triangle *triangle, gb_real *way, gb_real *share)
+static bool gb_stillest(const gb_problem *problem, gb_triangle *triangle, gb_real *delta, gb_real *share)
 {
     const size_t joints = problem->mechanism->joints;
     gb_real least, most;
@@ -228,49 +228,49 @@ static bool gb_stillest(const gb_problem *problem, gb_triangle *triangle, gb_rea
     gb_pivots(triangle, &least, &most);
     gb_real *right = gb_column(triangle, joints);
     for (size_t i = 0; i < joints; i++) {
-        way[i] = R(1.0);
+        delta[i] = R(1.0);
     }
     *share = R(1.0);
     for (int i = 0; i < GB_INVERSIONS; i++) {
         for (size_t row = 0; row < joints; row++) {
-            gb_real above = way[row];
+            gb_real above = delta[row];
             for (size_t k = 0; k < row; k++) {
                 above = above - gb_column(triangle, row)[k] * right[k];
             }
             right[row] = above / gb_column(triangle, row)[row];
         }
         const gb_real before = gb_norm(right, joints);
-        if (!gb_substitute(triangle, way)) {
+        if (!gb_substitute(triangle, delta)) {
             return false;
         }
-        *share = before / (gb_norm(way, joints) * most);
+        *share = before / (gb_norm(delta, joints) * most);
     }
-    const gb_real longest = gb_longest(problem->mechanism, way);
+    const gb_real longest = gb_longest(problem->mechanism, delta);
     for (size_t i = 0; i < joints; i++) {
-        way[i] = way[i] / longest;
+        delta[i] = delta[i] / longest;
     }
     return gb_is_finite(longest) && longest > R(0.0);
 }
 
-/* q + factor way, angles in (-pi, pi]. */
-static void gb_shifted(const gb_mechanism *m, const gb_real *q, const gb_real *way, gb_real factor, gb_real *next)
+/* q + factor delta, angles in (-pi, pi]. */
+static void gb_shifted(const gb_mechanism *m, const gb_real *q, const gb_real *delta, gb_real factor, gb_real *next)
 {
     for (size_t i = 0; i < m->joints; i++) {
-        next[i] = gb_wrapped(m, i, q[i] + factor * way[i]);
+        next[i] = gb_wrapped(m, i, q[i] + factor * delta[i]);
     }
 }
 
-/* The distance along `way` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`. */
-static bool gb_second_root(const gb_problem *problem, const gb_real *root, const gb_real *way, gb_real ahead, gb_real *distance)
+/* The distance along `delta` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`. */
+static bool gb_second_root(const gb_problem *problem, const gb_real *root, const gb_real *delta, gb_real ahead, gb_real *distance)
 {
     gb_real start[GB_MAX_JOINTS], step[GB_MAX_JOINTS], along = R(0.0), square = R(0.0);
-    gb_shifted(problem->mechanism, root, way, ahead, start);
+    gb_shifted(problem->mechanism, root, delta, ahead, start);
     if (!gb_newton_step(problem, start, R(0.0), 0, step)) {
         return false;
     }
     for (size_t i = 0; i < problem->mechanism->joints; i++) {
-        along = along + step[i] * way[i];
-        square = square + way[i] * way[i];
+        along = along + step[i] * delta[i];
+        square = square + delta[i] * delta[i];
     }
     const gb_real arrived = ahead - along / square;
     *distance = R(2.0) * ahead - ahead * ahead / arrived;
@@ -299,7 +299,7 @@ static bool gb_return(const gb_problem *problem, gb_end *end, gb_real relative, 
 static bool gb_come_back(const gb_problem *problem, gb_end *end, gb_real enough, uint32_t held)
 {
     gb_real back[GB_MAX_JOINTS];
-    for (int i = 0; i < GB_RETURNS && gb_newton_step(problem, end->q, GB_STIFF, held, back); i++) {
+    for (int i = 0; i < GB_RETURNS && gb_newton_step(problem, end->q, GB_PIVOTS_REGULAR_STEPS, held, back); i++) {
         gb_stepped(problem->mechanism, end->q, back, end->q);
         end->fit = gb_measure(problem, end->q);
         if (end->fit.relative < enough) {
@@ -314,7 +314,7 @@ static bool gb_come_back(const gb_problem *problem, gb_end *end, gb_real enough,
 static bool gb_leap(const gb_problem *problem, const gb_real *q, gb_real enough, uint32_t held, gb_end *end)
 {
     const gb_mechanism *m = problem->mechanism;
-    gb_real step[GB_MAX_JOINTS], way[GB_MAX_JOINTS];
+    gb_real step[GB_MAX_JOINTS], delta[GB_MAX_JOINTS];
     if (!gb_newton_step(problem, q, R(0.0), held, step)) {
         return false;
     }
@@ -325,9 +325,9 @@ static bool gb_leap(const gb_problem *problem, const gb_real *q, gb_real enough,
     for (size_t k = 0; k < GB_LENGTH_OF(gb_leaps); k++) {
         const gb_real share = gb_smaller(R(1.0), gb_leaps[k] / longest);
         for (size_t i = 0; i < m->joints; i++) {
-            way[i] = share * step[i];
+            delta[i] = share * step[i];
         }
-        gb_stepped(m, q, way, end->q);
+        gb_stepped(m, q, delta, end->q);
         if (gb_come_back(problem, end, enough, held)) {
             return true;
         }
@@ -341,8 +341,8 @@ static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
 {
     const gb_mechanism *m = problem->mechanism;
     const gb_real relative = end->fit.relative;
-    const bool leaps = gb_is_between(relative, GB_ROUNDING, GB_NEAR);
-    const gb_real enough = leaps ? R(0.5) * relative : relative, last = held == 0 ? GB_ALONE : GB_ROUNDING;
+    const bool leaps = gb_is_between(relative, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR);
+    const gb_real enough = leaps ? R(0.5) * relative : relative, last = held == 0 ? GB_SELF_MOTIONS_MEMBER : GB_ACCEPTANCE_ROUNDING;
     bool has_fallen = false;
     gb_end fallen, next, other;
     gb_real step[GB_MAX_JOINTS];
@@ -361,7 +361,7 @@ static bool gb_improve(const gb_problem *problem, gb_end *end, uint32_t held)
             *end = next;
             return true;
         }
-        if (is_plain && relative < GB_ROUNDING && gb_longest(m, step) <= GB_SHORT) {
+        if (is_plain && relative < GB_ACCEPTANCE_ROUNDING && gb_longest(m, step) <= GB_POLISHING_STEP) {
             return false;
         }
         if (is_plain && relative > last && gb_is_regular(&triangle)) {
@@ -397,15 +397,15 @@ static void gb_polish(const gb_problem *problem, gb_end *end, uint32_t held)
     for (int i = 0; i < GB_POLISH_STEPS; i++) {
         const gb_end before = *end;
         gb_real step[GB_MAX_JOINTS];
-        const bool is_done = before.fit.relative <= GB_POLISHED || slow == GB_PATIENCE || gb_are_spent(problem);
+        const bool is_done = before.fit.relative <= GB_POLISHING_DONE || slow == GB_PATIENCE || gb_are_spent(problem);
         if (is_done || !gb_improve(problem, end, held)) {
             return;
         }
-        slow = end->fit.relative <= gb_larger(GB_ROUNDING, R(0.5) * before.fit.relative) ? 0 : slow + 1;
+        slow = end->fit.relative <= gb_larger(GB_ACCEPTANCE_ROUNDING, R(0.5) * before.fit.relative) ? 0 : slow + 1;
         for (size_t k = 0; k < problem->mechanism->joints; k++) {
             step[k] = end->q[k] - before.q[k];
         }
-        if (end->fit.relative < GB_ROUNDING && gb_longest(problem->mechanism, step) <= GB_SHORT) {
+        if (end->fit.relative < GB_ACCEPTANCE_ROUNDING && gb_longest(problem->mechanism, step) <= GB_POLISHING_STEP) {
             return;
         }
     }
@@ -423,7 +423,7 @@ static bool gb_are_joined(const gb_problem *problem, const gb_real *a, const gb_
 {
     const gb_mechanism *m = problem->mechanism;
     gb_real middle[GB_MAX_JOINTS], back[GB_MAX_JOINTS];
-    if (gb_farthest(m, a, b) > GB_BLUR) {
+    if (gb_farthest(m, a, b) > GB_MERGING_BLUR) {
         return false;
     }
     gb_beyond(m, a, b, R(-0.5), middle);
@@ -432,7 +432,7 @@ static bool gb_are_joined(const gb_problem *problem, const gb_real *a, const gb_
         if (fit.relative <= bound) {
             return true;
         }
-        if (!gb_newton_step(problem, middle, GB_STIFF, held, back)) {
+        if (!gb_newton_step(problem, middle, GB_PIVOTS_REGULAR_STEPS, held, back)) {
             return false;
         }
         gb_stepped(m, middle, back, middle);
@@ -488,8 +488,8 @@ static bool gb_fall(const gb_problem *problem, gb_real *q, gb_real *squares, uin
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most)
 {
     gb_real squares = gb_squares(problem, q), longest = INFINITY;
-    for (int i = 0; i < GB_FITTING_STEPS && longest > GB_SHORT; i++) {
-        if (squares <= GB_POLISHED * GB_POLISHED || gb_are_spent(problem) || !gb_fall(problem, q, &squares, held, most, &longest)) {
+    for (int i = 0; i < GB_FITTING_STEPS && longest > GB_POLISHING_STEP; i++) {
+        if (squares <= GB_POLISHING_DONE * GB_POLISHING_DONE || gb_are_spent(problem) || !gb_fall(problem, q, &squares, held, most, &longest)) {
             break;
         }
     }

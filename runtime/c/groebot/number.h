@@ -199,7 +199,7 @@ typedef struct {
 /* Where a factor is so close to zero that the case of a stratum runs. */
 GB_INLINE GB_(guard) GB_(near)(T a, T scale)
 {
-    const GB_(guard) guard = {GB_(at_most)(GB_(abs)(a), scale * GB_NEAR), GB_(at_most)(GB_(abs)(a), scale * GB_BESIDE)};
+    const GB_(guard) guard = {GB_(at_most)(GB_(abs)(a), scale * GB_STRATA_NEAR), GB_(at_most)(GB_(abs)(a), scale * GB_STRATA_BESIDE)};
     return guard;
 }
 
@@ -207,9 +207,9 @@ GB_INLINE GB_(guard) GB_(near)(T a, T scale)
 GB_INLINE GB_(guard) GB_(away)(T a, T scale)
 {
 #if GB_WIDTH == 1
-    const GB_(truth) here = gb_magnitude(a) > GB_TINY * scale;
+    const GB_(truth) here = gb_magnitude(a) > GB_STRATA_DENOMINATOR * scale;
 #else
-    const GB_(truth) here = GB_(inverted)(GB_(at_most)(GB_(abs)(a), GB_TINY * scale));
+    const GB_(truth) here = GB_(inverted)(GB_(at_most)(GB_(abs)(a), GB_STRATA_DENOMINATOR * scale));
 #endif
     const GB_(guard) guard = {here, here};
     return guard;

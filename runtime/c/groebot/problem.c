@@ -45,7 +45,7 @@ GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, co
         const size_t size = m->size_of[i];
         const gb_real value = gb_magnitude(values[i]);
         largest[size] = gb_larger(largest[size], value);
-        fit.accepted = fit.accepted && value <= GB_ACCEPT * sizes[size];
+        fit.accepted = fit.accepted && value <= GB_ACCEPTANCE_RESIDUAL * sizes[size];
     }
     for (size_t i = 0; i < m->sizes; i++) {
         fit.residual = gb_larger(fit.residual, largest[i]);

@@ -27,7 +27,7 @@ static gb_real gb_resolved(gb_real u, gb_real v, gb_real w, gb_real typical)
         const gb_real slope = (R(3.0) * z + R(2.0) * u) * z + v;
         const gb_real step = value / slope;
         z -= step;
-        if (gb_magnitude(step) <= R(1e-5) * z) {
+        if (gb_magnitude(step) <= GB_ROOTS_CLOSE * z) {
             return w > R(0.0) ? z : R(-1.0);
         }
     }
@@ -44,10 +44,8 @@ static gb_real gb_settled(const gb_real *c, gb_real x, gb_real scale)
         step = value / slope;
         x -= step;
     }
-    return gb_magnitude(step) <= R(1e-9) * gb_larger(scale, gb_magnitude(x)) ? x : NAN;
+    return gb_magnitude(step) <= GB_POLISHING_STEP * gb_larger(scale, gb_magnitude(x)) ? x : NAN;
 }
-
-#define GB_FOUR_DISTINCT R(2e-3)
 
 /* The roots of the two real quadratics whose product is x^4 + c3 x^3 + c2 x^2 + c1 x + c0: two of each, ascending; those of the second follow those of the
  * first. Returns their number, or a value below zero where the quartic is not ordinary. */
@@ -67,9 +65,6 @@ static int gb_approximate_roots(const gb_real *c, gb_scale scale, gb_real *roots
     const gb_real h = gb_square_root(z), mean = R(0.5) * (p + z), half = R(0.5) * q / h;
     const gb_real f = mean - half, g = mean + half;
     const gb_real size = gb_larger(gb_larger(z, gb_magnitude(f)), gb_magnitude(g));
-    if (!(gb_magnitude(f * g - r) <= R(1e-8) * size * size)) {
-        return -1;
-    }
     const gb_real others[2] = {g, f}, discriminants[2] = {z - R(4.0) * f, z - R(4.0) * g}, middles[2] = {R(-0.5) * h, R(0.5) * h};
     int count = 0;
     for (int i = 0; i < 2; i++) {
@@ -77,8 +72,8 @@ static int gb_approximate_roots(const gb_real *c, gb_scale scale, gb_real *roots
         if (discriminants[i] > R(0.0)) {
             roots[count++] = middles[i] - apart - quarter;
             roots[count++] = middles[i] + apart - quarter;
-        } else if (!(apart > GB_FOUR_DISTINCT * gb_scale_at(scale, gb_square_root(size))
-                     && gb_magnitude(others[i] + R(0.75) * z) > GB_FOUR_DISTINCT * gb_larger(size, typical * typical))) {
+        } else if (!(apart > GB_ROOTS_DISTINCT * gb_scale_at(scale, gb_square_root(size))
+                     && gb_magnitude(others[i] + R(0.75) * z) > GB_ROOTS_DISTINCT * gb_larger(size, typical * typical))) {
             return -1;
         }
     }
@@ -122,7 +117,7 @@ static int gb_ordinary_roots(const gb_real *coefficients, gb_scale scale, gb_rea
     }
     for (int i = 1; i < count; i++) {
         const gb_real size = gb_larger(gb_scale_at(scale, roots[i - 1]), gb_scale_at(scale, roots[i]));
-        if (!(roots[i] - roots[i - 1] > GB_FOUR_DISTINCT * size)) {
+        if (!(roots[i] - roots[i - 1] > GB_ROOTS_DISTINCT * size)) {
             return -1;
         }
     }

@@ -109,7 +109,7 @@ static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, cons
     if (gb_is_loner(all, isolated, free)) {
         return false;
     }
-    if (!gb_lies_on_self_motion(&all->problem, isolated, free, GB_ROUNDING)) {
+    if (!gb_is_on_self_motion(&all->problem, isolated, free, GB_ACCEPTANCE_ROUNDING)) {
         const size_t next = all->loners_count++ % GB_LONERS;
         gb_copy(all->loners[next], isolated, all->problem.mechanism->joints);
         all->loners_of[next] = free;
@@ -118,13 +118,13 @@ static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, cons
     return !all->suffices || gb_leads_to(&all->problem, member, isolated, free);
 }
 
-/* Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than GB_MERGE. Half-way between
- * them the residual is then no larger than at the worse of the two. */
+/* Whether two close solutions are one at a singular configuration, where the equations determine the joints less exactly than GB_MERGING_JOINTS. Half-way
+ * between them the residual is then no larger than at the worse of the two. */
 static bool gb_are_blurred(const gb_problem *problem, const gb_real *a, gb_real of_a, const gb_real *b, gb_real of_b)
 {
-    const gb_real bound = gb_larger(gb_larger(of_a, of_b), GB_ALIKE);
-    const bool is_near = gb_farthest(problem->mechanism, a, b) <= GB_BLUR;
-    if (bound <= GB_ROUNDING && is_near && gb_regularity(problem, b) > GB_DISTINCT) {
+    const gb_real bound = gb_larger(gb_larger(of_a, of_b), GB_MERGING_HALFWAY);
+    const bool is_near = gb_farthest(problem->mechanism, a, b) <= GB_MERGING_BLUR;
+    if (bound <= GB_ACCEPTANCE_ROUNDING && is_near && gb_regularity(problem, b) > GB_PIVOTS_ISOLATED) {
         return false;
     }
     return gb_are_joined(problem, a, b, bound, 0);
@@ -135,7 +135,7 @@ static bool gb_are_by_branch(const gb_answers *all, size_t i, const gb_answer *b
 {
     const gb_real relative = gb_larger(*gb_relative_of(all, i), b->fit.relative);
     gb_real tangent[GB_MAX_JOINTS];
-    return *gb_branch_of(all, i) == b->branch && !(relative <= GB_ROUNDING && gb_find_tangent(&all->problem, b->q, b->free, tangent));
+    return *gb_branch_of(all, i) == b->branch && !(relative <= GB_ACCEPTANCE_ROUNDING && gb_find_tangent(&all->problem, b->q, b->free, tangent));
 }
 
 /* Whether a solution in the list and a new one count as one when no steps are left to distinguish them: members of one branch, or solutions that polishing
@@ -144,19 +144,19 @@ static bool gb_are_alike(const gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_real relative = gb_larger(*gb_relative_of(all, i), b->fit.relative);
     if (*gb_free_of(all, i) == 0 && b->free == 0) {
-        return relative > GB_ACCEPT && gb_farthest(all->problem.mechanism, gb_q_of(all, i), b->q) <= GB_BLUR;
+        return relative > GB_ACCEPTANCE_RESIDUAL && gb_farthest(all->problem.mechanism, gb_q_of(all, i), b->q) <= GB_MERGING_BLUR;
     }
     return *gb_branch_of(all, i) == b->branch && *gb_free_of(all, i) == b->free;
 }
 
-/* Whether a solution in the list and a new one are one: members of one self-motion, one singular configuration, or within GB_MERGE without the joints that
- * are free in either. */
+/* Whether a solution in the list and a new one are one: members of one self-motion, one singular configuration, or within GB_MERGING_JOINTS without the
+ * joints that are free in either. */
 static bool gb_is_one(gb_answers *all, size_t i, const gb_answer *b)
 {
     const gb_problem *problem = &all->problem;
     const gb_real *a = gb_q_of(all, i), relative = *gb_relative_of(all, i);
     const uint32_t free = *gb_free_of(all, i);
-    if (gb_is_close(problem->mechanism, a, b->q, free | b->free, GB_MERGE)) {
+    if (gb_is_close(problem->mechanism, a, b->q, free | b->free, GB_MERGING_JOINTS)) {
         return true;
     }
     if (gb_are_spent(problem)) {
@@ -166,13 +166,13 @@ static bool gb_is_one(gb_answers *all, size_t i, const gb_answer *b)
         return gb_are_blurred(problem, a, relative, b->q, b->fit.relative);
     }
     if (free != 0 && b->free != 0) {
-        const bool are_apart = all->is_another && relative <= GB_ROUNDING && *gb_branch_of(all, i) == b->branch;
+        const bool are_apart = all->is_another && relative <= GB_ACCEPTANCE_ROUNDING && *gb_branch_of(all, i) == b->branch;
         return free == b->free && !are_apart && (gb_are_by_branch(all, i, b) || gb_leads_to(problem, a, b->q, free));
     }
     if (free == 0) {
-        return b->fit.relative <= GB_ROUNDING && gb_is_on(all, b->q, b->free, a);
+        return b->fit.relative <= GB_ACCEPTANCE_ROUNDING && gb_is_on(all, b->q, b->free, a);
     }
-    return relative <= GB_ROUNDING && gb_is_on(all, a, free, b->q);
+    return relative <= GB_ACCEPTANCE_ROUNDING && gb_is_on(all, a, free, b->q);
 }
 
 /* Whether a solution in the list is kept when a new one is equal to it: the better one is kept. However, a self-motion within rounding is preferred to its
@@ -181,10 +181,10 @@ static bool gb_holds_against(const gb_answers *all, size_t i, const gb_answer *b
 {
     const gb_real relative = *gb_relative_of(all, i);
     const bool is_isolated = *gb_free_of(all, i) == 0;
-    if (is_isolated && b->free != 0 && b->fit.relative <= GB_ROUNDING) {
+    if (is_isolated && b->free != 0 && b->fit.relative <= GB_ACCEPTANCE_ROUNDING) {
         return false;
     }
-    return (!is_isolated && relative <= GB_ROUNDING) || relative <= b->fit.relative;
+    return (!is_isolated && relative <= GB_ACCEPTANCE_ROUNDING) || relative <= b->fit.relative;
 }
 
 /* Adds a solution. If there are too many, the worst is dropped. */
@@ -229,7 +229,7 @@ static size_t gb_free_branch(const gb_answers *all, const gb_found_1 *found)
 /* Where several joints are free, records that members of a candidate's branch are on a self-motion in the list. */
 static void gb_remember_merged(gb_answers *all, size_t i, const gb_answer *answer, const gb_found_1 *found)
 {
-    const bool are_sharp = gb_larger(*gb_relative_of(all, i), answer->fit.relative) <= GB_ROUNDING;
+    const bool are_sharp = gb_larger(*gb_relative_of(all, i), answer->fit.relative) <= GB_ACCEPTANCE_ROUNDING;
     if (are_sharp && *gb_free_of(all, i) == found->free && !gb_is_single(found->free) && found->free != 0 && all->merged_count < GB_KINDS) {
         all->merged[all->merged_count++] = *found;
     }
@@ -270,7 +270,7 @@ static bool gb_is_first(const gb_answers *all, const gb_found_1 *found, const gb
 {
     for (size_t i = 0; i < all->count; i++) {
         if (*gb_branch_of(all, i) == found->branch || *gb_free_of(all, i) != 0
-            || gb_is_close(all->problem.mechanism, gb_q_of(all, i), q, 0, GB_BLUR)) {
+            || gb_is_close(all->problem.mechanism, gb_q_of(all, i), q, 0, GB_MERGING_BLUR)) {
             return false;
         }
     }
@@ -287,7 +287,7 @@ static bool gb_may_stay(const gb_problem *problem, const gb_real *q, const gb_fi
     for (size_t i = 0; problem->extras && i < problem->mechanism->places; i++) {
         is_whole = is_whole && gb_is_finite(problem->extras[i]);
     }
-    return gb_are_spent(problem) && fit->relative <= GB_TOLERATED && is_whole;
+    return gb_are_spent(problem) && fit->relative <= GB_ACCEPTANCE_UNSETTLED && is_whole;
 }
 
 /* Keeps a solution if the equations hold. Of equal solutions, the branch of the first and the joints of the best are kept. A second root of a double one
@@ -321,9 +321,9 @@ static void gb_around(gb_answers *all, const gb_found_1 *found, const gb_end *en
     for (gb_real farther = R(1.0); farther <= GB_FARTHEST && !gb_are_spent(&all->problem); farther *= GB_FARTHER) {
         for (size_t i = 0; i < 2 * m->joints; i++) {
             const gb_real sign = i % 2 == 0 ? R(-1.0) : R(1.0), weight = end->fit.accepted ? R(1.0) : weights[i / 2];
-            const gb_real way = gb_smaller(GB_APART_BY, farther * gb_square_root(missed / weight));
+            const gb_real delta = gb_smaller(GB_APART_BY, farther * gb_square_root(missed / weight));
             gb_end start = *end;
-            start.q[i / 2] = gb_moved(m, end->q, i / 2, R(2.0) * sign * way);
+            start.q[i / 2] = gb_moved(m, end->q, i / 2, R(2.0) * sign * delta);
             gb_polish_from(&all->problem, &start, 0);
             is_found |= start.fit.accepted;
             gb_keep(all, found, start.q, &start.fit);
@@ -340,14 +340,14 @@ static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end
 {
     const gb_problem *problem = &all->problem;
     const gb_real nearby = gb_square_root(missed);
-    gb_real way[GB_MAX_JOINTS], at[GB_MAX_PLACES], share, distance;
+    gb_real delta[GB_MAX_JOINTS], at[GB_MAX_PLACES], share, distance;
     gb_approach approach;
     gb_end start;
-    if (!gb_stillest(problem, triangle, way, &share) || share > GB_TWIN * nearby ||
-        !gb_second_root(problem, end, way, GB_TWIN_AT * nearby, &distance) || gb_magnitude(distance) > GB_TWIN_WITHIN * nearby) {
+    if (!gb_stillest(problem, triangle, delta, &share) || share > GB_TWIN * nearby ||
+        !gb_second_root(problem, end, delta, GB_TWIN_AT * nearby, &distance) || gb_magnitude(distance) > GB_TWIN_WITHIN * nearby) {
         return;
     }
-    gb_shifted(problem->mechanism, end, way, distance, start.q);
+    gb_shifted(problem->mechanism, end, delta, distance, start.q);
     gb_place(problem, start.q, at);
     if (problem->mechanism->approach(problem, at, start.q, &approach)) {
         gb_keep(all, found, approach.end, &approach.fit);
@@ -362,7 +362,7 @@ static void gb_twin(gb_answers *all, const gb_found_1 *found, const gb_real *end
 static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit, gb_real regularity)
 {
     gb_found_1 moving = *found;
-    moving.free = fit->relative <= GB_ROUNDING && regularity <= GB_REGULAR ? gb_joint_on_long_self_motion(&all->problem, q) : 0;
+    moving.free = fit->relative <= GB_ACCEPTANCE_ROUNDING && regularity <= GB_PIVOTS_REGULAR ? gb_joint_on_long_self_motion(&all->problem, q) : 0;
     if (moving.free != 0) {
         gb_keep(all, &moving, q, fit);
     }
@@ -372,8 +372,8 @@ static bool gb_keep_moving(gb_answers *all, const gb_found_1 *found, const gb_re
 /* Whether a curve goes through a solution of a nearby mechanism, or through the end of the steps from one. Such a curve is followed. */
 static bool gb_is_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit, gb_real regularity)
 {
-    const bool is_valley = gb_is_between(fit->relative, GB_ROUNDING, GB_NEAR);
-    const bool is_singular = is_valley || (fit->accepted && regularity <= GB_REGULAR);
+    const bool is_valley = gb_is_between(fit->relative, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR);
+    const bool is_singular = is_valley || (fit->accepted && regularity <= GB_PIVOTS_REGULAR);
     return is_singular && gb_begin_curve(all, found, q);
 }
 
@@ -388,7 +388,7 @@ GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *foun
     all->unsound = number;
     gb_make_triangle(&all->problem, approach->end, R(0.0), 0, &triangle);
     const gb_real regularity = gb_regularity_in(&triangle);
-    if (regularity <= GB_REGULAR) {
+    if (regularity <= GB_PIVOTS_REGULAR) {
         if (gb_keep_moving(all, found, approach->end, &approach->fit, regularity)) {
             return;
         }
@@ -416,10 +416,10 @@ static void gb_start_beyond(gb_answers *all, const gb_found_1 *found, const gb_r
  * curve. */
 static bool gb_leads_to_curve(gb_answers *all, const gb_found_1 *found, const gb_real *q, bool is_beside, const gb_end *end, gb_real regularity)
 {
-    if (is_beside && gb_is_curve(all, found, end->q, &end->fit, regularity) && end->fit.relative >= GB_ROUNDING) {
+    if (is_beside && gb_is_curve(all, found, end->q, &end->fit, regularity) && end->fit.relative >= GB_ACCEPTANCE_ROUNDING) {
         return true;
     }
-    if (gb_farthest(all->problem.mechanism, q, end->q) > GB_BLUR) {
+    if (gb_farthest(all->problem.mechanism, q, end->q) > GB_MERGING_BLUR) {
         gb_begin_curve(all, found, q);
     }
     return false;
@@ -440,9 +440,10 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
     end.fit = gb_measure(problem, q);
     const gb_real missed = end.fit.relative;
     gb_polish(problem, &end, 0);
-    const gb_real miss = end.fit.relative, way = gb_farthest(problem->mechanism, q, end.q);
-    const bool is_nearby = problem->mechanism->is_nearby, is_beside = gb_is_between(missed, GB_ROUNDING, is_nearby ? GB_OFF : GB_NEAR);
-    const bool holds = missed < GB_ROUNDING || (miss < GB_ROUNDING && way <= GB_MERGE);
+    const gb_real miss = end.fit.relative, delta = gb_farthest(problem->mechanism, q, end.q);
+    const bool is_nearby = problem->mechanism->is_nearby;
+    const bool is_beside = gb_is_between(missed, GB_ACCEPTANCE_ROUNDING, is_nearby ? GB_NEARBY_ROBOTS_OFF : GB_STRATA_NEAR);
+    const bool holds = missed < GB_ACCEPTANCE_ROUNDING || (miss < GB_ACCEPTANCE_ROUNDING && delta <= GB_MERGING_JOINTS);
     all->unsound = end.fit.accepted && holds ? all->unsound : number;
     all->doubted = found->close ? number : all->doubted;
     gb_triangle triangle;
@@ -458,10 +459,10 @@ GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *foun
         gb_miss(all, end.q, &end.fit);
         return;
     }
-    if (gb_is_between(miss, GB_ROUNDING, GB_NEAR)) {
+    if (gb_is_between(miss, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR)) {
         gb_around(all, found, &end, miss);
-    } else if (is_beside && way > GB_LEVER * gb_square_root(missed)) {
-        if (!is_nearby || regularity <= GB_DISTINCT) {
+    } else if (is_beside && delta > GB_LEVER * gb_square_root(missed)) {
+        if (!is_nearby || regularity <= GB_PIVOTS_ISOLATED) {
             gb_around(all, found, &end, missed);
         }
         gb_start_beyond(all, found, q, &end);
@@ -535,7 +536,7 @@ static void gb_mark_choice(gb_answers *all)
         least = gb_smaller(least, gb_preference(all, i));
     }
     for (size_t i = 0; i < all->count; i++) {
-        *gb_chosen_of(all, i) = gb_preference(all, i) <= least + GB_MERGE;
+        *gb_chosen_of(all, i) = gb_preference(all, i) <= least + GB_MERGING_JOINTS;
     }
 }
 

@@ -41,7 +41,7 @@ static bool gb_make_polynomial(const gb_real *coefficients, size_t length, gb_sc
     for (size_t i = 0; i < length; i++) {
         are_finite = are_finite && gb_is_finite(coefficients[i]);
     }
-    while (length > 0 && gb_magnitude(coefficients[length - 1]) <= GB_NEGLIGIBLE * largest) {
+    while (length > 0 && gb_magnitude(coefficients[length - 1]) <= GB_ROOTS_ZERO * largest) {
         length--;
     }
     if (length == 0 || length > GB_MOST_COEFFICIENTS || !are_finite) {
@@ -77,7 +77,7 @@ static void gb_quadratic_roots(const gb_scaled *p, gb_list *roots)
     const gb_real size = b * b + gb_magnitude(R(4.0) * a * c);
     const gb_real typical = R(2.0) * a * gb_scale_at(p->scale, R(0.0)), spread = p->scale.spread;
     roots->count = 0;
-    if (discriminant < -GB_TANGENT * gb_larger(size * (spread * spread), typical * typical)) {
+    if (discriminant < -GB_ROOTS_TANGENT * gb_larger(size * (spread * spread), typical * typical)) {
         return;
     }
     if (discriminant <= GB_SIGNLESS * size) {
@@ -139,7 +139,7 @@ static bool gb_touches(const gb_scaled *p, gb_real x)
 {
     gb_real size;
     const gb_real value = gb_value_and_size(p, x, gb_scale_at(p->scale, x), &size);
-    return gb_is_finite(size) && gb_magnitude(value) <= GB_TANGENT * size;
+    return gb_is_finite(size) && gb_magnitude(value) <= GB_ROOTS_TANGENT * size;
 }
 
 /* The arithmetic mean, or one of the exponents: bounds may differ by hundreds of decades. */
@@ -252,7 +252,7 @@ static const gb_polynomial_1 *gb_leading(const gb_polynomial_1 *list, size_t cou
     for (size_t i = 0; i + 1 < count; i++) {
         const gb_real *coefficients = list[i].coefficients;
         const size_t length = list[i].length;
-        if (length > 0 && gb_magnitude(coefficients[length - 1]) > GB_PIVOT * gb_largest(coefficients, length)) {
+        if (length > 0 && gb_magnitude(coefficients[length - 1]) > GB_ROOTS_PIVOT * gb_largest(coefficients, length)) {
             return &list[i];
         }
     }
@@ -282,7 +282,7 @@ GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_sc
         gb_all_roots(&p, &roots);
         *close = roots.count > 0 && roots.count % 2 == polynomial->length % 2;
         for (size_t i = 1; i < roots.count; i++) {
-            *close = *close || roots.values[i] - roots.values[i - 1] <= GB_MEETING * gb_scale_at(scale, R(0.0));
+            *close = *close || roots.values[i] - roots.values[i - 1] <= GB_ROOTS_CLOSE * gb_scale_at(scale, R(0.0));
         }
     }
     const size_t kept = roots.count < room ? roots.count : room;

@@ -30,13 +30,13 @@ GB_INLINE GB_(roots) GB_(roots_of_square)(T constant, T scale, gb_real tangent)
         roots.values[0] = -root;
         roots.values[1] = root;
         roots.count = root <= GB_GREATEST ? 2 : 0;
-        roots.close = root <= GB_MEETING * scale;
+        roots.close = root <= GB_ROOTS_CLOSE * scale;
     }
 #else
     const GB_(truth) is_square = GB_(exceeds)(square, constant) | GB_(inverted)(GB_(at_most)(constant, constant));
     const GB_(truth) dead = GB_(inverted)(GB_(at_most)(constant, tangent * GB_(pick)(square, constant, is_square)));
     const T root = GB_(square_root)(-constant);
-    const GB_(truth) close = GB_(inverted)(GB_(exceeds)(root, GB_MEETING * scale));
+    const GB_(truth) close = GB_(inverted)(GB_(exceeds)(root, GB_ROOTS_CLOSE * scale));
     roots.values[0] = -root;
     roots.values[1] = root;
     roots.count = 2;
@@ -51,13 +51,13 @@ GB_INLINE GB_(roots) GB_(roots_of_square)(T constant, T scale, gb_real tangent)
 /* The real roots of x^2 + constant. */
 GB_INLINE GB_(roots) GB_(square_roots)(T constant, T scale)
 {
-    return GB_(roots_of_square)(constant, scale, GB_TANGENT);
+    return GB_(roots_of_square)(constant, scale, GB_ROOTS_TANGENT);
 }
 
 /* Same as square_roots, with a larger tolerance, after roots of polynomials of higher degree. */
 GB_INLINE GB_(roots) GB_(grazing_roots)(T constant, T scale)
 {
-    return GB_(roots_of_square)(constant, scale, GB_GRAZING);
+    return GB_(roots_of_square)(constant, scale, GB_ACCEPTANCE_UNSETTLED_ROOTS);
 }
 
 /* The real roots of the first polynomial with a significant leading coefficient, or of the last one. Terms are evaluated at `spread` times the greater of

@@ -15,7 +15,7 @@ static bool gb_leads_back(const gb_problem *problem, const gb_real *q, uint32_t 
 
 /* Whether the equations hold within `bound` where free joints are moved in one direction. The displacement is doubled until it has its full length. From a
  * short one the joints must return to q: steps may lead from an isolated solution to a self-motion next to it, but not back. */
-static bool gb_leads_aside(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real way, gb_real bound)
+static bool gb_leads_aside(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real delta, gb_real bound)
 {
     const gb_mechanism *m = problem->mechanism;
     gb_real before[GB_MAX_JOINTS], at[GB_MAX_JOINTS], share = R(1.0) / GB_FIRST_STAGE;
@@ -25,7 +25,7 @@ static bool gb_leads_aside(const gb_problem *problem, const gb_real *q, uint32_t
         gb_end next;
         gb_beyond(m, before, at, stage == 1 ? R(1.0) : R(2.0), next.q);
         for (size_t i = 0; i < m->joints; i++) {
-            next.q[i] = gb_is_in(free, i) ? gb_moved(m, q, i, share * way) : next.q[i];
+            next.q[i] = gb_is_in(free, i) ? gb_moved(m, q, i, share * delta) : next.q[i];
         }
         next.fit = gb_measure(problem, next.q);
         if (!(next.fit.relative <= bound)) {
@@ -42,12 +42,12 @@ static bool gb_leads_aside(const gb_problem *problem, const gb_real *q, uint32_t
 }
 
 /* Whether the others follow when the joints `free` are moved by the first stage of a displacement. */
-static bool gb_sets_out(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real way, gb_real bound)
+static bool gb_sets_out(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real delta, gb_real bound)
 {
     const gb_mechanism *m = problem->mechanism;
     gb_end next;
     for (size_t i = 0; i < m->joints; i++) {
-        next.q[i] = gb_is_in(free, i) ? gb_moved(m, q, i, way / GB_FIRST_STAGE) : q[i];
+        next.q[i] = gb_is_in(free, i) ? gb_moved(m, q, i, delta / GB_FIRST_STAGE) : q[i];
     }
     gb_polish_from(problem, &next, free);
     return next.fit.relative <= bound;
@@ -56,29 +56,29 @@ static bool gb_sets_out(const gb_problem *problem, const gb_real *q, uint32_t fr
 /* One of the trial displacements, each an eighth of the one before. */
 static gb_real gb_narrowed(int narrow)
 {
-    gb_real way = GB_ASIDE;
+    gb_real delta = GB_ASIDE;
     for (int i = 0; i < narrow; i++) {
-        way = way / R(8.0);
+        delta = delta / R(8.0);
     }
-    return way;
+    return delta;
 }
 
 /* Whether the joints can move from q along a self-motion, given the regularity at q. */
 static bool gb_leads_to_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound, gb_real regularity)
 {
-    bound = gb_larger(GB_ROUNDING, bound);
-    if (regularity > GB_REGULAR || gb_are_spent(problem)) {
+    bound = gb_larger(GB_ACCEPTANCE_ROUNDING, bound);
+    if (regularity > GB_PIVOTS_REGULAR || gb_are_spent(problem)) {
         return false;
     }
-    const int narrows = bound > GB_ROUNDING || regularity > GB_SINGULAR ? 1 : GB_NARROWS;
+    const int narrows = bound > GB_ACCEPTANCE_ROUNDING || regularity > GB_PIVOTS_SINGULAR ? 1 : GB_NARROWS;
     /* If the last displacement but one fails, longer ones fail too. */
     const gb_real first = gb_narrowed(GB_NARROWS - 2);
     if (narrows > 1 && !gb_sets_out(problem, q, free, first, bound) && !gb_sets_out(problem, q, free, -first, bound)) {
         return false;
     }
     for (int narrow = 0; narrow < narrows; narrow++) {
-        const gb_real way = gb_narrowed(narrow);
-        if (gb_leads_aside(problem, q, free, way, bound) || gb_leads_aside(problem, q, free, -way, bound)) {
+        const gb_real delta = gb_narrowed(narrow);
+        if (gb_leads_aside(problem, q, free, delta, bound) || gb_leads_aside(problem, q, free, -delta, bound)) {
             return true;
         }
     }
@@ -88,7 +88,7 @@ static bool gb_leads_to_self_motion(const gb_problem *problem, const gb_real *q,
 /* Whether the equations also hold, within `bound` or rounding, when the joints `free` are moved and the others follow. One direction suffices, because in
  * the other one the self-motion may branch. Where `q` is not singular this is false without a trial. A self-motion may cover only a small part of the
  * circle. Where `q` is singular within rounding, shorter displacements are therefore tried, each an eighth of the one before. */
-GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound)
+GB_LINKAGE bool gb_is_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound)
 {
     return gb_leads_to_self_motion(problem, q, free, bound, gb_regularity(problem, q));
 }
@@ -96,13 +96,13 @@ GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real 
 static bool gb_leads_far_aside(const gb_problem *problem, const gb_real *q, uint32_t free)
 {
     return !gb_are_spent(problem)
-        && (gb_leads_aside(problem, q, free, GB_ASIDE, GB_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ROUNDING));
+        && (gb_leads_aside(problem, q, free, GB_ASIDE, GB_ACCEPTANCE_ROUNDING) || gb_leads_aside(problem, q, free, -GB_ASIDE, GB_ACCEPTANCE_ROUNDING));
 }
 
-/* Same as gb_lies_on_self_motion within rounding, without self-motions that cover only a small part of the circle. */
-static bool gb_lies_on_long_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free)
+/* Same as gb_is_on_self_motion within rounding, without self-motions that cover only a small part of the circle. */
+static bool gb_is_on_long_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free)
 {
-    return gb_regularity(problem, q) <= GB_REGULAR && gb_leads_far_aside(problem, q, free);
+    return gb_regularity(problem, q) <= GB_PIVOTS_REGULAR && gb_leads_far_aside(problem, q, free);
 }
 
 /* Whether a joint may be free: some case frees it, or the formulas are those of a nearby mechanism and free none. */
@@ -155,7 +155,7 @@ GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint3
     gb_copy(end.q, q, joints);
     gb_polish_from(problem, &end, 0);
     for (size_t i = 0; end.fit.accepted && i < joints; i++) {
-        if (gb_is_in(free, i) && gb_lies_on_self_motion(problem, end.q, (uint32_t)1 << i, GB_ROUNDING)) {
+        if (gb_is_in(free, i) && gb_is_on_self_motion(problem, end.q, (uint32_t)1 << i, GB_ACCEPTANCE_ROUNDING)) {
             return true;
         }
     }
@@ -196,7 +196,7 @@ static bool gb_find_tangent(const gb_problem *problem, const gb_real *q, uint32_
         slopes.values[i] = slopes.rows[i * m->joints + joint];
     }
     gb_triangle_of(problem, &slopes, R(0.0), free, &triangle);
-    if (!(gb_regularity_in(&triangle) > GB_REGULAR && gb_substitute(&triangle, tangent))) {
+    if (!(gb_regularity_in(&triangle) > GB_PIVOTS_REGULAR && gb_substitute(&triangle, tangent))) {
         return false;
     }
     for (size_t i = 0; i < m->joints; i++) {
@@ -205,16 +205,16 @@ static bool gb_find_tangent(const gb_problem *problem, const gb_real *q, uint32_
     return true;
 }
 
-/* Whether the equations hold on the straight line along `way`, as for coincident axes. */
-static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb_real *way)
+/* Whether the equations hold on the straight line along `delta`, as for coincident axes. */
+static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb_real *delta)
 {
     static const gb_real shares[] = {R(0.5), R(0.25), R(0.75)};
     for (size_t k = 0; k < GB_LENGTH_OF(shares); k++) {
         gb_real at[GB_MAX_JOINTS];
         for (size_t i = 0; i < problem->mechanism->joints; i++) {
-            at[i] = a[i] + shares[k] * way[i];
+            at[i] = a[i] + shares[k] * delta[i];
         }
-        if (!(gb_measure(problem, at).relative <= GB_ROUNDING)) {
+        if (!(gb_measure(problem, at).relative <= GB_ACCEPTANCE_ROUNDING)) {
             return false;
         }
     }
@@ -225,16 +225,16 @@ static bool gb_is_straight(const gb_problem *problem, const gb_real *a, const gb
 static bool gb_is_there(const gb_problem *problem, gb_end *end, const gb_real *b, uint32_t free)
 {
     gb_polish(problem, end, free);
-    const bool is_close = end->fit.accepted && gb_is_close(problem->mechanism, end->q, b, 0, GB_ARRIVED);
-    return is_close && gb_are_joined(problem, end->q, b, GB_ROUNDING, free);
+    const bool is_close = end->fit.accepted && gb_is_close(problem->mechanism, end->q, b, 0, GB_MERGING_APART_MEMBERS);
+    return is_close && gb_are_joined(problem, end->q, b, GB_ACCEPTANCE_ROUNDING, free);
 }
 
-/* The largest displacement of a free joint on `way`. */
-static gb_real gb_length_of(const gb_mechanism *m, const gb_real *way, uint32_t free)
+/* The largest displacement of a free joint on `delta`. */
+static gb_real gb_length_of(const gb_mechanism *m, const gb_real *delta, uint32_t free)
 {
     gb_real freed[GB_MAX_JOINTS];
     for (size_t i = 0; i < m->joints; i++) {
-        freed[i] = gb_is_in(free, i) ? way[i] : R(0.0);
+        freed[i] = gb_is_in(free, i) ? delta[i] : R(0.0);
     }
     return gb_longest(m, freed);
 }
@@ -244,7 +244,7 @@ static bool gb_correct(const gb_problem *problem, gb_end *end, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;
     end->fit = gb_measure(problem, end->q);
-    for (int k = 0; k < GB_RETURNS && !(end->fit.relative <= GB_ASTRAY || gb_are_spent(problem)); k++) {
+    for (int k = 0; k < GB_RETURNS && !(end->fit.relative <= GB_SELF_MOTIONS_CURVE || gb_are_spent(problem)); k++) {
         gb_real step[GB_MAX_JOINTS], next[GB_MAX_JOINTS];
         if (!gb_newton_step(problem, end->q, gb_dampings[1], free, step)) {
             return false;
@@ -253,7 +253,7 @@ static bool gb_correct(const gb_problem *problem, gb_end *end, uint32_t free)
         gb_copy(end->q, next, m->joints);
         end->fit = gb_measure(problem, end->q);
     }
-    return end->fit.relative <= GB_ASTRAY;
+    return end->fit.relative <= GB_SELF_MOTIONS_CURVE;
 }
 
 /* Same as gb_correct, and the result must be near. */
@@ -303,8 +303,8 @@ static void gb_half_way(const gb_mechanism *m, const gb_knot *near, const gb_kno
 #define GB_DIVISIONS 5
 
 /* Whether cubic Hermite curves approximate the self-motion between two of its places. Half-way along each curve, the correction of the other joints must be
- * at most GB_ARRIVED. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends. Their error is
- * of fourth order in their length.) */
+ * at most GB_MERGING_APART_MEMBERS. Otherwise the curve is divided there, until it is too short. (The curves have the self-motion's tangents at their ends.
+ * Their error is of fourth order in their length.) */
 static bool gb_is_interpolated(const gb_problem *problem, const gb_knot *first, const gb_knot *last, uint32_t free)
 {
     const gb_mechanism *m = problem->mechanism;
@@ -322,7 +322,7 @@ static bool gb_is_interpolated(const gb_problem *problem, const gb_knot *first, 
         if (!gb_correct(problem, &end, free)) {
             return false;
         }
-        if (gb_farthest(m, end.q, middle) <= GB_ARRIVED) {
+        if (gb_farthest(m, end.q, middle) <= GB_MERGING_APART_MEMBERS) {
             at = ends[--count];
         } else if (count < GB_DIVISIONS) {
             gb_knot *knot = &ends[count++];
@@ -340,16 +340,16 @@ static bool gb_is_interpolated(const gb_problem *problem, const gb_knot *first, 
 
 /* Whether cubic curves connect two members of a self-motion along one of two displacements of a free joint, the second of which may be null. Not tried where
  * the displacement is shorter than the first step of following it. */
-static bool gb_are_joined_by_cubics(const gb_problem *problem, gb_member a, gb_member b, uint32_t free, const gb_real *way, const gb_real *other)
+static bool gb_are_joined_by_cubics(const gb_problem *problem, gb_member a, gb_member b, uint32_t free, const gb_real *delta, const gb_real *other)
 {
     const size_t joint = gb_single(problem->mechanism, free);
     gb_knot first, last;
-    if (!(gb_is_single(free) && gb_magnitude(way[joint]) > gb_along[1])
+    if (!(gb_is_single(free) && gb_magnitude(delta[joint]) > gb_along[1])
         || !gb_make_knot(problem, a, free, &first) || !gb_make_knot(problem, b, free, &last)) {
         return false;
     }
     first.gone = R(0.0);
-    last.gone = way[joint];
+    last.gone = delta[joint];
     if (gb_is_interpolated(problem, &first, &last, free)) {
         return true;
     }
@@ -357,12 +357,12 @@ static bool gb_are_joined_by_cubics(const gb_problem *problem, gb_member a, gb_m
     return other && gb_is_interpolated(problem, &first, &last, free);
 }
 
-/* Moves the free joints by `way` from a while the others follow, with step size control. Returns whether they follow; `*arrives` is whether they arrive at
+/* Moves the free joints by `delta` from a while the others follow, with step size control. Returns whether they follow; `*arrives` is whether they arrive at
  * b. */
-static bool gb_leads_along(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free, const gb_real *way, bool *arrives)
+static bool gb_leads_along(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free, const gb_real *delta, bool *arrives)
 {
     const gb_mechanism *m = problem->mechanism;
-    const gb_real length = gb_length_of(m, way, free);
+    const gb_real length = gb_length_of(m, delta, free);
     gb_real before[GB_MAX_JOINTS], at[GB_MAX_JOINTS], gone = R(0.0), last = R(1.0), pace = gb_along[1];
     gb_copy(before, a, m->joints);
     gb_copy(at, a, m->joints);
@@ -372,7 +372,7 @@ static bool gb_leads_along(const gb_problem *problem, const gb_real *a, const gb
         gb_end next;
         gb_beyond(m, before, at, step / last, next.q);
         for (size_t i = 0; i < m->joints; i++) {
-            next.q[i] = gb_is_in(free, i) ? gb_wrapped(m, i, a[i] + share * way[i]) : next.q[i];
+            next.q[i] = gb_is_in(free, i) ? gb_wrapped(m, i, a[i] + share * delta[i]) : next.q[i];
         }
         if (gb_followed(problem, &next, free)) {
             if (is_last) {
@@ -394,12 +394,12 @@ static bool gb_leads_along(const gb_problem *problem, const gb_real *a, const gb
 }
 
 /* The displacement in which the free joint rotates in the opposite direction; false if it is not revolute. */
-static bool gb_other_way(const gb_mechanism *m, const gb_real *way, uint32_t free, gb_real *other)
+static bool gb_opposite(const gb_mechanism *m, const gb_real *delta, uint32_t free, gb_real *other)
 {
     bool turns = false;
     for (size_t i = 0; i < m->joints; i++) {
         const bool is_turned = free == (uint32_t)1 << i && m->joint[i].is_angle;
-        other[i] = is_turned ? way[i] - (way[i] < R(0.0) ? -GB_TAU : GB_TAU) : way[i];
+        other[i] = is_turned ? delta[i] - (delta[i] < R(0.0) ? -GB_TAU : GB_TAU) : delta[i];
         turns |= is_turned;
     }
     return turns;
@@ -408,22 +408,22 @@ static bool gb_other_way(const gb_mechanism *m, const gb_real *way, uint32_t fre
 /* Whether the equations hold on a straight line between two members of self-motions, on which one joint may rotate in the longer direction. */
 static bool gb_leads_straight_to(const gb_problem *problem, const gb_real *a, const gb_real *b, uint32_t free)
 {
-    gb_real way[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
-    gb_differences(problem->mechanism, b, a, way);
-    return gb_is_straight(problem, a, way) || (gb_other_way(problem->mechanism, way, free, other) && gb_is_straight(problem, a, other));
+    gb_real delta[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
+    gb_differences(problem->mechanism, b, a, delta);
+    return gb_is_straight(problem, a, delta) || (gb_opposite(problem->mechanism, delta, free, other) && gb_is_straight(problem, a, other));
 }
 
 /* Whether the joints arrive at the second member as the free ones move and the others follow. */
 static bool gb_leads_round_to(const gb_problem *problem, gb_member a, gb_member b, uint32_t free)
 {
-    gb_real way[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
+    gb_real delta[GB_MAX_JOINTS] = {R(0.0)}, other[GB_MAX_JOINTS] = {R(0.0)};
     bool arrives = false;
-    gb_differences(problem->mechanism, b.q, a.q, way);
-    const bool turns = gb_other_way(problem->mechanism, way, free, other);
-    if (gb_are_joined_by_cubics(problem, a, b, free, way, turns ? other : NULL)) {
+    gb_differences(problem->mechanism, b.q, a.q, delta);
+    const bool turns = gb_opposite(problem->mechanism, delta, free, other);
+    if (gb_are_joined_by_cubics(problem, a, b, free, delta, turns ? other : NULL)) {
         return true;
     }
-    if (!gb_leads_along(problem, a.q, b.q, free, way, &arrives) && turns) {
+    if (!gb_leads_along(problem, a.q, b.q, free, delta, &arrives) && turns) {
         return gb_leads_along(problem, a.q, b.q, free, other, &arrives) && arrives;
     }
     return arrives;

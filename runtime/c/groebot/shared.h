@@ -96,23 +96,8 @@
 #define GB_MAX_SIZES 8
 #endif
 
-/* The tolerances are those of groebot-runtime's tolerances.rs, where they are documented. */
-#define GB_ACCEPT GB_EITHER(1e-12, 3e-5)
-#define GB_MERGE GB_EITHER(1e-7, 2e-3)
-#define GB_BLUR GB_EITHER(5e-2, 3e-2)
-#define GB_ROUNDING GB_EITHER(1e-14, 5e-6)
-#define GB_POLISHED GB_EITHER(1e-15, 2e-7)
-#define GB_MEETING GB_EITHER(1e-5, 1e-2)
-#define GB_TANGENT GB_EITHER(1e-10, 1e-4)
-#define GB_GRAZING GB_EITHER(1e-6, 1e-4)
-#define GB_NEAR GB_EITHER(1e-3, 1e-2)
-#define GB_OFF R(1e-2)
-#define GB_BESIDE GB_EITHER(1e-7, 1e-2)
-#define GB_TINY R(1e-30)
-#define GB_CONSISTENT GB_EITHER(1e-9, 1e-4)
+/* Numbers and lengths of steps are those of groebot-runtime's effort.rs, where they are documented. */
 #define GB_APPROACHES 3
-#define GB_CHORD R(5e-6)
-#define GB_PLAIN R(1e-6)
 #define GB_STEEP R(400.0)
 #define GB_MILD R(4.0)
 #define GB_TURN R(1e-2)
@@ -309,7 +294,7 @@ GB_LINKAGE bool gb_are_all(const gb_answers *all);
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach);
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most);
 GB_LINKAGE bool gb_free_joints(const gb_problem *problem, gb_real *q, uint32_t free);
-GB_LINKAGE bool gb_lies_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound);
+GB_LINKAGE bool gb_is_on_self_motion(const gb_problem *problem, const gb_real *q, uint32_t free, gb_real bound);
 GB_LINKAGE gb_real gb_regularity(const gb_problem *problem, const gb_real *q);
 GB_LINKAGE bool gb_has_member(const gb_problem *problem, const gb_real *q, uint32_t free);
 GB_LINKAGE void gb_put_in_order(gb_answers *all);

@@ -289,6 +289,25 @@ bool GB_PUBLIC(forward)(const gb_real *q, gb_real *target)
 #endif
 }
 
+int GB_PUBLIC(solve_placed)(const gb_real *base, const gb_real *tool, const gb_real *target, gb_solution *out)
+{
+#if defined(GB_CONDITIONS) && GB_INPUTS >= 12
+    static const gb_real identity[12] = {0, 0, 0, R(1.0), 0, 0, 0, R(1.0), 0, 0, 0, R(1.0)};
+    gb_real placed[GB_INPUTS];
+    if (sizeof gb_conditions == sizeof gb_conditions[0] && gb_conditions[0].is_rotation && gb_conditions[0].first == 3) {
+        memcpy(placed, target, sizeof placed);
+        gb_target_of(base ? base : identity, tool ? tool : identity, target, placed);
+        return GB_PUBLIC(solve)(placed, out);
+    }
+#else
+    (void)base;
+    (void)tool;
+    (void)target;
+    (void)out;
+#endif
+    return GB_NOT_POSE;
+}
+
 void GB_PUBLIC(target_of)(const gb_real *base, const gb_real *tool, const gb_real *pose, gb_real *target)
 {
     gb_target_of(base, tool, pose, target);

@@ -48,7 +48,7 @@ GB_LINKAGE bool gb_are_doubtful(const gb_strays *strays)
     bool are_doubtful = strays->are_too_many;
     for (size_t i = 0; i < strays->count; i++) {
         const gb_kind_of_stray *kind = &strays->kinds[i];
-        are_doubtful = are_doubtful || (kind->is_astray && kind->missed <= GB_DOUBTED && kind->count % 8 != 0);
+        are_doubtful = are_doubtful || (kind->is_astray && kind->missed <= GB_ACCEPTANCE_UNSETTLED && kind->count % 8 != 0);
     }
     return are_doubtful;
 }

@@ -99,7 +99,7 @@ GB_LINKAGE void gb_cosine_and_sine(gb_real angle, gb_real *cosine, gb_real *sine
 }
 
 /* The sine of an angle plus so many quarter turns. */
-static gb_real gb_sine_behind(gb_real angle, int64_t quarters)
+static gb_real gb_sine_after(gb_real angle, int64_t quarters)
 {
     gb_real x, rest;
     quarters = (quarters + gb_reduced(angle, &x, &rest)) & 3;
@@ -110,11 +110,11 @@ static gb_real gb_sine_behind(gb_real angle, int64_t quarters)
 /* The cosine of an angle in rad, within one unit of its last place up to a million rad. */
 GB_LINKAGE gb_real gb_cosine(gb_real angle)
 {
-    return gb_sine_behind(angle, 1);
+    return gb_sine_after(angle, 1);
 }
 
 /* The sine of an angle in rad, within one unit of its last place up to a million rad. */
 GB_LINKAGE gb_real gb_sine(gb_real angle)
 {
-    return gb_sine_behind(angle, 0);
+    return gb_sine_after(angle, 0);
 }

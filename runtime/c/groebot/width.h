@@ -67,8 +67,8 @@ GB_UNUSED static const unsigned char gb_runs[GB_JOINTS] = {GB_RUNS};
 typedef GB_PUBLIC(solution) gb_solution;
 typedef GB_PUBLIC(pairs) gb_pairs;
 
-/* Two angles differ by more than GB_BLUR where the cosine of their difference is below this. */
-#define GB_FAR_APART (R(1.0) - R(0.52) * GB_BLUR * GB_BLUR)
+/* Two angles differ by more than GB_MERGING_BLUR where the cosine of their difference is below this. */
+#define GB_FAR_APART (R(1.0) - R(0.52) * GB_MERGING_BLUR * GB_MERGING_BLUR)
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push

@@ -142,13 +142,13 @@ static void lanes_hold_what_numbers_do(void)
 
 static void rotations_are_checked_and_mended(void)
 {
-    gb_real r[9] = {R(1.0), 0, 0, 0, R(1.0), 0, 0, 0, R(1.0) + GB_CONSISTENT / R(4.0)};
-    CHECK(gb_make_rotation_1(r) && are_close(r[8], R(1.0), GB_CONSISTENT / R(100.0)));
+    gb_real r[9] = {R(1.0), 0, 0, 0, R(1.0), 0, 0, 0, R(1.0) + GB_ACCEPTANCE_INPUT / R(4.0)};
+    CHECK(gb_make_rotation_1(r) && are_close(r[8], R(1.0), GB_ACCEPTANCE_INPUT / R(100.0)));
     r[8] = R(-1.0);
     CHECK(!gb_make_rotation_1(r));
     r[8] = R(1.1);
     CHECK(!gb_make_rotation_1(r));
-    gb_real v[3] = {R(0.6), R(0.8), GB_CONSISTENT / R(4.0)};
+    gb_real v[3] = {R(0.6), R(0.8), GB_ACCEPTANCE_INPUT / R(4.0)};
     CHECK(gb_make_unit_1(v));
     v[0] = NAN;
     CHECK(!gb_make_unit_1(v));
@@ -192,7 +192,7 @@ static void joints_come_back_from_forward_kinematics(void)
         CHECK(count >= 0);
         lost += !is_among(q, out, count);
         for (int k = 0; k < count; k++) {
-            CHECK(puma_residual(target, out[k].q) <= R(4.0) * GB_ACCEPT);
+            CHECK(puma_residual(target, out[k].q) <= R(4.0) * GB_ACCEPTANCE_RESIDUAL);
             CHECK(k == 0 || out[k - 1].branch <= out[k].branch);
         }
     }

@@ -5,18 +5,11 @@ use core::f64::consts::TAU;
 use super::chain::Chain;
 use super::rigid::Rigid;
 use crate::arithmetic::Arithmetic;
+use crate::tolerances::{ACCEPTANCE, MERGING};
 use crate::trigonometry::wrap;
 
 /// Maximal number of solutions that are kept while formulations are merged, and of candidates that are stored.
 pub const ROOM: usize = 32;
-/// Solutions are equal when no joint differs by more than this (rad).
-const MERGE: f64 = 1e-7;
-/// The largest residual of a solution, relative to the length scale or in radians.
-pub(super) const ACCEPT: f64 = 1e-12;
-/// Candidates within this distance of a stored one are not stored again.
-const ALIKE: f64 = 1e-2;
-/// A solution on a curve within this distance of a known one is that one.
-const APART: f64 = 1e-4;
 
 /// A joint vector that reaches the target, or a start near a solution that was lost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +87,7 @@ impl List {
 
     /// Adds a joint vector if the list has none close to it. Angles that differ by whole turns are distinct.
     pub fn remember(&mut self, q: [f64; 6]) {
-        let is_alike = |other: &[f64; 6]| is_within(other, &q, &[true; 6], ALIKE);
+        let is_alike = |other: &[f64; 6]| is_within(other, &q, &[true; 6], MERGING.known);
         if self.count < ROOM && !self.as_slice().iter().any(is_alike) {
             self.list[self.count] = q;
             self.count += 1;
@@ -117,7 +110,7 @@ impl Distinct {
 
     /// Adds a solution; it replaces an equal one with a larger residual.
     pub fn keep(&mut self, q: [f64; 6], residual: f64, slides: &[bool; 6]) {
-        let is_same = |known: &&mut ([f64; 6], f64)| is_within(&known.0, &q, slides, MERGE);
+        let is_same = |known: &&mut ([f64; 6], f64)| is_within(&known.0, &q, slides, MERGING.joints);
         if let Some(known) = self.list[..self.count].iter_mut().find(is_same) {
             if residual < known.1 {
                 *known = (q, residual);
@@ -132,7 +125,7 @@ impl Distinct {
     #[cold]
     fn displace(&mut self, q: [f64; 6], residual: f64, chain: &Chain) {
         let is_member = |q: &[f64; 6]| chain.free(q).contains(&true);
-        if is_member(&q) || self.iter().any(|known| is_within(known, &q, &chain.slides, MERGE)) {
+        if is_member(&q) || self.iter().any(|known| is_within(known, &q, &chain.slides, MERGING.joints)) {
             return;
         }
         if let Some(member) = self.list.iter_mut().find(|(known, _)| is_member(known)) {
@@ -183,8 +176,8 @@ impl Search {
     pub fn find(&mut self, chain: &Chain, mut q: [f64; 6], target: &Rigid) {
         let residual = chain.polish(&mut q, target).1;
         let q = wrapped(&q, &chain.slides);
-        let is_known = self.answers.iter().any(|known| is_within(known, &q, &chain.slides, APART));
-        if residual <= ACCEPT && !is_known {
+        let is_known = self.answers.iter().any(|known| is_within(known, &q, &chain.slides, MERGING.apart));
+        if residual <= ACCEPTANCE.residual && !is_known {
             self.keep(chain, q, residual);
         }
     }
@@ -201,9 +194,9 @@ fn is_within(a: &[f64; 6], b: &[f64; 6], slides: &[bool; 6], limit: f64) -> bool
 }
 
 #[inline(always)]
-fn difference(way: f64, slides: bool) -> f64 {
-    let turns = if slides { 0.0 } else { Arithmetic::round(way / TAU) };
-    (way - TAU * turns).abs()
+fn difference(delta: f64, slides: bool) -> f64 {
+    let turns = if slides { 0.0 } else { Arithmetic::round(delta / TAU) };
+    (delta - TAU * turns).abs()
 }
 
 /// The joints with angles in (-pi, pi].

@@ -16,15 +16,11 @@ use super::shifted_qr::Eigenvalue;
 use super::vector::{Vector, cosines_and_sines, product, turn};
 use crate::angles::angle;
 use crate::arithmetic::Arithmetic;
+use crate::tolerances::{ACCEPTANCE, ROOTS};
 use crate::trigonometry::{cosine, sine};
 
 /// Origins of the hidden half angle (arc tangent of half a displacement). The first one with a well-conditioned matrix is used.
 const ORIGINS: [f64; 3] = [0.4, 1.1, -0.5];
-/// Least pivot, relative to the largest entry of its matrix, at which an origin is accepted at once.
-const SOUND: f64 = 1e-9;
-/// Bound on the squared distance of coincident eigenvalues, relative to `1 + |x|^2`, times the relative pivot. Within it rounding may have split a multiple
-/// eigenvalue, possibly into a complex pair.
-const COINCIDING: f64 = 1e-14;
 
 /// A candidate for a solution.
 #[derive(Clone, Copy)]
@@ -76,7 +72,8 @@ impl Candidates {
         let form = Hessenberg::reduce(matrix);
         let values = form.eigenvalues()?;
         let reader = Reader { slides: &chain.slides, formulation, reduced: &reduced, pencil: &pencil };
-        let problem = Problem { reader, form, origin, coinciding: Arithmetic::sqrt(COINCIDING / conditioning) };
+        let problem =
+            Problem { reader, form, origin, coinciding: Arithmetic::sqrt(ACCEPTANCE.rounding / conditioning) };
         Some(problem.candidates(&problem.near_real(&values, deepest), conditioning))
     }
 
@@ -206,7 +203,7 @@ impl Standard {
         let origin = |index: usize| ORIGINS[(attempt + index) % ORIGINS.len()];
         let mut best = Standard::of(pencil, origin(0));
         for index in 1..ORIGINS.len() {
-            if best.conditioning >= SOUND {
+            if best.conditioning >= ROOTS.pivot {
                 break;
             }
             let other = Standard::of(pencil, origin(index));

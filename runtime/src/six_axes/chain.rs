@@ -11,8 +11,8 @@ use super::vector::{Vector, scale};
 const LONG: f64 = 1e4;
 
 /// Whether a displacement represents an infinite one.
-pub(super) fn is_infinite(way: f64) -> bool {
-    way.is_nan() || way.abs() > LONG
+pub(super) fn is_infinite(value: f64) -> bool {
+    value.is_nan() || value.abs() > LONG
 }
 
 /// The joint that is hidden in the pencil, and the one that is doubled.
@@ -132,7 +132,7 @@ impl Chain {
 
     /// Whether a displacement among joint values represents an infinite one.
     pub(super) fn has_infinite(&self, q: &[f64; 6]) -> bool {
-        q.iter().zip(&self.slides).any(|(way, slides)| *slides && is_infinite(*way))
+        q.iter().zip(&self.slides).any(|(value, slides)| *slides && is_infinite(*value))
     }
 
     /// The rigid motion from the tip's pose at zero to a target.

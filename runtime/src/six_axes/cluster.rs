@@ -12,18 +12,13 @@ use super::pencil::{ALL, Matrix, NEAR, Pencil, SIZE, Wide};
 use super::shifted_qr::Eigenvalue;
 use super::vector::product;
 use crate::arithmetic::Arithmetic;
+use crate::tolerances::{EIGENVALUES, MERGING, PIVOTS};
 use crate::trigonometry::{cosine, sine};
 
 /// Number of simultaneous iterations.
 const ROUNDS: usize = 2;
-/// Distance of the iteration's shift from the eigenvalue, relative to `1 + |x|`, so that the matrix is regular.
-const SHIFT: f64 = 1e-9;
 /// Origin of half the doubled angle.
 const ORIGIN: f64 = 0.7;
-/// Least relative pivot at which the monomials determine the matrix of tangents.
-const DETERMINED: f64 = 1e-10;
-/// Tangents closer than this, relative to `1 + |t|^2`, do not separate solutions.
-const SEPARATE: f64 = 1e-4;
 
 /// The solutions of coincident eigenvalues.
 pub(super) struct Cluster {
@@ -54,7 +49,7 @@ impl Cluster {
 
 /// An orthonormal basis of the space of `count` eigenvectors for eigenvalues at `x`.
 fn basis(form: &Hessenberg, x: f64, count: usize) -> Option<Matrix> {
-    let shifted = x + SHIFT * (1.0 + x.abs());
+    let shifted = x + EIGENVALUES.shift * (1.0 + x.abs());
     // Walsh functions: orthogonal, and no entry is zero.
     let mut basis: Matrix = from_fn(|j| from_fn(|k| if (j & k).count_ones().is_multiple_of(2) { 1.0 } else { -1.0 }));
     for _ in 0..ROUNDS {
@@ -109,14 +104,14 @@ fn tangents(basis: &[Wide]) -> Option<Matrix> {
             }
         }
     }
-    let is_determined = solve(&mut rows) >= DETERMINED;
+    let is_determined = solve(&mut rows) >= PIVOTS.singular;
     is_determined.then(|| rows.map(|row| from_fn(|k| row[SIZE + k])))
 }
 
 /// Whether all tangents are distinct within the tolerance.
 fn are_separate(values: &[Eigenvalue]) -> bool {
     let is_close = |a: &Eigenvalue, b: &Eigenvalue| {
-        (a.re - b.re).abs() + (a.im - b.im).abs() <= SEPARATE * (1.0 + a.re * a.re + b.re * b.re)
+        (a.re - b.re).abs() + (a.im - b.im).abs() <= MERGING.apart * (1.0 + a.re * a.re + b.re * b.re)
     };
     !values.iter().enumerate().any(|(k, value)| values[..k].iter().any(|other| is_close(value, other)))
 }

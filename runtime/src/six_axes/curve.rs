@@ -15,9 +15,8 @@ use super::rigid::Rigid;
 use super::section::Place;
 use super::vector::product;
 use crate::arithmetic::Arithmetic;
+use crate::tolerances::SELF_MOTIONS;
 
-/// Rounding error of the equations on a self-motion.
-const LEVEL: f64 = 1e-13;
 /// Maximal number of steps across the curve from the start of a walk.
 const ROUNDS: usize = 12;
 /// Maximal number of steps across the curve from the end of a step along it.
@@ -64,14 +63,14 @@ impl<'a> Walk<'a> {
         for index in 0..self.count {
             let Some(start) = self.starts[index].take() else { continue };
             let mut level = [start.section.value.abs(); 2];
-            for way in [1.0, -1.0] {
+            for delta in [1.0, -1.0] {
                 let mut first = start;
-                first.section.along = first.section.along.map(|entry| way * entry);
+                first.section.along = first.section.along.map(|entry| delta * entry);
                 if self.leads_home(first, search, &mut level) {
                     break;
                 }
             }
-            if level[1] <= LEVEL {
+            if level[1] <= SELF_MOTIONS.member {
                 search.find(self.chain, start.q, self.target);
             } else if self.chain.within > 0.0 && level[0] <= BESIDE * self.chain.within {
                 search.meeting.remember(start.q);
@@ -93,9 +92,9 @@ impl<'a> Walk<'a> {
                 *start = start.filter(|start| distance(&start.q, &next.q, slides) > STRIDE);
             }
             (before, at) = (at, next);
-            let way = distance(&at.q, &home.q, slides);
-            is_away |= way > 3.0 * STRIDE;
-            if is_away && way <= STRIDE && product(&at.section.along, &home.section.along) > 0.5 {
+            let delta = distance(&at.q, &home.q, slides);
+            is_away |= delta > 3.0 * STRIDE;
+            if is_away && delta <= STRIDE && product(&at.section.along, &home.section.along) > 0.5 {
                 let section = home.section.aligned(&at.section);
                 self.change(&at, &Place { q: beside(&home.q, &at.q, slides), section }, search);
                 return true;
@@ -124,13 +123,13 @@ impl<'a> Walk<'a> {
     /// 11 (1971) 168-174).
     fn change(&self, a: &Place, b: &Place, search: &mut Search) {
         let (mut low, mut high) = (a.section.value, b.section.value);
-        if (low <= 0.0) == (high <= 0.0) || f64::max(low.abs(), high.abs()) <= LEVEL {
+        if (low <= 0.0) == (high <= 0.0) || f64::max(low.abs(), high.abs()) <= SELF_MOTIONS.member {
             return;
         }
         let (mut near, mut far, mut side) = (*a, *b, 0.0);
         for _ in 0..NARROWED {
-            let way: [f64; 6] = from_fn(|joint| far.q[joint] - near.q[joint]);
-            let middle = between(&near.q, &way, low / (low - high));
+            let delta: [f64; 6] = from_fn(|joint| far.q[joint] - near.q[joint]);
+            let middle = between(&near.q, &delta, low / (low - high));
             let Some(place) = self.chain.settled(middle, self.target, FEW) else { break };
             let section = place.section.aligned(&a.section);
             if (section.value <= 0.0) == (low <= 0.0) {
@@ -153,14 +152,14 @@ impl<'a> Walk<'a> {
     /// Searches for two solutions, or a double one, where the sixth equation has an extremum near zero.
     fn dip(&self, [a, b, c]: [&Place; 3], search: &mut Search) {
         let [low, least, high] = [a, b, c].map(|place| place.section.value);
-        let is_dip = least.abs() < low.abs() && least.abs() < high.abs() && least.abs() > LEVEL;
+        let is_dip = least.abs() < low.abs() && least.abs() < high.abs() && least.abs() > SELF_MOTIONS.member;
         if !is_dip || (low <= 0.0) != (least <= 0.0) || (high <= 0.0) != (least <= 0.0) {
             return;
         }
         let share = 0.5 * (low - high) / (low - least - least + high);
         let end = if share < 0.0 { a } else { c };
-        let way: [f64; 6] = from_fn(|joint| end.q[joint] - b.q[joint]);
-        if let Some(place) = self.chain.settled(between(&b.q, &way, share.abs()), self.target, FEW) {
+        let delta: [f64; 6] = from_fn(|joint| end.q[joint] - b.q[joint]);
+        if let Some(place) = self.chain.settled(between(&b.q, &delta, share.abs()), self.target, FEW) {
             let vertex = Place { section: place.section.aligned(&b.section), ..place };
             self.change(b, &vertex, search);
             self.change(&vertex, end, search);
@@ -169,16 +168,16 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// `q` displaced by a share of `way`.
-fn between(q: &[f64; 6], way: &[f64; 6], share: f64) -> [f64; 6] {
-    from_fn(|joint| q[joint] + share * way[joint])
+/// `q` displaced by a share of `delta`.
+fn between(q: &[f64; 6], delta: &[f64; 6], share: f64) -> [f64; 6] {
+    from_fn(|joint| q[joint] + share * delta[joint])
 }
 
 /// `q` with its angles shifted by whole turns to be nearest to `other`.
 fn beside(q: &[f64; 6], other: &[f64; 6], slides: &[bool; 6]) -> [f64; 6] {
     from_fn(|joint| {
-        let way = other[joint] - q[joint];
-        let turns = if slides[joint] { 0.0 } else { Arithmetic::round(way / TAU) };
+        let delta = other[joint] - q[joint];
+        let turns = if slides[joint] { 0.0 } else { Arithmetic::round(delta / TAU) };
         q[joint] + TAU * turns
     })
 }

@@ -7,21 +7,16 @@ use super::linear::solve;
 use super::rigid::Rigid;
 use super::vector::{Vector, add, cosines_and_sines, cross, dot, norm, product, scale, size, sub, turn};
 use crate::arithmetic::Arithmetic;
+use crate::tolerances::{PIVOTS, POLISHING, SELF_MOTIONS};
 
 /// Maximal number of Newton steps: at a singular pose each one only halves the residual.
 const STEPS: usize = 40;
-/// A residual below which no further step is tried.
-pub(super) const EXACT: f64 = 2e-15;
-/// A residual below which polishing ends after one step that does not halve it.
-const ROUNDING: f64 = 1e-13;
+/// A residual below which no further step is tried: a pose has more rounding than an equation.
+pub(super) const EXACT: f64 = 2.0 * POLISHING.done;
 /// Maximal number of times that steps are shortened, over all steps.
 const SHORTENED: usize = 12;
 /// A step that moves a joint by more than this is shortened.
 pub(super) const LONGEST: f64 = 0.5;
-/// The sine of a rotation close to half a turn, at which rounding makes the axis inaccurate.
-const NO_AXIS: f64 = 1e-6;
-/// A Jacobian column depends on the columns after it if at most this share of it is orthogonal to them.
-const SINGULAR: f64 = 1e-6;
 
 /// Forward kinematics of a joint vector.
 pub(super) struct Reach {
@@ -34,12 +29,12 @@ impl Reach {
     /// The pose error to a target: translation relative to the length scale, and rotation (rad).
     #[inline(always)]
     pub fn miss(&self, target: &Rigid) -> [f64; 6] {
-        let way = sub(&target.translation, &self.end.translation);
+        let position = sub(&target.translation, &self.end.translation);
         let turn = |index: usize| cross(&self.end.column(index), &target.column(index));
         let turn = scale(&add(&add(&turn(0), &turn(1)), &turn(2)), 0.5);
         let cosine = |index: usize| dot(&self.end.column(index), &target.column(index));
         let turn = if cosine(0) + cosine(1) + cosine(2) < 1.0 { obtuse(&turn) } else { turn };
-        [way[0], way[1], way[2], turn[0], turn[1], turn[2]]
+        [position[0], position[1], position[2], turn[0], turn[1], turn[2]]
     }
 }
 
@@ -48,7 +43,7 @@ impl Reach {
 #[cold]
 fn obtuse(turn: &Vector) -> Vector {
     let sine = Arithmetic::sqrt(dot(turn, turn));
-    if sine > NO_AXIS { scale(turn, (2.0 - sine) / sine) } else { [2.0, 0.0, 0.0] }
+    if sine > PIVOTS.regular { scale(turn, (2.0 - sine) / sine) } else { [2.0, 0.0, 0.0] }
 }
 
 /// A joint vector and its pose error.
@@ -110,7 +105,7 @@ impl Chain {
                 break;
             }
             at = next;
-            if at.residual > 0.5 * known && at.residual <= ROUNDING {
+            if at.residual > 0.5 * known && at.residual <= SELF_MOTIONS.member {
                 break;
             }
         }
@@ -131,7 +126,7 @@ impl Chain {
         let mut share = 1.0;
         loop {
             let next = self.trial(from_fn(|joint| at.q[joint] + share * step[joint]), target);
-            if next.residual < at.residual || at.residual <= ROUNDING || *shortened >= SHORTENED {
+            if next.residual < at.residual || at.residual <= SELF_MOTIONS.member || *shortened >= SHORTENED {
                 return next;
             }
             (share, *shortened) = (0.25 * share, *shortened + 1);
@@ -144,9 +139,9 @@ impl Chain {
         let mut matrix = [[0.0; 6]; 6];
         for (joint, (axis, origin)) in reach.axes.iter().zip(&reach.origins).enumerate() {
             let arm = sub(&reach.end.translation, origin);
-            let (way, turn) = if self.slides[joint] { (*axis, [0.0; 3]) } else { (cross(axis, &arm), *axis) };
+            let (position, turn) = if self.slides[joint] { (*axis, [0.0; 3]) } else { (cross(axis, &arm), *axis) };
             for k in 0..3 {
-                (matrix[k][joint], matrix[3 + k][joint]) = (way[k], turn[k]);
+                (matrix[k][joint], matrix[3 + k][joint]) = (position[k], turn[k]);
             }
         }
         matrix
@@ -183,7 +178,7 @@ impl Chain {
                 }
             }
             let left = norm(&column);
-            free[joint] = left <= SINGULAR * whole;
+            free[joint] = left <= PIVOTS.regular * whole;
             if !free[joint] {
                 kept[count] = column.map(|entry| entry / left);
                 count += 1;

@@ -6,9 +6,7 @@ use super::linear::clear;
 use super::profile::{PRODUCTS, STILL};
 use super::rows::{FAR, Rows};
 use super::vector::largest;
-
-/// While the equations are solved for far products, a pivot below this share of its equation's largest coefficient is not used.
-const WEAK: f64 = 1e-3;
+use crate::tolerances::PIVOTS;
 
 /// The equations after elimination, in the near products and the remaining far ones.
 pub(super) struct Reduced {
@@ -39,7 +37,7 @@ impl Reduced {
 
     /// The equation, and the index in the order of the columns, of the largest coefficient relative to its equation's size.
     fn pivot(&self) -> Option<(usize, usize)> {
-        let (mut best, mut found) = (WEAK, None);
+        let (mut best, mut found) = (PIVOTS.weak, None);
         for row in self.solved..STILL {
             let still = &self.rows.still[row];
             let inverse = 1.0 / largest(f64::MIN_POSITIVE, &[*still]);

@@ -71,8 +71,8 @@ impl Rigid {
 
     /// Followed by a translation along the moved z axis.
     #[inline(always)]
-    pub(super) fn then_slid(&self, way: f64) -> Rigid {
-        Rigid { translation: add(&self.translation, &scale(&self.column(2), way)), ..*self }
+    pub(super) fn then_slid(&self, distance: f64) -> Rigid {
+        Rigid { translation: add(&self.translation, &scale(&self.column(2), distance)), ..*self }
     }
 }
 

@@ -6,19 +6,10 @@ use super::chain::Chain;
 use super::polish::LONGEST;
 use super::rigid::Rigid;
 use super::vector::{norm, product, size};
+use crate::tolerances::{PIVOTS, POLISHING, SELF_MOTIONS, STRATA};
 
-/// Where the fifth pivot of the Jacobian is below this share of the first, the solution set has more than one dimension.
-const RANK: f64 = 1e-3;
-/// The largest value of the least singular value, approximately, at which a curve is assumed.
-const STEEP: f64 = 1e-2;
-/// Where the joints change the sixth equation by more than this after [`EARLY`] steps across the curve, no curve is near.
-const FLAT: f64 = 5e-2;
-/// Number of steps before [`FLAT`] is tested.
+/// Number of steps before `SELF_MOTIONS.flat` is tested.
 const EARLY: usize = 2;
-/// The largest residual on a curve, relative to the length scale or in radians.
-const ADRIFT: f64 = 1e-3;
-/// The length of a last step across the curve.
-const SETTLED: f64 = 1e-9;
 
 /// The Jacobian at a joint vector, split into five directions that change the pose and one that changes it very little.
 #[derive(Clone, Copy)]
@@ -57,7 +48,7 @@ impl Section {
 
     /// Whether a curve is here.
     pub fn is_near(&self) -> bool {
-        self.slope <= STEEP && self.value.abs() <= ADRIFT
+        self.slope <= SELF_MOTIONS.flat && self.value.abs() <= STRATA.near
     }
 }
 
@@ -92,12 +83,12 @@ impl Chain {
         for round in 0..rounds {
             let section = self.section(&q, target)?;
             let longest = size(&section.step);
-            if !longest.is_finite() || (round >= EARLY && section.slope > FLAT) {
+            if !longest.is_finite() || (round >= EARLY && section.slope > SELF_MOTIONS.flat) {
                 return None;
             }
             let share = if longest > LONGEST { LONGEST / longest } else { 1.0 };
             q.iter_mut().zip(&section.step).for_each(|(value, step)| *value += share * step);
-            if longest <= SETTLED {
+            if longest <= POLISHING.step {
                 let section = self.section(&q, target)?;
                 return section.is_near().then_some(Place { q, section });
             }
@@ -114,7 +105,7 @@ impl Cut {
         for k in 0..5 {
             let most = cut.pivot(k);
             first = if k == 0 { most } else { first };
-            if most <= RANK * first || !most.is_finite() {
+            if most <= PIVOTS.weak * first || !most.is_finite() {
                 return None;
             }
             cut.eliminate(k);

@@ -8,11 +8,10 @@ use core::array::from_fn;
 use super::hessenberg::Hessenberg;
 use super::pencil::{Matrix, SIZE};
 use crate::arithmetic::Arithmetic;
+use crate::tolerances::ROOTS;
 
 /// Maximal number of QR steps for one deflation; every tenth has an exceptional shift.
 const MAX_STEPS: usize = 60;
-/// A column with a smaller squared length counts as zero.
-const FAINT: f64 = 1e-280;
 
 /// An eigenvalue of a real matrix.
 #[derive(Clone, Copy, Debug)]
@@ -87,9 +86,9 @@ fn pair(h: &Matrix, low: usize) -> (Eigenvalue, Eigenvalue) {
         let (re, im) = (0.5 * (a + d), Arithmetic::sqrt(-discriminant));
         return (Eigenvalue { re, im }, Eigenvalue { re, im: -im });
     }
-    let way = half + Arithmetic::sqrt(discriminant).copysign(half);
-    let first = d + way;
-    let second = if way == 0.0 { d } else { d - b * c / way };
+    let sum = half + Arithmetic::sqrt(discriminant).copysign(half);
+    let first = d + sum;
+    let second = if sum == 0.0 { d } else { d - b * c / sum };
     (Eigenvalue { re: first, im: 0.0 }, Eigenvalue { re: second, im: 0.0 })
 }
 
@@ -134,7 +133,7 @@ impl Window<'_> {
     fn reflect<const N: usize>(&mut self, top: usize, column: [f64; N]) {
         let square = column.iter().map(|entry| entry * entry).sum::<f64>();
         let length = Arithmetic::sqrt(square).copysign(column[0]);
-        if square >= FAINT {
+        if square >= ROOTS.zero {
             let (head, share) = (column[0] + length, 1.0 + column[0] / length);
             let u: [f64; N] = from_fn(|k| if k == 0 { 1.0 } else { column[k] / head });
             let w = u.map(|entry| entry * share);

@@ -1,33 +1,19 @@
 //! The solver: formulations are tried in turn until one is reliable ([`Chain::solve`]).
 
-use super::answers::{ACCEPT, Answer, Answers, Distinct, List, Search, wrapped};
+use super::answers::{Answer, Answers, Distinct, List, Search, wrapped};
 use super::candidates::{Candidate, Candidates};
 use super::chain::Chain;
 use super::curve::Walk;
 use super::rigid::{Rigid, aside};
 use crate::arithmetic::Arithmetic;
+use crate::tolerances::{ACCEPTANCE, EIGENVALUES, PIVOTS};
 
-/// Relative pivot below which another formulation is run too.
-const SOUND: f64 = 1e-11;
-/// Relative pivot below which the pencil is singular: every number is an eigenvalue, so that the computed ones are meaningless.
-const SINGULAR: f64 = 1e-13;
-/// Relative pivot above which a target without real eigenvalues is out of reach.
-const CLEAR: f64 = 1e-6;
-/// A candidate with a larger residual before polishing shows that the eigenvalues are inaccurate.
-const ACCURATE: f64 = 1e-6;
-/// Lower bound on the assumed accuracy of the eigenvalues.
-const UNKNOWN: f64 = 1e-11;
 /// Bound on the squared depth of a complex eigenvalue that may be a double root, relative to the accuracy of the eigenvalues.
 const OFF: f64 = 1e3;
 /// Bound on the squared depth of a complex eigenvalue that is tried, relative to that accuracy.
 const FAR_OFF: f64 = 1e7;
-/// A complex pair farther off the real line is not a double root split by rounding.
-const BLURRED: f64 = 1e-2;
 /// An upper bound on the depth of all eigenvalues.
 const DEEPEST: f64 = 1.0;
-/// Displacement of the target in each attempt. Some eigenvectors of isolated solutions can only be computed at a displaced target: where solutions share a
-/// hidden angle, and where the target also has a self-motion.
-const DISTURBANCES: [f64; 10] = [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3, 1e-2, 1e-2];
 /// Displacements of targets at which complex solutions nearly meet, for a robot within a tolerance. They are relative to that tolerance, alternately in both
 /// directions.
 const MEETINGS: [f64; 4] = [30.0, 30.0, 1e3, 1e3];
@@ -64,13 +50,13 @@ impl Chain {
     /// All joint values that reach a target: a position, and a rotation matrix by rows.
     #[must_use]
     pub fn solve(&self, target: &[f64; 12]) -> Answers {
-        self.attempts(target, &DISTURBANCES)
+        self.attempts(target, &EIGENVALUES.aside)
     }
 
     /// The solutions that the first formulation alone finds.
     #[must_use]
     pub fn attempt(&self, target: &[f64; 12]) -> Answers {
-        self.attempts(target, &DISTURBANCES[..1])
+        self.attempts(target, &EIGENVALUES.aside[..1])
     }
 
     #[inline(always)]
@@ -86,7 +72,7 @@ impl Chain {
             self.meet(&goal, &target, &mut search);
         }
         // The first run shows a reliable result only where there is no self-motion.
-        self.told(&search, runs, accuracy)
+        self.collected(&search, runs, accuracy)
     }
 
     /// Runs formulations until one is reliable. Returns their number and [`Answers::accuracy`] of the last one. Lost candidates are then removed.
@@ -95,7 +81,7 @@ impl Chain {
         let is_new = |(number, size): &(usize, &f64)| **size > 0.0 || *number < self.formulations.as_slice().len();
         for (number, &size) in disturbances.iter().enumerate().filter(is_new) {
             // One run at a displaced target shows too few of the solutions nearby.
-            let is_first_aside = size > 0.0 && DISTURBANCES[number - 1] == 0.0;
+            let is_first_aside = size > 0.0 && EIGENVALUES.aside[number - 1] == 0.0;
             if is_first_aside {
                 search.lost = List::EMPTY;
             }
@@ -114,7 +100,7 @@ impl Chain {
 
     /// The squared depth of complex solutions that may be real for a robot within the tolerance.
     fn parted(&self) -> f64 {
-        f64::max(OFF * self.within, f64::min(FAR_OFF * self.within, BLURRED * BLURRED))
+        f64::max(OFF * self.within, f64::min(FAR_OFF * self.within, EIGENVALUES.blurred * EIGENVALUES.blurred))
     }
 
     /// Solves targets next to this one, on both sides: on one of them two complex solutions are real. Those that lead to no solution here are near one of the
@@ -130,8 +116,8 @@ impl Chain {
             for candidate in candidates.as_slice() {
                 let mut q = candidate.q;
                 q[missing] = self.closing(&q, missing, &near);
-                let is_found = self.polish(&mut q, &near).1 <= ACCEPT;
-                if is_found && self.polish(&mut q, target).1 > ACCEPT {
+                let is_found = self.polish(&mut q, &near).1 <= ACCEPTANCE.residual;
+                if is_found && self.polish(&mut q, target).1 > ACCEPTANCE.residual {
                     search.meeting.remember(q);
                 }
             }
@@ -151,7 +137,7 @@ impl Chain {
     }
 
     /// The solutions, in the unit of the target.
-    fn told(&self, search: &Search, runs: usize, accuracy: Option<f64>) -> Answers {
+    fn collected(&self, search: &Search, runs: usize, accuracy: Option<f64>) -> Answers {
         let mut answers = Answers::NONE;
         (answers.runs, answers.accuracy) = (runs, accuracy);
         for q in search.answers.iter() {
@@ -170,10 +156,10 @@ impl Attempt<'_> {
     /// Adds the solutions of one formulation. Returns its [`Answers::accuracy`].
     fn run(&self, displacement: &Rigid, search: &mut Search) -> Option<f64> {
         let known = search.answers.count;
-        let blurred = f64::max(BLURRED, Arithmetic::sqrt(OFF * self.chain.within));
+        let blurred = f64::max(EIGENVALUES.blurred, Arithmetic::sqrt(OFF * self.chain.within));
         let deepest = if self.size > 0.0 { DEEPEST } else { blurred };
         let candidates = Candidates::new(self.chain, displacement, self.number, deepest)?;
-        if candidates.conditioning < SINGULAR {
+        if candidates.conditioning < PIVOTS.singular {
             return None;
         }
         search.is_meeting |= candidates.conditioning < self.chain.within;
@@ -182,19 +168,19 @@ impl Attempt<'_> {
             self.follow(candidate, search, &mut tally);
         }
         let count = search.answers.count;
-        let is_unreachable = candidates.as_slice().is_empty() && candidates.conditioning >= CLEAR;
+        let is_unreachable = candidates.as_slice().is_empty() && candidates.conditioning >= PIVOTS.regular;
         let is_clear = tally.lost == 0 && count.is_multiple_of(2) && !candidates.is_crowded;
         let is_clear = is_clear && (count > 0 || is_unreachable);
         let nothing_lost = search.lost.as_slice().is_empty();
         let is_confirmed = self.number > 0 && known == count && tally.own.count == count && nothing_lost;
-        let is_sound = tally.worst <= ACCURATE && candidates.conditioning >= SOUND;
+        let is_sound = tally.worst <= ACCEPTANCE.unsettled;
         let is_trusted = is_clear && (is_confirmed || is_sound && (self.size == 0.0 || nothing_lost));
         is_trusted.then_some(tally.worst)
     }
 
     /// Polishes a candidate, and keeps or stores it.
     fn follow(&self, candidate: &Candidate, search: &mut Search, tally: &mut Tally) {
-        let (deep, accuracy) = (candidate.depth * candidate.depth, f64::max(tally.worst, UNKNOWN));
+        let (deep, accuracy) = (candidate.depth * candidate.depth, f64::max(tally.worst, EIGENVALUES.accuracy));
         let is_far = deep > FAR_OFF * accuracy;
         search.is_meeting |= self.size <= 0.0 && deep > 0.0 && deep <= self.chain.parted();
         if (is_far && self.size <= 0.0) || self.chain.has_infinite(&candidate.q) {
@@ -212,10 +198,10 @@ impl Attempt<'_> {
         if self.size > 0.0 {
             (q, last, residual) = self.brought(q);
         }
-        if self.size > 0.0 && (residual > ACCEPT || candidate.depth > 0.0) {
+        if self.size > 0.0 && (residual > ACCEPTANCE.residual || candidate.depth > 0.0) {
             search.far.remember(first);
         }
-        if residual <= ACCEPT {
+        if residual <= ACCEPTANCE.residual {
             tally.worst = if candidate.depth == 0.0 { f64::max(tally.worst, start) } else { tally.worst };
             let q = wrapped(&q, &self.chain.slides);
             search.keep(self.chain, q, residual);
@@ -232,7 +218,7 @@ impl Attempt<'_> {
     fn brought(&self, near: [f64; 6]) -> ([f64; 6], [f64; 6], f64) {
         let mut q = near;
         let residual = self.chain.polish(&mut q, self.target).1;
-        if residual <= ACCEPT {
+        if residual <= ACCEPTANCE.residual {
             return (q, near, residual);
         }
         q = near;
@@ -249,7 +235,7 @@ impl Attempt<'_> {
             size = if stage + 1 < STAGES { 0.25 * size } else { 0.0 };
             let target = aside(size, self.number).after(self.goal).after(&self.chain.last);
             residual = self.chain.polish(q, &target).1;
-            if residual > ACCEPT {
+            if residual > ACCEPTANCE.residual {
                 break;
             }
             last = *q;

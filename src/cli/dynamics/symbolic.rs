@@ -7,11 +7,12 @@ use crate::cli::ends::TipLink;
 use crate::cli::files::{refuse_input, source_files, write_set};
 use crate::cli::{Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_algebra::limits::SYMBOLIC_TERMS;
 use groebot_ik::derive::problem::input::InputFile;
 use groebot_ik::derive::report::explain::{Document, Line, Part};
 use groebot_ik::derive::{Ends, Source};
 use groebot_ik::folder::motion::{self, Moving};
-use groebot_robot::dynamics::exact::{ExactModel, MOST_TERMS, Masses, Symbolic};
+use groebot_robot::dynamics::exact::{ExactModel, Masses, Symbolic};
 use groebot_robot::kinematics::Chain;
 use groebot_robot::robots;
 
@@ -59,7 +60,7 @@ fn equations(chain: &Chain, masses: Masses<'_>, arguments: &Arguments) -> Result
         );
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
-    let model = ExactModel::new(chain, masses, &arguments.part.gravity.0, MOST_TERMS)?;
+    let model = ExactModel::new(chain, masses, &arguments.part.gravity.0, SYMBOLIC_TERMS)?;
     Symbolic::new(model).map_err(|error| match (error.kind(), masses) {
         (ErrorKind::Overflow, Masses::Symbols) => {
             error.with_context("give --numbers, or fewer joints by --base and --tip")

@@ -5,13 +5,13 @@ use serde_json::Value;
 
 use super::NUMERIC;
 use crate::cli::answers::{csv_line, exact, table};
-use crate::cli::columns::{Field, Measure, heading, of_joints};
+use crate::cli::columns::{Field, heading, of_joints};
 use crate::cli::ends::TipLink;
 use crate::cli::following::{followers, leaders};
 use crate::cli::json::{FORMAT, given};
 use crate::cli::targets;
 use groebot_ik::derive::planner::Choice;
-use groebot_robot::kinematics::{Chain, Joint, JointKind, Mimic, Placed, Solution, Target};
+use groebot_robot::kinematics::{Chain, Joint, JointKind, Mimic, Placed, Quantity, Solution, Target};
 
 /// The properties that all targets share.
 pub struct Question<'a> {
@@ -145,9 +145,10 @@ impl Page<'_> {
     /// The numbers of the target, then the values of the given joints, angles in the output unit.
     fn target_numbers(&self) -> Vec<f64> {
         let Question { chain, degrees, .. } = self.question;
-        let is_angle = |name: String| Field::of_target(&name).measure == Measure::Angle;
+        let layout = chain.task().layout();
+        let is_angle = layout.numbers().iter().map(|number| number.quantity() == Quantity::Angle);
         let shown = |(value, is_angle): (f64, bool)| if is_angle && *degrees { value.to_degrees() } else { value };
-        let own = self.target.numbers().into_iter().zip(chain.task().numbers().into_iter().map(is_angle));
+        let own = layout.values(self.target).expect("the target is of the chain's task").into_iter().zip(is_angle);
         let turns = chain.given_inputs().into_iter().map(|joint| chain.joints()[joint].kind == JointKind::Revolute);
         own.chain(self.given.iter().copied().zip(turns)).map(shown).collect()
     }
@@ -171,10 +172,10 @@ impl Question<'_> {
 
     /// The names of the columns of a table.
     pub fn csv_header(&self) -> String {
-        let of = |field: &Field| heading(&field.name, field.measure == Measure::Angle, self.degrees);
+        let of = |field: &Field| heading(&field.name, field.quantity == Quantity::Angle, self.degrees);
         let joints = of_joints(self.chain.joints());
         let mut cells = vec!["target".to_owned()];
-        cells.extend(self.chain.task().numbers().iter().map(|name| of(&Field::of_target(name))));
+        cells.extend(self.chain.task().layout().numbers().iter().map(|number| of(&Field::of_target(*number))));
         cells.extend(self.chain.given_inputs().into_iter().map(|joint| of(&joints[joint])));
         cells.extend(["solutions", "branch"].map(str::to_owned));
         cells.extend(joints.iter().map(of));

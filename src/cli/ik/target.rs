@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use crate::cli::columns::{Columns, Field, of_joints};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
-use groebot_robot::kinematics::{Chain, JointKind, LengthUnit, Target, Task};
+use groebot_robot::kinematics::{Chain, JointKind, LengthUnit, Quantity, Target, TargetNumber, Task};
 use groebot_robot::spatial::{Pose, rotation};
 
 /// The numbers of `text`, with angles in the input unit.
@@ -105,24 +105,20 @@ fn by_rows(entries: &[f64]) -> Result<UnitQuaternion<f64>> {
 
 /// The columns of a table of targets of `chain`: those of its task, a rotation as a quaternion, a matrix or angles, then its given joints.
 pub fn columns(chain: &Chain, degrees: bool) -> Columns {
-    let (numbers, joints) = (chain.task().numbers(), of_joints(chain.joints()));
+    let (layout, joints) = (chain.task().layout(), of_joints(chain.joints()));
     let given: Vec<Field> = chain.given_inputs().into_iter().map(|joint| joints[joint].clone()).collect();
-    let field = |name: &str| Field::of_target(name);
-    let rotations: [&[&str]; 3] = match chain.task() {
-        Task::Pose | Task::Rotation => [
-            &["qx", "qy", "qz", "qw"],
-            &["r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"],
-            &["roll", "pitch", "yaw"],
-        ],
-        _ => [&[]; 3],
+    let is_entry = |number: &TargetNumber| matches!(number, TargetNumber::Rotation { .. });
+    let (entries, others): (Vec<TargetNumber>, Vec<TargetNumber>) = layout.numbers().iter().partition(|n| is_entry(n));
+    let [entries, others] = [entries, others].map(|list| list.into_iter().map(Field::of_target).collect::<Vec<_>>());
+    let rotations = if entries.is_empty() {
+        vec![Vec::new()]
+    } else {
+        let quaternion = ["qx", "qy", "qz", "qw"].map(|name| Field::new(name, Quantity::Number));
+        let angles = ["roll", "pitch", "yaw"].map(|name| Field::new(name, Quantity::Angle));
+        vec![quaternion.to_vec(), entries, angles.to_vec()]
     };
-    let position = numbers.iter().filter(|name| rotations[1].iter().all(|entry| entry != name));
-    let position: Vec<Field> = position.map(|name| field(name)).collect();
-    let form = |rotation: &&[&str]| {
-        position.iter().cloned().chain(rotation.iter().map(|name| field(name))).chain(given.iter().cloned()).collect()
-    };
-    let mut forms: Vec<Vec<Field>> = rotations.iter().map(form).collect();
-    forms.dedup();
+    let form = |rotation: &Vec<Field>| [&others[..], rotation, &given].concat();
+    let forms = rotations.iter().map(form).collect();
     Columns {
         forms,
         joints: joints.into_iter().map(|joint| joint.name).collect(),

@@ -11,11 +11,12 @@ use crate::{Result, Watch};
 /// # Errors
 /// [`crate::ErrorKind::Overflow`] when a degree overflows the ring's lanes; the error with which `watch` stops the
 /// work.
-pub fn buchberger<F: Field>(
+pub fn buchberger<'w, F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Vec<Polynomial<F::Element>>> {
+    let watch = Watch::or_none(watch);
     let mut basis: Vec<_> = generators.iter().filter(|f| !f.is_zero()).cloned().collect();
     loop {
         let before = basis.clone();

@@ -25,12 +25,13 @@ pub struct Options {
 /// # Errors
 /// [`ErrorKind::Overflow`] when a degree overflows even 31 bits; [`ErrorKind::BadValue`] when a nonzero coefficient has
 /// no inverse; the error with which `watch` stops the work.
-pub fn basis<F: Field>(
+pub fn basis<'w, F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
     options: &Options,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Basis<F>> {
+    let watch = Watch::or_none(watch);
     basis_towards(ring, generators, options, None, watch)
 }
 

@@ -94,12 +94,13 @@ fn order_without(order: &Order, index: usize) -> Order {
 /// # Errors
 /// [`ErrorKind::BadValue`] when a generator is not homogeneous, or when the computation contradicts the series; those
 /// of [`super::basis`].
-pub fn hilbert_driven<F: Field>(
+pub fn hilbert_driven<'w, F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
     series: &HilbertSeries,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Basis<F>> {
+    let watch = Watch::or_none(watch);
     if let Some(index) = generators.iter().position(|f| !is_homogeneous(ring, f)) {
         let text = format!("generator {} is not homogeneous; homogenise the system first", index + 1);
         return Err(Error::new(ErrorKind::BadValue, text));

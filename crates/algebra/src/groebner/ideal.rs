@@ -234,12 +234,13 @@ fn no_number() -> Error {
 /// # Errors
 /// [`ErrorKind::UnknownName`] for a name that is not a variable, [`ErrorKind::DuplicateName`] for one listed twice;
 /// those of [`basis`].
-pub fn eliminate<F: Field>(
+pub fn eliminate<'w, F: Field>(
     ring: &PolynomialRing<F>,
     generators: &[Polynomial<F::Element>],
     eliminated: &[&str],
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Basis<F>> {
+    let watch = Watch::or_none(watch);
     if let Some(name) = eliminated.iter().find(|name| ring.index_of(name).is_none()) {
         let known = ring.variables().join(", ");
         return Err(Error::new(

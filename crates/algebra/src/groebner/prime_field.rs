@@ -12,11 +12,12 @@ use crate::{ErrorKind, Result, Watch};
 ///
 /// # Errors
 /// [`ErrorKind::Overflow`] when a degree does not fit; the error with which `watch` stops the work.
-pub fn basis_modulo_prime(
+pub fn basis_modulo_prime<'w>(
     ring: &PolynomialRing<Zp>,
     generators: &[Polynomial<u64>],
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Basis<Zp>> {
+    let watch = Watch::or_none(watch);
     let fast = if *ring.layout().order() == Order::GrevLex {
         f4(ring, generators, watch)
     } else {

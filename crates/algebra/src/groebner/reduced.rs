@@ -44,12 +44,13 @@ impl<F: Field> Basis<F> {
 /// # Errors
 /// [`crate::ErrorKind::Overflow`] when a degree overflows the ring's lanes; the error with which `watch` stops the
 /// work.
-pub fn reduced_basis<F: Field>(
+pub fn reduced_basis<'w, F: Field>(
     ring: &PolynomialRing<F>,
     polynomials: Vec<Polynomial<F::Element>>,
     cofactors: Vec<Vec<Polynomial<F::Element>>>,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Basis<F>> {
+    let watch = Watch::or_none(watch);
     let elements = polynomials.into_iter().zip(cofactors);
     let elements = elements.map(|(polynomial, cofactors)| Tracked { polynomial, cofactors }).collect();
     let reduced = interreduce(ring, elements, watch)?;

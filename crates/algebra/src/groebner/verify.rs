@@ -34,7 +34,12 @@ pub struct Proof {
 /// # Errors
 /// [`ErrorKind::Certificate`] with the first element, generator or pair for which the claim fails;
 /// [`ErrorKind::Overflow`]; the error with which `watch` stops the work.
-pub fn verify<F: Field>(ring: &PolynomialRing<F>, claim: &Claim<'_, F::Element>, watch: &Watch) -> Result<Proof> {
+pub fn verify<'w, F: Field>(
+    ring: &PolynomialRing<F>,
+    claim: &Claim<'_, F::Element>,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Proof> {
+    let watch = Watch::or_none(watch);
     check_forms(ring, claim)?;
     check_reduced(ring, claim.basis, watch)?;
     check_cofactors(ring, claim, watch)?;

@@ -22,7 +22,7 @@ pub use num_bigint::BigInt;
 pub use num_rational::BigRational;
 pub use primes::primes_below;
 pub use rational::Rationals;
-pub use rational::common_divisor;
+pub(crate) use rational::common_divisor;
 pub use rational::decimal as decimal_text;
 pub use reconstruct::reconstruct;
 pub use zp::Zp;

@@ -112,7 +112,7 @@ fn gcd_of_words(a: i64, b: i64) -> i64 {
 
 /// The greatest common divisor of two integers, not both zero. If one fits a word, the other is first reduced modulo
 /// it.
-pub fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
+pub(crate) fn common_divisor(a: &BigInt, b: &BigInt) -> BigInt {
     let by_word = |word: u64, other: &BigInt| {
         let rest = if word == 0 { return other.abs() } else { (other.magnitude() % word).to_u64() };
         word.gcd(&rest.expect("a residue of a word")).into()

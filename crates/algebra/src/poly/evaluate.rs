@@ -23,6 +23,7 @@ impl Expression {
     ///
     /// # Errors
     /// Those of [`Expression::evaluate`].
+    #[doc(hidden)]
     pub fn evaluate_with<R: Ring>(&self, ring: &R, values: &dyn Fn(&str) -> Option<R::Element>) -> Result<R::Element> {
         match self {
             Expression::Number(q) => number_in(ring, q),

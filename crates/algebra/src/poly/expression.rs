@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize, Serializer};
 /// `a - b` is `Sum[a, Negation(b)]` and `a / b` is `Product[a, Inverse(b)]`, so that long sums and products stay flat.
 /// Its [`Display`] is plain text that [`parse`] reads back. A tree from [`parse`] is read back as the same tree, others
 /// as an equal expression. The text must be within [`MAX_LENGTH`](super::MAX_LENGTH), [`MAX_DEPTH`](super::MAX_DEPTH)
-/// and [`MAX_EXPONENT`](super::MAX_EXPONENT). Serde writes and reads this text. All functions recurse to the height of
+/// and [`EXPRESSION_EXPONENT`](crate::limits::EXPRESSION_EXPONENT). Serde writes and reads this text. All functions recurse to the height of
 /// the tree, so a tree built by hand should not be higher than `MAX_DEPTH`.
 ///
 /// [`parse`]: super::parse()
@@ -70,7 +70,7 @@ impl Expression {
     }
 
     /// The operands of this expression, from left to right.
-    pub fn children(&self) -> &[Expression] {
+    pub(crate) fn children(&self) -> &[Expression] {
         match self {
             Expression::Number(_) | Expression::Name(_) => &[],
             Expression::Negation(a) | Expression::Inverse(a) | Expression::Power(a, _) => std::slice::from_ref(a),

@@ -59,6 +59,7 @@ impl<F: Field> Fractions<F> {
     /// # Errors
     /// [`ErrorKind::BadValue`] when there is no such parameter, when `square` uses `variable` or a later parameter or
     /// is zero modulo the relations before, or when relations are not added in the order of their variables.
+    #[doc(hidden)]
     pub fn with_square(mut self, variable: usize, square: &Polynomial<F::Element>) -> Result<Self> {
         let names = self.ring.variables();
         let Some(name) = names.get(variable) else {
@@ -87,11 +88,12 @@ impl<F: Field> Fractions<F> {
     }
 
     /// The relations: a parameter and the polynomial equal to its square.
-    pub fn squares(&self) -> impl Iterator<Item = (usize, &Polynomial<F::Element>)> {
+    pub(crate) fn squares(&self) -> impl Iterator<Item = (usize, &Polynomial<F::Element>)> {
         self.relations.iter().map(|relation| (relation.variable, &relation.square))
     }
 
     /// Reduces `f` modulo the relations: every algebraic parameter has exponent 0 or 1 afterwards.
+    #[doc(hidden)]
     pub fn reduce(&self, f: &Polynomial<F::Element>) -> Polynomial<F::Element> {
         self.relations.iter().rev().fold(f.clone(), |f, relation| {
             if self.ring.degree_in(&f, relation.variable) < 2 {
@@ -130,7 +132,7 @@ impl<F: Field> Fractions<F> {
     }
 
     /// `numerator / denominator` for coprime arguments. The denominator is monic and free of algebraic parameters.
-    pub fn coprime_fraction(
+    pub(crate) fn coprime_fraction(
         &self,
         numerator: Polynomial<F::Element>,
         denominator: Polynomial<F::Element>,
@@ -209,6 +211,7 @@ impl<F: Field> Fractions<F> {
     }
 
     /// The coefficients of `f` as a polynomial in the algebraic parameters.
+    #[doc(hidden)]
     pub fn parts_over_roots(&self, f: &Polynomial<F::Element>) -> Vec<Polynomial<F::Element>> {
         self.relations.iter().fold(vec![f.clone()], |parts, relation| {
             parts.iter().flat_map(|part| self.ring.coefficients_in(part, relation.variable)).collect()

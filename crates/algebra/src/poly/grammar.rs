@@ -11,7 +11,7 @@ use crate::{Error, Result};
 /// Maximum nesting depth of parentheses, fractions and signs.
 pub const MAX_DEPTH: usize = limits::EXPRESSION_DEPTH;
 /// The largest exponent that the parser accepts.
-pub const MAX_EXPONENT: u32 = limits::EXPRESSION_EXPONENT;
+pub(crate) const MAX_EXPONENT: u32 = limits::EXPRESSION_EXPONENT;
 
 /// Notation of an expression.
 #[derive(Clone, Copy, PartialEq, Eq)]

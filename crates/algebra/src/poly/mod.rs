@@ -30,7 +30,7 @@ pub use expression::Expression;
 pub use factor::{Factorisation, factor, refine_factors, square_free_factors};
 pub use fractions::{Fraction, Fractions};
 pub use gcd::gcd;
-pub use grammar::{MAX_DEPTH, MAX_EXPONENT};
+pub use grammar::MAX_DEPTH;
 pub use latex::{latex_name, parse_latex};
 pub use monomial::{Layout, Monomial, Width};
 pub use order::{Block, Order};

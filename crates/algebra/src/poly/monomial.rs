@@ -29,7 +29,7 @@ pub enum Width {
 
 impl Width {
     /// Bits of a lane.
-    pub fn bits(self) -> u32 {
+    pub(crate) fn bits(self) -> u32 {
         match self {
             Width::Bits8 => 8,
             Width::Bits16 => 16,
@@ -74,7 +74,7 @@ impl Layout {
     }
 
     /// Number of variables.
-    pub fn variables(&self) -> usize {
+    pub(crate) fn variables(&self) -> usize {
         self.variables
     }
 

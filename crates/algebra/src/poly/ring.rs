@@ -39,7 +39,7 @@ impl<E> Polynomial<E> {
     }
 
     /// Removes and returns the leading term; `None` for zero.
-    pub fn take_leading(&mut self) -> Option<Term<E>> {
+    pub(crate) fn take_leading(&mut self) -> Option<Term<E>> {
         (!self.terms.is_empty()).then(|| self.terms.remove(0))
     }
 
@@ -205,7 +205,7 @@ impl<F: Field> PolynomialRing<F> {
     ///
     /// # Errors
     /// [`ErrorKind::Overflow`] when the degree does not fit the lanes.
-    pub fn sub_mul_term(
+    pub(crate) fn sub_mul_term(
         &self,
         f: &Polynomial<F::Element>,
         c: &F::Element,
@@ -273,7 +273,7 @@ impl<F: Field> PolynomialRing<F> {
     ///
     /// # Errors
     /// [`ErrorKind::Overflow`] when its degree does not fit the lanes.
-    pub fn lcm(&self, a: &Monomial, b: &Monomial) -> Result<Monomial> {
+    pub(crate) fn lcm(&self, a: &Monomial, b: &Monomial) -> Result<Monomial> {
         self.layout.lcm(a, b).ok_or_else(|| self.overflow())
     }
 

@@ -46,11 +46,6 @@ impl<F: Field> UnivariateRing<F> {
         &self.field
     }
 
-    /// The name of the variable.
-    pub fn variable(&self) -> &str {
-        &self.variable
-    }
-
     /// Builds the polynomial with these coefficients, constant term first. Trailing zeros are dropped.
     pub fn polynomial(&self, mut coefficients: Vec<F::Element>) -> Element<F> {
         while coefficients.last().is_some_and(|c| self.field.is_zero(c)) {
@@ -72,7 +67,7 @@ impl<F: Field> UnivariateRing<F> {
     }
 
     /// `a` divided by its leading coefficient; zero stays zero.
-    pub fn monic(&self, a: &Element<F>) -> Element<F> {
+    pub(crate) fn monic(&self, a: &Element<F>) -> Element<F> {
         match a.leading().and_then(|leading| self.field.inverse(leading)) {
             Some(inverse) => self.scale(a, &inverse),
             None => a.clone(),

@@ -38,12 +38,13 @@ impl Default for Options {
 /// [`crate::ErrorKind::Inconsistent`] when there is no solution at all, complex ones included;
 /// [`crate::ErrorKind::PositiveDimensional`] when there are infinitely many; [`crate::ErrorKind::Overflow`]; the error
 /// with which `watch` stops the work.
-pub fn solve(
+pub fn solve<'w>(
     ring: &PolynomialRing<Rationals>,
     generators: &[Polynomial<BigRational>],
     options: &Options,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Vec<RealSolution>> {
+    let watch = Watch::or_none(watch);
     let graded = PolynomialRing::new(Rationals, ring.variables(), Order::GrevLex)?;
     let graded = graded.with_width(ring.layout().width());
     let generators: Vec<_> = generators.iter().map(|f| ring.transfer(f, &graded)).collect::<Result<_>>()?;
@@ -76,12 +77,13 @@ fn proved_basis(
 ///
 /// # Errors
 /// Those of [`univariate_representation()`].
-pub fn solve_basis(
+pub fn solve_basis<'w>(
     basis: &Basis<Rationals>,
     generators: &[Polynomial<BigRational>],
     options: &Options,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Vec<RealSolution>> {
+    let watch = Watch::or_none(watch);
     let representation = Arc::new(univariate_representation(basis, generators, watch)?);
     let roots = isolate_square_free(&representation.polynomial.coefficients, watch)?;
     let mut solutions = Vec::with_capacity(roots.len());

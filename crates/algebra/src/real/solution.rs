@@ -72,7 +72,7 @@ impl RealSolution {
     }
 
     /// The requested precision in bits: every coordinate is at most `2^-precision` wide.
-    pub fn precision(&self) -> u64 {
+    pub(crate) fn precision(&self) -> u64 {
         self.precision
     }
 
@@ -85,7 +85,8 @@ impl RealSolution {
     ///
     /// # Errors
     /// The error with which `watch` stops the work.
-    pub fn refine(&self, precision: u64, watch: &Watch) -> Result<RealSolution> {
+    pub(crate) fn refine<'w>(&self, precision: u64, watch: impl Into<Option<&'w Watch>>) -> Result<RealSolution> {
+        let watch = Watch::or_none(watch);
         let (coordinates, root) = locate(&self.representation, self.root.clone(), precision, watch)?;
         Ok(RealSolution { coordinates, root, precision, ..self.clone() })
     }
@@ -94,12 +95,13 @@ impl RealSolution {
     ///
     /// # Errors
     /// [`crate::ErrorKind::BadValue`] when `ring` has other variables; the error with which `watch` stops the work.
-    pub fn sign(
+    pub fn sign<'w>(
         &self,
         ring: &PolynomialRing<Rationals>,
         polynomial: &Polynomial<BigRational>,
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<Ordering> {
+        let watch = Watch::or_none(watch);
         let (value, _) = self.representation.substitute(ring, polynomial, watch)?;
         let value = self.sign_at_parameter(&value, watch)?;
         let odd = ring.degree(polynomial) % 2 == 1;

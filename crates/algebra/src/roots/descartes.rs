@@ -27,7 +27,8 @@ pub struct RealRoot {
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for the zero polynomial; the error with which `watch` stops the work.
-pub fn real_roots_of(coefficients: &[BigRational], watch: &Watch) -> Result<Vec<RealRoot>> {
+pub fn real_roots_of<'w>(coefficients: &[BigRational], watch: impl Into<Option<&'w Watch>>) -> Result<Vec<RealRoot>> {
+    let watch = Watch::or_none(watch);
     let polynomial = integral(coefficients);
     if polynomial.is_empty() {
         return Err(Error::new(
@@ -50,7 +51,8 @@ pub fn real_roots_of(coefficients: &[BigRational], watch: &Watch) -> Result<Vec<
 /// # Errors
 /// [`ErrorKind::BadValue`] when the polynomial is zero or has a multiple root; the error with which `watch` stops the
 /// work.
-pub fn isolate_square_free(polynomial: &[BigInt], watch: &Watch) -> Result<Vec<Interval>> {
+pub fn isolate_square_free<'w>(polynomial: &[BigInt], watch: impl Into<Option<&'w Watch>>) -> Result<Vec<Interval>> {
+    let watch = Watch::or_none(watch);
     let polynomial = primitive(polynomial.to_vec());
     if polynomial.is_empty() || gcd(&polynomial, &derivative(&polynomial)).len() > 1 {
         let text = "the polynomial is not square-free; give its square-free parts";

@@ -168,7 +168,7 @@ impl Sturm {
     }
 
     /// The root in `interval` rounded to the nearest `f64`; infinite when it is outside the range of `f64`.
-    pub fn round(&self, interval: &Interval) -> f64 {
+    pub(crate) fn round(&self, interval: &Interval) -> f64 {
         let finest = BigRational::new(BigInt::one(), BigInt::one() << 1100);
         let mut interval = interval.clone();
         loop {

@@ -10,9 +10,12 @@ mod refine;
 mod square_free;
 
 pub use groebot_runtime::roots::{MAX_DEGREE, real_roots};
-pub use groebot_runtime::tolerances::TANGENT;
+/// A critical point with `|p| <= TANGENT sum |a_i y^i|` counts as a root, `y` being the larger of `|x|` and the unknown's typical size.
+#[doc(hidden)]
+pub const TANGENT: f64 = groebot_runtime::tolerances::ROOTS.tangent;
 
 pub use descartes::{RealRoot, isolate_square_free, real_roots_of};
 pub use isolate::{Interval, Sturm, isolate, rounded_roots};
-pub use refine::{enclose, has_root, refine, sign_at_root};
+pub(crate) use refine::{enclose, has_root};
+pub use refine::{refine, sign_at_root};
 pub use square_free::{gcd, square_free_parts};

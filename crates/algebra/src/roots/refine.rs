@@ -24,7 +24,13 @@ const GUARD: u64 = 64;
 /// # Errors
 /// [`ErrorKind::BadValue`] when the polynomial does not change its sign over the interval; the error with which `watch`
 /// stops the work.
-pub fn refine(polynomial: &[BigInt], interval: &Interval, bits: u64, watch: &Watch) -> Result<Interval> {
+pub fn refine<'w>(
+    polynomial: &[BigInt],
+    interval: &Interval,
+    bits: u64,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Interval> {
+    let watch = Watch::or_none(watch);
     if interval.is_point() {
         return Ok(interval.clone());
     }
@@ -37,7 +43,7 @@ pub fn refine(polynomial: &[BigInt], interval: &Interval, bits: u64, watch: &Wat
 }
 
 /// Whether a square-free polynomial has a root in `interval`. It has at most one there.
-pub fn has_root(polynomial: &[BigInt], interval: &Interval) -> bool {
+pub(crate) fn has_root(polynomial: &[BigInt], interval: &Interval) -> bool {
     let (low, high) = (sign_at(polynomial, interval.low()), sign_at(polynomial, interval.high()));
     if interval.is_point() { low == Sign::NoSign } else { low == -high && low != Sign::NoSign }
 }
@@ -47,7 +53,13 @@ pub fn has_root(polynomial: &[BigInt], interval: &Interval) -> bool {
 ///
 /// # Errors
 /// Those of [`refine()`].
-pub fn sign_at_root(polynomial: &[BigInt], interval: &Interval, other: &[BigInt], watch: &Watch) -> Result<Ordering> {
+pub fn sign_at_root<'w>(
+    polynomial: &[BigInt],
+    interval: &Interval,
+    other: &[BigInt],
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Ordering> {
+    let watch = Watch::or_none(watch);
     let zero = BigInt::zero();
     let mut interval = interval.clone();
     for bits in (0..).map(|k| GUARD << k) {
@@ -76,7 +88,7 @@ fn order(sign: Sign) -> Ordering {
 
 /// Two integers `low <= high` such that the polynomial's values on `interval` are between `low / 2^bits` and `high /
 /// 2^bits`: Horner's rule in interval arithmetic.
-pub fn enclose(polynomial: &[BigInt], interval: &Interval, bits: u64) -> (BigInt, BigInt) {
+pub(crate) fn enclose(polynomial: &[BigInt], interval: &Interval, bits: u64) -> (BigInt, BigInt) {
     let scale = BigInt::one() << bits;
     let down = (interval.low().numer() * &scale).div_floor(interval.low().denom());
     let up = (interval.high().numer() * &scale).div_ceil(interval.high().denom());

@@ -5,7 +5,7 @@ use nalgebra::{Point2, Vector3};
 use super::biped::Biped;
 use super::footprint::Side;
 use super::legs::Legs;
-use super::motion::{Motion, realise};
+use super::motion::{Motion, Samples, realise};
 use super::parts::in_parts;
 use super::polygon::Polygon;
 use super::reference::Reference;
@@ -79,13 +79,11 @@ pub fn balance(biped: &Biped, references: &[Reference], motion: &Motion, tick: f
 pub(super) fn realised(
     biped: &Biped,
     legs: &Legs,
-    references: &[Reference],
-    alike: Option<&Motion>,
-    tick: f64,
+    samples: &Samples<'_>,
     watch: &Watch,
 ) -> Result<(Motion, Vec<Balance>)> {
-    let motion = realise(biped, legs, references, alike, tick, watch)?;
-    let balances = balance(biped, references, &motion, tick)?;
+    let motion = realise(biped, legs, samples, watch)?;
+    let balances = balance(biped, samples.references, &motion, samples.tick)?;
     Ok((motion, balances))
 }
 

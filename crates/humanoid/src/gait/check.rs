@@ -3,14 +3,14 @@
 use super::balance::Balance;
 use super::biped::Biped;
 use super::footprint::{Footprint, Side};
-use super::motion::Motion;
+use super::motion::{Motion, Samples};
 use super::polygon::Polygon;
 use super::reference::Reference;
 use super::schedule::{Action, Schedule};
 use groebot_robot::motion::{beyond_limit, too_fast};
 
 /// The least distance between the two feet, seen from above \[m\].
-pub const FEET_APART: f64 = 0.004;
+pub(crate) const FEET_APART: f64 = 0.004;
 
 /// A fault at a sample.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,14 +75,14 @@ pub struct Demand {
 }
 
 /// All faults of a motion in the order of time, at most one of each kind for a sample.
-pub fn faults(
+pub(crate) fn faults(
     biped: &Biped,
-    references: &[Reference],
+    samples: &Samples<'_>,
     motion: &Motion,
     balances: &[Balance],
     demand: &Demand,
-    tick: f64,
 ) -> Vec<Found> {
+    let (references, tick) = (samples.references, samples.tick);
     let mut found = Vec::new();
     for (sample, (reference, balance)) in references.iter().zip(balances).enumerate() {
         let mut add = |fault: Fault| found.push(Found { sample, phase: reference.phase, fault });
@@ -109,7 +109,7 @@ pub fn faults(
 
 /// Finds the first step of a schedule at which the feet come too near to each other, seen from above. The time is in
 /// samples.
-pub fn feet_meet(biped: &Biped, schedule: &Schedule, references: &[Reference]) -> Option<Found> {
+pub(crate) fn feet_meet(biped: &Biped, schedule: &Schedule, references: &[Reference]) -> Option<Found> {
     references.iter().enumerate().find_map(|(sample, reference)| {
         let swings = matches!(schedule.phases[reference.phase].action, Action::Swing(_));
         if sample > 0 && !swings {

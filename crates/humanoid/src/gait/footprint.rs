@@ -74,18 +74,18 @@ impl Footprint {
     }
 
     /// Transforms a point from this frame to the world.
-    pub fn carry(&self, point: &Point2<f64>) -> Point2<f64> {
+    pub(crate) fn carry(&self, point: &Point2<f64>) -> Point2<f64> {
         self.point() + Rotation2::new(self.yaw) * point.coords
     }
 
     /// Transforms points from this frame to the world.
-    pub fn carry_all(&self, points: &[Point2<f64>]) -> Vec<Point2<f64>> {
+    pub(crate) fn carry_all(&self, points: &[Point2<f64>]) -> Vec<Point2<f64>> {
         let turn = Rotation2::new(self.yaw);
         points.iter().map(|point| self.point() + turn * point.coords).collect()
     }
 
     /// Transforms a point of the world to this frame.
-    pub fn seen(&self, point: &Point2<f64>) -> Point2<f64> {
+    pub(crate) fn seen(&self, point: &Point2<f64>) -> Point2<f64> {
         Point2::from(Rotation2::new(-self.yaw) * (point - self.point()))
     }
 

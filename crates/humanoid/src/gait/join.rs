@@ -9,7 +9,7 @@ impl Walk {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when the footprints or the time between two samples differ.
-    pub fn append(&mut self, next: Walk) -> Result<()> {
+    pub(crate) fn append(&mut self, next: Walk) -> Result<()> {
         let bad = |text: &str| Err(Error::new(ErrorKind::BadValue, text));
         if self.schedule.route.end() != next.schedule.route.start {
             return bad("the second walk does not start where the first one ends");

@@ -68,7 +68,7 @@ impl Legs {
 
     /// Adds joints of other limbs that take the value of a joint of a leg: pairs of the follower and the leader.
     #[must_use]
-    pub fn with_coordinated(self, coordinated: Vec<(usize, usize)>) -> Self {
+    pub(crate) fn with_coordinated(self, coordinated: Vec<(usize, usize)>) -> Self {
         Legs { coordinated, ..self }
     }
 
@@ -79,7 +79,12 @@ impl Legs {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when a foot is out of reach.
-    pub fn stand(&self, world_from_soles: &[Pose; 2], world_from_torso: &Pose, last: &Posture) -> Result<Posture> {
+    pub(crate) fn stand(
+        &self,
+        world_from_soles: &[Pose; 2],
+        world_from_torso: &Pose,
+        last: &Posture,
+    ) -> Result<Posture> {
         let mut q = last.q.clone();
         for (leg, world_from_sole) in self.legs.iter().zip(world_from_soles) {
             leg.stand(&world_from_torso.inv_mul(world_from_sole), &last.q, &mut q)?;
@@ -91,12 +96,12 @@ impl Legs {
     }
 
     /// Whether one actuator moves a joint of both legs, so that the torso's heading is not free.
-    pub fn share_an_actuator(&self) -> bool {
+    pub(crate) fn share_an_actuator(&self) -> bool {
         self.shared.is_some()
     }
 
     /// The difference between the legs' values of the actuator that they share \[rad\]; 0 when they share none.
-    pub fn disagreement(&self, posture: &Posture) -> f64 {
+    pub(crate) fn disagreement(&self, posture: &Posture) -> f64 {
         self.shared.map_or(0.0, |(left, right)| angle::difference(posture.q[left], posture.q[right]))
     }
 
@@ -108,7 +113,7 @@ impl Legs {
     }
 
     /// A posture with bent knees, from which [`Legs::stand`] finds the right solutions; the torso is at the origin.
-    pub fn crouch(&self) -> Posture {
+    pub(crate) fn crouch(&self) -> Posture {
         Posture { world_from_torso: Pose::identity(), q: self.crouch.clone() }
     }
 

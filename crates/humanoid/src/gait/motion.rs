@@ -37,21 +37,46 @@ pub struct Motion {
     pub centres: Vec<Point3<f64>>,
 }
 
+/// The references of a walk, one per sample.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Samples<'a> {
+    /// The references.
+    pub references: &'a [Reference],
+    /// The time between two samples \[s\].
+    pub tick: f64,
+    /// A motion of nearly the same references, from which the search of [`realise`] starts.
+    pub alike: Option<&'a Motion>,
+}
+
+impl<'a> Samples<'a> {
+    /// References with this time between them \[s\].
+    pub fn new(references: &'a [Reference], tick: f64) -> Self {
+        Samples { references, tick, alike: None }
+    }
+
+    /// Sets a motion of nearly the same references.
+    #[must_use]
+    pub fn alike(mut self, motion: &'a Motion) -> Self {
+        self.alike = Some(motion);
+        self
+    }
+}
+
 /// Solves the legs for every reference. The torso moves until the centre of mass of the whole robot is at its
-/// reference, and turns until both legs agree on a shared actuator. `alike`, if given, is a motion of nearly the same
-/// references, from which the search starts.
+/// reference, and turns until both legs agree on a shared actuator.
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] with the time when a foot is out of reach; [`ErrorKind::Cancelled`] and
 /// [`ErrorKind::Budget`].
-pub fn realise(
+pub(crate) fn realise<'w>(
     biped: &Biped,
     legs: &Legs,
-    references: &[Reference],
-    alike: Option<&Motion>,
-    tick: f64,
-    watch: &Watch,
+    samples: &Samples<'_>,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Motion> {
+    let watch = Watch::or_none(watch);
+    let Samples { references, tick, alike } = *samples;
     let known =
         |sample: usize| alike.map_or(Vector3::zeros(), |motion| motion.lead(sample, references[sample].heading));
     let solved = in_parts(references.len(), watch, |samples| {

@@ -44,9 +44,20 @@ pub struct OneStep {
     pub upright: Option<f64>,
 }
 
+/// An instant of a schedule.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant<'a> {
+    /// The index of the phase.
+    pub phase: usize,
+    /// The feet at the beginning of the phase.
+    pub feet: &'a [Footprint; 2],
+    /// The fraction of the phase that is over.
+    pub share: f64,
+}
+
 impl OneStep {
     /// The phases of a walk of `steps` steps.
-    pub fn actions(&self, steps: usize) -> Vec<Action> {
+    pub(crate) fn actions(&self, steps: usize) -> Vec<Action> {
         let step = |step| [Action::Shift(step), Action::Swing(step), Action::Balance(step)];
         let walk = (0..steps).flat_map(step);
         if self.upright.is_some() {
@@ -56,17 +67,15 @@ impl OneStep {
         }
     }
 
-    /// The reference at the fraction `share` of phase `place`, which begins with the feet at `feet`. A foot pitches
-    /// about its ankle, `ankle_height` \[m\] above the sole.
-    pub fn reference(
+    /// The reference at an instant of the schedule. A foot pitches about its ankle, `ankle_height` \[m\] above the sole.
+    pub(crate) fn reference(
         &self,
         style: &Style,
         schedule: &Schedule,
-        place: usize,
-        feet: &[Footprint; 2],
-        share: f64,
+        at: &Instant<'_>,
         ankle_height: f64,
     ) -> Reference {
+        let Instant { phase: place, feet, share } = *at;
         let phase = &schedule.phases[place];
         let (world_from_soles, stands) = self.soles(style, schedule, phase.action, feet, (share, ankle_height));
         let trunk = self.trunk(style, schedule, phase.action, &world_from_soles, share);

@@ -6,7 +6,8 @@ use super::balance::{Balance, realised};
 use super::biped::Biped;
 use super::check::{Demand, Found, faults, feet_meet};
 use super::legs::Legs;
-use super::motion::Motion;
+use super::motion::{Motion, Samples};
+use super::one_step::Instant;
 use super::preview;
 use super::reference::{Reference, sine_centre, soles};
 use super::refusal;
@@ -54,7 +55,8 @@ impl Walk {
 /// [`ErrorKind::BadValue`] with the first time and the reason: a foot out of reach, a joint beyond its limits, feet
 /// that collide, a centre of mass too near to the border, a margin that no slower phase keeps, a parameter that is not
 /// finite or not positive. [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
-pub fn plan(biped: &Biped, legs: &Legs, request: &Request, watch: &Watch) -> Result<Walk> {
+pub fn plan<'w>(biped: &Biped, legs: &Legs, request: &Request, watch: impl Into<Option<&'w Watch>>) -> Result<Walk> {
+    let watch = Watch::or_none(watch);
     plan_actions(biped, legs, request, &request.gait.actions(request.route.steps.len()), watch)
 }
 
@@ -62,7 +64,14 @@ pub fn plan(biped: &Biped, legs: &Legs, request: &Request, watch: &Watch) -> Res
 ///
 /// # Errors
 /// As [`plan`].
-pub fn plan_actions(biped: &Biped, legs: &Legs, request: &Request, actions: &[Action], watch: &Watch) -> Result<Walk> {
+pub(crate) fn plan_actions<'w>(
+    biped: &Biped,
+    legs: &Legs,
+    request: &Request,
+    actions: &[Action],
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Walk> {
+    let watch = Watch::or_none(watch);
     refusal::check(request)?;
     let mut slowed = vec![1.0; actions.len()];
     loop {
@@ -82,7 +91,7 @@ pub fn plan_actions(biped: &Biped, legs: &Legs, request: &Request, actions: &[Ac
             return Err(refusal::of(biped, &schedule, request, &found));
         }
         let (motion, balances) = match request.gait {
-            Gait::Sine | Gait::OneStep(_) => realised(biped, legs, &references, None, request.tick, watch)?,
+            Gait::Sine | Gait::OneStep(_) => realised(biped, legs, &Samples::new(&references, request.tick), watch)?,
             Gait::Preview => preview::moved(biped, legs, request, &schedule, &mut references, watch)?,
         };
         let demand = Demand {
@@ -91,7 +100,7 @@ pub fn plan_actions(biped: &Biped, legs: &Legs, request: &Request, actions: &[Ac
             keeps_path: request.gait.is_one_step(),
             speed_share: request.speed_share,
         };
-        let found = faults(biped, &references, &motion, &balances, &demand, request.tick);
+        let found = faults(biped, &Samples::new(&references, request.tick), &motion, &balances, &demand);
         if found.is_empty() {
             return Ok(Walk { request: request.clone(), schedule, references, motion, balances });
         }
@@ -109,7 +118,7 @@ fn references(biped: &Biped, request: &Request, schedule: &Schedule) -> Vec<Refe
         let action = schedule.phases[phase].action;
         let feet = Schedule::feet(&stands, action, phase == 0);
         if let Gait::OneStep(one_step) = &request.gait {
-            return one_step.reference(style, schedule, phase, &feet, share, ankle_height);
+            return one_step.reference(style, schedule, &Instant { phase, feet: &feet, share }, ankle_height);
         }
         let (world_from_soles, supporting) = soles(style, schedule, action, &feet, share);
         let centre: Point2<f64> = sine_centre(style, schedule, action, &feet, share);

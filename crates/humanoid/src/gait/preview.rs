@@ -7,7 +7,7 @@ use super::balance::{Balance, realised};
 use super::biped::Biped;
 use super::footprint::Footprint;
 use super::legs::Legs;
-use super::motion::Motion;
+use super::motion::{Motion, Samples};
 use super::reference::{Reference, Style, between_stances, smooth};
 use super::request::Request;
 use super::schedule::{Action, Schedule};
@@ -135,7 +135,7 @@ fn riccati(a: &Matrix4<f64>, b: &Vector4<f64>) -> Option<Matrix4<f64>> {
 
 /// The reference of the zero moment point: above the supporting foot in single support, and on a smooth path from foot
 /// to foot in double support.
-pub fn zmp_reference(
+pub(crate) fn zmp_reference(
     style: &Style,
     schedule: &Schedule,
     action: Action,
@@ -158,7 +158,7 @@ pub(super) fn moved(
     references: &mut [Reference],
     watch: &Watch,
 ) -> Result<(Motion, Vec<Balance>)> {
-    let stands = schedule.route.stands();
+    let (stands, tick) = (schedule.route.stands(), request.tick);
     let wanted: Vec<Point2<f64>> = (schedule.instants())
         .map(|(phase, share)| {
             let action = schedule.phases[phase].action;
@@ -166,7 +166,7 @@ pub(super) fn moved(
             zmp_reference(&request.style, schedule, action, &feet, share)
         })
         .collect();
-    let resting = realised(biped, legs, &references[..1], None, request.tick, watch)?;
+    let resting = realised(biped, legs, &Samples::new(&references[..1], request.tick), watch)?;
     let preview = Preview::new(resting.0.centres[0].z, request.tick)?;
     let follow = |positions: &[Vector2<f64>]| -> Vec<Vector2<f64>> {
         let [x, y] = [0, 1].map(|axis| preview.follow(&positions.iter().map(|point| point[axis]).collect::<Vec<_>>()));
@@ -176,7 +176,7 @@ pub(super) fn moved(
     let mut alike: Option<Motion> = None;
     for _ in 0..FEEDBACKS {
         aim(references, &centres);
-        let (motion, balances) = realised(biped, legs, references, alike.as_ref(), request.tick, watch)?;
+        let (motion, balances) = realised(biped, legs, &Samples { references, tick, alike: alike.as_ref() }, watch)?;
         alike = Some(motion);
         let missing: Vec<Vector2<f64>> =
             wanted.iter().zip(&balances).map(|(wanted, balance)| wanted - balance.zmp).collect();
@@ -185,7 +185,7 @@ pub(super) fn moved(
         }
     }
     aim(references, &centres);
-    realised(biped, legs, references, alike.as_ref(), request.tick, watch)
+    realised(biped, legs, &Samples { references, tick, alike: alike.as_ref() }, watch)
 }
 
 /// Sets these centres of mass in the references.

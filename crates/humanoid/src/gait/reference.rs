@@ -59,12 +59,12 @@ impl Style {
     }
 
     /// The position of the centre of mass at rest in double support.
-    pub fn between(&self, feet: &[Footprint; 2]) -> Point2<f64> {
+    pub(crate) fn between(&self, feet: &[Footprint; 2]) -> Point2<f64> {
         feet[0].middle(&feet[1]).carry(&Point2::new(self.ahead, 0.0))
     }
 
     /// The start and the end of the path of the centre of mass in the shift to step `step`.
-    pub fn ends(&self, schedule: &Schedule, step: usize, feet: &[Footprint; 2]) -> [Point2<f64>; 2] {
+    pub(crate) fn ends(&self, schedule: &Schedule, step: usize, feet: &[Footprint; 2]) -> [Point2<f64>; 2] {
         let before = step.checked_sub(1).and_then(|before| schedule.stance(before));
         let at = |side: Option<Side>| match side {
             Some(side) => self.over(side, &feet[side as usize]),
@@ -77,7 +77,7 @@ impl Style {
 /// The centre of mass by the law of NAO (6.8.1). In double support it follows `y = A sin(pi x / x_d)` with x from
 /// `-x_d/2` to `x_d/2`; in single support it rests. The first shift starts, and the last one ends, at `x = 0`, where
 /// the curve crosses the middle.
-pub fn sine_centre(
+pub(crate) fn sine_centre(
     style: &Style,
     schedule: &Schedule,
     action: Action,
@@ -127,7 +127,7 @@ const AHEAD: (f64, f64) = (0.05, 0.9);
 
 /// The poses of the soles, and which feet support, at the fraction `share` of a phase. The swing foot is lifted in the
 /// vertical plane of its path.
-pub fn soles(
+pub(crate) fn soles(
     style: &Style,
     schedule: &Schedule,
     action: Action,

@@ -24,7 +24,7 @@ impl Gait {
     }
 
     /// The phases of a walk of `steps` steps.
-    pub fn actions(&self, steps: usize) -> Vec<Action> {
+    pub(crate) fn actions(&self, steps: usize) -> Vec<Action> {
         if let Gait::OneStep(one_step) = self {
             return one_step.actions(steps);
         }

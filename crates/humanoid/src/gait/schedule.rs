@@ -86,7 +86,7 @@ impl Schedule {
 
     /// Each sample's phase and the completed fraction of the phase, in (0, 1]. The first instant belongs to the first
     /// phase.
-    pub fn instants(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub(crate) fn instants(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         let within = |(place, phase): (usize, &Phase)| {
             let count = phase.samples;
             (1..=count).map(move |done| (place, done as f64 / count as f64))
@@ -106,7 +106,7 @@ impl Schedule {
     }
 
     /// The supporting foot of the step; `None` after the last step.
-    pub fn stance(&self, step: usize) -> Option<Side> {
+    pub(crate) fn stance(&self, step: usize) -> Option<Side> {
         self.route.steps.get(step).map(|step| step.side.other())
     }
 }

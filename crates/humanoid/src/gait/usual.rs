@@ -54,13 +54,14 @@ const EASED: [f64; 5] = [1.0, 0.7, 0.5, 0.35, 0.25];
 ///
 /// # Errors
 /// As [`plan`]; that of the first height when none is feasible.
-pub fn plan_at(
+pub fn plan_at<'w>(
     (biped, legs): (&Biped, &Legs),
     hip_height: Option<f64>,
     heights: &[f64],
     request: impl Fn(f64, f64) -> Result<Request>,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Walk> {
+    let watch = Watch::or_none(watch);
     let heights = hip_height.map_or(heights.to_vec(), |height| vec![height]);
     let is_refused = |walk: &Result<Walk>| walk.as_ref().is_err_and(|error| error.kind() == ErrorKind::BadValue);
     let mut first = None;
@@ -120,7 +121,7 @@ impl Usual {
 
     /// The durations of the phases. A step of a one-step-goal walk has two phases in double support, one on each side
     /// of the swing; a step of the other gaits has one.
-    pub fn durations(&self) -> Durations {
+    pub(crate) fn durations(&self) -> Durations {
         let (double, phases) = (self.period * self.double_support, if self.gait.is_one_step() { 2.0 } else { 1.0 });
         Durations { rest: self.rest, shift: double / phases, swing: self.period - double, lower: None }
     }

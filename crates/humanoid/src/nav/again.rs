@@ -31,7 +31,8 @@ impl Field {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a map of another size, or a goal that is no longer free; [`Watch::check`].
-    pub fn after(self, map: &Map, watch: &Watch) -> Result<Again> {
+    pub fn after<'w>(self, map: &Map, watch: impl Into<Option<&'w Watch>>) -> Result<Again> {
+        let watch = Watch::or_none(watch);
         self.check(map)?;
         match self.method {
             Method::M3r => self.mended(map, &Along, watch),
@@ -51,7 +52,8 @@ impl Field {
     ///
     /// # Errors
     /// As [`Field::after`]; [`ErrorKind::BadValue`] for a window outside the map, and for the second order.
-    pub fn within(self, map: &Map, window: &Window, watch: &Watch) -> Result<Self> {
+    pub fn within<'w>(self, map: &Map, window: &Window, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         self.check(map)?;
         window.check(map)?;
         match self.method {

@@ -35,7 +35,13 @@ impl Field {
     /// # Errors
     /// [`ErrorKind::BadValue`] for no goals, a goal that is not free ([`Map::free_cell_at`]), or an order other than 1
     /// and 2; [`Watch::check`].
-    pub fn new(map: &Map, goals: &[Point2<f64>], method: Method, watch: &Watch) -> Result<Self> {
+    pub fn new<'w>(
+        map: &Map,
+        goals: &[Point2<f64>],
+        method: Method,
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let goals: Vec<usize> = goals.iter().map(|goal| map.free_cell_at(goal)).collect::<Result<_>>()?;
         let bad = |text: &str| Err(Error::new(ErrorKind::BadValue, text));
         if goals.is_empty() {

@@ -39,7 +39,7 @@ impl Map {
     ///
     /// # Errors
     /// As [`Map::grown`], and when the number of clearances differs from that of cells.
-    pub fn keeping(&self, clearances: &[f64], radius: f64) -> Result<Self> {
+    pub(crate) fn keeping(&self, clearances: &[f64], radius: f64) -> Result<Self> {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         if !(radius.is_finite() && radius >= 0.0) {
             return bad(format!("a radius of {radius} m: give a finite number, not below zero"));

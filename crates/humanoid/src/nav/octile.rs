@@ -23,12 +23,13 @@ impl Map {
     ///
     /// # Errors
     /// As [`Map::free_cell_at`]; [`Watch::check`].
-    pub fn octile_path(
+    pub fn octile_path<'w>(
         &self,
         start: &Point2<f64>,
         goal: &Point2<f64>,
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<std::result::Result<Path, Enclosure>> {
+        let watch = Watch::or_none(watch);
         let cells = [self.free_cell_at(start)?, self.free_cell_at(goal)?];
         let rows = Rows::new(self);
         if let Some(enclosure) = enclosure(self, &rows, cells, watch)? {

@@ -16,7 +16,8 @@ impl Path {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a path that crosses an obstacle, and one without points; [`Watch::check`].
-    pub fn taut(&self, map: &Map, watch: &Watch) -> Result<Path> {
+    pub fn taut<'w>(&self, map: &Map, watch: impl Into<Option<&'w Watch>>) -> Result<Path> {
+        let watch = Watch::or_none(watch);
         self.check_clear(map)?;
         let ends = self.points.first().zip(self.points.last());
         let Some((first, last)) = ends.filter(|_| self.points.len() > 2) else { return Ok(self.clone()) };

@@ -44,13 +44,14 @@ impl Map {
     ///
     /// # Errors
     /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a field of another goal; [`Watch::check`].
-    pub fn quickest_path(
+    pub fn quickest_path<'w>(
         &self,
         start: &Point2<f64>,
         goal: &Point2<f64>,
         field: Option<&Field>,
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<std::result::Result<Quickest, Enclosure>> {
+        let watch = Watch::or_none(watch);
         let (from, to) = (self.free_cell_at(start)?, self.free_cell_at(goal)?);
         let shortest = match self.shortest_path(start, goal, &Guide::default(), watch)? {
             Ok(shortest) => shortest,

@@ -81,14 +81,15 @@ impl Links {
     ///
     /// # Errors
     /// Same as [`groebot_robot::dynamics::Model::place`]; [`Watch::check`].
-    pub fn clearances(
+    pub fn clearances<'w>(
         &self,
         biped: &Biped,
         postures: &[Posture],
         first: usize,
         room: &Room,
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<Vec<Clearance>> {
+        let watch = Watch::or_none(watch);
         let things = things(room);
         let mut least = vec![vec![(f64::INFINITY, 0); things.len()]; self.names.len()];
         for (sample, posture) in postures.iter().enumerate() {

@@ -36,7 +36,15 @@ impl Destination {
     /// # Errors
     /// [`ErrorKind::UnknownName`] for unknown furniture; [`ErrorKind::BadValue`] where there is no room in front of it;
     /// as [`Field::new`].
-    pub fn goal(&self, room: &Room, pilot: &Pilot, floor: &Floor, from: &Point2<f64>, watch: &Watch) -> Result<Goal> {
+    pub fn goal<'w>(
+        &self,
+        room: &Room,
+        pilot: &Pilot,
+        floor: &Floor,
+        from: &Point2<f64>,
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Goal> {
+        let watch = Watch::or_none(watch);
         let name = match self {
             Destination::Place(goal) => return Ok(*goal),
             Destination::Before(name) => name,

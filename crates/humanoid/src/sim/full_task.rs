@@ -64,7 +64,12 @@ pub struct Performed {
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for a change after the last step; as [`Run::step`] and [`Run::change`].
-pub fn perform(mut run: Run, changes: &[Change], watch: &Watch) -> Result<std::result::Result<Performed, Blocked>> {
+pub fn perform<'w>(
+    mut run: Run,
+    changes: &[Change],
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<std::result::Result<Performed, Blocked>> {
+    let watch = Watch::or_none(watch);
     let mut stages = Vec::new();
     let mut left = changes.iter().peekable();
     loop {
@@ -169,7 +174,14 @@ impl Checks {
     ///
     /// # Errors
     /// As [`Links::of`] and [`Links::clearances`].
-    pub fn of(robot: &Robot, meshes: &Meshes, biped: &Biped, performed: &Performed, watch: &Watch) -> Result<Self> {
+    pub fn of<'w>(
+        robot: &Robot,
+        meshes: &Meshes,
+        biped: &Biped,
+        performed: &Performed,
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let Performed { walk, stages } = performed;
         let links = Links::of(robot, biped, meshes)?;
         let ends = stages.iter().skip(1).map(|stage| stage.first + 1).chain([walk.references.len()]);

@@ -8,7 +8,7 @@ use super::interior::corners;
 use crate::nav::{Room, Shape, signed_area};
 
 /// The height of the walls of a room \[m\].
-pub const WALL_HEIGHT: f64 = 2.5;
+pub(crate) const WALL_HEIGHT: f64 = 2.5;
 
 /// An object that a link may collide with.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

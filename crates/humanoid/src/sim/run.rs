@@ -80,7 +80,7 @@ impl Start {
         watch: &Watch,
     ) -> Result<std::result::Result<Course, Blocked>> {
         let goal = self.goal.goal(&self.room, pilot, floor, &from.point(), watch)?;
-        Course::find(pilot, floor, from, goal, self.method, watch)
+        Course::find(pilot, floor, from, goal.by(self.method), watch)
     }
 }
 
@@ -90,7 +90,8 @@ impl Run {
     /// # Errors
     /// [`ErrorKind::Unsupported`] for a walker without a gait by one step goal; as [`Pilot::new`], [`Room::map`],
     /// [`Floor::new`], [`Destination::goal`], [`Course::find`] and [`Journey::new`].
-    pub fn new(start: Start, watch: &Watch) -> Result<Self> {
+    pub fn new<'w>(start: Start, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let usual = start.walker.gaits.iter().find(|(_, usual)| usual.gait.is_one_step());
         let usual = usual.map(|(_, usual)| usual.clone()).ok_or_else(|| {
             let text = format!("{} has no gait by one step goal", start.walker.biped.name);
@@ -134,7 +135,8 @@ impl Run {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] where no path exists; as [`Journey::step`].
-    pub fn step(&mut self, watch: &Watch) -> Result<Next> {
+    pub fn step<'w>(&mut self, watch: impl Into<Option<&'w Watch>>) -> Result<Next> {
+        let watch = Watch::or_none(watch);
         let course = self.course.as_ref().map_err(|blocked| Error::new(ErrorKind::BadValue, blocked.to_string()))?;
         let before = self.journey.walk().references.len();
         let has_stepped = self.journey.step(&self.floor, course, watch)?;
@@ -145,7 +147,8 @@ impl Run {
     ///
     /// # Errors
     /// As [`Destination::goal`] and [`Course::find`]; then nothing changes.
-    pub fn go_to(&mut self, goal: Destination, watch: &Watch) -> Result<()> {
+    pub fn go_to<'w>(&mut self, goal: Destination, watch: impl Into<Option<&'w Watch>>) -> Result<()> {
+        let watch = Watch::or_none(watch);
         self.change(self.start.room.clone(), goal, watch)
     }
 
@@ -154,7 +157,8 @@ impl Run {
     /// # Errors
     /// [`ErrorKind::BadValue`] where furniture would overlap the robot; as [`Room::map`], [`Destination::goal`] and
     /// [`Course::find`]; then nothing changes.
-    pub fn refurnish(&mut self, room: Room, watch: &Watch) -> Result<()> {
+    pub fn refurnish<'w>(&mut self, room: Room, watch: impl Into<Option<&'w Watch>>) -> Result<()> {
+        let watch = Watch::or_none(watch);
         self.change(room, self.start.goal.clone(), watch)
     }
 
@@ -162,7 +166,8 @@ impl Run {
     ///
     /// # Errors
     /// As [`Run::refurnish`] and [`Run::go_to`]; then nothing changes.
-    pub fn change(&mut self, room: Room, goal: Destination, watch: &Watch) -> Result<()> {
+    pub fn change<'w>(&mut self, room: Room, goal: Destination, watch: impl Into<Option<&'w Watch>>) -> Result<()> {
+        let watch = Watch::or_none(watch);
         let floor =
             if room == self.start.room { self.floor.clone() } else { Floor::new(&room.map()?, self.start.apart)? };
         if let Some(at) = self.meets(&floor)? {
@@ -198,7 +203,8 @@ impl Run {
     /// # Errors
     /// As [`Figures::with`]; the reason why such a walk is infeasible, as [`Pilot::new`] and [`Pilot::within`]; then
     /// nothing changes.
-    pub fn set(&mut self, name: &str, value: f64, watch: &Watch) -> Result<Range<usize>> {
+    pub fn set<'w>(&mut self, name: &str, value: f64, watch: impl Into<Option<&'w Watch>>) -> Result<Range<usize>> {
+        let watch = Watch::or_none(watch);
         let figures = self.figures.with(name, value)?;
         let Start { walker, body, .. } = &self.start;
         let usual = figures.put(&walker.biped, &self.usual);
@@ -215,7 +221,9 @@ impl Run {
     ///
     /// # Errors
     /// As [`Journey::finish`].
-    pub fn finish(self, watch: &Watch) -> Result<Walk> {
+    #[cfg(feature = "clearance")]
+    pub(crate) fn finish<'w>(self, watch: impl Into<Option<&'w Watch>>) -> Result<Walk> {
+        let watch = Watch::or_none(watch);
         self.journey.finish(watch)
     }
 }

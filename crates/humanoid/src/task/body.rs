@@ -72,7 +72,7 @@ impl Body {
     ///
     /// # Errors
     /// As [`groebot_robot::dynamics::Model::place`].
-    pub fn outline(&self, biped: &Biped, posture: &Posture) -> Result<Polygon> {
+    pub(crate) fn outline(&self, biped: &Biped, posture: &Posture) -> Result<Polygon> {
         let placed = biped.model.place(&posture.world_from_torso, &posture.q)?;
         let corners: Vec<Point2<f64>> = self.seen(&placed).flat_map(|(point, radius)| around(point, radius)).collect();
         Ok(Polygon::hull(&corners))

@@ -40,7 +40,28 @@ pub struct Goal {
     pub heading: Option<f64>,
 }
 
+/// A goal, and the method that finds the path to it. A [`Goal`] alone is reached by the shortest path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Search {
+    /// The goal.
+    pub goal: Goal,
+    /// The method.
+    pub method: Method,
+}
+
+impl From<Goal> for Search {
+    fn from(goal: Goal) -> Self {
+        goal.by(Method::default())
+    }
+}
+
 impl Goal {
+    /// The search of a path to this goal by a method.
+    pub fn by(self, method: Method) -> Search {
+        Search { goal: self, method }
+    }
+
     /// Makes a goal from x and y \[m\], and optionally a heading \[rad\].
     ///
     /// # Errors
@@ -78,14 +99,15 @@ impl Course {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a start or goal outside the map or too near to an obstacle, with the nearest
     /// feasible place; [`Watch::check`].
-    pub fn find(
+    pub fn find<'w>(
         pilot: &Pilot,
         floor: &Floor,
         start: &Footprint,
-        goal: Goal,
-        method: Method,
-        watch: &Watch,
+        search: impl Into<Search>,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<std::result::Result<Self, Blocked>> {
+        let watch = Watch::or_none(watch);
+        let Search { goal, method } = search.into();
         if goal.heading.is_some_and(|heading| !heading.is_finite()) {
             return Err(Error::new(ErrorKind::BadValue, "the heading at the goal is not finite; give a finite number"));
         }

@@ -40,7 +40,7 @@ impl Floor {
     }
 
     /// The least distance of the body from obstacles \[m\].
-    pub fn apart(&self) -> f64 {
+    pub(crate) fn apart(&self) -> f64 {
         self.apart
     }
 
@@ -58,13 +58,13 @@ impl Floor {
     ///
     /// # Errors
     /// As [`Map::grown`].
-    pub fn of_core(&self, pilot: &Pilot) -> Result<Map> {
+    pub(crate) fn of_core(&self, pilot: &Pilot) -> Result<Map> {
         self.of_disc((pilot.core() - self.map.half_diagonal()).max(0.0))
     }
 
     /// Whether all points within a radius of a place \[m\] surely keep their distance from obstacles. The test is
     /// conservative: there may be room where it returns false.
-    pub fn is_far(&self, place: &Point2<f64>, radius: f64) -> bool {
+    pub(crate) fn is_far(&self, place: &Point2<f64>, radius: f64) -> bool {
         let own = self.map.in_map(place);
         let ends = [own.x, self.map.columns() as f64 - own.x, own.y, self.map.rows() as f64 - own.y];
         let border = ends.into_iter().fold(f64::INFINITY, f64::min) * self.map.resolution();

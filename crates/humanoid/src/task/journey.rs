@@ -53,7 +53,13 @@ impl<'p> Journey<'p> {
     ///
     /// # Errors
     /// As [`crate::gait::plan`]; [`ErrorKind::BadValue`] for feet or a body on an obstacle.
-    pub fn new(pilot: &'p Pilot, floor: &Floor, feet: [Footprint; 2], watch: &Watch) -> Result<Self> {
+    pub fn new<'w>(
+        pilot: &'p Pilot,
+        floor: &Floor,
+        feet: [Footprint; 2],
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let action = if pilot.is_upright() { Action::Lower } else { Action::Rest };
         let walk = pilot.stand(feet, action, watch)?;
         if let Some((obstacle, at)) = met(pilot, floor, &walk)? {
@@ -86,7 +92,7 @@ impl<'p> Journey<'p> {
     }
 
     /// The steps that were planned and not taken, with their reasons.
-    pub fn refusals(&self) -> &[Refusal] {
+    pub(crate) fn refusals(&self) -> &[Refusal] {
         &self.refusals
     }
 
@@ -116,7 +122,8 @@ impl<'p> Journey<'p> {
     /// # Errors
     /// [`ErrorKind::BadValue`] for the pilot of another robot, or another time between samples; as
     /// [`crate::gait::plan`].
-    pub fn walk_as(&mut self, pilot: Pilot, watch: &Watch) -> Result<()> {
+    pub fn walk_as<'w>(&mut self, pilot: Pilot, watch: impl Into<Option<&'w Watch>>) -> Result<()> {
+        let watch = Watch::or_none(watch);
         let [own, other] = [&*self.pilot, &pilot].map(|pilot| &pilot.walker().biped);
         if own.name != other.name || own.joints != other.joints {
             let text = format!("the walk is that of {}; {} cannot continue it", own.name, other.name);
@@ -136,7 +143,7 @@ impl<'p> Journey<'p> {
     }
 
     /// The journey with its own copy of the pilot.
-    pub fn into_owned(self) -> Journey<'static> {
+    pub(crate) fn into_owned(self) -> Journey<'static> {
         let Journey { pilot, walk, lead, side, corner, searched, lattice, searches, refused, refusals } = self;
         let pilot = Cow::Owned(pilot.into_owned());
         Journey { pilot, walk, lead, side, corner, searched, lattice, searches, refused, refusals }
@@ -147,7 +154,8 @@ impl<'p> Journey<'p> {
     /// # Errors
     /// [`ErrorKind::BadValue`] where no step is feasible, also after searches over many footprints, with the last
     /// reason; [`ErrorKind::Budget`] for too many steps; [`Watch::check`].
-    pub fn step(&mut self, floor: &Floor, course: &Course, watch: &Watch) -> Result<bool> {
+    pub fn step<'w>(&mut self, floor: &Floor, course: &Course, watch: impl Into<Option<&'w Watch>>) -> Result<bool> {
+        let watch = Watch::or_none(watch);
         if self.walk.schedule.route.steps.len() >= MAX_STEPS {
             return Err(Error::new(ErrorKind::Budget, format!("the walk needs more than {MAX_STEPS} steps")));
         }
@@ -186,7 +194,8 @@ impl<'p> Journey<'p> {
     ///
     /// # Errors
     /// As [`crate::gait::plan`].
-    pub fn finish(mut self, watch: &Watch) -> Result<Walk> {
+    pub fn finish<'w>(mut self, watch: impl Into<Option<&'w Watch>>) -> Result<Walk> {
+        let watch = Watch::or_none(watch);
         if self.pilot.is_upright() {
             let rise = self.pilot.stand(self.feet(), Action::Rise, watch)?;
             self.walk.append(rise)?;

@@ -21,7 +21,7 @@ mod search;
 mod stance;
 
 pub use body::Body;
-pub use course::{Blocked, Course, Goal, Method};
+pub use course::{Blocked, Course, Goal, Method, Search};
 pub use floor::Floor;
 pub use journey::Journey;
 pub use pilot::Pilot;

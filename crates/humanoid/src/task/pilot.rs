@@ -40,7 +40,14 @@ impl Pilot {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] for another gait; as [`Reach::of`].
-    pub fn new(walker: Walker, usual: Usual, body: Body, is_upright: bool, watch: &Watch) -> Result<Self> {
+    pub fn new<'w>(
+        walker: Walker,
+        usual: Usual,
+        body: Body,
+        is_upright: bool,
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         if !usual.gait.is_one_step() {
             let text = "steps are planned one by one, so that goal and obstacles may change between them: this needs a gait by one step goal";
             return Err(Error::new(ErrorKind::Unsupported, text));
@@ -79,14 +86,15 @@ impl Pilot {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] where steps of these limits are infeasible, with the reason; [`Watch::check`].
-    pub fn within(mut self, ahead: f64, turn: f64, watch: &Watch) -> Result<Self> {
+    pub fn within<'w>(mut self, ahead: f64, turn: f64, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         self.reach.bounded(&self.walker, &crouched(&self.usual), (ahead, turn), watch)?;
         Ok(self)
     }
 
     /// Same as [`Pilot::within`], but without a test of the greatest steps.
     #[must_use]
-    pub fn at_most(mut self, ahead: f64, turn: f64) -> Self {
+    pub(crate) fn at_most(mut self, ahead: f64, turn: f64) -> Self {
         self.reach.at_most(ahead, turn);
         self
     }
@@ -146,7 +154,8 @@ impl Pilot {
     ///
     /// # Errors
     /// As [`crate::gait::plan`].
-    pub fn step(&self, feet: [Footprint; 2], step: Footstep, watch: &Watch) -> Result<Walk> {
+    pub fn step<'w>(&self, feet: [Footprint; 2], step: Footstep, watch: impl Into<Option<&'w Watch>>) -> Result<Walk> {
+        let watch = Watch::or_none(watch);
         let route = Route::new(feet, vec![step])?;
         self.walk(route, &[Action::Shift(0), Action::Swing(0), Action::Balance(0)], watch)
     }
@@ -155,7 +164,13 @@ impl Pilot {
     ///
     /// # Errors
     /// As [`crate::gait::plan`].
-    pub fn stand(&self, feet: [Footprint; 2], action: Action, watch: &Watch) -> Result<Walk> {
+    pub(crate) fn stand<'w>(
+        &self,
+        feet: [Footprint; 2],
+        action: Action,
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Walk> {
+        let watch = Watch::or_none(watch);
         self.walk(Route::at_rest(feet), &[action], watch)
     }
 

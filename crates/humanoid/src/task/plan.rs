@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::course::{Blocked, Course, Goal, Method};
+use super::course::{Blocked, Course, Search};
 use super::floor::Floor;
 use super::journey::Journey;
 use super::pilot::Pilot;
@@ -26,15 +26,15 @@ impl Plan {
     ///
     /// # Errors
     /// As [`Course::find`], [`Journey::new`] and [`Journey::step`].
-    pub fn find(
+    pub fn find<'w>(
         pilot: &Pilot,
         floor: &Floor,
         feet: [Footprint; 2],
-        goal: Goal,
-        method: Method,
-        watch: &Watch,
+        search: impl Into<Search>,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<std::result::Result<Self, Blocked>> {
-        let course = match Course::find(pilot, floor, &feet[0].middle(&feet[1]), goal, method, watch)? {
+        let watch = Watch::or_none(watch);
+        let course = match Course::find(pilot, floor, &feet[0].middle(&feet[1]), search, watch)? {
             Ok(course) => course,
             Err(blocked) => return Ok(Err(blocked)),
         };

@@ -37,7 +37,8 @@ impl Reach {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] where no step is feasible; [`Watch::check`].
-    pub fn of(walker: &Walker, usual: &Usual, watch: &Watch) -> Result<Self> {
+    pub fn of<'w>(walker: &Walker, usual: &Usual, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let mut last = None;
         for share in [1.0, 0.5, 0.25] {
             for &hip_height in usual.hip_heights.iter() {

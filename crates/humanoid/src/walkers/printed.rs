@@ -5,7 +5,7 @@ use groebot_runtime::Solve;
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
 use crate::{Error, ErrorKind, Result};
-use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
+use groebot_robot::kinematics::{InverseKinematics, Solution, Target, Task};
 use groebot_robot::spatial::Pose;
 
 #[rustfmt::skip]
@@ -62,7 +62,8 @@ printed! {
 
 impl InverseKinematics for Printed {
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
-        let numbers = Target::numbers(target).try_into().ok().filter(|_| given.is_empty());
+        let numbers = Task::Pose.layout().values(target).ok().filter(|_| given.is_empty());
+        let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
         let wrong = || Error::new(ErrorKind::BadValue, "the pose of a leg's tip is not finite; give finite numbers");
         numbers.and_then(|numbers| (self.solve)(&numbers, out)).ok_or_else(wrong)
     }

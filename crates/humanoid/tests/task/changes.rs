@@ -19,7 +19,7 @@ fn the_next_step_obeys_a_new_obstacle_and_a_new_goal() {
     let (first, last) = (goal(2.6, 1.0, None), goal(2.6, 1.8, None));
     let start = Footprint { x: 0.5, y: 1.0, yaw: 0.0 };
     let mut journey = Journey::new(&pilot, &floors[0], start.feet(pilot.half_width()), &watch).unwrap();
-    let course = Course::find(&pilot, &floors[0], &journey.middle(), first, Method::Exact, &watch).unwrap().unwrap();
+    let course = Course::find(&pilot, &floors[0], &journey.middle(), first, &watch).unwrap().unwrap();
     for _ in 0..3 {
         assert!(journey.step(&floors[0], &course, &watch).unwrap());
     }
@@ -27,7 +27,7 @@ fn the_next_step_obeys_a_new_obstacle_and_a_new_goal() {
     // Until then straight forward.
     assert!((journey.middle().y - 1.0).abs() < 1e-9 && journey.middle().x > start.x + 1.5 * pilot.reach().ahead);
     journey.turn_to_new_course();
-    let course = Course::find(&pilot, &floors[1], &journey.middle(), first, Method::M3r, &watch).unwrap().unwrap();
+    let course = Course::find(&pilot, &floors[1], &journey.middle(), first.by(Method::M3r), &watch).unwrap().unwrap();
     for _ in 0..6 {
         let before = journey.middle();
         assert!(journey.step(&floors[1], &course, &watch).unwrap());
@@ -35,7 +35,7 @@ fn the_next_step_obeys_a_new_obstacle_and_a_new_goal() {
         assert!(journey.middle().x > before.x - 0.02);
     }
     journey.turn_to_new_course();
-    let course = Course::find(&pilot, &floors[1], &journey.middle(), last, Method::Exact, &watch).unwrap().unwrap();
+    let course = Course::find(&pilot, &floors[1], &journey.middle(), last, &watch).unwrap().unwrap();
     while journey.step(&floors[1], &course, &watch).unwrap() {}
     let walk = journey.finish(&watch).unwrap();
     arrives(&pilot, &walk, &last);
@@ -60,7 +60,7 @@ fn the_next_step_obeys_other_figures_of_the_gait() {
     let body = own.body().clone();
     let other = Pilot::new(walker, usual, body, own.is_upright(), &watch).unwrap();
     let mut journey = Journey::new(&own, &floor, start.feet(own.half_width()), &watch).unwrap();
-    let course = Course::find(&own, &floor, &journey.middle(), end, Method::Exact, &watch).unwrap().unwrap();
+    let course = Course::find(&own, &floor, &journey.middle(), end, &watch).unwrap().unwrap();
     for _ in 0..3 {
         assert!(journey.step(&floor, &course, &watch).unwrap());
     }
@@ -70,7 +70,7 @@ fn the_next_step_obeys_other_figures_of_the_gait() {
     journey.walk_as(other.clone(), &watch).unwrap();
     let lowered = journey.walk().references.len() - 1;
     assert!((before - torso(journey.walk(), lowered) - 0.02).abs() < 1e-9);
-    let course = Course::find(&other, &floor, &journey.middle(), end, Method::Exact, &watch).unwrap().unwrap();
+    let course = Course::find(&other, &floor, &journey.middle(), end, &watch).unwrap().unwrap();
     while journey.step(&floor, &course, &watch).unwrap() {}
     let walk = journey.finish(&watch).unwrap();
     arrives(&other, &walk, &end);

@@ -71,7 +71,7 @@ fn an_enclosure_of_rh0_by_furniture_is_reported() {
     let floor = Floor::new(&map, APART).unwrap();
     let feet = INSIDE.feet(pilot.half_width());
     let goal = goal(7.0, 3.0, None);
-    let blocked = Plan::find(&pilot, &floor, feet, goal, task::Method::Exact, &Watch::none()).unwrap().unwrap_err();
+    let blocked = Plan::find(&pilot, &floor, feet, goal, &Watch::none()).unwrap().unwrap_err();
     let [inside, outside] = [INSIDE.point(), goal.place].map(|at| blocked.map.cell_at(&at).unwrap());
     assert!(blocked.enclosure.parts(&blocked.map, inside, outside));
 }

@@ -47,7 +47,7 @@ fn goal(x: f64, y: f64, heading: Option<f64>) -> Goal {
 fn plan(pilot: &Pilot, map: &Map, start: Footprint, goal: Goal, method: Method) -> Plan {
     let floor = Floor::new(map, APART).unwrap();
     let feet = start.feet(pilot.half_width());
-    Plan::find(pilot, &floor, feet, goal, method, &Watch::none()).unwrap().unwrap()
+    Plan::find(pilot, &floor, feet, goal.by(method), &Watch::none()).unwrap().unwrap()
 }
 
 /// The walk ends with its feet side by side at the goal.

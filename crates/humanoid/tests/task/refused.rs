@@ -18,7 +18,8 @@ fn the_enclosure_of_a_robot_is_reported() {
     let start = Footprint { x: 0.6, y: 0.7, yaw: 0.0 };
     for method in [Method::Exact, Method::FastMarching, Method::M3r] {
         let goal = goal(2.9, 0.7, None);
-        let found = Plan::find(&pilot, &floor, start.feet(pilot.half_width()), goal, method, &Watch::none()).unwrap();
+        let found =
+            Plan::find(&pilot, &floor, start.feet(pilot.half_width()), goal.by(method), &Watch::none()).unwrap();
         let blocked = found.unwrap_err();
         let ends = [start.point(), goal.place].map(|place| blocked.map.cell_at(&place).unwrap());
         let [inside, outside] = if blocked.enclosure.cells.contains(&ends[0]) { ends } else { [ends[1], ends[0]] };
@@ -39,7 +40,7 @@ fn bad_input_is_refused() {
     let floor = Floor::new(&map, APART).unwrap();
     let find = |start: Footprint, x: f64, y: f64, method| {
         let feet = start.feet(pilot.half_width());
-        Plan::find(&pilot, &floor, feet, goal(x, y, None), method, &Watch::none()).unwrap_err()
+        Plan::find(&pilot, &floor, feet, goal(x, y, None).by(method), &Watch::none()).unwrap_err()
     };
     let start = Footprint { x: 0.6, y: 0.7, yaw: 0.0 };
     for (error, words) in [
@@ -50,14 +51,8 @@ fn bad_input_is_refused() {
     ] {
         assert!(error.kind() == ErrorKind::BadValue && error.message().contains(words), "{error}");
     }
-    let nowhere = Plan::find(
-        &pilot,
-        &floor,
-        start.feet(pilot.half_width()),
-        goal(2.9, 0.7, Some(f64::NAN)),
-        Method::Exact,
-        &Watch::none(),
-    );
+    let nowhere =
+        Plan::find(&pilot, &floor, start.feet(pilot.half_width()), goal(2.9, 0.7, Some(f64::NAN)), &Watch::none());
     assert!(nowhere.unwrap_err().message().contains("the heading at the goal is not finite"));
     assert!(Floor::new(&map, -1.0).is_err() && Floor::new(&map, f64::NAN).is_err());
     for (length, width) in [(0.0, 1.0), (1.0, f64::NAN)] {
@@ -82,10 +77,10 @@ fn a_body_wider_than_every_passage_has_no_path() {
     let floor = Floor::new(&room(ROOM), APART).unwrap();
     let start = Footprint { x: 0.75, y: 1.2, yaw: 0.0 };
     let feet = start.feet(pilot.half_width());
-    let found = Plan::find(&pilot, &floor, feet, goal(2.7, 1.2, None), Method::Exact, &Watch::none()).unwrap();
+    let found = Plan::find(&pilot, &floor, feet, goal(2.7, 1.2, None), &Watch::none()).unwrap();
     assert!(found.is_err());
     let bare = Floor::new(&Map::new(40, 40, 0.05).unwrap(), 0.0).unwrap();
     let feet = Footprint { x: 0.3, y: 1.0, yaw: 0.0 }.feet(pilot.half_width());
-    let error = Plan::find(&pilot, &bare, feet, goal(1.0, 1.0, None), Method::Exact, &Watch::none()).unwrap_err();
+    let error = Plan::find(&pilot, &bare, feet, goal(1.0, 1.0, None), &Watch::none()).unwrap_err();
     assert!(error.kind() == ErrorKind::BadValue && error.message().contains("nearest free place"), "{error}");
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::language::Expressions;
 use super::names::remark;
-use crate::solver::{About, Program};
+use crate::solver::Program;
 
 /// The lines of the header, and the limits.
 #[derive(Serialize)]
@@ -22,13 +22,14 @@ impl AboutText {
             Some((low, high)) => [language.given(low), language.given(high)],
             None => [false, true].map(|positive| language.infinity(positive)),
         };
-        AboutText { limits: (0..program.joints.len()).map(limits).collect(), lines: lines(&about) }
+        AboutText { limits: (0..program.joints.len()).map(limits).collect(), lines: lines(program) }
     }
 }
 
-fn lines(about: &About) -> Vec<String> {
+fn lines(program: &Program) -> Vec<String> {
+    let Some(about) = &program.about else { return Vec::new() };
     let named = |what: &str, name: Option<&String>| name.map(|name| format!("{what}: {}", remark(name)));
-    let task = (!about.task.is_empty()).then(|| format!("Task: {}", remark(&about.task)));
+    let task = Some(format!("Task: {}", remark(&program.task_text())));
     let hash = (!about.hash.is_empty()).then(|| format!("Hash of the input: {}", remark(&about.hash)));
     let ends = [named("Base link", about.base.as_ref()), named("Tip link", about.tip.as_ref())];
     let solutions = about.solutions.map(|count| format!("Solutions: up to {count} at a generic target"));

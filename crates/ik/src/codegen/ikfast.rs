@@ -10,15 +10,14 @@ use super::names::is_word;
 use super::outline::Outline;
 use super::reserved::prefix;
 use super::single_file;
-use crate::solver::{Condition, Forward, JointValue, Program, Reached, Unit};
+use crate::solver::{Forward, GivenJoint, JointValue, Program, Reached, Unit};
+use crate::tolerances::IKFAST;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::shown;
+use groebot_robot::kinematics::{Plane, Task};
 
 const SKELETON: &str = include_str!("skeleton/ikfast.cpp.txt");
 
-/// The rounding error of targets in single precision, relative to the sizes of the equations: several units in the last
-/// place.
-const SINGLE: f64 = 1e-6;
 /// The upper bound of a digit of a branch number. A solution's indices are bytes, and the greatest byte means none.
 const MOST_DIGITS: usize = 250;
 
@@ -59,7 +58,7 @@ fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<Stri
         )
     })?;
     let kind = Kind::of(program, &forward).map_err(refuse)?;
-    let program = &if options.single { program.tolerant(SINGLE) } else { Some(program.clone()) }.ok_or_else(|| {
+    let program = &if options.single { program.tolerant(IKFAST.single) } else { Some(program.clone()) }.ok_or_else(|| {
         let text = "the task has more numbers than the joints can reach, and no target that is rounded to single precision is consistent; omit --float, so that \
                     callers use double precision";
         refuse(text.to_owned())
@@ -174,11 +173,9 @@ struct Kind {
 
 impl Kind {
     fn of(program: &Program, forward: &Forward) -> std::result::Result<Self, String> {
-        let given = |(input, reached): (usize, &Reached)| match *reached {
-            Reached::Joint(joint) => Some((joint, input)),
-            _ => None,
-        };
-        let free: Vec<(usize, usize)> = forward.inputs.iter().enumerate().filter_map(given).collect();
+        let is_given = |given: &&GivenJoint| forward.inputs[given.input] == Reached::Joint(given.joint);
+        let free = program.given_joints.iter().filter(is_given).map(|given| (given.joint, given.input));
+        let free: Vec<(usize, usize)> = free.collect();
         if free.len() > 1 {
             return Err(format!("{} joints are given; IKFast has at most one free joint", free.len()));
         }
@@ -187,7 +184,7 @@ impl Kind {
         if first_given != own {
             return Err("the value of the given joint is not the last number of the target".to_owned());
         }
-        let ikfast = ikfast_type(program, own).ok_or_else(|| {
+        let ikfast = program.tip().and_then(|tip| ikfast_type(tip.task)).ok_or_else(|| {
             let names: Vec<&str> = program.inputs[..own].iter().map(|input| input.name.as_str()).collect();
             format!("IKFast has no type for a target of {}", names.join(", "))
         })?;
@@ -195,27 +192,18 @@ impl Kind {
     }
 }
 
-/// The type for the first `own` inputs of a program.
-fn ikfast_type(program: &Program, own: usize) -> Option<&'static Type> {
-    let is_length = |unit: Unit| matches!(unit, Unit::Metre | Unit::Millimetre);
-    let units: Vec<Unit> = program.inputs[..own].iter().map(|input| input.unit).collect();
-    let lengths = units.iter().take_while(|unit| is_length(**unit)).count();
-    let rest = &units[lengths..];
-    let numbers = rest.iter().all(|unit| *unit == Unit::One);
-    let in_xy = program.inputs.iter().map(|input| input.name.as_str()).take(2).eq(["px", "py"]);
-    match (program.conditions.as_slice(), lengths, rest.len()) {
-        ([Condition::Rotation(3)], 3, 9) if numbers => Some(&TRANSFORM),
-        ([Condition::Rotation(0)], 0, 9) if numbers => Some(&ROTATION),
-        ([Condition::Unit(3)], 3, 3) if numbers => Some(&RAY),
-        ([Condition::Unit(0)], 0, 3) if numbers => Some(&DIRECTION),
-        ([], 3, 0) => Some(&TRANSLATION),
-        ([], 3, 1) if rest == [Unit::Radian] => {
-            let about = ["yaw_x", "yaw_y", "yaw"].iter().position(|name| program.inputs[3].name == *name)?;
-            Some(&ABOUT[about])
-        }
-        ([], 2, 0) if in_xy => Some(&PLANAR),
-        ([], 2, 1) if in_xy && rest == [Unit::Radian] => Some(&PLANAR_POSE),
-        _ => None,
+/// The type of a task.
+fn ikfast_type(task: Task) -> Option<&'static Type> {
+    match task {
+        Task::Pose => Some(&TRANSFORM),
+        Task::Rotation => Some(&ROTATION),
+        Task::Ray => Some(&RAY),
+        Task::Direction => Some(&DIRECTION),
+        Task::Position => Some(&TRANSLATION),
+        Task::PositionYaw { axis } => Some(&ABOUT[axis.coordinate()]),
+        Task::PlanarPosition { plane: Plane::Xy } => Some(&PLANAR),
+        Task::PlanarPose { plane: Plane::Xy } => Some(&PLANAR_POSE),
+        Task::PlanarPosition { .. } | Task::PlanarPose { .. } | Task::PositionPitchRoll => None,
     }
 }
 

@@ -27,7 +27,7 @@ pub fn rust(program: &Program) -> String {
         text += "}\n";
     }
     let body = body.replace("groebot_runtime::", "self::groebot_runtime::");
-    text + "}\n\nuse " + &body
+    text + "}\n\npub use self::groebot_runtime::{Placement, target_of};\nuse " + &body
 }
 
 /// Prints the solver of a valid program ([`Program::validate`]) as one C99 file, a translation unit to be linked with `-lm`. With `single` all numbers are

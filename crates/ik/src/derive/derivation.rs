@@ -51,7 +51,8 @@ impl Derivation {
     ///
     /// # Errors
     /// As [`Source::check_base`], [`Problem::of`] and [`Derivation::of_problem`].
-    pub fn of(source: &Source, watch: &Watch) -> Result<Self> {
+    pub fn of<'w>(source: &Source, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         source.check_base()?;
         Derivation::of_problem(Problem::of(source)?, watch).map_err(|error| match error.kind() {
             ErrorKind::Unsupported | ErrorKind::PositiveDimensional => source.advised(error),
@@ -64,7 +65,8 @@ impl Derivation {
     /// # Errors
     /// As [`Chain::check_base`] and [`Chain::check_task`]. [`ErrorKind::Inconsistent`] for equations without a solution. [`ErrorKind::PositiveDimensional`]
     /// with the names of the free joints. [`ErrorKind::Unsupported`] for a problem that no method solves. The error of `watch` if it stops the derivation.
-    pub fn of_problem(problem: impl Into<Problem>, watch: &Watch) -> Result<Self> {
+    pub fn of_problem<'w>(problem: impl Into<Problem>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         match problem.into() {
             Problem::System(system) => {
                 let solved = Equations::derive(&system, watch)?;
@@ -98,7 +100,8 @@ impl Derivation {
     /// # Errors
     /// [`ErrorKind::PositiveDimensional`] if joints are free; [`ErrorKind::Unsupported`] for a chain without such an order of joints. The error of `watch` if
     /// it stops the derivation.
-    pub fn sequentially(problem: impl Into<ChainProblem>, watch: &Watch) -> Result<Self> {
+    pub fn sequentially<'w>(problem: impl Into<ChainProblem>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let problem = problem.into();
         let solved = Sequential::derive(&problem, watch)?;
         Ok(Derivation::assemble(problem.into(), solved, Method::Sequential))
@@ -109,7 +112,9 @@ impl Derivation {
     /// # Errors
     /// [`ErrorKind::Unsupported`] for a chain that does not fit the eigenvalue problem ([`fits`]), that has infinitely many solutions, or that has no regular
     /// and accurate formulation. The error of `watch` if it stops the derivation.
-    pub fn by_eigenvalues(problem: impl Into<ChainProblem>, watch: &Watch) -> Result<Self> {
+    #[doc(hidden)]
+    pub fn by_eigenvalues<'w>(problem: impl Into<ChainProblem>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let problem = problem.into();
         let solved = Eigenvalue::derive(&problem, watch)?;
         Ok(Derivation::assemble(problem.into(), solved, Method::Eigenvalue))
@@ -155,6 +160,7 @@ impl Derivation {
     }
 
     /// The problem that is solved.
+    #[doc(hidden)]
     pub fn problem(&self) -> &Problem {
         &self.problem
     }
@@ -175,6 +181,7 @@ impl Derivation {
     }
 
     /// The problem and the method with their types.
+    #[doc(hidden)]
     pub fn view(&self) -> AnyView<'_> {
         let program = &self.program;
         match (&self.problem, &self.method) {
@@ -198,16 +205,19 @@ impl Derivation {
     }
 
     /// The view of a chain solved one joint at a time; `None` for another method.
+    #[doc(hidden)]
     pub fn sequential(&self) -> Option<SequentialView<'_>> {
         if let AnyView::Sequential(view) = self.view() { Some(view) } else { None }
     }
 
     /// The view of a chain whose six joints are solved together; `None` for another method.
+    #[doc(hidden)]
     pub fn eigenvalue(&self) -> Option<EigenvalueView<'_>> {
         if let AnyView::Eigenvalue(view) = self.view() { Some(view) } else { None }
     }
 
     /// The view of coupled chains; `None` for another method.
+    #[doc(hidden)]
     pub fn coupled(&self) -> Option<CoupledView<'_>> {
         if let AnyView::Coupled(view) = self.view() { Some(view) } else { None }
     }
@@ -247,7 +257,7 @@ impl Derivation {
         }
     }
 
-    /// Same derivation, with metadata of `source` in its program: task, links, hash, limits and followers.
+    /// Same derivation, with metadata of `source` in its program: links, hash, limits and followers.
     #[must_use]
     pub fn about(mut self, source: &Source) -> Self {
         let solutions = self.dimension();
@@ -273,25 +283,12 @@ fn about(source: &Source, program: &Program) -> About {
     let request = source.task_file().map_or_else(Vec::new, |(_, text)| text);
     let [base, tip] = source.links.clone().map_or([None, None], |links| links.map(Some));
     About {
-        task: task(source),
         base,
         tip,
         solutions: None,
         hash: format!("{:016x}", hash(source.text.bytes().chain(request))),
         limits: if limits.iter().all(Option::is_none) { Vec::new() } else { limits },
         follows: if follows.iter().all(Option::is_none) { Vec::new() } else { follows },
-    }
-}
-
-/// The task of the tip, or the task of each chain's tip.
-fn task(source: &Source) -> String {
-    match (&source.chain, &source.coupled) {
-        (Some(chain), _) => chain.task_text(),
-        (None, Some(coupled)) => {
-            let tasks = coupled.chains().iter().map(|member| format!("{}: {}", member.name, member.chain.task_text()));
-            tasks.collect::<Vec<_>>().join("; ")
-        }
-        (None, None) => "its equations".to_owned(),
     }
 }
 

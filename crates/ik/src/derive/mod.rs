@@ -15,7 +15,8 @@ pub mod sequential;
 mod view;
 
 pub use derivation::{AnyView, Derivation, Method};
-pub use equations::grow::{derive_tree, describe};
+pub use equations::grow::derive_tree;
+pub(crate) use equations::grow::describe;
 pub use equations::prover::Orders;
 pub use groebot_robot::kinematics::{Choice, LengthUnit, Root};
 pub use options::{Options, derive};
@@ -24,8 +25,7 @@ pub use problem::formulate::formulate;
 pub use problem::input::{Description, InputFile, Source};
 pub use problem::system::System;
 pub use problem::system_parts::{
-    Equation, Input, JointKindUnknown, JointUnknown, MAX_BITS, MAX_DEGREE, MAX_PARAMETERS, MAX_TERMS, MAX_UNKNOWNS,
-    Parameter, ParameterSource, Quantity, SystemParts,
+    Equation, Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, SystemParts,
 };
 pub use problem::{ChainProblem, Problem};
 pub use recount::Recount;

@@ -22,7 +22,8 @@ pub struct Recount {
 
 impl Recount {
     /// Creates a recount with an empty cache; `watch` may stop it.
-    pub fn new(watch: &Watch) -> Self {
+    pub fn new<'w>(watch: impl Into<Option<&'w Watch>>) -> Self {
+        let watch = Watch::or_none(watch);
         Recount { watch: watch.clone(), evidence: Vec::new(), formulations: Vec::new() }
     }
 

@@ -36,7 +36,8 @@ pub struct Checked {
 ///
 /// # Errors
 /// Those of the numeric checks, and those of `watch`. Faults of a file are findings, not errors.
-pub fn check(source: &Source, stored: &Stored, watch: &Watch) -> Result<Checked> {
+pub fn check<'w>(source: &Source, stored: &Stored, watch: impl Into<Option<&'w Watch>>) -> Result<Checked> {
+    let watch = Watch::or_none(watch);
     check_by(source, stored, watch, |proved| witness::check(source, proved, watch))
 }
 
@@ -44,12 +45,13 @@ pub fn check(source: &Source, stored: &Stored, watch: &Watch) -> Result<Checked>
 ///
 /// # Errors
 /// Same as [`check`], and those of `measure`.
-pub fn check_by(
+pub fn check_by<'w>(
     source: &Source,
     stored: &Stored,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
     measure: impl FnOnce(&Derivation) -> Result<Report>,
 ) -> Result<Checked> {
+    let watch = Watch::or_none(watch);
     let mut findings = vec![Finding::holds(source.name, described(source))];
     let mut known: BTreeSet<String> = inputs(source).map(str::to_owned).collect();
     let moving = motion::check(source, stored);

@@ -41,7 +41,7 @@ impl Finding {
     }
 
     /// The item was not written by groebot.
-    pub fn not_checked(what: &str, text: &str) -> Self {
+    pub(crate) fn not_checked(what: &str, text: &str) -> Self {
         Finding { what: what.to_owned(), verdict: Verdict::NotChecked(text.to_owned()) }
     }
 

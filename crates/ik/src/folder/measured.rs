@@ -1,9 +1,7 @@
 //! Comparison of stored measurements with repeated ones: words must be equal, numbers may differ by the rounding of another mathematical library.
 
-/// Relative tolerance for coordinates and joint distances; absolute below one. Next to a singular configuration they are less accurate than poses.
-const NEAR: f64 = 1e-6;
-/// Residuals up to this value are rounding.
-const ROUNDING: f64 = 1e-12;
+use crate::tolerances::WITNESS;
+
 /// Allowed ratio of two larger residuals.
 const FACTOR: f64 = 1e3;
 
@@ -63,10 +61,10 @@ fn numbers(a: &str, b: &str) -> Option<[f64; 2]> {
 }
 
 fn same_place(a: &str, b: &str) -> bool {
-    a == b || numbers(a, b).is_some_and(|[x, y]| (x - y).abs() <= NEAR * (1.0 + y.abs()))
+    a == b || numbers(a, b).is_some_and(|[x, y]| (x - y).abs() <= WITNESS.near * (1.0 + y.abs()))
 }
 
 fn same_residual(a: &str, b: &str) -> bool {
-    let same = |[x, y]: [f64; 2]| x.min(y) >= 0.0 && (x.max(y) <= ROUNDING || x.max(y) <= FACTOR * x.min(y));
+    let same = |[x, y]: [f64; 2]| x.min(y) >= 0.0 && (x.max(y) <= WITNESS.member || x.max(y) <= FACTOR * x.min(y));
     a == b || numbers(a, b).is_some_and(same)
 }

@@ -19,4 +19,4 @@ pub use load::{program, reprove};
 pub use names::{CERTIFICATE, CHECKS, DYNAMICS, DYNAMICS_TEXT, OUTPUTS, PROGRAM, is_printed_solver, is_written_name};
 pub use outputs::{Outputs, is_thin, thin};
 pub use stored::Stored;
-pub use written::{Written, derived, printed_solvers};
+pub use written::{Written, derived};

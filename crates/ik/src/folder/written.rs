@@ -77,7 +77,7 @@ fn weak_spots(checked: &Report) -> String {
 
 /// The program as source code: one file per language, and two for C. The names are those that `source` specifies. IKFast's file is omitted if IKFast has no
 /// type for the task.
-pub fn printed_solvers(program: &Program, source: &Source) -> Vec<(String, Vec<u8>)> {
+pub(crate) fn printed_solvers(program: &Program, source: &Source) -> Vec<(String, Vec<u8>)> {
     let named = source.ends.name.as_deref().map(word);
     let [solver, ikfast] = named.map_or([SOLVER.into(), IKFAST.into()], |stem| [stem.clone(), stem + IKFAST_END]);
     let Pair { header, source: code } = Pair::new(program, &solver);

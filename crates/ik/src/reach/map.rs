@@ -1,7 +1,6 @@
 //! Reachability map of a solver. Main type: [`ReachMap`].
 
 use super::grid::Grid;
-use super::poses::POSITION;
 use super::request::{Measure, Request};
 use crate::solver::{Program, Unit};
 
@@ -50,10 +49,11 @@ impl ReachMap {
     /// If the number of entries is not that of the places.
     pub fn of(program: &Program, request: &Request, orientations: usize, entries: Vec<Entry>) -> Self {
         assert_eq!(entries.len(), request.grid.places(), "an entry for each place");
-        let unit = program.inputs.iter().find(|input| POSITION.contains(&input.name.as_str())).map(|input| input.unit);
+        let tip = program.tip().filter(|tip| tip.layout().lengths() > 0);
+        let unit = tip.map(|tip| program.inputs[tip.first_input].unit);
         ReachMap {
             solver: program.name.clone(),
-            task: program.about.as_ref().map_or_else(|| "its equations".to_owned(), |about| about.task.clone()),
+            task: program.task_text(),
             unit: unit.map_or("", Unit::symbol).to_owned(),
             grid: request.grid,
             orientations,

@@ -4,6 +4,7 @@ use std::f64::consts::{SQRT_2, TAU};
 
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
+use groebot_algebra::random::SplitMix64;
 use groebot_robot::spatial::angle;
 
 /// The positive solution of psi^4 = psi + 4.
@@ -35,8 +36,8 @@ impl Turn {
 
     /// A random rotation that depends on a seed and an index.
     pub(super) fn by_chance(seed: u64, number: usize) -> Self {
-        let mut state = seed ^ (number as u64).wrapping_mul(0xd1b5_4a32_d192_ed03);
-        let [share, a, b] = std::array::from_fn(|_| TAU * chance(&mut state));
+        let mut random = SplitMix64::new(seed ^ (number as u64).wrapping_mul(0xd1b5_4a32_d192_ed03));
+        let [share, a, b] = std::array::from_fn(|_| TAU * random.share());
         Turn(Some((of_shares(share / TAU, a, b), a)))
     }
 
@@ -64,13 +65,4 @@ fn of_shares(share: f64, a: f64, b: f64) -> Matrix3<f64> {
     let (inner, outer) = (share.sqrt(), (1.0 - share).sqrt());
     let quaternion = Quaternion::new(outer * b.cos(), inner * a.sin(), inner * a.cos(), outer * b.sin());
     UnitQuaternion::from_quaternion(quaternion).to_rotation_matrix().into_inner()
-}
-
-/// A random number in \[0, 1): SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, OOPSLA 2014).
-fn chance(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
 }

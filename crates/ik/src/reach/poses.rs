@@ -8,15 +8,13 @@ use nalgebra::{Matrix3, Vector3};
 use super::grid::Grid;
 use super::orientations::{Turn, direction, rotation};
 use super::request::Request;
-use crate::solver::{Condition, Program};
+use crate::solver::{Program, TipTask};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
-use groebot_robot::kinematics::Ball;
+use groebot_robot::kinematics::{Ball, BaseAxis, TargetNumber, Task};
 
 /// Maximal number of orientations at a place.
 pub(super) const MOST: usize = limits::ORIENTATIONS;
-/// The names of the inputs of a position.
-pub(super) const POSITION: [&str; 3] = ["px", "py", "pz"];
 
 /// Targets for a solver's tip at each place of a grid: the place, and orientations spread evenly over all that the task distinguishes.
 #[derive(Clone, Debug)]
@@ -64,11 +62,10 @@ impl Poses {
         }
         let targets = request.grid.places().saturating_mul(orientations);
         limits::check_count("targets, places times orientations,", targets, limits::REACH_TARGETS)?;
-        let position = POSITION.map(|name| input(program, name));
-        let spread = Spread::of(program, orientations);
-        let known: Vec<usize> = position.iter().flatten().copied().chain(spread.inputs()).collect();
-        let others = program.given();
-        if position.iter().all(Option::is_none) || !(0..others.start).all(|input| known.contains(&input)) {
+        let tip = program.tip();
+        let position = BaseAxis::ALL.map(|axis| tip.and_then(|tip| tip.input(TargetNumber::Position(axis))));
+        let spread = tip.and_then(|tip| Spread::of(tip, orientations));
+        let Some(spread) = spread.filter(|_| position.iter().any(Option::is_some)) else {
             let names: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
             let text = format!(
                 "a map is of the positions of one tip; targets of {} are {}: derive the pose, the position or the ray of a chain",
@@ -76,13 +73,13 @@ impl Poses {
                 names.join(", ")
             );
             return Err(Error::new(ErrorKind::Unsupported, text));
-        }
-        if others.len() != given.len() || !given.iter().all(|value| value.is_finite()) {
-            let names: Vec<&str> = program.inputs[others.clone()].iter().map(|input| input.name.as_str()).collect();
+        };
+        let names = program.given_names();
+        if names.len() != given.len() || !given.iter().all(|value| value.is_finite()) {
             let required = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
             let text = format!(
                 "{} finite values of given joints are required ({required}); {given:?} are specified",
-                others.len()
+                names.len()
             );
             return Err(Error::new(ErrorKind::BadValue, text));
         }
@@ -91,7 +88,7 @@ impl Poses {
             let text = format!("the task has no {name}; use 1 place instead of {} on that axis", axis.count);
             return Err(Error::new(ErrorKind::BadValue, text));
         }
-        let given = others.zip(given.iter().copied()).collect();
+        let given = program.given_joints.iter().map(|joint| joint.input).zip(given.iter().copied()).collect();
         Ok(Poses {
             inputs: program.inputs.len(),
             grid: request.grid,
@@ -168,37 +165,28 @@ impl Poses {
     }
 }
 
-/// The input with this name, unless it is a given joint.
-fn input(program: &Program, name: &str) -> Option<usize> {
-    program.inputs[..program.given().start].iter().position(|input| input.name == name)
-}
-
 impl Spread {
-    fn of(program: &Program, count: usize) -> Self {
-        let input = |name: &str| input(program, name);
+    /// The orientations of the task of a tip; `None` for a task with a yaw.
+    fn of(tip: &TipTask, count: usize) -> Option<Self> {
+        let layout = tip.layout();
+        let input = |number: TargetNumber| tip.input(number);
         let directions = || (0..count).map(|number| direction(number, count)).collect();
-        match (program.conditions.as_slice(), input("phi"), [input("pitch"), input("roll")]) {
-            ([Condition::Rotation(first)], None, [None, None]) => {
-                Spread::Rotations(*first, (0..count).map(|number| rotation(number, count)).collect())
+        let rotations = || (0..count).map(|number| rotation(number, count)).collect();
+        let angle = |number: usize| TAU * ((number as f64 + 0.5) / count as f64 - 0.5);
+        match tip.task {
+            Task::Pose | Task::Rotation => Some(Spread::Rotations(tip.first_input + layout.rotation()?, rotations())),
+            Task::Ray | Task::Direction => {
+                Some(Spread::Directions(tip.first_input + layout.direction()?, directions()))
             }
-            ([Condition::Unit(first)], None, [None, None]) => Spread::Directions(*first, directions()),
-            ([], Some(phi), [None, None]) => {
-                let angle = |number: usize| TAU * ((number as f64 + 0.5) / count as f64 - 0.5);
-                Spread::Angles(phi, (0..count).map(angle).collect())
+            Task::PlanarPose { plane } => {
+                Some(Spread::Angles(input(TargetNumber::PlaneAngle(plane))?, (0..count).map(angle).collect()))
             }
-            ([], None, [Some(pitch), Some(roll)]) => Spread::Tilts([pitch, roll], directions()),
-            _ => Spread::Nothing,
-        }
-    }
-
-    /// The inputs of the orientation.
-    fn inputs(&self) -> Vec<usize> {
-        match self {
-            Spread::Nothing => Vec::new(),
-            Spread::Angles(input, _) => vec![*input],
-            Spread::Directions(first, _) => (*first..first + 3).collect(),
-            Spread::Tilts(inputs, _) => inputs.to_vec(),
-            Spread::Rotations(first, _) => (*first..first + 9).collect(),
+            Task::PositionPitchRoll => {
+                let inputs = [input(TargetNumber::Pitch)?, input(TargetNumber::Roll)?];
+                Some(Spread::Tilts(inputs, directions()))
+            }
+            Task::Position | Task::PlanarPosition { .. } => Some(Spread::Nothing),
+            Task::PositionYaw { .. } => None,
         }
     }
 

@@ -11,7 +11,8 @@ use super::request::Measure;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::JsonFormat;
 
-const FORMAT: JsonFormat = JsonFormat { what: "map of a reach", number: 1, renew: "`groebot reach` makes a new one" };
+const FORMAT: JsonFormat =
+    JsonFormat { what: "map of a reach", oldest: 1, number: 1, renew: "`groebot reach` makes a new one" };
 
 #[derive(Serialize, Deserialize)]
 struct Written {

@@ -11,15 +11,13 @@ use super::map::{Entry, ReachMap};
 use super::poses::Poses;
 use super::request::{Measure, Request};
 use crate::solver::{JointValue, Program, Solved, Solver};
+use crate::tolerances::REACH;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::{Ball, Chain, Solution};
+use groebot_runtime::tolerances::ACCEPTANCE;
 
 /// Number of targets that are solved at once.
 const PIECE: usize = 2048;
-/// Relative margin by which the ball is enlarged, to allow for rounding.
-const BEYOND: f64 = 1e-6;
-/// Tolerance for a joint at its limit, to allow for rounding.
-const SLACK: f64 = 1e-9;
 
 /// A solver for many targets.
 pub trait Solves: Sync {
@@ -95,7 +93,7 @@ impl<'a> Survey<'a> {
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let turning = chain.filter(|_| poses.are_in_space() && turns.iter().all(|turns| *turns));
-        let wider = |chain: &Chain, ball: Ball| Ball { radius: ball.radius + BEYOND * chain.reach(), ..ball };
+        let wider = |chain: &Chain, ball: Ball| Ball { radius: ball.radius + REACH.beyond * chain.reach(), ..ball };
         let ball = turning.map(|chain| wider(chain, chain.ball()));
         let wrist = turning.and_then(|chain| Some(wider(chain, chain.wrist_ball()?)));
         let poses = match wrist {
@@ -129,7 +127,8 @@ impl<'a> Survey<'a> {
     ///
     /// # Panics
     /// If the grid does not have these places.
-    pub fn entries(&self, places: Range<usize>, watch: &Watch) -> Result<Vec<Entry>> {
+    pub fn entries<'w>(&self, places: Range<usize>, watch: impl Into<Option<&'w Watch>>) -> Result<Vec<Entry>> {
+        let watch = Watch::or_none(watch);
         assert!(places.end <= self.request.grid.places(), "the grid has {} places", self.request.grid.places());
         let share = (PIECE / self.orientations()).max(1);
         let done = AtomicUsize::new(0);
@@ -148,7 +147,8 @@ impl<'a> Survey<'a> {
     ///
     /// # Errors
     /// Same as [`Survey::entries`].
-    pub fn map(&self, watch: &Watch) -> Result<ReachMap> {
+    pub fn map<'w>(&self, watch: impl Into<Option<&'w Watch>>) -> Result<ReachMap> {
+        let watch = Watch::or_none(watch);
         let entries = self.entries(0..self.request.grid.places(), watch)?;
         Ok(ReachMap::of(self.program, self.request, self.orientations(), entries))
     }
@@ -257,7 +257,7 @@ fn check(limits: &[[f64; 2]], program: &Program) -> Result<()> {
 /// Whether each joint is within its limits, an angle with at least one of its turns.
 fn has_turn_within(turns: &[bool], q: &[f64], limits: &[[f64; 2]]) -> bool {
     turns.iter().zip(q).zip(limits).all(|((turns, value), [low, high])| {
-        let (low, high) = (low - SLACK, high + SLACK);
+        let (low, high) = (low - ACCEPTANCE.input, high + ACCEPTANCE.input);
         match turns {
             false => (low..=high).contains(value),
             true => ((low - value) / TAU).ceil() <= ((high - value) / TAU).floor(),

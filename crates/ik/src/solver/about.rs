@@ -7,8 +7,6 @@ use groebot_robot::kinematics::Mimic;
 /// Information about a program's source, for users and for the header comments of printed solvers.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct About {
-    /// The task: `pose`, `planar_pose in xz`, `position, ElbowYaw given`.
-    pub task: String,
     /// The first link of the chain, if the source names it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<String>,

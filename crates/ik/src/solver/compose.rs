@@ -5,6 +5,7 @@ use super::instruction::{Instruction, Operand, Operation};
 use super::joint::{Joint, JointValue};
 use super::program::{Block, Case, Checks, Condition, Guard, Pivot, Program, Step};
 use super::rule::{ParameterRule, Rule};
+use super::tips::{GivenJoint, TipTask};
 use super::validate::MOST_ANSWERS;
 use crate::{Error, ErrorKind, Result};
 
@@ -31,18 +32,23 @@ impl Program {
     /// [`ErrorKind::BadValue`] for a shared joint that does not exist, that moves differently, or that `next` does not
     /// take as given; for more than [`super::MAX_JOINTS`] joints and other faults that [`Program::validate`] refuses.
     pub fn followed_by(&self, next: &Program, shared: &[(usize, usize)]) -> Result<Program> {
+        self.joined(next, shared).map(|(program, _)| program)
+    }
+
+    /// [`Program::followed_by`], and by input of `next` its index in the composed program; `None` for the value of a
+    /// shared joint.
+    pub(crate) fn joined(&self, next: &Program, shared: &[(usize, usize)]) -> Result<(Program, Vec<Option<usize>>)> {
         let places = Places::new(self, next, shared)?;
         let mut program = self.clone();
+        add_new(&mut program.tasks, next.tasks.iter().map(|tip| places.tip(tip)).collect::<Result<_>>()?);
+        add_new(&mut program.given_joints, next.given_joints.iter().filter_map(|given| places.given(*given)).collect());
+        program.given_joints.sort_by_key(|given| given.input);
         program
             .inputs
             .extend(own(&next.inputs, |index| places.inputs[index].is_some_and(|place| place >= self.inputs.len())));
         program.unknowns.extend(own(&next.unknowns, |index| places.unknowns[index] >= self.unknowns.len()));
-        for &condition in &next.conditions {
-            let condition = places.condition(condition)?;
-            if !program.conditions.contains(&condition) {
-                program.conditions.push(condition);
-            }
-        }
+        let conditions = next.conditions.iter().map(|&condition| places.condition(condition)).collect::<Result<_>>()?;
+        add_new(&mut program.conditions, conditions);
         let is_new = |index: usize| matches!(places.parameters[index], Operand::Parameter(place) if place >= self.parameters.len());
         for parameter in own(&next.parameters, is_new) {
             program.parameters.push(places.parameter(parameter)?);
@@ -57,7 +63,21 @@ impl Program {
         // The two programs have different sources.
         program.about = None;
         program.validate()?;
-        Ok(program)
+        Ok((program, places.inputs))
+    }
+
+    /// Whether the user gives the value of a joint by an input.
+    fn is_given_by(&self, input: usize) -> bool {
+        self.given_joints.iter().any(|given| given.input == input)
+    }
+}
+
+/// Adds those members to a list that it does not have.
+fn add_new<T: PartialEq>(list: &mut Vec<T>, members: Vec<T>) {
+    for member in members {
+        if !list.contains(&member) {
+            list.push(member);
+        }
     }
 }
 
@@ -108,8 +128,12 @@ impl Places {
                 used[input] = Some(None);
             }
         }
-        for (input, place) in next.inputs.iter().zip(&mut used).filter(|(_, place)| place.is_none()) {
-            *place = first.inputs.iter().position(|other| other == input).map(Some);
+        for (index, place) in used.iter_mut().enumerate().filter(|(_, place)| place.is_none()) {
+            // A joint may have the name of a number of the task.
+            let is_same = |other: &usize| {
+                first.inputs[*other] == next.inputs[index] && first.is_given_by(*other) == next.is_given_by(index)
+            };
+            *place = (0..first.inputs.len()).find(is_same).map(Some);
         }
         for (parameter, place) in next.parameters.iter().zip(&mut parameters).filter(|(_, place)| place.is_none()) {
             let same = |other: &ParameterRule| match (&other.rule, &parameter.rule) {
@@ -154,6 +178,15 @@ impl Places {
     fn input(&self, index: usize) -> Result<usize> {
         self.inputs[index]
             .ok_or_else(|| refuse(format!("input {index} of the next program is used for more than a shared joint")))
+    }
+
+    fn tip(&self, tip: &TipTask) -> Result<TipTask> {
+        Ok(TipTask { first_input: self.input(tip.first_input)?, ..tip.clone() })
+    }
+
+    /// A given joint of the next program; `None` for a shared one, which the first program finds.
+    fn given(&self, given: GivenJoint) -> Option<GivenJoint> {
+        Some(GivenJoint { joint: self.joints[given.joint], input: self.inputs[given.input]? })
     }
 
     fn condition(&self, condition: Condition) -> Result<Condition> {

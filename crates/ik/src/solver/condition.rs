@@ -1,11 +1,11 @@
 //! Conditions on a target: rotations and unit vectors.
 
-use super::CONSISTENT;
 use super::program::{Condition, Input};
+use groebot_runtime::tolerances::ACCEPTANCE;
 
 impl Condition {
     /// The index of the first input, and the number of inputs.
-    pub fn inputs(&self) -> (usize, usize) {
+    pub(crate) fn inputs(&self) -> (usize, usize) {
         match *self {
             Condition::Rotation(first) => (first, 9),
             Condition::Unit(first) => (first, 3),
@@ -50,16 +50,18 @@ impl Condition {
         let mirrored = matches!(self, Condition::Rotation(_)) && determinant(values) < 0.0;
         let names = format!("`{}` to `{}`", inputs[first].name, inputs[first + count - 1].name);
         // A NaN deviation is refused too.
-        let is_missed = mirrored || deviation.is_nan() || deviation > CONSISTENT;
+        let is_missed = mirrored || deviation.is_nan() || deviation > ACCEPTANCE.input;
         is_missed.then(|| match self {
             Condition::Rotation(_) if mirrored => {
                 format!("{names} are not a rotation matrix: the determinant is negative; give a right-handed one")
             }
             Condition::Rotation(_) => format!(
-                "{names} are not a rotation matrix: R R^T differs from one by {deviation:.1e}; {CONSISTENT:e} is allowed"
+                "{names} are not a rotation matrix: R R^T differs from one by {deviation:.1e}; {:e} is allowed",
+                ACCEPTANCE.input
             ),
             Condition::Unit(_) => format!(
-                "{names} are not a unit vector: the squared length differs from one by {deviation:.1e}; {CONSISTENT:e} is allowed"
+                "{names} are not a unit vector: the squared length differs from one by {deviation:.1e}; {:e} is allowed",
+                ACCEPTANCE.input
             ),
         })
     }

@@ -7,6 +7,7 @@ use super::instruction::{Instruction, Operand, Operation};
 use super::joint::JointValue;
 use super::program::Program;
 use super::rule::Rule;
+use super::tips::GivenJoint;
 
 /// The target that joint values reach, as operands of the checks' code.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,18 +86,19 @@ impl Program {
             (None, Some(cosine), Some(sine)) => Reached::Angle { cosine, sine },
             _ => return None,
         };
-        let given = (0..self.joints.len()).find(|&joint| self.is_given(joint, input, reached));
-        Some(given.map_or(reached, Reached::Joint))
+        let is_given = |given: &GivenJoint| given.input == input && self.reaches(given.joint, reached);
+        let given = self.given_joints.iter().find(|given| is_given(given));
+        Some(given.map_or(reached, |given| Reached::Joint(given.joint)))
     }
 
-    /// Whether the joint is the input itself: it has its name and its value.
-    fn is_given(&self, joint: usize, input: usize, reached: Reached) -> bool {
+    /// Whether the value of a joint is what the equations compare.
+    fn reaches(&self, joint: usize, reached: Reached) -> bool {
         let own = match self.joints[joint].value {
             JointValue::Angle { cosine, sine } => {
                 Reached::Angle { cosine: Operand::Unknown(cosine), sine: Operand::Unknown(sine) }
             }
             JointValue::Plain(unknown) => Reached::Value(Operand::Unknown(unknown)),
         };
-        self.joints[joint].name == self.inputs[input].name && own == reached
+        own == reached
     }
 }

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use groebot_robot::kinematics::{LengthUnit, Quantity};
+
 /// The unit of an input or joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -17,6 +19,16 @@ pub enum Unit {
 }
 
 impl Unit {
+    /// The unit of a quantity, with lengths in `length`.
+    pub fn of(quantity: Quantity, length: LengthUnit) -> Self {
+        match (quantity, length) {
+            (Quantity::Length, LengthUnit::Metre) => Unit::Metre,
+            (Quantity::Length, LengthUnit::Millimetre) => Unit::Millimetre,
+            (Quantity::Angle, _) => Unit::Radian,
+            (Quantity::Number, _) => Unit::One,
+        }
+    }
+
     /// `m`, `mm`, `rad`, or empty for a dimensionless number.
     pub fn symbol(self) -> &'static str {
         match self {

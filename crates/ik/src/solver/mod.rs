@@ -3,6 +3,7 @@
 //! A program is plain data: it prints and serialises, and every language of [`crate::codegen`] is printed from it.
 
 mod about;
+mod closest;
 mod compose;
 mod condition;
 mod demand;
@@ -12,17 +13,22 @@ pub(crate) mod facts;
 mod forward;
 mod instruction;
 mod joint;
+mod json;
 mod layout;
 pub(crate) mod mirror;
 mod pairs;
+mod placed;
 mod prepared;
 mod program;
 mod prune;
 mod rule;
+mod target;
+mod tips;
 mod tolerant;
 mod validate;
 
 pub use about::About;
+pub use closest::{Closest, ClosestOptions};
 pub(crate) use demand::{Demand, ParameterDemand};
 pub(crate) use facts::Facts;
 pub use forward::{Forward, Reached};
@@ -30,16 +36,12 @@ pub use instruction::{Instruction, Operand, Operation};
 pub use joint::{Joint, JointValue, Unit};
 pub(crate) use layout::Layout;
 pub use pairs::Pairs;
+pub use placed::{PlacedSolver, Placement, TaskPlacement};
 pub use prepared::{Batch, Nearest, Solved, Solver};
 pub(crate) use program::square;
 pub use program::{Block, Case, Checks, Condition, Described, Guard, Input, Pivot, Preference, Program, Short, Step};
 pub use rule::{Following, ParameterRule, Rule};
+pub use tips::{GivenJoint, TipTask};
 
-pub use groebot_runtime::tolerances::{
-    ACCEPT, ADRIFT, ALIKE, ALONE, ALONG, APART, APPROACHES, ARRIVED, ASIDE, ASTRAY, BESIDE, BLUR, CHORD, CONSISTENT,
-    DAMPINGS, DISTINCT, DOUBLINGS, FARTHER, FARTHEST, GRAZING, INVERSIONS, LEAPS, LEAPT, LEVER, MEETING, MERGE, MILD,
-    NARROWS, NEAR, OVERSHOT, PACES, PATIENCE, PIVOT, PLAIN, POLISH_STEPS, POLISHED, REGULAR, RETURNS, ROUNDING, SHORT,
-    SINGULAR, STEEP, STIFF, TINY, TURN, TWIN, TWIN_AT, TWIN_WITHIN,
-};
 /// The maximum number of joints of a program.
 pub const MAX_JOINTS: usize = groebot_algebra::limits::SOLVER_JOINTS;

@@ -1,8 +1,6 @@
 //! [`Program`]: the derived solver as plain data, a list of [`Block`]s that find the unknowns one group after the
 //! other.
 
-use std::ops::Range;
-
 use groebot_runtime::six_axes::ROOM;
 use serde::{Deserialize, Serialize};
 
@@ -11,8 +9,7 @@ use super::eigenvalue::SixAxes;
 use super::instruction::{Instruction, Operand};
 use super::joint::{Joint, JointValue, Unit};
 use super::rule::ParameterRule;
-use crate::Result;
-use groebot_robot::document::{JsonFormat, json_text};
+use super::tips::{GivenJoint, TipTask};
 use groebot_robot::kinematics::Mimic;
 
 /// One number of the target, as the user gives it.
@@ -24,7 +21,7 @@ pub struct Input {
     pub unit: Unit,
 }
 
-/// A condition on the inputs. Deviations within [`super::CONSISTENT`] are removed before the target is used; larger
+/// A condition on the inputs. Deviations within `ACCEPTANCE.input` of the run time are removed before the target is used; larger
 /// ones are an error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -44,7 +41,7 @@ pub struct Guard {
     pub value: Operand,
     /// The size that the value is compared with.
     pub scale: Operand,
-    /// True: run when `|value| <= NEAR * scale`. False: run when `|value| > TINY * scale`.
+    /// True: run when `|value| <= STRATA.near * scale`. False: run when `|value| > STRATA.denominator * scale`.
     pub near: bool,
 }
 
@@ -66,7 +63,7 @@ pub enum Step {
         /// Index of the unknown.
         unknown: usize,
         /// Polynomials, coefficients from degree 0 up. The first whose leading coefficient is not negligible
-        /// ([`super::PIVOT`]) is solved; the last is used if all others are negligible.
+        /// (`ROOTS.pivot`) is solved; the last is used if all others are negligible.
         polynomials: Vec<Vec<Operand>>,
         /// The unknown's typical size, which distinguishes a tangency from a miss. `None` is the length scale if the
         /// unknown is a joint's value itself, else one. A larger size proposes more double roots.
@@ -179,13 +176,19 @@ pub struct Preference {
 }
 
 /// The derived solver of one mechanism and task.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Program {
     /// Name of the mechanism: letters, digits and `_`.
     pub name: String,
     /// Information about its source.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<About>,
+    /// The task of each tip; empty for a program of equations.
+    #[serde(default)]
+    pub tasks: Vec<TipTask>,
+    /// The joints whose values the user gives, in the order of their inputs.
+    #[serde(default)]
+    pub given_joints: Vec<GivenJoint>,
     /// The target's numbers, in order.
     pub inputs: Vec<Input>,
     /// Conditions on the target.
@@ -236,9 +239,6 @@ fn is_false(value: &bool) -> bool {
     !value
 }
 
-const FORMAT: JsonFormat =
-    JsonFormat { what: "program", number: 2, renew: "`groebot derive` on its folder writes it again" };
-
 impl Program {
     /// By joint, the least and the greatest value in its source, in the joint's unit; infinite where it has none.
     pub fn limits(&self) -> Vec<[f64; 2]> {
@@ -255,43 +255,6 @@ impl Program {
         (0..self.joints.len()).map(|joint| described.get(joint)?.as_ref()).collect()
     }
 
-    /// The indices of the inputs that are values of given joints: they come last. The source decides, because a task
-    /// may have a number with a joint's name; without it, the names decide.
-    pub fn given(&self) -> Range<usize> {
-        let is_joint = |input: &&Input| self.joints.iter().any(|joint| joint.name == input.name);
-        let count = match self.about.as_ref().map(|about| about.task.as_str()).filter(|task| !task.contains(';')) {
-            // `pose, A3 given`, `ray of [1, 0, 0], A3 given`.
-            Some(task) => task
-                .strip_suffix(" given")
-                .map_or(0, |task| task.rsplit(']').next().unwrap_or_default().matches(", ").count()),
-            None => self.inputs.iter().rev().take_while(is_joint).count(),
-        };
-        self.inputs.len().saturating_sub(count)..self.inputs.len()
-    }
-
-    /// Reads a program from JSON and validates it.
-    ///
-    /// # Errors
-    /// [`crate::ErrorKind::Syntax`] with the line; [`crate::ErrorKind::Unsupported`] for JSON of another format, such
-    /// as that of an older groebot, with the command that updates it; [`crate::ErrorKind::BadValue`] as
-    /// [`Program::validate`].
-    pub fn from_json(text: &str) -> Result<Self> {
-        let program: Program = FORMAT.read(text)?;
-        program.validate()?;
-        Ok(program)
-    }
-
-    /// The program as JSON ([`json_text`]).
-    pub fn to_json(&self) -> String {
-        #[derive(Serialize)]
-        struct Written<'a> {
-            format: u32,
-            #[serde(flatten)]
-            program: &'a Program,
-        }
-        json_text(&Written { format: FORMAT.number, program: self })
-    }
-
     /// The number of root choices of `case`: the product of its root degrees.
     pub fn branches(case: &Case) -> usize {
         if case.open { 0 } else { case.steps.iter().map(Step::slots).fold(1, usize::saturating_mul) }
@@ -303,13 +266,13 @@ impl Program {
     }
 
     /// The highest degree of a polynomial whose roots a case needs; 0 without one.
-    pub fn degree(&self) -> usize {
+    pub(crate) fn degree(&self) -> usize {
         let steps = self.cases().filter(|case| !case.open).flat_map(|case| &case.steps);
         steps.filter(|step| matches!(step, Step::Roots { .. })).map(Step::slots).max().unwrap_or(0)
     }
 
     /// The joints that some case leaves free, ascending.
-    pub fn freed(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn freed(&self) -> impl Iterator<Item = usize> {
         (0..self.joints.len()).filter(|joint| self.cases().any(|case| case.free.contains(joint)))
     }
 
@@ -387,7 +350,7 @@ impl Block {
 
 impl Step {
     /// The number of solutions of the step: the largest degree among the polynomials of a root step, else one.
-    pub fn slots(&self) -> usize {
+    pub(crate) fn slots(&self) -> usize {
         match self {
             Step::Roots { polynomials, .. } => {
                 polynomials.iter().map(|coefficients| coefficients.len().saturating_sub(1)).max().unwrap_or(0)

@@ -62,7 +62,10 @@ impl Rule {
     ///
     /// # Errors
     /// Those of `place`.
-    pub fn with_input<E>(self, place: impl Fn(usize) -> std::result::Result<usize, E>) -> std::result::Result<Rule, E> {
+    pub(crate) fn with_input<E>(
+        self,
+        place: impl Fn(usize) -> std::result::Result<usize, E>,
+    ) -> std::result::Result<Rule, E> {
         let moved = |law: Following| Ok(Following { input: place(law.input)?, ..law });
         Ok(match self {
             Rule::Input(input) => Rule::Input(place(input)?),

@@ -4,7 +4,7 @@ use super::instruction::{Instruction, Operand};
 use super::joint::JointValue;
 use super::program::{Block, Case, Checks, Condition, Described, Program, Short, Step};
 use super::rule::Rule;
-use super::{MAX_JOINTS, Unit};
+use super::{MAX_JOINTS, Unit, target};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits::{check_name, is_name};
 use groebot_algebra::roots;
@@ -30,6 +30,7 @@ impl Program {
         self.validate_names()?;
         self.conditions.iter().try_for_each(|condition| self.validate_condition(condition))?;
         self.validate_rotations()?;
+        target::fault(self).map_or(Ok(()), |fault| ensure(false, fault))?;
         let mut context =
             Context { program: self, parameters: 0, registers: 0, unknowns: Vec::new(), magnitude: false };
         context.parameters()?;

@@ -4,27 +4,15 @@ use super::report::{Fault, Kind, Report, Row, Verdict};
 use super::screws::Screws;
 use super::{Draws, Options};
 use crate::solver::Program;
+use crate::tolerances::WITNESS;
 use crate::{ErrorKind, Result, Watch};
 use groebot_robot::kinematics::{Chain, Solution};
 
-/// The distance (rad, or a fraction of the typical length) below which two solutions are duplicates.
-const DUPLICATE: f64 = 5e-8;
-/// The maximum of the scaled Jacobian's smallest singular value where a joint may be reported as free.
-pub(super) const SINGULAR: f64 = 1e-5;
-/// A joint vector is ordinary if the smallest singular value of the scaled Jacobian exceeds this.
-pub(super) const ORDINARY: f64 = 1e-3;
-/// The smallest singular value above which the number of solutions is compared with the exact one. If the distance to a singular configuration is less than
-/// about its square, rounding decides whether there are two solutions or none.
-const TIE: f64 = 1e-4;
-/// The accuracy of the oracle's ordinary solutions (rad, or a fraction of the typical length).
-const ORACLE: f64 = 1e-6;
 /// The numbers of the oracle's starting points: at first, and again before it reports a fault.
 const SEEDS: [usize; 2] = [60, 600];
 /// The number of rows, from the first, whose round targets are also searched numerically.
 const SEARCHED: usize = 48;
-/// The joint displacement by which a round target is moved (rad, or a fraction of the typical length).
-const MOVED: f64 = 1e-7;
-/// The maximum distance of an ordinary solution of the moved target from one of the target itself, in multiples of `MOVED / sigma`.
+/// The maximum distance of an ordinary solution of the moved target from one of the target itself, in multiples of `WITNESS.moved / sigma`.
 const FOLLOWS: f64 = 10.0;
 
 /// A solver under check, with targets given as numbers.
@@ -71,16 +59,16 @@ impl Solver for ByScrews {
     }
 }
 
-/// A target and, if it was made from joint values, these.
+/// A target, and the joint values that made it, if any.
 pub(super) struct Target {
     pub kind: Kind,
     pub inputs: Vec<f64>,
     pub joints: Option<Vec<f64>>,
 }
 
-/// The mechanism of a solver under check. Nothing of the solver is used here.
+/// The interface to the mechanism of a solver under check. It is independent of the solver.
 pub(super) trait Subject {
-    /// The largest smallest singular value of a singular row.
+    /// The maximum of the smallest singular value of a row that counts as singular.
     fn singular(&self) -> f64;
 
     /// Whether a search of a round target must find all ordinary solutions.
@@ -113,7 +101,7 @@ pub(super) trait Subject {
     /// The target that `q` reaches with each joint moved by a fraction of a displacement; `shift` gives that displacement for the number of a joint.
     fn moved_target(&self, target: &[f64], q: Vec<f64>, shift: &dyn Fn(usize) -> f64) -> Option<Vec<f64>>;
 
-    /// The joint vectors that the numeric oracle finds from a number of starting points.
+    /// The joint vectors that the numeric oracle finds from `seeds` starting points.
     ///
     /// # Errors
     /// As [`groebot_robot::kinematics::oracle::Oracle::search`].
@@ -193,7 +181,7 @@ impl Check<'_> {
             row.exact = self.subject.count(&row.target, self.watch)?;
         }
         let differs = row.exact.is_some_and(|exact| exact != answers.len());
-        faults.extend((differs && !self.any_joints(row, answers, TIE)).then_some(Fault::Count));
+        faults.extend((differs && !self.any_joints(row, answers, WITNESS.tie)).then_some(Fault::Count));
         faults.extend(self.by_screws(row, answers)?);
         let is_round = row.kind.is_round();
         let is_searched = is_round && self.searches_all() && self.subject.searches_completely();
@@ -252,10 +240,10 @@ impl Check<'_> {
         Ok(faults)
     }
 
-    /// Whether each ordinary solution of a reached target that is moved by [`MOVED`] is next to one of these.
+    /// Whether each ordinary solution of a reached target that is moved by [`WITNESS.moved`] is next to one of these.
     fn agrees_when_moved(&self, row: &Row, answers: &[Solution]) -> Result<bool> {
         let q = row.joints.clone().or_else(|| answers.first().map(|answer| answer.q.clone()));
-        let moved = q.and_then(|q| self.subject.moved_target(&row.target, q, &|number| MOVED * share(number)));
+        let moved = q.and_then(|q| self.subject.moved_target(&row.target, q, &|number| WITNESS.moved * share(number)));
         let Some(moved) = moved else { return Ok(true) };
         let others = match self.solver.solve(&moved) {
             Err(error) if error.kind() == ErrorKind::Unsupported => return Ok(true),
@@ -263,7 +251,7 @@ impl Check<'_> {
         };
         Ok(others.iter().all(|other| {
             let sigma = self.subject.sigma(&moved, &other.q);
-            sigma <= ORDINARY || self.is_near(&moved, &other.q, answers, FOLLOWS * MOVED / sigma)
+            sigma <= WITNESS.ordinary || self.is_near(&moved, &other.q, answers, FOLLOWS * WITNESS.moved / sigma)
         }))
     }
 
@@ -292,14 +280,14 @@ impl Check<'_> {
             row.worst_residual = Some(row.worst_residual.map_or(residual, |worst| worst.max(residual)));
             add(is_missed, Fault::Residual);
             let is_free = !answer.free.is_empty();
-            add(is_free && self.subject.sigma(&row.target, &answer.q) > SINGULAR, Fault::Free);
+            add(is_free && self.subject.sigma(&row.target, &answer.q) > WITNESS.free, Fault::Free);
         }
         faults
     }
 
     /// Checks the solutions as a set.
     fn together(&self, target: &[f64], answers: &[Solution]) -> Vec<Fault> {
-        let twice = |(index, a): (usize, &Solution)| self.is_near(target, &a.q, &answers[..index], DUPLICATE);
+        let twice = |(index, a): (usize, &Solution)| self.is_near(target, &a.q, &answers[..index], WITNESS.duplicate);
         let duplicate = answers.iter().enumerate().any(twice).then_some(Fault::Duplicate);
         duplicate.into_iter().chain(self.subject.are_too_many(answers).then_some(Fault::Bound)).collect()
     }
@@ -309,9 +297,9 @@ impl Check<'_> {
         let mut verdict = (0, false);
         for seeds in SEEDS {
             let found = self.subject.search(target, seeds)?;
-            let near = |q: &Vec<f64>, answer: &Solution| self.subject.distance(target, q, &answer.q) <= ORACLE;
+            let near = |q: &Vec<f64>, answer: &Solution| self.subject.distance(target, q, &answer.q) <= WITNESS.near;
             let is_found = |answer: &Solution| {
-                self.subject.sigma(target, &answer.q) <= ORDINARY || found.iter().any(|q| near(q, answer))
+                self.subject.sigma(target, &answer.q) <= WITNESS.ordinary || found.iter().any(|q| near(q, answer))
             };
             verdict = (found.len(), self.has_found(target, answers, &found) && answers.iter().all(is_found));
             if verdict.1 {
@@ -323,13 +311,14 @@ impl Check<'_> {
 
     /// Whether the ordinary joint vectors among `found` are among the solutions.
     fn has_found(&self, target: &[f64], answers: &[Solution], found: &[Vec<f64>]) -> bool {
-        let is_ours =
-            |q: &Vec<f64>| self.subject.sigma(target, q) <= ORDINARY || self.is_near(target, q, answers, ORACLE);
+        let is_ours = |q: &Vec<f64>| {
+            self.subject.sigma(target, q) <= WITNESS.ordinary || self.is_near(target, q, answers, WITNESS.near)
+        };
         found.iter().all(is_ours)
     }
 }
 
-/// The fraction of [`MOVED`] by which joint `number` moves. All joints have different fractions.
+/// The fraction of [`WITNESS.moved`] by which joint `number` moves. All joints have different fractions.
 fn share(number: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     2.0 * (GOLDEN * (number as f64 + 1.0)).fract() - 1.0

@@ -26,8 +26,9 @@ const MISSES: f64 = 2.0;
 /// it.
 ///
 /// # Errors
-/// As [`check_equations`], [`check_chain`] and [`coupled::check`].
-pub fn check(source: &Source, derivation: &Derivation, watch: &Watch) -> Result<Report> {
+/// As [`check_equations`] and [`check_chain`].
+pub fn check<'w>(source: &Source, derivation: &Derivation, watch: impl Into<Option<&'w Watch>>) -> Result<Report> {
+    let watch = Watch::or_none(watch);
     let of = |targets, oracle, exact, seed| Options { targets, oracle, exact, seed, draws: Draws::All };
     let amounts = Amounts {
         equations: Options::default(),
@@ -47,7 +48,13 @@ pub fn check(source: &Source, derivation: &Derivation, watch: &Watch) -> Result<
 ///
 /// # Errors
 /// As [`check`].
-pub fn check_round(source: &Source, derivation: &Derivation, targets: usize, watch: &Watch) -> Result<Report> {
+pub fn check_round<'w>(
+    source: &Source,
+    derivation: &Derivation,
+    targets: usize,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Report> {
+    let watch = Watch::or_none(watch);
     let options = Options { targets, oracle: 1, exact: 0, seed: 1, draws: Draws::Round };
     let amounts = Amounts { equations: options, chain: options, polished: options, ideal: options, coupled: options };
     checked(source, derivation, &amounts, watch)

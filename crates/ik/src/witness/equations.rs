@@ -1,13 +1,14 @@
-//! The check of a program that solves equations together: [`check_equations`].
+//! The check of a program that solves equations as one system: [`check_equations`].
 
 use super::chain::model::Joints;
-use super::check::{ByScrews, Check, SINGULAR, Subject};
-use super::model::{EXACT, Model, RESIDUAL};
+use super::check::{ByScrews, Check, Subject};
+use super::model::Model;
 use super::report::{Fault, Report};
 use super::targets::Targets;
 use super::{Options, exact, screws};
 use crate::derive::Source;
 use crate::solver::Program;
+use crate::tolerances::WITNESS;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::oracle::Oracle;
 use groebot_robot::kinematics::{Chain, Solution};
@@ -17,7 +18,13 @@ use groebot_robot::kinematics::{Chain, Solution};
 /// # Errors
 /// [`ErrorKind::BadValue`] for an invalid program, or one with other inputs or joints than the source. [`ErrorKind::Unsupported`] if no reachable target is
 /// found. The error of `watch` if it stops the check. Failed checks are in the report.
-pub fn check_equations(source: &Source, program: &Program, options: &Options, watch: &Watch) -> Result<Report> {
+pub fn check_equations<'w>(
+    source: &Source,
+    program: &Program,
+    options: &Options,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Report> {
+    let watch = Watch::or_none(watch);
     program.validate()?;
     let text = "the source has no equations to be solved together";
     let none = || Error::new(ErrorKind::BadValue, text).in_file(&source.path);
@@ -27,7 +34,7 @@ pub fn check_equations(source: &Source, program: &Program, options: &Options, wa
         return Err(Error::new(ErrorKind::BadValue, text));
     }
     // If the equations contain no lengths, a program's scale is nearly zero.
-    let unit = if program.scale > 1e-9 { program.scale } else { 1.0 };
+    let unit = if program.scale > WITNESS.equal { program.scale } else { 1.0 };
     let chain = source.chain.as_ref();
     let subject = InEquations { model: Model::new(system, unit), chain, bound: program.bound() };
     let (solver, screws) = (program.solver(), chain.and_then(ByScrews::boxed));
@@ -42,7 +49,7 @@ pub fn check_equations(source: &Source, program: &Program, options: &Options, wa
     })
 }
 
-/// Equations, with the chain that they are of.
+/// Equations, with their chain if they have one.
 struct InEquations<'a> {
     model: Model<'a>,
     chain: Option<&'a Chain>,
@@ -57,11 +64,11 @@ impl InEquations<'_> {
             return self.model.matches(target, q, &answer.q);
         }
         let member = member(answer, q);
-        if self.model.misfit(target, &member) <= RESIDUAL {
+        if self.model.misfit(target, &member) <= WITNESS.residual {
             return self.model.matches(target, q, &member);
         }
         // The other joints move with the free ones. Without solving, it is only known that `q` is in some self-motion.
-        self.model.sigma(target, q) <= SINGULAR
+        self.model.sigma(target, q) <= WITNESS.free
     }
 }
 
@@ -73,7 +80,7 @@ fn member(answer: &Solution, q: &[f64]) -> Vec<f64> {
 
 impl Subject for InEquations<'_> {
     fn singular(&self) -> f64 {
-        SINGULAR
+        WITNESS.free
     }
 
     fn searches_completely(&self) -> bool {
@@ -95,14 +102,14 @@ impl Subject for InEquations<'_> {
     fn residual(&self, target: &[f64], q: &[f64]) -> (f64, bool) {
         let misfit = self.model.misfit(target, q);
         let missed = self.chain.map_or(0.0, |chain| screws::misplacement(chain, q, target));
-        (misfit, misfit.max(missed) > RESIDUAL)
+        (misfit, misfit.max(missed) > WITNESS.residual)
     }
 
     fn are_too_many(&self, answers: &[Solution]) -> bool {
         answers.len() > self.bound
     }
 
-    /// The distance is without free joints.
+    /// Free joints do not contribute to the distance.
     fn known(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> (Option<f64>, Option<Fault>) {
         let gap = |answer: &Solution| self.model.distance(target, q, &member(answer, q));
         let is_found = answers.iter().any(|answer| self.represents(target, answer, q));
@@ -110,7 +117,7 @@ impl Subject for InEquations<'_> {
     }
 
     fn covers(&self, target: &[f64], some: &[Solution], answer: &Solution) -> bool {
-        let is_sure = self.model.misfit(target, &answer.q) <= EXACT;
+        let is_sure = self.model.misfit(target, &answer.q) <= WITNESS.exact;
         !is_sure || some.iter().any(|other| self.represents(target, other, &answer.q))
     }
 

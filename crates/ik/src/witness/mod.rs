@@ -14,7 +14,6 @@ mod equations;
 mod exact;
 mod model;
 mod newton;
-mod random;
 mod report;
 mod screws;
 mod targets;

@@ -2,16 +2,11 @@
 
 use super::chain::model::Joints;
 use super::chain::singular::smallest_singular_value;
-use super::check::ORDINARY;
 use super::newton::{jacobian, largest, newton};
 use crate::derive::{JointKindUnknown, ParameterSource, Quantity, System};
+use crate::tolerances::WITNESS;
 use groebot_algebra::poly::Expression;
 use groebot_robot::spatial::angle;
-
-/// The maximum value of an equation at a solution, as a fraction of the sum of its terms' sizes.
-pub(super) const RESIDUAL: f64 = 1e-11;
-/// The value below which a joint vector is certainly a solution, so that no solver may miss it.
-pub(super) const EXACT: f64 = 1e-13;
 
 /// A name with its value and its size. A cosine or sine has size one, because its rounding error does not decrease with its value.
 struct Named<'a> {
@@ -139,17 +134,17 @@ impl<'a> Model<'a> {
     /// everywhere between the two.
     pub fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         let (distance, sigma) = (self.distance(target, a, b), self.sigma(target, a));
-        if sigma > ORDINARY {
-            return distance <= 1e-9;
+        if sigma > WITNESS.ordinary {
+            return distance <= WITNESS.equal;
         }
-        distance <= (1e-13 / sigma).max(1e-7) && self.holds_between(target, a, b)
+        distance <= (WITNESS.exact / sigma).max(WITNESS.moved) && self.holds_between(target, a, b)
     }
 
     fn holds_between(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         let differences = self.differences(b, a);
         [0.25, 0.5, 0.75].iter().all(|share| {
             let point: Vec<f64> = a.iter().zip(&differences).map(|(a, difference)| a + share * difference).collect();
-            self.misfit(target, &point) <= RESIDUAL
+            self.misfit(target, &point) <= WITNESS.residual
         })
     }
 
@@ -175,7 +170,7 @@ impl<'a> Model<'a> {
             }
         }
         let allowed = self.system.inputs.iter().zip(&target).all(|(input, value)| !input.positive || *value > 0.0);
-        (allowed && self.misfit(&target, q) <= EXACT).then_some(target)
+        (allowed && self.misfit(&target, q) <= WITNESS.exact).then_some(target)
     }
 }
 

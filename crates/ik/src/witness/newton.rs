@@ -1,11 +1,10 @@
 //! Gauss-Newton with least-norm steps and central differences, for systems of any shape.
 
+use crate::tolerances::WITNESS;
 use nalgebra::{DMatrix, DVector, SVD};
 
 const ITERATIONS: usize = 60;
 const HALVINGS: usize = 8;
-/// Singular values below this fraction of the largest one count as zero.
-const RANK: f64 = 1e-12;
 
 /// Dimensionless functions of `x` that are zero at a solution.
 pub(super) type Residual<'a> = dyn Fn(&[f64]) -> Vec<f64> + 'a;
@@ -62,6 +61,6 @@ fn step(x: &[f64], scales: &[f64], residual: &Residual<'_>) -> Option<Vec<f64>> 
         return None;
     }
     let svd = SVD::try_new(matrix, true, true, f64::EPSILON, 200)?;
-    let step = svd.solve(&DVector::from_vec(residual(x)), RANK * svd.singular_values.max()).ok()?;
+    let step = svd.solve(&DVector::from_vec(residual(x)), WITNESS.member * svd.singular_values.max()).ok()?;
     Some(step.iter().zip(scales).map(|(step, scale)| step * scale).collect())
 }

@@ -187,7 +187,7 @@ impl Report {
 
     /// These rows, then those of the ideal robot.
     #[must_use]
-    pub fn with_ideal(mut self, ideal: Report) -> Report {
+    pub(crate) fn with_ideal(mut self, ideal: Report) -> Report {
         for row in ideal.rows {
             self.rows.push(Row { number: self.rows.len() + 1, kind: Kind::OfIdeal(Box::new(row.kind)), ..row });
         }

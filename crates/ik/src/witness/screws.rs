@@ -5,7 +5,7 @@ use nalgebra::{Point3, Vector3};
 use crate::Result;
 use groebot_robot::kinematics::screw::ScrewSolver;
 use groebot_robot::kinematics::screw::two_link::{Solution as Angles, TwoLink};
-use groebot_robot::kinematics::{Chain, JointKind, Plane, Solution, Target, Task};
+use groebot_robot::kinematics::{Chain, JointKind, Plane, Solution, Task};
 use groebot_robot::spatial::Screw;
 
 /// The error of forward kinematics at `q`, as a fraction of the lengths involved; infinite if it fails.
@@ -54,7 +54,7 @@ impl Screws {
             Screws::Planned(solver) => {
                 let chain = solver.chain();
                 let (target, given) = target.split_at(target.len().saturating_sub(chain.given_inputs().len()));
-                let found = solver.solve_given(&Target::from_numbers(chain.task(), target)?, given)?;
+                let found = solver.solve_given(&chain.task().layout().target(target)?, given)?;
                 Ok(found.into_iter().enumerate().map(|(branch, answer)| Solution { branch, ..answer }).collect())
             }
         }

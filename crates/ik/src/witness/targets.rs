@@ -1,17 +1,18 @@
 //! The targets of a check: random reachable ones, the boundary of the workspace, strata and their neighbourhood, and far ones.
 
+use crate::tolerances::WITNESS;
 use std::f64::consts::PI;
 
 use super::Draws;
 use super::chain::model::Joints;
 use super::check::Target;
-use super::model::{EXACT, Model, replaced};
+use super::model::{Model, replaced};
 use super::newton::newton;
-use super::random::Random;
 use super::report::Kind;
 use crate::derive::{ParameterSource, Quantity};
 use crate::solver::Program;
 use groebot_algebra::poly::{Expression, parse};
+use groebot_algebra::random::SplitMix64;
 
 /// The maximum number of draws for a target of one kind.
 const DRAWS: usize = 20;
@@ -19,8 +20,6 @@ const DRAWS: usize = 20;
 const FAR: f64 = 10.0;
 /// The number of distances 10^-k from a stratum, k = 1..=DECADES, on both sides.
 const DECADES: usize = 12;
-/// The fraction of their typical size below which inputs become zero where a sum of squares must vanish.
-const SNAP: f64 = 1e-6;
 /// The kinds of targets in every twelve rows.
 const PLAN: [Slot; 12] = {
     use Slot::{Boundary, Far, Random, Round, Stratum};
@@ -56,7 +55,7 @@ enum Slot {
 /// The source of targets for one program.
 pub(super) struct Targets<'a> {
     model: &'a Model<'a>,
-    random: Random,
+    random: SplitMix64,
     plan: &'static [Slot],
     /// Factors that vanish together, with their text.
     strata: Vec<(String, Vec<Expression>)>,
@@ -66,7 +65,7 @@ pub(super) struct Targets<'a> {
 
 impl<'a> Targets<'a> {
     pub fn new(model: &'a Model<'a>, program: &Program, draws: Draws, seed: u64) -> Self {
-        let (strata, random) = (strata(model, program), Random::new(seed));
+        let (strata, random) = (strata(model, program), SplitMix64::new(seed));
         let plan: &[Slot] = if draws == Draws::Round { &ROUND } else { &PLAN };
         Targets { model, random, plan, strata, boundaries_done: 0, strata_done: 0 }
     }
@@ -201,12 +200,12 @@ impl<'a> Targets<'a> {
         let (mut inputs, norm) = newton(start, &scales, &|x| self.misses(factors, share, x));
         if share == 0.0 {
             for (value, scale) in inputs.iter_mut().zip(&scales) {
-                *value = if value.abs() <= SNAP * scale { 0.0 } else { *value };
+                *value = if value.abs() <= WITNESS.near * scale { 0.0 } else { *value };
             }
         }
         let allowed =
             self.model.system.inputs.iter().zip(&inputs).all(|(input, value)| !input.positive || *value > 0.0);
-        (allowed && norm <= EXACT).then_some(inputs)
+        (allowed && norm <= WITNESS.exact).then_some(inputs)
     }
 
     /// The difference of each factor from `share` of its typical size, relative to that size.
@@ -227,7 +226,7 @@ impl<'a> Targets<'a> {
             pinned.push(input);
         }
         let (inputs, joints) = self.descend(factors, share, q, &start, &pinned)?;
-        let tiny = |&input: &usize| inputs[input].abs() <= SNAP * self.model.input_size(input);
+        let tiny = |&input: &usize| inputs[input].abs() <= WITNESS.near * self.model.input_size(input);
         let zeros: Vec<usize> = (0..inputs.len()).filter(|input| !pinned.contains(input)).filter(tiny).collect();
         if share != 0.0 || zeros.is_empty() {
             return Some((inputs, joints));
@@ -261,7 +260,7 @@ impl<'a> Targets<'a> {
         let (x, norm) = newton(first, &scales, &residual);
         let (inputs, joints) = place(&x);
         let joints = model.wrapped(&joints);
-        let inputs = (norm <= EXACT).then(|| model.reached(inputs, &joints)).flatten()?;
+        let inputs = (norm <= WITNESS.exact).then(|| model.reached(inputs, &joints)).flatten()?;
         Some((inputs, joints))
     }
 

@@ -1,8 +1,10 @@
 //! Helpers to write programs by hand: operands as expressions, and the smallest parts of a program.
 
 use groebot_ik::solver::{
-    Block, Case, Guard, Input, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Rule, Step, Unit,
+    Block, Case, Guard, Input, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Rule, Step, TipTask,
+    Unit,
 };
+use groebot_robot::kinematics::Task;
 
 /// Code under construction.
 #[derive(Default)]
@@ -117,4 +119,9 @@ pub fn one_block(cases: Vec<Case>) -> Vec<Block> {
 /// A root step of an unknown with typical size one.
 pub fn roots(unknown: usize, polynomials: Vec<Vec<Operand>>) -> Step {
     Step::Roots { unknown, polynomials, typical: None, half_angle: false }
+}
+
+/// One tip with this task, whose numbers are the first inputs.
+pub fn tip(task: Task) -> Vec<TipTask> {
+    vec![TipTask { chain: None, task, direction: task.aims().then(|| task.usual_direction()), first_input: 0 }]
 }

@@ -69,9 +69,7 @@ fn what_is_known_of_the_source_is_optional_and_checked() {
         fs::read_to_string(concat!(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."), "/derivations/puma/5_program.json"))
             .unwrap();
     let mut program = groebot_ik::solver::Program::from_json(&text).unwrap();
-    let about = |limits| {
-        Some(groebot_ik::solver::About { task: "pose".into(), hash: "0".into(), limits, ..Default::default() })
-    };
+    let about = |limits| Some(groebot_ik::solver::About { hash: "0".into(), limits, ..Default::default() });
     program.about = about(vec![Some((-1.0, 1.0)); 6]);
     assert_eq!(groebot_ik::solver::Program::from_json(&program.to_json()).unwrap(), program);
     for limits in [vec![None; 5], vec![Some((1.0, -1.0)); 6], vec![Some((f64::NAN, 1.0)); 6]] {

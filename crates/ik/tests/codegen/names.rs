@@ -47,6 +47,8 @@ fn named(names: &[String]) -> Program {
     Program {
         name: "names".into(),
         about: None,
+        tasks: vec![],
+        given_joints: vec![],
         inputs: vec![input("a", Unit::One)],
         parameters: names.iter().map(|name| rule(name, Rule::Input(0))).collect(),
         unknowns: names.iter().cloned().chain(["t".into()]).collect(),

@@ -308,7 +308,7 @@ fn limits_and_the_source_stand_in_the_file() {
     let limits = vec![Some((-1.25, 2.5)), None, Some((0.0, 0.25)), None];
     let [base, tip] = ["base_link", "tool0"].map(|name| Some(name.to_owned()));
     let hash = "0123456789abcdef".into();
-    program.about = Some(About { task: "pose".into(), base, tip, solutions: None, hash, limits, follows: Vec::new() });
+    program.about = Some(About { base, tip, solutions: None, hash, limits, follows: Vec::new() });
     let (pair, rust) = (Pair::new(&program, "scara"), rust::emit(&program));
     for text in [&pair.header, &rust] {
         let head: Vec<&str> = text.lines().take(12).collect();

@@ -4,7 +4,7 @@
 
 use groebot_algebra::number::BigRational;
 use groebot_ik::derive::closure::{Mechanism, prove};
-use groebot_ik::derive::planner::{Plan, Way, joints_to_give, plan};
+use groebot_ik::derive::planner::{Plan, StepMethod, joints_to_give, plan};
 use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::{Chain, ExactVector, Plane, Task, along_z};
 use groebot_robot::robots;
@@ -22,8 +22,8 @@ fn planned(chain: &Chain, given: &[usize]) -> groebot_ik::Result<(Mechanism, Pla
 fn assert_sound(mechanism: &Mechanism, plan: &Plan) {
     let mut known = plan.given.clone();
     for step in &plan.steps {
-        let away: &[usize] = if let Way::Eliminated { away, .. } = &step.way { away } else { &[] };
-        for relation in step.way.relations() {
+        let away: &[usize] = if let StepMethod::Eliminated { away, .. } = &step.method { away } else { &[] };
+        for relation in step.method.relations() {
             prove(mechanism, relation).unwrap();
             let fits = |joint: &usize| *joint == step.joint || known.contains(joint) || away.contains(joint);
             assert!(relation.joints().iter().all(fits), "{plan}");

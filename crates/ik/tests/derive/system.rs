@@ -36,6 +36,7 @@ fn arm() -> SystemParts {
         description: "two joints in a plane".into(),
         source: "NAO (6.7.1)-(6.7.4)".into(),
         length_unit: LengthUnit::Millimetre,
+        task: None,
         inputs: vec![input("py", Quantity::Length), input("pz", Quantity::Length)],
         parameters: vec![
             parameter("py", ParameterSource::Input(0), None),
@@ -92,15 +93,14 @@ fn text_lists_everything() {
     parts.inputs[0].positive = true;
     let text = System::new(parts).unwrap().to_string();
     for line in [
-        "nao_arm_planar",
-        "lengths in mm, angles in rad",
-        "   1. py: length > 0",
-        "   3. h > 0, h^2 = 1/2",
-        "   1. q2: c2 = cos(q2), s2 = sin(q2)",
-        "      c4 > c2 > s4 > s2",
-        "   1. (6.7.1)  105*c2 + 113.7*s4 - pz = 0",
-        "   4. circle of q4  c4^2 + s4^2 - 1 = 0",
-        "      s2: minus",
+        "# nao_arm_planar: equations",
+        "* Input py: a length, assumed greater than zero.",
+        "* Known: h > 0, h^2 = 1/2.",
+        "* Joint q2: the cosine c2 and the sine s2 of an angle.",
+        "The unknowns, greatest first: c4 > c2 > s4 > s2.",
+        "    (6.7.1)  f1 = 105*c2 + 113.7*s4 - pz = 0",
+        "    (0.4)  f4 = c4^2 + s4^2 - 1 = 0",
+        "The published solution has the minus root of s2.",
     ] {
         assert!(text.lines().any(|found| found == line), "`{line}` is not in\n{text}");
     }

@@ -6,7 +6,7 @@ use super::assert_joints;
 use crate::codegen::builder::*;
 use crate::codegen::samples::{pan_tilt, polar};
 use groebot_ik::ErrorKind;
-use groebot_ik::solver::{Block, Case, Checks, Program, Rule, Step, Unit};
+use groebot_ik::solver::{Block, Case, Checks, GivenJoint, Program, Rule, Step, Unit};
 
 fn case(steps: Vec<Step>) -> Case {
     Case {
@@ -44,6 +44,8 @@ fn slide() -> Program {
     Program {
         name: "slide".into(),
         about: None,
+        tasks: vec![],
+        given_joints: vec![GivenJoint { joint: 0, input: 0 }],
         inputs: vec![input("pan", Unit::Radian), input("x", Unit::Metre)],
         conditions: vec![],
         parameters: vec![rule("c", Rule::Cosine(0)), rule("s", Rule::Sine(0)), rule("x", Rule::Input(1))],
@@ -157,4 +159,15 @@ fn the_nearest_candidate_is_none_where_there_are_only_answers() {
     let nearest = wrong.nearest(&[0.3, 0.5]).unwrap().unwrap();
     assert_eq!((nearest.residual, nearest.relative), (0.25, 0.25));
     assert!((nearest.q[0] - 0.3).abs() < 0.3, "{nearest:?}");
+}
+
+/// The value of a given joint and a number with its name are two inputs.
+#[test]
+fn a_given_joint_is_no_number_of_its_name() {
+    let mut next = slide();
+    next.given_joints.clear();
+    let program = slide().followed_by(&next, &[]).unwrap();
+    let inputs: Vec<&str> = program.inputs.iter().map(|input| input.name.as_str()).collect();
+    assert_eq!(inputs, ["pan", "x", "pan"]);
+    assert_eq!(program.given_joints, [GivenJoint { joint: 0, input: 0 }]);
 }

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use groebot_ik::derive::Derivation;
 use groebot_robot::kinematics::screw::ScrewSolver;
 use groebot_robot::kinematics::{Chain, ChainParts, InverseKinematics, Task, along_z};
-use groebot_robot::motion::{Followed, Pace, follow, follow_from};
+use groebot_robot::motion::{Followed, Pace, PathRequest, follow};
 use groebot_robot::robots;
 use groebot_robot::spatial::Pose;
 use groebot_robot::{ErrorKind, Watch};
@@ -26,7 +26,7 @@ fn poses(chain: &Chain, path: impl Fn(f64) -> [f64; 6], count: usize) -> Vec<Pos
 }
 
 fn followed(chain: &Chain, poses: &[Pose], solver: &dyn InverseKinematics) -> groebot_robot::Result<Followed> {
-    follow(chain, &[], solver, poses, &Pace::Every(0.1), &Watch::none())
+    follow(chain, solver, &PathRequest::new(poses, &Pace::Every(0.1)), &Watch::none())
 }
 
 /// Checks that every pose is reached within the limits.
@@ -92,7 +92,11 @@ fn a_step_that_is_too_fast_for_its_time_is_a_jump() {
     let chain = ur5(Some((-PI, PI)));
     let poses = poses(&chain, swing, 10);
     let speeds = vec![Some(1.0); 6];
-    let at = |time| follow(&chain, &speeds, SOLVER.program(), &poses, &Pace::Every(time), &Watch::none()).unwrap();
+    let at = |time| {
+        let pace = Pace::Every(time);
+        let request = PathRequest::new(&poses, &pace).speeds(&speeds);
+        follow(&chain, SOLVER.program(), &request, &Watch::none()).unwrap()
+    };
     assert!(at(1.0).jumps.is_empty());
     let hasty = at(0.05);
     assert!(
@@ -119,13 +123,13 @@ fn poses_that_cannot_be_followed_are_refused_with_their_number() {
     refused(followed(&chain, &[], SOLVER.program()).unwrap_err(), ErrorKind::BadValue, "no pose");
     let pace = Pace::At(vec![0.0]);
     refused(
-        follow(&chain, &[], SOLVER.program(), &some, &pace, &Watch::none()).unwrap_err(),
+        follow(&chain, SOLVER.program(), &PathRequest::new(&some, &pace), &Watch::none()).unwrap_err(),
         ErrorKind::BadValue,
         "1 times for 2",
     );
     let pace = Pace::At(vec![0.1, 0.1]);
     refused(
-        follow(&chain, &[], SOLVER.program(), &some, &pace, &Watch::none()).unwrap_err(),
+        follow(&chain, SOLVER.program(), &PathRequest::new(&some, &pace), &Watch::none()).unwrap_err(),
         ErrorKind::BadValue,
         "give increasing times",
     );
@@ -139,7 +143,7 @@ fn a_path_begins_where_the_arm_stands_or_jumps_there() {
     let poses = poses(&chain, swing, 40);
     let from = |start: &[f64]| {
         let (pace, watch) = (Pace::Every(0.1), Watch::none());
-        follow_from(&chain, &[], SOLVER.program(), Some(start), &poses, &pace, &watch)
+        follow(&chain, SOLVER.program(), &PathRequest::new(&poses, &pace).start(start), &watch)
     };
     let mut start = swing(0.0);
     start[5] += 2.0 * PI;

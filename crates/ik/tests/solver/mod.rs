@@ -1,10 +1,13 @@
 //! The meaning of a program's blocks, pivots, samples and conditions, on programs with solutions computed by hand.
 
 mod batch;
+mod closest;
 mod compose;
 mod damaged;
 mod derivatives;
 mod follow;
+mod formats;
+mod placed;
 mod refused;
 mod task;
 
@@ -129,6 +132,8 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
     let program = Program {
         name: "choice".into(),
         about: None,
+        tasks: vec![],
+        given_joints: vec![],
         inputs: vec![input("a", Unit::One), input("b", Unit::One)],
         conditions: vec![],
         parameters: (0..2).map(|i| rule(["a", "b"][i], Rule::Input(i))).collect(),

@@ -20,7 +20,8 @@ fn a_task_names_its_numbers_as_derived_solvers_do() {
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")).join("derivations");
     for (task, name) in cases {
         let program = folder::program(&root.join(name)).unwrap();
-        let names: Vec<String> = program.inputs.into_iter().map(|input| input.name).collect();
-        assert_eq!(task.numbers(), names, "{}", task.name());
+        let names: Vec<String> = program.inputs.iter().map(|input| input.name.clone()).collect();
+        assert_eq!(task.layout().names(), names, "{}", task.name());
+        assert_eq!(program.tip().map(|tip| tip.task), Some(task), "{name}");
     }
 }

@@ -4,6 +4,7 @@ use super::{Desired, Law};
 use crate::dynamics::{Equations, State, Workspace};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::limits::{CONTROL_STEPS, check_count};
+use groebot_algebra::random::SplitMix64;
 
 /// Disturbances: actuation delay and measurement noise.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -62,20 +63,21 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
     ///
     /// # Errors
     /// Those of [`Law::torques`] and [`Equations::forward`], with the time; those of [`Watch::check`].
-    pub fn run(
+    pub fn run<'w>(
         &mut self,
         start: [&[f64]; 2],
         duration: f64,
         desired: impl Fn(f64) -> [Vec<f64>; 3],
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<Vec<Sample>> {
+        let watch = Watch::or_none(watch);
         let [mut q, mut velocity] = start.map(<[f64]>::to_vec);
         // A quotient outside the range of integers becomes the largest integer.
         let steps = (duration / self.step).round() as usize;
         check_count("steps of the law", steps, CONTROL_STEPS)?;
         check_count("steps of delay", self.disturbance.delay, CONTROL_STEPS)?;
         let mut samples: Vec<Sample> = Vec::with_capacity(steps + 1);
-        let mut noise = Noise(self.disturbance.seed);
+        let mut noise = Noise(SplitMix64::new(self.disturbance.seed));
         for number in 0..=steps {
             watch.check()?;
             let time = number as f64 * self.step;
@@ -128,16 +130,14 @@ impl<'a, L: Law> ClosedLoop<'a, L> {
     }
 }
 
-/// Normal noise by SplitMix64 (Steele, Lea and Flood 2014) and the Box-Muller transform.
-struct Noise(u64);
+/// Normal noise by the Box-Muller transform.
+struct Noise(SplitMix64);
 
 impl Noise {
+    /// A number in (0, 1].
     fn uniform(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        // In (0, 1].
-        (((z ^ (z >> 31)) >> 11) + 1) as f64 / (1u64 << 53) as f64
+        // The sum is exact.
+        self.0.share() + 1.0 / (1_u64 << 53) as f64
     }
 
     fn added(&mut self, numbers: &[f64], deviation: f64) -> Vec<f64> {

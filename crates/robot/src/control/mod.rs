@@ -14,7 +14,7 @@ mod work_space;
 pub use closed_loop::{ClosedLoop, Disturbance, Sample};
 pub use joint_space::{ComputedTorque, Gains, GravityCompensation, OpenLoop};
 pub use picture::{errors_and_torques, greatest_errors};
-pub use reference::{Desired, Trajectory};
+pub use reference::Desired;
 pub use two_chains::TwoChains;
 pub use work_space::{Effective, Inversion, Target, WorkSpace};
 

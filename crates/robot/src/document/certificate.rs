@@ -11,6 +11,7 @@ use crate::{Error, ErrorKind, Result};
 
 const FORMAT: JsonFormat = JsonFormat {
     what: "certificate",
+    oldest: 7,
     number: 7,
     renew: "`groebot derive`, or for equations of motion `groebot dynamics --symbolic`, on its folder writes it again",
 };

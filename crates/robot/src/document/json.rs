@@ -46,7 +46,9 @@ fn joined(lines: &[String]) -> Option<String> {
 pub struct JsonFormat {
     /// Its name, such as `certificate`.
     pub what: &'static str,
-    /// The `format` that is written and accepted.
+    /// The oldest `format` that is read.
+    pub oldest: u32,
+    /// The `format` that is written, and the newest that is read.
     pub number: u32,
     /// Advice to convert an old version.
     pub renew: &'static str,
@@ -67,19 +69,32 @@ impl JsonFormat {
     /// [`ErrorKind::Syntax`] for text that is not JSON of this format, with the line; [`ErrorKind::Unsupported`] for
     /// another version, with advice to convert it.
     pub fn read<T: DeserializeOwned>(&self, text: &str) -> Result<T> {
+        self.read_version(text).map(|(_, value)| value)
+    }
+
+    /// Reads `text`, with the number of its `format`.
+    ///
+    /// # Errors
+    /// As [`JsonFormat::read`].
+    pub fn read_version<T: DeserializeOwned>(&self, text: &str) -> Result<(u32, T)> {
         let syntax = |error: serde_json::Error| {
             Error::new(ErrorKind::Syntax, format!("this is no {} in JSON: {error}", self.what))
                 .at_line(error.line().max(1))
         };
         let Head { format, version } = serde_json::from_str(text).map_err(syntax)?;
-        if format != Some(self.number) {
-            let format = format.map_or("no `format`".to_owned(), |format| format!("`format` {format}"));
-            let version =
-                version.map_or(String::new(), |version| format!(", written by groebot {}", super::shown(&version)));
-            let JsonFormat { what, number, renew } = self;
-            let text = format!("this {what} has {format}{version}; {number} is read: {renew}");
-            return Err(Error::new(ErrorKind::Unsupported, text));
+        match format.filter(|format| (self.oldest..=self.number).contains(format)) {
+            Some(format) => Ok((format, serde_json::from_str(text).map_err(syntax)?)),
+            None => Err(self.refusal(format, version)),
         }
-        serde_json::from_str(text).map_err(syntax)
+    }
+
+    fn refusal(&self, format: Option<u32>, version: Option<String>) -> Error {
+        let format = format.map_or("no `format`".to_owned(), |format| format!("`format` {format}"));
+        let version =
+            version.map_or(String::new(), |version| format!(", written by groebot {}", super::shown(&version)));
+        let JsonFormat { what, oldest, number, renew } = self;
+        let read =
+            if oldest == number { format!("{number} is read") } else { format!("{oldest} to {number} are read") };
+        Error::new(ErrorKind::Unsupported, format!("this {what} has {format}{version}; {read}: {renew}"))
     }
 }

@@ -27,6 +27,7 @@ impl Model {
     ///
     /// # Panics
     /// When there is no such link.
+    #[doc(hidden)]
     pub fn halves(&self, feet: [usize; 2]) -> [Model; 2] {
         let places = feet.map(|foot| self.link(foot).1.translation.vector);
         let (middle, across) = ((places[0] + places[1]) / 2.0, (places[0] - places[1]) / 2.0);
@@ -82,6 +83,7 @@ impl Model {
     /// # Panics
     /// When there is no such link.
     #[must_use]
+    #[doc(hidden)]
     pub fn rooted_at(&self, link: usize) -> Model {
         let (target, base_from_link) = self.link(link);
         let link_from_base = base_from_link.inverse();

@@ -105,6 +105,7 @@ impl Model {
     ///
     /// # Panics
     /// When there is no such body.
+    #[doc(hidden)]
     pub fn inertia_of(&self, body: usize) -> &Inertia {
         &self.bodies[body]
     }
@@ -126,6 +127,7 @@ impl Model {
     ///
     /// # Panics
     /// When there is no such body.
+    #[doc(hidden)]
     pub fn path(&self, body: usize) -> Vec<usize> {
         let up = |body: usize| body.checked_sub(1);
         let mut path: Vec<usize> = std::iter::successors(up(body), |joint| up(self.joints[*joint].parent)).collect();

@@ -32,11 +32,6 @@ impl Model {
 }
 
 impl Placed<'_> {
-    /// The pose of the base in the world frame.
-    pub fn world_from_base(&self) -> Pose {
-        self.motions[0]
-    }
-
     /// The displacement of a body from the zero configuration with the base at the origin. It maps a point of the body
     /// from the base frame at the zero configuration to the world frame. Body 0 is the base, `k + 1` is moved by joint
     /// `k`.

@@ -64,7 +64,12 @@ pub fn write_atomically_on(disk: &dyn Disk, path: &Path, bytes: &[u8]) -> Result
 ///
 /// # Errors
 /// Those of [`StagedFolder::stage`] and [`StagedFolder::commit`].
-pub fn write_folder_atomically(folder: &Path, files: &[(String, Vec<u8>)], watch: &Watch) -> Result<()> {
+pub fn write_folder_atomically<'w>(
+    folder: &Path,
+    files: &[(String, Vec<u8>)],
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<()> {
+    let watch = Watch::or_none(watch);
     let staged = StagedFolder::stage(folder, files, watch)?;
     watch.check()?;
     staged.commit()

@@ -43,7 +43,8 @@ impl StagedFolder<'static> {
     /// [`ErrorKind::BadValue`] for a name that is not a plain file name, or that is the name of a link, a device, a
     /// pipe or a socket; [`ErrorKind::DuplicateName`], [`ErrorKind::Io`], and those of [`Watch::check`], which is
     /// called before each file and while waiting for the lock.
-    pub fn stage(folder: &Path, files: &[(String, Vec<u8>)], watch: &Watch) -> Result<Self> {
+    pub fn stage<'w>(folder: &Path, files: &[(String, Vec<u8>)], watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         StagedFolder::stage_on(&System, folder, files, watch)
     }
 }
@@ -53,7 +54,13 @@ impl<'d> StagedFolder<'d> {
     ///
     /// # Errors
     /// Those of [`StagedFolder::stage`].
-    pub fn stage_on(disk: &'d dyn Disk, folder: &Path, files: &[(String, Vec<u8>)], watch: &Watch) -> Result<Self> {
+    pub fn stage_on<'w>(
+        disk: &'d dyn Disk,
+        folder: &Path,
+        files: &[(String, Vec<u8>)],
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         check_names(folder, files)?;
         let (folders, lock) = open(folder, watch)?;
         let mut staged = StagedFolder { disk, changes: Vec::new(), folders, _lock: lock, _writing: writing() };

@@ -1,15 +1,13 @@
 //! Check of the assumptions of a task: the chain stays in a plane, or the tip rotates about one axis only.
 
 use nalgebra::Vector3;
-use num_traits::{One, Zero};
 
-use super::parts::{TOLERANCE, show};
+use super::parts::TOLERANCE;
 use super::validate::check_plane;
-use super::{BaseAxis, Chain, ExactVector, Joint, JointKind};
+use super::{BaseAxis, Chain, Joint, JointKind};
 use crate::document::shown;
-use crate::spatial::exact::vector::sine;
+use crate::spatial::exact::vector::{show, sine, unit};
 use crate::{Error, ErrorKind, Result};
-use groebot_algebra::number::BigRational;
 
 /// Maximum tilt of the tip \[rad\] by rounding. The axes of ideal robots are exact.
 const TILT: f64 = 1e-9;
@@ -20,6 +18,7 @@ impl Chain {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] with the joint, or with the direction that is not perpendicular to the axis.
+    #[doc(hidden)]
     pub fn check_task(&self) -> Result<()> {
         if let Some(axis) = self.task().axis() {
             self.check_aim(axis)?;
@@ -59,8 +58,7 @@ impl Chain {
         if !tilts {
             return Ok(());
         }
-        let one = |i: usize| if i == axis.coordinate() { BigRational::one() } else { BigRational::zero() };
-        let normal: ExactVector = std::array::from_fn(one);
+        let normal = unit(axis.coordinate());
         let tilts = |joint: &&Joint| joint.kind == JointKind::Revolute && sine(&joint.axis, &normal) > TOLERANCE;
         let name = self.joints().iter().find(tilts).map(|joint| format!("joint `{}`", shown(&joint.name)));
         let text = format!(

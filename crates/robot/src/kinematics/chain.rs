@@ -8,10 +8,11 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::doubles::Numeric;
-use super::parts::{ChainParts, Choice, Joint, JointKind, Tip, show};
-use super::task::Task;
+use super::parts::{ChainParts, Choice, Joint, JointKind, Tip};
+use super::task::{Stated, Task};
 use super::validate::{self, Fault, Part};
 use super::{ExactVector, LengthUnit};
+use crate::spatial::exact::vector::show;
 use crate::{Error, ErrorKind, Result};
 
 /// A validated serial chain. It is immutable.
@@ -97,7 +98,7 @@ impl Chain {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] with their names.
-    pub fn check_given(&self, values: &[f64]) -> Result<()> {
+    pub(crate) fn check_given(&self, values: &[f64]) -> Result<()> {
         let count = self.given_inputs().len();
         if values.len() == count && values.iter().all(|value| value.is_finite()) {
             return Ok(());
@@ -108,16 +109,19 @@ impl Chain {
     }
 
     /// All unknowns from the greatest to the smallest, if a term order is requested.
+    #[doc(hidden)]
     pub fn order(&self) -> Option<&[String]> {
         self.parts.order.as_deref()
     }
 
     /// The selected root, if one is selected.
+    #[doc(hidden)]
     pub fn choice(&self) -> Option<&Choice> {
         self.parts.choice.as_ref()
     }
 
     /// The names of all unknowns, joint by joint from the base: c1, s1, c2, s2, d3 ...
+    #[doc(hidden)]
     pub fn unknowns(&self) -> Vec<String> {
         self.joints().iter().flat_map(Joint::unknowns).collect()
     }
@@ -140,12 +144,10 @@ impl From<Chain> for ChainParts {
 impl Chain {
     /// Describes the task: `planar_pose in xz`, `ray of [1, 0, 0]`, `position, ElbowYaw given`.
     pub fn task_text(&self) -> String {
-        let plane = self.task().plane().map(|plane| format!(" in {}", plane.name())).unwrap_or_default();
-        let axis = self.task().axis().map(|axis| format!(" about {}", axis.name())).unwrap_or_default();
-        let aimed = if self.task().aims() { format!(" of {}", show(self.direction())) } else { String::new() };
+        let stated = Stated { task: self.task(), direction: self.task().aims().then(|| self.direction()) };
         let given = &self.parts.given;
         let given = if given.is_empty() { String::new() } else { format!(", {} given", given.join(", ")) };
-        format!("{}{plane}{axis}{aimed}{given}", self.task().name())
+        format!("{stated}{given}")
     }
 }
 

@@ -4,13 +4,13 @@
 
 use std::path::Path;
 
-use super::parts::show;
 use super::validate::{Fault, Part, check_count};
 use super::{
     BaseAxis, Chain, ChainParts, Choice, ExactVector, Joint, JointKind, Placement, Plane, Root, Task, Tip, Turn,
 };
 use crate::document::{Document, Node, TEXT_LIMIT, Table, read_text, shown};
 use crate::model::toml::{Units, read_mimic, read_units};
+use crate::spatial::exact::vector::show;
 use crate::{Error, ErrorKind, Result};
 
 const ROOT_KEYS: [&str; 11] =
@@ -43,6 +43,7 @@ impl Chain {
     ///
     /// # Errors
     /// Those of [`Chain::from_toml`].
+    #[doc(hidden)]
     pub fn from_table(root: Table<'_>) -> Result<Chain> {
         root.deny_unknown(&ROOT_KEYS)?;
         let joints = root.required("joint")?.tables()?;

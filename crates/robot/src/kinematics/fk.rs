@@ -8,6 +8,7 @@ use crate::{Error, ErrorKind, Result};
 
 impl Chain {
     /// The unit vector in the tip frame of the direction for the tasks `ray` and `direction`.
+    #[doc(hidden)]
     pub fn aim(&self) -> Unit<Vector3<f64>> {
         self.numeric.aim
     }

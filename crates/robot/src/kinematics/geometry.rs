@@ -11,7 +11,7 @@ use super::{Chain, LengthUnit};
 use crate::spatial::{Axis, Relation, Screw};
 
 /// Distances up to this fraction of the reach count as zero.
-pub const TOLERANCE: f64 = 1e-9;
+pub(crate) const TOLERANCE: f64 = 1e-9;
 
 /// Two neighbouring joints.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -101,6 +101,7 @@ impl Chain {
     ///
     /// # Panics
     /// When `q` has fewer values than the chain has joints.
+    #[doc(hidden)]
     pub fn coupled_jacobian(&self, q: &[f64], held: &[usize]) -> DMatrix<f64> {
         let mut jacobian = self.task_jacobian(q, &[]);
         self.fold_followers(&mut jacobian, |_| 1.0);
@@ -130,7 +131,7 @@ impl Chain {
         let mut jacobian = self.task_jacobian(q, &[]);
         let unit = self.length_unit().metres();
         let reach = if self.reach() > 0.0 { unit * self.reach() } else { 1.0 };
-        jacobian.rows_mut(0, self.task().lengths()).scale_mut(reach);
+        jacobian.rows_mut(0, self.task().layout().lengths()).scale_mut(reach);
         let slides = |joint: usize| matches!(self.screws()[joint], Screw::Prismatic(_));
         for joint in (0..jacobian.ncols()).filter(|joint| slides(*joint)) {
             // A displacement is in units of the reach too.

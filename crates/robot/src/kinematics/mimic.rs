@@ -10,6 +10,7 @@ use crate::{Error, ErrorKind, Result};
 
 impl Chain {
     /// The index of the leader of the joint at `place`, and the law.
+    #[doc(hidden)]
     pub fn leader(&self, place: usize) -> Option<(usize, &Mimic)> {
         let mimic = self.joints()[place].mimic.as_ref()?;
         let leader = self.joints().iter().position(|joint| joint.name == mimic.leader)?;
@@ -22,6 +23,7 @@ impl Chain {
     }
 
     /// The values of all given joints, from base to tip, for the values of [`Chain::given_inputs`].
+    #[doc(hidden)]
     pub fn given_values(&self, inputs: &[f64]) -> Vec<f64> {
         let places = self.given_inputs();
         let input = |place: usize| places.iter().zip(inputs).find(|(own, _)| **own == place).map_or(0.0, |(_, q)| *q);
@@ -31,6 +33,7 @@ impl Chain {
     }
 
     /// Sets the mimic joints in `q` to the values given by their leaders.
+    #[doc(hidden)]
     pub fn follow(&self, q: &mut [f64]) {
         for place in 0..self.joints().len() {
             if let Some((leader, mimic)) = self.leader(place) {
@@ -47,6 +50,7 @@ impl Chain {
     }
 
     /// The names of leaders that are not given and whose law has no closed form, each once.
+    #[doc(hidden)]
     pub fn open_leaders(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for (leader, _) in self.unfit_followers() {
@@ -75,6 +79,7 @@ impl Chain {
     ///
     /// # Panics
     /// When `q` has fewer values than the chain has joints.
+    #[doc(hidden)]
     pub fn strays(&self, q: &[f64]) -> f64 {
         let strays = |place: usize| {
             let (leader, mimic) = self.leader(place)?;
@@ -90,6 +95,7 @@ impl Chain {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] with both joints and a remedy.
+    #[doc(hidden)]
     pub fn check_leaders(&self) -> Result<()> {
         let Some((leader, follower)) = self.unfit_followers().into_iter().next() else { return Ok(()) };
         let law = self.joints()[follower].mimic.as_ref().map(Mimic::to_string).unwrap_or_default();

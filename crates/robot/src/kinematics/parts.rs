@@ -1,16 +1,15 @@
 //! The parts of a serial chain in exact numbers: joints, tip and task. Main type: [`ChainParts`].
 
-use num_traits::{One, ToPrimitive, Zero};
 use serde::{Deserialize, Serialize};
 
 use super::task::Task;
 use super::{ExactMatrix, ExactVector, LengthUnit, Mimic, exact_serde};
-use groebot_algebra::number::BigRational;
+use crate::spatial::exact::vector::unit;
 
 /// Default tolerance of the idealisation: radians, and fractions of the reach.
 pub const TOLERANCE: f64 = 1e-6;
 /// Maximum tolerance of the idealisation.
-pub const WIDEST: f64 = 0.1;
+pub(crate) const WIDEST: f64 = 0.1;
 
 /// Type of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -130,7 +129,7 @@ pub struct ChainParts {
 
 /// The default direction: the tip's z axis.
 pub fn along_z() -> ExactVector {
-    [BigRational::zero(), BigRational::zero(), BigRational::one()]
+    unit(2)
 }
 
 impl Meant {
@@ -138,13 +137,4 @@ impl Meant {
     pub(super) fn unless_described(joints: Vec<Joint>, tip: Tip, described: (&[Joint], &Tip)) -> Option<Box<Meant>> {
         (joints != described.0 || tip != *described.1).then(|| Box::new(Meant { joints, tip }))
     }
-}
-
-/// Formats a vector as `[1/2, 0, 1]`.
-pub(super) fn show(vector: &ExactVector) -> String {
-    let [x, y, z] = vector.each_ref().map(|entry| match entry.to_string() {
-        short if short.len() <= 24 => short,
-        _ => entry.to_f64().unwrap_or(f64::NAN).to_string(),
-    });
-    format!("[{x}, {y}, {z}]")
 }

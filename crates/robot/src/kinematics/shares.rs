@@ -51,6 +51,7 @@ impl Chain {
     /// fixed. The range is between the limits, or a whole turn. It is the mean over random reachable poses, each
     /// followed until the joint reverses. It is zero for held joints and mimic joints. Values that no continuous motion
     /// reaches are not counted.
+    #[doc(hidden)]
     pub fn shares(&self, held: &[usize]) -> Vec<f64> {
         let mut shares = vec![0.0; self.joints().len()];
         let is_free = |joint: &usize| !held.contains(joint) && self.leader(*joint).is_none();
@@ -78,6 +79,7 @@ impl Chain {
 
     /// The fraction of random values of `joint`, and of random reachable poses with the joints `given`, that have
     /// solutions; `None` when the screw solver does not support the chain.
+    #[doc(hidden)]
     pub fn counted_share(&self, given: &[usize], joint: usize) -> Option<f64> {
         let leads = |place: &usize| self.leader(*place).is_none();
         let mut places: Vec<usize> = given.iter().copied().chain([joint]).filter(leads).collect();

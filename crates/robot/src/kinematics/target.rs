@@ -1,6 +1,6 @@
 //! The target of a solver: [`Target`].
 
-use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use super::{Chain, Task};
 use crate::spatial::{Pose, angle, pitch_and_roll, vertical};
@@ -55,11 +55,15 @@ impl Target {
     /// # Errors
     /// Those of [`Chain::forward`].
     pub fn reached(chain: &Chain, q: &[f64]) -> Result<Target> {
-        let pose = chain.forward(q)?;
+        Ok(Target::of_pose(chain, &chain.forward(q)?))
+    }
+
+    /// The target that the pose `pose` (base_from_tip) of the tip of `chain` is, in the form of its task.
+    pub fn of_pose(chain: &Chain, pose: &Pose) -> Target {
         let tip = pose.translation.vector;
         let aimed = || pose.rotation * chain.aim().into_inner();
-        Ok(match chain.task() {
-            Task::Pose => Target::Pose(pose),
+        match chain.task() {
+            Task::Pose => Target::Pose(*pose),
             Task::Position => Target::Position(tip.into()),
             Task::Ray => Target::Ray { point: tip.into(), direction: aimed() },
             Task::Direction => Target::Direction(aimed()),
@@ -79,79 +83,12 @@ impl Target {
                 let phi = 2.0 * turn.imag()[plane.normal()].atan2(turn.scalar());
                 Target::PlanarPose([x, y, crate::spatial::angle::wrap(phi)])
             }
-        })
-    }
-
-    /// Builds the target of `task` from these numbers, in the order of a derived solver: a position, then a rotation
-    /// row by row, a direction, or angles.
-    ///
-    /// # Errors
-    /// [`ErrorKind::BadValue`] for a wrong number of entries.
-    pub fn from_numbers(task: Task, target: &[f64]) -> Result<Target> {
-        Ok(match (task, target) {
-            (Task::Position, &[x, y, z]) => Target::Position([x, y, z].into()),
-            (Task::Pose, &[x, y, z, ..]) if target.len() == 12 => {
-                Target::Pose(Pose::from_parts(Translation3::new(x, y, z), rotation(&target[3..])))
-            }
-            (Task::Rotation, _) if target.len() == 9 => Target::Rotation(rotation(target)),
-            (Task::PositionPitchRoll, &[x, y, z, pitch, roll]) => {
-                Target::PositionPitchRoll { point: [x, y, z].into(), pitch, roll }
-            }
-            (Task::PositionYaw { .. }, &[x, y, z, yaw]) => Target::PositionYaw { point: [x, y, z].into(), yaw },
-            (Task::Ray, &[x, y, z, i, j, k]) => Target::Ray { point: [x, y, z].into(), direction: [i, j, k].into() },
-            (Task::Direction, &[i, j, k]) => Target::Direction([i, j, k].into()),
-            (Task::PlanarPosition { .. }, &[x, y]) => Target::PlanarPosition([x, y]),
-            (Task::PlanarPose { .. }, &[x, y, phi]) => Target::PlanarPose([x, y, phi]),
-            _ => {
-                let text = format!("{} numbers are not a target of the task `{}`", target.len(), task.name());
-                return Err(Error::new(ErrorKind::BadValue, text));
-            }
-        })
-    }
-
-    /// The numbers of this target, in the order of a derived solver: see [`Target::from_numbers`].
-    pub fn numbers(&self) -> Vec<f64> {
-        let rows = |rotation: &UnitQuaternion<f64>| {
-            let matrix = rotation.to_rotation_matrix().into_inner();
-            matrix.transpose().as_slice().to_vec()
-        };
-        let list = |vector: &Vector3<f64>| vector.as_slice().to_vec();
-        match self {
-            Target::Pose(pose) => [list(&pose.translation.vector), rows(&pose.rotation)].concat(),
-            Target::Position(point) => list(&point.coords),
-            Target::Ray { point, direction } => [list(&point.coords), list(direction)].concat(),
-            Target::Direction(direction) => list(direction),
-            Target::Rotation(rotation) => rows(rotation),
-            Target::PositionPitchRoll { point, pitch, roll } => [list(&point.coords), vec![*pitch, *roll]].concat(),
-            Target::PositionYaw { point, yaw } => [list(&point.coords), vec![*yaw]].concat(),
-            Target::PlanarPosition(at) => at.to_vec(),
-            Target::PlanarPose(at) => at.to_vec(),
         }
     }
 
-    /// Whether a derived solver has an input `name` for this kind of target: `px`, `r11`, `d1`, `phi`, `pitch`, `yaw`.
-    pub fn has(&self, name: &str) -> bool {
-        let (position, rest) =
-            (name.starts_with('p') && name.len() == 2, name.chars().skip(1).all(|c| c.is_ascii_digit()));
-        match self {
-            Target::Pose(_) => position || (name.starts_with('r') && rest),
-            Target::Rotation(_) => name.starts_with('r') && rest,
-            Target::Position(_) | Target::PlanarPosition(_) => position,
-            Target::Ray { .. } => position || name.starts_with('d'),
-            Target::Direction(_) => name.starts_with('d'),
-            Target::PositionPitchRoll { .. } => position || ["pitch", "roll"].contains(&name),
-            Target::PositionYaw { .. } => position || name.starts_with("yaw"),
-            Target::PlanarPose(_) => position || name == "phi",
-        }
-    }
-
-    /// Checks that the target belongs to `chain`'s task and is finite.
-    ///
-    /// # Errors
-    /// [`ErrorKind::BadValue`] otherwise, and for a quaternion or a direction whose norm is not one.
-    pub fn check(&self, chain: &Chain) -> Result<()> {
-        let task = chain.task();
-        let is_of_task = matches!(
+    /// Whether the target is of the kind that `task` has.
+    pub fn is_of(&self, task: Task) -> bool {
+        matches!(
             (self, task),
             (Target::Pose(_), Task::Pose)
                 | (Target::Position(_), Task::Position)
@@ -162,12 +99,21 @@ impl Target {
                 | (Target::PositionYaw { .. }, Task::PositionYaw { .. })
                 | (Target::PlanarPosition(_), Task::PlanarPosition { .. })
                 | (Target::PlanarPose(_), Task::PlanarPose { .. })
-        );
-        let text = if !is_of_task {
+        )
+    }
+
+    /// Checks that the target belongs to `chain`'s task and is finite.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] otherwise, and for a quaternion or a direction whose norm is not one.
+    pub fn check(&self, chain: &Chain) -> Result<()> {
+        let task = chain.task();
+        let is_finite = |values: Vec<f64>| values.iter().map(|x| x * x).sum::<f64>().is_finite();
+        let text = if !self.is_of(task) {
             format!("the chain's task is `{}`; give a target of that kind", task.name())
         } else if let Some((what, norm, whole)) = self.not_of_length_one() {
             format!("the {what} {norm}; give a {whole}")
-        } else if !self.numbers().iter().map(|x| x * x).sum::<f64>().is_finite() {
+        } else if !is_finite(task.layout().values(self)?) {
             "a target has a value that is not finite, or whose square is not; give finite numbers below 1e150"
                 .to_owned()
         } else {
@@ -236,12 +182,6 @@ impl Target {
             _ => (Vec::new(), vec![f64::NAN]),
         }
     }
-}
-
-/// The rotation with nine entries, row by row.
-fn rotation(entries: &[f64]) -> UnitQuaternion<f64> {
-    let matrix = Rotation3::from_matrix_unchecked(Matrix3::from_row_slice(entries));
-    UnitQuaternion::from_rotation_matrix(&matrix)
 }
 
 impl From<Pose> for Target {

@@ -1,13 +1,14 @@
 //! The task of a chain's tip. Main type: [`Task`].
 
-use num_traits::{One, Zero};
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use super::ExactVector;
-use groebot_algebra::number::BigRational;
+use crate::spatial::exact::vector::{show, unit};
 
 /// A coordinate plane of the base frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Plane {
     /// z = const.
@@ -48,7 +49,7 @@ impl Plane {
 }
 
 /// A coordinate axis of the base frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BaseAxis {
     /// x.
@@ -134,7 +135,7 @@ impl Task {
     /// The default direction in the tip frame: z, or the axis from which an angle about an axis is measured.
     pub fn usual_direction(self) -> ExactVector {
         let along = self.axis().map_or(2, |axis| axis.across()[0]);
-        std::array::from_fn(|i| if i == along { BigRational::one() } else { BigRational::zero() })
+        unit(along)
     }
 
     /// The number of independent values: the maximum number of joints that the task determines.
@@ -148,35 +149,15 @@ impl Task {
         }
     }
 
-    /// The number of lengths among its numbers. They come first.
-    pub fn lengths(self) -> usize {
-        match self {
-            Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => 3,
-            Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,
-            Task::Direction | Task::Rotation => 0,
+    /// Every task, in each plane and about each axis.
+    pub fn all() -> Vec<Task> {
+        let mut all =
+            vec![Task::Pose, Task::Position, Task::Ray, Task::Direction, Task::Rotation, Task::PositionPitchRoll];
+        all.extend(BaseAxis::ALL.map(|axis| Task::PositionYaw { axis }));
+        for plane in [Plane::Xy, Plane::Xz, Plane::Yz] {
+            all.extend([Task::PlanarPosition { plane }, Task::PlanarPose { plane }]);
         }
-    }
-
-    /// The names of a target's numbers, in the order of a derived solver: `px`, `r11` row by row, `dx`, `phi`, `pitch`.
-    pub fn numbers(self) -> Vec<String> {
-        let along = |prefix: &str, axes: &[usize]| -> Vec<String> {
-            axes.iter().map(|&axis| format!("{prefix}{}", ["x", "y", "z"][axis])).collect()
-        };
-        let (position, direction) = (along("p", &[0, 1, 2]), along("d", &[0, 1, 2]));
-        let rows = (1..=3).flat_map(|row| (1..=3).map(move |column| format!("r{row}{column}"))).collect();
-        let angles = |names: &[&str]| names.iter().map(|name| (*name).to_owned()).collect();
-        match self {
-            Task::Pose => [position, rows].concat(),
-            Task::Position => position,
-            Task::Ray => [position, direction].concat(),
-            Task::Direction => direction,
-            Task::Rotation => rows,
-            Task::PositionPitchRoll => [position, angles(&["pitch", "roll"])].concat(),
-            Task::PositionYaw { axis: BaseAxis::Z } => [position, angles(&["yaw"])].concat(),
-            Task::PositionYaw { axis } => [position, vec![format!("yaw_{}", axis.name())]].concat(),
-            Task::PlanarPosition { plane } => along("p", &plane.coordinates()),
-            Task::PlanarPose { plane } => [along("p", &plane.coordinates()), angles(&["phi"])].concat(),
-        }
+        all
     }
 
     /// Whether it uses a direction of the tip frame.
@@ -198,5 +179,29 @@ impl Task {
             Task::PositionPitchRoll => "position_pitch_roll",
             Task::PositionYaw { .. } => "position_yaw",
         }
+    }
+}
+
+/// Its name, with the plane or the axis: `planar_pose in xz`, `position_yaw about z`.
+impl fmt::Display for Task {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())?;
+        self.plane().map_or(Ok(()), |plane| write!(f, " in {}", plane.name()))?;
+        self.axis().map_or(Ok(()), |axis| write!(f, " about {}", axis.name()))
+    }
+}
+
+/// A task with the direction in the tip frame that it uses, for output: `ray of [1, 0, 0]`.
+pub struct Stated<'a> {
+    /// The task.
+    pub task: Task,
+    /// The direction, of a task that [uses one](Task::aims).
+    pub direction: Option<&'a ExactVector>,
+}
+
+impl fmt::Display for Stated<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.task)?;
+        self.direction.map_or(Ok(()), |direction| write!(f, " of {}", show(direction)))
     }
 }

@@ -39,6 +39,7 @@ impl Chain {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] if the first joint is given, or does not rotate about an axis along the base's z.
+    #[doc(hidden)]
     pub fn upright(&self) -> Result<Upright> {
         let unsupported = |text: &str| Err(Error::new(ErrorKind::Unsupported, text.to_owned()));
         let [first, others @ ..] = self.joints() else { return unsupported("the chain has no joint") };

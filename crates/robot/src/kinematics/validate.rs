@@ -3,12 +3,12 @@
 
 use num_traits::{One, Signed, Zero};
 
-use super::parts::{ChainParts, Joint, JointKind, Tip, WIDEST, show};
+use super::parts::{ChainParts, Joint, JointKind, Tip, WIDEST};
 use super::task::Plane;
 use super::{ExactMatrix, ExactVector};
 use crate::document::{one_among, shown};
 use crate::model::is_plain;
-use crate::spatial::exact::vector::{cosine, sine};
+use crate::spatial::exact::vector::{cosine, show, sine, unit};
 use crate::{Error, ErrorKind};
 use groebot_algebra::limits;
 use groebot_algebra::number::{BigInt, BigRational};
@@ -179,7 +179,7 @@ pub(super) fn check_plane(index: usize, joint: &Joint, plane: Plane, within: f64
 }
 
 fn normal_of(plane: Plane) -> ExactVector {
-    std::array::from_fn(|i| if i == plane.normal() { BigRational::one() } else { BigRational::zero() })
+    unit(plane.normal())
 }
 
 fn check_tip(tip: &Tip) -> Checked {

@@ -151,6 +151,7 @@ impl Solid {
 
     /// Points whose convex hull is approximately the solid, in its frame \[m\]. Empty for a mesh, whose points are in a
     /// file: see [`Meshes::points`](super::Meshes::points).
+    #[doc(hidden)]
     pub fn points(&self) -> Vec<Point3<f64>> {
         let signs = [-0.5, 0.5];
         let circle = |radius: f64, z: f64| {

@@ -11,7 +11,7 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 
 /// Maximum size of a mesh file in bytes.
-pub const MESH_LIMIT: u64 = limits::MESH_BYTES;
+pub(crate) const MESH_LIMIT: u64 = limits::MESH_BYTES;
 
 /// A triangle mesh with indexed points.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,6 +75,7 @@ impl Meshes {
     /// [`ErrorKind::Io`] for a missing or unreadable file; [`ErrorKind::Unsupported`] for a format other than STL;
     /// [`ErrorKind::Syntax`] for a file that is not STL, with the line or the triangle; [`ErrorKind::BadValue`] above a
     /// hundred megabytes, for a corner that is not finite, and for a file without triangles.
+    #[doc(hidden)]
     pub fn points(&self, solid: &Solid) -> Result<Vec<Point3<f64>>> {
         if let Solid::Mesh { .. } = solid { Ok(self.triangles(solid)?.points) } else { Ok(solid.points()) }
     }
@@ -97,6 +98,7 @@ impl Meshes {
     }
 
     /// The triangles of a mesh. If they cannot be read, the reason is added to `notes`, once.
+    #[doc(hidden)]
     pub fn triangles_or_note(&self, solid: &Solid, notes: &mut Vec<String>) -> Option<Surface> {
         self.triangles(solid)
             .map_err(|error| {

@@ -25,7 +25,7 @@ pub(crate) use check::{is_plain, listing, some_among};
 pub use fault::{Fault, Part};
 pub use joint::{Actuator, Joint, JointType, Mimic, Origin};
 pub use link::{Link, Mass, Shape, Solid};
-pub use mesh::{MESH_LIMIT, Meshes, Surface};
+pub use mesh::{Meshes, Surface};
 pub use parts::RobotParts;
 pub use robot::Robot;
 pub use unit::LengthUnit;

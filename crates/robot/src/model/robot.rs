@@ -212,12 +212,14 @@ impl Robot {
     }
 
     /// The indices of all joints, sorted topologically: each joint is after its parent.
+    #[doc(hidden)]
     pub fn order(&self) -> &[usize] {
         &self.order
     }
 
     /// The indices of all joints, sorted topologically: each joint is after its parent, and a limb's joints are
     /// together.
+    #[doc(hidden)]
     pub fn limb_by_limb(&self) -> Vec<usize> {
         let children = self.children();
         let below = |link: usize| children[link].iter().rev();
@@ -246,6 +248,7 @@ impl Robot {
     }
 
     /// The error for a robot without a visible shape. `notes` are the meshes that could not be read.
+    #[doc(hidden)]
     pub fn unseen(&self, notes: &[String]) -> Error {
         let why: String = notes.iter().map(|note| format!("; {note}")).collect();
         let text = format!(
@@ -282,7 +285,7 @@ impl Robot {
     }
 
     /// The constant value of a mimic joint with a multiplier of zero \[rad or m\].
-    pub fn constant(&self, joint: &Joint) -> Option<BigRational> {
+    pub(crate) fn constant(&self, joint: &Joint) -> Option<BigRational> {
         let law = self.law(joint);
         law.multiplier.is_zero().then_some(law.offset)
     }
@@ -291,6 +294,7 @@ impl Robot {
     ///
     /// # Panics
     /// When `q` has fewer values than there are revolute and prismatic joints.
+    #[doc(hidden)]
     pub fn follow(&self, q: &mut [f64]) {
         let moving = self.moving();
         for (place, joint) in moving.iter().enumerate() {

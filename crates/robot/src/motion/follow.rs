@@ -3,9 +3,10 @@
 
 use std::cmp::Ordering;
 
+use super::path_request::{Pace, PathRequest};
 use super::{JointTrack, Trajectory};
 use crate::kinematics::{Chain, InverseKinematics, Joint, JointKind, Solution, Target, Task};
-use crate::spatial::{Pose, angle};
+use crate::spatial::angle;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// Maximum step of a joint from pose to pose without a jump \[rad\], if there are no times.
@@ -15,15 +16,6 @@ const ROUNDING: f64 = 1e-9;
 /// Maximum number of combinations of a solution's values that differ by whole turns. Those furthest from zero are
 /// omitted.
 const MOST_STATES: usize = groebot_algebra::limits::POSE_STATES;
-
-/// Timing of a path.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Pace {
-    /// One pose every this many seconds. Joints may use their maximum velocity.
-    Every(f64),
-    /// At these times \[s\], ascending.
-    At(Vec<f64>),
-}
 
 /// A jump from one branch to another, with the reason.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,7 +51,7 @@ struct State {
     from: usize,
 }
 
-/// Computes joint values that move the tip of `chain` through `poses`, with `solver`. The path has the fewest jumps
+/// Computes joint values that move the tip of `chain` through the requested poses, with `solver`. The path has the fewest jumps
 /// between branches and, among those, the least sum of squared joint steps. Revolute joints are shifted by whole turns
 /// where their limits permit. A step is a jump if a joint moves further than its maximum velocity permits in the time.
 /// Without a maximum velocity the bound is half a radian or a tenth of the reach.
@@ -67,32 +59,16 @@ struct State {
 /// # Errors
 /// [`ErrorKind::BadValue`] for an empty list and for a wrong number of times; with the number of the pose, for one that
 /// is out of reach or whose solutions all exceed limits; [`ErrorKind::Unsupported`] for a task other than a pose, and
-/// for given joints; [`ErrorKind::Cancelled`] and [`ErrorKind::Budget`].
-pub fn follow(
+/// for given joints; [`ErrorKind::BadValue`] unless the start has one finite value per joint; [`ErrorKind::Cancelled`] and
+/// [`ErrorKind::Budget`].
+pub fn follow<'w>(
     chain: &Chain,
-    speeds: &[Option<f64>],
     solver: &dyn InverseKinematics,
-    poses: &[Pose],
-    pace: &Pace,
-    watch: &Watch,
+    request: &PathRequest<'_>,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Followed> {
-    follow_from(chain, speeds, solver, None, poses, pace, watch)
-}
-
-/// Same as [`follow`], but the arm starts at the joint values `start`. The step from there to the first pose counts
-/// like any other, and may be a jump.
-///
-/// # Errors
-/// Those of [`follow`]; [`ErrorKind::BadValue`] unless there is one finite value per joint.
-pub fn follow_from(
-    chain: &Chain,
-    speeds: &[Option<f64>],
-    solver: &dyn InverseKinematics,
-    start: Option<&[f64]>,
-    poses: &[Pose],
-    pace: &Pace,
-    watch: &Watch,
-) -> Result<Followed> {
+    let watch = Watch::or_none(watch);
+    let PathRequest { poses, pace, speeds, start } = *request;
     start.map(|start| chain.forward(start)).transpose()?;
     if chain.task() != Task::Pose || !chain.given().is_empty() {
         let text =

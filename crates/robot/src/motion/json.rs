@@ -9,8 +9,12 @@ use crate::Result;
 use crate::document::JsonFormat;
 use crate::spatial::Pose;
 
-const FORMAT: JsonFormat =
-    JsonFormat { what: "trajectory", number: 1, renew: "`groebot walk` and `groebot follow` write new ones" };
+const FORMAT: JsonFormat = JsonFormat {
+    what: "trajectory",
+    oldest: 1,
+    number: 1,
+    renew: "`groebot walk` and `groebot follow` write new ones",
+};
 
 /// The JSON form of a trajectory. Poses are position and quaternion xyzw.
 #[derive(Serialize, Deserialize)]

@@ -1,4 +1,4 @@
-//! Motions in time: a walk, an arm's path, a recording. Main type: [`Trajectory`].
+//! Motions in time: a walk, an arm's path, a recording. Main type: [`Trajectory`], samples. [`Spline`] is continuous.
 //!
 //! A trajectory is written as a CSV table ([`table`]) and as JSON, and both are read back. [`findings`] checks one for
 //! limits, speeds, jumps and margins. [`follow`] computes one through poses, on a continuous branch of the solutions.
@@ -6,6 +6,8 @@
 mod check;
 mod follow;
 mod json;
+mod path_request;
+mod spline;
 mod states;
 pub mod table;
 mod trajectory;
@@ -13,6 +15,8 @@ mod trajectory;
 pub use table::pose_numbers;
 
 pub use check::{Bounds, Fault, Finding, beyond_limit, findings, too_fast};
-pub use follow::{Followed, Jump, Pace, follow, follow_from};
+pub use follow::{Followed, Jump, follow};
+pub use path_request::{Pace, PathRequest};
+pub use spline::Spline;
 pub use states::{StateRow, StateTable};
 pub use trajectory::{Contact, Figure, JointTrack, Track, Trajectory};

@@ -7,14 +7,14 @@ use super::matrix::skew;
 use crate::{Error, ErrorKind, Result};
 
 /// Tolerance of the checks of an inertia tensor, relative to its trace, because numbers in data sheets are rounded.
-pub const ROUNDING: f64 = 1e-4;
+pub(crate) const ROUNDING: f64 = 1e-4;
 
 /// Threshold for a moment that is zero up to rounding, relative to the mass times one square metre. CAD programs write
 /// 1e-20 and 1e-35 kg m^2 for zero.
-pub const NEGLIGIBLE: f64 = 1e-12;
+pub(crate) const NEGLIGIBLE: f64 = 1e-12;
 
 /// Tolerance of the symmetry of a given tensor, relative to its norm.
-pub const ASYMMETRY: f64 = 1e-9;
+pub(crate) const ASYMMETRY: f64 = 1e-9;
 
 /// Mass, centre of mass and rotational inertia of a rigid body, in the frame of its link.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,8 +30,8 @@ impl Inertia {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when the mass is not positive, a number is not finite, the tensor is not symmetric (to
-    /// [`ASYMMETRY`]), or it is physically impossible: each principal moment must be at least zero and at most the sum
-    /// of the other two (to [`ROUNDING`]).
+    /// 1e-9 of its norm), or it is physically impossible: each principal moment must be at least zero and at most the sum
+    /// of the other two (to 1e-4 of the trace).
     pub fn new(mass: f64, centre_of_mass: Point3<f64>, rotational: Matrix3<f64>) -> Result<Self> {
         let rows: [[f64; 3]; 3] = rotational.transpose().into();
         let fault = if !(mass.is_finite() && mass > 0.0) {
@@ -51,7 +51,7 @@ impl Inertia {
     }
 
     /// Builds the inertia without checks. The tensor is made symmetric.
-    pub fn unchecked(mass: f64, centre_of_mass: Point3<f64>, rotational: Matrix3<f64>) -> Self {
+    pub(crate) fn unchecked(mass: f64, centre_of_mass: Point3<f64>, rotational: Matrix3<f64>) -> Self {
         Inertia { mass, centre_of_mass, rotational: (rotational + rotational.transpose()) / 2.0 }
     }
 
@@ -59,7 +59,7 @@ impl Inertia {
     ///
     /// # Errors
     /// Those of [`Inertia::new`].
-    pub fn check(&self, least: f64) -> Result<()> {
+    pub(crate) fn check(&self, least: f64) -> Result<()> {
         let lifted = self.rotational + Matrix3::from_diagonal_element(least);
         if is_distribution_of_mass(&lifted) && self.mass > 0.0 && self.mass.is_finite() {
             return Ok(());
@@ -89,7 +89,7 @@ impl Inertia {
 
     /// Transforms the inertia to an outer frame. `outer_from_frame` is the pose of its frame there.
     #[must_use]
-    pub fn placed(&self, outer_from_frame: &Pose) -> Self {
+    pub(crate) fn placed(&self, outer_from_frame: &Pose) -> Self {
         let turn = outer_from_frame.rotation.to_rotation_matrix().into_inner();
         Inertia {
             mass: self.mass,

@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use super::Axis;
 
 /// Maximum angle \[rad\] between directions that count as parallel.
-pub const PARALLEL: f64 = 1e-9;
+pub(crate) const PARALLEL: f64 = 1e-9;
 
 /// Relation of two lines. Lengths in the unit of the axes' points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub enum Relation {
 
 impl Axis {
     /// Whether the two lines are parallel or antiparallel, to [`PARALLEL`].
-    pub fn is_parallel(&self, other: &Axis) -> bool {
+    pub(crate) fn is_parallel(&self, other: &Axis) -> bool {
         self.direction().cross(&other.direction()).norm() <= PARALLEL
     }
 
@@ -55,7 +55,7 @@ impl Axis {
     }
 
     /// The relation of the lines. Distances up to `tolerance` count as zero, angles up to [`PARALLEL`] as parallel.
-    pub fn relation(&self, other: &Axis, tolerance: f64) -> Relation {
+    pub(crate) fn relation(&self, other: &Axis, tolerance: f64) -> Relation {
         match self.nearest_points(other) {
             None => match self.distance_to(&other.point()) {
                 distance if distance <= tolerance => Relation::Coincident,

@@ -19,7 +19,8 @@ mod screw_coordinates;
 mod twist;
 mod wrench;
 
-pub use inertia::{ASYMMETRY, Inertia, NEGLIGIBLE, ROUNDING};
+pub use inertia::Inertia;
+pub(crate) use inertia::NEGLIGIBLE;
 pub use line::Relation;
 pub use roll_pitch_yaw::RollPitchYaw;
 pub use rotation::{pitch_and_roll, vertical};

@@ -11,7 +11,7 @@ use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use super::{Pose, angle, pose};
 
 /// Maximum cosine of the pitch at which roll and yaw rotate about one line and roll is set to zero.
-pub const SINGULAR: f64 = 4.0 * f64::EPSILON;
+pub(crate) const SINGULAR: f64 = 4.0 * f64::EPSILON;
 
 /// Angles \[rad\] with `R = Rx(roll) Ry(pitch) Rz(yaw)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ impl RollPitchYaw {
 
     /// The angles of `rotation`: pitch in \[-pi/2, pi/2\], roll and yaw in (-pi, pi\].
     ///
-    /// At pitch pi/2 only roll + yaw is determined, at -pi/2 only yaw - roll: there (to [`SINGULAR`]) roll is zero.
+    /// At pitch pi/2 only roll + yaw is determined, at -pi/2 only yaw - roll: there (to 4 epsilon) roll is zero.
     pub fn of(rotation: &UnitQuaternion<f64>) -> Self {
         let r = rotation.to_rotation_matrix().into_inner();
         let cosine = r[(1, 2)].hypot(r[(2, 2)]);

@@ -5,8 +5,9 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 use crate::{Error, ErrorKind, Result};
 
 /// Maximum Frobenius norm of `R' R - 1` for a given rotation matrix.
-pub const ORTHONORMAL: f64 = 1e-9;
+pub(crate) const ORTHONORMAL: f64 = 1e-9;
 /// Tolerance of the length of a given quaternion.
+#[doc(hidden)]
 pub const UNIT: f64 = 1e-6;
 
 /// The rotation by `angle` \[rad\] about `direction`, right-handed, by Rodrigues' formula RH0 (2-9).
@@ -65,7 +66,7 @@ pub fn axis(rotation: &UnitQuaternion<f64>) -> Option<Unit<Vector3<f64>>> {
 /// Converts a rotation matrix.
 ///
 /// # Errors
-/// [`ErrorKind::BadValue`] when the columns are not a right-handed orthonormal frame, to [`ORTHONORMAL`].
+/// [`ErrorKind::BadValue`] when the columns are not a right-handed orthonormal frame, to 1e-9.
 pub fn from_matrix(matrix: &Matrix3<f64>) -> Result<UnitQuaternion<f64>> {
     let off = (matrix.transpose() * matrix - Matrix3::identity()).norm();
     let determinant = matrix.determinant();
@@ -141,7 +142,7 @@ pub fn vertical(pitch: f64, roll: f64) -> Vector3<f64> {
 
 /// Roll, pitch and yaw of a URDF \[rad\]: `R = Rz(yaw) Ry(pitch) Rx(roll)`, pitch in \[-pi/2, pi/2\]. Where roll and
 /// yaw rotate about one line, yaw is zero.
-pub fn rpy(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
+pub(crate) fn rpy(rotation: &UnitQuaternion<f64>) -> [f64; 3] {
     let r = rotation.to_rotation_matrix().into_inner();
     let level = r[(0, 0)].hypot(r[(1, 0)]);
     let yaw = if level <= 4.0 * f64::EPSILON { 0.0 } else { r[(1, 0)].atan2(r[(0, 0)]) };

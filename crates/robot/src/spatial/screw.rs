@@ -110,7 +110,7 @@ impl Axis {
 
     /// The parallel axis through the origin.
     #[must_use]
-    pub fn through_origin(&self) -> Axis {
+    pub(crate) fn through_origin(&self) -> Axis {
         Axis { point: Point3::origin(), ..*self }
     }
 
@@ -149,7 +149,7 @@ impl Screw {
 
     /// The joint with the opposite direction of motion: `exp(-q)`.
     #[must_use]
-    pub fn reversed(&self) -> Screw {
+    pub(crate) fn reversed(&self) -> Screw {
         match self {
             Screw::Revolute(axis) => Screw::Revolute(Axis { direction: -axis.direction, ..*axis }),
             Screw::Prismatic(direction) => Screw::Prismatic(-*direction),
@@ -165,7 +165,7 @@ impl Screw {
     }
 
     /// `p` \[m\] moved by the joint at `q` (\[rad\] when revolute, \[m\] when prismatic).
-    pub fn carry(&self, q: f64, p: &Point3<f64>) -> Point3<f64> {
+    pub(crate) fn carry(&self, q: f64, p: &Point3<f64>) -> Point3<f64> {
         match self {
             Screw::Revolute(axis) => axis.rotate(q, p),
             Screw::Prismatic(direction) => p + direction.scale(q),

@@ -2,10 +2,11 @@
 
 use std::collections::HashMap;
 
+use groebot_algebra::limits::SYMBOLIC_TERMS;
 use groebot_algebra::number::BigRational;
 use groebot_algebra::poly::parse;
 use groebot_robot::ErrorKind;
-use groebot_robot::dynamics::exact::{Certificate, ExactModel, MOST_TERMS, Masses, Symbolic, masses};
+use groebot_robot::dynamics::exact::{Certificate, ExactModel, Masses, Symbolic, masses};
 use groebot_robot::dynamics::{Base, Equations, State};
 use groebot_robot::kinematics::Chain;
 use groebot_robot::model::Robot;
@@ -20,7 +21,7 @@ fn down() -> ExactVector {
 }
 
 fn symbolic(chain: &Chain, masses: Masses<'_>) -> Symbolic {
-    Symbolic::new(ExactModel::new(chain, masses, &down(), MOST_TERMS).unwrap()).unwrap()
+    Symbolic::new(ExactModel::new(chain, masses, &down(), SYMBOLIC_TERMS).unwrap()).unwrap()
 }
 
 /// Evaluates the equations of a robot from its root to a link, with numeric masses, and compares them with the
@@ -145,6 +146,6 @@ fn too_many_terms_and_odd_directions_are_refused() {
     assert_eq!(error.kind(), ErrorKind::Overflow);
     assert!(error.message().contains("at most 100 are allowed"), "{error}");
     let odd = [1, 2, 100_003].map(|x: i32| BigRational::from_integer(x.into()));
-    let error = ExactModel::new(&chain, Masses::Symbols, &odd, MOST_TERMS).unwrap_err();
+    let error = ExactModel::new(&chain, Masses::Symbols, &odd, SYMBOLIC_TERMS).unwrap_err();
     assert!(error.kind() == ErrorKind::Unsupported && error.message().contains("gravity"), "{error}");
 }

@@ -7,6 +7,7 @@ mod fk;
 mod geometry;
 mod ideal;
 pub mod jacobian;
+mod layout;
 mod mimic;
 mod numeric;
 mod oracle;

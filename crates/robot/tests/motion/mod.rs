@@ -1,5 +1,6 @@
 //! Trajectories: their table and JSON, checks, and paths along poses.
 
+mod spline;
 mod states;
 mod table;
 mod trajectory;

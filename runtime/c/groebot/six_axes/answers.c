@@ -26,10 +26,10 @@ typedef struct {
 } gb_six_search;
 
 /* The magnitude of a displacement; of an angle, reduced to (-pi, pi]. */
-GB_INLINE gb_real gb_six_difference(gb_real way, bool slides)
+GB_INLINE gb_real gb_six_difference(gb_real delta, bool slides)
 {
-    const gb_real turns = slides ? R(0.0) : gb_round(way / GB_TAU);
-    return gb_magnitude(way - GB_TAU * turns);
+    const gb_real turns = slides ? R(0.0) : gb_round(delta / GB_TAU);
+    return gb_magnitude(delta - GB_TAU * turns);
 }
 
 /* The largest difference of two joint vectors. */
@@ -56,12 +56,12 @@ static bool gb_six_is_within(const gb_real *a, const gb_real *b, const bool *sli
 /* Adds a joint vector if the list has none close to it. Angles that differ by whole turns are distinct. */
 static void gb_six_remember(gb_six_list *list, const gb_real *q)
 {
-    static const bool ways[6] = {true, true, true, true, true, true};
+    static const bool slides[6] = {true, true, true, true, true, true};
     if (list->count == GB_SIX_KEPT) {
         return;
     }
     for (size_t k = 0; k < list->count; k++) {
-        if (gb_six_is_within(list->list[k], q, ways, GB_SIX_ALIKE)) {
+        if (gb_six_is_within(list->list[k], q, slides, GB_MERGING_KNOWN)) {
             return;
         }
     }
@@ -83,7 +83,7 @@ static void gb_six_lose(gb_six_search *search, const gb_real *q)
 static void gb_six_keep(gb_six_distinct *answers, const gb_real *q, gb_real residual, const bool *slides)
 {
     size_t at = 0;
-    while (at < answers->count && !gb_six_is_within(answers->list[at], q, slides, GB_SIX_MERGE)) {
+    while (at < answers->count && !gb_six_is_within(answers->list[at], q, slides, GB_MERGING_JOINTS)) {
         at++;
     }
     if (at == GB_SIX_KEPT || (at < answers->count && !(residual < answers->residual[at]))) {
@@ -110,7 +110,7 @@ static GB_COLD void gb_six_displace(const gb_chain *chain, const gb_real *q, gb_
 {
     bool is_new = !gb_six_is_member(chain, q);
     for (size_t k = 0; k < answers->count && is_new; k++) {
-        is_new = !gb_six_is_within(answers->list[k], q, chain->slides, GB_SIX_MERGE);
+        is_new = !gb_six_is_within(answers->list[k], q, chain->slides, GB_MERGING_JOINTS);
     }
     for (size_t k = 0; k < answers->count && is_new; k++) {
         if (gb_six_is_member(chain, answers->list[k])) {
@@ -146,11 +146,11 @@ static void gb_six_find(const gb_chain *chain, const gb_rigid *target, const gb_
     memcpy(q, from, sizeof q);
     const gb_real residual = gb_six_polish(chain, q, target, &start);
     gb_six_wrap(q, chain->slides);
-    if (!(residual <= GB_SIX_ACCEPT)) {
+    if (!(residual <= GB_ACCEPTANCE_RESIDUAL_SIX)) {
         return;
     }
     for (size_t k = 0; k < search->answers.count; k++) {
-        if (gb_six_is_within(search->answers.list[k], q, chain->slides, GB_SIX_APART)) {
+        if (gb_six_is_within(search->answers.list[k], q, chain->slides, GB_MERGING_APART)) {
             return;
         }
     }

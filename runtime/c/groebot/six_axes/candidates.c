@@ -222,7 +222,7 @@ static bool gb_six_find_candidates(const gb_chain *chain, const gb_rigid *displa
     if (!gb_six_eigenvalues(&problem.form, values)) {
         return false;
     }
-    problem.coinciding = gb_square_root(GB_SIX_COINCIDING / found->conditioning);
+    problem.coinciding = gb_square_root(GB_ACCEPTANCE_ROUNDING_EIGENVALUES / found->conditioning);
     gb_six_choose(&problem, values, deepest, &near);
     found->count = 0;
     found->are_crowded = false;

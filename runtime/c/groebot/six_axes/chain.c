@@ -45,9 +45,9 @@ static gb_six_figure gb_six_place(const gb_chain *chain, gb_formulation formulat
 }
 
 /* Whether a displacement represents an infinite one. Chains with two prismatic joints have such eigenvalues. */
-static bool gb_six_is_infinite(gb_real way)
+static bool gb_six_is_infinite(gb_real value)
 {
-    return !(gb_magnitude(way) <= GB_SIX_LONG);
+    return !(gb_magnitude(value) <= GB_SIX_LONG);
 }
 
 /* Whether a displacement among joint values represents an infinite one. */

@@ -58,7 +58,7 @@ static gb_real gb_six_walsh(size_t j, size_t k)
 /* An orthonormal basis of the space of `count` eigenvectors for eigenvalues at x; false where there is none. */
 static bool gb_six_find_basis(const gb_six_hessenberg *form, gb_real x, size_t count, gb_six_matrix *basis)
 {
-    const gb_real shifted = x + GB_SIX_SHIFT * (R(1.0) + gb_magnitude(x));
+    const gb_real shifted = x + GB_EIGENVALUES_SHIFT * (R(1.0) + gb_magnitude(x));
     for (size_t j = 0; j < GB_SIX_SIZE; j++) {
         for (size_t k = 0; k < GB_SIX_SIZE; k++) {
             basis->at[j][k] = gb_six_walsh(j, k);
@@ -110,7 +110,7 @@ static bool gb_six_find_tangents(const gb_six_wide *basis, size_t count, gb_six_
         }
         largest = gb_six_largest(largest, rows[i], GB_SIX_SIZE);
     }
-    if (!(gb_six_solve(rows[0], GB_SIX_SIZE, 2 * GB_SIX_SIZE, largest) >= GB_SIX_DETERMINED)) {
+    if (!(gb_six_solve(rows[0], GB_SIX_SIZE, 2 * GB_SIX_SIZE, largest) >= GB_PIVOTS_SINGULAR_TANGENTS)) {
         return false;
     }
     for (size_t i = 0; i < GB_SIX_SIZE; i++) {
@@ -125,8 +125,8 @@ static bool gb_six_are_separate(const gb_six_eigenvalue *values, size_t count)
     for (size_t k = 0; k < count; k++) {
         for (size_t i = 0; i < k; i++) {
             const gb_six_eigenvalue a = values[k], b = values[i];
-            const gb_real way = gb_magnitude(a.re - b.re) + gb_magnitude(a.im - b.im);
-            if (way <= GB_SIX_SEPARATE * (R(1.0) + a.re * a.re + b.re * b.re)) {
+            const gb_real distance = gb_magnitude(a.re - b.re) + gb_magnitude(a.im - b.im);
+            if (distance <= GB_MERGING_APART_TANGENTS * (R(1.0) + a.re * a.re + b.re * b.re)) {
                 return false;
             }
         }

@@ -29,19 +29,19 @@ static void gb_six_begin(gb_six_walk *walk, const gb_real *q)
     }
 }
 
-/* The place that steps across the curve lead to from `q` plus a share of `way`; false where there is none. */
-static bool gb_six_advance(const gb_six_walk *walk, const gb_real *q, const gb_real *way, gb_real share, gb_six_point *next)
+/* The place that steps across the curve lead to from `q` plus a share of `delta`; false where there is none. */
+static bool gb_six_advance(const gb_six_walk *walk, const gb_real *q, const gb_real *delta, gb_real share, gb_six_point *next)
 {
     for (int k = 0; k < 6; k++) {
-        next->q[k] = q[k] + share * way[k];
+        next->q[k] = q[k] + share * delta[k];
     }
     return gb_six_settle(walk->chain, walk->target, next, GB_SIX_FEW);
 }
 
-static void gb_six_way(const gb_real *from, const gb_real *to, gb_real *way)
+static void gb_six_differences(const gb_real *from, const gb_real *to, gb_real *delta)
 {
     for (int k = 0; k < 6; k++) {
-        way[k] = to[k] - from[k];
+        delta[k] = to[k] - from[k];
     }
 }
 
@@ -50,16 +50,16 @@ static void gb_six_way(const gb_real *from, const gb_real *to, gb_real *way)
 static void gb_six_change(const gb_six_walk *walk, const gb_six_point *a, const gb_six_point *b)
 {
     gb_real low = a->value, high = b->value;
-    if ((low <= R(0.0)) == (high <= R(0.0)) || gb_larger(gb_magnitude(low), gb_magnitude(high)) <= GB_SIX_LEVEL) {
+    if ((low <= R(0.0)) == (high <= R(0.0)) || gb_larger(gb_magnitude(low), gb_magnitude(high)) <= GB_SELF_MOTIONS_MEMBER_SIX) {
         return;
     }
     gb_six_point near = *a, far = *b;
     int side = 0;
     for (int round = 0; round < GB_SIX_NARROWED; round++) {
         gb_six_point middle;
-        gb_real way[6];
-        gb_six_way(near.q, far.q, way);
-        if (!gb_six_advance(walk, near.q, way, low / (low - high), &middle)) {
+        gb_real delta[6];
+        gb_six_differences(near.q, far.q, delta);
+        if (!gb_six_advance(walk, near.q, delta, low / (low - high), &middle)) {
             break;
         }
         gb_six_align(&middle, a);
@@ -85,16 +85,16 @@ static void gb_six_change(const gb_six_walk *walk, const gb_six_point *a, const 
 static void gb_six_dip(const gb_six_walk *walk, const gb_six_point *a, const gb_six_point *b, const gb_six_point *c)
 {
     const gb_real low = a->value, least = b->value, high = c->value, size = gb_magnitude(least);
-    if (!(size < gb_magnitude(low) && size < gb_magnitude(high) && size > GB_SIX_LEVEL) || (low <= R(0.0)) != (least <= R(0.0))
+    if (!(size < gb_magnitude(low) && size < gb_magnitude(high) && size > GB_SELF_MOTIONS_MEMBER_SIX) || (low <= R(0.0)) != (least <= R(0.0))
         || (high <= R(0.0)) != (least <= R(0.0))) {
         return;
     }
     const gb_real share = R(0.5) * (low - high) / (low - least - least + high);
     const gb_six_point *end = share < R(0.0) ? a : c;
     gb_six_point vertex;
-    gb_real way[6];
-    gb_six_way(b->q, end->q, way);
-    if (gb_six_advance(walk, b->q, way, gb_magnitude(share), &vertex)) {
+    gb_real delta[6];
+    gb_six_differences(b->q, end->q, delta);
+    if (gb_six_advance(walk, b->q, delta, gb_magnitude(share), &vertex)) {
         gb_six_align(&vertex, b);
         gb_six_change(walk, b, &vertex);
         gb_six_change(walk, &vertex, end);
@@ -148,9 +148,9 @@ static bool gb_six_leads_home(gb_six_walk *walk, const gb_six_point *home, gb_re
         }
         before = at;
         at = next;
-        const gb_real way = gb_six_distance(at.q, home->q, slides);
-        is_away |= way > R(3.0) * GB_SIX_STRIDE;
-        if (is_away && way <= GB_SIX_STRIDE && gb_six_product(at.along, home->along, 6) > R(0.5)) {
+        const gb_real delta = gb_six_distance(at.q, home->q, slides);
+        is_away |= delta > R(3.0) * GB_SIX_STRIDE;
+        if (is_away && delta <= GB_SIX_STRIDE && gb_six_product(at.along, home->along, 6) > R(0.5)) {
             const gb_six_point end = gb_six_beside(home, &at, slides);
             gb_six_change(walk, &at, &end);
             return true;
@@ -177,7 +177,7 @@ static void gb_six_run_walk(gb_six_walk *walk)
             }
             gb_six_leads_home(walk, &home, level);
         }
-        if (level[1] <= GB_SIX_LEVEL) {
+        if (level[1] <= GB_SELF_MOTIONS_MEMBER_SIX) {
             gb_six_find(walk->chain, walk->target, start->q, walk->search);
         } else if (walk->chain->within > R(0.0) && level[0] <= GB_SIX_NEXT * walk->chain->within) {
             gb_six_remember(&walk->search->meeting, start->q);

@@ -75,7 +75,7 @@ static gb_real gb_six_invert(const gb_six_pencil *pencil, gb_real origin, gb_rea
 static gb_real gb_six_standardise(const gb_six_pencil *pencil, size_t attempt, gb_six_matrix *matrix, gb_real *origin)
 {
     gb_real conditioning = R(0.0), rows[GB_SIX_SIZE][2 * GB_SIX_SIZE];
-    for (size_t index = 0; index < GB_SIX_ORIGINS && !(conditioning >= GB_SIX_SOUND_ORIGIN); index++) {
+    for (size_t index = 0; index < GB_SIX_ORIGINS && !(conditioning >= GB_ROOTS_PIVOT_ORIGIN); index++) {
         const gb_real other = gb_six_origins[(attempt + index) % GB_SIX_ORIGINS], share = gb_six_invert(pencil, other, rows);
         if (share > conditioning) {
             conditioning = share;

@@ -63,7 +63,7 @@ static GB_COLD void gb_six_make_obtuse(gb_real *turn)
 {
     const gb_real sine = gb_square_root(gb_six_dot(turn, turn));
     for (int k = 0; k < 3; k++) {
-        turn[k] = sine > GB_SIX_NO_AXIS ? turn[k] * ((R(2.0) - sine) / sine) : (k == 0 ? R(2.0) : R(0.0));
+        turn[k] = sine > GB_PIVOTS_REGULAR_SIX ? turn[k] * ((R(2.0) - sine) / sine) : (k == 0 ? R(2.0) : R(0.0));
     }
 }
 
@@ -118,15 +118,15 @@ static gb_real gb_six_closing(const gb_chain *chain, const gb_real *q, size_t jo
 GB_INLINE void gb_six_derivatives(const gb_chain *chain, const gb_six_reach *reach, size_t joint, gb_real *column)
 {
     const gb_real *axis = reach->axes[joint];
-    gb_real arm[3], way[3];
+    gb_real arm[3], position[3];
     GB_UNROLL
     for (int k = 0; k < 3; k++) {
         arm[k] = reach->end.translation[k] - reach->origins[joint][k];
     }
-    gb_six_cross(axis, arm, way);
+    gb_six_cross(axis, arm, position);
     GB_UNROLL
     for (int k = 0; k < 3; k++) {
-        column[k] = chain->slides[joint] ? axis[k] : way[k];
+        column[k] = chain->slides[joint] ? axis[k] : position[k];
         column[3 + k] = chain->slides[joint] ? R(0.0) : axis[k];
     }
 }
@@ -178,7 +178,7 @@ static void gb_six_follow_step(const gb_chain *chain, const gb_six_trial *at, co
             next->q[joint] = at->q[joint] + share * step[joint];
         }
         gb_six_try(chain, target, next);
-        if (next->residual < at->residual || at->residual <= GB_SIX_ROUNDING || *shortened >= GB_SIX_SHORTENED) {
+        if (next->residual < at->residual || at->residual <= GB_SELF_MOTIONS_MEMBER_SIX || *shortened >= GB_SIX_SHORTENED) {
             return;
         }
         share = R(0.25) * share;
@@ -207,7 +207,7 @@ static gb_real gb_six_polish(const gb_chain *chain, gb_real *q, const gb_rigid *
         gb_six_trial *const other = at;
         at = next;
         next = other;
-        if (at->residual > R(0.5) * known && at->residual <= GB_SIX_ROUNDING) {
+        if (at->residual > R(0.5) * known && at->residual <= GB_SELF_MOTIONS_MEMBER_SIX) {
             break;
         }
     }
@@ -235,7 +235,7 @@ static void gb_six_find_free(const gb_chain *chain, const gb_real *q, bool *is_f
             }
         }
         const gb_real left = gb_six_norm(column);
-        is_free[joint] = left <= GB_SIX_SINGULAR * whole;
+        is_free[joint] = left <= GB_PIVOTS_REGULAR_COLUMNS * whole;
         if (!is_free[joint]) {
             for (int k = 0; k < 6; k++) {
                 kept[count][k] = column[k] / left;

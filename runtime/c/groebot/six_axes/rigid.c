@@ -108,11 +108,11 @@ GB_INLINE void gb_six_then_turn(gb_rigid *motion, gb_real c, gb_real s)
 }
 
 /* Followed by a translation along the moved z axis. */
-GB_INLINE void gb_six_then_slide(gb_rigid *motion, gb_real way)
+GB_INLINE void gb_six_then_slide(gb_rigid *motion, gb_real distance)
 {
     GB_UNROLL
     for (int i = 0; i < 3; i++) {
-        motion->translation[i] = motion->translation[i] + motion->rotation[i][2] * way;
+        motion->translation[i] = motion->translation[i] + motion->rotation[i][2] * distance;
     }
 }
 

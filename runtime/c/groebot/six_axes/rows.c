@@ -79,7 +79,7 @@ static void gb_six_slide_rows(const gb_six_profile *near, const gb_six_profile *
 /* The equation, and the index in the order of the columns, of the largest coefficient relative to its equation's size; false where all are small. */
 static bool gb_six_find_still(const gb_six_equations *rows, size_t *row_of, size_t *place_of)
 {
-    gb_real best = GB_SIX_WEAK;
+    gb_real best = GB_PIVOTS_WEAK;
     bool is_found = false;
     for (size_t row = rows->solved; row < GB_SIX_STILL; row++) {
         const gb_real *still = rows->still[row].at, inverse = R(1.0) / gb_six_largest(GB_LEAST_POSITIVE, still, GB_SIX_ROW);

@@ -64,7 +64,7 @@ static bool gb_six_eliminate_cut(gb_six_cut *cut)
         const gb_real most = gb_six_bring(cut, k), *pivot = cut->matrix[k];
         const size_t column = cut->columns[k];
         first = k == 0 ? most : first;
-        if (most <= GB_SIX_RANK * first || !gb_six_is_finite(most)) {
+        if (most <= GB_PIVOTS_WEAK_CURVE * first || !gb_six_is_finite(most)) {
             return false;
         }
         for (size_t i = k + 1; i < 6; i++) {
@@ -144,7 +144,7 @@ static bool gb_six_section(const gb_chain *chain, const gb_rigid *target, gb_six
 /* Whether a curve is here. */
 static bool gb_six_is_near(const gb_six_point *at)
 {
-    return at->slope <= GB_SIX_STEEP && gb_magnitude(at->value) <= GB_SIX_ADRIFT;
+    return at->slope <= GB_SELF_MOTIONS_FLAT_NEAR && gb_magnitude(at->value) <= GB_STRATA_NEAR_CURVE;
 }
 
 /* Makes the signs of the directions consistent with another place's. */
@@ -166,13 +166,13 @@ static bool gb_six_settle(const gb_chain *chain, const gb_rigid *target, gb_six_
             return false;
         }
         const gb_real longest = gb_six_size(at->step), share = longest > GB_SIX_LONGEST ? GB_SIX_LONGEST / longest : R(1.0);
-        if (!gb_six_is_finite(longest) || (round >= GB_SIX_EARLY && at->slope > GB_SIX_FLAT)) {
+        if (!gb_six_is_finite(longest) || (round >= GB_SIX_EARLY && at->slope > GB_SELF_MOTIONS_FLAT)) {
             return false;
         }
         for (int k = 0; k < 6; k++) {
             at->q[k] += share * at->step[k];
         }
-        if (longest <= GB_SIX_SETTLED) {
+        if (longest <= GB_POLISHING_STEP) {
             return gb_six_section(chain, target, at) && gb_six_is_near(at);
         }
     }

@@ -34,9 +34,9 @@ static void gb_six_pair(const gb_six_matrix *h, size_t low, gb_six_eigenvalue *p
         pair[1].im = -pair[0].im;
         return;
     }
-    const gb_real way = half + gb_signed(gb_square_root(discriminant), half);
-    pair[0].re = d + way;
-    pair[1].re = way == R(0.0) ? d : d - b * c / way;
+    const gb_real sum = half + gb_signed(gb_square_root(discriminant), half);
+    pair[0].re = d + sum;
+    pair[1].re = sum == R(0.0) ? d : d - b * c / sum;
     pair[0].im = pair[1].im = R(0.0);
 }
 
@@ -94,7 +94,7 @@ GB_INLINE void gb_six_reflect_columns(gb_six_matrix *h, size_t low, size_t high,
 GB_INLINE void gb_six_chase(gb_six_matrix *h, size_t low, size_t high, size_t top, size_t count, const gb_real *column)
 {
     const gb_real square = gb_six_product(column, column, count), length = gb_signed(gb_square_root(square), column[0]);
-    if (square >= GB_SIX_FAINT) {
+    if (square >= GB_ROOTS_ZERO_COLUMN) {
         const gb_real head = column[0] + length, share = R(1.0) + column[0] / length;
         gb_real u[3] = {R(1.0), R(0.0), R(0.0)}, w[3] = {share, R(0.0), R(0.0)};
         for (size_t k = 1; k < count; k++) {

@@ -36,7 +36,7 @@ static gb_real gb_six_lead(const gb_six_attempt *attempt, gb_real *q, gb_real *l
         const gb_rigid motion = gb_six_aside(size, attempt->number), near = gb_six_after(&motion, attempt->goal);
         const gb_rigid target = gb_six_after(&near, &attempt->chain->last);
         residual = gb_six_polish(attempt->chain, q, &target, &start);
-        if (residual > GB_SIX_ACCEPT) {
+        if (residual > GB_ACCEPTANCE_RESIDUAL_SIX) {
             break;
         }
         memcpy(last, q, 6 * sizeof *last);
@@ -51,7 +51,7 @@ static GB_APART gb_real gb_six_bring_back(const gb_six_attempt *attempt, gb_real
     gb_real start;
     memcpy(last, q, 6 * sizeof *last);
     const gb_real residual = gb_six_polish(attempt->chain, q, attempt->target, &start);
-    if (residual <= GB_SIX_ACCEPT) {
+    if (residual <= GB_ACCEPTANCE_RESIDUAL_SIX) {
         return residual;
     }
     memcpy(q, last, 6 * sizeof *q);
@@ -61,14 +61,14 @@ static GB_APART gb_real gb_six_bring_back(const gb_six_attempt *attempt, gb_real
 /* The squared depth of complex solutions that may be real for a robot within the tolerance. */
 static gb_real gb_six_parted(const gb_chain *chain)
 {
-    return gb_larger(GB_SIX_OFF * chain->within, gb_smaller(GB_SIX_FAR_OFF * chain->within, GB_SIX_BLURRED * GB_SIX_BLURRED));
+    return gb_larger(GB_SIX_OFF * chain->within, gb_smaller(GB_SIX_FAR_OFF * chain->within, GB_EIGENVALUES_BLURRED * GB_EIGENVALUES_BLURRED));
 }
 
 /* Polishes a candidate, and keeps or stores it. */
 static void gb_six_follow(const gb_six_attempt *attempt, const gb_six_candidate *candidate, gb_six_search *search, gb_six_tally *tally)
 {
     const gb_chain *chain = attempt->chain;
-    const gb_real deep = candidate->depth * candidate->depth, accuracy = gb_larger(tally->worst, GB_SIX_UNKNOWN);
+    const gb_real deep = candidate->depth * candidate->depth, accuracy = gb_larger(tally->worst, GB_EIGENVALUES_ACCURACY);
     const bool is_far = deep > GB_SIX_FAR_OFF * accuracy, is_aside = attempt->size > R(0.0);
     gb_real q[6], first[6], last[6], start;
     search->is_meeting |= !is_aside && deep > R(0.0) && deep <= gb_six_parted(chain);
@@ -87,10 +87,10 @@ static void gb_six_follow(const gb_six_attempt *attempt, const gb_six_candidate 
     if (is_aside) {
         residual = gb_six_bring_back(attempt, q, last);
     }
-    if (is_aside && (residual > GB_SIX_ACCEPT || candidate->depth > R(0.0))) {
+    if (is_aside && (residual > GB_ACCEPTANCE_RESIDUAL_SIX || candidate->depth > R(0.0))) {
         gb_six_remember(&search->far, first);
     }
-    if (residual <= GB_SIX_ACCEPT) {
+    if (residual <= GB_ACCEPTANCE_RESIDUAL_SIX) {
         tally->worst = candidate->depth == R(0.0) ? gb_larger(tally->worst, start) : tally->worst;
         gb_six_wrap(q, chain->slides);
         gb_six_keep_answer(chain, q, residual, search);
@@ -106,11 +106,11 @@ static bool gb_six_run(const gb_six_attempt *attempt, const gb_rigid *displaceme
 {
     const size_t known = search->answers.count;
     const bool is_aside = attempt->size > R(0.0);
-    const gb_real blurred = gb_larger(GB_SIX_BLURRED, gb_square_root(GB_SIX_OFF * attempt->chain->within));
+    const gb_real blurred = gb_larger(GB_EIGENVALUES_BLURRED, gb_square_root(GB_SIX_OFF * attempt->chain->within));
     gb_six_candidates candidates;
     gb_six_tally tally;
     if (!gb_six_find_candidates(attempt->chain, displacement, attempt->number, is_aside ? GB_SIX_DEEPEST : blurred, &candidates)
-        || candidates.conditioning < GB_SIX_SINGULAR_PENCIL) {
+        || candidates.conditioning < GB_PIVOTS_SINGULAR_PENCIL) {
         return false;
     }
     search->is_meeting |= candidates.conditioning < attempt->chain->within;
@@ -120,10 +120,10 @@ static bool gb_six_run(const gb_six_attempt *attempt, const gb_rigid *displaceme
         gb_six_follow(attempt, &candidates.list[k], search, &tally);
     }
     const size_t count = search->answers.count;
-    const bool is_unreachable = candidates.count == 0 && candidates.conditioning >= GB_SIX_CLEAR, nothing_lost = search->lost.count == 0;
+    const bool is_unreachable = candidates.count == 0 && candidates.conditioning >= GB_PIVOTS_REGULAR_SIX, nothing_lost = search->lost.count == 0;
     const bool is_clear = tally.lost == 0 && count % 2 == 0 && !candidates.are_crowded && (count > 0 || is_unreachable);
     const bool is_confirmed = attempt->number > 0 && known == count && tally.own.count == count && nothing_lost;
-    const bool is_sound = tally.worst <= GB_SIX_ACCURATE && candidates.conditioning >= GB_SIX_SOUND;
+    const bool is_sound = tally.worst <= GB_ACCEPTANCE_UNSETTLED_EIGENVALUES && candidates.conditioning >= GB_PIVOTS_SINGULAR_SOUND;
     return is_clear && (is_confirmed || (is_sound && (!is_aside || nothing_lost)));
 }
 
@@ -172,7 +172,7 @@ static GB_APART void gb_six_meet(const gb_chain *chain, const gb_rigid *goal, co
         for (size_t i = 0; i < candidates.count; i++) {
             gb_real *q = candidates.list[i].q, start;
             q[missing] = gb_six_closing(chain, q, missing, &near);
-            if (gb_six_polish(chain, q, &near, &start) <= GB_SIX_ACCEPT && gb_six_polish(chain, q, target, &start) > GB_SIX_ACCEPT) {
+            if (gb_six_polish(chain, q, &near, &start) <= GB_ACCEPTANCE_RESIDUAL_SIX && gb_six_polish(chain, q, target, &start) > GB_ACCEPTANCE_RESIDUAL_SIX) {
                 gb_six_remember(&search->meeting, q);
             }
         }
@@ -190,7 +190,7 @@ static bool gb_six_is_sorted(const gb_real *a, const gb_real *b)
 }
 
 /* Joint values in the unit of the target. */
-static gb_six_answer gb_six_tell(const gb_chain *chain, const gb_real *q, bool lost)
+static gb_six_answer gb_six_answer_of(const gb_chain *chain, const gb_real *q, bool lost)
 {
     gb_six_answer answer;
     for (int joint = 0; joint < 6; joint++) {
@@ -202,11 +202,11 @@ static gb_six_answer gb_six_tell(const gb_chain *chain, const gb_real *q, bool l
 }
 
 /* Writes the solutions, in the unit of the target. Returns their number. */
-static size_t gb_six_tell_all(const gb_chain *chain, const gb_six_search *search, bool is_isolated, gb_six_answer *out)
+static size_t gb_six_write_answers(const gb_chain *chain, const gb_six_search *search, bool is_isolated, gb_six_answer *out)
 {
     size_t count = 0;
     for (; count < search->answers.count; count++) {
-        gb_six_answer answer = gb_six_tell(chain, search->answers.list[count], false);
+        gb_six_answer answer = gb_six_answer_of(chain, search->answers.list[count], false);
         if (!is_isolated) {
             gb_six_find_free(chain, search->answers.list[count], answer.free);
         }
@@ -217,10 +217,10 @@ static size_t gb_six_tell_all(const gb_chain *chain, const gb_six_search *search
         out[place] = answer;
     }
     for (size_t k = 0; k < search->lost.count; k++) {
-        out[count++] = gb_six_tell(chain, search->lost.list[k], true);
+        out[count++] = gb_six_answer_of(chain, search->lost.list[k], true);
     }
     for (size_t k = 0; k < search->meeting.count && count < GB_SIX_ROOM; k++) {
-        out[count++] = gb_six_tell(chain, search->meeting.list[k], true);
+        out[count++] = gb_six_answer_of(chain, search->meeting.list[k], true);
     }
     return count;
 }
@@ -246,5 +246,5 @@ GB_LINKAGE size_t gb_six_axes(const gb_chain *chain, const gb_real *target, gb_s
         gb_six_meet(chain, &goal, &end, &search);
     }
     /* The first run shows a reliable result only where there is no self-motion. */
-    return gb_six_tell_all(chain, &search, runs == 1, out);
+    return gb_six_write_answers(chain, &search, runs == 1, out);
 }

@@ -24,11 +24,12 @@ pub struct Checked {
 /// # Errors
 /// [`crate::ErrorKind::Certificate`] with the statement that fails; [`crate::ErrorKind::Overflow`]; the error with
 /// which `watch` stops the work.
-pub fn check<F: Field>(
+pub fn check<'w, F: Field>(
     cover: &Cover<F>,
     generators: &[Polynomial<<Fractions<F> as Ring>::Element>],
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Checked> {
+    let watch = Watch::or_none(watch);
     let regions = Regions { ring: cover.ring.field().ring(), watch };
     regions.nothing_is_left(cover)?;
     let disjoint_pairs = regions.strata_are_disjoint(cover)?;

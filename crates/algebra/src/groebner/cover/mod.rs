@@ -55,12 +55,13 @@ pub struct Cover<F: Field> {
 /// # Errors
 /// [`crate::ErrorKind::BadValue`] for a coefficient with a denominator; [`crate::ErrorKind::Overflow`]; the error with
 /// which `watch` stops the work.
-pub fn cover<F: Field>(
+pub fn cover<'w, F: Field>(
     ring: &PolynomialRing<Fractions<F>>,
     generators: &[Polynomial<<Fractions<F> as Ring>::Element>],
     space: &Space<F::Element>,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Cover<F>> {
+    let watch = Watch::or_none(watch);
     let ideals = Ideals::new(ring.field().ring(), watch)?;
     let flat = Flat::new(ring, generators)?;
     let space = space.related(ring.field());

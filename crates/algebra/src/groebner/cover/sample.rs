@@ -19,12 +19,13 @@ pub type Candidates<'a, E> = dyn FnMut(Option<&Univariate<E>>) -> Vec<E> + 'a;
 ///
 /// # Errors
 /// [`crate::ErrorKind::Overflow`]; the error with which `watch` stops the work.
-pub fn sample<F: Field>(
+pub fn sample<'w, F: Field>(
     ring: &PolynomialRing<F>,
     region: &Region<F::Element>,
     candidates: &mut Candidates<'_, F::Element>,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Option<Vec<F::Element>>> {
+    let watch = Watch::or_none(watch);
     let lex = PolynomialRing::new(ring.field().clone(), ring.variables(), Order::Lex)?;
     let moved =
         |list: &[Polynomial<F::Element>]| -> Result<Vec<_>> { list.iter().map(|f| ring.transfer(f, &lex)).collect() };

@@ -21,7 +21,7 @@ impl<F: Field> fmt::Display for Cover<F> {
 
 impl<F: Field> Cover<F> {
     /// Describes a stratum of this cover: one line with its region and its solutions, then its basis.
-    pub fn describe(&self, stratum: &Stratum<F>) -> String {
+    pub(crate) fn describe(&self, stratum: &Stratum<F>) -> String {
         let place = self.place(&stratum.parts, &stratum.region);
         let mut text = format!("{place}: {}{}\n", self.kind(stratum), self.real(&stratum.real));
         if stratum.kind != Kind::Inconsistent {
@@ -46,7 +46,7 @@ impl<F: Field> Cover<F> {
     }
 
     /// Describes a region: `where pz = 0 and px != 0`.
-    pub fn describe_region(&self, region: &Region<F::Element>) -> String {
+    pub(crate) fn describe_region(&self, region: &Region<F::Element>) -> String {
         self.place(std::slice::from_ref(&region.equations), region)
     }
 

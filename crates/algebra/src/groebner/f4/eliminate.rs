@@ -3,6 +3,7 @@
 use super::lanes::Instructions;
 use super::sweep::{Sparse, Sweep};
 use super::symbolic::{Row, Shape};
+use crate::random::SplitMix64;
 use crate::{Result, Watch};
 
 /// Number of rows that are reduced together.
@@ -41,7 +42,7 @@ pub(super) fn eliminate(
     let mut sweep = Sweep::<u32, LANES>::new([p; LANES], elimination.instructions, shape, coefficients);
     let mut independent = Vec::new();
     let combine = elimination.combinations && LANES as u32 / 2 * p.ilog2() >= CERTAINTY;
-    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut random = SplitMix64::new(0);
     for (index, rows) in shape.lower.chunks(if combine { BLOCK } else { LANES }).enumerate() {
         watch.check()?;
         if rows.len() <= LANES {
@@ -63,7 +64,7 @@ fn take_combinations(
     sweep: &mut Sweep<'_, u32, LANES>,
     rows: &[Row],
     p: u32,
-    random: &mut Random,
+    random: &mut SplitMix64,
     watch: &Watch,
 ) -> Result<()> {
     let zeros = CERTAINTY.div_ceil(p.ilog2()) as usize;
@@ -71,7 +72,7 @@ fn take_combinations(
     loop {
         watch.check()?;
         for row in rows {
-            sweep.accumulate(row, &std::array::from_fn(|_| random.below(p)));
+            sweep.accumulate(row, &std::array::from_fn(|_| residue(random, p)));
         }
         sweep.clear(0, &NOWHERE, watch)?;
         let fresh = extract(sweep, LANES).len();
@@ -181,14 +182,7 @@ pub(super) fn normal_forms(
     Ok(forms)
 }
 
-/// A small deterministic generator of random residues (G. Marsaglia, "Xorshift RNGs", 2003).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, p: u32) -> u32 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        ((u128::from(self.0) * u128::from(p)) >> 64) as u32
-    }
+/// A random residue, by the upper bits of a product instead of a division.
+fn residue(random: &mut SplitMix64, p: u32) -> u32 {
+    ((u128::from(random.word()) * u128::from(p)) >> 64) as u32
 }

@@ -42,7 +42,12 @@ pub const MODULUS_LIMIT: u64 = 1 << 31;
 /// # Errors
 /// [`ErrorKind::BadValue`] for a larger modulus; [`ErrorKind::Overflow`] when a degree overflows 15 bits or the
 /// variables the widest keys; the error with which `watch` stops the work.
-pub fn f4(ring: &PolynomialRing<Zp>, generators: &[Polynomial<u64>], watch: &Watch) -> Result<Basis<Zp>> {
+pub fn f4<'w>(
+    ring: &PolynomialRing<Zp>,
+    generators: &[Polynomial<u64>],
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Basis<Zp>> {
+    let watch = Watch::or_none(watch);
     f4_with(ring, generators, Settings::default(), watch)
 }
 
@@ -66,12 +71,13 @@ impl Default for Settings {
 ///
 /// # Errors
 /// Those of [`f4`].
-pub fn f4_with(
+pub fn f4_with<'w>(
     ring: &PolynomialRing<Zp>,
     generators: &[Polynomial<u64>],
     settings: Settings,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Basis<Zp>> {
+    let watch = Watch::or_none(watch);
     let instructions = if settings.vectors { Instructions::detect() } else { Instructions::Portable };
     let elimination = Elimination { combinations: settings.combinations, instructions };
     Ok(in_some_width(ring, generators, elimination, &mut Whole, watch)?.0)
@@ -96,11 +102,12 @@ impl Trace {
     ///
     /// # Errors
     /// Those of [`f4`].
-    pub fn learn(
+    pub fn learn<'w>(
         ring: &PolynomialRing<Zp>,
         generators: &[Polynomial<u64>],
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<(Basis<Zp>, Trace)> {
+        let watch = Watch::or_none(watch);
         Self::learn_guided(ring, generators, &mut Whole, watch)
     }
 

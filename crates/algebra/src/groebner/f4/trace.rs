@@ -43,12 +43,12 @@ impl Trace {
     }
 
     /// Entries of the matrices of a replay.
-    pub fn terms(&self) -> usize {
+    pub(crate) fn terms(&self) -> usize {
         self.rounds.iter().map(|round| round.shape.entries.len()).sum::<usize>() + self.last.entries.len()
     }
 
     /// Size of the trace in bytes.
-    pub fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         let supports = |list: &[Box<[u32]>]| list.iter().map(|s| 4 * s.len()).sum::<usize>();
         let rounds: usize = self.rounds.iter().map(|round| round.shape.bytes() + supports(&round.supports)).sum();
         rounds + self.last.bytes() + supports(&self.supports)
@@ -66,12 +66,13 @@ impl Trace {
     /// # Errors
     /// [`ErrorKind::BadValue`] when the numbers of terms of the generators differ from the learned ones; the error with
     /// which `watch` stops the work.
-    pub fn replay<const N: usize>(
+    pub fn replay<'w, const N: usize>(
         &self,
         moduli: [u32; N],
         generators: &[Vec<[u32; N]>],
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<[Option<Vec<Vec<u32>>>; N]> {
+        let watch = Watch::or_none(watch);
         let mut coefficients = self.nonzero_generators(generators)?;
         let mut alive = [true; N];
         for (index, round) in self.rounds.iter().enumerate() {

@@ -87,7 +87,8 @@ impl<F: Field> Quotient<F> {
     /// [`ErrorKind::UnknownName`] for a variable that the quotient ring lacks; [`ErrorKind::BadValue`] for another
     /// field, or when a nonzero coefficient has no inverse; [`ErrorKind::Overflow`]; the error with which `watch` stops
     /// the work.
-    pub fn basis_in(&self, target: &PolynomialRing<F>, watch: &Watch) -> Result<Basis<F>> {
+    pub fn basis_in<'w>(&self, target: &PolynomialRing<F>, watch: impl Into<Option<&'w Watch>>) -> Result<Basis<F>> {
+        let watch = Watch::or_none(watch);
         let sources = sources(&self.ring, target)?;
         let mut walk = Walk::new(target);
         let mut echelon = Echelon::new(target);
@@ -115,7 +116,12 @@ impl<F: Field> Quotient<F> {
     /// # Errors
     /// [`ErrorKind::BadValue`] when `f` is not a polynomial of the ring of the basis, or when a nonzero coefficient has
     /// no inverse; the error with which `watch` stops the work.
-    pub fn minimal_polynomial(&self, f: &Polynomial<F::Element>, watch: &Watch) -> Result<Univariate<F::Element>> {
+    pub fn minimal_polynomial<'w>(
+        &self,
+        f: &Polynomial<F::Element>,
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Univariate<F::Element>> {
+        let watch = Watch::or_none(watch);
         let field = self.ring.field();
         let columns = self.multiplication(f, watch)?;
         let mut echelon = Echelon::new(&self.ring);

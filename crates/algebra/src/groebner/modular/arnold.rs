@@ -32,12 +32,13 @@ use crate::{Result, Watch};
 /// # Errors
 /// [`Certificate`](crate::ErrorKind::Certificate) when `found` is not a basis of the ideal, or is not reduced; those of
 /// [`super::basis`].
-pub fn prove(
+pub fn prove<'w>(
     found: &Modular,
     ring: &PolynomialRing<Rationals>,
     generators: &[Polynomial<BigRational>],
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Status> {
+    let watch = Watch::or_none(watch);
     let basis = &found.basis;
     let generators = transferred(ring, generators, &basis.ring)?;
     if !basis.cofactors.is_empty() {

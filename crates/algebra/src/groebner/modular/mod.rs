@@ -64,12 +64,13 @@ pub struct Modular {
 ///
 /// # Errors
 /// Those of [`super::basis`] and [`super::f4()`]; [`Budget`](crate::ErrorKind::Budget) when no primes are left.
-pub fn basis(
+pub fn basis<'w>(
     ring: &PolynomialRing<Rationals>,
     generators: &[Polynomial<num_rational::BigRational>],
     options: &Options,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Modular> {
+    let watch = Watch::or_none(watch);
     let input = Input::new(ring, generators, options)?;
     let system = &input.system;
     let mut primes = system.primes();

@@ -8,6 +8,7 @@ use num_traits::{One, Signed, Zero};
 use super::super::prime_field::graded;
 use crate::number::{BigInt, BigRational, Rationals, Zp, primes_below, residue};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, Term};
+use crate::random::SplitMix64;
 use crate::{Error, ErrorKind, Result};
 
 /// The nonzero generators, as primitive polynomials over the integers.
@@ -149,12 +150,9 @@ pub(super) fn modulo(ring: &PolynomialRing<Rationals>, p: u32) -> Result<Polynom
     Ok(image.with_width(layout.width()))
 }
 
-/// A hash: all bits of the result depend on all bits of `n` (the finaliser of SplitMix64; Steele, Lea and Flood 2014).
+/// A hash: all bits of the result depend on all bits of `n`.
 fn scatter(n: u64) -> u64 {
-    let n = n.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let n = (n ^ (n >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let n = (n ^ (n >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    n ^ (n >> 31)
+    SplitMix64::new(n).word()
 }
 
 /// The error when no primes are left.

@@ -3,7 +3,8 @@
 use super::learn::{MOST_NODES, weight_vectors};
 use super::line::Nodes;
 use super::pattern::{Functions, distinct_units, points_on_lines};
-use super::prime::{Prime, SmoothPrime, Stream};
+use super::prime::{Prime, SmoothPrime};
+use crate::random::SplitMix64;
 use crate::{Result, Watch};
 
 /// Number of nodes that are evaluated together.
@@ -26,9 +27,9 @@ impl Estimate {
     /// An empty estimate for functions of this many parameters.
     pub fn new(parameters: usize) -> Self {
         let [prime, ..] = SmoothPrime::all();
-        let (field, mut stream) = (prime.field, Stream(0));
+        let (field, mut stream) = (prime.field, SplitMix64::new(0));
         let nodes = distinct_units(field, &mut stream, MOST_NODES);
-        let direction = (0..parameters).map(|_| stream.unit(field)).collect();
+        let direction = (0..parameters).map(|_| stream.unit(field.p)).collect();
         let weights = weight_vectors(parameters).swap_remove(0);
         Estimate { field, nodes, weights, direction, values: Vec::new(), hardest: 0, needed: None }
     }

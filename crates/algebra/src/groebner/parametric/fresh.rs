@@ -5,11 +5,12 @@
 
 use super::flat::{Equations, admit, flat_ring, image_of};
 use super::lift::{Primes, image};
-use super::prime::{Prime, Stream};
+use super::prime::Prime;
 use super::{Ideal, Poly};
 use crate::groebner::f4::leading_monomials;
 use crate::number::{BigRational, Zp};
 use crate::poly::{Monomial, Polynomial, PolynomialRing, Term};
+use crate::random::SplitMix64;
 use crate::{Result, Watch};
 
 /// Maximum number of primes that may divide a coefficient.
@@ -27,10 +28,10 @@ pub(super) fn has_leads<'a>(
     watch: &Watch,
 ) -> Result<bool> {
     let ring = ideal.ring;
-    let mut stream = Stream(17);
+    let mut stream = SplitMix64::new(17);
     for _ in 0..ATTEMPTS {
         let field = primes.next_prime();
-        let point: Vec<u64> = ring.field().ring().variables().iter().map(|_| stream.unit(field)).collect();
+        let point: Vec<u64> = ring.field().ring().variables().iter().map(|_| stream.unit(field.p)).collect();
         let target = ring.over(Zp::known_prime(field.p));
         let at_point = |f: &Poly| generator_at(ideal, &target, f, field, &point);
         if let Some(generators) = ideal.generators.iter().map(at_point).collect::<Option<Vec<_>>>() {

@@ -9,8 +9,9 @@ use std::collections::HashMap;
 
 use super::line::{Nodes, Quotient};
 use super::pattern::{Functions, Pattern, Place, Slot, distinct_units, points_on_lines, power_product};
-use super::prime::{Prime, SmoothPrime, Stream};
+use super::prime::{Prime, SmoothPrime};
 use super::sequence::{distinct_roots, factors, minimal_polynomial};
+use crate::random::SplitMix64;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The lengths of the shortest and of the longest sequences that are tried.
@@ -61,7 +62,7 @@ struct Lines {
 struct Search<'a, S: Functions> {
     functions: &'a S,
     prime: SmoothPrime,
-    stream: Stream,
+    stream: SplitMix64,
     settled: Vec<Option<Settled>>,
     probe: (Vec<u64>, Vec<u64>),
     /// Logarithms computed so far. The same monomials occur repeatedly.
@@ -74,7 +75,7 @@ impl<'a, S: Functions> Search<'a, S> {
         Search {
             functions,
             prime,
-            stream: Stream(seed),
+            stream: SplitMix64::new(seed),
             settled,
             probe: Default::default(),
             logarithms: HashMap::new(),
@@ -136,7 +137,7 @@ impl<'a, S: Functions> Search<'a, S> {
         let (mut offsets, mut bases) = (Vec::new(), Vec::new());
         for variable in 0..weights.len() {
             let fixed = variable == pivot;
-            offsets.push(if fixed { 1 } else { self.stream.unit(field) });
+            offsets.push(if fixed { 1 } else { self.stream.unit(field.p) });
             bases.push(if fixed { 1 } else { field.pow(self.prime.generator, exponent) });
             if !fixed {
                 exponent = exponent.saturating_mul(radix as u64);
@@ -349,7 +350,7 @@ fn outer_places(quotient: &Quotient) -> Vec<Place> {
 /// Weights in the order of trial. First single variables, if there are few. Else different weights for all variables,
 /// which usually isolate a corner of every support. Then larger random weights.
 pub(super) fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
-    let mut stream = Stream(1);
+    let mut stream = SplitMix64::new(1);
     if parameters <= 2 {
         let unit = |v: usize| (0..parameters).map(|k| u32::from(k == v)).collect();
         let random = |height: u64| random_weights(parameters, height, &mut stream);
@@ -371,7 +372,7 @@ pub(super) fn weight_vectors(parameters: usize) -> Vec<Vec<u32>> {
 }
 
 /// Random weights below `height`; one of them is one.
-fn random_weights(parameters: usize, height: u64, stream: &mut Stream) -> Vec<u32> {
+fn random_weights(parameters: usize, height: u64, stream: &mut SplitMix64) -> Vec<u32> {
     let mut weights: Vec<u32> = (0..parameters).map(|_| (stream.word() % height) as u32).collect();
     weights[stream.word() as usize % parameters] = 1;
     weights

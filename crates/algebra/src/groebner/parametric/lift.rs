@@ -7,9 +7,10 @@ use num_traits::ToPrimitive;
 
 use super::learn::{Learned, learn};
 use super::pattern::{Functions, Pattern, factors_modulo};
-use super::prime::{Prime, SmoothPrime, Stream};
+use super::prime::{Prime, SmoothPrime};
 use crate::number::{BigInt, BigRational, Rationals, Zp};
 use crate::poly::{Fraction, Fractions, Monomial, Polynomial, PolynomialRing, Term};
+use crate::random::SplitMix64;
 use crate::{Error, ErrorKind, Result, Watch};
 
 type Ground = PolynomialRing<Rationals>;
@@ -31,7 +32,7 @@ pub(super) fn interpolate(
     let supports: Vec<Support> = patterns.iter().map(|p| Support::new(field.ring(), p)).collect::<Result<_>>()?;
     let mut residues = Residues::default();
     residues.push(learned.field, &normalised(learned.field, &supports, &learned.factors));
-    let mut stream = Stream(7);
+    let mut stream = SplitMix64::new(7);
     let mut primes = Primes::new();
     loop {
         watch.check()?;
@@ -51,7 +52,7 @@ fn next_factors(
     functions: &impl Functions,
     patterns: &[Pattern],
     primes: &mut Primes,
-    stream: &mut Stream,
+    stream: &mut SplitMix64,
     watch: &Watch,
 ) -> Result<(Prime, Vec<Vec<Vec<u64>>>)> {
     for _ in 0..10 {
@@ -71,11 +72,11 @@ fn holds(
     supports: &[Support],
     values: &[BigRational],
     primes: &mut Primes,
-    stream: &mut Stream,
+    stream: &mut SplitMix64,
     watch: &Watch,
 ) -> Result<bool> {
     let field = primes.next_that(|field| functions.admit(field));
-    let point: Vec<u64> = (0..functions.parameters()).map(|_| stream.unit(field)).collect();
+    let point: Vec<u64> = (0..functions.parameters()).map(|_| stream.unit(field.p)).collect();
     let found = functions.values(field, std::slice::from_ref(&point), watch)?;
     let Some(expected) = found.into_iter().next().flatten() else { return Ok(false) };
     let mut rest = values.iter();

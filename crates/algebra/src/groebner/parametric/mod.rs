@@ -85,7 +85,13 @@ struct Ideal<'a> {
 /// # Errors
 /// [`ErrorKind::Unsupported`] when interpolation is requested and parameters have relations, or when the coefficients
 /// are too dense for it; those of [`super::basis`]; the error with which `watch` stops the work.
-pub fn basis(ring: &Ring, generators: &[Poly], options: &Options, watch: &Watch) -> Result<Parametric> {
+pub fn basis<'w>(
+    ring: &Ring,
+    generators: &[Poly],
+    options: &Options,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Parametric> {
+    let watch = Watch::or_none(watch);
     let generators: Vec<Poly> = generators.iter().filter(|f| !f.is_zero()).cloned().collect();
     let ideal = Ideal { ring, generators: &generators };
     match options.method {

@@ -1,10 +1,11 @@
 //! Restriction of polynomials in the parameters to a random line modulo a prime, which bounds their common factors.
 
 use super::lift::defined_image;
-use super::prime::{Prime, Stream};
+use super::prime::Prime;
 use super::{Poly, Ring};
 use crate::number::{BigRational, Ring as _};
 use crate::poly::{Monomial, Polynomial, Term};
+use crate::random::SplitMix64;
 
 type Ground = Polynomial<BigRational>;
 
@@ -17,9 +18,9 @@ pub(super) struct Line {
 impl Line {
     pub fn new(ring: &Ring) -> Self {
         let field = Prime::new(2_147_483_647);
-        let mut stream = Stream(11);
+        let mut stream = SplitMix64::new(11);
         let parameters = ring.field().ring().variables();
-        Line { field, points: parameters.iter().map(|_| [stream.unit(field), stream.unit(field)]).collect() }
+        Line { field, points: parameters.iter().map(|_| [stream.unit(field.p), stream.unit(field.p)]).collect() }
     }
 
     /// Divides the element by its first coefficient.

@@ -1,8 +1,9 @@
 //! The support of a rational function, computed once, and its coefficients modulo any prime.
 
 use super::line::{Nodes, Quotient};
-use super::prime::{Prime, Stream};
+use super::prime::Prime;
 use super::sequence;
+use crate::random::SplitMix64;
 use crate::{Result, Watch};
 
 /// Rational functions of parameters that can be evaluated.
@@ -125,7 +126,7 @@ pub(super) fn factors_modulo(
     functions: &impl Functions,
     patterns: &[Pattern],
     field: Prime,
-    stream: &mut Stream,
+    stream: &mut SplitMix64,
     watch: &Watch,
 ) -> Result<Option<Vec<Vec<Vec<u64>>>>> {
     let mut found = vec![Vec::new(); patterns.len()];
@@ -137,7 +138,7 @@ pub(super) fn factors_modulo(
         let most = |size: fn(&Pattern) -> usize| members.iter().map(|&f| size(&patterns[f])).max().unwrap_or(1);
         let (count, lines) = (most(Pattern::nodes), most(Pattern::lines));
         let nodes = Nodes::new(field, distinct_units(field, stream, count));
-        let bases: Vec<u64> = weights.iter().map(|_| stream.unit(field)).collect();
+        let bases: Vec<u64> = weights.iter().map(|_| stream.unit(field.p)).collect();
         let ones = vec![1; bases.len()];
         let points = points_on_lines(&nodes.nodes, field, weights, (&ones, &bases), 0..lines);
         let Some(values) = functions.values(field, &points, watch)?.into_iter().collect::<Option<Vec<_>>>() else {
@@ -159,7 +160,7 @@ pub(super) fn factors_modulo(
 }
 
 /// `count` distinct nonzero elements.
-pub(super) fn distinct_units(field: Prime, stream: &mut Stream, count: usize) -> Vec<u64> {
+pub(super) fn distinct_units(field: Prime, stream: &mut SplitMix64, count: usize) -> Vec<u64> {
     let first = 1 + stream.word() % (field.p - 1 - count as u64);
     (first..first + count as u64).collect()
 }

@@ -1,27 +1,8 @@
-//! Random points and cheap logarithms modulo a prime below 2^31.
+//! Cheap logarithms modulo a prime below 2^31.
 
 use crate::number::word::inverse_modulo;
 
 pub(super) use crate::number::word::Prime;
-
-/// A deterministic pseudorandom number generator (Steele, Lea and Flood, SplitMix64, OOPSLA 2014).
-#[derive(Clone, Debug)]
-pub(super) struct Stream(pub u64);
-
-impl Stream {
-    pub fn word(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A random element of `1..p`.
-    pub fn unit(&mut self, field: Prime) -> u64 {
-        1 + self.word() % (field.p - 1)
-    }
-}
 
 /// A prime whose multiplicative group has an order with small prime factors only, so that logarithms are cheap.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,8 @@
 //! with the algorithms of Berlekamp and Massey and of Cantor and Zassenhaus.
 
 use super::line::{divide, divide_by_root, product_of_roots};
-use super::prime::{Prime, Stream};
+use super::prime::Prime;
+use crate::random::SplitMix64;
 use crate::{Result, Watch};
 
 /// The monic polynomial whose roots are the bases `r[i]`, when it is determined with two values left for a check.
@@ -47,7 +48,12 @@ fn connection_polynomial(field: Prime, values: &[u64], watch: &Watch) -> Result<
 }
 
 /// The roots of a monic polynomial, when it has as many distinct nonzero ones as its degree.
-pub(super) fn distinct_roots(field: Prime, f: &[u64], stream: &mut Stream, watch: &Watch) -> Result<Option<Vec<u64>>> {
+pub(super) fn distinct_roots(
+    field: Prime,
+    f: &[u64],
+    stream: &mut SplitMix64,
+    watch: &Watch,
+) -> Result<Option<Vec<u64>>> {
     if f[0] == 0 || f.len() > 2 && power_modulo(field, 0, field.p - 1, f, watch)? != [1] {
         return Ok(None);
     }
@@ -57,7 +63,7 @@ pub(super) fn distinct_roots(field: Prime, f: &[u64], stream: &mut Stream, watch
 }
 
 /// Splits a product of distinct linear factors at random (D. Cantor and H. Zassenhaus, Math. Comp. 36, 1981).
-fn split(field: Prime, f: Vec<u64>, stream: &mut Stream, roots: &mut Vec<u64>, watch: &Watch) -> Result<()> {
+fn split(field: Prime, f: Vec<u64>, stream: &mut SplitMix64, roots: &mut Vec<u64>, watch: &Watch) -> Result<()> {
     match f.len() {
         0 | 1 => Ok(()),
         2 => {
@@ -65,7 +71,7 @@ fn split(field: Prime, f: Vec<u64>, stream: &mut Stream, roots: &mut Vec<u64>, w
             Ok(())
         }
         _ => loop {
-            let mut half = power_modulo(field, stream.unit(field), (field.p - 1) / 2, &f, watch)?;
+            let mut half = power_modulo(field, stream.unit(field.p), (field.p - 1) / 2, &f, watch)?;
             half.resize(half.len().max(1), 0);
             half[0] = field.sub(half[0], 1);
             let factor = gcd(field, f.clone(), half, watch)?;

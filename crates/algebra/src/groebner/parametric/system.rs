@@ -3,11 +3,12 @@
 use super::flat::common_multiple;
 use super::lift::{Primes, image};
 use super::pattern::Functions;
-use super::prime::{Prime, Stream};
+use super::prime::Prime;
 use super::{Ideal, Ring, fresh};
 use crate::groebner::f4::Trace;
 use crate::number::{BigRational, Ring as _, Zp};
 use crate::poly::{Monomial, Polynomial};
+use crate::random::SplitMix64;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// Number of points that are evaluated at once.
@@ -35,7 +36,8 @@ impl System {
     ///
     /// # Errors
     /// Those of the engine.
-    pub fn new(ideal: &Ideal<'_>, watch: &Watch) -> Result<Self> {
+    pub fn new<'w>(ideal: &Ideal<'_>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let ring = ideal.ring;
         let mut equations = Vec::new();
         for f in ideal.generators {
@@ -44,10 +46,10 @@ impl System {
         }
         let parameters = ring.field().ring().variables().len();
         let mut primes = Primes::new();
-        let mut stream = Stream(3);
+        let mut stream = SplitMix64::new(3);
         for _ in 0..10 {
             let field = primes.next_that(|field| admit(&equations, field));
-            let point: Vec<u64> = (0..parameters).map(|_| stream.unit(field)).collect();
+            let point: Vec<u64> = (0..parameters).map(|_| stream.unit(field.p)).collect();
             let values = Evaluator::new(&equations, parameters, field).values(std::slice::from_ref(&point));
             if let Some((trace, supports)) = learn(ring, ideal.generators, &values, field, watch)?
                 && fresh::has_leads(ideal, supports.iter().map(|support| &support[0]), &mut primes, watch)?

@@ -53,11 +53,12 @@ pub struct UnivariateRepresentation {
 /// # Errors
 /// [`ErrorKind::Inconsistent`] for the unit ideal, [`ErrorKind::PositiveDimensional`]; [`ErrorKind::BadValue`] when the
 /// basis does not belong to the generators; [`ErrorKind::Overflow`]; the error with which `watch` stops the work.
-pub fn univariate_representation(
+pub fn univariate_representation<'w>(
     basis: &Basis<Rationals>,
     generators: &[Polynomial<BigRational>],
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<UnivariateRepresentation> {
+    let watch = Watch::or_none(watch);
     let staircase = Staircase::new(basis)?;
     let (form, shape) = separating_form(&staircase, watch)?;
     let border = staircase.border((0..form.len()).filter(|&v| form[v] != 0))?;
@@ -157,12 +158,13 @@ impl UnivariateRepresentation {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] when `ring` has other variables; the error with which `watch` stops the work.
-    pub fn substitute(
+    pub fn substitute<'w>(
         &self,
         ring: &PolynomialRing<Rationals>,
         h: &Polynomial<BigRational>,
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<(Univariate<BigInt>, BigInt)> {
+        let watch = Watch::or_none(watch);
         if ring.variables() != self.variables.as_slice() {
             let text = format!("the polynomial must be in the variables {}, in this order", self.variables.join(", "));
             return Err(Error::new(ErrorKind::BadValue, text));

@@ -7,6 +7,7 @@
 use super::residues::{Residues, trim};
 use super::staircase::{Border, Coordinate, Place, Row, Staircase};
 use crate::number::{BigInt, Field, Ring, Zp};
+use crate::random::SplitMix64;
 use crate::{Result, Watch};
 
 /// A representation modulo `p`. Polynomials have their constant term first.
@@ -253,15 +254,8 @@ fn polar_numerator(field: &Residues, f: &[u32], sequence: &[u32]) -> Vec<u32> {
     trim((0..sequence.len()).map(|k| field.dot(&f[k + 1..], sequence)).collect())
 }
 
-/// Entries of a fixed pseudorandom stream (Steele, Lea and Flood 2014) that depends on the prime.
+/// Entries of a fixed pseudorandom sequence that depends on the prime.
 fn random_vector(field: &Residues, length: usize) -> Vec<u32> {
-    let mut state = u64::from(field.prime());
-    let mut next = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % u64::from(field.prime())) as u32
-    };
-    (0..length).map(|_| next()).collect()
+    let mut random = SplitMix64::new(u64::from(field.prime()));
+    (0..length).map(|_| random.below(u64::from(field.prime())) as u32).collect()
 }

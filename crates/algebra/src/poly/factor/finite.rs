@@ -1,13 +1,14 @@
 //! Univariate factorization over a finite field: distinct-degree and equal-degree factorization (Cantor and Zassenhaus
 //! 1981; von zur Gathen and Gerhard, Modern Computer Algebra, chapter 14).
 
+use crate::poly::words::WordField;
 use crate::poly::words::dense::{self, Dense};
-use crate::poly::words::{Random, WordField};
+use crate::random::SplitMix64;
 use crate::{Result, Watch};
 
 /// The monic irreducible factors of a square-free polynomial, sorted by degree and coefficients.
 pub fn factors<K: WordField>(field: &K, f: &[u64], watch: &Watch) -> Result<Vec<Dense>> {
-    let mut random = Random::new(1);
+    let mut random = SplitMix64::new(1);
     let mut factors = Vec::new();
     for (part, degree) in distinct_degrees(field, f, watch)? {
         let mut open = vec![part];
@@ -47,7 +48,7 @@ fn distinct_degrees<K: WordField>(field: &K, f: &[u64], watch: &Watch) -> Result
 }
 
 /// Splits a product of several irreducible polynomials of one degree into two.
-fn equal_degree_split<K: WordField>(field: &K, f: Dense, degree: usize, random: &mut Random) -> [Dense; 2] {
+fn equal_degree_split<K: WordField>(field: &K, f: Dense, degree: usize, random: &mut SplitMix64) -> [Dense; 2] {
     loop {
         let mut start: Dense = (0..f.len() - 1).map(|_| random.below(field.size())).collect();
         dense::trim(&mut start);

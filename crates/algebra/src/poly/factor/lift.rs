@@ -10,8 +10,19 @@ use super::series::SeriesFactors;
 use crate::poly::gcd::modular::Search;
 use crate::poly::words::dense::{self, Dense};
 use crate::poly::words::skeleton::{Orbit, Rows, Skeleton, base_point};
-use crate::poly::words::{Flat, Packing, Random, WordField};
+use crate::poly::words::{Flat, Packing, WordField};
+use crate::random::SplitMix64;
 use crate::{Result, Watch};
+
+/// The variables of a lifting.
+pub struct Variables<'a> {
+    /// The variable of the image.
+    pub main: usize,
+    /// The variables that are lifted, in this order.
+    pub others: &'a [usize],
+    /// The values of the others at the point of the image.
+    pub anchor: Vec<u64>,
+}
 
 /// A polynomial and the point where its factors are known: the invariant data of a lifting.
 pub struct Lifting<'a, K> {
@@ -27,14 +38,8 @@ pub struct Lifting<'a, K> {
 impl<'a, K: WordField> Lifting<'a, K> {
     /// Starts the lifting of `f`, primitive in `main`, from the point `anchor` of the variables `others`. Returns
     /// `None` when the degree in `main` drops there or the image has multiple factors.
-    pub fn new(
-        field: &'a K,
-        packing: &'a Packing,
-        f: &Flat,
-        main: usize,
-        others: &[usize],
-        anchor: Vec<u64>,
-    ) -> Option<Self> {
+    pub fn new(field: &'a K, packing: &'a Packing, f: &Flat, variables: Variables<'_>) -> Option<Self> {
+        let Variables { main, others, anchor } = variables;
         let others = others.to_vec();
         let nothing_stops = Watch::none();
         let search = Search::new(field, packing, &nothing_stops);
@@ -72,7 +77,7 @@ impl<'a, K: WordField> Lifting<'a, K> {
     }
 
     /// Lifts the factors of the image to the monic factors of `f`; `None` when the point was unlucky.
-    pub fn factors(&self, images: &[Dense], random: &mut Random, watch: &Watch) -> Result<Option<Vec<Flat>>> {
+    pub fn factors(&self, images: &[Dense], random: &mut SplitMix64, watch: &Watch) -> Result<Option<Vec<Flat>>> {
         let lead = self.leads[0].values.first().copied().unwrap_or(0);
         let scaled = |image: &Dense| {
             Flat::from_dense(self.packing, self.main, &dense::scale(self.field, &dense::monic(self.field, image), lead))
@@ -93,7 +98,13 @@ impl<'a, K: WordField> Lifting<'a, K> {
     }
 
     /// Lifts the scaled factors to one more variable.
-    fn extended(&self, level: usize, known: &[Flat], random: &mut Random, watch: &Watch) -> Result<Option<Vec<Flat>>> {
+    fn extended(
+        &self,
+        level: usize,
+        known: &[Flat],
+        random: &mut SplitMix64,
+        watch: &Watch,
+    ) -> Result<Option<Vec<Flat>>> {
         let (field, packing) = (self.field, self.packing);
         let pair = [self.main, self.others[level]];
         let degrees = |f: &Flat| f.degrees(packing);

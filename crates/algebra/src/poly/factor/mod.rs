@@ -53,11 +53,12 @@ impl<E: Clone> Factorisation<E> {
 /// [`ErrorKind::BadValue`] for zero; [`ErrorKind::Unsupported`] over other fields, and over one with too few points for
 /// the degrees of `f`; [`ErrorKind::Overflow`] when the exponents of a term do not fit 128 bits; the error with which
 /// `watch` stops the work.
-pub fn factor<F: Field>(
+pub fn factor<'w, F: Field>(
     ring: &PolynomialRing<F>,
     f: &Polynomial<F::Element>,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Factorisation<F::Element>> {
+    let watch = Watch::or_none(watch);
     let Some(lead) = f.leading() else {
         return Err(Error::new(ErrorKind::BadValue, "zero has no factorisation; give a nonzero polynomial"));
     };

@@ -5,9 +5,10 @@
 //! conjugates. Factors with coefficients outside GF(p) are refused.
 
 use super::finite;
-use super::lift::Lifting;
+use super::lift::{Lifting, Variables};
 use crate::poly::words::dense::Dense;
-use crate::poly::words::{Extension, Flat, Packing, Prime, Random, WordField, dense};
+use crate::poly::words::{Extension, Flat, Packing, Prime, WordField, dense};
+use crate::random::SplitMix64;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// Maximum number of points that are tried in one field.
@@ -52,12 +53,14 @@ fn split_in<K: WordField>(
 ) -> Result<Option<Vec<Flat>>> {
     let mut others: Vec<usize> =
         (0..packing.variables()).filter(|&v| v != main && f.degree_in(packing, v) > 0).collect();
-    let mut random = Random::new(2);
+    let mut random = SplitMix64::new(2);
     for _ in 0..POINTS {
         watch.check()?;
         others.rotate_left(1);
         let anchor = others.iter().map(|_| random.below(field.size())).collect();
-        let Some(lifting) = Lifting::new(field, packing, f, main, &others, anchor) else { continue };
+        let Some(lifting) = Lifting::new(field, packing, f, Variables { main, others: &others, anchor }) else {
+            continue;
+        };
         let line = finite::factors(field, &lifting.line(), watch)?;
         if line.len() == 1 {
             return Ok(Some(vec![f.monic(field)]));

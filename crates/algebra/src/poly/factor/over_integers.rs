@@ -7,10 +7,11 @@
 use num_traits::{One, Pow, Zero};
 
 use super::integers::{self, Integers};
-use super::lift::Lifting;
+use super::lift::{Lifting, Variables};
 use crate::number::BigInt;
 use crate::poly::words::dense::{self, Dense};
-use crate::poly::words::{Images, Integral, Packing, Prime, Random, primes, residue};
+use crate::poly::words::{Images, Integral, Packing, Prime, primes, residue};
+use crate::random::SplitMix64;
 use crate::{Result, Watch};
 
 /// Number of points from which the one whose image has the fewest factors is chosen.
@@ -40,7 +41,7 @@ pub fn split_over_integers(packing: &Packing, f: &Integral, main: usize, watch: 
         let factors = integers::factors(&task.image_at(&[]), watch)?;
         return Ok(factors.into_iter().map(|factor| from_line(packing, main, factor)).collect());
     }
-    let mut random = Random::new(3);
+    let mut random = SplitMix64::new(3);
     for range in 4.. {
         let anchor = task.choose_anchor(range, &mut random)?;
         if anchor.factors.len() == 1 {
@@ -70,7 +71,7 @@ impl Task<'_> {
     }
 
     /// Chooses a point with coordinates up to about `range` where `f` keeps its degree and stays square-free.
-    fn choose_anchor(&self, range: u64, random: &mut Random) -> Result<Anchor> {
+    fn choose_anchor(&self, range: u64, random: &mut SplitMix64) -> Result<Anchor> {
         let field = Prime::new(primes().next().expect("there are primes below 2^61"));
         let (mut best, mut found, mut tries): (Option<Anchor>, _, _) = (None, 0, 0);
         loop {
@@ -97,14 +98,15 @@ impl Task<'_> {
     }
 
     /// The factors lifted from one point; `None` when it is unlucky.
-    fn split_at(&self, anchor: &Anchor, random: &mut Random) -> Result<Option<Vec<Integral>>> {
+    fn split_at(&self, anchor: &Anchor, random: &mut SplitMix64) -> Result<Option<Vec<Integral>>> {
         let mut parts: Option<Vec<Vec<usize>>> = None;
         let mut images: Vec<Images> = Vec::new();
         for p in primes() {
             let field = Prime::new(p);
             let point = anchor.point.iter().map(|&x| residue(&BigInt::from(x), &field)).collect();
             let image = self.f.image(&field);
-            let lifting = Lifting::new(&field, self.packing, &image, self.main, &self.others, point);
+            let variables = Variables { main: self.main, others: &self.others, anchor: point };
+            let lifting = Lifting::new(&field, self.packing, &image, variables);
             let Some(lifting) = lifting else { continue };
             let lines: Vec<Dense> = anchor.factors.iter().map(|line| residues(line, &field)).collect();
             if parts.is_none() {

@@ -9,7 +9,8 @@ use super::Common;
 use crate::Watch;
 use crate::poly::words::dense::{self, Dense};
 use crate::poly::words::skeleton::{Nodes, Orbit, Rows, Skeleton, base_point, value_at};
-use crate::poly::words::{Flat, Packing, Random, WordField};
+use crate::poly::words::{Flat, Packing, WordField};
+use crate::random::SplitMix64;
 
 /// Maximum number of attempts after an unlucky choice of points.
 const ATTEMPTS: usize = 4;
@@ -18,14 +19,14 @@ const ATTEMPTS: usize = 4;
 pub struct Search<'a, K> {
     field: &'a K,
     packing: &'a Packing,
-    random: Random,
+    random: SplitMix64,
     watch: &'a Watch,
 }
 
 impl<'a, K: WordField> Search<'a, K> {
     /// Starts a computation over `field` with exponents in `packing`. It returns nothing after `watch` stops it.
     pub fn new(field: &'a K, packing: &'a Packing, watch: &'a Watch) -> Self {
-        Search { field, packing, random: Random::new(0), watch }
+        Search { field, packing, random: SplitMix64::new(0), watch }
     }
 
     /// Repeats [`Search::common`] with other points.
@@ -110,7 +111,7 @@ impl<'a, K: WordField> Search<'a, K> {
     fn without(&mut self, f: &Flat, g: &Flat, absent: &[usize]) -> Option<Common<Flat>> {
         let (mut a, mut b) = (f.clone(), g.clone());
         for &v in absent {
-            let [x, y] = [0, 1].map(|_| self.random.unit(self.field));
+            let [x, y] = [0, 1].map(|_| self.random.unit(self.field.size()));
             a = a.evaluate(self.field, self.packing, v, x);
             b = b.evaluate(self.field, self.packing, v, y);
         }
@@ -147,7 +148,7 @@ impl<'a, K: WordField> Search<'a, K> {
         let [a, b] = leads(main);
         let scale = self.common(&a, &b)?.gcd;
         let others: Vec<usize> = present.filter(|&v| v != main).collect();
-        let anchor: Vec<u64> = others.iter().map(|_| self.random.unit(self.field)).collect();
+        let anchor: Vec<u64> = others.iter().map(|_| self.random.unit(self.field.size())).collect();
         let chains = [f, g, &scale].map(|h| self.restrictions(h, &others, &anchor));
         let level = |k: usize| [&chains[0][k], &chains[1][k], &chains[2][k]];
         let [a, b, c] = level(0);
@@ -205,7 +206,7 @@ impl<'a, K: WordField> Search<'a, K> {
         }
         let mut mixed = Vec::new();
         for part in h.coefficients_in(self.packing, main) {
-            let factor = self.random.unit(self.field);
+            let factor = self.random.unit(self.field.size());
             mixed.extend(part.scale(self.field, factor).terms());
         }
         let mixed = Flat::collect(self.field, mixed);

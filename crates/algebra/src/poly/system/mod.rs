@@ -35,9 +35,9 @@ pub use order::parse_order;
 /// Maximum size of a system in bytes.
 pub const MAX_SYSTEM_LENGTH: usize = limits::SYSTEM_BYTES;
 /// Maximum number of tokens (numbers, names, signs) of one polynomial.
-pub const MAX_WORDS: usize = limits::POLYNOMIAL_WORDS;
+pub(crate) const MAX_WORDS: usize = limits::POLYNOMIAL_WORDS;
 /// Maximum number of variables and parameters together.
-pub const MAX_NAMES: usize = limits::SYSTEM_NAMES;
+pub(crate) const MAX_NAMES: usize = limits::SYSTEM_NAMES;
 
 /// File format of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,7 @@
 //! Finite fields of `p^k` elements by tables of logarithms, for primes with too few points.
 
-use super::field::{Random, WordField};
+use super::field::WordField;
+use crate::random::SplitMix64;
 
 /// Maximum size of a field with tables.
 const LIMIT: u64 = 1 << 20;
@@ -17,7 +18,7 @@ impl Extension {
     /// The field of `p^k` elements; `None` above `2^20` elements.
     pub fn new(p: u64, k: u32) -> Option<Self> {
         let size = p.checked_pow(k).filter(|&size| size <= LIMIT)?;
-        let mut random = Random::new(size);
+        let mut random = SplitMix64::new(size);
         loop {
             let modulus = 1 + random.below(size - 1);
             if let Some(powers) = powers_of_x(p, size, modulus) {

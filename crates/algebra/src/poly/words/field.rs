@@ -91,28 +91,3 @@ pub fn inverses<K: WordField>(field: &K, values: &[u64]) -> Option<Vec<u64>> {
     }
     Some(result)
 }
-
-/// A deterministic pseudorandom number generator (Steele, Lea and Flood 2014, SplitMix).
-#[derive(Clone, Debug)]
-pub struct Random(u64);
-
-impl Random {
-    /// A generator. The numbers depend on `seed` alone.
-    pub fn new(seed: u64) -> Self {
-        Random(seed)
-    }
-
-    /// A random number below `limit`.
-    pub fn below(&mut self, limit: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        (z ^ (z >> 31)) % limit
-    }
-
-    /// A random nonzero element of `field`.
-    pub fn unit<K: WordField>(&mut self, field: &K) -> u64 {
-        1 + self.below(field.size() - 1)
-    }
-}

@@ -12,7 +12,7 @@ mod quotient;
 pub mod skeleton;
 
 pub use extension::Extension;
-pub use field::{Prime, Random, WordField};
+pub use field::{Prime, WordField};
 pub use flat::{Flat, Packing};
 pub use images::{Images, primes};
 pub use integral::{Integral, residue};

@@ -3,16 +3,17 @@
 //! one point, as in Ben-Or and Tiwari 1988, so the linear systems are transposed Vandermonde systems.
 
 use super::dense::{self, Dense};
-use super::field::{Random, WordField, inverses};
+use super::field::{WordField, inverses};
 use super::flat::{Flat, Packing, powers};
+use crate::random::SplitMix64;
 
 /// A polynomial in two variables: `rows[k]` is the coefficient of the inner variable's `k`-th power, dense in the main.
 pub type Rows = Vec<Dense>;
 
 /// Powers of a random value for each variable in `free`; empty lists for the others.
-pub fn base_point<K: WordField>(field: &K, random: &mut Random, free: &[usize], tops: &[u32]) -> Vec<Vec<u64>> {
+pub fn base_point<K: WordField>(field: &K, random: &mut SplitMix64, free: &[usize], tops: &[u32]) -> Vec<Vec<u64>> {
     let table = |v: usize| {
-        if free.contains(&v) { powers(field, random.unit(field), tops[v]) } else { Vec::new() }
+        if free.contains(&v) { powers(field, random.unit(field.size()), tops[v]) } else { Vec::new() }
     };
     (0..tops.len()).map(table).collect()
 }
@@ -167,7 +168,7 @@ pub struct Nodes {
 
 impl Nodes {
     /// Chooses `count` distinct random points; `None` when the field has fewer points.
-    pub fn new<K: WordField>(field: &K, random: &mut Random, count: usize) -> Option<Self> {
+    pub fn new<K: WordField>(field: &K, random: &mut SplitMix64, count: usize) -> Option<Self> {
         if field.size() / 2 <= count as u64 {
             return None;
         }

@@ -29,7 +29,8 @@ impl Distances {
     ///
     /// # Errors
     /// As [`Map::free_cell_at`]; [`Watch::check`].
-    pub fn new(map: &Map, goal: &Point2<f64>, watch: &Watch) -> Result<Self> {
+    pub fn new<'w>(map: &Map, goal: &Point2<f64>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let cell = map.free_cell_at(goal)?;
         let (rows, plane) = (Rows::new(map), Plane::new(map));
         let start = map.in_map(goal) + Vector2::repeat(1.0);
@@ -53,12 +54,13 @@ impl Distances {
     ///
     /// # Errors
     /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a map with other free cells; [`Watch::check`].
-    pub fn path(
+    pub fn path<'w>(
         &self,
         map: &Map,
         start: &Point2<f64>,
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<std::result::Result<Shortest, Enclosure>> {
+        let watch = Watch::or_none(watch);
         let cells = [map.free_cell_at(start)?, self.cell];
         if self.rows != Rows::new(map) {
             let text = "the distances belong to a map with other free cells; give that map";

@@ -69,13 +69,14 @@ impl Map {
     /// # Errors
     /// As [`Map::free_cell_at`]; [`ErrorKind::BadValue`] for a field of another goal or another number of cells;
     /// [`Watch::check`].
-    pub fn shortest_path(
+    pub fn shortest_path<'w>(
         &self,
         start: &Point2<f64>,
         goal: &Point2<f64>,
         guide: &Guide,
-        watch: &Watch,
+        watch: impl Into<Option<&'w Watch>>,
     ) -> Result<std::result::Result<Shortest, Enclosure>> {
+        let watch = Watch::or_none(watch);
         let cells = [self.free_cell_at(start)?, self.free_cell_at(goal)?];
         let scale = guide.field.map(|field| scale(self, field, cells[1])).transpose()?;
         let rows = Rows::new(self);

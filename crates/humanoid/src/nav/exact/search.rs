@@ -97,7 +97,8 @@ impl<'a> Search<'a> {
 
     /// Takes the most promising step until none is below the best length, or until `effort` steps are taken and a path
     /// is known.
-    pub fn run(&mut self, effort: Option<usize>, watch: &Watch) -> Result<End> {
+    pub fn run<'w>(&mut self, effort: Option<usize>, watch: impl Into<Option<&'w Watch>>) -> Result<End> {
+        let watch = Watch::or_none(watch);
         let mut checked = self.count;
         while let Some(Reverse((bits, step))) = self.queue.pop() {
             let least = f64::from_bits(bits);

@@ -43,12 +43,14 @@ impl Function {
     pub(super) fn about(self) -> &'static str {
         match self {
             Function::Inverse => "Inverse dynamics (RNEA): the torques of a motion.",
-            Function::Gravity => "The torques against gravity.",
+            Function::Gravity => "The gravity torques.",
             Function::Inertia => "The mass matrix M (CRBA), by rows.",
-            Function::Coriolis => "The Coriolis matrix C of Christoffel symbols, by rows: M' - 2 C is skew.",
-            Function::Forward => "Forward dynamics (ABA): the accelerations by torques.",
+            Function::Coriolis => {
+                "The Coriolis matrix C from Christoffel symbols, by rows: M' - 2 C is skew-symmetric."
+            }
+            Function::Forward => "Forward dynamics (ABA): the accelerations from torques.",
             Function::Derivatives => {
-                "The derivatives of inverse dynamics by the configuration, and by the velocity, by rows."
+                "The derivatives of inverse dynamics (RNEA) with respect to the configuration and the velocity, by rows."
             }
         }
     }

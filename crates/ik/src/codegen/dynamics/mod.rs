@@ -32,7 +32,7 @@ const SOURCE: &str = include_str!("../skeleton/dynamics.c.txt");
 /// The form of a printed function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Form {
-    /// Straight-line code if it has at most [`LONGEST`] characters in Rust, otherwise loops.
+    /// Straight-line code if it has at most 100,000 characters in Rust, otherwise loops.
     #[default]
     Shorter,
     /// Straight-line code, the fastest form.
@@ -42,7 +42,7 @@ pub enum Form {
 }
 
 /// The greatest length of a function's straight-line code in characters, unless that form is requested.
-pub const LONGEST: usize = 100_000;
+pub(crate) const LONGEST: usize = 100_000;
 
 /// A request for printed code of a robot.
 #[derive(Clone, Debug)]
@@ -165,7 +165,7 @@ impl Printed<'_> {
                 ([_], true) => "Matrix",
                 (_, true) => "[Matrix; 2]",
             },
-            reads_displacements: code.iter().any(|line| line.contains("way[")),
+            reads_displacements: code.iter().any(|line| line.contains("displacement[")),
             code,
             answer,
             is_recursive,

@@ -103,7 +103,7 @@ impl Modular {
     }
 
     /// Whether a denominator is zero modulo the prime. The results are then invalid.
-    pub fn is_unlucky(&self) -> bool {
+    pub(crate) fn is_unlucky(&self) -> bool {
         self.unlucky
     }
 }
@@ -173,11 +173,6 @@ impl Factors {
         &self.0
     }
 
-    /// Whether this is 1.
-    pub fn is_one(&self) -> bool {
-        self.0.is_empty()
-    }
-
     /// The product. The only product of two factors of one joint is d' d', because each joint occurs at most once in a word.
     fn times(&self, other: &Factors) -> Factors {
         let mut list = self.0.clone();
@@ -209,7 +204,7 @@ impl<V: Clone> Multilinear<V> {
     }
 
     /// A constant.
-    pub fn constant<A: Arithmetic<Value = V>>(value: V, arithmetic: &A) -> Self {
+    pub(crate) fn constant<A: Arithmetic<Value = V>>(value: V, arithmetic: &A) -> Self {
         let mut constant = Multilinear::zero();
         if !arithmetic.is_zero(&value) {
             constant.terms.insert(Factors::default(), value);
@@ -218,12 +213,12 @@ impl<V: Clone> Multilinear<V> {
     }
 
     /// The products with their nonzero coefficients; 1 comes first.
-    pub fn terms(&self) -> impl ExactSizeIterator<Item = (&Factors, &V)> {
+    pub(crate) fn terms(&self) -> impl ExactSizeIterator<Item = (&Factors, &V)> {
         self.terms.iter()
     }
 
     /// The coefficient of a product of unknowns, given by its factors in the order of the joints; `None` for zero.
-    pub fn coefficient(&self, factors: &[Factor]) -> Option<&V> {
+    pub(crate) fn coefficient(&self, factors: &[Factor]) -> Option<&V> {
         self.terms.get(&Factors(SmallVec::from_slice(factors)))
     }
 
@@ -233,7 +228,7 @@ impl<V: Clone> Multilinear<V> {
     }
 
     /// Whether the polynomial is zero.
-    pub fn is_zero(&self) -> bool {
+    pub(crate) fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
 
@@ -273,7 +268,7 @@ impl<V: Clone> Multilinear<V> {
 
     /// `self + other`.
     #[must_use]
-    pub fn add<A: Arithmetic<Value = V>>(&self, other: &Self, arithmetic: &mut A) -> Self {
+    pub(crate) fn add<A: Arithmetic<Value = V>>(&self, other: &Self, arithmetic: &mut A) -> Self {
         let mut sum = self.clone();
         for (product, value) in &other.terms {
             sum.absorb(product.clone(), value.clone(), arithmetic);
@@ -283,7 +278,7 @@ impl<V: Clone> Multilinear<V> {
 
     /// `self - other`.
     #[must_use]
-    pub fn sub<A: Arithmetic<Value = V>>(&self, other: &Self, arithmetic: &mut A) -> Self {
+    pub(crate) fn sub<A: Arithmetic<Value = V>>(&self, other: &Self, arithmetic: &mut A) -> Self {
         let mut difference = self.clone();
         for (product, value) in &other.terms {
             let changed = match difference.terms.get(product) {
@@ -301,13 +296,13 @@ impl<V: Clone> Multilinear<V> {
 
     /// `-self`.
     #[must_use]
-    pub fn neg<A: Arithmetic<Value = V>>(&self, arithmetic: &mut A) -> Self {
+    pub(crate) fn neg<A: Arithmetic<Value = V>>(&self, arithmetic: &mut A) -> Self {
         self.map(arithmetic, |arithmetic, value| arithmetic.neg(value))
     }
 
     /// `self` times a rational number. The factors 0, 1 and -1 need no multiplication.
     #[must_use]
-    pub fn scale<A: Arithmetic<Value = V>>(&self, number: &BigRational, arithmetic: &mut A) -> Self {
+    pub(crate) fn scale<A: Arithmetic<Value = V>>(&self, number: &BigRational, arithmetic: &mut A) -> Self {
         if number.is_zero() {
             return Multilinear::zero();
         }
@@ -320,7 +315,7 @@ impl<V: Clone> Multilinear<V> {
 
     /// `self other`. The factors may share only prismatic joints.
     #[must_use]
-    pub fn mul<A: Arithmetic<Value = V>>(&self, other: &Self, arithmetic: &mut A) -> Self {
+    pub(crate) fn mul<A: Arithmetic<Value = V>>(&self, other: &Self, arithmetic: &mut A) -> Self {
         let mut product = Multilinear::zero();
         for (left, a) in &self.terms {
             for (right, b) in &other.terms {

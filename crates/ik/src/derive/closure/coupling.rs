@@ -73,7 +73,7 @@ impl Coupling {
     }
 
     /// Whether the law is linear in the unknowns of the leader, so that these follow from the follower's.
-    pub fn is_linear(&self) -> bool {
+    pub(crate) fn is_linear(&self) -> bool {
         match self.law {
             Law::Revolute { times, .. } => times.abs() == 1,
             Law::Prismatic { .. } => true,
@@ -81,7 +81,7 @@ impl Coupling {
     }
 
     /// The follower's unknowns, c and s' or d', as functions of those of the leader.
-    pub fn follow<A: Arithmetic>(&self, leader: &[A::Value], arithmetic: &mut A) -> Vec<A::Value> {
+    pub(crate) fn follow<A: Arithmetic>(&self, leader: &[A::Value], arithmetic: &mut A) -> Vec<A::Value> {
         match (&self.law, leader) {
             (Law::Revolute { times, ratio, square, offset }, [cosine, sine]) => {
                 let signed = if *times < 0 { -ratio } else { ratio.clone() };

@@ -51,35 +51,6 @@ pub fn evaluate<A: Arithmetic>(
     Ok(left.sub(&right, arithmetic))
 }
 
-/// `measure(fixed, word moved)`: one side of `relation`.
-///
-/// # Errors
-/// As [`evaluate`].
-pub fn evaluate_side<A: Arithmetic>(
-    mechanism: &Mechanism,
-    relation: &Relation,
-    word: &Word,
-    assignment: &Assignment<A::Value>,
-    arithmetic: &mut A,
-) -> Result<Multilinear<A::Value>> {
-    Evaluation { mechanism, assignment, arithmetic }.side(relation, word)
-}
-
-/// The image of `object` under `word`, with the additional data for `measure`.
-///
-/// # Errors
-/// As [`evaluate`].
-pub fn carry<A: Arithmetic>(
-    mechanism: &Mechanism,
-    word: &Word,
-    object: &Object,
-    measure: Measure,
-    assignment: &Assignment<A::Value>,
-    arithmetic: &mut A,
-) -> Result<Image<A::Value>> {
-    Evaluation { mechanism, assignment, arithmetic }.carry(word, object, measure)
-}
-
 /// An evaluation in progress.
 #[non_exhaustive]
 pub struct Evaluation<'a, A: Arithmetic> {
@@ -113,12 +84,21 @@ enum Rotation<'a, V> {
 }
 
 impl<'a, A: Arithmetic> Evaluation<'a, A> {
+    /// The evaluation of a mechanism's motions at these joint values and this target.
+    pub fn new(mechanism: &'a Mechanism, assignment: &'a Assignment<A::Value>, arithmetic: &'a mut A) -> Self {
+        Evaluation { mechanism, assignment, arithmetic }
+    }
+
     fn side(&mut self, relation: &Relation, word: &Word) -> Result<Multilinear<A::Value>> {
         let image = self.carry(word, &relation.moved, relation.measure)?;
         self.measure(relation.measure, &relation.fixed, &image)
     }
 
-    fn carry(&mut self, word: &Word, object: &Object, measure: Measure) -> Result<Image<A::Value>> {
+    /// The image of `object` under `word`, with the additional data for `measure`.
+    ///
+    /// # Errors
+    /// As [`evaluate`].
+    pub fn carry(&mut self, word: &Word, object: &Object, measure: Measure) -> Result<Image<A::Value>> {
         self.check(word)?;
         let mut image = self.start(object, measure);
         for &letter in word.0.iter().rev() {

@@ -103,7 +103,7 @@ impl Relation {
     }
 
     /// The joints that do not occur: those of the run, under which the fixed object is invariant, and those of the tail for the moved object.
-    pub fn cancelled(&self, mechanism: &Mechanism) -> [Vec<usize>; 2] {
+    pub(crate) fn cancelled(&self, mechanism: &Mechanism) -> [Vec<usize>; 2] {
         let stays = |place: &usize, object: &Object| leaves(&mechanism.joints()[*place], object, self.measure);
         let places = |word: &[Letter]| word.iter().filter_map(|letter| letter.joint()).collect::<Vec<_>>();
         let target = self.right.0.iter().position(|letter| letter.joint().is_none()).unwrap_or(self.right.0.len());

@@ -7,7 +7,7 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 use groebot_robot::document::shown;
 use groebot_robot::kinematics::upright::Upright;
-use groebot_robot::kinematics::{BaseAxis, Chain, ExactMatrix, ExactVector, Joint, JointKind, Mimic, Plane, Task};
+use groebot_robot::kinematics::{Chain, ExactMatrix, ExactVector, Joint, JointKind, Mimic, TargetNumber, Task};
 
 /// A joint's screw in the base frame in the zero configuration. A revolute joint has the unknowns c, the cosine of its angle, and s' = s / |w|. A prismatic
 /// joint has d' = d / |w|. So the algebra needs no square root.
@@ -53,7 +53,7 @@ impl ScrewJoint {
     }
 
     /// Whether the joint is revolute.
-    pub fn is_revolute(&self) -> bool {
+    pub(crate) fn is_revolute(&self) -> bool {
         self.kind == JointKind::Revolute
     }
 }
@@ -77,13 +77,13 @@ pub struct Mechanism {
     /// Motions of the tip that the task does not constrain, as joints after the last one.
     unseen: Vec<ScrewJoint>,
     /// The chain and its loop for the task `position_pitch_roll`; the joints are then those of the loop.
-    upright: Option<Box<Standing>>,
+    upright: Option<Box<UprightLoop>>,
 }
 
 /// The loop of a [chain with a vertical first axis](Chain::upright), as a mechanism with a constant target.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Standing {
+pub struct UprightLoop {
     /// The chain itself.
     pub plain: Mechanism,
     /// The loop.
@@ -103,15 +103,15 @@ impl Mechanism {
         let plain = Mechanism::of_chain(chain)?;
         let closed = Mechanism::of_joints(&upright.chain)?;
         let given = upright.chain.given();
-        let standing = Some(Box::new(Standing { plain, upright }));
-        Ok(Mechanism { task: Task::PositionPitchRoll, given, upright: standing, ..closed })
+        let upright_loop = Some(Box::new(UprightLoop { plain, upright }));
+        Ok(Mechanism { task: Task::PositionPitchRoll, given, upright: upright_loop, ..closed })
     }
 
     /// The mechanism of `chain` itself, without the loop of its task, for forward kinematics.
     ///
     /// # Errors
     /// As [`Chain::check_leaders`].
-    pub fn of_chain(chain: &Chain) -> Result<Self> {
+    pub(crate) fn of_chain(chain: &Chain) -> Result<Self> {
         Mechanism::of_joints(chain)?.with_given(&chain.given())
     }
 
@@ -150,7 +150,7 @@ impl Mechanism {
     pub fn with_given(mut self, given: &[usize]) -> Result<Self> {
         match &self.upright {
             None => {}
-            Some(standing) if given == standing.plain.given() => return Ok(self),
+            Some(upright_loop) if given == upright_loop.plain.given() => return Ok(self),
             Some(_) => {
                 let text = "the task `position_pitch_roll` needs as many independent joints as it has numbers: name the given joints (`given`)";
                 return Err(Error::new(ErrorKind::Unsupported, text));
@@ -175,21 +175,21 @@ impl Mechanism {
     }
 
     /// The joints of the chain itself.
-    pub fn driven(&self) -> &[ScrewJoint] {
+    pub(crate) fn driven(&self) -> &[ScrewJoint] {
         match &self.upright {
-            Some(standing) => &standing.plain.joints,
+            Some(upright_loop) => &upright_loop.plain.joints,
             None => &self.joints[..self.hidden().unwrap_or(self.joints.len())],
         }
     }
 
     /// The chain itself and the loop of these joints, for the task `position_pitch_roll`.
-    pub fn standing(&self) -> Option<&Standing> {
+    pub fn upright_loop(&self) -> Option<&UprightLoop> {
         self.upright.as_deref()
     }
 
     /// The mechanism of the chain itself.
-    pub fn plain(&self) -> &Mechanism {
-        self.standing().map_or(self, |standing| &standing.plain)
+    pub(crate) fn plain(&self) -> &Mechanism {
+        self.upright_loop().map_or(self, |upright_loop| &upright_loop.plain)
     }
 
     /// The index of the hidden joint, if the task leaves a rotation of the tip open. It rotates the tip about the ray, after the last joint, or about the
@@ -204,13 +204,13 @@ impl Mechanism {
     }
 
     /// The origin of the tip in the zero configuration, in the base frame.
-    pub fn tip_point(&self) -> &ExactVector {
+    pub(crate) fn tip_point(&self) -> &ExactVector {
         &self.tip_point
     }
 
     /// The rotation of the tip in the zero configuration, base_from_tip. It is the identity for a planar pose, a ray and an angle about an axis, whose angles
     /// are relative to the zero configuration.
-    pub fn tip_rotation(&self) -> &ExactMatrix {
+    pub(crate) fn tip_rotation(&self) -> &ExactMatrix {
         &self.tip_rotation
     }
 
@@ -226,12 +226,12 @@ impl Mechanism {
     }
 
     /// The task that relations use: the pose for a ray and for `position_pitch_roll`, else the task itself.
-    pub fn seen(&self) -> Task {
+    pub(crate) fn seen(&self) -> Task {
         if matches!(self.task, Task::Ray | Task::PositionPitchRoll) { Task::Pose } else { self.task }
     }
 
     /// The indices of the joints that the user gives, ascending.
-    pub fn given(&self) -> &[usize] {
+    pub(crate) fn given(&self) -> &[usize] {
         &self.given
     }
 
@@ -241,18 +241,18 @@ impl Mechanism {
     }
 
     /// The indices of the joints that follow others and are not given, ascending, each with its law.
-    pub fn followers(&self) -> Vec<(usize, &Coupling)> {
+    pub(crate) fn followers(&self) -> Vec<(usize, &Coupling)> {
         let coupled = |place: usize| self.joints[place].coupling.as_ref().map(|coupling| (place, coupling));
         self.unknown().into_iter().filter_map(coupled).collect()
     }
 
     /// The number of joints that are not given and follow no other, including the hidden one.
-    pub fn independent(&self) -> usize {
+    pub(crate) fn independent(&self) -> usize {
         self.unknown().len() - self.followers().len()
     }
 
     /// The relations of the joints that follow others.
-    pub fn couplings(&self) -> Vec<Relation> {
+    pub(crate) fn couplings(&self) -> Vec<Relation> {
         let each = |(place, coupling): (usize, &Coupling)| {
             Relation::following(place, coupling.leader, self.joints[place].is_revolute())
         };
@@ -260,13 +260,13 @@ impl Mechanism {
     }
 
     /// Whether the task has at most as many numbers as there are independent joints.
-    pub fn is_tight(&self) -> bool {
+    pub(crate) fn is_tight(&self) -> bool {
         self.seen().freedoms() <= self.independent()
     }
 
     /// Whether the steps of a plan must have as many solutions as the loop. If the task is overdetermined (more numbers than independent joints), or joints
     /// follow others, steps may have more. The unused equations are then evaluated at run time.
-    pub fn counts_exactly(&self) -> bool {
+    pub(crate) fn counts_exactly(&self) -> bool {
         self.is_tight() && self.followers().is_empty()
     }
 
@@ -278,16 +278,6 @@ impl Mechanism {
     /// The names of the target's numbers in relations, in the order of [`super::Target::new`]: px, py, pz, r11 ... r33 and so on.
     pub fn parameters(&self) -> Vec<String> {
         numbers(self.seen())
-    }
-
-    /// The names of the numbers of the target that the user gives.
-    pub fn inputs(&self) -> Vec<String> {
-        match self.task {
-            Task::PositionYaw { axis } => {
-                ["px", "py", "pz"].map(str::to_owned).into_iter().chain(yaw_names(axis).map(|(_, name)| name)).collect()
-            }
-            task => numbers(task),
-        }
     }
 }
 
@@ -307,29 +297,11 @@ fn coupling([joint, other]: [&ScrewJoint; 2], leader: usize, mimic: &Mimic) -> R
 
 /// The names of the numbers of a task's target.
 fn numbers(task: Task) -> Vec<String> {
-    let coordinates = |prefix: char, axes: &[usize]| -> Vec<String> {
-        axes.iter().map(|&axis| format!("{prefix}{}", ["x", "y", "z"][axis])).collect()
+    let names = |number: &TargetNumber| match number {
+        TargetNumber::PlaneAngle(_) | TargetNumber::Yaw(_) => vec!["cphi".to_owned(), "sphi".to_owned()],
+        number => vec![number.name()],
     };
-    let position = || coordinates('p', &[0, 1, 2]);
-    let rotation = || (1..=3).flat_map(|row| (1..=3).map(move |column| format!("r{row}{column}")));
-    let planar = |plane: Plane| coordinates('p', &plane.coordinates());
-    match task {
-        Task::Pose => position().into_iter().chain(rotation()).collect(),
-        Task::Position => position(),
-        Task::PlanarPosition { plane } => planar(plane),
-        Task::PlanarPose { plane } => planar(plane).into_iter().chain(["cphi".into(), "sphi".into()]).collect(),
-        Task::Ray => position().into_iter().chain(coordinates('d', &[0, 1, 2])).collect(),
-        Task::Direction => coordinates('d', &[0, 1, 2]),
-        Task::Rotation => rotation().collect(),
-        Task::PositionYaw { .. } => position().into_iter().chain(["cphi".into(), "sphi".into()]).collect(),
-        Task::PositionPitchRoll => position().into_iter().chain(["pitch".to_owned(), "roll".to_owned()]).collect(),
-    }
-}
-
-/// The names of an angle about `axis`, and of its cosine and its sine: `yaw`, `yaw_x`, `yaw_y`.
-pub fn yaw_names(axis: BaseAxis) -> [(String, String); 2] {
-    let yaw = if axis == BaseAxis::Z { "yaw".to_owned() } else { format!("yaw_{}", axis.name()) };
-    ["c", "s"].map(|letter| (yaw.clone(), format!("{letter}{yaw}")))
+    task.layout().numbers().iter().flat_map(names).collect()
 }
 
 /// A symbol that no joint uses.

@@ -116,7 +116,7 @@ impl Relation {
     }
 
     /// For a joint that follows another one: its index, its leader, and the index of the unknown. 0 and 1 are c and s', 2 is d'.
-    pub fn followed(&self) -> Option<[usize; 3]> {
+    pub(crate) fn followed(&self) -> Option<[usize; 3]> {
         let (Measure::Follow, Object::Direction(axis)) = (self.measure, &self.fixed) else { return None };
         let [follower, leader] = [&self.left, &self.right].map(|word| word.0.first().and_then(|letter| letter.joint()));
         Some([follower?, leader?, axis.iter().position(|entry| !entry.is_zero())?])
@@ -132,7 +132,7 @@ impl Relation {
     }
 
     /// Whether the target occurs.
-    pub fn has_target(&self) -> bool {
+    pub(crate) fn has_target(&self) -> bool {
         self.left.0.iter().chain(&self.right.0).any(|letter| letter.joint().is_none())
     }
 }

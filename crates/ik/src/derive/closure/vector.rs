@@ -5,60 +5,17 @@ use num_traits::{One, Signed, Zero};
 
 use groebot_algebra::number::{BigInt, BigRational};
 use groebot_algebra::poly::rational_root;
-use groebot_robot::kinematics::{ExactMatrix, ExactVector};
+use groebot_robot::kinematics::ExactVector;
+
+pub use groebot_robot::spatial::exact::vector::{add, cross, dot, identity, is_zero, scale, sub, turn, unit, zero};
 
 /// The limit above which an integer coordinate counts as long.
 const LONG: i64 = 100;
-
-pub fn zero() -> ExactVector {
-    std::array::from_fn(|_| BigRational::zero())
-}
-
-/// The unit vector along a coordinate axis: 0, 1, 2 for x, y, z.
-pub fn unit(axis: usize) -> ExactVector {
-    std::array::from_fn(|k| if k == axis { BigRational::one() } else { BigRational::zero() })
-}
-
-pub fn identity() -> ExactMatrix {
-    std::array::from_fn(unit)
-}
-
-pub fn is_zero(a: &ExactVector) -> bool {
-    a.iter().all(Zero::is_zero)
-}
-
-pub fn add(a: &ExactVector, b: &ExactVector) -> ExactVector {
-    std::array::from_fn(|k| &a[k] + &b[k])
-}
-
-pub fn sub(a: &ExactVector, b: &ExactVector) -> ExactVector {
-    std::array::from_fn(|k| &a[k] - &b[k])
-}
-
-pub fn scale(a: &ExactVector, factor: &BigRational) -> ExactVector {
-    a.each_ref().map(|entry| entry * factor)
-}
-
-pub fn dot(a: &ExactVector, b: &ExactVector) -> BigRational {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-pub fn cross(a: &ExactVector, b: &ExactVector) -> ExactVector {
-    std::array::from_fn(|k| {
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        &a[i] * &b[j] - &a[j] * &b[i]
-    })
-}
 
 /// Whether `a` and `b` are parallel. No fraction is reduced.
 pub fn parallel(a: &ExactVector, b: &ExactVector) -> bool {
     let product = |i: usize, j: usize| a[i].numer() * b[j].numer() * (a[j].denom() * b[i].denom());
     [(0, 1), (1, 2), (2, 0)].into_iter().all(|(i, j)| product(i, j) == product(j, i))
-}
-
-/// The matrix, given by rows, times `a`.
-pub fn turn(matrix: &ExactMatrix, a: &ExactVector) -> ExactVector {
-    matrix.each_ref().map(|row| dot(row, a))
 }
 
 /// The unit vector along `a` if it is rational, else as [`tidy`].

@@ -62,7 +62,8 @@ impl CoupledView<'_> {
     ///
     /// # Errors
     /// As [`crate::solver::Program::solve_numbers`]. The error of `watch` if it stops the derivation.
-    pub fn explain(&self, target: &[f64], watch: &Watch) -> Result<Option<Explanation>> {
+    pub fn explain<'w>(&self, target: &[f64], watch: impl Into<Option<&'w Watch>>) -> Result<Option<Explanation>> {
+        let watch = Watch::or_none(watch);
         if !answers_of(self.program, target)?.is_empty() {
             return Ok(None);
         }

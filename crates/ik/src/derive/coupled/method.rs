@@ -1,12 +1,13 @@
 //! From coupled chains to one solver: [`Coupled`].
 
 use super::model::{CoupledChain, CoupledChains, JointPlace};
+use super::origin::{Origin, origins};
 use crate::derive::closure::Mechanism;
-use crate::derive::planner::{self, Plan, PlanStep, Way};
+use crate::derive::planner::{self, Plan, PlanStep, StepMethod};
 use crate::derive::problem::ChainProblem;
 use crate::derive::sequential::{Sequential, SequentialView, Side, Simultaneous};
 use crate::derive::view::View;
-use crate::solver::{Input, MAX_JOINTS, Program};
+use crate::solver::{MAX_JOINTS, Program, TipTask};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The solution of one chain, and its part of the common solver.
@@ -27,15 +28,6 @@ pub struct ChainStage {
     pub joints: Vec<usize>,
     /// By input of the chain's own solver: the source of its value.
     pub(super) inputs: Vec<Origin>,
-}
-
-/// The source of the value of a chain's input.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Origin {
-    /// The input of the whole solver with this index.
-    Target(usize),
-    /// The joint of the whole solver with this index.
-    Joint(usize),
 }
 
 /// A function that returns the solution of one of the chains, and its solver.
@@ -92,6 +84,7 @@ impl Coupled {
         let most = 2 * all.dimension() + program.blocks.len();
         program.capacity = most.min(program.capacity);
         all.name_actuators(coupled, &mut program);
+        all.name_tasks(coupled, &mut program);
         Ok((all, program))
     }
 
@@ -112,6 +105,17 @@ impl Coupled {
                     actuator.map(|actuator| coupled.actuators()[actuator].name.clone()).unwrap_or_default();
             }
         }
+    }
+
+    /// Sets the tasks of the solver: one for each chain, with its name.
+    fn name_tasks(&self, coupled: &CoupledChains, program: &mut Program) {
+        let task = |(member, chain): (usize, &CoupledChain)| {
+            let stage = self.stages.iter().find(|stage| stage.member == member)?;
+            let tip = stage.solver.tip()?;
+            let Origin::Target(first_input) = *stage.inputs.get(tip.first_input)? else { return None };
+            Some(TipTask { chain: Some(chain.name.clone()), first_input, ..tip.clone() })
+        };
+        program.tasks = coupled.chains().iter().enumerate().filter_map(task).collect();
     }
 }
 
@@ -150,7 +154,7 @@ impl CoupledView<'_> {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for another number of joints.
-    pub fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
+    pub(crate) fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
         let mut target = vec![0.0; self.program.inputs.len()];
         for stage in &self.method.stages {
             stage.write(&stage.problem.reached(&self.joints_of(stage.member, q)?)?, &mut target);
@@ -159,18 +163,9 @@ impl CoupledView<'_> {
         Ok(target)
     }
 
-    /// Writes the values of joints that the user gives to both chains into a target of the solver.
-    pub fn write_given(&self, q: &[f64], target: &mut [f64]) {
-        let (Some(_), CoupledChain { prefix, chain, .. }) = (&self.method.simultaneous, &self.problem.chains()[0])
-        else {
-            return;
-        };
-        for joint in chain.given() {
-            let name = format!("{prefix}{}", chain.joints()[joint].name);
-            if let Some(place) = self.program.inputs.iter().position(|input| input.name == name) {
-                target[place] = q[joint];
-            }
-        }
+    /// Writes the values of the joints that the user gives into a target of the solver.
+    pub(crate) fn write_given(&self, q: &[f64], target: &mut [f64]) {
+        self.program.given_joints.iter().for_each(|given| target[given.input] = q[given.joint]);
     }
 }
 
@@ -198,10 +193,13 @@ impl ChainStage {
         let shared: Vec<(usize, usize)> =
             found.iter().enumerate().filter_map(|(joint, &found)| found.map(|place| (place, joint))).collect();
         let last = before.program();
-        let program = last.map_or_else(|| Ok(own.clone()), |last| last.followed_by(&own, &shared))?;
+        let (program, places) = match last {
+            Some(last) => last.joined(&own, &shared)?,
+            None => (own.clone(), (0..own.inputs.len()).map(Some).collect()),
+        };
         let mut fresh = last.map_or(0, |last| last.joints.len())..MAX_JOINTS;
         let joints: Vec<usize> = found.iter().filter_map(|found| found.or_else(|| fresh.next())).collect();
-        let inputs = origins(&method.plan.given, &own.inputs, &program.inputs, &found);
+        let inputs = origins(&own, &places, &found);
         Ok(ChainStage { member, problem, method, solver, program, joints, inputs })
     }
 
@@ -256,15 +254,6 @@ impl ChainStage {
         };
         self.inputs.iter().map(value).collect()
     }
-}
-
-/// The sources of the chain's inputs `own`. The inputs of its target come first, then the `given` joints from the base. Those in `found` are joints of earlier
-/// chains; all others are inputs of the solver, by name.
-fn origins(given: &[usize], own: &[Input], inputs: &[Input], found: &[Option<usize>]) -> Vec<Origin> {
-    let target = own.len() - given.len();
-    let known = std::iter::repeat_n(None, target).chain(given.iter().map(|&joint| found[joint].map(Origin::Joint)));
-    let named = |name: &str| inputs.iter().position(|input| input.name == name).map(Origin::Target);
-    known.zip(own).filter_map(|(known, input)| known.or_else(|| named(&input.name))).collect()
 }
 
 /// The part that is derived so far.
@@ -355,13 +344,13 @@ fn derived(problem: &ChainProblem, least: usize, watch: &Watch) -> Result<(Seque
 fn without(known: &[usize], steps: Vec<PlanStep>) -> Vec<PlanStep> {
     let (gone, mut kept): (Vec<PlanStep>, Vec<PlanStep>) =
         steps.into_iter().partition(|step| known.contains(&step.joint));
-    for other in gone.iter().flat_map(|step| step.way.relations()) {
+    for other in gone.iter().flat_map(|step| step.method.relations()) {
         let left: Vec<usize> = other.joints().into_iter().filter(|joint| !known.contains(joint)).collect();
         for step in &mut kept {
-            if let Way::Single(own) = &step.way
+            if let StepMethod::Single(own) = &step.method
                 && left == [step.joint]
             {
-                step.way = Way::Pair([own.clone(), other.clone()]);
+                step.method = StepMethod::Pair([own.clone(), other.clone()]);
                 step.degree = 1;
             }
         }

@@ -11,6 +11,7 @@ mod certificate;
 mod explain;
 mod method;
 mod model;
+mod origin;
 mod reader;
 mod titles;
 

@@ -107,7 +107,7 @@ impl CoupledChains {
     }
 
     /// Index of the actuator of a joint.
-    pub fn actuator_of(&self, place: JointPlace) -> Option<usize> {
+    pub(crate) fn actuator_of(&self, place: JointPlace) -> Option<usize> {
         self.actuators.iter().position(|actuator| actuator.joints.contains(&place))
     }
 
@@ -117,7 +117,7 @@ impl CoupledChains {
     }
 
     /// The least and greatest value of an actuator that all its joints allow. `None` if no joint has limits.
-    pub fn limits(&self, actuator: &Actuator) -> Option<(f64, f64)> {
+    pub(crate) fn limits(&self, actuator: &Actuator) -> Option<(f64, f64)> {
         let own = actuator.joints.iter().filter_map(|place| self.parts.joint(*place)?.limits);
         own.reduce(|(low, high), (least, greatest)| (f64::max(low, least), f64::min(high, greatest)))
     }

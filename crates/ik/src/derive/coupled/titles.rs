@@ -3,13 +3,13 @@
 use super::method::{ChainStage, CoupledView};
 
 impl CoupledView<'_> {
-    /// The names of the unknown joints that are found from both chains at once, in their order.
+    /// The names of the unknown joints that are found from both chains together, in order.
     pub fn simultaneous_names(&self) -> Vec<&str> {
         let steps = self.method.simultaneous.iter().flat_map(|simultaneous| &simultaneous.steps);
         steps.map(|step| self.program.joints[step.joint].name.as_str()).collect()
     }
 
-    /// `chain 2: right, with HipYawPitch where the chains before it have put it`.
+    /// The title of a chain, such as `chain 2: right, with HipYawPitch where the chains before it have put it`.
     pub fn title(&self, stage: &ChainStage) -> String {
         let number =
             self.method.stages.iter().position(|other| other.member == stage.member).map_or(0, |index| index + 1);
@@ -22,7 +22,7 @@ impl CoupledView<'_> {
         format!("chain {number}: {}{shared}", self.problem.chains()[stage.member].name)
     }
 
-    /// The names of the actuators that chains before have found for a chain.
+    /// The names of the actuators that earlier chains have found for a chain.
     fn shared<'a>(&'a self, stage: &'a ChainStage) -> impl Iterator<Item = &'a str> {
         stage.found().map(|joint| self.program.joints[joint].name.as_str())
     }

@@ -78,7 +78,7 @@ fn slides(chain: &Chain) -> [bool; 6] {
 }
 
 /// The axes of the joints of a chain of six. Directions have length one; points are in the chain's length unit.
-pub fn layout(chain: &Chain) -> Layout {
+pub(crate) fn layout(chain: &Chain) -> Layout {
     let line = |joint: usize| match &chain.screws()[joint] {
         Screw::Revolute(axis) => {
             Line { direction: axis.direction().into_inner().into(), point: axis.point().coords.into() }

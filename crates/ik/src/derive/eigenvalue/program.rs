@@ -22,7 +22,10 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
     let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
     let Layout { lines, slides, length } = layout(&six.chain);
     // The operands of a given joint are those that its block assigns to its unknowns.
-    let value = |joint: usize| set_to(&frame, &chain.joints()[joint].name);
+    let value = |joint: usize| {
+        let block = mechanism.given().iter().position(|given| *given == joint);
+        block.map_or_else(Vec::new, |block| set_to(&frame.blocks[block]))
+    };
     let mut assembler = Assembler::default();
     let target = six.target(chain, std::array::from_fn(Operand::Parameter), value, &mut assembler)?;
     let step = SixAxes::new(SixAxesParts {
@@ -56,10 +59,9 @@ pub(super) fn within(program: &mut Program, within: f64) -> Result<()> {
     Ok(())
 }
 
-/// The operands that the block `label` of a program assigns to unknowns.
-fn set_to(program: &Program, label: &str) -> Vec<Operand> {
-    let block = program.blocks.iter().find(|block| block.label == label);
-    let steps = block.into_iter().flat_map(|block| &block.cases).flat_map(|case| &case.steps);
+/// The operands that a block assigns to unknowns.
+fn set_to(block: &Block) -> Vec<Operand> {
+    let steps = block.cases.iter().flat_map(|case| &case.steps);
     let value = |step: &Step| if let Step::Set { value, .. } = step { Some(*value) } else { None };
     steps.filter_map(value).collect()
 }

@@ -11,10 +11,10 @@ use super::residue::Residue;
 use super::rows::{Doubled, FAR, MOVING, Row, Rows};
 use super::screw::{Axis, Figure};
 use super::vector::dot;
-use crate::derive::samples::random_sample::Random;
 use crate::solver::eigenvalue::Formulation;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::Zp;
+use groebot_algebra::random::SplitMix64;
 use groebot_robot::kinematics::{Chain, JointKind};
 
 /// The number of rows and columns of a pencil before elimination.
@@ -35,7 +35,7 @@ pub struct Determinant {
 }
 
 impl Determinant {
-    /// Evaluates the determinant of `formulation` for `chain`, which has six joints. The formulation must be valid ([`Formulation::is_valid`]).
+    /// Evaluates the determinant of `formulation` for `chain`, which has six joints. The formulation must be valid.
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] if the prime divides a denominator of the chain, or if a random number is zero.
@@ -48,8 +48,8 @@ impl Determinant {
 }
 
 fn determinant(chain: &Chain, formulation: Formulation, field: Zp, seed: u64) -> Option<u64> {
-    let mut random = Random::new(seed);
-    let mut draw = || Residue::new(random.below(field.modulus()), field);
+    let mut random = SplitMix64::new(seed);
+    let mut draw = || Residue::new(random.unit(field.modulus()), field);
     let axes = axes(chain, field)?;
     let mut turns = [[draw(); 2]; 6];
     for (turn, axis) in turns.iter_mut().zip(&axes) {

@@ -37,7 +37,7 @@ const SLIDING: [&str; 3] = [
 
 impl EigenvalueView<'_> {
     /// The origin of the equations, and the differences for prismatic joints if there are any.
-    fn told_equations(&self) -> impl Iterator<Item = &'static str> {
+    fn equations(&self) -> impl Iterator<Item = &'static str> {
         let slides = self.method.six.joints().iter().any(|joint| joint.kind == JointKind::Prismatic);
         EQUATIONS.into_iter().chain(SLIDING.into_iter().filter(move |_| slides))
     }
@@ -69,7 +69,7 @@ impl EigenvalueView<'_> {
             format!(
                 "{}. {}; the determinant at a random pose is {}: not zero, so the equations are independent.",
                 index + 1,
-                self.told(regular.formulation),
+                self.described(regular.formulation),
                 values.join(", ")
             )
         };
@@ -77,7 +77,7 @@ impl EigenvalueView<'_> {
     }
 
     /// The hidden and the doubled joint of a formulation, as text.
-    fn told(&self, formulation: Formulation) -> String {
+    fn described(&self, formulation: Formulation) -> String {
         let name = |joint: usize| self.method.six.joints()[joint].name.as_str();
         let (hidden, doubled) = (formulation.hidden, formulation.doubled());
         let slides = |joint: usize| self.method.six.joints()[joint].kind == JointKind::Prismatic;
@@ -94,7 +94,7 @@ impl EigenvalueView<'_> {
     pub(in crate::derive) fn document(&self, stage: Option<Stage>) -> Document {
         let mut page = Document::of(self.problem.chain.name(), stage);
         if Stage::Equations.is_in(stage) {
-            page.items(self.told_equations().map(Line::of).collect());
+            page.items(self.equations().map(Line::of).collect());
         }
         if Stage::Plan.is_in(stage) {
             let lines = self.given().into_iter().chain(self.counts()).chain(self.choices());

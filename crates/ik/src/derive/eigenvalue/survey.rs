@@ -2,8 +2,8 @@
 
 use groebot_runtime::six_axes::Rigid;
 
-use crate::derive::samples::random_sample::Random;
 use crate::solver::eigenvalue::{Formulation, Layout};
+use groebot_algebra::random::SplitMix64;
 
 /// The number of random targets for each formulation.
 const TARGETS: usize = 100;
@@ -31,7 +31,7 @@ pub fn survey(layout: &Layout, formulations: &[Formulation]) -> Vec<Formulation>
 /// The mean order of magnitude of the errors. `None` for a formulation that is rarely trusted.
 fn rank(layout: &Layout, formulation: Formulation) -> Option<(f64, Formulation)> {
     let solver = layout.chain(&Rigid::NONE, &[formulation]);
-    let mut random = Random::new(SEED);
+    let mut random = SplitMix64::new(SEED);
     let (mut sum, mut trusted) = (0.0, 0);
     for _ in 0..TARGETS {
         let q = layout.slides.map(|slides| {
@@ -49,7 +49,7 @@ fn rank(layout: &Layout, formulation: Formulation) -> Option<(f64, Formulation)>
 }
 
 /// A random number in [-1, 1).
-fn number(random: &mut Random) -> f64 {
+fn number(random: &mut SplitMix64) -> f64 {
     const FINE: u64 = 1 << 53;
-    random.below(FINE) as f64 / FINE as f64 * 2.0 - 1.0
+    random.unit(FINE) as f64 / FINE as f64 * 2.0 - 1.0
 }

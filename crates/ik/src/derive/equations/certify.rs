@@ -36,7 +36,7 @@ impl Certified {
     ///
     /// # Errors
     /// [`crate::ErrorKind::Certificate`] with the first false part.
-    pub fn verify(&self, setting: &Setting) -> Result<Proof> {
+    pub(crate) fn verify(&self, setting: &Setting) -> Result<Proof> {
         let ring = self.ring(setting)?;
         let generators = setting.generators(&ring)?;
         verify(

@@ -7,16 +7,15 @@ use crate::derive::equations::setting::{ParameterPoly, Poly, Setting, Unknowns};
 use crate::derive::equations::strata::{self, ZeroSet};
 use crate::derive::equations::tree::{Node, Outcome, Solved, collect_denominators};
 use crate::derive::equations::triangular::{Stair, clear_denominators};
-use crate::derive::{JointKindUnknown, LengthUnit, ParameterSource, Quantity, Root, System};
+use crate::derive::{JointKindUnknown, ParameterSource, Quantity, Root, System};
 use crate::solver::{
-    Block, Case, Checks, Guard, Input, Joint, JointValue, Operand, ParameterRule, Preference, Program, Rule, Step, Unit,
+    Block, Case, Checks, Guard, Input, Joint, JointValue, Operand, ParameterRule, Preference, Program, Rule, Step,
+    TipTask, Unit,
 };
+use crate::tolerances::DERIVED_STRATA;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Ring, Style};
 use groebot_algebra::poly::{Expression, Order};
-
-/// The scale of a program whose equations contain no constants. Its parameters alone then determine the scale.
-const SMALLEST_SCALE: f64 = 1e-12;
 
 /// Compiles the solver of `system` from its proved tree.
 ///
@@ -32,11 +31,15 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
     let most = block.cases.iter().map(Program::branches).max().filter(|most| *most > 0);
     let isolated = most.filter(|_| !block.cases.iter().any(|case| case.open));
     let (checks, scale) = compiler.checks()?;
+    let tip = system.task.map(|task| TipTask { chain: None, task, direction: None, first_input: 0 });
     let program = Program {
         name: system.name.clone(),
-        about: None,
-        inputs: system.inputs.iter().map(|i| Input { name: i.name.clone(), unit: unit(system, i.quantity) }).collect(),
-        conditions: Vec::new(),
+        tasks: tip.into_iter().collect(),
+        inputs: system
+            .inputs
+            .iter()
+            .map(|i| Input { name: i.name.clone(), unit: Unit::of(i.quantity, system.length_unit) })
+            .collect(),
         parameters: compiler.parameters()?,
         unknowns: system.order.clone(),
         joints: system.joints.iter().map(|joint| compiler.joint(joint)).collect::<Result<_>>()?,
@@ -46,21 +49,11 @@ pub fn compile(system: &System, tree: &Node) -> Result<Program> {
         preference: compiler.preference()?,
         capacity,
         isolated,
-        nearby: false,
-        described: None,
+        ..Program::default()
     }
     .pruned();
     program.validate().map_err(|error| Error::new(ErrorKind::Unsupported, error.message().to_owned()))?;
     Ok(program)
-}
-
-fn unit(system: &System, quantity: Quantity) -> Unit {
-    match (quantity, system.length_unit) {
-        (Quantity::Length, LengthUnit::Metre) => Unit::Metre,
-        (Quantity::Length, LengthUnit::Millimetre) => Unit::Millimetre,
-        (Quantity::Angle, _) => Unit::Radian,
-        (Quantity::Number, _) => Unit::One,
-    }
 }
 
 /// A factor of a stratum, and the setting whose parameters it contains.
@@ -82,7 +75,7 @@ impl<'a> Compiler<'a> {
                 (JointValue::Angle { cosine: self.unknown(cosine)?, sine: self.unknown(sine)? }, Unit::Radian)
             }
             JointKindUnknown::Value { unknown } => {
-                (JointValue::Plain(self.unknown(unknown)?), unit(self.system, Quantity::Length))
+                (JointValue::Plain(self.unknown(unknown)?), Unit::of(Quantity::Length, self.system.length_unit))
             }
         };
         Ok(Joint { name: joint.name.clone(), unit, value })
@@ -282,7 +275,7 @@ impl<'a> Compiler<'a> {
             scale = scale.max(numbers(&ring, &f));
         }
         checks.code = assembler.take();
-        Ok((checks, scale.to_f64().unwrap_or(0.0).max(SMALLEST_SCALE)))
+        Ok((checks, scale.to_f64().unwrap_or(0.0).max(DERIVED_STRATA.least_scale)))
     }
 
     fn is_circle(&self, ring: &Unknowns, f: &Poly) -> bool {

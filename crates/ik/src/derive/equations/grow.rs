@@ -16,7 +16,8 @@ const MAX_DEPTH: usize = 8;
 /// # Errors
 /// For generic parameters: [`ErrorKind::Inconsistent`], and [`ErrorKind::PositiveDimensional`] with the free unknowns. The error of `watch` if it stops the
 /// derivation.
-pub fn derive_tree(system: &System, orders: Orders, watch: &Watch) -> Result<Node> {
+pub fn derive_tree<'w>(system: &System, orders: Orders, watch: impl Into<Option<&'w Watch>>) -> Result<Node> {
+    let watch = Watch::or_none(watch);
     let node = grow(system, &mut Engine { system, orders, watch })?;
     match &node.outcome {
         Outcome::Solved(_) => Ok(node),
@@ -143,7 +144,7 @@ fn open_node(node: &Node, factor: Expression, reason: String) -> Node {
 }
 
 /// One line that summarises the solution of a stratum.
-pub fn describe(node: &Node) -> String {
+pub(crate) fn describe(node: &Node) -> String {
     match &node.outcome {
         Outcome::Solved(solved) if solved.inherited => "the formulas of the stratum around it hold here too".to_owned(),
         Outcome::Solved(solved) => match solved.triangular.bound() {

@@ -2,14 +2,14 @@
 
 pub(super) mod assemble;
 pub(super) mod certificate;
-pub mod certify;
+pub(crate) mod certify;
 pub mod compile;
 mod generic;
 pub(super) mod grow;
 pub mod plan;
 pub(super) mod prover;
 pub mod setting;
-pub mod strata;
+pub(crate) mod strata;
 pub mod tree;
 pub mod triangular;
 

@@ -97,7 +97,7 @@ impl Setting {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] if an equation divides by an expression that is zero in this setting.
-    pub fn generators(&self, ring: &Unknowns) -> Result<Vec<Poly>> {
+    pub(crate) fn generators(&self, ring: &Unknowns) -> Result<Vec<Poly>> {
         self.equations.iter().map(|equation| equation.evaluate(ring)).collect()
     }
 
@@ -105,7 +105,7 @@ impl Setting {
     ///
     /// # Errors
     /// [`ErrorKind::UnknownName`] if there is no such parameter.
-    pub fn substitute(&self, substitution: &Substitution) -> Result<Setting> {
+    pub(crate) fn substitute(&self, substitution: &Substitution) -> Result<Setting> {
         let Some(index) = self.symbols.iter().position(|symbol| symbol.name == substitution.name) else {
             let text = format!("no parameter `{}` is left to be replaced", substitution.name);
             return Err(Error::new(ErrorKind::UnknownName, text));
@@ -130,7 +130,7 @@ impl Setting {
     ///
     /// # Errors
     /// As [`Setting::field`].
-    pub fn split_roots(&self) -> Result<Vec<Setting>> {
+    pub(crate) fn split_roots(&self) -> Result<Vec<Setting>> {
         for (index, symbol) in self.symbols.iter().enumerate() {
             let Some(square) = &symbol.square else { continue };
             let Some(root) = self.root_among_earlier(index, square)? else { continue };
@@ -184,13 +184,13 @@ impl Setting {
     }
 
     /// Whether both settings have equal parameters and equations. Their substitutions may differ.
-    pub fn same_equations(&self, other: &Setting) -> bool {
+    pub(crate) fn same_equations(&self, other: &Setting) -> bool {
         self.symbols == other.symbols && self.unknowns == other.unknowns && self.equations == other.equations
     }
 
     /// Adds an algebraic parameter after the others.
     #[must_use]
-    pub fn with_symbol(&self, symbol: Symbol) -> Setting {
+    pub(crate) fn with_symbol(&self, symbol: Symbol) -> Setting {
         let mut setting = self.clone();
         setting.symbols.push(symbol);
         setting
@@ -198,6 +198,6 @@ impl Setting {
 }
 
 /// A polynomial as the expression of its text.
-pub fn expression_of<R: Ring>(ring: &R, element: &R::Element) -> Expression {
+pub(crate) fn expression_of<R: Ring>(ring: &R, element: &R::Element) -> Expression {
     parse(&ring.format(element, Style::Text)).expect("printed text parses back")
 }

@@ -32,7 +32,7 @@ type Ground = PolynomialRing<Rationals>;
 ///
 /// # Errors
 /// As [`factor`].
-pub fn factors(ring: &Ground, polynomials: &[ParameterPoly]) -> Result<Vec<ParameterPoly>> {
+pub(crate) fn factors(ring: &Ground, polynomials: &[ParameterPoly]) -> Result<Vec<ParameterPoly>> {
     let mut distinct: Vec<ParameterPoly> = Vec::new();
     for f in polynomials {
         for (part, _) in factor(ring, f, &Watch::none())?.factors {
@@ -49,7 +49,7 @@ pub fn factors(ring: &Ground, polynomials: &[ParameterPoly]) -> Result<Vec<Param
 ///
 /// # Errors
 /// If the setting's field cannot be built.
-pub fn zero_set(setting: &Setting, factor: &ParameterPoly) -> Result<ZeroSet> {
+pub(crate) fn zero_set(setting: &Setting, factor: &ParameterPoly) -> Result<ZeroSet> {
     let ring = setting.field()?.ring().clone();
     if let Some(definite) = definite(setting, &ring, factor) {
         return Ok(definite);

@@ -107,7 +107,7 @@ impl Node {
     ///
     /// # Errors
     /// If the setting's field cannot be built.
-    pub fn denominators(&self) -> Result<Vec<ParameterPoly>> {
+    pub(crate) fn denominators(&self) -> Result<Vec<ParameterPoly>> {
         let mut found = Vec::new();
         for (setting, certified) in self.proofs() {
             let ring = certified.ring(setting)?;

@@ -37,7 +37,7 @@ pub struct Triangular {
 ///
 /// # Errors
 /// [`ErrorKind::PositiveDimensional`] if some unknown has no polynomial.
-pub fn triangularise(ring: &Unknowns, basis: &[Poly]) -> Result<Triangular> {
+pub(crate) fn triangularise(ring: &Unknowns, basis: &[Poly]) -> Result<Triangular> {
     let count = ring.variables().len();
     let mut groups: Vec<Vec<Poly>> = vec![Vec::new(); count];
     for f in basis {
@@ -95,7 +95,7 @@ impl fmt::Display for Triangular {
 
 /// A multiple of `f` with integer coefficients without common factor, and a positive leading one. All common factors of the coefficients are removed, also
 /// polynomials of the parameters.
-pub fn cleared(ring: &Unknowns, f: &Poly) -> Poly {
+pub(crate) fn cleared(ring: &Unknowns, f: &Poly) -> Poly {
     let field = ring.field();
     let ground = field.ring();
     let (f, _) = clear_denominators(ring, f);
@@ -108,7 +108,7 @@ pub fn cleared(ring: &Unknowns, f: &Poly) -> Poly {
 }
 
 /// `f` times the least common multiple of its coefficients' denominators, and that multiple.
-pub fn clear_denominators(ring: &Unknowns, f: &Poly) -> (Poly, ParameterPoly) {
+pub(crate) fn clear_denominators(ring: &Unknowns, f: &Poly) -> (Poly, ParameterPoly) {
     let field = ring.field();
     let ground = field.ring();
     let mut common = ground.one();
@@ -123,7 +123,7 @@ pub fn clear_denominators(ring: &Unknowns, f: &Poly) -> (Poly, ParameterPoly) {
 
 /// A cleared polynomial in the notation of the sources: `20580*c4 - px^2 - pz^2 + 20588.41`. It is divided by the largest power of ten that leaves no
 /// coefficient below one.
-pub fn presented(ring: &Unknowns, f: &Poly) -> String {
+pub(crate) fn presented(ring: &Unknowns, f: &Poly) -> String {
     let numbers = f.terms().iter().flat_map(|term| term.coefficient.numerator().terms());
     let least = numbers.map(|term| term.coefficient.abs()).min().unwrap_or_else(BigRational::one);
     let ten = BigRational::from_integer(BigInt::from(10));

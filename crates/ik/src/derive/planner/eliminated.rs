@@ -3,11 +3,10 @@
 use std::rc::Rc;
 
 use super::one_joint::Candidate;
-use super::types::{PlanStep, Way};
+use super::types::{PlanStep, StepMethod};
 use crate::derive::closure::{Factor, Mechanism};
 use crate::derive::samples::echelon::Echelon;
 use crate::derive::samples::evidence::Space;
-use crate::derive::samples::random_sample::Random;
 use crate::derive::samples::sampled_relations::{
     SampledRelation, SampledRelations, SampledValue, is_number, members, set,
 };
@@ -15,6 +14,7 @@ use crate::{Result, Watch};
 use groebot_algebra::groebner::{basis_modulo_prime, normal_form};
 use groebot_algebra::number::Ring;
 use groebot_algebra::poly::Polynomial;
+use groebot_algebra::random::SplitMix64;
 
 /// The maximum degree of a step.
 const GREATEST: usize = 4;
@@ -66,8 +66,8 @@ pub fn eliminations(
             let effort = 10 * places.len() + symbols + HARD * hard;
             if best[at].as_ref().is_none_or(|(step, least)| (degree, effort) < (step.degree, *least)) {
                 let relations = some.iter().map(|(index, _)| sampled.relations[*index].clone()).collect();
-                let way = Way::Eliminated { relations, away };
-                best[at] = Some((PlanStep { joint: places[at], way, degree }, effort));
+                let method = StepMethod::Eliminated { relations, away };
+                best[at] = Some((PlanStep { joint: places[at], method, degree }, effort));
             }
         }
     }
@@ -81,7 +81,7 @@ pub fn eliminations(
 /// # Errors
 /// As [`SampledRelations::of`]. The error of `watch` if it stops the count.
 pub fn count(sampled: &mut SampledRelations<'_>, step: &PlanStep, watch: &Watch) -> Result<usize> {
-    let Way::Eliminated { relations, away } = &step.way else { return Ok(step.degree) };
+    let StepMethod::Eliminated { relations, away } = &step.method else { return Ok(step.degree) };
     let places = members(set(away) | 1 << step.joint);
     let mut some: Vec<IndexedRelation> = Vec::with_capacity(relations.len());
     for relation in relations {
@@ -222,7 +222,7 @@ fn freed_degrees(
     if !degrees(sampled, actual, &space, places, watch)?.iter().any(is_allowed) {
         return Ok((vec![0; places.len()], 0));
     }
-    let mut random = Random::new(some.iter().fold(1, |seed, (index, _)| seed * 1009 + *index as u64));
+    let mut random = SplitMix64::new(some.iter().fold(1, |seed, (index, _)| seed * 1009 + *index as u64));
     let (polynomials, symbols) = freed(sampled, some, &space, &mut random)?;
     let free = degrees(sampled, polynomials, &space, places, watch)?;
     if free.iter().any(is_allowed) {
@@ -256,7 +256,7 @@ fn degrees(
     let basis = basis_modulo_prime(&space.ring, &generators, watch)?;
     match basis.quotient_dimension() {
         None | Some(0) => Ok(vec![0; places.len()]),
-        Some(_) => space.degrees(&basis, places, &mut Random::new(sampled.field().modulus()), watch),
+        Some(_) => space.degrees(&basis, places, &mut SplitMix64::new(sampled.field().modulus()), watch),
     }
 }
 
@@ -265,7 +265,7 @@ fn freed(
     sampled: &SampledRelations<'_>,
     some: &[IndexedRelation],
     space: &Space,
-    random: &mut Random,
+    random: &mut SplitMix64,
 ) -> Result<(Vec<Polynomial<u64>>, usize)> {
     let field = sampled.field();
     let mut symbols: Vec<(SampledValue, u64)> = Vec::new();
@@ -278,7 +278,7 @@ fn freed(
                 return field.mul(&ratio, value);
             }
         }
-        let value = random.below(field.modulus());
+        let value = random.unit(field.modulus());
         symbols.push((*sample, value));
         value
     };

@@ -44,7 +44,8 @@ pub struct Candidate {
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] if there is no such joint, with the number of solutions for each. The error of `watch` if it stops the search.
-pub fn joints_to_give(chain: &Chain, watch: &Watch) -> Result<Option<Choice>> {
+pub fn joints_to_give<'w>(chain: &Chain, watch: impl Into<Option<&'w Watch>>) -> Result<Option<Choice>> {
+    let watch = Watch::or_none(watch);
     let leads = |joint: &&usize| chain.leader(**joint).is_none();
     let names =
         |joints: &[usize]| joints.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();

@@ -19,13 +19,13 @@ pub use fitting::fitting_task;
 pub use given::{Candidate, Choice, joints_to_give};
 pub(super) use recount::{same_degrees, same_evidence};
 pub(super) use refuse::not_derived;
-pub use types::{Evidence, Plan, PlanStep, Way};
+pub use types::{Evidence, Plan, PlanStep, StepMethod};
 
 use crate::derive::closure::{Mechanism, Relation, prove};
 use crate::derive::samples;
-use crate::derive::samples::random_sample::Random;
 use crate::derive::samples::sampled_relations::SampledRelations;
 use crate::{Error, ErrorKind, Result, Watch};
+use groebot_algebra::random::SplitMix64;
 use search::{Reach, Search};
 
 /// The extents of elimination, in the order in which they are tried. The first that gives the right number of solutions is used.
@@ -42,7 +42,8 @@ const SEED: u64 = 5;
 /// # Errors
 /// [`ErrorKind::PositiveDimensional`] if joints are free, with those that may be given. [`ErrorKind::Unsupported`] if there is no such plan, with the number of
 /// solutions, the degrees of the joints and the missing geometric properties. The error of `watch` if it stops the search.
-pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
+pub fn plan<'w>(mechanism: &Mechanism, watch: impl Into<Option<&'w Watch>>) -> Result<Plan> {
+    let watch = Watch::or_none(watch);
     if mechanism.independent() > mechanism.seen().freedoms() {
         return Err(refuse::free(mechanism, watch)?);
     }
@@ -52,7 +53,7 @@ pub fn plan(mechanism: &Mechanism, watch: &Watch) -> Result<Plan> {
     };
     let dimension = evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(0);
     let steps = search(mechanism, &relations, &evidence[0], dimension, watch)?;
-    for relation in steps.iter().flat_map(|step| step.way.relations()) {
+    for relation in steps.iter().flat_map(|step| step.method.relations()) {
         watch.check()?;
         prove(mechanism, relation)?;
     }
@@ -73,7 +74,7 @@ fn sampled_relations<'a>(mechanism: &'a Mechanism, relations: &'a [Relation]) ->
     let (_, arithmetic) = lucky.ok_or_else(|| {
         Error::new(ErrorKind::Unsupported, "no tried prime is coprime to the denominators of the chain's constants")
     })?;
-    SampledRelations::new(mechanism, relations, arithmetic, &mut Random::new(SEED))
+    SampledRelations::new(mechanism, relations, arithmetic, &mut SplitMix64::new(SEED))
 }
 
 /// The steps of the best plan, if its number of solutions is acceptable.

@@ -1,6 +1,6 @@
 //! Steps that find one joint from relations whose other joints are all known.
 
-use super::types::{PlanStep, Way};
+use super::types::{PlanStep, StepMethod};
 use crate::Result;
 use crate::derive::closure::{Factor, Letter, Measure, Object, Relation};
 use crate::derive::samples::echelon::Echelon;
@@ -34,13 +34,13 @@ pub fn best_step(sampled: &mut SampledRelations<'_>, joint: usize, known: u32) -
     }
     let equations = linear_equations(sampled, joint, known)?;
     if let Some((effort, pair)) = best_pair(sampled, joint, &equations) {
-        let way = Way::Pair(pair.map(|index| sampled.relations[index].clone()));
-        return Ok(Some((PlanStep { joint, way, degree: 1 }, effort)));
+        let method = StepMethod::Pair(pair.map(|index| sampled.relations[index].clone()));
+        return Ok(Some((PlanStep { joint, method, degree: 1 }, effort)));
     }
     let single = equations.iter().min_by_key(|equation| equation.effort());
     Ok(single.map(|equation| {
-        let way = Way::Single(sampled.relations[equation.relation].clone());
-        (PlanStep { joint, way, degree: 2 }, equation.effort())
+        let method = StepMethod::Single(sampled.relations[equation.relation].clone());
+        (PlanStep { joint, method, degree: 2 }, equation.effort())
     }))
 }
 
@@ -58,8 +58,8 @@ fn slide(sampled: &mut SampledRelations<'_>, joint: usize, known: u32) -> Result
         }
     }
     Ok(best.map(|(degree, function, index)| {
-        let way = Way::Single(sampled.relations[index].clone());
-        (PlanStep { joint, way, degree }, degree - 1 + usize::from(function))
+        let method = StepMethod::Single(sampled.relations[index].clone());
+        (PlanStep { joint, method, degree }, degree - 1 + usize::from(function))
     }))
 }
 

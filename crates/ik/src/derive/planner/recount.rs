@@ -1,6 +1,6 @@
 //! Comparison of a plan's claims with new counts.
 
-use super::types::{Evidence, Plan, Way};
+use super::types::{Evidence, Plan, StepMethod};
 use super::{eliminated, sampled_relations};
 use crate::derive::closure::Mechanism;
 use crate::{Error, ErrorKind, Result, Watch};
@@ -10,7 +10,8 @@ use crate::{Error, ErrorKind, Result, Watch};
 /// # Errors
 /// [`ErrorKind::Certificate`] with the joint if a number differs. The error of `watch` if it stops the count.
 pub fn same_degrees(mechanism: &Mechanism, plan: &Plan, watch: &Watch) -> Result<()> {
-    let mut eliminations = plan.steps.iter().filter(|step| matches!(step.way, Way::Eliminated { .. })).peekable();
+    let mut eliminations =
+        plan.steps.iter().filter(|step| matches!(step.method, StepMethod::Eliminated { .. })).peekable();
     if eliminations.peek().is_none() {
         return Ok(());
     }

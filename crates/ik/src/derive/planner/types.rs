@@ -10,7 +10,7 @@ use crate::derive::closure::Relation;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[expect(clippy::large_enum_variant, reason = "a plan has a handful of them")]
-pub enum Way {
+pub enum StepMethod {
     /// One relation in which no other joint is unknown: a linear equation in c and s' (two solutions), or one in d'.
     Single(Relation),
     /// Two relations that are linear and independent in c and s' of the joint: one solution.
@@ -24,13 +24,13 @@ pub enum Way {
     },
 }
 
-impl Way {
+impl StepMethod {
     /// All relations of the step.
     pub fn relations(&self) -> &[Relation] {
         match self {
-            Way::Single(relation) => std::slice::from_ref(relation),
-            Way::Pair(pair) => pair,
-            Way::Eliminated { relations, .. } => relations,
+            StepMethod::Single(relation) => std::slice::from_ref(relation),
+            StepMethod::Pair(pair) => pair,
+            StepMethod::Eliminated { relations, .. } => relations,
         }
     }
 }
@@ -41,7 +41,8 @@ pub struct PlanStep {
     /// The index of the joint.
     pub joint: usize,
     /// The relations that determine it.
-    pub way: Way,
+    #[serde(rename = "way")]
+    pub method: StepMethod,
     /// The number of solutions, given the earlier joints.
     pub degree: usize,
 }
@@ -103,12 +104,12 @@ impl fmt::Display for Plan {
         }
         for (at, step) in self.steps.iter().enumerate() {
             write!(f, "\n{}. {}: {}", at + 1, joints(&[step.joint]), plural(step.degree, "solution"))?;
-            match &step.way {
-                Way::Single(_) => f.write_str(", from one equation")?,
-                Way::Pair(_) => f.write_str(", from two linear equations")?,
-                Way::Eliminated { away, .. } => write!(f, ", with {} eliminated", joints(away))?,
+            match &step.method {
+                StepMethod::Single(_) => f.write_str(", from one equation")?,
+                StepMethod::Pair(_) => f.write_str(", from two linear equations")?,
+                StepMethod::Eliminated { away, .. } => write!(f, ", with {} eliminated", joints(away))?,
             }
-            for relation in step.way.relations() {
+            for relation in step.method.relations() {
                 write!(f, "\n   {relation}")?;
             }
         }

@@ -8,15 +8,14 @@ use num_traits::{One, Signed, Zero};
 
 use crate::derive::equations::setting::{Coefficients, Poly, Unknowns, expression_of};
 use crate::derive::{
-    Choice, Equation, Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, Quantity, System, SystemParts,
+    Choice, Equation, Input, JointKindUnknown, JointUnknown, Parameter, ParameterSource, System, SystemParts,
 };
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Rationals, Ring};
 use groebot_algebra::poly::{Expression, Fractions, Order, PolynomialRing, rational_root};
 use groebot_robot::document::{shown, word};
-use groebot_robot::kinematics::{Chain, ExactVector, Joint, JointKind, Plane, Task};
-
-const AXES: [&str; 3] = ["x", "y", "z"];
+use groebot_robot::kinematics::{Chain, ExactVector, Joint, JointKind, Plane, TargetNumber, Task};
+use groebot_robot::spatial::exact::vector::{dot, unit};
 
 /// The equations of `chain` for its task.
 ///
@@ -53,32 +52,32 @@ pub fn formulate(chain: &Chain) -> Result<System> {
         description: chain.parts().description.clone().unwrap_or_default(),
         source: chain.parts().source.clone().unwrap_or_default(),
         length_unit: chain.length_unit(),
+        task: Some(task),
         parameters: model.roots.iter().map(Root::parameter).collect(),
         joints: chain.joints().iter().map(joint_unknown).collect(),
         choice: chain.choice().map(|choice| Choice { unknown: choice.unknown.clone(), root: choice.root }),
         ..SystemParts::default()
     };
     let tip = model.carry(chain, chain.tip().point.clone(), true)?;
-    let coordinates = match task.plane() {
-        Some(plane) => plane.coordinates().to_vec(),
-        None => vec![0, 1, 2],
-    };
-    for axis in coordinates {
-        let name = format!("p{}", AXES[axis]);
-        add_input(&mut parts, &name, Quantity::Length, &[(&name, ParameterSource::Input)]);
-        parts.equations.push(model.equation(AXES[axis], &tip[axis], &name));
-    }
-    if let Task::PlanarPose { plane } = task {
-        add_input(
-            &mut parts,
-            "phi",
-            Quantity::Angle,
-            &[("cphi", ParameterSource::Cosine), ("sphi", ParameterSource::Sine)],
-        );
-        let (first, second) = oriented_axes(plane);
-        let turned = model.carry(chain, unit(first), false)?;
-        parts.equations.push(model.equation("cos phi", &turned[first], "cphi"));
-        parts.equations.push(model.equation("sin phi", &turned[second], "sphi"));
+    for number in task.layout().numbers() {
+        let name = number.name();
+        match *number {
+            TargetNumber::Position(axis) => {
+                let (axis, label) = (axis.coordinate(), axis.name());
+                add_input(&mut parts, *number, &[(&name, ParameterSource::Input)]);
+                parts.equations.push(model.equation(label, &tip[axis], &name));
+            }
+            TargetNumber::PlaneAngle(plane) => {
+                let [cosine, sine] = ["c", "s"].map(|letter| format!("{letter}{name}"));
+                let sources: [(&str, Source); 2] = [(&cosine, ParameterSource::Cosine), (&sine, ParameterSource::Sine)];
+                add_input(&mut parts, *number, &sources);
+                let (first, second) = oriented_axes(plane);
+                let turned = model.carry(chain, unit(first), false)?;
+                parts.equations.push(model.equation(&format!("cos {name}"), &turned[first], &cosine));
+                parts.equations.push(model.equation(&format!("sin {name}"), &turned[second], &sine));
+            }
+            _ => {}
+        }
     }
     parts.order = chain.order().map_or_else(|| parts.default_order(), <[String]>::to_vec);
     System::new(parts)
@@ -96,9 +95,9 @@ fn joint_unknown(joint: &Joint) -> JointUnknown {
 
 type Source = fn(usize) -> ParameterSource;
 
-fn add_input(parts: &mut SystemParts, name: &str, quantity: Quantity, parameters: &[(&str, Source)]) {
+fn add_input(parts: &mut SystemParts, number: TargetNumber, parameters: &[(&str, Source)]) {
     let index = parts.inputs.len();
-    parts.inputs.push(Input { name: name.to_owned(), quantity, positive: false });
+    parts.inputs.push(Input { name: number.name(), quantity: number.quantity(), positive: false });
     let parameter =
         |(name, source): &(&str, Source)| Parameter { name: (*name).to_owned(), source: source(index), square: None };
     parts.parameters.extend(parameters.iter().map(parameter));
@@ -108,10 +107,6 @@ fn add_input(parts: &mut SystemParts, name: &str, quantity: Quantity, parameters
 fn oriented_axes(plane: Plane) -> (usize, usize) {
     let normal = plane.normal();
     ((normal + 1) % 3, (normal + 2) % 3)
-}
-
-fn unit(axis: usize) -> ExactVector {
-    std::array::from_fn(|k| if k == axis { BigRational::one() } else { BigRational::zero() })
 }
 
 /// A square root of an integer, in the length of an axis.
@@ -169,7 +164,7 @@ impl Model {
 
     /// The unit vector `u / |u|` of an axis. `1 / |u|` is a rational, or a rational times a square root.
     fn direction(&self, axis: &ExactVector) -> [Poly; 3] {
-        let square = square_length(axis);
+        let square = dot(axis, axis);
         let scale = match axis_root(axis) {
             None => self.number(&rational_root(&square).unwrap_or_else(BigRational::one).recip()),
             Some(root) => {
@@ -239,13 +234,9 @@ fn unit_zero(ring: &Unknowns) -> [Poly; 3] {
     std::array::from_fn(|_| ring.zero())
 }
 
-fn square_length(axis: &ExactVector) -> BigRational {
-    axis.iter().map(|entry| entry * entry).sum()
-}
-
 /// The square root in the length of an axis: that of the square-free part of `n` when `|u|^2` is `n` times a square.
 fn axis_root(axis: &ExactVector) -> Option<Root> {
-    let square = square_length(axis);
+    let square = dot(axis, axis);
     let product = square.numer() * square.denom();
     let radicand = square_free_part(product.abs());
     (!radicand.is_one()).then_some(Root { radicand })

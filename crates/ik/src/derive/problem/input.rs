@@ -287,7 +287,8 @@ impl Source {
     /// # Errors
     /// As [`Source::check_base`], [`joints_to_give`] and [`Ends::ideal`]. [`ErrorKind::PositiveDimensional`] with a proposal, if more than one joint must be
     /// given. All name the file.
-    pub fn choose_given(&mut self, watch: &Watch) -> Result<Option<Choice>> {
+    pub fn choose_given<'w>(&mut self, watch: impl Into<Option<&'w Watch>>) -> Result<Option<Choice>> {
+        let watch = Watch::or_none(watch);
         self.check_base()?;
         self.give(watch).map_err(|error| self.advised(error).in_file(&self.path))
     }
@@ -339,7 +340,7 @@ impl Source {
     }
 
     /// The chain, if it is solved joint by joint. A chain with an order of unknowns or a choice of root is solved as one system instead.
-    pub fn chain_by_steps(&self) -> Option<&Chain> {
+    pub(crate) fn chain_by_steps(&self) -> Option<&Chain> {
         self.chain.as_ref().filter(|chain| chain.order().is_none() && chain.choice().is_none())
     }
 }

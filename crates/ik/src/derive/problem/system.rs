@@ -29,7 +29,7 @@ impl System {
     /// # Errors
     /// [`DuplicateName`](crate::ErrorKind::DuplicateName), [`UnknownName`](crate::ErrorKind::UnknownName), [`MissingKey`](crate::ErrorKind::MissingKey),
     /// [`BadValue`](crate::ErrorKind::BadValue). [`Overflow`](crate::ErrorKind::Overflow) for an equation whose expansion exceeds the limits.
-    /// [`Unsupported`](crate::ErrorKind::Unsupported) for more than [`MAX_UNKNOWNS`](crate::derive::MAX_UNKNOWNS) unknowns.
+    /// [`Unsupported`](crate::ErrorKind::Unsupported) for more than 16 unknowns.
     pub fn new(parts: SystemParts) -> Result<Self> {
         System::build(parts).map_err(|mistake| mistake.error)
     }

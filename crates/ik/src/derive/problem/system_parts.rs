@@ -3,31 +3,20 @@
 use serde::{Deserialize, Serialize};
 
 use groebot_algebra::poly::Expression;
-use groebot_robot::kinematics::{Choice, LengthUnit};
+use groebot_robot::kinematics::{Choice, LengthUnit, Task};
+
+pub use groebot_robot::kinematics::Quantity;
 
 /// The maximum number of unknowns of a system.
-pub const MAX_UNKNOWNS: usize = 16;
+pub(crate) const MAX_UNKNOWNS: usize = 16;
 /// The maximum number of inputs, and of parameters, of a system.
-pub const MAX_PARAMETERS: usize = 64;
+pub(crate) const MAX_PARAMETERS: usize = 64;
 /// The maximum number of terms in the expansion of an equation or a square, by [`Expression::expansion_bound`].
-pub const MAX_TERMS: f64 = 1e5;
+pub(crate) const MAX_TERMS: f64 = 1e5;
 /// The maximum total degree of an equation or a square.
-pub const MAX_DEGREE: u64 = 1000;
+pub(crate) const MAX_DEGREE: u64 = 1000;
 /// The maximum number of bits of a coefficient in such an expansion.
-pub const MAX_BITS: f64 = 2e5;
-
-/// The quantity that an input measures.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Quantity {
-    /// A length, in the system's unit.
-    #[default]
-    Length,
-    /// An angle in radians.
-    Angle,
-    /// A number without unit.
-    Number,
-}
+pub(crate) const MAX_BITS: f64 = 2e5;
 
 /// One value that a user gives as the target.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -86,7 +75,7 @@ pub enum JointKindUnknown {
 
 impl JointKindUnknown {
     /// The unknowns of this joint: cosine and sine, or the one value.
-    pub fn unknowns(&self) -> Vec<&str> {
+    pub(crate) fn unknowns(&self) -> Vec<&str> {
         match self {
             JointKindUnknown::Angle { cosine, sine } => vec![cosine, sine],
             JointKindUnknown::Value { unknown } => vec![unknown],
@@ -123,6 +112,9 @@ pub struct SystemParts {
     pub source: String,
     /// The unit of all lengths.
     pub length_unit: LengthUnit,
+    /// The task whose numbers are the inputs, of equations of a chain.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub task: Option<Task>,
     /// The values that a user gives as the target, in this order.
     pub inputs: Vec<Input>,
     /// The names in the equations other than the unknowns.

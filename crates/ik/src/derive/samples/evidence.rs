@@ -1,6 +1,6 @@
 //! The number of complex solutions of a random reachable target, and the number of values of each joint, by a Groebner basis modulo a prime.
 
-use super::random_sample::{Random, RandomSample, lucky_field};
+use super::random_sample::{RandomSample, lucky_field};
 use super::sampled_relations::set;
 use crate::derive::closure::{Arithmetic, Factor, Factors, Mechanism, Modular, Polynomials, Relation};
 use crate::derive::planner::Evidence;
@@ -8,6 +8,7 @@ use crate::{Result, Watch};
 use groebot_algebra::groebner::{Basis, WordQuotient, basis_modulo_prime};
 use groebot_algebra::number::{Ring, Zp, primes_below};
 use groebot_algebra::poly::{Order, Polynomial, PolynomialRing, Term};
+use groebot_algebra::random::SplitMix64;
 
 /// The number of primes, each with a separate target.
 const PRIMES: usize = 3;
@@ -49,7 +50,7 @@ fn examine(
     seed: u64,
     watch: &Watch,
 ) -> Result<Option<Evidence>> {
-    let mut random = Random::new(seed);
+    let mut random = SplitMix64::new(seed);
     let unknown = mechanism.unknown();
     let space = Space::new(mechanism, &unknown, arithmetic.field())?;
     let basis = basis(mechanism, relations, arithmetic, &space, &mut random, watch)?;
@@ -68,7 +69,7 @@ fn examine(
 pub fn is_finite(mechanism: &Mechanism, relations: &[Relation], watch: &Watch) -> Result<bool> {
     let Some((p, mut arithmetic)) = lucky_primes(mechanism)?.into_iter().next() else { return Ok(false) };
     let space = Space::new(mechanism, &mechanism.unknown(), arithmetic.field())?;
-    let basis = basis(mechanism, relations, &mut arithmetic, &space, &mut Random::new(p), watch)?;
+    let basis = basis(mechanism, relations, &mut arithmetic, &space, &mut SplitMix64::new(p), watch)?;
     Ok(basis.quotient_dimension().is_some())
 }
 
@@ -78,7 +79,7 @@ fn basis(
     relations: &[Relation],
     arithmetic: &mut Modular,
     space: &Space,
-    random: &mut Random,
+    random: &mut SplitMix64,
     watch: &Watch,
 ) -> Result<Basis<Zp>> {
     let sample = RandomSample::draw(mechanism, arithmetic, random)?;
@@ -177,7 +178,7 @@ impl Space {
         &self,
         basis: &Basis<Zp>,
         joints: &[usize],
-        random: &mut Random,
+        random: &mut SplitMix64,
         watch: &Watch,
     ) -> Result<Vec<usize>> {
         let quotient = WordQuotient::new(basis, watch)?;
@@ -185,7 +186,7 @@ impl Space {
         for &joint in joints {
             let own = (0..self.factors.len()).filter(|&place| self.factors[place].joint() == joint);
             let form = own.fold(self.ring.zero(), |form, place| {
-                let factor = random.below(self.ring.field().modulus());
+                let factor = random.unit(self.ring.field().modulus());
                 self.ring.add(&form, &self.ring.scale(&self.ring.variable(place), &factor))
             });
             degrees.push(quotient.minimal_polynomial(&form, watch)?.degree().unwrap_or(0));

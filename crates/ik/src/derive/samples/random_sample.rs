@@ -1,30 +1,13 @@
 //! Random reachable targets modulo a prime. The joints are at rational points of their circles; forward kinematics gives the target.
 
 use crate::derive::closure::{
-    Arithmetic, Assignment, Coupling, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear, Object,
-    Relation, Target, TargetRotation, Word, carry, evaluate,
+    Arithmetic, Assignment, Coupling, Evaluation, Image, JointValue, Letter, Measure, Mechanism, Modular, Multilinear,
+    Object, Relation, Target, TargetRotation, Word, evaluate,
 };
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{BigRational, Field, Ring, Zp};
+use groebot_algebra::random::SplitMix64;
 use groebot_robot::kinematics::{ExactVector, Task};
-
-/// A sequence of random numbers, by SplitMix64 (Steele, Lea, Flood 2014).
-#[derive(Clone, Debug)]
-pub struct Random(u64);
-
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Random(seed)
-    }
-
-    /// A number from 1 to `p` - 1.
-    pub fn below(&mut self, p: u64) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        1 + (z ^ (z >> 31)) % (p - 1)
-    }
-}
 
 /// Joint values and the target that they reach, modulo a prime.
 #[derive(Clone, Debug)]
@@ -38,7 +21,7 @@ impl RandomSample {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] for a denominator that the prime divides.
-    pub fn draw(mechanism: &Mechanism, arithmetic: &mut Modular, random: &mut Random) -> Result<Self> {
+    pub fn draw(mechanism: &Mechanism, arithmetic: &mut Modular, random: &mut SplitMix64) -> Result<Self> {
         let mut joints: Vec<JointValue<u64>> =
             (0..mechanism.joints().len()).map(|joint| value(mechanism, joint, arithmetic, random)).collect();
         for (follower, coupling) in mechanism.followers() {
@@ -72,15 +55,15 @@ impl RandomSample {
 }
 
 /// A random point of the circle c^2 + n s'^2 = 1, or a random length.
-fn value(mechanism: &Mechanism, joint: usize, arithmetic: &mut Modular, random: &mut Random) -> JointValue<u64> {
+fn value(mechanism: &Mechanism, joint: usize, arithmetic: &mut Modular, random: &mut SplitMix64) -> JointValue<u64> {
     let (screw, field) = (&mechanism.joints()[joint], arithmetic.field());
     let p = field.modulus();
     if !screw.is_revolute() {
-        return JointValue::Length(random.below(p));
+        return JointValue::Length(random.unit(p));
     }
     let n = arithmetic.rational(&screw.square);
     loop {
-        let t = random.below(p);
+        let t = random.unit(p);
         let square = field.mul(&n, &field.mul(&t, &t));
         if let Some(inverse) = field.inverse(&field.add(&1, &square)) {
             let cosine = field.mul(&field.sub(&1, &square), &inverse);
@@ -108,7 +91,7 @@ fn followed(coupling: &Coupling, leader: &JointValue<u64>, arithmetic: &mut Modu
 fn parameters(mechanism: &Mechanism, at: &Assignment<u64>, arithmetic: &mut Modular) -> Result<Vec<u64>> {
     let word = Word((0..mechanism.joints().len()).map(Letter::Joint).collect());
     let mut image = |object: Object| -> Result<[u64; 3]> {
-        match carry(mechanism, &word, &object, Measure::Offset, at, arithmetic)? {
+        match Evaluation::new(mechanism, at, arithmetic).carry(&word, &object, Measure::Offset)? {
             Image::Point(x) | Image::Direction(x) => Ok(x.map(|entry| entry.constant_term().copied().unwrap_or(0))),
             _ => Err(Error::new(ErrorKind::BadValue, "forward kinematics carries points and directions")),
         }

@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
-use super::random_sample::{Random, RandomSample};
+use super::random_sample::RandomSample;
 use crate::Result;
 use crate::derive::closure::{Arithmetic, Coupling, Factor, Factors, Mechanism, Modular, Multilinear, Relation};
 use groebot_algebra::number::{Ring, Zp};
+use groebot_algebra::random::SplitMix64;
 
 /// The number of targets of a sample.
 pub const SAMPLES: usize = 3;
@@ -43,10 +44,10 @@ impl<'a> SampledRelations<'a> {
         mechanism: &'a Mechanism,
         relations: &'a [Relation],
         mut arithmetic: Modular,
-        random: &mut Random,
+        random: &mut SplitMix64,
     ) -> Result<Self> {
         let field = arithmetic.field();
-        let mut weights: Vec<u64> = (1..MIXED).map(|_| random.below(field.modulus())).collect();
+        let mut weights: Vec<u64> = (1..MIXED).map(|_| random.unit(field.modulus())).collect();
         weights.push(weights.iter().fold(field.one(), |rest, weight| field.sub(&rest, weight)));
         let draw = |_| RandomSample::draw(mechanism, &mut arithmetic, random);
         let samples = (0..MIXED).map(draw).collect::<Result<_>>()?;

@@ -12,19 +12,12 @@ use crate::derive::equations::setting::{ParameterPoly, Setting, Unknowns};
 use crate::derive::equations::strata::{self, ZeroSet};
 use crate::derive::equations::tree::{Node, Outcome, Solved, collect_denominators};
 use crate::derive::equations::triangular::Stair;
-use crate::solver::{Case, Guard, JointValue, NEAR, Operand, Pivot, Step, TINY};
+use crate::solver::{Case, Guard, JointValue, Operand, Pivot, Step};
+use crate::tolerances::DERIVED_STRATA;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{Rationals, Ring, Style};
 use groebot_algebra::poly::PolynomialRing;
-
-/// The guard of a stratum's case: each factor's symbols are below this fraction of their sizes.
-const CLOSE: f64 = 1e-5;
-/// A case does not run if a denominator's symbols are below this fraction of their sizes. Then only rounding errors remain of them, and every value of the
-/// joint that they determine solves the equations equally well.
-const LOST: f64 = 4e-15;
-/// Same as [`LOST`], but for the leading coefficient of an angle's quartic, relative to the sum of all symbols' sizes. It is smaller, because an elimination
-/// multiplies symbols: near a singular configuration the correct coefficient is very small.
-const FAINT: f64 = 1e-18;
+use groebot_runtime::tolerances::STRATA;
 
 /// The factor on the typical size of later roots if an earlier joint is free. It is so large that each polynomial has at least one root: the point where it
 /// comes nearest to zero. Otherwise all samples of the joint may miss the part of the circle that has solutions.
@@ -115,7 +108,8 @@ pub(super) fn quartic(half_angles: &HalfAngles, place: &Place, assembler: &Assem
     }
     let mut free = Builder::new(Form::Quartic, place, assembler, &[]);
     for (symbol, name) in place.symbols.iter().zip(Form::Quartic.symbols()) {
-        let scale = free.assembler.mul(Operand::Constant(place.slack.share(CLOSE) / NEAR), symbol.size);
+        let scale =
+            free.assembler.mul(Operand::Constant(place.slack.share(DERIVED_STRATA.close) / STRATA.near), symbol.size);
         free.guards.push(Guard { text: (*name).to_owned(), value: symbol.value, scale, near: true });
     }
     list.push(free.free("A = B = C = D = E = 0"));
@@ -192,7 +186,7 @@ impl<'a> Builder<'a> {
         let lead = quartic.last().copied().unwrap_or(Operand::Constant(0.0));
         let sizes: Vec<Operand> = self.place.symbols.iter().map(|symbol| symbol.size).collect();
         let size = sizes.into_iter().fold(Operand::Constant(0.0), |sum, size| self.assembler.add(sum, size));
-        let scale = self.assembler.mul(Operand::Constant(FAINT / TINY), size);
+        let scale = self.assembler.mul(Operand::Constant(DERIVED_STRATA.faint / STRATA.denominator), size);
         self.guards.push(Guard { text: "leading coefficient".to_owned(), value: lead, scale, near: false });
         let typical = Some(self.spread(Operand::Constant(1.0), quartic.len() - 1));
         let guard_code = self.assembler.take();
@@ -267,8 +261,9 @@ impl<'a> Builder<'a> {
         terms.iter_mut().for_each(|term| term.coefficient = term.coefficient.abs());
         let size = self.assembler.horner(&terms, &sizes);
         let degree = ground.degree(factor) as i32;
-        let close = self.place.slack.share(CLOSE);
-        let share = if near { close.powi(degree) / NEAR } else { LOST.powi(degree) / TINY };
+        let close = self.place.slack.share(DERIVED_STRATA.close);
+        let share =
+            if near { close.powi(degree) / STRATA.near } else { DERIVED_STRATA.lost.powi(degree) / STRATA.denominator };
         let scale = self.assembler.mul(Operand::Constant(share), size);
         self.guards.push(Guard { text: ground.format(factor, Style::Text), value, scale, near });
         Ok(true)

@@ -16,7 +16,7 @@ use super::shape::{eliminated, shape};
 use super::{ProvedStep, Sequential, SequentialView};
 use crate::derive::closure::{self, Mechanism};
 use crate::derive::equations::certificate::refused;
-use crate::derive::planner::{Plan, PlanStep, Way};
+use crate::derive::planner::{Plan, PlanStep, StepMethod};
 use crate::derive::problem::ChainProblem;
 use crate::solver::Program;
 use crate::{Error, Result};
@@ -128,7 +128,7 @@ pub(super) fn prove_plan(mechanism: &Mechanism, plan: &Plan, eliminate: &mut Eli
 /// The maximum number of solutions of all steps together, for overdetermined tasks (more numbers than independent joints). Two equations in one joint may be
 /// dependent then.
 fn most(plan: &Plan) -> usize {
-    let most = |step: &PlanStep| if matches!(step.way, Way::Pair(_)) { 2 } else { step.degree };
+    let most = |step: &PlanStep| if matches!(step.method, StepMethod::Pair(_)) { 2 } else { step.degree };
     plan.steps.iter().map(most).product()
 }
 
@@ -138,11 +138,11 @@ fn prove_step(
     known: &[usize],
     eliminate: &mut Eliminate<'_>,
 ) -> Result<ProvedStep> {
-    let away: &[usize] = if let Way::Eliminated { away, .. } = &step.way { away } else { &[] };
+    let away: &[usize] = if let StepMethod::Eliminated { away, .. } = &step.method { away } else { &[] };
     if known.contains(&step.joint) {
         return Err(refused("the joint is known already".to_owned()));
     }
-    for relation in step.way.relations() {
+    for relation in step.method.relations() {
         let is_new = |joint: &usize| *joint != step.joint && !known.contains(joint) && !away.contains(joint);
         if let Some(other) = relation.joints().into_iter().find(is_new) {
             return Err(refused(format!("`{relation}` contains joint {}, which is not known yet", other + 1)));
@@ -161,5 +161,5 @@ fn prove_step(
         let text = format!("its equations give {} solutions, {} are claimed", shape.form.degree(), step.degree);
         return Err(refused(text));
     }
-    Ok(ProvedStep { joint: step.joint, relations: step.way.relations().to_vec(), elimination, shape })
+    Ok(ProvedStep { joint: step.joint, relations: step.method.relations().to_vec(), elimination, shape })
 }

@@ -268,7 +268,7 @@ impl<'a> Forward<'a> {
 
     /// Adds the third row of the rotation minus that of the target pitch and roll: -sin pitch, cos pitch sin roll, cos pitch cos roll.
     fn upright(&mut self, columns: &[Vector; 3]) {
-        let Some([cr, sr, cp, sp]) = self.layout.told else { return };
+        let Some([cr, sr, cp, sp]) = self.layout.pitch_roll else { return };
         let code = |parameter: usize| Emitted::code(Operand::Parameter(parameter));
         let [across, up] = [sr, cr].map(|roll| self.emitter.mul(&code(cp), &code(roll)));
         for (column, wanted) in columns.iter().zip([code(sp).times(-1.0), across, up]) {

@@ -108,7 +108,9 @@ impl Elimination {
             law.is_some_and(|(_, law)| law.leader == step.joint || away.contains(&law.leader))
         };
         let mut leading = away.iter().filter(|joint| !is_led(joint));
-        let (Some(joint), None, 2) = (leading.next(), leading.next(), step.way.relations().len()) else { return None };
+        let (Some(joint), None, 2) = (leading.next(), leading.next(), step.method.relations().len()) else {
+            return None;
+        };
         let screw = &mechanism.joints()[*joint];
         if !screw.is_revolute() {
             return None;
@@ -279,7 +281,7 @@ struct Setting<'a> {
 
 impl<'a> Setting<'a> {
     fn of_step(mechanism: &'a Mechanism, step: &PlanStep, away: &[usize]) -> Result<Self> {
-        let sides: Vec<_> = step.way.relations().iter().map(|relation| (mechanism, relation)).collect();
+        let sides: Vec<_> = step.method.relations().iter().map(|relation| (mechanism, relation)).collect();
         let joints = [away, &[step.joint]].concat();
         let is_in = |joint: usize| joints.contains(&joint);
         let mut followers = mechanism.followers();

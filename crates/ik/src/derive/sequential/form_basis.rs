@@ -26,7 +26,8 @@ pub enum Form {
     /// `A c + B s + C = 0`. The auxiliary `w = A s - B c` has `w^2 = A^2 + B^2 - C^2`, so the only divisor is `A^2 + B^2`.
     Angle,
     /// `A c - B s = X` and `B c + A s = Y`: a rotation of `(A, B)` to `(X, Y)`.
-    Turn,
+    #[serde(rename = "turn")]
+    Rotation,
     /// `A c + B s = X` and `E c + F s = Y`.
     Pair,
     /// `A d + B = 0`.
@@ -55,7 +56,7 @@ impl Form {
                 unknowns: &["c", "s", "w"],
                 equations: &["A*c + B*s + C", "A*s - B*c - w", "c^2 + s^2 - 1"],
             },
-            Form::Turn => Words {
+            Form::Rotation => Words {
                 symbols: &["A", "B", "X", "Y"],
                 unknowns: &["c", "s"],
                 equations: &["A*c - B*s - X", "B*c + A*s - Y"],
@@ -89,7 +90,7 @@ impl Form {
     pub fn needs(self) -> &'static [Form] {
         match self {
             Form::Angle => &[Form::Angle],
-            Form::Turn => &[Form::Turn],
+            Form::Rotation => &[Form::Rotation],
             Form::Pair => &[Form::Pair, Form::Angle],
             Form::Quartic => &[Form::Quartic],
             Form::Lengths => &[Form::Lengths],
@@ -99,11 +100,11 @@ impl Form {
     }
 
     /// The number of solutions if they are finitely many and the equations are independent.
-    pub fn degree(self) -> usize {
+    pub(crate) fn degree(self) -> usize {
         match self {
             Form::Angle | Form::Quadratic => 2,
             Form::Quartic | Form::Lengths => 4,
-            Form::Turn | Form::Pair | Form::Linear => 1,
+            Form::Rotation | Form::Pair | Form::Linear => 1,
         }
     }
 
@@ -111,7 +112,7 @@ impl Form {
     pub fn name(self) -> &'static str {
         match self {
             Form::Angle => "angle",
-            Form::Turn => "turn",
+            Form::Rotation => "turn",
             Form::Pair => "pair",
             Form::Linear => "linear",
             Form::Quartic => "quartic",
@@ -165,7 +166,8 @@ impl FormBasis {
     ///
     /// # Errors
     /// The error of `watch` if it stops the derivation.
-    pub fn derive(form: Form, watch: &Watch) -> Result<Self> {
+    pub fn derive<'w>(form: Form, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let system = form.system()?;
         let tree = derive_tree(&system, Orders::Requested, watch)?;
         Ok(FormBasis { form, system, tree })

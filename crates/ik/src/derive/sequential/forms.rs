@@ -1,6 +1,6 @@
 //! The forms of the steps of a chain, solved and proved: [`Forms`].
 //!
-//! The bases of a form are the same for all mechanisms. `forms.json` stores them with their cofactors, and a certificate names each form with the hash of its
+//! The bases of a form are independent of the mechanism. `forms.json` stores them with their cofactors, and a certificate names each form with the hash of its
 //! stored proof. Every derivation and every check verifies the stored proof of the forms that it uses.
 
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,7 @@ use groebot_robot::document::json_text;
 /// The stored proofs of all forms.
 const STORED: &str = include_str!("forms.json");
 /// The forms with stored strata. Half angles solve [`Form::Quartic`].
-const ALL: [Form; 6] = [Form::Angle, Form::Turn, Form::Pair, Form::Linear, Form::Lengths, Form::Quadratic];
+const ALL: [Form; 6] = [Form::Angle, Form::Rotation, Form::Pair, Form::Linear, Form::Lengths, Form::Quadratic];
 
 /// The proofs of all forms as JSON.
 #[derive(Debug, Serialize, Deserialize)]
@@ -117,7 +117,8 @@ impl Forms {
     ///
     /// # Errors
     /// The error of `watch` if it stops the derivation.
-    pub fn derive_stored(watch: &Watch) -> Result<String> {
+    pub fn derive_stored<'w>(watch: impl Into<Option<&'w Watch>>) -> Result<String> {
+        let watch = Watch::or_none(watch);
         let proof = |form| Ok(Proof { form, strata: entries(&FormBasis::derive(form, watch)?.tree)? });
         let form_bases = ALL.into_iter().map(proof).collect::<Result<_>>()?;
         Ok(json_text(&Stored { form_bases, half_angles: HalfAngles::derive(watch)?.stored() }))

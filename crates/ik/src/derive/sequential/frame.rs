@@ -3,7 +3,7 @@
 use super::checks::checks;
 use super::layout::Layout;
 use crate::derive::closure::Mechanism;
-use crate::solver::{Block, Case, Joint, JointValue, Operand, Program, Step, Unit};
+use crate::solver::{Block, Case, Joint, JointValue, Operand, Program, Step, TipTask, Unit};
 use groebot_robot::document::word;
 use groebot_robot::kinematics::{Chain, LengthUnit};
 
@@ -19,20 +19,17 @@ pub(super) fn framed(chain: &Chain, mechanism: &Mechanism, layout: Layout) -> Pr
     let reach = reach(chain);
     Program {
         name: word(chain.name()),
-        about: None,
         checks: checks(mechanism, &layout, reach),
         joints: joints(chain, &layout),
+        tasks: vec![TipTask::of(chain)],
+        given_joints: layout.given_joints,
         inputs: layout.inputs,
         conditions: layout.conditions,
         parameters: layout.parameters,
         unknowns: layout.unknowns,
         scale: reach,
         capacity: 1,
-        isolated: None,
-        nearby: false,
-        described: None,
-        blocks: Vec::new(),
-        preference: None,
+        ..Program::default()
     }
 }
 

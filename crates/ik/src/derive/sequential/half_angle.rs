@@ -51,7 +51,8 @@ impl HalfAngles {
     ///
     /// # Errors
     /// The error of `watch` if it stops the computation.
-    pub fn derive(watch: &Watch) -> Result<Self> {
+    pub fn derive<'w>(watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let derive = |direction| {
             let (ring, generators) = setting(direction)?;
             let options = Options { strategy: Strategy::Sugar, cofactors: true };
@@ -111,7 +112,7 @@ impl HalfAngle {
     ///
     /// # Errors
     /// [`ErrorKind::Certificate`] if there is none.
-    pub fn stair(&self, unknown: usize) -> Result<&Poly> {
+    pub(crate) fn stair(&self, unknown: usize) -> Result<&Poly> {
         let greatest = |f: &Poly| (0..3).find(|&v| self.ring.degree_in(f, v) > 0);
         let missing = || Error::new(ErrorKind::Certificate, "a half angle's basis does not determine every unknown");
         self.basis.iter().find(|f| greatest(f) == Some(unknown)).ok_or_else(missing)

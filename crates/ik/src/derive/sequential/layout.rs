@@ -5,18 +5,19 @@ use num_traits::ToPrimitive;
 use super::emit::{Emitted, Emitter};
 use super::ray;
 use crate::Result;
-use crate::derive::closure::{self, Arithmetic, Assignment, Mechanism, ScrewJoint, Standing, Target, yaw_names};
+use crate::derive::closure::{self, Arithmetic, Assignment, Mechanism, ScrewJoint, Target, UprightLoop};
 use crate::derive::equations::assemble::Assembler;
 use crate::solver::{
-    Condition, Following, Input, Instruction, JointValue, Operand, Operation, ParameterRule, Rule, Unit,
+    Condition, Following, GivenJoint, Input, Instruction, JointValue, Operand, Operation, ParameterRule, Rule, Unit,
 };
 use groebot_algebra::number::BigRational;
 use groebot_robot::kinematics::upright::GIVEN;
-use groebot_robot::kinematics::{BaseAxis, JointKind, LengthUnit, Task};
+use groebot_robot::kinematics::{BaseAxis, JointKind, LengthUnit, Quantity, TargetNumber, Task};
 
 /// The names and indices of all numbers of a program.
 pub(super) struct Layout {
     pub inputs: Vec<Input>,
+    pub given_joints: Vec<GivenJoint>,
     pub conditions: Vec<Condition>,
     pub parameters: Vec<ParameterRule>,
     pub unknowns: Vec<String>,
@@ -27,38 +28,30 @@ pub(super) struct Layout {
     /// By joint: the parameters with its value if it is given: a cosine and a sine, or a length.
     pub given: Vec<Vec<usize>>,
     /// For a target with pitch and roll, the parameters with the cosine and the sine of the roll, and of the pitch.
-    pub told: Option<[usize; 4]>,
+    pub pitch_roll: Option<[usize; 4]>,
     /// For such a target, the unknowns with the cosine and the sine of the arm's first joint.
     pub swing: Option<[usize; 2]>,
     /// The index of the first parameter of the target.
     pub first: usize,
 }
 
-/// The indices of the inputs of the task `position_pitch_roll`.
-const HEIGHT: usize = 2;
-const PITCH: usize = 3;
-const ROLL: usize = 4;
-
 impl Layout {
     /// The layout for `mechanism`, with lengths in `unit`.
     pub fn new(mechanism: &Mechanism, unit: LengthUnit) -> Self {
         let mut layout = Layout {
             inputs: Vec::new(),
+            given_joints: Vec::new(),
             conditions: Vec::new(),
             parameters: Vec::new(),
             unknowns: Vec::new(),
             joints: Vec::new(),
             across: None,
             given: vec![Vec::new(); mechanism.joints().len()],
-            told: None,
+            pitch_roll: None,
             swing: None,
             first: 0,
         };
-        let length = match unit {
-            LengthUnit::Metre => Unit::Metre,
-            LengthUnit::Millimetre => Unit::Millimetre,
-        };
-        layout.target(mechanism, length);
+        layout.target(mechanism, unit);
         for joint in mechanism.joints() {
             let value = match joint.kind {
                 JointKind::Revolute => JointValue::Angle {
@@ -69,22 +62,22 @@ impl Layout {
             };
             layout.joints.push(value);
         }
-        layout.swing = mechanism.standing().map(|standing| {
-            let symbol = &standing.plain.joints()[0].symbol;
+        layout.swing = mechanism.upright_loop().map(|upright_loop| {
+            let symbol = &upright_loop.plain.joints()[0].symbol;
             ["c", "s"].map(|letter| layout.unknown(&format!("{letter}{symbol}")))
         });
         layout.across = mechanism
             .hidden()
-            .filter(|_| mechanism.standing().is_none())
+            .filter(|_| mechanism.upright_loop().is_none())
             .map(|_| ["u", "v"].map(|letter| ["x", "y", "z"].map(|axis| layout.unknown(&format!("{letter}{axis}")))));
-        layout.givens(mechanism, length);
+        layout.givens(mechanism, unit);
         layout
     }
 
     /// Adds the inputs and parameters of the given joints. Those that follow others come last.
-    fn givens(&mut self, mechanism: &Mechanism, length: Unit) {
-        if let Some(standing) = mechanism.standing() {
-            return self.standing_givens(mechanism, standing, length);
+    fn givens(&mut self, mechanism: &Mechanism, length: LengthUnit) {
+        if let Some(upright_loop) = mechanism.upright_loop() {
+            return self.upright_givens(mechanism, upright_loop, length);
         }
         let (followers, inputs): (Vec<usize>, Vec<usize>) =
             mechanism.given().iter().partition(|&&index| mechanism.joints()[index].follows.is_some());
@@ -103,30 +96,36 @@ impl Layout {
     }
 
     /// Adds the inputs with the values of given joints, and their parameters.
-    fn give_inputs(&mut self, mechanism: &Mechanism, given: &[usize], length: Unit) {
+    fn give_inputs(&mut self, mechanism: &Mechanism, given: &[usize], length: LengthUnit) {
         for &index in given {
             let joint = &mechanism.joints()[index];
             let input = self.inputs.len();
-            let unit = if joint.is_revolute() { Unit::Radian } else { length };
+            let quantity = if joint.is_revolute() { Quantity::Angle } else { Quantity::Length };
+            let unit = Unit::of(quantity, length);
             self.inputs.push(Input { name: joint.name.clone(), unit });
+            self.given_joints.push(GivenJoint { joint: index, input });
             self.give(joint, index, [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)]);
         }
     }
 
     /// Adds the given joints of a loop that replaces a target with pitch and roll. The loop's own given joints (pitch, roll, distance from the first axis,
     /// height) get their values from the target.
-    fn standing_givens(&mut self, mechanism: &Mechanism, standing: &Standing, length: Unit) {
-        let (own, told) = mechanism.given().split_at(mechanism.given().len() - GIVEN.len());
+    fn upright_givens(&mut self, mechanism: &Mechanism, upright_loop: &UprightLoop, length: LengthUnit) {
+        let (own, of_target) = mechanism.given().split_at(mechanism.given().len() - GIVEN.len());
         self.give_inputs(mechanism, own, length);
         let turn = |input| [Rule::Cosine(input), Rule::Sine(input), Rule::Input(input)];
-        let way = Rule::Root { code: Vec::new(), value: Operand::Constant(0.0) };
-        let rules = [turn(ROLL), turn(PITCH), [way.clone(), way.clone(), radius(standing)], turn(HEIGHT)];
-        for (&index, rules) in told.iter().zip(rules) {
+        let unused = Rule::Root { code: Vec::new(), value: Operand::Constant(0.0) };
+        let layout = mechanism.task().layout();
+        let number = |number| turn(layout.place(number).unwrap_or(0));
+        let height = number(TargetNumber::Position(BaseAxis::Z));
+        let distance = [unused.clone(), unused, radius(upright_loop)];
+        let rules = [number(TargetNumber::Roll), number(TargetNumber::Pitch), distance, height];
+        for (&index, rules) in of_target.iter().zip(rules) {
             self.give(&mechanism.joints()[index], index, rules);
         }
-        let of = |k: usize| told.get(k).map(|&index| self.given[index].clone()).unwrap_or_default();
+        let of = |k: usize| of_target.get(k).map(|&index| self.given[index].clone()).unwrap_or_default();
         if let (&[cr, sr], &[cp, sp]) = (&of(0)[..], &of(1)[..]) {
-            self.told = Some([cr, sr, cp, sp]);
+            self.pitch_roll = Some([cr, sr, cp, sp]);
         }
     }
 
@@ -140,44 +139,27 @@ impl Layout {
     }
 
     /// Adds the inputs and parameters of the task.
-    fn target(&mut self, mechanism: &Mechanism, length: Unit) {
-        let names = mechanism.inputs();
-        let planar = matches!(mechanism.task(), Task::PlanarPose { .. });
-        let turn = mechanism.task().axis().map(yaw_names);
-        let is_yaw = |name: &str, which: usize| turn.as_ref().is_some_and(|names| names[which].1 == name);
-        for name in names {
-            let input = self.inputs.len();
-            if mechanism.standing().is_some() && input >= PITCH {
-                self.inputs.push(Input { name, unit: Unit::Radian });
-                continue;
-            }
-            let rule = match name.as_str() {
-                "cphi" if planar => Rule::Cosine(input),
-                "sphi" if planar => Rule::Sine(input - 1),
-                cosine if is_yaw(cosine, 0) => Rule::Cosine(input),
-                sine if is_yaw(sine, 1) => Rule::Sine(input - 1),
-                _ => Rule::Input(input),
-            };
-            match rule {
-                Rule::Sine(_) => {}
-                Rule::Cosine(_) => {
-                    let name = turn.as_ref().map_or_else(|| "phi".to_owned(), |names| names[0].0.clone());
-                    self.inputs.push(Input { name, unit: Unit::Radian });
+    fn target(&mut self, mechanism: &Mechanism, length: LengthUnit) {
+        let layout = mechanism.task().layout();
+        for number in layout.numbers() {
+            let (input, name) = (self.inputs.len(), number.name());
+            self.inputs.push(Input { name: name.clone(), unit: Unit::of(number.quantity(), length) });
+            match number {
+                // The loop has joints for these.
+                TargetNumber::Pitch | TargetNumber::Roll => {}
+                TargetNumber::PlaneAngle(_) | TargetNumber::Yaw(_) => {
+                    self.parameter(format!("c{name}"), Rule::Cosine(input));
+                    self.parameter(format!("s{name}"), Rule::Sine(input));
                 }
-                _ => {
-                    let unit = if name.starts_with('p') { length } else { Unit::One };
-                    self.inputs.push(Input { name: name.clone(), unit });
-                }
+                _ => self.parameter(name, Rule::Input(input)),
             }
-            self.parameters.push(ParameterRule { name, rule });
         }
-        self.conditions = match mechanism.task() {
-            Task::Pose => vec![Condition::Rotation(3)],
-            Task::Rotation => vec![Condition::Rotation(0)],
-            Task::Ray => vec![Condition::Unit(3)],
-            Task::Direction => vec![Condition::Unit(0)],
-            _ => Vec::new(),
-        };
+        let rotation = layout.rotation().map(Condition::Rotation);
+        self.conditions = rotation.or(layout.direction().map(Condition::Unit)).into_iter().collect();
+    }
+
+    fn parameter(&mut self, name: String, rule: Rule) {
+        self.parameters.push(ParameterRule { name, rule });
     }
 
     /// Removes the unknowns of all joints after the first `count`.
@@ -205,7 +187,7 @@ impl Layout {
         let emitter = &mut Emitter(assembler);
         let parameters = match self.across {
             Some(across) => ray::turned(mechanism, across, emitter),
-            None if mechanism.standing().is_some() => closed(Emitted::integer),
+            None if mechanism.upright_loop().is_some() => closed(Emitted::integer),
             None => {
                 let square: BigRational = mechanism.aim().iter().map(|entry| entry * entry).sum();
                 let factor =
@@ -247,11 +229,11 @@ impl Layout {
         assembler: &mut Assembler,
     ) -> Result<Assignment<Emitted>> {
         let emitter = &mut super::emit::Sizes(assembler);
-        let size =
-            |input: &str| if input.starts_with('p') { Emitted::code(Operand::Magnitude) } else { Emitted::integer(1) };
-        let parameters: Vec<Emitted> = match mechanism.standing() {
+        let lengths = mechanism.seen().layout().lengths();
+        let size = |index: usize| if index < lengths { Emitted::code(Operand::Magnitude) } else { Emitted::integer(1) };
+        let parameters: Vec<Emitted> = match mechanism.upright_loop() {
             Some(_) => closed(Emitted::integer),
-            None => mechanism.parameters().iter().map(|name| size(name)).collect(),
+            None => (0..mechanism.parameters().len()).map(size).collect(),
         };
         let target = Target::new(mechanism, &parameters, emitter)?;
         let joints = (0..self.joints.len()).map(|joint| match self.joints[joint] {
@@ -292,9 +274,9 @@ fn closed(integer: impl Fn(i32) -> Emitted) -> Vec<Emitted> {
 }
 
 /// The rule for the distance of the target from the first axis. The first two parameters are its position seen from above.
-fn radius(standing: &Standing) -> Rule {
+fn radius(upright_loop: &UprightLoop) -> Rule {
     let register = Operand::Register;
-    let [x, y] = standing.upright.axis.each_ref().map(|x| Operand::Constant(x.to_f64().unwrap_or(0.0)));
+    let [x, y] = upright_loop.upright.axis.each_ref().map(|x| Operand::Constant(x.to_f64().unwrap_or(0.0)));
     let operations = [
         Operation::Sub(Operand::Parameter(0), x),
         Operation::Sub(Operand::Parameter(1), y),

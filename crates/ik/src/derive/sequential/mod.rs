@@ -22,10 +22,10 @@ mod shape;
 mod simultaneous;
 mod slack;
 mod squares;
-mod standing;
 mod symbolic;
 mod symbols;
 mod target;
+mod upright_loop;
 
 pub use eliminate::{Elimination, SymbolPlace};
 pub use form_basis::{Form, FormBasis};
@@ -124,7 +124,7 @@ impl SequentialView<'_> {
     ///
     /// # Errors
     /// As [`Mechanism::new`].
-    pub fn unpolished(&self) -> Result<Option<Program>> {
+    pub(crate) fn unpolished(&self) -> Result<Option<Program>> {
         let ideal =
             || program::compile(&self.problem.chain, &Mechanism::new(&self.problem.chain)?, self.method, Slack::NONE);
         self.problem.truth.as_ref().map(|_| ideal()).transpose()

@@ -11,17 +11,15 @@ use super::ray;
 use super::samples::Samples;
 use super::slack::Slack;
 use super::symbols::Symbols;
-use super::{ProvedStep, Sequential, standing};
+use super::{ProvedStep, Sequential, upright_loop};
 use crate::derive::closure::Mechanism;
 use crate::derive::equations::assemble::Assembler;
 use crate::derive::problem::ChainProblem;
-use crate::solver::{Block, Checks, Described, Guard, NEAR, Operand, Program};
+use crate::solver::{Block, Checks, Described, Guard, Operand, Program};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::ideal::Report;
 use groebot_robot::kinematics::{Chain, Task};
-
-/// Two linear equations are nearly dependent if their determinant is below this fraction of its size.
-const DEPENDENT: f64 = 1e-6;
+use groebot_runtime::tolerances::{PIVOTS, STRATA};
 
 /// The program of a chain whose plan has been derived. `slack` bounds the error of its formulas on the chain on which solutions are measured.
 ///
@@ -48,8 +46,8 @@ pub(super) fn compile(chain: &Chain, mechanism: &Mechanism, parts: &Sequential, 
         blocks.push(block);
         known.push(step.joint);
     }
-    if let Some(standing) = mechanism.standing() {
-        standing::close(standing, &mut layout, &mut blocks, reach);
+    if let Some(upright_loop) = mechanism.upright_loop() {
+        upright_loop::close(upright_loop, &mut layout, &mut blocks, reach);
     }
     let (dimension, product) = (parts.plan.dimension, parts.plan.product());
     let most = if mechanism.followers().is_empty() { dimension } else { dimension.max(product) };
@@ -91,8 +89,8 @@ pub(super) fn of_problem(problem: &ChainProblem, mechanism: &Mechanism, method: 
 pub(in crate::derive) fn checks_on(ideal: &Chain, chain: &Chain) -> Result<Checks> {
     let mechanism = Mechanism::new(ideal)?;
     let mut layout = Layout::new(&mechanism, chain.length_unit());
-    if let Some(standing) = mechanism.standing() {
-        standing::close(standing, &mut layout, &mut Vec::new(), reach(chain));
+    if let Some(upright_loop) = mechanism.upright_loop() {
+        upright_loop::close(upright_loop, &mut layout, &mut Vec::new(), reach(chain));
     }
     Ok(polishing(&Mechanism::of_chain(chain)?, &layout, reach(chain)))
 }
@@ -104,7 +102,7 @@ pub(in crate::derive) fn checks_on(ideal: &Chain, chain: &Chain) -> Result<Check
 /// As [`Mechanism::of_chain`].
 fn described_by(mechanism: &Mechanism, truth: &Chain, report: &Report, program: &Program) -> Result<Option<Described>> {
     let layout = Layout::new(mechanism, truth.length_unit());
-    if !is_overdetermined(mechanism) || mechanism.standing().is_some() {
+    if !is_overdetermined(mechanism) || mechanism.upright_loop().is_some() {
         return Ok(None);
     }
     let Checks { code, residuals, .. } = Checks {
@@ -144,7 +142,7 @@ impl Context<'_> {
             Form::Angle | Form::Quadratic | Form::Pair | Form::Quartic => {
                 Some(layout.unknown(&format!("w{}", screw.symbol)))
             }
-            Form::Turn | Form::Linear | Form::Lengths => None,
+            Form::Rotation | Form::Linear | Form::Lengths => None,
         };
         let Symbols { list: symbols, mut assembler, .. } = self.shortest(layout)?;
         let code = assembler.take();
@@ -190,6 +188,6 @@ fn dependent([a, b, e, f]: [SizedValue; 4], slack: Slack, assembler: &mut Assemb
         if sum { assembler.add(left, right) } else { assembler.sub(left, right) }
     };
     let (value, size) = (determinant(|s| s.value, false), determinant(|s| s.size, true));
-    let scale = assembler.mul(Operand::Constant(slack.share(DEPENDENT) / NEAR), size);
+    let scale = assembler.mul(Operand::Constant(slack.share(PIVOTS.regular) / STRATA.near), size);
     Guard { text: "A*F - B*E".to_owned(), value, scale, near: true }
 }

@@ -8,7 +8,7 @@ use super::eliminate::Elimination;
 use super::form_basis::Form;
 use super::symbolic::{Symbolic, TargetPoly};
 use crate::derive::closure::{Factor, Mechanism, Multilinear, Relation};
-use crate::derive::planner::{PlanStep, Way};
+use crate::derive::planner::{PlanStep, StepMethod};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
@@ -17,7 +17,7 @@ use groebot_algebra::number::BigRational;
 pub struct Shape {
     /// The form.
     pub form: Form,
-    /// For a [`Form::Turn`]: `k` with `b2 = k a1` and `k b1 = -n a2`, where `ai c + bi s'` are the two equations.
+    /// For a [`Form::Rotation`]: `k` with `b2 = k a1` and `k b1 = -n a2`, where `ai c + bi s'` are the two equations.
     pub ratio: Option<BigRational>,
 }
 
@@ -28,22 +28,24 @@ pub struct Shape {
 pub(super) fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
     let plain = |form| Ok(Shape { form, ratio: None });
     let revolute = mechanism.joints()[step.joint].is_revolute();
-    match &step.way {
-        Way::Single(_) if revolute => plain(Form::Angle),
-        Way::Single(relation) => {
+    match &step.method {
+        StepMethod::Single(_) if revolute => plain(Form::Angle),
+        StepMethod::Single(relation) => {
             let polynomial = Symbolic::new(mechanism)?.polynomial(mechanism, relation)?;
             let square = !part(&polynomial, Factor::LengthSquared(step.joint)).is_empty();
             plain(if square { Form::Quadratic } else { Form::Linear })
         }
-        Way::Pair([cosine, sine]) if follows(step.joint, [cosine, sine]) => {
-            Ok(Shape { form: Form::Turn, ratio: Some(BigRational::one()) })
+        StepMethod::Pair([cosine, sine]) if follows(step.joint, [cosine, sine]) => {
+            Ok(Shape { form: Form::Rotation, ratio: Some(BigRational::one()) })
         }
-        Way::Pair(relations) if revolute => {
+        StepMethod::Pair(relations) if revolute => {
             let ratio = turn(mechanism, step.joint, relations)?;
-            Ok(Shape { form: if ratio.is_some() { Form::Turn } else { Form::Pair }, ratio })
+            Ok(Shape { form: if ratio.is_some() { Form::Rotation } else { Form::Pair }, ratio })
         }
-        Way::Pair(_) => Err(Error::new(ErrorKind::Unsupported, "two equations for one length; one is enough")),
-        Way::Eliminated { .. } => Err(Error::new(ErrorKind::Unsupported, "the other joints are not eliminated yet")),
+        StepMethod::Pair(_) => Err(Error::new(ErrorKind::Unsupported, "two equations for one length; one is enough")),
+        StepMethod::Eliminated { .. } => {
+            Err(Error::new(ErrorKind::Unsupported, "the other joints are not eliminated yet"))
+        }
     }
 }
 

@@ -21,9 +21,10 @@ use super::slack::Slack;
 use super::symbolic::Symbolic;
 use crate::derive::closure::{Mechanism, Relation, Word, prove};
 use crate::derive::equations::certificate::refused;
-use crate::derive::planner::{PlanStep, Way};
+use crate::derive::planner::{PlanStep, StepMethod};
 use crate::solver::{
-    Block, Checks, Condition, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Program, Rule, Unit,
+    Block, Checks, Condition, Instruction, Joint, JointValue, Operand, Operation, ParameterRule, Program, Rule,
+    TipTask, Unit,
 };
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
@@ -71,7 +72,8 @@ impl Simultaneous {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] if the unknown shared joints are not one or two revolute ones, or if no relations fit. As [`Mechanism::new`].
-    pub fn derive(sides: [Side<'_>; 2], shared: usize, watch: &Watch) -> Result<Self> {
+    pub fn derive<'w>(sides: [Side<'_>; 2], shared: usize, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let common = Common::new(sides, shared)?;
         let steps = common.search(watch)?;
         let forms = Forms::of(&steps)?;
@@ -97,7 +99,7 @@ impl Simultaneous {
     ///
     /// # Errors
     /// [`ErrorKind::Certificate`] if there are not two. This does not occur for a derivation that this crate made.
-    pub fn relations(&self) -> Result<[&Relation; 2]> {
+    pub(crate) fn relations(&self) -> Result<[&Relation; 2]> {
         match self.steps.first().map(|step| step.relations.as_slice()) {
             Some([f, g]) => Ok([f, g]),
             _ => Err(refused("shared joints follow from two relations".to_owned())),
@@ -242,8 +244,8 @@ impl<'a> Common<'a> {
         let (&[leading, following], Some(elimination)) = (joints, elimination) else {
             return Ok(self.unknown.iter().map(|joint| by_pair(*joint)).collect());
         };
-        let way = Way::Eliminated { relations: relations.to_vec(), away: vec![following] };
-        let leader = PlanStep { joint: leading, way, degree: 4 };
+        let method = StepMethod::Eliminated { relations: relations.to_vec(), away: vec![following] };
+        let leader = PlanStep { joint: leading, method, degree: 4 };
         let shape = eliminated(&self.mechanisms[0], &leader, &elimination)?;
         let relations = relations.to_vec();
         Ok(vec![ProvedStep { joint: leading, relations, elimination: Some(elimination), shape }, by_pair(following)])
@@ -276,23 +278,22 @@ impl<'a> Common<'a> {
         let checks = held(&layout, self.mechanisms[0].given(), self.shared);
         let mut program = Program {
             name: "shared".to_owned(),
-            about: None,
             joints: layout.joints.iter().zip(self.sides[0].chain.joints()).take(self.shared).map(joint).collect(),
+            tasks: vec![TipTask::of(self.sides[0].chain)],
+            given_joints: layout.given_joints,
             inputs: layout.inputs,
             conditions: layout.conditions,
             parameters: layout.parameters,
             unknowns: layout.unknowns,
             blocks,
             checks,
-            preference: None,
             capacity: 1,
-            isolated: None,
-            nearby: false,
-            described: None,
             scale,
+            ..Program::default()
         }
         .prefixed(self.sides[0].prefix);
         let (first, prefix) = (program.inputs.len(), self.sides[1].prefix);
+        program.tasks.push(TipTask { first_input: first, ..TipTask::of(self.sides[1].chain) });
         let (inputs, parameters) =
             (other.inputs.len() - self.mechanisms[1].given().len(), self.mechanisms[1].parameters().len());
         for mut input in other.inputs.into_iter().take(inputs) {

@@ -119,7 +119,7 @@ impl Context<'_> {
             ([Factor::Cosine(joint)], [Factor::Sine(joint)], [Factor::Length(joint)], [Factor::LengthSquared(joint)]);
         match self.step.shape {
             Shape { form: Form::Angle, .. } => vec![take(0, &c, 1.0), take(0, &s, 1.0 / root), take(0, &[], 1.0)],
-            Shape { form: Form::Turn, ref ratio } => {
+            Shape { form: Form::Rotation, ref ratio } => {
                 let ratio = ratio.as_ref().and_then(BigRational::to_f64).unwrap_or(1.0);
                 vec![take(0, &c, 1.0), take(0, &s, -1.0 / root), take(0, &[], -1.0), take(1, &[], -root / ratio)]
             }

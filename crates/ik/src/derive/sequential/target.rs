@@ -10,7 +10,7 @@ impl ChainProblem {
     ///
     /// # Errors
     /// As [`groebot_robot::kinematics::Chain::forward`].
-    pub fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
+    pub(crate) fn reached(&self, q: &[f64]) -> Result<Vec<f64>> {
         let chain = self.measured();
         let base_from_tip = chain.forward(q)?;
         let position = base_from_tip.translation.vector;

@@ -20,12 +20,12 @@ impl Formulation {
     }
 
     /// The joint whose half angle or displacement the equations are multiplied by.
-    pub fn doubled(&self) -> usize {
+    pub(crate) fn doubled(&self) -> usize {
         self.joint(if self.second { 2 } else { 1 })
     }
 
     /// Whether the joint exists.
-    pub fn is_valid(&self) -> bool {
+    pub(crate) fn is_valid(&self) -> bool {
         self.hidden < 6
     }
 }

@@ -1,6 +1,7 @@
 //! The solver of six axes as a step of a program ([`SixAxes`]).
 
 use groebot_runtime::six_axes::{Chain, Formulations, Rigid};
+use groebot_runtime::tolerances::ACCEPTANCE;
 use serde::{Deserialize, Serialize};
 
 use super::formulation::Formulation;
@@ -55,7 +56,7 @@ impl SixAxes {
     /// [`ErrorKind::BadValue`] for a direction that is not of length one, a length that is not positive, or a joint value of the wrong type.
     /// [`ErrorKind::BadValue`] also for no formulation, or a formulation that does not exist for these joints.
     pub fn new(parts: SixAxesParts) -> Result<Self> {
-        let is_unit = |line: &Line| (line.direction.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= 1e-9;
+        let is_unit = |line: &Line| (line.direction.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= ACCEPTANCE.input;
         let is_finite = parts.lines.iter().all(|line| line.point.iter().all(|entry| entry.is_finite()));
         ensure(is_finite && parts.lines.iter().all(is_unit), "six axes: directions of length one are allowed")?;
         ensure(parts.length.is_finite() && parts.length > 0.0, "six axes: a positive length is allowed")?;

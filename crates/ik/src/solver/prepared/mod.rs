@@ -8,26 +8,33 @@ mod blocks;
 mod code;
 mod equations;
 mod mechanism;
+mod outline;
 mod parameters;
 mod run;
 mod shaped;
+mod sights;
 mod spare;
 mod storage;
 
 use serde::Serialize;
 
 pub use self::batch::{Batch, Solved};
+pub(super) use self::outline::{JointOutline, Outline};
 use self::shaped::Shaped;
+pub(super) use self::sights::Sights;
 use self::storage::{Dynamic, SixJoints};
 use super::program::Program;
 use super::{Facts, Layout, Pairs};
-use crate::{Error, ErrorKind, Result};
+use crate::Result;
 use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
 
 /// A [`Program`] prepared for evaluation. It is made once and solves any number of targets, also from several threads
 /// at once.
 #[derive(Clone, Debug)]
-pub struct Solver(Shape);
+pub struct Solver {
+    shape: Shape,
+    pub(super) outline: Outline,
+}
 
 /// The variants by the storage of numbers.
 #[derive(Clone, Debug)]
@@ -41,7 +48,7 @@ enum Shape {
 /// Calls a method of either variant.
 macro_rules! shaped {
     ($solver:expr, $shaped:ident => $call:expr) => {
-        match &$solver.0 {
+        match &$solver.shape {
             Shape::SixJoints($shaped) => $call,
             Shape::Dynamic($shaped) => $call,
         }
@@ -65,11 +72,12 @@ impl Solver {
     pub fn new(program: &Program) -> Self {
         let layout = Layout::new(program);
         let facts = Facts::new(&layout);
-        Solver(if Shaped::are_of_six_joints(&layout, &facts) {
+        let shape = if Shaped::are_of_six_joints(&layout, &facts) {
             Shape::SixJoints(Box::new(Shaped::new(&layout, facts)))
         } else {
             Shape::Dynamic(Box::new(Shaped::new(&layout, facts)))
-        })
+        };
+        Solver { shape, outline: Outline::new(program) }
     }
 
     /// All real solutions for `target`, a pose or another [`Target`], by branch: empty when the target is unreachable. Lengths are in the program's unit.
@@ -89,19 +97,12 @@ impl Solver {
     }
 
     fn solve_target(&self, target: &Target, given: &[f64]) -> Result<Vec<Solution>> {
-        let (numbers, inputs) = (target.numbers(), shaped!(self, shaped => &shaped.inputs));
-        let named = inputs.iter().take(numbers.len()).all(|input| target.has(&input.name));
-        if inputs.len() != numbers.len() + given.len() || !named {
-            let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
-            let text = format!(
-                "a target of {} numbers and {} given values; the solver needs {}",
-                numbers.len(),
-                given.len(),
-                names.join(", ")
-            );
-            return Err(Error::new(ErrorKind::BadValue, text));
-        }
-        self.solve_numbers(&[&numbers[..], given].concat())
+        self.solve_numbers(&self.numbers_of(target, given)?)
+    }
+
+    /// The numbers of a target of the task, and the values of given joints after them.
+    pub(super) fn numbers_of(&self, target: &Target, given: &[f64]) -> Result<Vec<f64>> {
+        shaped!(self, shaped => shaped.target.numbers(target, given))
     }
 
     /// Same as [`Solver::solve`], but for a target in numbers: one per input, in order and unit of [`Program::inputs`].
@@ -149,6 +150,11 @@ impl Solver {
     /// expression of the joints.
     pub fn reached(&self, q: &[f64]) -> Option<Vec<f64>> {
         shaped!(self, shaped => shaped.reached(q))
+    }
+
+    /// The numbers of the target that joint values reach, with derivatives on request.
+    pub(super) fn sights(&self, q: &[f64], with_derivatives: bool) -> Option<Sights> {
+        shaped!(self, shaped => shaped.sights(q, with_derivatives))
     }
 
     /// The values of the program's parameters for a target, `p0` and so on in its code, and after them the magnitude,

@@ -17,6 +17,7 @@ use super::spare::with_spare;
 use super::storage::SixJoints;
 use crate::solver::condition::conform;
 use crate::solver::program::{Case, Condition, Input};
+use crate::solver::target::TargetInputs;
 use crate::solver::{Facts, Layout, Operand, Pairs};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Solution;
@@ -25,6 +26,8 @@ use groebot_robot::kinematics::Solution;
 #[derive(Clone, Debug)]
 pub(super) struct Shaped<S> {
     pub inputs: Vec<Input>,
+    /// The inputs by their meaning.
+    pub target: TargetInputs,
     conditions: Vec<Condition>,
     /// The labels of the strata that could not be derived.
     open: Vec<String>,
@@ -101,6 +104,7 @@ impl<S: Storage + 'static> Shaped<S> {
         short.extend(joints.flat_map(|joint| checks.short.iter().map(move |short| short.derivatives[joint])));
         Shaped {
             inputs: program.inputs.clone(),
+            target: TargetInputs::of(program),
             conditions: program.conditions.clone(),
             open: program.cases().filter(|case| case.open).map(|case: &Case| case.label.clone()).collect(),
             kinds: Kinds::new(&facts),

@@ -4,11 +4,12 @@
 //! The screw solver and the oracle solve chain by chain, each with the shared actuators at the values from earlier chains. If shared joints are found from both
 //! chains together, no chain can be solved first, and these two witnesses are not used.
 
+use crate::tolerances::WITNESS;
 use nalgebra::DMatrix;
 
 use super::Moving;
 use super::count::Counter;
-use super::model::{Configuration, Joints, Model, RESIDUAL};
+use super::model::{Configuration, Joints, Model};
 use super::rational::Rationals;
 use super::targets::Targets;
 use crate::derive::coupled::{ChainStage, CoupledView};
@@ -22,7 +23,12 @@ use groebot_robot::kinematics::{Chain, Solution};
 ///
 /// # Errors
 /// As [`super::check_chain`].
-pub fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) -> Result<Report> {
+pub(crate) fn check<'w>(
+    derived: CoupledView<'_>,
+    options: &Options,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Report> {
+    let watch = Watch::or_none(watch);
     let model = CoupledModel::new(derived);
     let leading = derived.method.stages.iter().map(|stage| leading(derived, stage)).collect::<Result<Vec<Chain>>>()?;
     let leading: Vec<Model<'_>> = leading.iter().map(Model::new).collect();
@@ -31,7 +37,7 @@ pub fn check(derived: CoupledView<'_>, options: &Options, watch: &Watch) -> Resu
     let counts = derived.method.simultaneous.as_ref().is_none_or(|simultaneous| simultaneous.steps.len() < 2);
     let counter = if counts { model.counter() } else { None };
     let mut rationals = counter.map(|counter| Rationals::new(counter, options.seed));
-    let subject = Moving { model: &model, bound: Some(derived.method.dimension()), tolerance: RESIDUAL };
+    let subject = Moving { model: &model, bound: Some(derived.method.dimension()), tolerance: WITNESS.residual };
     let check = Check {
         subject: &subject,
         solver: derived.program,

@@ -12,6 +12,7 @@ use super::form::{Form, Forms, constant, cross, dot, sum};
 use groebot_algebra::number::BigRational;
 use groebot_algebra::poly::rational_root;
 use groebot_robot::kinematics::{Chain, ExactVector, Joint, JointKind, Task};
+use groebot_robot::spatial::exact::vector;
 
 /// The values of a joint's unknowns.
 #[derive(Clone, Debug, PartialEq)]
@@ -171,10 +172,10 @@ impl Axis {
 fn objects(chain: &Chain, frame: &Frame) -> Vec<(Moved, ExactVector)> {
     let tip = chain.tip();
     let points = |point: &ExactVector| vec![(Moved::Point, frame.point(point))];
-    let columns = || axes().map(|direction| (Moved::Direction, direction)).to_vec();
+    let columns = || vector::identity().map(|direction| (Moved::Direction, direction)).to_vec();
     let aimed = chain.direction();
     let aim = || {
-        let entry = |row: &ExactVector| dot_exact(row, aimed);
+        let entry = |row: &ExactVector| vector::dot(row, aimed);
         vec![(Moved::Direction, frame.direction(&tip.rotation.each_ref().map(entry)))]
     };
     match chain.task() {
@@ -205,35 +206,22 @@ impl Frame {
         let origin = origin.map_or_else(|| chain.tip().point.clone(), |joint| joint.point.clone());
         let units: Vec<ExactVector> = joints.iter().filter_map(|joint| unit(&joint.axis)).collect();
         let pairs = units.iter().enumerate().flat_map(|(i, a)| units[i + 1..].iter().map(move |b| (a, b)));
-        let pair = pairs.into_iter().find(|(a, b)| dot_exact(a, b).is_zero());
-        let axes = pair.map_or_else(axes, |(a, b)| [a.clone(), b.clone(), cross_exact(a, b)]);
+        let pair = pairs.into_iter().find(|(a, b)| vector::dot(a, b).is_zero());
+        let axes = pair.map_or_else(vector::identity, |(a, b)| [a.clone(), b.clone(), vector::cross(a, b)]);
         Frame { origin, axes }
     }
 
     fn direction(&self, v: &ExactVector) -> ExactVector {
-        self.axes.each_ref().map(|axis| dot_exact(axis, v))
+        self.axes.each_ref().map(|axis| vector::dot(axis, v))
     }
 
     fn point(&self, p: &ExactVector) -> ExactVector {
-        self.direction(&[0, 1, 2].map(|i| &p[i] - &self.origin[i]))
+        self.direction(&vector::sub(p, &self.origin))
     }
 }
 
-/// The axes of the base frame.
-fn axes() -> [ExactVector; 3] {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| BigRational::from_integer(i64::from(i == j).into())))
-}
-
 fn square(v: &ExactVector) -> BigRational {
-    dot_exact(v, v)
-}
-
-fn dot_exact(a: &ExactVector, b: &ExactVector) -> BigRational {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-fn cross_exact(a: &ExactVector, b: &ExactVector) -> ExactVector {
-    [(1, 2), (2, 0), (0, 1)].map(|(i, j)| &a[i] * &b[j] - &a[j] * &b[i])
+    vector::dot(v, v)
 }
 
 /// The vector scaled to length one. `None` if its length is irrational.

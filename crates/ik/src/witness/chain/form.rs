@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use num_traits::{One, Zero};
 
 use groebot_algebra::number::BigRational;
+use groebot_robot::kinematics::ExactVector;
 
 /// A polynomial by its sets of unknowns: bit `v` of a key is set for unknown `v`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -71,12 +72,12 @@ impl Form {
 }
 
 /// `a . x` for a constant vector `a`.
-pub(super) fn dot(a: &[BigRational; 3], x: &Forms) -> Form {
+pub(super) fn dot(a: &ExactVector, x: &Forms) -> Form {
     a.iter().zip(x).fold(Form::default(), |sum, (a, x)| sum.with_multiple(x, a))
 }
 
 /// `a x b` for a constant vector `a`.
-pub(super) fn cross(a: &[BigRational; 3], x: &Forms) -> Forms {
+pub(super) fn cross(a: &ExactVector, x: &Forms) -> Forms {
     [[1, 2], [2, 0], [0, 1]].map(|[i, j]| Form::default().with_multiple(&x[j], &a[i]).with_multiple(&x[i], &-&a[j]))
 }
 
@@ -85,6 +86,6 @@ pub(super) fn sum(x: &Forms, factor: &Form, y: &Forms) -> Forms {
     [0, 1, 2].map(|i| x[i].plus(&y[i].times(factor)))
 }
 
-pub(super) fn constant(vector: &[BigRational; 3]) -> Forms {
+pub(super) fn constant(vector: &ExactVector) -> Forms {
     vector.each_ref().map(|entry| Form::constant(entry.clone()))
 }

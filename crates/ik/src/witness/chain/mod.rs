@@ -14,14 +14,15 @@ mod self_motion;
 pub(super) mod singular;
 mod targets;
 
-use super::check::{ByScrews, Check, ORDINARY, Solver, Subject};
+use super::check::{ByScrews, Check, Solver, Subject};
 use super::{Fault, Kind, Options, Report};
+use crate::tolerances::WITNESS;
 use crate::{Result, Watch};
 use count::Counter;
 use groebot_robot::kinematics::{Chain, Solution, Task};
-use model::{Configuration, EXACT, Model, RESIDUAL, SHARP};
+use model::{Configuration, Model};
 use rational::Rationals;
-use self_motion::{MEMBER, STEPS, SelfMotions};
+use self_motion::{STEPS, SelfMotions};
 use targets::Targets;
 
 /// Checks `solver`, which solves `chain` for its task, at targets of all kinds. `bound` is the certified number of complex solutions, if it is known. The
@@ -29,14 +30,15 @@ use targets::Targets;
 ///
 /// # Errors
 /// Those of the solver, except for gaps. The error of `watch` if it stops the check. Failed checks are in the report.
-pub fn check_chain(
+pub fn check_chain<'w>(
     chain: &Chain,
     solver: &dyn Solver,
     bound: Option<usize>,
     options: &Options,
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Report> {
-    check_within(chain, solver, bound, (options, RESIDUAL), watch)
+    let watch = Watch::or_none(watch);
+    check_within(chain, solver, bound, (options, WITNESS.residual), watch)
 }
 
 /// Same as [`check_chain`], but for a chain as described, whose ideal chain decides which solutions exist. Its solutions may miss their targets by `tolerance`
@@ -44,13 +46,14 @@ pub fn check_chain(
 ///
 /// # Errors
 /// As [`check_chain`].
-pub fn check_within(
+pub fn check_within<'w>(
     chain: &Chain,
     solver: &dyn Solver,
     bound: Option<usize>,
     (options, tolerance): (&Options, f64),
-    watch: &Watch,
+    watch: impl Into<Option<&'w Watch>>,
 ) -> Result<Report> {
+    let watch = Watch::or_none(watch);
     let model = Model::new(chain);
     let mut rationals = Rationals::new(Counter::new(chain, &model.given), options.seed);
     let mut targets = Targets::new(&model, options.draws, options.seed);
@@ -88,14 +91,14 @@ impl Moving<'_> {
 
     /// Whether the chain is described inexactly, so that solutions may miss their targets. The ideal chain decides which solutions exist.
     fn is_described(&self) -> bool {
-        self.tolerance > RESIDUAL
+        self.tolerance > WITNESS.residual
     }
 
     /// Whether `q` is a member of a self-motion that one of the solutions represents. On the path between them, a described chain may miss the target by the
     /// tolerance of a solution, because only the ideal chain has the self-motion.
     fn is_member(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> bool {
         let self_motions = || answers.iter().filter(|answer| !answer.free.is_empty());
-        let missed = if self.is_described() { self.tolerance } else { MEMBER };
+        let missed = if self.is_described() { self.tolerance } else { WITNESS.member };
         let leads = |answer: &Solution, step: f64| self.model.leads_to(target, q, answer, (step, missed));
         self_motions().any(|answer| self.model.matches(target, q, &answer.q))
             || STEPS.into_iter().any(|step| self_motions().any(|answer| leads(answer, step)))
@@ -111,7 +114,7 @@ impl Moving<'_> {
 
 impl Subject for Moving<'_> {
     fn singular(&self) -> f64 {
-        ORDINARY
+        WITNESS.ordinary
     }
 
     fn searches_completely(&self) -> bool {
@@ -135,13 +138,13 @@ impl Subject for Moving<'_> {
         (residual, residual > self.tolerance)
     }
 
-    /// Several members may represent one self-motion.
+    /// Several members may represent one self-motion, so only solutions without free joints are counted.
     fn are_too_many(&self, answers: &[Solution]) -> bool {
         let single = answers.iter().filter(|answer| answer.free.is_empty()).count();
         self.bound.is_some_and(|bound| single > bound)
     }
 
-    /// The fault also if a self-motion with the joint values is not reported as one.
+    /// There is also a fault if a self-motion with the joint values is not reported as one.
     fn known(&self, target: &[f64], answers: &[Solution], q: &[f64]) -> (Option<f64>, Option<Fault>) {
         if self.is_member(target, answers, q) {
             return (None, None);
@@ -158,17 +161,17 @@ impl Subject for Moving<'_> {
     }
 
     fn covers(&self, target: &[f64], some: &[Solution], answer: &Solution) -> bool {
-        let least = if self.model.sigma(&answer.q) > ORDINARY { EXACT } else { SHARP };
+        let least = if self.model.sigma(&answer.q) > WITNESS.ordinary { WITNESS.exact } else { WITNESS.rounding };
         let is_sure = self.model.residual(target, &answer.q) <= least;
         let is_same = |other: &Solution| self.are_same(target, &answer.q, &other.q);
         !is_sure || some.iter().any(is_same) || self.is_member(target, some, &answer.q)
     }
 
-    /// The screw solver loses solutions next to singular configurations and for tasks that ask for more than the joints can do. There, forward kinematics alone
-    /// checks ours.
+    /// The screw solver loses solutions next to singular configurations and for overdetermined tasks (more numbers than independent joints). There, forward
+    /// kinematics alone checks ours.
     fn is_found_by_screws(&self, answer: &Solution) -> bool {
         let jacobian = self.model.jacobian(&answer.q);
-        self.model.sigma(&answer.q) > ORDINARY && jacobian.nrows() <= jacobian.ncols()
+        self.model.sigma(&answer.q) > WITNESS.ordinary && jacobian.nrows() <= jacobian.ncols()
     }
 
     fn moved_target(&self, _: &[f64], mut q: Vec<f64>, shift: &dyn Fn(usize) -> f64) -> Option<Vec<f64>> {

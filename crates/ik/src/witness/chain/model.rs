@@ -8,15 +8,8 @@ use nalgebra::DMatrix;
 use super::singular::smallest_singular_value;
 use crate::Result;
 use groebot_robot::kinematics::oracle::{Oracle, Unknown};
-use groebot_robot::kinematics::{BaseAxis, Chain, JointKind, Solution, Task};
-use groebot_robot::spatial::{Pose, angle, pitch_and_roll, vertical};
-
-/// The maximum error of a solution: a fraction of the reach, and an angle \[rad\].
-pub(super) const RESIDUAL: f64 = 1e-11;
-/// The error below which an ordinary joint vector is certainly a solution.
-pub(super) const EXACT: f64 = 1e-13;
-/// Same as [`EXACT`], but next to a singular configuration. There, a target at a distance of 1e-13 may have other solutions, or a self-motion.
-pub(super) const SHARP: f64 = 1e-14;
+use groebot_robot::kinematics::{Chain, JointKind, Solution, Target, TargetNumber, Task};
+use groebot_robot::spatial::{Pose, angle, vertical};
 
 /// The chain, its task, and which of its joints are unknown.
 pub(super) struct Model<'a> {
@@ -44,33 +37,14 @@ impl<'a> Model<'a> {
 
     /// The names of a target's numbers: those of the task, then those of the given joints.
     pub fn input_names(&self) -> Vec<String> {
-        let letters = ["x", "y", "z"];
-        let position = |axes: &[usize]| axes.iter().map(|&axis| format!("p{}", letters[axis])).collect::<Vec<_>>();
-        let aim = letters.map(|letter| format!("d{letter}")).to_vec();
-        let rotation = (0..9).map(|k| format!("r{}{}", k / 3 + 1, k % 3 + 1)).collect();
-        let mut names = match self.chain.task() {
-            Task::Position => position(&[0, 1, 2]),
-            Task::PlanarPosition { plane } => position(&plane.coordinates()),
-            Task::PlanarPose { plane } => [position(&plane.coordinates()), vec!["phi".to_owned()]].concat(),
-            Task::Pose => [position(&[0, 1, 2]), rotation].concat(),
-            Task::Ray => [position(&[0, 1, 2]), aim].concat(),
-            Task::Direction => aim,
-            Task::Rotation => rotation,
-            Task::PositionYaw { axis: BaseAxis::Z } => [position(&[0, 1, 2]), vec!["yaw".to_owned()]].concat(),
-            Task::PositionYaw { axis } => [position(&[0, 1, 2]), vec![format!("yaw_{}", axis.name())]].concat(),
-            Task::PositionPitchRoll => [position(&[0, 1, 2]), vec!["pitch".to_owned(), "roll".to_owned()]].concat(),
-        };
+        let mut names = self.chain.task().layout().names();
         names.extend(self.chain.given_inputs().iter().map(|&joint| self.chain.joints()[joint].name.clone()));
         names
     }
 
     /// The number of lengths among a target's numbers. They come first.
     pub fn lengths(&self) -> usize {
-        match self.chain.task() {
-            Task::Position | Task::Pose | Task::Ray | Task::PositionPitchRoll | Task::PositionYaw { .. } => 3,
-            Task::PlanarPosition { .. } | Task::PlanarPose { .. } => 2,
-            Task::Direction | Task::Rotation => 0,
-        }
+        self.chain.task().layout().lengths()
     }
 
     pub fn forward(&self, q: &[f64]) -> Pose {
@@ -80,33 +54,8 @@ impl<'a> Model<'a> {
 
     /// The numbers of the task for a pose.
     pub fn seen(&self, pose: &Pose) -> Vec<f64> {
-        let tip = pose.translation.vector;
-        let matrix = pose.rotation.to_rotation_matrix();
-        let rotation = || (0..9).map(|k| matrix[(k / 3, k % 3)]).collect::<Vec<f64>>();
-        let aim = || (pose.rotation * self.chain.aim().into_inner()).iter().copied().collect::<Vec<f64>>();
-        let point = tip.as_slice().to_vec();
-        match self.chain.task() {
-            Task::Position => point,
-            Task::PlanarPosition { plane } => plane.coordinates().map(|axis| tip[axis]).to_vec(),
-            Task::PlanarPose { plane } => {
-                let turn = pose.rotation * self.chain.base_from_tip().rotation.inverse();
-                let phi = 2.0 * turn.imag()[plane.normal()].atan2(turn.scalar());
-                let [x, y] = plane.coordinates().map(|axis| tip[axis]);
-                vec![x, y, angle::wrap(phi)]
-            }
-            Task::Pose => [point, rotation()].concat(),
-            Task::Ray => [point, aim()].concat(),
-            Task::Direction => aim(),
-            Task::Rotation => rotation(),
-            Task::PositionYaw { axis } => {
-                let (aim, [a, b]) = (aim(), axis.across());
-                [point, vec![aim[b].atan2(aim[a])]].concat()
-            }
-            Task::PositionPitchRoll => {
-                let (pitch, roll) = pitch_and_roll(&pose.rotation);
-                [point, vec![pitch, roll]].concat()
-            }
-        }
+        let target = Target::of_pose(self.chain, pose);
+        self.chain.task().layout().values(&target).expect("the target is of the chain's task")
     }
 
     /// A target's numbers for comparison. Pitch and roll are discontinuous; the vertical direction in the tip frame replaces them.
@@ -231,11 +180,8 @@ impl Configuration for Model<'_> {
         let seen = self.compared(&self.seen(&self.forward(q)));
         let target = &self.compared(target)[..];
         let size = self.size(q);
-        let turn = match self.chain.task() {
-            Task::PlanarPose { .. } => Some(2),
-            Task::PositionYaw { .. } => Some(3),
-            _ => None,
-        };
+        let is_turn = |number: &TargetNumber| matches!(number, TargetNumber::PlaneAngle(_) | TargetNumber::Yaw(_));
+        let turn = self.chain.task().layout().numbers().iter().position(is_turn);
         let miss = |(index, (seen, wanted)): (usize, (&f64, &f64))| match index {
             index if index < self.lengths() => (seen - wanted) / size,
             index if turn == Some(index) => angle::difference(*seen, *wanted),

@@ -5,10 +5,10 @@ use super::exact::Value;
 use super::is_random;
 use super::model::{Configuration, Model};
 use crate::witness::check::Target;
-use crate::witness::random::Random;
 use crate::witness::report::Kind;
 use crate::{Result, Watch};
 use groebot_algebra::number::{BigInt, BigRational};
+use groebot_algebra::random::SplitMix64;
 use groebot_robot::kinematics::Chain;
 
 /// The maximum numerator and denominator of the half-angle tangents.
@@ -30,7 +30,13 @@ pub struct Counted {
 ///
 /// # Errors
 /// The error of `watch` if it stops the count.
-pub fn count_exactly(chain: &Chain, number: usize, seed: u64, watch: &Watch) -> Result<Vec<Counted>> {
+pub fn count_exactly<'w>(
+    chain: &Chain,
+    number: usize,
+    seed: u64,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Vec<Counted>> {
+    let watch = Watch::or_none(watch);
     let model = Model::new(chain);
     let mut rationals = Rationals::new(Counter::new(chain, &model.given), seed);
     (0..number).map(|_| rationals.counted(&model, watch)).collect()
@@ -39,13 +45,13 @@ pub fn count_exactly(chain: &Chain, number: usize, seed: u64, watch: &Watch) -> 
 /// The source of such targets.
 pub(super) struct Rationals {
     counter: Counter,
-    random: Random,
+    random: SplitMix64,
     done: usize,
 }
 
 impl Rationals {
     pub fn new(counter: Counter, seed: u64) -> Self {
-        Rationals { counter, random: Random::new(seed ^ 0x5eed), done: 0 }
+        Rationals { counter, random: SplitMix64::new(seed ^ 0x5eed), done: 0 }
     }
 
     /// A counted target in place of a random one, while fewer than `wanted` were counted. Other targets are returned unchanged.

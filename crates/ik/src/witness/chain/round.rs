@@ -1,27 +1,26 @@
 //! Round targets, which users try first: joint values in multiples of 15 or 30 degrees, and axis-aligned orientations at positions on a grid.
 
+use crate::tolerances::WITNESS;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::model::{Joints, Model};
-use crate::witness::random::Random;
+use groebot_algebra::random::SplitMix64;
 use groebot_robot::spatial::Pose;
 
 /// The approximate width of the grid as a fraction of the reach. It is rounded to 1, 2 or 5 times a power of ten.
 const FINENESS: f64 = 0.05;
-/// The tolerance within which entries of an orientation, or fractions of the reach, are rounded to integers.
-const ROUNDING: f64 = 1e-14;
 
 /// The source of round targets for one chain.
 pub(super) struct RoundTargets<'a> {
     model: &'a Model<'a>,
-    random: Random,
+    random: SplitMix64,
 }
 
 impl<'a> RoundTargets<'a> {
     pub fn new(model: &'a Model<'a>, seed: u64) -> Self {
-        RoundTargets { model, random: Random::new(seed ^ 0x0072_6f75_6e64) }
+        RoundTargets { model, random: SplitMix64::new(seed ^ 0x0072_6f75_6e64) }
     }
 
     /// Joint values: angles in multiples of `degrees`, displacements on the grid and within their limits.
@@ -62,7 +61,7 @@ impl<'a> RoundTargets<'a> {
         let lengths = self.model.lengths();
         for (index, value) in inputs.iter_mut().enumerate() {
             let unit = if index < lengths { self.model.length } else { 1.0 };
-            let is_round = (*value / unit - (*value / unit).round()).abs() <= ROUNDING;
+            let is_round = (*value / unit - (*value / unit).round()).abs() <= WITNESS.rounding;
             *value = if is_round { (*value / unit).round() * unit } else { *value };
         }
         inputs.extend(self.model.chain.given_inputs().iter().map(|&joint| q[joint]));

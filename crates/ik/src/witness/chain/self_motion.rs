@@ -1,23 +1,16 @@
 //! Self-motions of one parameter at singular targets: whether there is one, whether a path in it leads to a solution, and which solutions are equal up to a
 //! self-motion.
 
+use crate::tolerances::WITNESS;
 use nalgebra::{DMatrix, DVector};
 
-use super::model::{Configuration, RESIDUAL};
+use super::model::Configuration;
 use super::singular::{least_squares, null_vector};
-use crate::solver::BLUR;
-use crate::witness::check::ORDINARY;
 use groebot_robot::kinematics::Solution;
+use groebot_runtime::tolerances::MERGING;
 
-/// The maximum sigma of a configuration in a self-motion.
-const SINGULAR: f64 = 1e-12;
 /// The distance along the null vector at which a self-motion is tested.
 const PROBE: f64 = 0.05;
-/// The residual of a member of a self-motion, after correction.
-pub(super) const MEMBER: f64 = 1e-12;
-/// Same as [`MEMBER`], but for the detection of a self-motion. An isolated solution may be singular with another singularity at a distance of 1e-6. Then joint
-/// vectors 0.05 away miss by at most 1e-12, although they are no solutions.
-const ROUNDED: f64 = 1e-14;
 /// The number of such distances over which a self-motion must continue. If two axes are out of line by 1e-6 rad, there is a double solution instead. Its error
 /// is 1e-12 times the square of the distance, which is initially less than rounding.
 const PROBES: usize = 4;
@@ -25,18 +18,13 @@ const PROBES: usize = 4;
 pub(super) const STEPS: [f64; 3] = [0.2, 0.05, 0.0125];
 /// The maximum number of corrections of one member.
 const CORRECTIONS: usize = 20;
-/// Singular values below this fraction of the largest one count as zero.
-const RANK: f64 = 1e-8;
 /// The maximum bend of a path between two joint vectors: a fraction of its length, or of the square of its length if that is greater.
 const STRAIGHT: f64 = 1e-2;
 /// The longest and the shortest step along a curve, and the maximum number of steps.
 const LONGEST: f64 = 0.1;
-const SHORTEST: f64 = 1e-6;
 const PACES: usize = 2000;
 /// The minimum cosine of the angle between a curve's directions before and after a step.
 const STEADY: f64 = 0.9;
-/// The maximum distance between the end of a path and its solution.
-const ARRIVED: f64 = 1e-6;
 
 /// Paths of joint vectors with the same target.
 pub(super) trait SelfMotions: Configuration {
@@ -49,7 +37,7 @@ pub(super) trait SelfMotions: Configuration {
     fn goes_on(&self, target: &[f64], q: &[f64], mut ahead: DVector<f64>) -> bool {
         let mut at = q.to_vec();
         (0..PROBES).all(|_| {
-            let next = self.stepped(target, &at, &ahead, (PROBE, ROUNDED));
+            let next = self.stepped(target, &at, &ahead, (PROBE, WITNESS.rounding));
             next.is_some_and(|(next, on)| {
                 (at, ahead) = (next, on);
                 true
@@ -59,7 +47,7 @@ pub(super) trait SelfMotions: Configuration {
 
     /// The direction in which joints that are singular within rounding can move.
     fn tangent(&self, q: &[f64]) -> Option<DVector<f64>> {
-        if self.sigma(q) > SINGULAR { None } else { null_vector(self.jacobian(q)) }
+        if self.sigma(q) > WITNESS.member { None } else { null_vector(self.jacobian(q)) }
     }
 
     /// The member next to `q` moved by `distance` along the unit vector `ahead`, and no farther along it. Its error is at most `tolerance`.
@@ -81,7 +69,7 @@ pub(super) trait SelfMotions: Configuration {
 
     /// Whether `b` is the same solution as `a`, and within the distance at which a solver merges solutions.
     fn is_same(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
-        self.distance(a, b) <= BLUR && self.matches(target, a, b)
+        self.distance(a, b) <= MERGING.blur && self.matches(target, a, b)
     }
 
     /// Whether `b` is the same solution as `a`, or a member of its self-motion.
@@ -90,11 +78,11 @@ pub(super) trait SelfMotions: Configuration {
     /// then a path between the two must reach the target everywhere.
     fn matches(&self, target: &[f64], a: &[f64], b: &[f64]) -> bool {
         let (distance, sigma) = (self.distance(a, b), self.sigma(a));
-        if sigma > ORDINARY {
-            return distance <= 1e-9;
+        if sigma > WITNESS.ordinary {
+            return distance <= WITNESS.equal;
         }
-        let miss = f64::max(1e-13, 4.0 * self.residual(target, a));
-        distance <= (miss / sigma).max(1e-7) && self.is_joined(target, a, b, RESIDUAL)
+        let miss = f64::max(WITNESS.exact, 4.0 * self.residual(target, a));
+        distance <= (miss / sigma).max(WITNESS.moved) && self.is_joined(target, a, b, WITNESS.residual)
     }
 
     /// Whether joint vectors next to the straight line from `a` to `b` reach the target, within `missed`.
@@ -163,9 +151,12 @@ pub(super) trait SelfMotions: Configuration {
             if self.distance(&at, answer) <= 2.0 * pace && self.passes(target, &at, &ahead, answer) {
                 return true;
             }
-            match self.stepped(target, &at, &ahead, (pace, MEMBER)).filter(|(_, next)| next.dot(&ahead) > STEADY) {
+            match self
+                .stepped(target, &at, &ahead, (pace, WITNESS.member))
+                .filter(|(_, next)| next.dot(&ahead) > STEADY)
+            {
                 Some(next) => ((at, ahead), pace) = (next, f64::min(2.0 * pace, LONGEST)),
-                None if pace > SHORTEST => pace /= 2.0,
+                None if pace > WITNESS.near => pace /= 2.0,
                 None => return false,
             }
         }
@@ -176,8 +167,8 @@ pub(super) trait SelfMotions: Configuration {
     fn passes(&self, target: &[f64], at: &[f64], ahead: &DVector<f64>, answer: &[f64]) -> bool {
         let apart = |&joint: &usize| self.difference(joint, answer[joint], at[joint]) / self.unit(joint);
         let distance = ahead.dot(&DVector::from_iterator(ahead.len(), self.unknown().iter().map(apart)));
-        self.moved_along(target, at, ahead, distance, MEMBER)
-            .is_some_and(|passed| self.distance(&passed, answer) <= ARRIVED)
+        self.moved_along(target, at, ahead, distance, WITNESS.member)
+            .is_some_and(|passed| self.distance(&passed, answer) <= WITNESS.near)
     }
 
     /// The point of the curve next to `at` moved by `distance` along the unit vector `ahead`, and the curve's direction there. Its error is at most
@@ -217,7 +208,7 @@ pub(super) trait SelfMotions: Configuration {
             system.rows_mut(rows, fixed.nrows()).copy_from(&fixed);
             let mut missed = DVector::from_vec(self.misses(target, &q));
             missed = missed.insert_rows(rows, fixed.nrows(), 0.0);
-            let step = least_squares(system, &missed, RANK)?;
+            let step = least_squares(system, &missed, WITNESS.rank)?;
             for (&joint, step) in moving.iter().zip(step.iter()) {
                 q[joint] -= step * self.unit(joint);
             }

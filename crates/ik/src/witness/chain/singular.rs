@@ -1,5 +1,6 @@
 //! Small singular values and null vectors of small matrices.
 
+use crate::tolerances::WITNESS;
 use nalgebra::{DMatrix, DVector, SVD};
 
 /// The maximum number of sweeps over all pairs of columns; usually few are sufficient.
@@ -31,7 +32,7 @@ pub(in crate::witness) fn smallest_singular_value(mut a: DMatrix<f64>) -> f64 {
 fn rotate(a: &mut DMatrix<f64>, i: usize, j: usize) -> bool {
     let (x, y) = (a.column(i).norm_squared(), a.column(j).norm_squared());
     let product = a.column(i).dot(&a.column(j));
-    if product == 0.0 || product.abs() <= 1e-16 * (x * y).sqrt() {
+    if product == 0.0 || product.abs() <= WITNESS.zero * (x * y).sqrt() {
         return false;
     }
     let (sine, cosine) = (0.5 * (2.0 * product).atan2(x - y)).sin_cos();

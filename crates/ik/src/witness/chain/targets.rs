@@ -1,6 +1,7 @@
 //! The targets of a check: from random joints, from singular configurations and next to them, at and beyond the boundary of the workspace, arbitrary ones. A
 //! singular configuration is where the Jacobian's determinant changes its sign while one joint moves.
 
+use crate::tolerances::WITNESS;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
@@ -10,20 +11,14 @@ use super::round::RoundTargets;
 use super::singular::null_vector;
 use crate::witness::Draws;
 use crate::witness::check::Target;
-use crate::witness::random::Random;
 use crate::witness::report::Kind;
+use groebot_algebra::random::SplitMix64;
 use groebot_robot::spatial::Pose;
 
 /// The maximum number of draws for a target of one kind.
 const DRAWS: usize = 12;
 /// The number of samples of the determinant over the range of a joint.
 const PLACES: usize = 48;
-/// The tolerance of equal critical joint values in two configurations \[rad, or fractions of the reach\].
-const SHARED: f64 = 1e-9;
-/// The tolerance within which a critical value is rounded to a multiple of pi/2.
-const RIGHT: f64 = 1e-10;
-/// The maximum sigma of a singular configuration.
-const SINGULAR: f64 = 1e-10;
 /// The distance of an unreachable target, in reaches.
 const FAR: f64 = 10.0;
 /// The exponents k of the distances 10^-k from singular configurations.
@@ -79,7 +74,7 @@ enum Slot {
 /// The source of targets for one chain.
 pub(super) struct Targets<'a> {
     model: &'a Model<'a>,
-    random: Random,
+    random: SplitMix64,
     plan: &'static [Slot],
     round: RoundTargets<'a>,
     /// Values of single joints that make every configuration singular: joint and value.
@@ -95,7 +90,7 @@ struct Singularity {
 
 impl<'a> Targets<'a> {
     pub fn new(model: &'a Model<'a>, draws: Draws, seed: u64) -> Self {
-        let (random, round) = (Random::new(seed), RoundTargets::new(model, seed));
+        let (random, round) = (SplitMix64::new(seed), RoundTargets::new(model, seed));
         let plan: &[Slot] = if draws == Draws::Round { &ROUND } else { &PLAN };
         let mut targets = Targets { model, random, plan, round, critical: Vec::new(), done: 0 };
         targets.critical = targets.critical_values();
@@ -155,7 +150,8 @@ impl<'a> Targets<'a> {
         let mut found = Vec::new();
         for &joint in &self.model.unknown {
             let others = self.sign_changes(&b, joint);
-            let near = |x: f64, y: f64| self.model.difference(joint, x, y).abs() <= SHARED * self.model.unit(joint);
+            let near =
+                |x: f64, y: f64| self.model.difference(joint, x, y).abs() <= WITNESS.equal * self.model.unit(joint);
             let shared = self.sign_changes(&a, joint).into_iter().filter(|&x| others.iter().any(|&y| near(x, y)));
             found.extend(shared.map(|value| (joint, value)));
         }
@@ -188,10 +184,10 @@ impl<'a> Targets<'a> {
             if positive(middle)? == sign { low = middle } else { high = middle }
         }
         let right = (low / FRAC_PI_2).round() * FRAC_PI_2;
-        let snapped = if self.model.turns(joint) && (low - right).abs() <= RIGHT { right } else { low };
+        let snapped = if self.model.turns(joint) && (low - right).abs() <= WITNESS.critical { right } else { low };
         let mut at = q.to_vec();
         at[joint] = snapped;
-        (self.model.sigma(&at) <= SINGULAR).then_some(snapped)
+        (self.model.sigma(&at) <= WITNESS.critical).then_some(snapped)
     }
 
     /// In turn: one critical joint, two critical joints, and a configuration that several joints together make singular.
@@ -223,7 +219,7 @@ impl<'a> Targets<'a> {
             let joint = self.model.unknown[(self.done + draw) % self.model.unknown.len()];
             let known = |value: f64| {
                 let mut critical = self.critical.iter().filter(|(other, _)| *other == joint);
-                critical.any(|(_, other)| self.model.difference(joint, value, *other).abs() <= 1e-6)
+                critical.any(|(_, other)| self.model.difference(joint, value, *other).abs() <= WITNESS.near)
             };
             let value = self.sign_changes(&q, joint).into_iter().find(|&value| !known(value))?;
             q[joint] = value;

@@ -2,6 +2,7 @@
 
 use crate::codegen::builder::*;
 use groebot_ik::solver::{Case, Checks, Guard, Operand, Preference, Program, Rule, Step, Unit};
+use groebot_robot::kinematics::Task;
 
 const UPPER: f64 = 0.5;
 const LOWER: f64 = 0.4;
@@ -28,6 +29,8 @@ pub fn program() -> Program {
     Program {
         name: "turning_arm".into(),
         about: None,
+        tasks: tip(Task::Position),
+        given_joints: vec![],
         inputs: ["x", "y", "z"].map(|name| input(name, Unit::Metre)).to_vec(),
         parameters: vec![
             rule("x", Rule::Input(0)),

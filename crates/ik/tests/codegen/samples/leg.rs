@@ -2,6 +2,7 @@
 
 use crate::codegen::builder::*;
 use groebot_ik::solver::{Case, Checks, Operand, Preference, Program, Rule, Step, Unit};
+use groebot_robot::kinematics::{Plane, Task};
 
 const THIGH: f64 = 0.1;
 const SHIN: f64 = 0.1029;
@@ -20,6 +21,8 @@ pub fn program() -> Program {
     Program {
         name: "leg".into(),
         about: None,
+        tasks: tip(Task::PlanarPosition { plane: Plane::Xz }),
+        given_joints: vec![],
         inputs: vec![input("px", Unit::Metre), input("pz", Unit::Metre)],
         parameters: vec![rule("px", Rule::Input(0)), rule("pz", Rule::Input(1))],
         unknowns: ["c4", "c3", "s3", "s4"].map(String::from).to_vec(),

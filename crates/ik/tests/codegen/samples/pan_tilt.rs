@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use crate::codegen::builder::*;
 use groebot_ik::solver::{Block, Case, Checks, Condition, JointValue, Program, Rule, Step, Unit};
+use groebot_robot::kinematics::Task;
 
 const H: usize = 0;
 const C1: usize = 1;
@@ -21,6 +22,8 @@ pub fn program() -> Program {
     Program {
         name: "pan_tilt".into(),
         about: None,
+        tasks: tip(Task::Direction),
+        given_joints: vec![],
         inputs: names.map(|name| input(name, Unit::One)).to_vec(),
         conditions: vec![Condition::Unit(0)],
         parameters: (0..3).map(|i| rule(names[i], Rule::Input(i))).collect(),

@@ -17,6 +17,8 @@ pub fn program() -> Program {
     Program {
         name: "polar".into(),
         about: None,
+        tasks: vec![],
+        given_joints: vec![],
         inputs: vec![input("u", Unit::Metre), input("alpha", Unit::Radian), input("w", Unit::Metre)],
         parameters: vec![
             rule("u", Rule::Input(0)),

@@ -19,7 +19,9 @@ pub fn program() -> Program {
     let joint = Joint { name: "\"t\" */ ??/ \\ \u{e4}".into(), unit: Unit::One, value: JointValue::Plain(0) };
     Program {
         name: "quartic".into(),
-        about: Some(About { task: "roots */".into(), base: Some("*/ ??/".into()), ..About::default() }),
+        about: Some(About { base: Some("*/ ??/".into()), ..About::default() }),
+        tasks: vec![],
+        given_joints: vec![],
         inputs: names.map(|name| input(name, Unit::One)).to_vec(),
         parameters: (0..5).map(|i| rule(names[i], Rule::Input(i))).collect(),
         unknowns: vec!["angle".into()],

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use crate::codegen::builder::*;
 use groebot_ik::solver::{Block, Case, Checks, Condition, JointValue, Operand, Pivot, Program, Rule, Step, Unit};
+use groebot_robot::kinematics::Task;
 
 const C2: usize = 0;
 const S2: usize = 1;
@@ -33,6 +34,7 @@ pub fn carried() -> Program {
     let mut program = program(false);
     let names = ["px", "py", "pz"];
     program.name = "gantry".into();
+    program.tasks = tip(Task::Pose);
     program.inputs.splice(0..0, names.map(|name| input(name, Unit::Metre)));
     program.conditions = vec![Condition::Rotation(3)];
     for (index, parameter) in program.parameters.iter_mut().enumerate() {
@@ -70,6 +72,8 @@ pub fn program(gap: bool) -> Program {
     Program {
         name: "wrist".into(),
         about: None,
+        tasks: tip(Task::Rotation),
+        given_joints: vec![],
         inputs: (0..9).map(|i| input(&name(i), Unit::One)).collect(),
         conditions: vec![Condition::Rotation(0)],
         parameters: (0..9).map(|i| rule(&name(i), Rule::Input(i))).collect(),

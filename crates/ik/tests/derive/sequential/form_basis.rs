@@ -30,7 +30,7 @@ fn an_angle_divides_by_the_square_of_a_length_only() {
 /// Only the determinant of a pair has a zero set without description. On it, each equation is solved alone.
 #[test]
 fn every_stratum_is_derived_but_that_of_the_determinant() {
-    for form in [Form::Angle, Form::Turn, Form::Pair, Form::Linear, Form::Quadratic] {
+    for form in [Form::Angle, Form::Rotation, Form::Pair, Form::Linear, Form::Quadratic] {
         let open: Vec<String> = form_basis(form)
             .tree
             .walk()
@@ -45,7 +45,7 @@ fn every_stratum_is_derived_but_that_of_the_determinant() {
 
 #[test]
 fn a_joint_is_free_where_all_symbols_vanish() {
-    for form in [Form::Angle, Form::Turn, Form::Linear, Form::Quadratic] {
+    for form in [Form::Angle, Form::Rotation, Form::Linear, Form::Quadratic] {
         let form_basis = form_basis(form);
         let free = form_basis.tree.walk().into_iter().filter(|node| matches!(node.outcome, Outcome::SelfMotion(_)));
         let free: Vec<usize> = free.map(|node| node.setting.symbols.len()).collect();

@@ -53,7 +53,8 @@ pub struct FormalState<S> {
 
 impl Equations {
     /// Converts the equations to another scalar type. `number` converts constants. The inertial parameters are
-    /// regrouped so that as few as possible are nonzero ([`Tree::regrouped`]).
+    /// regrouped so that as few as possible are nonzero.
+    #[doc(hidden)]
     pub fn formal<S: Scalar>(&self, number: impl Fn(f64) -> S + Copy) -> Formal<S> {
         let drive = |drive: &super::Drive| FormalDrive {
             freedom: drive.freedom,
@@ -70,6 +71,7 @@ impl Equations {
     }
 
     /// For each joint, its value as a function of the configuration.
+    #[doc(hidden)]
     pub fn values(&self) -> Vec<Value> {
         let first = self.coordinates() - self.names.len();
         let drives = self.drives.iter().zip(&self.tree.bodies);

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{Base, Equations, State, Workspace};
 use crate::Result;
 use crate::dynamics::exact::NUMBERS;
-use crate::dynamics::recursions::Motion;
+use crate::dynamics::recursions::{Motion, Regressor};
 use crate::spatial::Wrench;
 
 impl Equations {
@@ -84,7 +84,7 @@ impl Equations {
         let first = self.first();
         let Workspace { data, rates, accelerations, torques, base, links, full_regressor, regressor, .. } = workspace;
         let motion = Motion { base: base[0], base_acceleration: base[1], rates, accelerations };
-        data.regressor(&self.tree, &motion, links, torques, first, full_regressor);
+        data.regressor(&self.tree, &motion, links, Regressor { torques, first, rows: full_regressor });
         regressor.fill(0.0);
         for (row, entries) in full_regressor.chunks_exact(regressor.ncols()).enumerate() {
             let (at, factor) = self.freedom(row);

@@ -130,6 +130,7 @@ impl Equations {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a number outside the range of doubles, [`ErrorKind::Unsupported`] as in
     /// [`Equations::new`].
+    #[doc(hidden)]
     pub fn unchecked(robot: &Robot, base: Base) -> Result<Self> {
         let robot = robot.with_constants_fixed()?;
         Equations::of(&robot, &Model::new(&robot)?, base)
@@ -217,7 +218,7 @@ impl Equations {
 
     /// Same equations, but without rotor inertia.
     #[must_use]
-    pub fn without_rotors(mut self) -> Self {
+    pub(crate) fn without_rotors(mut self) -> Self {
         self.drives.iter_mut().for_each(|drive| drive.armature = 0.0);
         self
     }

@@ -65,6 +65,7 @@ impl fmt::Display for Proof {
 
 impl Certificate {
     /// Builds the certificate of a chain's equations of motion.
+    #[doc(hidden)]
     pub fn new(symbolic: &Symbolic, chain: &Chain, masses: Masses<'_>, gravity: &ExactVector) -> Self {
         let texts = |numbers: &[BigRational; 10]| numbers.each_ref().map(ToString::to_string);
         let claims = Claims {
@@ -79,11 +80,13 @@ impl Certificate {
     }
 
     /// Whether the inertial parameters are numbers.
+    #[doc(hidden)]
     pub fn has_numbers(&self) -> bool {
         self.claims.masses.is_some()
     }
 
     /// Whether the inertial parameters are equal to `masses`.
+    #[doc(hidden)]
     pub fn has(&self, masses: &[[BigRational; 10]]) -> bool {
         let texts = |numbers: &[BigRational; 10]| numbers.each_ref().map(ToString::to_string);
         self.claims.masses.as_ref().is_some_and(|own| own.iter().eq(&masses.iter().map(texts).collect::<Vec<_>>()))

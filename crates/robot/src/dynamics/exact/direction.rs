@@ -7,7 +7,7 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::number::{Exact, Setting, root_name};
 use crate::dynamics::recursions::{Matrix, Scalar};
-use crate::spatial::exact::ExactVector;
+use crate::spatial::exact::{ExactVector, vector};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
@@ -93,7 +93,7 @@ fn square(vector: &ExactVector) -> BigRational {
 /// coordinate axis where one of them is zero.
 fn across(vector: &ExactVector) -> ExactVector {
     let last = (0..3).find(|&i| vector[i].is_zero()).unwrap_or(2);
-    let mut across: ExactVector = std::array::from_fn(|_| BigRational::zero());
+    let mut across = vector::zero();
     if vector[last].is_zero() {
         across[last] = BigRational::one();
     } else {

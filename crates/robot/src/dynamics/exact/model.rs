@@ -13,7 +13,7 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::BigRational;
 
 /// The names of a body's ten inertial parameters: the mass, the first moments, the inertia tensor.
-pub const NUMBERS: [&str; 10] = ["m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"];
+pub(crate) const NUMBERS: [&str; 10] = ["m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"];
 
 /// A chain whose inertial parameters are symbols or numbers. The frame of each body has its origin at the joint's
 /// point, and at the zero configuration the axes of the base. The recursions use their own frames.

@@ -163,13 +163,8 @@ impl From<BigRational> for Exact {
 }
 
 impl Exact {
-    /// Whether the number is zero.
-    pub fn is_zero(&self) -> bool {
-        matches!(&self.0, Kind::Number(number) if number.is_zero())
-    }
-
     /// Number of terms.
-    pub fn terms(&self) -> usize {
+    pub(crate) fn terms(&self) -> usize {
         match &self.0 {
             Kind::Number(number) => usize::from(!number.is_zero()),
             Kind::Sum(_, f) => f.terms().len(),

@@ -10,7 +10,7 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::{Ring, Style};
 
 /// Maximum number of terms of M, C and N together.
-pub const MOST_TERMS: usize = groebot_algebra::limits::SYMBOLIC_TERMS;
+pub(crate) const MOST_TERMS: usize = groebot_algebra::limits::SYMBOLIC_TERMS;
 
 /// The equations `M q'' + C q' + N = torques` as polynomials in cosines and sines (or displacements) of the joints,
 /// their velocities, and the inertial parameters. `M` is symmetric, and `C` has Christoffel symbols, RH0 (2-42).

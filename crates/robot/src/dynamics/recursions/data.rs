@@ -147,7 +147,7 @@ impl<S: Scalar> Data<S> {
     }
 
     /// The momentum of all bodies, in the base frame about its origin.
-    pub fn momentum(&mut self, tree: &Tree<S>, base: &Six<S>, rates: &[S]) -> Six<S> {
+    pub(crate) fn momentum(&mut self, tree: &Tree<S>, base: &Six<S>, rates: &[S]) -> Six<S> {
         self.move_bodies(tree, base, rates);
         let mut whole = tree.base.times(base);
         for (joint, body) in tree.bodies.iter().enumerate() {
@@ -163,7 +163,7 @@ impl<S: Scalar> Data<S> {
 
     /// The energy of the bodies. Gravity is given in the base frame. The potential energy is zero at the height of its
     /// origin.
-    pub fn energy(&mut self, tree: &Tree<S>, base: &Six<S>, rates: &[S], gravity: &[S; 3]) -> Energy<S> {
+    pub(crate) fn energy(&mut self, tree: &Tree<S>, base: &Six<S>, rates: &[S], gravity: &[S; 3]) -> Energy<S> {
         self.move_bodies(tree, base, rates);
         let own = |mass: &Mass<S>, velocity: &Six<S>| velocity.dot(&mass.times(velocity));
         let bodies = tree.bodies.iter().zip(&self.velocities);

@@ -44,7 +44,7 @@ impl<S: Scalar> Data<S> {
 
     /// Computes the momentum matrix: the momentum of all bodies for unit velocities, in the base frame about its
     /// origin. There is one column for each degree of freedom, the base's six first if it is floating.
-    pub fn momenta(&mut self, tree: &Tree<S>, first: usize, columns: &mut [Six<S>]) {
+    pub(crate) fn momenta(&mut self, tree: &Tree<S>, first: usize, columns: &mut [Six<S>]) {
         let base = self.whole(tree);
         (0..first).for_each(|freedom| columns[freedom] = base.times(&unit(freedom)));
         for (joint, body) in tree.bodies.iter().enumerate() {

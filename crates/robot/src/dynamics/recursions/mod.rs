@@ -21,6 +21,7 @@ pub use derivatives::Derivatives;
 pub use derivatives::ForceDerivatives;
 pub use matrices::Matrices;
 pub use matrices::UnitForces;
+pub use regressor::Regressor;
 pub use scalar::{Divisible, Dual, Scalar};
 pub use six::{Frame, Mass, Matrix, Six};
 pub use tree::{Body, Freedom, Place, Tree};

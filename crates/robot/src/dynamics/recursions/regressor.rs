@@ -24,18 +24,28 @@ impl<S: Scalar> Mass<S> {
     }
 }
 
+/// The memory of a regressor.
+#[derive(Debug)]
+pub struct Regressor<'a, S> {
+    /// The generalised forces, which are computed on the way.
+    pub torques: &'a mut [S],
+    /// The number of rows of a floating base.
+    pub first: usize,
+    /// The regressor in row-major order.
+    pub rows: &'a mut [S],
+}
+
 impl<S: Scalar> Data<S> {
     /// Computes the regressor in row-major order. Columns are the ten inertial parameters of each body, a floating base
     /// first. `links` are the frames, relative to the bodies' own, in which the parameters are given, the base first.
-    pub fn regressor(
+    pub(crate) fn regressor(
         &mut self,
         tree: &Tree<S>,
         motion: &Motion<'_, S>,
         links: &[Frame<S>],
-        torques: &mut [S],
-        first: usize,
-        out: &mut [S],
+        into: Regressor<'_, S>,
     ) {
+        let Regressor { torques, first, rows: out } = into;
         self.inverse(tree, motion, &[], torques);
         let counts = usize::from(first > 0);
         let columns = PARAMETERS * (tree.bodies.len() + counts);

@@ -130,7 +130,7 @@ impl Tree<f64> {
     /// inertia tensor. A fixed base gets no inertia. Source: M. Gautier and W. Khalil, IEEE Trans. Robotics and
     /// Automation 6 (1990).
     #[must_use]
-    pub fn regrouped(&self, is_fixed: bool) -> Self {
+    pub(crate) fn regrouped(&self, is_fixed: bool) -> Self {
         let mut tree = self.clone();
         for &joint in tree.order.iter().rev() {
             let Body { parent, freedom, frame, mass } = &mut tree.bodies[joint];

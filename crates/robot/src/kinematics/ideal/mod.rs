@@ -11,7 +11,8 @@ mod meeting;
 mod places;
 mod report;
 
-pub use super::parts::{TOLERANCE, WIDEST};
+pub use super::parts::TOLERANCE;
+use super::parts::WIDEST;
 use super::{Chain, ChainParts, Joint, JointKind, Task, Tip};
 use crate::{Error, ErrorKind, Result};
 use report::moved;
@@ -23,7 +24,7 @@ use crate::spatial::exact::vector::Line;
 /// tolerance.
 const GRAIN: f64 = 1e-3;
 /// Numbers that differ by less are equal in doubles: radians, and fractions of the reach.
-pub const SAME: f64 = 1e-15;
+pub(crate) const SAME: f64 = 1e-15;
 
 impl Chain {
     /// Computes the ideal robot within [`TOLERANCE`] of this one, and a report of the differences.

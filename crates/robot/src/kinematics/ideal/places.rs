@@ -8,7 +8,7 @@ use super::directions::directions;
 use super::{SAME, lengths, line};
 use crate::Result;
 use crate::kinematics::{Chain, ChainParts, ExactMatrix, ExactVector, Joint, JointKind, Tip};
-use crate::spatial::exact::vector::{Line, add, cosine, cross, dot, is_zero, length, scale, sine, sub};
+use crate::spatial::exact::vector::{Line, add, cosine, cross, dot, is_zero, length, scale, sine, sub, unit};
 use groebot_algebra::number::BigRational;
 
 /// Angle below which directions have a distant common normal. Their offset is computed as for parallel axes \[rad\].
@@ -190,8 +190,7 @@ fn aimed(chain: &Chain, tip: &Tip, placing: &Placing, tolerance: f64) -> ExactVe
 /// A vector perpendicular to `direction` and to the coordinate axis that is most perpendicular to it.
 fn upright(direction: &ExactVector) -> ExactVector {
     let least = (0..3).min_by_key(|&i| direction[i].abs()).unwrap_or(0);
-    let axis = std::array::from_fn(|i| if i == least { BigRational::one() } else { BigRational::zero() });
-    cross(direction, &axis)
+    cross(direction, &unit(least))
 }
 
 /// `step` without components along coordinate axes of at most `tolerance`.

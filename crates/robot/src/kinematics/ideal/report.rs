@@ -175,7 +175,7 @@ pub(super) fn moved(described: &Chain, ideal: &Chain) -> Vec<Moved> {
 
 impl Moved {
     /// The greater of the angle and the distance in units of `reach`.
-    pub fn deviation(&self, reach: f64) -> f64 {
+    pub(crate) fn deviation(&self, reach: f64) -> f64 {
         self.angle.max(self.distance / reach)
     }
 }

@@ -59,8 +59,7 @@ pub fn four_circles(
     h: [Vector3<f64>; 4],
     k: [Direction; 4],
     p: [Vector3<f64>; 4],
-    d1: f64,
-    d2: f64,
+    [d1, d2]: [f64; 2],
     reach: Reach,
 ) -> Answers<2> {
     let terms: [Harmonic; 4] = std::array::from_fn(|i| Harmonic::new(&h[i], &k[i], &p[i]));

@@ -25,6 +25,7 @@ pub mod three_joints;
 mod trigonometric;
 mod turn;
 pub mod two_joints;
+#[doc(hidden)]
 pub mod two_link;
 mod upright;
 pub mod values;
@@ -36,7 +37,7 @@ use super::Chain;
 use crate::spatial::{Screw, angle};
 
 /// Maximum distance of a solution's tip from its target, relative to the reach and in radians.
-pub const ACCEPT: f64 = 2e-12;
+pub(crate) const ACCEPT: f64 = 2e-12;
 
 /// Two solutions are equal when their joints differ by at most this value \[rad, or units of the reach\].
 const MERGE: f64 = 1e-9;

@@ -138,7 +138,7 @@ impl ScrewSolver {
         &self.chain
     }
 
-    /// Computes all solutions for `target`, each checked by forward kinematics to [`ACCEPT`]. The chain has no given
+    /// Computes all solutions for `target`, each checked by forward kinematics to 2e-12 of the reach. The chain has no given
     /// joints.
     ///
     /// There are none for a target out of reach. Joint limits are not checked.

@@ -243,7 +243,7 @@ fn around(screws: [&Screw; 2], pairs: &[(Object, Object); 2], pose: &Pose, loose
     let (x, z) = (Vector3::x(), Vector3::z_axis());
     let part = |i: usize, j: usize| Vector3::new(rows[i][j], rows[i][j + 1], 0.0);
     let found =
-        four_circles([part(0, 0), part(0, 2), part(1, 0), part(1, 2)], [z; 4], [x; 4], rows[0][4], rows[1][4], loose);
+        four_circles([part(0, 0), part(0, 2), part(1, 0), part(1, 2)], [z; 4], [x; 4], [rows[0][4], rows[1][4]], loose);
     Some(found.iter().map(|q| answer(*q)).collect())
 }
 

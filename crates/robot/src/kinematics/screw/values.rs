@@ -1,11 +1,11 @@
 //! Results of the subproblems: all values of one joint, or of several, and the tolerances for reaching a target.
 //!
 //! Tolerances are relative to the *size* of a subproblem, the largest distance between its points (1 for directions).
-//! It is at least [`GRAIN`] times the distance of the moved points from the origin, because of the rounding of their
+//! It is at least 1.8e-3 times the distance of the moved points from the origin, because of the rounding of their
 //! coordinates.
 //! * a target out of reach by at most the [`Reach`] counts as reached, at the nearest end;
-//! * a joint is *free* when moving it changes the required quantity by at most [`TOLERANCE`] of the size;
-//! * two values become one where the target is within [`ROUNDING`] of the size of an end of its interval.
+//! * a joint is *free* when moving it changes the required quantity by at most 1e-12 of the size;
+//! * two values become one where the target is within 8 epsilon of the size of an end of its interval.
 //!
 //! Near an end the target's sensitivity to the joint is almost zero: a relative error e of the target gives an error of
 //! about sqrt(e) of the angle. The reached point is accurate in all cases.
@@ -16,15 +16,15 @@ use nalgebra::Point3;
 use smallvec::SmallVec;
 
 /// Tolerance of a target out of reach, relative to the size of the problem.
-pub const TOLERANCE: f64 = 1e-12;
+pub(crate) const TOLERANCE: f64 = 1e-12;
 
 /// Distance of a target from an end of its interval, relative to the size of the problem, below which two values become
 /// one.
-pub const ROUNDING: f64 = 8.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// The smallest size of a problem, relative to its points' distance from the origin. Its [`TOLERANCE`] is then the
 /// coordinates' [`ROUNDING`].
-pub const GRAIN: f64 = ROUNDING / TOLERANCE;
+pub(crate) const GRAIN: f64 = ROUNDING / TOLERANCE;
 
 /// The size of a problem from the rounding of these points' coordinates, and at least their distance.
 pub(super) fn displacement_size(p: &Point3<f64>, k: &Point3<f64>) -> f64 {
@@ -43,7 +43,7 @@ pub enum Reach {
 }
 
 impl Reach {
-    /// Within [`TOLERANCE`].
+    /// Within 1e-12.
     pub const EXACT: Reach = Reach::Within(TOLERANCE);
 
     /// A tolerance for candidates that are checked later: at least `share` of the size.

@@ -5,7 +5,7 @@ mod placement;
 pub(crate) mod rotation;
 pub mod serde;
 pub(crate) mod surd;
-pub(crate) mod vector;
+pub mod vector;
 
 pub use placement::Placement;
 pub use placement::{normalized, point, rotation as numeric_rotation};

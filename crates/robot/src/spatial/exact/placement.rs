@@ -26,7 +26,7 @@ impl Placement {
     }
 
     /// A rotation by Rz(yaw) Ry(pitch) Rx(roll) about the outer axes, as in a URDF's `rpy`.
-    pub fn turned(turns: [Turn; 3]) -> Self {
+    pub(crate) fn turned(turns: [Turn; 3]) -> Self {
         let rotation = ExactRotation::from_rpy(turns);
         let meant = turns.map(Turn::meant);
         let meant = (meant != turns).then(|| ExactRotation::from_rpy(meant));
@@ -41,7 +41,7 @@ impl Placement {
     }
 
     /// A rotation by `angle` \[rad\] about an axis of any length through the origin, within rounding.
-    pub fn turned_about(axis: &ExactVector, angle: &BigRational) -> Self {
+    pub(crate) fn turned_about(axis: &ExactVector, angle: &BigRational) -> Self {
         let length = rounded_length(axis);
         let half = angle.to_f64().unwrap_or(0.0) / 2.0;
         let [sine, cosine] = [half.sin(), half.cos()].map(|x| BigRational::from_float(x).unwrap_or_default());
@@ -51,7 +51,7 @@ impl Placement {
     }
 
     /// A translation by `distance` along an axis of any length, within rounding.
-    pub fn shifted_along(axis: &ExactVector, distance: &BigRational) -> Self {
+    pub(crate) fn shifted_along(axis: &ExactVector, distance: &BigRational) -> Self {
         let length = rounded_length(axis);
         Placement { origin: axis.each_ref().map(|entry| entry * distance / &length), ..Placement::identity() }
     }
@@ -75,7 +75,7 @@ impl Placement {
     }
 
     /// The exact rotation that its numbers approximate.
-    pub fn meant(&self) -> &ExactRotation {
+    pub(crate) fn meant(&self) -> &ExactRotation {
         self.meant.as_ref().unwrap_or(&self.rotation)
     }
 

@@ -57,3 +57,24 @@ pub mod matrix {
         Ok(<[Row; 3]>::deserialize(deserializer)?.map(|row| row.0))
     }
 }
+
+/// For `#[serde(with)]` on an exact vector that may be absent.
+pub mod optional_vector {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::super::ExactVector;
+    use super::vector;
+
+    #[derive(Serialize, Deserialize)]
+    struct Vector(#[serde(with = "vector")] ExactVector);
+
+    /// Writes three strings.
+    pub fn serialize<S: Serializer>(vector: &Option<ExactVector>, serializer: S) -> Result<S::Ok, S::Error> {
+        vector.clone().map(Vector).serialize(serializer)
+    }
+
+    /// Reads three strings.
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<ExactVector>, D::Error> {
+        Ok(Option::<Vector>::deserialize(deserializer)?.map(|vector| vector.0))
+    }
+}

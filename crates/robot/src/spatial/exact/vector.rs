@@ -1,10 +1,25 @@
-//! Exact vectors: sums, products and lines, for exact zero tests.
+//! Exact vectors: sums, products and lines, for exact zero tests. The vector type is [`ExactVector`].
 
-use num_traits::{ToPrimitive, Zero};
+use num_traits::{One, ToPrimitive, Zero};
 
-use super::ExactVector;
 use super::rotation::over_common;
+use super::{ExactMatrix, ExactVector};
 use groebot_algebra::number::{BigInt, BigRational};
+
+/// The vector of zeros.
+pub fn zero() -> ExactVector {
+    std::array::from_fn(|_| BigRational::zero())
+}
+
+/// The unit vector along a coordinate axis: 0, 1, 2 for x, y, z.
+pub fn unit(axis: usize) -> ExactVector {
+    std::array::from_fn(|k| if k == axis { BigRational::one() } else { BigRational::zero() })
+}
+
+/// The identity matrix.
+pub fn identity() -> ExactMatrix {
+    std::array::from_fn(unit)
+}
 
 /// `a + b`.
 pub fn add(a: &ExactVector, b: &ExactVector) -> ExactVector {
@@ -32,6 +47,11 @@ pub fn cross(a: &ExactVector, b: &ExactVector) -> ExactVector {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         &a[j] * &b[k] - &a[k] * &b[j]
     })
+}
+
+/// The matrix, given by rows, times `a`.
+pub fn turn(matrix: &ExactMatrix, a: &ExactVector) -> ExactVector {
+    matrix.each_ref().map(|row| dot(row, a))
 }
 
 /// Whether all entries are zero.
@@ -71,6 +91,15 @@ fn share(a: &ExactVector, b: &ExactVector, part: impl Fn(&BigInt, &BigInt) -> Bi
     let dot = |a: &[BigInt; 3], b: &[BigInt; 3]| -> BigInt { a.iter().zip(b).map(|(x, y)| x * y).sum() };
     let (product, lengths) = (dot(&a, &b).pow(2), dot(&a, &a) * dot(&b, &b));
     root(&BigRational::new_raw(part(&product, &lengths), lengths))
+}
+
+/// Formats a vector as `[1/2, 0, 1]`.
+pub fn show(vector: &ExactVector) -> String {
+    let [x, y, z] = vector.each_ref().map(|entry| match entry.to_string() {
+        short if short.len() <= 24 => short,
+        _ => entry.to_f64().unwrap_or(f64::NAN).to_string(),
+    });
+    format!("[{x}, {y}, {z}]")
 }
 
 /// A line in space.

@@ -41,7 +41,7 @@ fn the_oracle_finds_as_many_for_four_circles() {
         let [d1, d2] = sums(&q);
         let miss = |q: &[f64]| vec![sums(q)[0] - d1, sums(q)[1] - d2];
         let count = Oracle { seeds: 200, ..Oracle::default() }.solve(2, miss).unwrap().len();
-        assert_eq!(four_circles(h, k, p, d1, d2, Reach::EXACT).len(), count, "{h:?} {k:?} {p:?} {q:?}");
+        assert_eq!(four_circles(h, k, p, [d1, d2], Reach::EXACT).len(), count, "{h:?} {k:?} {p:?} {q:?}");
     }
 }
 
@@ -50,7 +50,7 @@ fn the_oracle_finds_as_many_for_four_circles() {
 fn equations_that_part() {
     let (x, z) = (Vector3::x(), Vector3::z_axis());
     let h = [x, Vector3::zeros(), Vector3::zeros(), x];
-    let answers = four_circles(h, [z; 4], [x; 4], 0.5, 0.25, Reach::EXACT);
+    let answers = four_circles(h, [z; 4], [x; 4], [0.5, 0.25], Reach::EXACT);
     assert_eq!(answers.len(), 4);
     for answer in answers.iter() {
         assert!((answer[0].unwrap().cos() - 0.5).abs() < 1e-15 && (answer[1].unwrap().cos() - 0.25).abs() < 1e-15);
@@ -78,17 +78,17 @@ fn nothing_comes_of_bad_numbers() {
     let k = [(); 4].map(|()| random.direction());
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for reach in [Reach::EXACT, Reach::Within(f64::NAN), Reach::Closest] {
-            assert!(four_circles(h, k, p, bad, 0.0, reach).is_empty());
-            assert!(four_circles(h, k, p, 0.0, bad, reach).is_empty());
+            assert!(four_circles(h, k, p, [bad, 0.0], reach).is_empty());
+            assert!(four_circles(h, k, p, [0.0, bad], reach).is_empty());
             for i in 0..4 {
                 let (mut far, mut odd) = (p, h);
                 far[i].x = bad;
                 odd[i].y = bad;
-                assert!(four_circles(h, k, far, 0.0, 0.0, reach).is_empty());
-                assert!(four_circles(odd, k, p, 0.0, 0.0, reach).is_empty());
+                assert!(four_circles(h, k, far, [0.0, 0.0], reach).is_empty());
+                assert!(four_circles(odd, k, p, [0.0, 0.0], reach).is_empty());
             }
         }
     }
-    assert!(four_circles([Vector3::zeros(); 4], k, p, 0.0, 1.0, Reach::EXACT).is_empty());
-    assert!(four_circles(h, k, p, 99.0, 0.0, Reach::EXACT).is_empty());
+    assert!(four_circles([Vector3::zeros(); 4], k, p, [0.0, 1.0], Reach::EXACT).is_empty());
+    assert!(four_circles(h, k, p, [99.0, 0.0], Reach::EXACT).is_empty());
 }

@@ -20,6 +20,7 @@ use crate::groebner::Basis;
 use crate::number::{Ring, Zp};
 use crate::poly::univariate::Univariate;
 use crate::poly::{Monomial, Polynomial, PolynomialRing};
+use crate::random::SplitMix64;
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// Number of terms that must agree with a recurrence before it is accepted. A wrong one passes with a probability of
@@ -32,7 +33,12 @@ const AGREED: usize = 12;
 ///
 /// # Errors
 /// Those of [`Quotient::new`] and [`Quotient::basis_in`].
-pub fn change_order(basis: &Basis<Zp>, target: &PolynomialRing<Zp>, watch: &Watch) -> Result<Basis<Zp>> {
+pub fn change_order<'w>(
+    basis: &Basis<Zp>,
+    target: &PolynomialRing<Zp>,
+    watch: impl Into<Option<&'w Watch>>,
+) -> Result<Basis<Zp>> {
+    let watch = Watch::or_none(watch);
     match Modulus::new(basis.ring.field().modulus()) {
         None => Quotient::new(basis)?.basis_in(target, watch),
         Some(modulus) => Table::new(basis, modulus)?.basis_in(target, watch),
@@ -51,7 +57,8 @@ impl WordQuotient {
     /// # Errors
     /// [`ErrorKind::BadValue`] when the prime is not below 2^31; those of [`Quotient::new`]; the error with which
     /// `watch` stops the work.
-    pub fn new(basis: &Basis<Zp>, watch: &Watch) -> Result<Self> {
+    pub fn new<'w>(basis: &Basis<Zp>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let watch = Watch::or_none(watch);
         let p = basis.ring.field().modulus();
         let modulus = Modulus::new(p).ok_or_else(|| {
             Error::new(ErrorKind::BadValue, format!("the prime {p} is not below 2^31; use `Quotient` for larger ones"))
@@ -70,7 +77,8 @@ impl WordQuotient {
     ///
     /// # Errors
     /// Those of [`Quotient::basis_in`].
-    pub fn basis_in(&self, target: &PolynomialRing<Zp>, watch: &Watch) -> Result<Basis<Zp>> {
+    pub fn basis_in<'w>(&self, target: &PolynomialRing<Zp>, watch: impl Into<Option<&'w Watch>>) -> Result<Basis<Zp>> {
+        let watch = Watch::or_none(watch);
         self.table.clone().basis_in(target, watch)
     }
 
@@ -79,7 +87,12 @@ impl WordQuotient {
     ///
     /// # Errors
     /// Those of [`Quotient::minimal_polynomial`].
-    pub fn minimal_polynomial(&self, f: &Polynomial<u64>, watch: &Watch) -> Result<Univariate<u64>> {
+    pub fn minimal_polynomial<'w>(
+        &self,
+        f: &Polynomial<u64>,
+        watch: impl Into<Option<&'w Watch>>,
+    ) -> Result<Univariate<u64>> {
+        let watch = Watch::or_none(watch);
         require_member(&self.table.ring, f)?;
         let matrix = self.table.multiplication(f, watch)?;
         let projected = project(&matrix, self.table.modulus, watch, |_, _| ())?;
@@ -192,15 +205,10 @@ fn project(
     Ok(recurrence)
 }
 
-/// A deterministic row of pseudorandom residues, by SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+/// A deterministic row of pseudorandom residues.
 fn random_row(modulus: Modulus, length: usize) -> Vec<u32> {
-    let mut state = 0u64;
-    let next = || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (state ^ state >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        modulus.residue(mixed ^ mixed >> 31)
-    };
+    let mut random = SplitMix64::new(0);
+    let next = || modulus.residue(random.word());
     let mut row: Vec<u32> = std::iter::repeat_with(next).take(length).collect();
     row.resize(kernel::padded(length), 0);
     row

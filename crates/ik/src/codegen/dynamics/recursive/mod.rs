@@ -115,7 +115,7 @@ impl Recursive {
                 let own = Body { frame: frame(step, "BODY[i]"), ..body(freedom) };
                 let place = match freedom {
                     Freedom::Turn => Place::Turn(["c", "s"].map(|name| step.read(format!("{name}[PLACE[i]]")))),
-                    Freedom::Slide => Place::Slide(step.read("way[PLACE[i]]")),
+                    Freedom::Slide => Place::Slide(step.read("displacement[PLACE[i]]")),
                 };
                 write_frame(step, "frame[i]", own.placed(&place));
             });

@@ -78,7 +78,7 @@ impl Sorted {
     }
 }
 
-/// `c1, s1`; `s1'` is the sine divided by the length of the axis vector where that is not one.
+/// The unknowns of a joint as text, such as `c1, s1`. `s1'` is the sine divided by the length of the axis vector, if that is not one.
 pub fn joint_unknowns(mechanism: &Mechanism, joint: usize) -> String {
     let screw = &mechanism.joints()[joint];
     let names = unknowns(mechanism, joint).into_iter().map(|factor| name(mechanism, factor));
@@ -98,7 +98,7 @@ pub fn unknowns(mechanism: &Mechanism, joint: usize) -> Vec<Factor> {
     }
 }
 
-/// The name of an unknown: `c1`, `s1'`, `d3'^2`.
+/// The name of an unknown, such as `c1`, `s1'` or `d3'^2`.
 pub fn name(mechanism: &Mechanism, factor: Factor) -> String {
     let joint = &mechanism.joints()[factor.joint()];
     let prime = if joint.square.is_one() { "" } else { "'" };

@@ -12,7 +12,7 @@ use groebot_robot::kinematics::Task;
 /// The report of `derived`, or of one of its stages.
 ///
 /// # Errors
-/// When a field cannot be built: never for a derivation that was made by this crate.
+/// If a field cannot be built. This does not occur for a derivation that this crate made.
 pub fn document(derived: SequentialView<'_>, stage: Option<Stage>) -> Result<Document> {
     let mechanism = Mechanism::new(&derived.problem.chain)?;
     let mut page = Document::of(derived.problem.chain.name(), stage);
@@ -42,8 +42,8 @@ pub fn document(derived: SequentialView<'_>, stage: Option<Stage>) -> Result<Doc
     Ok(page)
 }
 
-/// How the loop is cut where the yaw is left open.
-pub(super) const STANDING: &str = "The yaw is left open, and the first joint turns about a vertical as the yaw does. So the loop is cut \
+/// Text on the cut of the loop for a task that leaves the yaw open.
+pub(super) const YAW_OPEN: &str = "The yaw is left open, and the first joint turns about a vertical as the yaw does. So the loop is cut \
      there: behind the tip follow the roll and the pitch, which are given, the turn about the vertical that is left, the way from the first \
      axis to the tip and the tip's height, which are given, and last the first joint, counted from where the tip is to be, seen from above. \
      This loop closes where its tip is back at the base: its target never changes.";
@@ -106,8 +106,8 @@ fn chain(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism
         true => page.say("No two neighbouring axes meet or are parallel."),
         false => page.items(common),
     }
-    if mechanism.standing().is_some() {
-        page.say(STANDING);
+    if mechanism.upright_loop().is_some() {
+        page.say(YAW_OPEN);
     } else if let Some(hidden) = mechanism.hidden() {
         page.say(&format!(
             "A ray does not say how the tip is turned about it. Any turn is chosen, two directions across the ray, which makes the target a \
@@ -116,7 +116,7 @@ fn chain(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism
             hidden + 1
         ));
     }
-    if !derived.method.plan.given.is_empty() && mechanism.standing().is_none() {
+    if !derived.method.plan.given.is_empty() && mechanism.upright_loop().is_none() {
         let given = geometry::numbers(derived.method.plan.given.iter().copied());
         page.say(&format!("The user gives the value of {given}."));
     }

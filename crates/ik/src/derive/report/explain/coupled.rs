@@ -12,7 +12,7 @@ use groebot_algebra::number::{Ring, Style};
 /// The report of `derived`, or of one of its stages.
 ///
 /// # Errors
-/// When a field cannot be built: never for a derivation that was made by this crate.
+/// If a field cannot be built. This does not occur for a derivation that this crate made.
 pub fn document(derived: CoupledView<'_>, stage: Option<Stage>) -> Result<Document> {
     let parts = derived.problem.parts();
     let mut page = Document::of(&parts.name, stage);
@@ -73,7 +73,7 @@ fn shared(page: &mut Document, derived: CoupledView<'_>, stage: Option<Stage>) -
     Ok(())
 }
 
-/// How the equations of shared joints determine them.
+/// Text on how the equations of shared joints determine them.
 pub fn shared_order(simultaneous: &Simultaneous) -> &'static str {
     match simultaneous.steps.as_slice() {
         [_] => {
@@ -86,7 +86,7 @@ pub fn shared_order(simultaneous: &Simultaneous) -> &'static str {
     }
 }
 
-/// The number of the first relation of shared joints, behind that of the loop.
+/// The number of the first relation of shared joints, after that of the loop.
 const FIRST: usize = 2;
 
 /// Adds a table of the actuators and the joints that each moves.

@@ -2,7 +2,7 @@
 //!
 //! A formula is plain text in the notation of the stage files, `A*c1 + B*s1 = 0`. [`super::latex`] typesets it.
 
-/// A stage of a derivation: a part of its report with a file of its own.
+/// A stage of a derivation: a part of its report with a separate file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// The equations.
@@ -77,7 +77,7 @@ impl Line {
         Line::default().words(text)
     }
 
-    /// With somebody else's words, taken as they are.
+    /// Appends text from the input, unchanged.
     #[must_use]
     pub fn words(mut self, text: &str) -> Self {
         self.0.push(Span::Words(text.to_owned()));
@@ -140,12 +140,12 @@ impl Document {
     }
 
     /// Adds a heading.
-    pub fn section(&mut self, line: Line) {
+    pub(crate) fn section(&mut self, line: Line) {
         self.parts.push(Part::Section(line));
     }
 
     /// Adds a paragraph of report text, as in [`Line::of`].
-    pub fn say(&mut self, prose: &str) {
+    pub(crate) fn say(&mut self, prose: &str) {
         self.paragraph(Line::of(prose));
     }
 
@@ -155,7 +155,7 @@ impl Document {
     }
 
     /// Adds a formula without a number.
-    pub fn display(&mut self, formula: impl Into<String>) {
+    pub(crate) fn display(&mut self, formula: impl Into<String>) {
         self.equation("", formula);
     }
 

@@ -11,7 +11,7 @@ use groebot_algebra::number::{Ring, Style};
 pub fn equations(form: Form) -> &'static [&'static str] {
     match form {
         Form::Angle => &["A*c + B*s + C = 0"],
-        Form::Turn => &["A*c - B*s = X", "B*c + A*s = Y"],
+        Form::Rotation => &["A*c - B*s = X", "B*c + A*s = Y"],
         Form::Pair => &["A*c + B*s = X", "E*c + F*s = Y"],
         Form::Linear => &["A*d + B = 0"],
         Form::Quartic => &["A*c*s + B*s^2 + C*c + D*s + E = 0"],
@@ -20,11 +20,11 @@ pub fn equations(form: Form) -> &'static [&'static str] {
     }
 }
 
-/// How a form determines its joint, and where its branches come from, in short.
+/// A short text on how a form determines its joint, and on the origin of its branches.
 pub fn why(form: Form) -> &'static str {
     match form {
         Form::Angle => "one linear equation in cosine and sine, a chord of the circle with two ends",
-        Form::Turn => "two equations that turn a known vector to a known place, one angle",
+        Form::Rotation => "two equations that turn a known vector to a known place, one angle",
         Form::Pair => "two independent linear equations in cosine and sine, one angle",
         Form::Quartic => {
             "an equation of degree two in cosine and sine, by the tangent of half the angle up to four angles"
@@ -77,7 +77,7 @@ pub fn roots(form: Form) -> &'static str {
              root is the first branch of this step, the greater one the second. Where $A^2 + B^2 < C^2$ the line misses the \
              circle, and the target is out of reach on this branch."
         }
-        Form::Turn | Form::Pair => {
+        Form::Rotation | Form::Pair => {
             "Both polynomials are linear, so there is one angle, $atan2(s, c)$, and no branch. Whether $c^2 + s^2 = 1$ holds is \
              measured in the end, as all answers are."
         }
@@ -104,7 +104,7 @@ pub fn singular(form: Form) -> &'static str {
             "where $A^2 + B^2 = C^2$ the line touches the circle and the two branches meet. Where $A = B = 0$ the angle has dropped \
              out: with $C = 0$ too it is free, and a self-motion is returned; otherwise there is none."
         }
-        Form::Turn => {
+        Form::Rotation => {
             "where $A = B = 0$ the vector that is turned lies on the axis: with $X = Y = 0$ the angle is free, otherwise nothing \
              solves the equations."
         }

@@ -1,4 +1,4 @@
-//! A [`Document`] as Markdown that is easy to read on a terminal: formulas are plain text. Also as plain text without code spans and escapes.
+//! A [`Document`] as Markdown that is easy to read in a terminal: formulas are plain text. Also as plain text, without code spans and escapes.
 
 use groebot_algebra::escape::{line, markdown};
 
@@ -19,7 +19,7 @@ impl Document {
     }
 }
 
-/// Prints words as they are, or escaped and with code spans.
+/// A printer of text: unchanged, or escaped and with code spans.
 struct Printer {
     is_plain: bool,
 }

@@ -19,6 +19,7 @@ mod system;
 
 pub use document::{Document, Line, Part, Span, Stage};
 pub(super) use page::page;
+pub(in crate::derive) use system::equations_page;
 
 use crate::Result;
 use crate::derive::{AnyView, Derivation};

@@ -1,6 +1,6 @@
-//! The page of a mechanism's folder: what is solved, the steps in short, and how the solver is called.
+//! The README of a mechanism's folder: the problem, a summary of the steps, and the calls of the solver.
 
-use super::chain::STANDING;
+use super::chain::YAW_OPEN;
 use super::document::{Document, Line};
 use super::{forms, strata};
 use crate::Result;
@@ -15,10 +15,10 @@ use crate::solver::Program;
 use groebot_robot::document::word;
 use groebot_robot::kinematics::LengthUnit;
 
-/// The page of a derivation.
+/// The README of a derivation.
 ///
 /// # Errors
-/// When a field cannot be built: never for a derivation that was made by this crate.
+/// If a field cannot be built. This does not occur for a derivation that this crate made.
 pub fn page(derivation: &Derivation) -> Result<Document> {
     let mut page = match derivation.view() {
         AnyView::Equations(view) => equations(view),
@@ -33,7 +33,7 @@ pub fn page(derivation: &Derivation) -> Result<Document> {
     Ok(page)
 }
 
-/// The page of the mechanism `name` with its description and source, the inputs and the joints.
+/// The first part for the mechanism `name`: its description and source, the inputs and the joints.
 fn opened(name: &str, texts: [&str; 2], unit: LengthUnit, program: &Program) -> Document {
     let mut page = Document::new(name);
     texts.into_iter().filter(|text| !text.is_empty()).for_each(|text| page.paragraph(Line::plain(text)));
@@ -55,7 +55,7 @@ fn equations(view: EquationsView<'_>) -> Document {
     page
 }
 
-/// The page of a chain, with its idealisation.
+/// The part on a chain, with its idealisation.
 fn chain(problem: &ChainProblem, program: &Program) -> Document {
     let parts = problem.chain.parts();
     let texts = [&parts.description, &parts.source].map(|text| text.as_deref().unwrap_or_default());
@@ -69,8 +69,8 @@ fn chain(problem: &ChainProblem, program: &Program) -> Document {
 
 fn sequential(view: SequentialView<'_>) -> Result<Document> {
     let mut page = chain(view.problem, view.program);
-    if Mechanism::new(&view.problem.chain)?.standing().is_some() {
-        page.say(STANDING);
+    if Mechanism::new(&view.problem.chain)?.upright_loop().is_some() {
+        page.say(YAW_OPEN);
     }
     steps(&mut page, view)?;
     page.paragraph(
@@ -105,7 +105,7 @@ fn steps(page: &mut Document, view: SequentialView<'_>) -> Result<()> {
     Ok(())
 }
 
-/// `line` with a relation and what it says.
+/// Appends a relation and its geometric statement to `line`.
 fn meaning(line: Line, mechanism: &Mechanism, relation: &Relation) -> Line {
     line.formula(&relation.to_string()).and(&format!(": {}.", relation.meaning(mechanism)))
 }

@@ -7,14 +7,14 @@ use super::document::{Document, Line, Stage};
 use super::{forms, geometry, strata};
 use crate::Result;
 use crate::derive::closure::{Factor, Mechanism, ScrewJoint};
-use crate::derive::planner::Way;
+use crate::derive::planner::StepMethod;
 use crate::derive::sequential::{Elimination, Form, ProvedStep, SequentialView};
 use groebot_algebra::number::{BigRational, Ring, Style};
 
 /// The maximum length of a printed combination, in characters.
 const LONGEST: usize = 1500;
 
-/// Adds the section of step `index`: its relations are of the stage of equations, its formulas of the triangular stage.
+/// Adds the section of step `index`. Its relations belong to the stage of equations, its formulas to the triangular stage.
 pub fn explain(
     page: &mut Document,
     derived: SequentialView<'_>,
@@ -124,7 +124,7 @@ impl Writer<'_> {
         let form = self.step.shape.form;
         self.page.say(match form {
             Form::Angle => "The equation is linear in the cosine and the sine of one angle:",
-            Form::Turn => "The two equations turn a vector that is known before to a place that is known after:",
+            Form::Rotation => "The two equations turn a vector that is known before to a place that is known after:",
             Form::Pair => "The two equations are linear in the cosine and the sine of one angle:",
             Form::Linear => "The equation is linear in the length:",
             Form::Quadratic => "The equation is quadratic in the length:",
@@ -158,7 +158,7 @@ impl Writer<'_> {
             Form::Angle => {
                 vec![take("A", 0, &c, &one, ""), take("B", 0, &s, &one, &over), take("C", 0, &[], &one, "")]
             }
-            Form::Turn => vec![
+            Form::Rotation => vec![
                 take("A", 0, &c, &one, ""),
                 take("B", 0, &s, &-&one, &over),
                 take("X", 0, &[], &-&one, ""),
@@ -200,8 +200,8 @@ impl Writer<'_> {
     /// Adds the elimination of other joints and its result.
     fn elimination(&mut self, elimination: &Elimination) {
         let names = self.elimination_names(elimination);
-        let away = match &self.derived.method.plan.steps[self.index].way {
-            Way::Eliminated { away, .. } => geometry::numbers(away.iter().copied()),
+        let away = match &self.derived.method.plan.steps[self.index].method {
+            StepMethod::Eliminated { away, .. } => geometry::numbers(away.iter().copied()),
             _ => String::new(),
         };
         self.page.say(&format!(
@@ -233,8 +233,8 @@ impl Writer<'_> {
     }
 
     fn elimination_names(&self, elimination: &Elimination) -> Vec<(String, String)> {
-        let away: &[usize] = match &self.derived.method.plan.steps[self.index].way {
-            Way::Eliminated { away, .. } => away,
+        let away: &[usize] = match &self.derived.method.plan.steps[self.index].method {
+            StepMethod::Eliminated { away, .. } => away,
             _ => &[],
         };
         let factors = away.iter().chain([&self.step.joint]).flat_map(|&joint| unknowns(self.mechanism, joint));
@@ -254,7 +254,7 @@ impl Writer<'_> {
         for stair in stairs {
             self.equation(renamed(&stair, &own));
         }
-        match self.told() {
+        match self.first_use() {
             Some(before) => self.page.say(&format!(
                 "Its roots, and what happens where two of them meet or symbols vanish, are those given in step {}.",
                 before + 1
@@ -268,14 +268,14 @@ impl Writer<'_> {
     }
 
     /// The earlier step whose section describes this form.
-    fn told(&self) -> Option<usize> {
+    fn first_use(&self) -> Option<usize> {
         self.derived.method.steps[..self.index].iter().position(|step| step.shape.form == self.step.shape.form)
     }
 
     /// Adds the geometric meaning of vanishing symbols.
     fn singular(&mut self) {
         let form = self.step.shape.form;
-        if self.step.elimination.is_some() || !matches!(form, Form::Angle | Form::Turn) {
+        if self.step.elimination.is_some() || !matches!(form, Form::Angle | Form::Rotation) {
             return;
         }
         let is_number = |value: &String| value[4..].parse().is_ok_and(|number: f64| number != 0.0);
@@ -294,7 +294,7 @@ impl Writer<'_> {
     }
 }
 
-/// What the symbols of an elimination stand for; its first relation has the number `(step.first)`.
+/// The definitions of the symbols of an elimination, as text. Its first relation has the number `(step.first)`.
 pub fn symbol_lines(mechanism: &Mechanism, elimination: &Elimination, (step, first): (usize, usize)) -> Vec<Line> {
     let lines = elimination.symbols.iter().enumerate().map(|(number, place)| {
         let (what, relation) = (product(mechanism, &place.factors), place.relation + first);

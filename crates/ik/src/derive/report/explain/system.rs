@@ -5,8 +5,9 @@ use super::strata;
 use crate::Result;
 use crate::derive::equations::EquationsView;
 use crate::derive::equations::plan::score;
+use crate::derive::equations::setting::Setting;
 use crate::derive::equations::tree::{Node, Outcome, Solved};
-use crate::derive::{JointKindUnknown, ParameterSource, Root, System};
+use crate::derive::{JointKindUnknown, ParameterSource, Quantity, Root, System};
 use crate::solver::Program;
 use groebot_algebra::groebner::Basis;
 use groebot_algebra::number::{Ring, Style};
@@ -20,7 +21,7 @@ pub fn document(derivation: EquationsView<'_>, stage: Option<Stage>) -> Result<D
     let mut page = Document::of(&derivation.problem.name, stage);
     if Stage::Equations.is_in(stage) {
         introduce(&mut page, derivation.problem);
-        equations(&mut page, derivation)?;
+        equations(&mut page, derivation.problem);
     }
     if Stage::Plan.is_in(stage) {
         plan(&mut page, derivation)?;
@@ -36,6 +37,14 @@ pub fn document(derivation: EquationsView<'_>, stage: Option<Stage>) -> Result<D
     Ok(page)
 }
 
+/// The report of the equations alone.
+pub fn equations_page(system: &System) -> Document {
+    let mut page = Document::of(&system.name, Some(Stage::Equations));
+    introduce(&mut page, system);
+    equations(&mut page, system);
+    page
+}
+
 fn introduce(page: &mut Document, system: &System) {
     for text in [&system.description, &system.source].into_iter().filter(|text| !text.is_empty()) {
         page.paragraph(Line::plain(text));
@@ -48,12 +57,17 @@ fn introduce(page: &mut Document, system: &System) {
     )));
 }
 
-fn equations(page: &mut Document, derivation: EquationsView<'_>) -> Result<()> {
-    let system = derivation.problem;
+fn equations(page: &mut Document, system: &System) {
     page.section(Line::of("The equations"));
     let mut items = Vec::new();
-    for input in system.inputs.iter().filter(|input| input.positive) {
-        items.push(Line::of("Assumed: ").formula(&format!("{} > 0", input.name)).and("."));
+    for input in &system.inputs {
+        let quantity = match input.quantity {
+            Quantity::Length => "a length",
+            Quantity::Angle => "an angle",
+            Quantity::Number => "a number",
+        };
+        let assumed = if input.positive { ", assumed greater than zero." } else { "." };
+        items.push(Line::of("Input ").formula(&input.name).and(": ").and(quantity).and(assumed));
     }
     for parameter in &system.parameters {
         let input = |index: usize| system.inputs[index].name.as_str();
@@ -79,19 +93,29 @@ fn equations(page: &mut Document, derivation: EquationsView<'_>) -> Result<()> {
         items.push(line);
     }
     page.items(items);
-    let setting = &derivation.method.requested.setting;
-    let ring = setting.ring(&system.order, Order::Lex)?;
-    for (index, (equation, f)) in system.equations.iter().zip(setting.generators(&ring)?).enumerate() {
+    page.paragraph(Line::of("The unknowns, greatest first: ").formula(&system.order.join(" > ")).and("."));
+    let as_written = || system.equations.iter().map(|equation| equation.expression.to_string()).collect();
+    let formulas: Vec<String> = multiplied_out(system).unwrap_or_else(|_| as_written());
+    for (index, (equation, formula)) in system.equations.iter().zip(formulas).enumerate() {
         let label = equation.label.trim_matches(['(', ')']);
         let is_number = !label.is_empty() && label.chars().all(|c| c.is_ascii_digit() || c == '.');
         let number = if is_number { label.to_owned() } else { format!("0.{}", index + 1) };
-        page.equation(&number, format!("f{} = {} = 0", index + 1, ring.format(&f, Style::Decimal)));
+        page.equation(&number, format!("f{} = {formula} = 0", index + 1));
     }
     if let Some(choice) = &system.choice {
         let root = if choice.root == Root::Minus { "minus" } else { "plus" };
         page.say(&format!("The published solution has the {root} root of ${}$.", choice.unknown));
     }
-    Ok(())
+}
+
+/// The equations as polynomials of the unknowns.
+///
+/// # Errors
+/// As [`Setting::generators`].
+fn multiplied_out(system: &System) -> Result<Vec<String>> {
+    let setting = Setting::new(system);
+    let ring = setting.ring(&system.order, Order::Lex)?;
+    Ok(setting.generators(&ring)?.iter().map(|f| ring.format(f, Style::Decimal)).collect())
 }
 
 /// The orders of the unknowns, by the denominators of their formulas that may vanish.
@@ -128,7 +152,7 @@ fn plan(page: &mut Document, derivation: EquationsView<'_>) -> Result<()> {
     Ok(())
 }
 
-/// A tree of strata: its bases with their proofs, or the formulas of one unknown after the other.
+/// Adds a tree of strata: its bases with their proofs, or the formulas of one unknown after the other.
 fn tree(
     page: &mut Document,
     derivation: EquationsView<'_>,
@@ -176,10 +200,10 @@ fn basis(page: &mut Document, (index, title): (usize, &str), solved: &Solved) {
     }
 }
 
-/// How many values each unknown of a triangular form takes.
+/// The number of values of each unknown of a triangular form, as text.
 fn values(solved: &Solved) -> Vec<Line> {
     let degrees = solved.triangular.stairs.iter().zip(solved.triangular.degrees());
-    let ways = degrees.map(|(stair, degree)| {
+    let degrees = degrees.map(|(stair, degree)| {
         let unknown = &solved.triangular.ring.variables()[stair.unknown];
         let count = if degree == 1 {
             "one value, for its polynomial is linear".to_owned()
@@ -188,7 +212,7 @@ fn values(solved: &Solved) -> Vec<Line> {
         };
         Line::default().formula(unknown).and(": ").and(&count).and(".")
     });
-    ways.collect()
+    degrees.collect()
 }
 
 fn branches(page: &mut Document, derivation: EquationsView<'_>) {

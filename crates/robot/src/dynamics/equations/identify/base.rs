@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::super::{Equations, State};
 use crate::{Error, ErrorKind, Result};
+use groebot_algebra::random::SplitMix64;
 
 /// Threshold for dependent columns: the part orthogonal to the other columns, relative to the column's length.
 const DEPENDENT: f64 = 1e-8;
@@ -23,13 +24,9 @@ impl Equations {
         let states = (3 * columns).div_ceil(count);
         let mut all = DMatrix::zeros(states * count, columns);
         let mut workspace = self.workspace();
-        let mut random = 1_u64;
-        let mut number = || {
-            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            (random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-        };
+        let mut random = SplitMix64::new(1);
         for state in 0..states {
-            let mut list = |most: f64| (0..count).map(|_| most * number()).collect::<Vec<f64>>();
+            let mut list = |most: f64| (0..count).map(|_| random.between(-most, most)).collect::<Vec<f64>>();
             let [q, velocity, acceleration] = [3.0, 2.0, 5.0].map(&mut list);
             let regressor = self.regressor(&mut workspace, State::new(&q, &velocity), &acceleration)?;
             all.rows_mut(state * count, count).copy_from(regressor);

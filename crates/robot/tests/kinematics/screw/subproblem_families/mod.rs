@@ -77,7 +77,7 @@ pub fn sp6_by(h: [Vector3<f64>; 4], k: [Unit<Vector3<f64>>; 4], p: [Vector3<f64>
     let term = |i: usize, q: f64| h[i].dot(&turned(&Axis::central(k[i]), q, &Point3::from(p[i])).coords);
     let sums = |q: &[f64]| [term(0, q[0]) + term(1, q[1]), term(2, q[0]) + term(3, q[1])];
     let [d1, d2] = sums(&q);
-    let found = circles::four_circles(h, k, p, d1, d2, EXACT);
+    let found = circles::four_circles(h, k, p, [d1, d2], EXACT);
     let answers: Vec<_> = found.iter().map(|answer| answer.to_vec()).collect();
     let size = (0..4).map(|i| h[i].norm() * p[i].norm()).sum::<f64>();
     let misses = |q: &[f64]| {

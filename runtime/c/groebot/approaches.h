@@ -9,7 +9,7 @@ typedef struct {
     gb_real missed[GB_CANDIDATES];
     gb_real pivot[GB_CANDIDATES];
     gb_real sound[GB_CANDIDATES];
-} gb_ways;
+} gb_approaches;
 
 /* The state of candidates side by side, and whether each is finished: it has converged or has failed. */
 typedef struct {
@@ -18,30 +18,30 @@ typedef struct {
 } gb_walker;
 
 /* Writes the result of one of several candidates. */
-GB_INLINE void gb_write_one(gb_ways *ways, const gb_walker *walker, size_t first, size_t lane)
+GB_INLINE void gb_write_one(gb_approaches *approaches, const gb_walker *walker, size_t first, size_t lane)
 {
     gb_real numbers[GB_STEP];
     for (int i = 0; i < GB_JOINTS; i++) {
         GB_PAIR(store)(numbers, walker->steps[i]);
-        ways->steps[i][first + lane] = numbers[lane];
+        approaches->steps[i][first + lane] = numbers[lane];
     }
     GB_PAIR(store)(numbers, walker->residual);
-    ways->residual[first + lane] = numbers[lane];
+    approaches->residual[first + lane] = numbers[lane];
     GB_PAIR(store)(numbers, walker->relative);
-    ways->relative[first + lane] = numbers[lane];
+    approaches->relative[first + lane] = numbers[lane];
     GB_PAIR(store)(numbers, walker->sound);
-    ways->sound[first + lane] = numbers[lane];
+    approaches->sound[first + lane] = numbers[lane];
 }
 
 /* Writes the results of the candidates that were not finished before, and returns whether all are finished. */
-GB_INLINE bool gb_write_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker *walker, size_t first)
+GB_INLINE bool gb_write_approaches(gb_approaches *approaches, const GB_PAIR(number) *p, gb_walker *walker, size_t first)
 {
     bool are_done = true;
     GB_PAIR(fit)(p, walker->at, &walker->residual, &walker->relative);
     for (size_t lane = 0; lane < GB_STEP; lane++) {
         if (!walker->are_done[lane]) {
-            gb_write_one(ways, walker, first, lane);
-            walker->are_done[lane] = !(ways->sound[first + lane] > R(0.0)) || ways->relative[first + lane] < GB_ROUNDING;
+            gb_write_one(approaches, walker, first, lane);
+            walker->are_done[lane] = !(approaches->sound[first + lane] > R(0.0)) || approaches->relative[first + lane] < GB_ACCEPTANCE_ROUNDING;
         }
         are_done &= walker->are_done[lane];
     }
@@ -58,29 +58,29 @@ GB_INLINE void gb_step_walker(gb_walker *walker, const GB_PAIR(number) *step)
 
 /* Takes a step of candidates side by side. If that is not enough and the first of all candidates has a small residual, takes a second one with equal
  * derivatives. Returns whether all are finished. */
-GB_INLINE bool gb_step_ways(gb_ways *ways, const GB_PAIR(number) *p, gb_walker *walker, size_t first, bool is_first)
+GB_INLINE bool gb_step_approaches(gb_approaches *approaches, const GB_PAIR(number) *p, gb_walker *walker, size_t first, bool is_first)
 {
     GB_PAIR(number) step[GB_JOINTS], missed;
     GB_PAIR(normal) normal;
     GB_PAIR(first_step)(p, walker->at, step, &normal, &missed, &walker->sound);
     if (is_first) {
-        GB_PAIR(store)(&ways->missed[first], missed);
-        GB_PAIR(store)(&ways->pivot[first], normal.pivot);
+        GB_PAIR(store)(&approaches->missed[first], missed);
+        GB_PAIR(store)(&approaches->pivot[first], normal.pivot);
     }
     gb_step_walker(walker, step);
-    if (gb_write_ways(ways, p, walker, first)) {
+    if (gb_write_approaches(approaches, p, walker, first)) {
         return true;
     }
-    if (ways->missed[0] > GB_CHORD) {
+    if (approaches->missed[0] > GB_POLISHING_CHORD) {
         return false;
     }
     GB_PAIR(second_step)(p, walker->at, step, &normal);
     gb_step_walker(walker, step);
-    return gb_write_ways(ways, p, walker, first);
+    return gb_write_approaches(approaches, p, walker, first);
 }
 
 /* Initialises candidates side by side. */
-GB_INLINE void gb_start_ways(const gb_sink_1 *c, gb_walker *walker, size_t first)
+GB_INLINE void gb_start_approaches(const gb_sink_1 *c, gb_walker *walker, size_t first)
 {
     for (int i = 0; i < GB_PLACES; i++) {
         walker->at[i] = GB_PAIR(load)(&c->at[i][first]);
@@ -96,15 +96,15 @@ GB_INLINE void gb_start_ways(const gb_sink_1 *c, gb_walker *walker, size_t first
 }
 
 /* Takes the Newton steps of the waiting candidates. The result of one does not depend on the others. */
-static GB_APART void gb_find_ways(const gb_sink_1 *c, gb_ways *ways)
+static GB_APART void gb_find_approaches(const gb_sink_1 *c, gb_approaches *approaches)
 {
     GB_PAIR(number) p[GB_PARAMETERS];
     gb_everywhere(c->all.problem.p, p);
     for (size_t first = 0; first < c->waiting; first += GB_STEP) {
         gb_walker walker;
-        gb_start_ways(c, &walker, first);
+        gb_start_approaches(c, &walker, first);
         for (int round = 0; round < GB_APPROACHES; round++) {
-            if (gb_step_ways(ways, p, &walker, first, round == 0)) {
+            if (gb_step_approaches(approaches, p, &walker, first, round == 0)) {
                 break;
             }
         }
@@ -112,27 +112,27 @@ static GB_APART void gb_find_ways(const gb_sink_1 *c, gb_ways *ways)
 }
 
 /* The end of the Newton steps of a candidate that begins at q. */
-static void gb_follow(const gb_ways *ways, size_t k, const gb_real *q, gb_approach *approach)
+static void gb_follow(const gb_approaches *approaches, size_t k, const gb_real *q, gb_approach *approach)
 {
     for (int i = 0; i < GB_JOINTS; i++) {
-        const gb_real value = q[i] - ways->steps[i][k];
+        const gb_real value = q[i] - approaches->steps[i][k];
         approach->end[i] = !gb_joints[i].is_angle || gb_magnitude(value) < GB_PI ? value : gb_wrap(value);
     }
-    approach->fit.residual = ways->residual[k];
-    approach->fit.relative = ways->relative[k];
+    approach->fit.residual = approaches->residual[k];
+    approach->fit.relative = approaches->relative[k];
     approach->fit.accepted = true;
-    approach->missed = ways->missed[k];
-    approach->pivot = ways->pivot[k];
+    approach->missed = approaches->missed[k];
+    approach->pivot = approaches->pivot[k];
 }
 
 /* Moves a candidate by its Newton steps; false where it must be refined. */
-static bool gb_lead(gb_sink_1 *c, const gb_ways *ways, size_t k, const gb_real *q, gb_approach *approach)
+static bool gb_lead(gb_sink_1 *c, const gb_approaches *approaches, size_t k, const gb_real *q, gb_approach *approach)
 {
     if (c->found[k].free != 0) {
         return false;
     }
-    if (ways->sound[k] > R(0.0) && ways->relative[k] < GB_ROUNDING) {
-        gb_follow(ways, k, q, approach);
+    if (approaches->sound[k] > R(0.0) && approaches->relative[k] < GB_ACCEPTANCE_ROUNDING) {
+        gb_follow(approaches, k, q, approach);
         return true;
     }
     gb_real at[GB_PLACES];
