@@ -17,6 +17,8 @@ pub(super) struct Descent<'a> {
     pub measure: &'a Measure<'a>,
     /// By unknown joint, its bounds.
     bounds: Option<Vec<[f64; 2]>>,
+    /// The search with a smaller weight of rotation, whose end is the start of this one.
+    easier: Option<Box<Descent<'a>>>,
 }
 
 /// The end of a search.
@@ -45,10 +47,11 @@ impl Point {
 }
 
 impl<'a> Descent<'a> {
-    /// The search within the limits of all joints.
-    pub fn new(measure: &'a Measure<'a>, limits: Option<&[[f64; 2]]>) -> Self {
+    /// The search with these weights of rotation one after the other, within the limits of all joints; `None` without a weight.
+    pub fn new(measures: &'a [Measure<'a>], limits: Option<&[[f64; 2]]>) -> Option<Self> {
+        let (measure, easier) = measures.split_last()?;
         let bounds = limits.map(|limits| measure.unknown.iter().map(|&joint| limits[joint]).collect());
-        Descent { measure, bounds }
+        Some(Descent { measure, bounds, easier: Descent::new(easier, limits).map(Box::new) })
     }
 
     /// The range of starting values of an unknown joint: its bounds if they are finite, a turn of an angle, the limits of a displacement or the reach.
@@ -68,7 +71,12 @@ impl<'a> Descent<'a> {
 
     /// Minimises the error from these values of the unknown joints.
     pub fn run(&self, start: &[f64]) -> Option<End> {
-        let mut point = self.point(self.clamped(DVector::from_row_slice(start)))?;
+        let mut values = DVector::from_row_slice(start);
+        if let Some(easier) = &self.easier {
+            let end = easier.run(start)?;
+            values.iter_mut().zip(&self.measure.unknown).for_each(|(value, &joint)| *value = end.q[joint]);
+        }
+        let mut point = self.point(self.clamped(values))?;
         let mut damping = 1e-3;
         for _ in 0..STEPS {
             let hessian = self.hessian(&point)?;

@@ -8,13 +8,18 @@ use crate::solver::Solver;
 use crate::solver::prepared::{Outline, Sights};
 use crate::{Error, ErrorKind, Result};
 
+/// The ratio of consecutive weights.
+const WEIGHTS: f64 = 10.0;
+
 /// The error of joint values: the squared norm of residuals, lengths and weighted chords of angles, as fractions of the scale.
+#[derive(Clone)]
 pub(super) struct Measure<'a> {
     solver: &'a Solver,
     task: Task,
     /// The number of residuals that are lengths.
     lengths: usize,
-    /// The features of the target.
+    /// The numbers of the target, and their features.
+    target: Vec<f64>,
     goal: Vec<f64>,
     /// The translation of the tool in the tip frame.
     lever: [f64; 3],
@@ -42,15 +47,31 @@ impl<'a> Measure<'a> {
             solver,
             task,
             lengths: task.layout().lengths(),
+            target: sights_of(task, &target[..outline.own]),
             goal: Vec::new(),
             lever,
             weight: length.unwrap_or(outline.scale) / outline.scale,
             given: joints.iter().map(value).collect(),
             unknown: outline.independent(),
         };
-        measure.goal = measure.features(&sights_of(task, &target[..outline.own]).values);
+        measure.goal = measure.features(&measure.target);
         measure.sights(&measure.given, false).ok_or_else(unsupported)?;
         Ok(measure)
+    }
+
+    /// The same error with smaller weights of rotation, ascending, then this one. A large weight makes a narrow curved valley, along which Newton's method is
+    /// slow; the minimum moves little from one weight to the next.
+    pub fn by_weight(self) -> Vec<Self> {
+        let mut measures = Vec::new();
+        let mut weight = 1.0;
+        while self.lengths > 0 && weight < self.weight {
+            let mut easier = Measure { weight, ..self.clone() };
+            easier.goal = easier.features(&easier.target);
+            measures.push(easier);
+            weight *= WEIGHTS;
+        }
+        measures.push(self);
+        measures
     }
 
     pub fn outline(&self) -> &Outline {
@@ -121,7 +142,8 @@ impl<'a> Measure<'a> {
         let (lengths, chords) = features.split_at(self.lengths);
         let (at, along) = self.goal.split_at(self.lengths);
         let half = norm(chords, along) / self.weight / 2.0;
-        Some([norm(lengths, at) * self.outline().scale, 2.0 * half.min(1.0).asin()])
+        // The sum of no numbers is a negative zero.
+        Some([norm(lengths, at) * self.outline().scale + 0.0, 2.0 * half.min(1.0).asin() + 0.0])
     }
 
     /// The target that `q` reaches, base_from_tip.
@@ -131,13 +153,12 @@ impl<'a> Measure<'a> {
 }
 
 /// The sights of a target: an angle has two numbers.
-fn sights_of(task: Task, target: &[f64]) -> Sights {
-    let values = match task {
+fn sights_of(task: Task, target: &[f64]) -> Vec<f64> {
+    match task {
         Task::PlanarPose { .. } | Task::PositionYaw { .. } => {
             let (lengths, angles) = target.split_at(task.layout().lengths());
             lengths.iter().copied().chain(angles.iter().flat_map(|angle| [angle.cos(), angle.sin()])).collect()
         }
         _ => target.to_vec(),
-    };
-    Sights { values, by_joint: Vec::new() }
+    }
 }

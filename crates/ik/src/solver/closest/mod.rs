@@ -130,14 +130,15 @@ impl Solver {
         if let Some((_, q)) = errors.min_by(|(a, _), (b, _)| a.total_cmp(b)) {
             return closest(&measure, q.clone(), true);
         }
-        let descent = Descent::new(&measure, options.limits.as_deref());
+        let measures = measure.by_weight();
+        let descent = Descent::new(&measures, options.limits.as_deref()).ok_or_else(measure::unsupported)?;
         let ends: Vec<End> = starts::search(self, target, &descent)?;
         let Some(best) = ends.iter().min_by(|a, b| a.error.total_cmp(&b.error)) else {
             return Err(Error::new(ErrorKind::BadValue, "no starting point has a finite error; give a smaller target"));
         };
         let is_same = |end: &&End| end.error - best.error <= CLOSEST.same * best.error;
         let q = if options.limits.is_none() { self.wrapped(&best.q) } else { best.q.clone() };
-        let found = closest(&measure, q, false)?;
+        let found = closest(descent.measure, q, false)?;
         Ok(Closest {
             is_minimum: best.is_minimum,
             starts: ends.len(),
