@@ -101,7 +101,7 @@ fn mistakes_name_the_file_and_write_nothing() {
     let robot = folder.path().join("bad.urdf");
     fs::write(&robot, "<robot name='r'>\n<link name='a'/>\n<link name='a'/></robot>").unwrap();
     let before = content(folder.path());
-    has(&refused(&["info", text(&robot)]), &["bad.urdf: line 3: link `a`: its name is taken"]);
+    has(&refused(&["info", text(&robot)]), &["bad.urdf: line 3: link `a`: another link has this name"]);
     has(&refused(&["derive", text(&robot)]), &["bad.urdf: line 3"]);
     assert_eq!(content(folder.path()), before);
     has(&refused(&["info", &file("ur5_axes.toml"), "--tip", "x"]), &["only a URDF has links"]);

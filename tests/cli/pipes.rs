@@ -154,7 +154,7 @@ fn standard_input_is_read_once() {
     assert!(refused_on(&["derive", "-"], &chain).contains("give one by --out"));
     assert!(refused_on(&["info", "-"], "").contains("<stdin>: standard input is empty"));
     let reported = refused_on(&["info", "-"], "<robot name='r'>\n<link name='a'/>\n<link name='a'/></robot>");
-    assert!(reported.contains("<stdin>: line 3: link `a`: its name is taken"), "{reported}");
+    assert!(reported.contains("<stdin>: line 3: link `a`: another link has this name"), "{reported}");
 }
 
 /// The default tip is reported in text and in JSON, and stored if the robot has other leaf links.

@@ -107,7 +107,7 @@ fn forge_basis<F: Field>(honest: &Owned<F>) {
         let wide = claim.ring.with_width(Width::Bits32);
         claim.basis[1] = claim.ring.transfer(&claim.basis[1], &wide).unwrap();
     });
-    wide.refused("basis: element 2 is no polynomial of this ring");
+    wide.refused("basis: element 2 is not a polynomial of this ring");
 }
 
 fn forge_generators<F: Field>(honest: &Owned<F>) {

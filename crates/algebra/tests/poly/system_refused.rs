@@ -68,7 +68,7 @@ fn singular() {
             ("", Syntax, 1, 1, "no ring"),
             ("// only a comment", Syntax, 1, 18, "no ring"),
             ("ring r=0,(x,y),dp;", Syntax, 1, 19, "no polynomial"),
-            ("ideal i = x;", Syntax, 1, 1, "a ring stands above"),
+            ("ideal i = x;", Syntax, 1, 1, "a ring is required"),
             ("ring r = 0,(x,y),ds; ideal i = x;", Unsupported, 1, 18, "`ds`"),
             ("ring r = 0,(x,y),(dp(1),wp(2)); ideal i = x;", Unsupported, 1, 25, "`wp`"),
             ("ring r = 0,(x,y),(dp(1)); ideal i = x;", BadValue, 1, 18, "cover the 2 variables"),
@@ -129,7 +129,7 @@ fn msolve() {
 #[test]
 fn deep_and_long_texts() {
     let deep = format!("x\n{}y{}\n", "(".repeat(201), ")".repeat(201));
-    refuse(Format::Plain, &[(&deep, Syntax, 2, 200, "nested more than 200 deep")]);
+    refuse(Format::Plain, &[(&deep, Syntax, 2, 200, "nested deeper than 200")]);
     let signs = format!("x, y\n0\n{}", "-".repeat(100_000));
     refuse(Format::Msolve, &[(&signs, Syntax, 3, 202, "nested")]);
     let many = format!("x\n{}", "x+".repeat(600_000));

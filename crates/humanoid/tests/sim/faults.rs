@@ -126,7 +126,7 @@ fn of_two_inertials_the_first_is_taken() {
     assert!(mass(&once).is_some() && mass(&twice) == mass(&once) && twice.check().is_ok());
     let doubts = twice.doubts();
     assert!(
-        doubts.iter().any(|doubt| doubt.contains("`cam`") && doubt.contains("the first one is taken")),
+        doubts.iter().any(|doubt| doubt.contains("`cam`") && doubt.contains("the first one is used")),
         "{doubts:?}"
     );
 }
@@ -175,11 +175,11 @@ fn what_the_tree_rests_on_is_refused_everywhere() {
     for (from, to, words) in [
         ("<parent link=\"base\"/>", "", "joint `pan`: <joint> has no <parent"),
         ("<parent link=\"base\"/>", "<parnt link=\"base\"/>", "did you mean `parent`?"),
-        ("<parent link=\"base\"/>", "<parent link=\"bse\"/>", "joint `pan`: its parent `bse` is no link"),
+        ("<parent link=\"base\"/>", "<parent link=\"bse\"/>", "joint `pan`: its parent `bse` is not a link"),
         ("<child link=\"cam\"/>", "<child link=\"tip\"/>", "is already the child of joint `j2`"),
         ("<parent link=\"base\"/>", "<parent link=\"cam\"/>", "loop"),
         ("name=\"pan\"", "", "<joint> has no `name`"),
-        ("name=\"pan\"", "name=\"j1\"", "joint `j1`: its name is taken"),
+        ("name=\"pan\"", "name=\"j1\"", "joint `j1`: another joint has this name"),
         ("</joint>", "", "not XML"),
     ] {
         assert!(PAN.contains(from), "{from}");
@@ -200,7 +200,7 @@ fn xacro_that_nothing_uses_is_a_note() {
     let left = "<xacro:property name=\"width\" value=\".2\"/><xacro:arg name=\"prefix\" default=\"${width}\"/>";
     let read = Robot::from_urdf(&robot(&format!("{PAN}\n{left}"), CAM)).unwrap();
     assert_eq!(read.chain(None, Some("tip")), Robot::from_urdf(&robot(PAN, CAM)).unwrap().chain(None, Some("tip")));
-    let note = "line 9: definitions of xacro that nothing uses are ignored: `width`, `prefix`";
+    let note = "line 9: unused definitions of xacro are ignored: `width`, `prefix`";
     assert_eq!(read.notes(&read.path(None, Some("tip")).unwrap()), [note]);
     assert!(read.check().is_ok(), "the whole robot is sound");
 }

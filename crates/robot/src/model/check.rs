@@ -178,7 +178,7 @@ fn check_mimic(joint: &Joint, joints: &[Joint], index: &HashMap<&str, usize>) ->
         (follower, steps) = (&joints[*leader], steps + 1);
         if steps > MAX_FOLLOWERS || follower.name == joint.name {
             let message = format!(
-                "the chain of joints that it mimics is a cycle, or longer than {MAX_FOLLOWERS}; remove the mimic law of one"
+                "the chain of joints that it mimics is a cycle, or has more than {MAX_FOLLOWERS} joints; remove the mimic law of one"
             );
             return Err(joint.error(ErrorKind::BadValue, &message));
         }

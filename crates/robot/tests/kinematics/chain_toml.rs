@@ -71,7 +71,7 @@ fn tasks_directions_and_given_joints() {
     line(arm("kind = 'ray', plane = 'xy'", ""), ErrorKind::BadValue, 3, "no plane");
     line(arm("kind = 'ray'", "given = ['c']"), ErrorKind::UnknownName, 2, "`a`, `b`");
     line(arm("kind = 'ray'", "given = ['a', 'a']"), ErrorKind::DuplicateName, 2, "twice");
-    line(arm("kind = 'ray'", "given = ['a', 'b']"), ErrorKind::BadValue, 2, "leave one");
+    line(arm("kind = 'ray'", "given = ['a', 'b']"), ErrorKind::BadValue, 2, "leave at least one");
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn every_mistake_of_a_file_has_its_kind_and_line() {
         ("[task]", "[tasks]", UnknownKey, 8, "did you mean `task`?"),
         ("[[joint]]\nname = 'turn'", "[joint]\nname = 'turn'", Syntax, 17, "not TOML"),
         ("name = 'turn'", "", MissingKey, 11, "joint 1: `joint` has no `name`"),
-        ("name = 'turn'", "name = 'slide'", DuplicateName, 18, "taken by an earlier joint"),
+        ("name = 'turn'", "name = 'slide'", DuplicateName, 18, "an earlier joint has this name"),
         ("type = 'revolute'", "type = 'fixed'", BadValue, 13, "`revolute`, `prismatic`"),
         ("type = 'revolute'", "", MissingKey, 11, "joint `turn`: `joint` has no `type`"),
         ("axis = [0, 0, 1]", "axis = [0, 0, 0]", BadValue, 14, "no direction"),
@@ -172,7 +172,7 @@ fn every_mistake_of_a_file_has_its_kind_and_line() {
         ("limits = [-90, 90]", "limits = [90]", BadValue, 16, "an array of 2 numbers"),
         ("axis = [1, 0, 0]", "axis = [1, 0, 1]", BadValue, 21, "must have z = 0"),
         (second, "name = 'slide'\norigin = {}", BadValue, 17, "`point` and `origin` are given"),
-        ("symbol = '2'", "symbol = '1'", DuplicateName, 19, "taken by joint `turn`"),
+        ("symbol = '2'", "symbol = '1'", DuplicateName, 19, "joint `turn` has the symbol"),
         ("symbol = '2'", "symbol = 'ä'", BadValue, 19, "ASCII letters and digits"),
         ("[tip]\npoint = [1, 0, 0]\nrpy_deg = [0, 0, 90]", "", MissingKey, 1, "`tip`"),
         ("point = [1, 0, 0]", "", MissingKey, 23, "`point`"),

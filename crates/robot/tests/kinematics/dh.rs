@@ -83,8 +83,13 @@ fn mistakes_have_a_line_and_a_name() {
     let cases = [
         ("convention = \"standard\"", "convention = \"craig\"", ErrorKind::BadValue, "allowed: `standard`, `modified`"),
         ("convention = \"standard\"", "", ErrorKind::MissingKey, "convention"),
-        ("d = 211.5", "theta = 3", ErrorKind::BadValue, "joint `shoulder`: `theta`: a revolute joint moves it"),
-        ("offset = 30", "d = 3", ErrorKind::BadValue, "joint `quill`: `d`: a prismatic joint moves it"),
+        (
+            "d = 211.5",
+            "theta = 3",
+            ErrorKind::BadValue,
+            "joint `shoulder`: `theta`: it is the value of a revolute joint",
+        ),
+        ("offset = 30", "d = 3", ErrorKind::BadValue, "joint `quill`: `d`: it is the value of a prismatic joint"),
         ("offset = 30", "ofset = 3", ErrorKind::UnknownKey, "did you mean `offset`?"),
         ("d = 211.5", "d = nan", ErrorKind::BadValue, "not a finite number"),
         ("alpha = 180", "alpha = 1e200", ErrorKind::BadValue, "angle is too large"),

@@ -136,12 +136,15 @@ fn damage_is_named_with_its_place() {
         fault(bytes).unwrap()
     };
     let short = changed(&|bytes| bytes.truncate(84 + 2 * 50 + 7));
-    assert!(short.message().contains("counts 4 triangles") && short.message().contains("in triangle 3"), "{short}");
+    assert!(
+        short.message().contains("the number 4 of triangles") && short.message().contains("in triangle 3"),
+        "{short}"
+    );
     let long = changed(&|bytes| bytes.extend([0; 50]));
     assert!(long.message().contains("after the last triangle"), "{long}");
     let infinite = changed(&|bytes| bytes[84 + 50 + 12..][..4].copy_from_slice(&f32::INFINITY.to_le_bytes()));
     assert!(infinite.message().contains("triangle 2 is not finite"), "{infinite}");
-    assert!(fault("").unwrap().message().contains("this has 0"));
+    assert!(fault("").unwrap().message().contains("this file has 0"));
     assert!(fault("solid\nendsolid\n").unwrap().message().contains("no triangle"));
     // Every truncation is detected.
     assert!((0..binary().len()).all(|length| fault(&binary()[..length]).is_some()));

@@ -123,7 +123,7 @@ fn what_is_no_tree_is_refused() {
     refused(&[], vec![], MissingKey, "no <link>");
     refused(&["a", "a"], vec![], DuplicateName, "link `a`");
     refused(&["a", "b", "c"], vec![joint("j", "a", "b"), joint("j", "b", "c")], DuplicateName, "joint `j`");
-    refused(&["a", "b"], vec![joint("j", "a", "x")], UnknownName, "joint `j`: its child `x` is no link");
+    refused(&["a", "b"], vec![joint("j", "a", "x")], UnknownName, "joint `j`: its child `x` is not a link");
     refused(&["a", "base"], vec![joint("j", "bass", "a")], UnknownName, "did you mean `base`?");
     refused(&["a", "b", "c"], vec![joint("j", "a", "b")], BadValue, "2 links have no parent joint: `a`, `c`");
     refused(&["a", "b"], vec![joint("j", "a", "b"), joint("k", "b", "a")], BadValue, "loop");
@@ -161,8 +161,8 @@ fn what_is_no_joint_is_refused() {
     refused(links, with(&|joint| joint.kind = JointType::Prismatic), BadValue, "needs limits");
     refused(links, with(&|joint| joint.limits = Some((2.0, 1.0))), BadValue, "inverted");
     refused(links, with(&|joint| joint.limits = Some((f64::NEG_INFINITY, 1.0))), BadValue, "not finite");
-    refused(links, with(&|joint| joint.mimic = follows("k")), UnknownName, "mimics `k`, which is no joint");
-    refused(links, with(&|joint| joint.mimic = follows("j")), BadValue, "mimic one another");
+    refused(links, with(&|joint| joint.mimic = follows("k")), UnknownName, "mimics `k`, which is not a joint");
+    refused(links, with(&|joint| joint.mimic = follows("j")), BadValue, "is a cycle");
 }
 
 /// Joints j0 to j(n-1) from the link l0; each follows the previous one.
@@ -201,10 +201,10 @@ fn what_is_no_chain_is_refused() {
     };
     refused(None, Some("c"), ErrorKind::Unsupported, "joint `bc`: the type `planar` is not supported");
     refused(None, None, ErrorKind::MissingKey, "choose a tip link, such as `c`");
-    refused(None, Some("e"), ErrorKind::UnknownName, "the tip `e` is no link");
-    refused(Some("x"), Some("d"), ErrorKind::UnknownName, "the base `x` is no link");
-    refused(Some("b"), Some("d"), ErrorKind::BadValue, "nothing moves between `b` and `d`");
-    refused(Some("d"), Some("d"), ErrorKind::BadValue, "nothing moves between");
+    refused(None, Some("e"), ErrorKind::UnknownName, "the tip `e` is not a link");
+    refused(Some("x"), Some("d"), ErrorKind::UnknownName, "the base `x` is not a link");
+    refused(Some("b"), Some("d"), ErrorKind::BadValue, "no joint moves between `b` and `d`");
+    refused(Some("d"), Some("d"), ErrorKind::BadValue, "no joint moves between");
     let chain = tree.chain(None, Some("d")).unwrap();
     assert_eq!((chain.joints().len(), chain.joints()[0].kind), (1, JointKind::Revolute));
     assert!((chain.base_from_tip().translation.x - 0.5).abs() < 1e-15, "the fixed joint counts");

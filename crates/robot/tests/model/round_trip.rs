@@ -182,7 +182,7 @@ fn faults_of_masses_are_refused_and_faults_of_shapes_reported() {
     ] {
         let reported = doubts(from, to);
         assert!(
-            reported.iter().any(|doubt| doubt.starts_with("link `a`: left out: ") && doubt.contains(words)),
+            reported.iter().any(|doubt| doubt.starts_with("link `a`: omitted: ") && doubt.contains(words)),
             "{reported:?}"
         );
     }

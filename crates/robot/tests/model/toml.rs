@@ -59,7 +59,7 @@ fn mistakes_have_a_line() {
         ("axis = [0, 1, 0]", "", MissingKey, "joint `knuckle`"),
         ("axis = [0, 1, 0]", "axis = [0, 0, 0]", BadValue, "no direction"),
         ("limits = [-10, 80]", "", BadValue, "needs limits"),
-        ("on = \"phalanx\"", "on = \"thumb\"", UnknownName, "`thumb` is no link"),
+        ("on = \"phalanx\"", "on = \"thumb\"", UnknownName, "`thumb` is not a link"),
         ("radius = 8, ", "", MissingKey, "radius"),
         ("capsule = {", "ball = {", UnknownKey, "ball"),
         ("name = \"palm\"", "name = \"phalanx\"", DuplicateName, "phalanx"),

@@ -69,7 +69,7 @@ fn the_documented_example() {
     let notes = tree.notes(&tree.path(None, None).unwrap());
     assert_eq!(
         notes,
-        ["knuckle: yaw 1.5708 rad is taken as 90 deg where solvers are derived; poses are those of the number"]
+        ["knuckle: yaw 1.5708 rad is interpreted as 90 deg when a solver is derived; poses use the number"]
     );
 }
 
@@ -129,7 +129,7 @@ fn mistakes_have_a_line_and_a_name() {
             "<parent link=\"palm\"/>",
             "<parent link=\"plam\"/>",
             UnknownName,
-            "joint `knuckle`: its parent `plam` is no link",
+            "joint `knuckle`: its parent `plam` is not a link",
         ),
         ("<parent link=\"palm\"/>", "<parent link=\"fingertip\"/>", BadValue, "loop"),
         ("<link name=\"palm\"/>", "<link name=\"palm\"/><link name=\"thumb\"/>", BadValue, "`palm`, `thumb`"),

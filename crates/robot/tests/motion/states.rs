@@ -63,7 +63,7 @@ fn mistakes_have_a_line() {
         ("q0,q0\n", 1, "each list whole"),
         ("q0,v0,x\n", 1, "q0, q1, ..."),
         ("q0,v0\n1\n", 2, "1 cells are in the row; the first one has 2 names"),
-        ("q0,v0\n1,2\n\n1,two\n", 4, "column `v0`: `two` is no number"),
+        ("q0,v0\n1,2\n\n1,two\n", 4, "column `v0`: `two` is not a number"),
     ] {
         let error = StateTable::from_csv(text).unwrap_err();
         assert_eq!((error.kind(), error.place().line), (ErrorKind::Syntax, Some(line)), "{error}");

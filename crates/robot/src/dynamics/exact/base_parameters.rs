@@ -63,7 +63,7 @@ impl BaseParameters {
                 }
             }
             if left.values().any(|x| !x.is_zero()) {
-                let text = "M and N do not depend on the given base parameters alone";
+                let text = "M and N depend on more than the given base parameters";
                 return Err(Error::new(ErrorKind::BadValue, text));
             }
         }
