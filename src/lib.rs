@@ -75,7 +75,7 @@ pub mod groebner {
 
 /// Real roots of univariate polynomials: exact over Q, and in `f64` as in the run time.
 pub mod roots {
-    pub use groebot_algebra::roots::{Interval, RealRoot, Sturm, isolate_square_free, real_roots};
+    pub use groebot_algebra::roots::{Interval, real_roots};
 }
 
 /// Rigid motions: poses, twists, wrenches, screws, inertias.
@@ -97,10 +97,9 @@ pub mod model {
 /// Serial chains: forward kinematics, Jacobians, screw theory, and the interface of all solvers.
 pub mod kinematics {
     pub use groebot_robot::kinematics::{
-        Ball, BaseAxis, Chain, ChainParts, Choice, DhConvention, DhRow, DhTable, ExactMatrix, ExactRotation,
-        ExactVector, Geometry, InverseKinematics, Joint, JointKind, Layout, LengthUnit, LinkPath, Meant, Mimic, Placed,
-        Placement, Plane, Quantity, Root, Solution, Target, TargetNumber, Task, Tip, TipChoice, Turn, jacobian,
-        numeric, screw,
+        BaseAxis, Chain, ChainParts, Choice, DhConvention, DhRow, DhTable, ExactMatrix, ExactRotation, ExactVector,
+        Geometry, InverseKinematics, Joint, JointKind, Layout, LengthUnit, LinkPath, Meant, Mimic, Placed, Placement,
+        Plane, Quantity, Root, Solution, Target, TargetNumber, Task, Tip, TipChoice, Turn, jacobian, numeric, screw,
     };
     /// The nearest ideal robot, and what it changes.
     pub mod ideal {
@@ -137,9 +136,10 @@ pub mod dynamics {
 /// Derived solvers: their programs, targets in batches, and solutions.
 pub mod solver {
     pub use groebot_ik::solver::{
-        About, Batch, Block, Case, Checks, Condition, Described, Following, Forward, GivenJoint, Guard, Input,
-        Instruction, Joint, JointValue, MAX_JOINTS, Nearest, Operand, Operation, Pairs, ParameterRule, Pivot,
-        Preference, Program, Reached, Rule, Short, Solved, Solver, Step, TipTask, Unit,
+        About, Batch, Block, Case, Checks, Closest, ClosestOptions, Condition, Described, Following, Forward,
+        GivenJoint, Guard, Input, Instruction, Joint, JointValue, MAX_JOINTS, Nearest, Operand, Operation, Pairs,
+        ParameterRule, Pivot, PlacedSolver, Placement, Preference, Program, Reached, Rule, Short, Solved, Solver, Step,
+        TaskPlacement, TipTask, Unit,
     };
 }
 
@@ -175,8 +175,8 @@ pub mod witness {
 /// Folders of mechanisms: their files, and the check of a stored folder.
 pub mod folder {
     pub use groebot_ik::folder::{
-        CERTIFICATE, CHECKS, Checked, DYNAMICS, DYNAMICS_TEXT, Finding, OUTPUTS, Outputs, PROGRAM, Stored, Verdict,
-        Written, check, check_by, derived, is_thin, program, prove_text, reprove, thin,
+        CERTIFICATE, CHECKS, DYNAMICS, DYNAMICS_TEXT, Finding, PROGRAM, Stored, Verdict, check, check_by, derived,
+        program, prove_text, reprove,
     };
 }
 

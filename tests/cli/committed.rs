@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use groebot::Watch;
 use groebot::codegen::{c99::Pair, ikfast, rust};
 use groebot::derive::{Derivation, Source};
-use groebot::folder::{OUTPUTS, Outputs, PROGRAM, Written};
+use groebot_ik::folder::{OUTPUTS, Outputs, PROGRAM, Written};
 
 use super::{root, run, text};
 

@@ -45,7 +45,7 @@ pub struct Samples<'a> {
     pub references: &'a [Reference],
     /// The time between two samples \[s\].
     pub tick: f64,
-    /// A motion of nearly the same references, from which the search of [`realise`] starts.
+    /// A motion of nearly the same references, from which the search starts.
     pub alike: Option<&'a Motion>,
 }
 

@@ -33,6 +33,7 @@ use serde::Serialize;
 use crate::solver::Program;
 
 /// Whether a step of `program` solves six joints together by an eigenvalue problem.
+#[doc(hidden)]
 pub fn has_six_axes(program: &Program) -> bool {
     !six_axes::steps(program).is_empty()
 }

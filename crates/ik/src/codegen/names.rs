@@ -49,6 +49,7 @@ fn unique(text: &str, language: &dyn Expressions, used: &mut HashSet<String>) ->
 }
 
 /// Whether a text is a valid part of a name in every language: a letter, then letters, digits and `_`.
+#[doc(hidden)]
 pub fn is_word(text: &str) -> bool {
     word(text) == text
 }

@@ -25,6 +25,7 @@ pub(super) fn is_reserved(word: &str) -> bool {
 }
 
 /// Whether a file with this name would overwrite one of the run time.
+#[doc(hidden)]
 pub fn is_run_time(stem: &str) -> bool {
     RUN_TIME_FILES.iter().any(|own| stem.eq_ignore_ascii_case(own))
 }

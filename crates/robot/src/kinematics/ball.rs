@@ -31,6 +31,7 @@ impl Ball {
 
 impl Chain {
     /// The ball of the tip itself. Its radius is at most [`Chain::reach`].
+    #[doc(hidden)]
     pub fn ball(&self) -> Ball {
         let tip = Point3::from(self.base_from_tip().translation.vector);
         self.ball_of(Some(tip))
@@ -38,6 +39,7 @@ impl Chain {
 
     /// The smallest ball of a point of the last joint's axis. It excludes poses whose position is within reach but
     /// whose orientation is not. `None` without a revolute joint.
+    #[doc(hidden)]
     pub fn wrist_ball(&self) -> Option<Ball> {
         self.turning().next().map(|_| self.ball_of(None))
     }

@@ -91,7 +91,7 @@ impl Solver {
     /// Same as [`Solver::solve`], but with the values `given` of the joints that the user gives.
     ///
     /// # Errors
-    /// As [`Solver::solve_numbers`]; [`ErrorKind::BadValue`] for a target of another task.
+    /// As [`Solver::solve_numbers`]; [`crate::ErrorKind::BadValue`] for a target of another task.
     pub fn solve_given(&self, target: impl Into<Target>, given: &[f64]) -> Result<Vec<Solution>> {
         self.solve_target(&target.into(), given)
     }
@@ -109,8 +109,8 @@ impl Solver {
     /// It is for programs of equations, which have parameters instead of a tip, and for targets from files.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a wrong number of values, NaN or infinity, or a condition that does not hold
-    /// ([`Program::conditions`]); [`ErrorKind::Unsupported`] if the target is on a stratum that could not be derived.
+    /// [`crate::ErrorKind::BadValue`] for a wrong number of values, NaN or infinity, or a condition that does not hold
+    /// ([`Program::conditions`]); [`crate::ErrorKind::Unsupported`] if the target is on a stratum that could not be derived.
     pub fn solve_numbers(&self, target: &[f64]) -> Result<Vec<Solution>> {
         shaped!(self, shaped => shaped.solve(target))
     }
@@ -139,7 +139,7 @@ impl Solver {
     /// limits itself.
     ///
     /// # Errors
-    /// As [`Solver::solve_numbers`]; [`ErrorKind::BadValue`] if the number of pairs differs from that of joints.
+    /// As [`Solver::solve_numbers`]; [`crate::ErrorKind::BadValue`] if the number of pairs differs from that of joints.
     pub fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
         shaped!(self, shaped => shaped.solve_within(target, limits))
     }
@@ -161,7 +161,7 @@ impl Solver {
     /// `m`.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] for a wrong number of values.
+    /// [`crate::ErrorKind::BadValue`] for a wrong number of values.
     pub fn parameters(&self, target: &[f64]) -> Result<Vec<f64>> {
         shaped!(self, shaped => shaped.parameters_of(target))
     }
@@ -183,7 +183,7 @@ impl Solver {
     /// the number of threads.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] if the number of values is not a multiple of the number of inputs. [`Batch::refused`]
+    /// [`crate::ErrorKind::BadValue`] if the number of values is not a multiple of the number of inputs. [`Batch::refused`]
     /// lists the targets that [`Solver::solve_numbers`] refuses.
     pub fn solve_batch(&self, targets: &[f64]) -> Result<Batch> {
         let mut batch = Batch::default();
