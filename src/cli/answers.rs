@@ -2,11 +2,12 @@
 
 use serde::Serialize;
 
+use super::cells::{csv_line, exact, table};
 use super::closest::{self, Search};
 use super::columns::heading;
 use super::following::{followers, leaders};
 use super::json::FORMAT;
-use groebot_ik::solver::{Joint, Program, Unit};
+use groebot_ik::solver::{Closest, Joint, Program, Unit};
 use groebot_robot::kinematics::{Placed, Solution};
 
 /// The unit of angles in input and output.
@@ -100,12 +101,6 @@ impl Answer<'_> {
     }
 }
 
-/// The shortest decimal that is read back as `value`; with an exponent where it is very large or small.
-pub fn exact(value: f64) -> String {
-    let plain = value.to_string();
-    if plain.len() <= 24 { plain } else { format!("{value:e}") }
-}
-
 /// The least and greatest value of the joint with this index.
 fn limits(program: &Program, joint: usize) -> Option<(f64, f64)> {
     program.about.as_ref().and_then(|about| about.limits.get(joint).copied().flatten())
@@ -131,7 +126,7 @@ pub fn text(answer: &Answer<'_>) -> String {
     let title = format!("{} at {}", program.name, target.collect::<Vec<_>>().join(", "));
     if answer.solutions.is_empty() {
         let reason = answer.reason.as_ref().map(|reason| format!(": {reason}")).unwrap_or_default();
-        let closest = answer.closest.found().map(|found| closest::text(answer, found)).unwrap_or_default();
+        let closest = answer.closest.found().map(|found| closest_text(answer, found)).unwrap_or_default();
         return format!("{title}: unreachable: no solution{reason}\n{closest}");
     }
     let plural = if answer.solutions.len() == 1 { "solution" } else { "solutions" };
@@ -172,24 +167,6 @@ fn cells(answer: &Answer<'_>, solution: &Solution) -> Vec<String> {
     row
 }
 
-/// Rows with right-aligned columns; the last column is unchanged.
-pub fn table(rows: &[Vec<String>]) -> String {
-    let columns = rows.first().map_or(0, Vec::len);
-    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let mut text = String::new();
-    for row in rows {
-        let mut line = String::new();
-        for (column, cell) in row.iter().enumerate() {
-            let width = if column + 1 == columns { 0 } else { widths[column] };
-            line += &format!("  {cell:>width$}");
-        }
-        text += line.trim_end();
-        text.push('\n');
-    }
-    text
-}
-
 #[derive(Serialize)]
 struct Page<'a> {
     format: u32,
@@ -208,7 +185,7 @@ struct Page<'a> {
     reason: Option<&'a str>,
     /// The closest joint values, if they were requested and there is no solution.
     #[serde(skip_serializing_if = "Option::is_none")]
-    closest: Option<closest::Entry<'a>>,
+    closest: Option<ClosestEntry<'a>>,
 }
 
 /// The unit of each number of the target and of each joint.
@@ -257,7 +234,7 @@ pub fn json(answer: &Answer<'_>, pretty: bool) -> String {
         settled: answer.are_settled(),
         solutions: answer.solutions.iter().map(entry).collect(),
         reason: answer.reason.as_deref(),
-        closest: answer.closest.found().map(|found| closest::Entry::new(answer, found)),
+        closest: answer.closest.found().map(|found| ClosestEntry::new(answer, found)),
     };
     let text = if pretty { serde_json::to_string_pretty(&page) } else { serde_json::to_string(&page) };
     text.expect("an answer can be represented in JSON") + "\n"
@@ -286,7 +263,7 @@ pub fn csv_rows(answer: &Answer<'_>, index: usize) -> String {
     if answer.solutions.is_empty() {
         return csv_line(&unreachable_row(answer, start));
     }
-    let beside = if answer.closest.is_on() { closest::cells(answer) } else { Vec::new() };
+    let beside = if answer.closest.is_on() { closest_cells(answer) } else { Vec::new() };
     let row = |solution: &Solution| {
         let mut cells = start.clone();
         cells.push(solution.branch.to_string());
@@ -315,15 +292,80 @@ fn unreachable_row(answer: &Answer<'_>, start: Vec<String>) -> Vec<String> {
     cells.extend(answer.shown(&row).iter().map(|value| exact(*value)));
     cells.extend(vec![String::new(); 4]);
     cells.push(answer.outside_names(&row).join(" "));
-    cells.extend(closest::cells(answer));
+    cells.extend(closest_cells(answer));
     cells
 }
 
-/// Cells separated by commas, quoted where necessary (RFC 4180).
-pub fn csv_line(cells: &[String]) -> String {
-    let quoted = |cell: &String| {
-        let special = cell.contains([',', '"', '\n', '\r']);
-        if special { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell.clone() }
+/// Their error, and a table of the joints.
+fn closest_text(answer: &Answer<'_>, closest: &Closest) -> String {
+    let length =
+        answer.program.inputs.iter().map(|input| input.unit).find(|unit| !matches!(unit, Unit::Radian | Unit::One));
+    let short = closest.distance < 1e-3 && closest.distance > 0.0;
+    let number = if short { format!("{:.3e}", closest.distance) } else { format!("{:.6}", closest.distance) };
+    let distance = length.map(|unit| format!("{number} {}", unit.symbol()));
+    let angle = format!("{:.6} deg ({:.9} rad)", closest.angle.to_degrees(), closest.angle);
+    let misses = match distance {
+        Some(distance) if closest.angle == 0.0 => distance,
+        Some(distance) => format!("{distance} and {angle}"),
+        None => angle,
     };
-    cells.iter().map(quoted).collect::<Vec<_>>().join(",") + "\n"
+    let kind = if closest.is_minimum { "a local minimum" } else { "not certainly a local minimum" };
+    let row = closest::solution(closest);
+    let mut header: Vec<String> = answer.program.joints.iter().map(|joint| joint.name.clone()).collect();
+    header.push(String::new());
+    let mut cells = answer.joint_cells(&row);
+    let outside: Vec<String> =
+        answer.outside_names(&row).iter().map(|name| format!("{name} outside its limits")).collect();
+    cells.push(outside.join(", "));
+    format!(
+        "closest joint values: {misses} from the target; {kind}, found from {} of {} starting points\n{}",
+        closest.agreeing,
+        closest.starts,
+        table(&[header, cells])
+    )
+}
+
+/// The closest joint values in JSON.
+#[derive(Serialize)]
+struct ClosestEntry<'a> {
+    q: Vec<f64>,
+    /// The numbers that they reach, as those of the target.
+    reached: Vec<f64>,
+    distance: f64,
+    angle: f64,
+    is_minimum: bool,
+    starts: usize,
+    agreeing: usize,
+    outside_limits: Vec<&'a str>,
+}
+
+impl<'a> ClosestEntry<'a> {
+    /// The entry, with angles in the unit of the answer.
+    fn new(answer: &'a Answer<'_>, closest: &Closest) -> Self {
+        let row = closest::solution(closest);
+        let reached =
+            answer.program.tip().and_then(|tip| tip.layout().values(&closest.reached).ok()).unwrap_or_default();
+        ClosestEntry {
+            q: answer.shown(&row),
+            reached: answer.angles.of_target(answer.program, &reached),
+            distance: closest.distance,
+            angle: angle_shown(answer.angles, closest.angle),
+            is_minimum: closest.is_minimum,
+            starts: closest.starts,
+            agreeing: closest.agreeing,
+            outside_limits: answer.outside_names(&row),
+        }
+    }
+}
+
+/// The cells of [`closest::COLUMNS`]; empty for a target with solutions.
+fn closest_cells(answer: &Answer<'_>) -> Vec<String> {
+    match answer.closest.found() {
+        Some(closest) => vec![exact(closest.distance), exact(angle_shown(answer.angles, closest.angle))],
+        None => vec![String::new(); closest::COLUMNS.len()],
+    }
+}
+
+fn angle_shown(angles: Angles, angle: f64) -> f64 {
+    if angles == Angles::Degrees { angle.to_degrees() } else { angle }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use super::answers::exact;
+use super::cells::exact;
 use super::console::{self, Paint};
 use super::ends::{IdealEndArguments, TipLink};
 use super::files::{assemble_files, destination, write_derivation};

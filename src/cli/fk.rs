@@ -353,7 +353,7 @@ fn csv_header(edge: &Edge<'_>) -> String {
         _ => number.name(),
     }));
     cells.push("outside_limits".to_owned());
-    super::answers::csv_line(&cells)
+    super::cells::csv_line(&cells)
 }
 
 fn csv_row(edge: &Edge<'_>, answer: &Answer) -> String {
@@ -367,5 +367,5 @@ fn csv_row(edge: &Edge<'_>, answer: &Answer) -> String {
     }));
     let mut cells: Vec<String> = values.iter().map(f64::to_string).collect();
     cells.push(answer.outside.join(" "));
-    super::answers::csv_line(&cells)
+    super::cells::csv_line(&cells)
 }

@@ -12,6 +12,7 @@ mod basis_answer;
 mod basis_certificate;
 mod basis_cover;
 mod basis_question;
+mod cells;
 mod chain_report;
 mod check;
 mod closest;

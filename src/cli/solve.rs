@@ -135,7 +135,8 @@ impl<'a> Question<'a> {
         let closest = match &self.closest {
             None => Search::Off,
             Some(_) if !solutions.is_empty() => Search::Needless,
-            Some(options) => Search::run(program, &self.solver, &own, options)?,
+            Some(options) => Search::run(&self.solver, &own, options)?
+                .moved(|found| turned(program, vec![found]).pop().unwrap_or_default()),
         };
         Ok(Answer { program, target, solutions, reason: None, closest, angles })
     }

@@ -21,7 +21,7 @@ const TABLE: [(&str, Uses); 28] = [
     ("robots", Uses::Only(&["model", "kinematics"])),
     ("dynamics", Uses::Only(&["number", "poly", "spatial", "model", "kinematics"])),
     ("control", Uses::Only(&["drawing", "spatial", "model", "dynamics"])),
-    ("solver", Uses::Only(&["number", "poly", "roots", "kinematics"])),
+    ("solver", Uses::Only(&["number", "poly", "roots", "spatial", "kinematics"])),
     ("reach", Uses::Only(&["drawing", "spatial", "kinematics", "solver"])),
     ("derive", Uses::Only(&["number", "poly", "groebner", "roots", "spatial", "model", "kinematics", "solver"])),
     (

@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::NUMERIC;
-use crate::cli::answers::{csv_line, exact, table};
+use crate::cli::cells::{csv_line, exact, table};
 use crate::cli::columns::{Field, heading, of_joints};
 use crate::cli::ends::TipLink;
 use crate::cli::following::{followers, leaders};
