@@ -128,6 +128,7 @@ impl Document {
     }
 
     /// An empty report.
+    #[doc(hidden)]
     pub fn new(title: &str) -> Self {
         Document { title: title.to_owned(), parts: Vec::new() }
     }
