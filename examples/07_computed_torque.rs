@@ -42,7 +42,7 @@ fn main() -> Result<()> {
     let log = logged.collect::<Result<Vec<_>>>()?;
     let found = known.identify(&log, false)?;
     for estimate in &found.base {
-        println!("{:>12.6} where {:>12.6} is told  {}", estimate.value, estimate.described, estimate.name);
+        println!("{:>12.6} instead of {:>12.6}   {}", estimate.value, estimate.described, estimate.name);
     }
     Ok(())
 }

@@ -17,7 +17,7 @@ pub(super) const TARGETS: [Target; 10] = [
     Target { name: "dh_toml", about: "tables of Denavit and Hartenberg", run: dh_toml, damaged: 100 },
     Target { name: "system_toml", about: "equations of a mechanism, `derive::System`", run: system_toml, damaged: 200 },
     Target { name: "coupled_toml", about: "coupled chains", run: coupled_toml, damaged: 200 },
-    Target { name: "task_toml", about: "what is asked of a mechanism, `derive::Ends`", run: task_toml, damaged: 200 },
+    Target { name: "task_toml", about: "tasks of a mechanism, `derive::Ends`", run: task_toml, damaged: 200 },
     Target { name: "robot_toml", about: "robots in TOML, written as URDF and MJCF", run: robot_toml, damaged: 200 },
     Target {
         name: "urdf",

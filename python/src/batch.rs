@@ -246,7 +246,7 @@ pub fn reason(status: u8) -> &'static str {
             "has no rotation; give a right-handed rotation matrix within 1e-9, with last row 0, 0, 0, 1, or a quaternion x, y, z, w of length one",
         ),
         (Status::NotUnit, "has a direction that is not of length one within 1e-9; give a unit vector"),
-        (Status::Open, "lies on a stratum that could not be derived"),
+        (Status::Open, "is on a stratum that could not be derived"),
         (Status::BeyondLimits, "has solutions beyond the limits only"),
         (Status::Unsettled, "took more steps than a target may: not all work on it was done"),
     ];

@@ -155,7 +155,7 @@ where
 fn refuse(status: &[u8]) -> PyResult<()> {
     let (rows, count) = no_targets(status);
     let Some(first) = rows.first() else { return Ok(()) };
-    let others = if count > 1 { format!("; {count} rows are no targets: {rows:?}") } else { String::new() };
+    let others = if count > 1 { format!("; {count} rows are not targets: {rows:?}") } else { String::new() };
     let more = if count > rows.len() { " and more" } else { "" };
     Err(bad_value(format!("row {first} {}{others}{more}", reason(status[*first]))))
 }

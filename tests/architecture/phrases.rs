@@ -1,5 +1,6 @@
-//! Documentation is in plain technical English: it contains no phrase of `phrases.toml`.
+//! Documentation, comments and texts in code are in plain technical English: they contain no phrase of `phrases.toml`.
 
+use std::collections::HashSet;
 use std::fs;
 use std::path::Path;
 
@@ -7,9 +8,12 @@ use toml::de::{DeTable, DeValue};
 
 use super::{assert_none, files_below, root, slashed};
 
+/// Endings of the files that are read in folders.
+const ENDINGS: [&str; 7] = [".md", ".rs", ".c", ".h", ".ts", ".py", ".pyi"];
+
 /// The content of `phrases.toml`.
 struct Rules {
-    /// Files, and folders whose Markdown and Rust files are read.
+    /// Files, and folders whose Markdown, Rust, C, TypeScript and Python files are read.
     scope: Vec<String>,
     phrases: Vec<Phrase>,
     exceptions: Vec<Exception>,
@@ -69,14 +73,61 @@ fn words(text: &str) -> Vec<(usize, String)> {
     found
 }
 
-/// The comments of Rust code, in their lines; other text unchanged.
+/// The comments and strings of source code, on their lines; other text unchanged. Code between them is a `;`, so that
+/// no phrase extends across it.
 fn prose(file: &str, text: &str) -> String {
-    if !file.ends_with(".rs") {
-        return text.to_owned();
+    let (comment, quotes) = match file.rsplit_once('.').map_or("", |(_, ending)| ending) {
+        "rs" | "c" | "h" => ("//", "\""),
+        "ts" => ("//", "\"'`"),
+        "py" | "pyi" => ("#", "\"'"),
+        _ => return text.to_owned(),
+    };
+    let (mut out, mut rest) = (String::new(), text);
+    while let Some(letter) = rest.chars().next() {
+        let length = if rest.starts_with(comment) {
+            let end = rest.find('\n').unwrap_or(rest.len());
+            out.push_str(rest[..end].trim_start_matches(['/', '!', '#']));
+            end
+        } else if quotes.contains(letter) {
+            let (inside, length) = string(rest, letter);
+            out.push_str(&format!(";{inside};"));
+            length
+        } else if letter == '\'' {
+            character(rest)
+        } else {
+            out.push(if letter.is_whitespace() { letter } else { ';' });
+            letter.len_utf8()
+        };
+        rest = &rest[length..];
     }
-    let comment =
-        |line: &str| line.split_once("//").map_or("", |(_, comment)| comment.trim_start_matches(['/', '!'])).to_owned();
-    text.lines().map(comment).collect::<Vec<_>>().join("\n")
+    out
+}
+
+/// The content of the string at the start of `text`, with blanks instead of escapes, and its length with the quotes. A
+/// string in single quotes ends at the latest at the end of its line.
+fn string(text: &str, quote: char) -> (String, usize) {
+    let triple = quote.to_string().repeat(3);
+    let close = if text.starts_with(&triple) { triple } else { quote.to_string() };
+    let (mut inside, mut at) = (String::new(), close.len());
+    while let Some(letter) = text[at..].chars().next().filter(|_| !text[at..].starts_with(&close)) {
+        if close == "'" && letter == '\n' {
+            return (inside, at);
+        }
+        let escaped = if letter == '\\' { text[at + 1..].chars().next() } else { None };
+        inside.push(escaped.map_or(letter, |next| if next == '\n' { '\n' } else { ' ' }));
+        at += letter.len_utf8() + escaped.map_or(0, char::len_utf8);
+    }
+    (inside, (at + close.len()).min(text.len()))
+}
+
+/// The length of the character literal at the start of `text`, or of the quote of a lifetime.
+fn character(text: &str) -> usize {
+    let letters: Vec<char> = text.chars().take(4).collect();
+    match letters[..] {
+        [_, '\\', second, '\''] => 3 + second.len_utf8(),
+        [_, letter, '\'', ..] if letter != '\\' => 2 + letter.len_utf8(),
+        _ => 1,
+    }
 }
 
 /// The indices in `text` at which a phrase begins.
@@ -103,8 +154,10 @@ fn found_in(file: &str, text: &str, rules: &Rules) -> Vec<String> {
             places(&exception.text, &text).into_iter().map(|place| (place, place + length(&exception.text)))
         })
         .collect();
+    let present: HashSet<&str> = text.iter().map(|(_, word)| word.as_str()).collect();
+    let may_occur = |phrase: &&Phrase| phrase.not.split(' ').all(|word| word == "<number>" || present.contains(word));
     let mut found = Vec::new();
-    for Phrase { not, but } in &rules.phrases {
+    for Phrase { not, but } in rules.phrases.iter().filter(may_occur) {
         for place in places(not, &text) {
             if !excepted.iter().any(|&(start, end)| start <= place && place < end) {
                 found.push(format!("{file}:{}: `{not}`: write {but}", text[place].0));
@@ -121,7 +174,7 @@ fn rules() -> Rules {
 
 /// The files of a scope, with their texts.
 fn texts(scope: &[String]) -> Vec<(String, String)> {
-    let is_read = |file: &String| file.ends_with(".md") || file.ends_with(".rs");
+    let is_read = |file: &String| ENDINGS.iter().any(|ending| file.ends_with(ending));
     let below = |entry: &String| match root().join(entry).is_file() {
         true => vec![entry.clone()],
         false => files_below(Path::new(entry)).iter().map(|path| slashed(path)).filter(is_read).collect(),
@@ -132,7 +185,7 @@ fn texts(scope: &[String]) -> Vec<(String, String)> {
 }
 
 #[test]
-fn documentation_is_plain_technical_english() {
+fn documentation_and_code_are_in_plain_technical_english() {
     let rules = rules();
     let texts = texts(&rules.scope);
     assert!(texts.len() > 30, "only {} files are read", texts.len());
@@ -183,6 +236,8 @@ fn phrases_are_found_across_lines_and_not_across_sentences() {
     assert_eq!(count("a.md", "It is stood by. Numbers follow; nearby numbers too."), 0);
     assert_eq!(count("a.md", "see issue 27, and issue of 27"), 1);
     assert_eq!(count("b.md", "painted by numbers, solved by numbers"), 1);
-    assert_eq!(count("a.rs", "let by_numbers = \"by numbers\"; // solved by\n/// numbers"), 1);
-    assert_eq!(count("a.rs", "let text = \"solved by numbers\";"), 0);
+    assert_eq!(count("a.rs", "let by_numbers = \"by numbers\"; // solved by\n/// numbers"), 2);
+    assert_eq!(count("a.rs", "let (quote, by, numbers) = ('\"', by, numbers); // by\nlet numbers = \"\";"), 0);
+    assert_eq!(count("a.py", "\"\"\"Solved by\nnumbers.\"\"\"\nby = numbers  # by numbers"), 2);
+    assert_eq!(count("a.ts", "const text = `by\n numbers`; // solved"), 1);
 }

@@ -34,7 +34,7 @@ fn a_task_is_done_checked_and_shown() {
     assert!(checks["hold"] == true && checks["findings"] == 0 && checks["fastest"]["rpm"].as_f64().unwrap() < 25.0);
     let nearest = &checks["clearances"][0];
     assert!(nearest["distance"].as_f64().unwrap() > 0.02 && checks["soles_off"].as_f64().unwrap() < 1e-12, "{checks}");
-    // The robot stands in front of the chair, whose near side is at 2.2.
+    // The robot ends in front of the chair, whose near side is at 2.2.
     let last = |name: &str| {
         let contact = walk.contacts.iter().find(|contact| contact.name == name).unwrap();
         contact.poses[contact.poses.len() - 1].translation.vector

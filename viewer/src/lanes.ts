@@ -124,7 +124,7 @@ export class Lanes {
   private addContact(name: string, stands: string): void {
     const { times } = this.motion;
     const share = [...stands].filter((letter) => letter === "1").length / stands.length;
-    const text = `${named(name)} stands in ${Math.round(100 * share)} % of the samples`;
+    const text = `${named(name)} is in contact in ${Math.round(100 * share)} % of the samples`;
     const [lane, said] = this.add(named(name), 16, text, (pen, width, height) => {
       pen.fillStyle = tone("ink");
       pen.globalAlpha = 0.7;

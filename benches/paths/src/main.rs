@@ -48,7 +48,7 @@ fn main() {
         own(&format!("rooms of {side}"), &maps::rooms(side));
     }
     for percent in [10, 20, 30] {
-        own(&format!("{percent} % by chance"), &maps::random(f64::from(percent) / 100.0));
+        own(&format!("{percent} % at random"), &maps::random(f64::from(percent) / 100.0));
     }
 }
 

@@ -162,7 +162,7 @@ impl<M: Solve> Chain<'_, M> {
         let mut order: Vec<usize> = (0..all.len()).collect();
         order.sort_by(|a, b| parts.singular_values[*a].total_cmp(&parts.singular_values[*b]));
         let is_one = parts.singular_values[order[0]] < 1e-7;
-        is_one.then(|| parts.v_t.expect("it is asked for").row(order[0]).transpose())
+        is_one.then(|| parts.v_t.expect("it is computed").row(order[0]).transpose())
     }
 
     fn beside(&self, target: &DVector<f64>, q: &[f64], ahead: &DVector<f64>, path: f64) -> Option<Vec<f64>> {

@@ -31,7 +31,7 @@ fn target(number: usize, random: &mut Random) -> [f64; INPUTS] {
     if number % 50 == 7 {
         q = q.map(|value| if random.next() < 0.6 { SPECIAL[(random.next() * 7.0) as usize] } else { value });
     }
-    let mut target = Solver.forward(&q).expect("the tip tells the pose");
+    let mut target = Solver.forward(&q).expect("the joint values determine the pose");
     match number {
         _ if number % 97 == 13 => target[0] += random.next() - 0.5,
         _ if number % 997 == 14 => target[number / 997 % INPUTS] = [f64::NAN, f64::INFINITY, 7.0][number % 3],

@@ -72,7 +72,7 @@ def system(names, equations):
 
 
 def planar(lengths, tangents, orientation):
-    """A planar chain at the pose of `tangents`: the tip, and the direction of its last link if asked for."""
+    """A planar chain at the pose of `tangents`: the tip, and the direction of its last link if requested."""
     names, pairs, circles = angle_unknowns(1, len(lengths))
     wanted = planar_tip(lengths, [circle_point(t) for t in tangents])
     equations = [found - value for found, value in zip(planar_tip(lengths, pairs), wanted)]

@@ -39,7 +39,7 @@ def main(arguments):
 
 
 def cases(systems, names):
-    """One case for every basis asked of every system."""
+    """One case for every basis of every system."""
     for system in systems:
         if names and system["name"] not in names:
             continue

@@ -21,7 +21,7 @@ fn asks_often<T>(often: usize, work: impl Fn(&Watch) -> Result<T>) {
     let left = Arc::new(AtomicUsize::new(PATIENCE));
     work(&Watch::none().with_patience(left.clone())).unwrap_or_else(|error| panic!("{error}"));
     let requested = PATIENCE - left.load(Relaxed);
-    assert!(requested >= often, "the watch was asked {requested} times");
+    assert!(requested >= often, "the watch was called {requested} times");
     for patience in [0, 1, requested / 4, requested / 2, requested - 1] {
         let left = Arc::new(AtomicUsize::new(patience));
         let error = work(&Watch::none().with_patience(left.clone())).err().expect("it is cancelled");

@@ -41,7 +41,7 @@ fn ring_of(names: &[&str], order: Order) -> PolynomialRing<Rationals> {
     PolynomialRing::new(Rationals, names, order).unwrap()
 }
 
-/// The generators in `texts`, with `P`, `Q` and `B` replaced by numbers.
+/// The generators in `texts`, with `P`, `Q` and `B` replaced by these numbers.
 fn system(ring: &PolynomialRing<Rationals>, texts: &[&str], numbers: &[(&str, BigInt)]) -> Vec<Element> {
     let put =
         |text: &&str| numbers.iter().fold((*text).to_owned(), |text, (name, n)| text.replace(name, &n.to_string()));

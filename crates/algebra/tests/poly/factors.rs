@@ -24,7 +24,7 @@ impl Check for KnownGcd<'_> {
             let ring = PolynomialRing::new(field.clone(), &pair.variables, order).unwrap();
             let [f, g, known] = [&pair.f, &pair.g, &pair.gcd].map(|text| read(&ring, text));
             assert_eq!(gcd(&ring, &f, &g), ring.monic(&known), "{}", pair.name);
-            assert_eq!(gcd(&ring, &g, &f), ring.monic(&known), "{} the other way round", pair.name);
+            assert_eq!(gcd(&ring, &g, &f), ring.monic(&known), "{} in the opposite order", pair.name);
         }
     }
 }

@@ -65,7 +65,7 @@ fn footprints_compose() {
     let there = print.then(&Footprint { x: 0.5, y: 0.25, yaw: 0.1 });
     assert!((there.x - 0.75).abs() < 1e-15 && (there.y - 2.5).abs() < 1e-15 && there.yaw == FRAC_PI_2 + 0.1);
     let (a, b) = (Footprint { yaw: 3.0, ..Default::default() }, Footprint { yaw: -3.0, ..Default::default() });
-    assert!((a.middle(&b).yaw - PI).abs() < 1e-12, "the shorter way round");
+    assert!((a.middle(&b).yaw - PI).abs() < 1e-12, "the shorter rotation");
 }
 
 #[test]

@@ -14,7 +14,7 @@ fn actions(walk: &Walk) -> impl Iterator<Item = (usize, Action)> + '_ {
     walk.references.iter().enumerate().map(|(sample, reference)| (sample, walk.schedule.phases[reference.phase].action))
 }
 
-/// "When y reaches 50 mm over the right foot, the left foot begins its swing, and the other way round."
+/// "When y reaches 50 mm over the right foot, the left foot begins its swing, and vice versa."
 #[test]
 fn feet_rest_until_the_centre_of_mass_is_displaced_by_50_mm() {
     let walk = walk(&request(&regular())).unwrap();

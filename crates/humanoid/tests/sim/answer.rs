@@ -68,7 +68,7 @@ fn an_answer_is_seen_beside_its_plan() {
     near(compared.off(), 0.02);
     assert_eq!(compared.landings, [1, 1]);
     near(compared.lift, 0.02);
-    // Relative to the left foot in the last sample, the planned ZMP is 0.2 m behind it, and the simulated one 0.16 m.
+    // Relative to the left foot in the last sample, the planned ZMP is 0.2 m behind this foot, and the simulated one 0.16 m.
     assert!(compared.zmp[0] > 0.03 && compared.zmp[1] < compared.zmp[0], "{:?}", compared.zmp);
     let picture = Quantity::Torque.picture(&plan, &answer, &[vec!["Knee".to_owned()], vec!["Neck".to_owned()]]);
     assert_eq!(picture.matches("class=\"right-path\"").count(), 3, "two lines and the legend's");

@@ -45,7 +45,7 @@ fn invalid_requests_are_refused() {
     let legs = folder::program(concat!(env!("CARGO_MANIFEST_DIR"), "/../../derivations/nao_legs").as_ref()).unwrap();
     assert_eq!(Survey::new(&legs.solver(), &legs, None, &here).err().unwrap().kind(), ErrorKind::Unsupported);
     let line = Request::new(grid([(0.3, 0.3, 1), (0.1, 0.1, 1), (0.0, 1.0, 5)]));
-    assert!(refused("planar_2r", &line).message().contains("asks for no z"));
+    assert!(refused("planar_2r", &line).message().contains("has no z"));
     for orientations in [0, 1_000_001] {
         assert_eq!(refused("ur5", &Request { orientations, ..here.clone() }).kind(), ErrorKind::BadValue);
     }

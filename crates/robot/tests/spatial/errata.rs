@@ -73,7 +73,10 @@ fn printed_subproblems_answer_what_is_out_of_reach() {
     let along = Vector3::x();
     let pqwn = along.dot(&(p - q)).abs();
     let c = (d * d - (p - q).norm_squared() + pqwn * pqwn).abs().sqrt();
-    assert!(((p + along * c - q).norm() - 7_f64.sqrt()).abs() < 1e-14, "f(16) answers a point 2.6 away, asked for 1");
+    assert!(
+        ((p + along * c - q).norm() - 7_f64.sqrt()).abs() < 1e-14,
+        "f(16) answers a point at a distance of 2.6 instead of 1"
+    );
     let (p, q, d): (Vector3<f64>, Vector3<f64>, f64) = (Vector3::x(), Vector3::new(3.0, 0.0, 0.0), 1.0);
     let cosine = (p.norm_squared() + q.norm_squared() - d * d) / (2.0 * p.norm() * q.norm());
     assert!(cosine > 1.0, "the real part of its complex arc cosine, which f(14) takes, is 0: a point 2 away");

@@ -108,7 +108,7 @@ proptest! {
     fn a_revolute_joint_turns_about_its_axis(axis in axis(), q in -3.0..3.0_f64, p in vector(2.0)) {
         let x = Screw::revolute(axis.direction().into_inner(), axis.point()).unwrap().twist();
         prop_assert!((x.w - axis.direction().into_inner()).norm() < 1e-15);
-        prop_assert!((x.v + x.w.cross(&axis.point().coords)).norm() < 1e-14, "the axis stands still");
+        prop_assert!((x.v + x.w.cross(&axis.point().coords)).norm() < 1e-14, "the axis is at rest");
         let p = Point3::from(p);
         prop_assert!((x.exp(q) * p - axis.rotate(q, &p)).norm() < 1e-13);
     }

@@ -115,7 +115,7 @@ pub fn rational_roots(f: &Univariate<BigRational>) -> Vec<BigRational> {
 /// The only equation that remains after solving for parameters that occur linearly.
 ///
 /// Where it has no repeated factors and changes its sign, real points are dense in the zeros of one of its factors
-/// (Bochnak, Coste and Roy, Real Algebraic Geometry, 4.5.1). No part of a stratum's closure is contained in an
+/// (Bochnak, Coste and Roy, Real Algebraic Geometry, 4.5.1). No component of a stratum's closure is contained in an
 /// exclusion, so some real points are on the stratum.
 fn hypersurface(ring: &PolynomialRing<Rationals>, equations: &[Poly]) -> Option<Poly> {
     let count = ring.variables().len();

@@ -88,7 +88,7 @@ impl Setting {
                 for k in 0..=twice {
                     let left = twice - k;
                     let scaled = &coefficient * num_traits::pow(constant.clone(), left as usize);
-                    let monomial = layout.pack(&exponents).expect("no greater than before");
+                    let monomial = layout.pack(&exponents).expect("no greater than the exponents before");
                     terms.push(Term { coefficient: scaled, monomial });
                     let Some(less) = less else { break };
                     exponents[*less] += 2;

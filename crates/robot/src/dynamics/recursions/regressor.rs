@@ -27,7 +27,7 @@ impl<S: Scalar> Mass<S> {
 /// The memory of a regressor.
 #[derive(Debug)]
 pub struct Regressor<'a, S> {
-    /// The generalised forces, which are computed on the way.
+    /// The generalised forces, which are an intermediate result.
     pub torques: &'a mut [S],
     /// The number of rows of a floating base.
     pub first: usize,

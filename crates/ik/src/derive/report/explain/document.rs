@@ -68,11 +68,13 @@ pub struct Line(pub Vec<Span>);
 
 impl Line {
     /// A line of report text, whose formulas are between dollar signs: `where $A = B = 0$`.
+    #[doc(hidden)]
     pub fn of(prose: &str) -> Self {
         Line::default().and(prose)
     }
 
     /// A line of text from the input, used unchanged.
+    #[doc(hidden)]
     pub fn plain(text: &str) -> Self {
         Line::default().words(text)
     }
@@ -86,6 +88,7 @@ impl Line {
 
     /// Appends report text, as in [`Line::of`].
     #[must_use]
+    #[doc(hidden)]
     pub fn and(mut self, prose: &str) -> Self {
         for (index, piece) in prose.split('$').enumerate().filter(|(_, piece)| !piece.is_empty()) {
             let piece = piece.to_owned();
@@ -96,6 +99,7 @@ impl Line {
 
     /// Appends a name.
     #[must_use]
+    #[doc(hidden)]
     pub fn name(mut self, name: &str) -> Self {
         self.0.push(Span::Name(name.to_owned()));
         self
@@ -103,6 +107,7 @@ impl Line {
 
     /// Appends a formula.
     #[must_use]
+    #[doc(hidden)]
     pub fn formula(mut self, text: &str) -> Self {
         self.0.push(Span::Formula(text.to_owned()));
         self
@@ -123,6 +128,7 @@ impl Document {
     }
 
     /// An empty report.
+    #[doc(hidden)]
     pub fn new(title: &str) -> Self {
         Document { title: title.to_owned(), parts: Vec::new() }
     }
@@ -150,6 +156,7 @@ impl Document {
     }
 
     /// Adds a paragraph.
+    #[doc(hidden)]
     pub fn paragraph(&mut self, line: Line) {
         self.parts.push(Part::Paragraph(line));
     }
@@ -160,11 +167,13 @@ impl Document {
     }
 
     /// Adds a numbered formula.
+    #[doc(hidden)]
     pub fn equation(&mut self, number: &str, formula: impl Into<String>) {
         self.parts.push(Part::Equation { number: number.to_owned(), formula: formula.into() });
     }
 
     /// Adds a list.
+    #[doc(hidden)]
     pub fn items(&mut self, lines: Vec<Line>) {
         if !lines.is_empty() {
             self.parts.push(Part::Items(lines));
@@ -172,6 +181,7 @@ impl Document {
     }
 
     /// Adds a table, the header first.
+    #[doc(hidden)]
     pub fn table(&mut self, rows: Vec<Vec<Line>>) {
         self.parts.push(Part::Table(rows));
     }
