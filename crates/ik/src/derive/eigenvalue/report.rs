@@ -81,9 +81,9 @@ impl EigenvalueView<'_> {
         let name = |joint: usize| self.method.six.joints()[joint].name.as_str();
         let (hidden, doubled) = (formulation.hidden, formulation.doubled());
         let slides = |joint: usize| self.method.six.joints()[joint].kind == JointKind::Prismatic;
-        let what = if slides(hidden) { "way" } else { "angle" };
+        let what = if slides(hidden) { "displacement" } else { "angle" };
         let second = match (slides(doubled), slides(hidden)) {
-            (true, _) => format!("the equations are multiplied by the way of {}", name(doubled)),
+            (true, _) => format!("the equations are multiplied by the displacement of {}", name(doubled)),
             (false, false) => format!("that of {} is halved", name(doubled)),
             (false, true) => format!("the angle of {} is halved", name(doubled)),
         };

@@ -78,13 +78,13 @@ pub fn conserved(measure: Measure) -> &'static str {
 pub fn degenerate(measure: Measure) -> &'static str {
     match measure {
         Measure::Angle => {
-            "one of the two directions has come to lie along the joint's axis, so that turning about it changes no angle"
+            "one of the two directions is parallel to the joint's axis, so that a rotation about it changes no angle"
         }
         Measure::Offset => {
-            "the normal has come to lie along the joint's axis, or the point on it, so that turning moves nothing that the equation sees"
+            "the normal is parallel to the joint's axis, or the point is on it, so that a rotation changes nothing in the equation"
         }
         Measure::Distance => {
-            "one of the two points has come to lie on the joint's axis, so that turning about it changes no distance"
+            "one of the two points is on the joint's axis, so that a rotation about it changes no distance"
         }
         Measure::Moment => "turning about the axis does not change the moment of the two lines",
         Measure::Follow => "nothing can: the law determines the joint everywhere",
@@ -113,7 +113,7 @@ fn reason(mechanism: &Mechanism, idle: &[usize], object: &Object, measure: Measu
     let axes = |list: &[usize]| if list.len() == 1 { "its axis" } else { "their axes" };
     let turning = match (object, measure) {
         _ if turns.is_empty() => None,
-        (Object::Point(_), _) => Some(format!("it lies on {}", axes(&turns))),
+        (Object::Point(_), _) => Some(format!("it is on {}", axes(&turns))),
         (Object::Line { .. }, Measure::Moment) => Some(format!("it is the line of {}", axes(&turns))),
         (_, Measure::Offset) => Some(format!("the normal is along {}", axes(&turns))),
         _ => Some(format!("it is along {}", axes(&turns))),

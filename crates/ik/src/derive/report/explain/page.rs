@@ -138,7 +138,7 @@ fn coupled(view: CoupledView<'_>) -> Result<Document> {
     ));
     if let Some(simultaneous) = &view.method.simultaneous {
         page.section(Line::of("Shared joints: ").words(&view.simultaneous_names().join(", ")));
-        page.say("They are found first, from one equation of each chain that holds no other unknown joint:");
+        page.say("They are found first, from one equation of each chain that contains no other unknown joint:");
         let mut items = Vec::new();
         for (member, relation) in view.problem.chains().iter().zip(simultaneous.relations()?) {
             let line = Line::of("Chain ").name(&member.name).and(": ");

@@ -209,12 +209,12 @@ impl Writer<'_> {
              the equations turn a vector by it, by the sum of their squares. What is known is written as symbols:"
         ));
         self.page.items(symbol_lines(self.mechanism, elimination, (self.index + 1, 1)));
-        self.page.say("The generators, the circles behind the relations:");
+        self.page.say("The generators, the circles after the relations:");
         let text = |f| renamed(&elimination.ring.format(f, Style::Decimal), &names);
         for (number, f) in elimination.generators.iter().enumerate() {
             self.page.display(format!("f{} = {} = 0", number + 1, text(f)));
         }
-        self.page.say("The member of their ideal that holds this joint alone:");
+        self.page.say("The element of their ideal that contains only this joint:");
         let number = self.equation(format!("{} = 0", text(&elimination.member)));
         self.page
             .say("It is this combination of them, multiplied out exactly, so every solution of the loop fulfils it:");
