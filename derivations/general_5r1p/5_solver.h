@@ -8,19 +8,19 @@
  * `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
  * `r31` (1), `r32` (1), `r33` (1).
  *
- * Joints, in order; angles lie in (-pi, pi]: Joint1 (rad), Joint2 (rad), Joint3 (m), Joint4 (rad), Joint5 (rad), Joint6 (rad).
+ * Joints, in order; angles are in (-pi, pi]: Joint1 (rad), Joint2 (rad), Joint3 (m), Joint4 (rad), Joint5 (rad), Joint6 (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef GENERAL_5R1P_H
 #define GENERAL_5R1P_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define GENERAL_5R1P_INPUTS 12
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define GENERAL_5R1P_JOINTS 6
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define GENERAL_5R1P_CAPACITY 32
 
 /* general_5r1p_solution, general_5r1p_pairs, general_5r1p_solve, ... */

@@ -8,19 +8,19 @@
  * `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
  * `r31` (1), `r32` (1), `r33` (1), `A3` (rad).
  *
- * Joints, in order; angles lie in (-pi, pi]: A1 (rad), A2 (rad), A3 (rad), A4 (rad), A5 (rad), A6 (rad), A7 (rad).
+ * Joints, in order; angles are in (-pi, pi]: A1 (rad), A2 (rad), A3 (rad), A4 (rad), A5 (rad), A6 (rad), A7 (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef IIWA14_H
 #define IIWA14_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define IIWA14_INPUTS 13
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define IIWA14_JOINTS 7
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define IIWA14_CAPACITY 23
 
 /* iiwa14_solution, iiwa14_pairs, iiwa14_solve, ... */

@@ -8,19 +8,19 @@
  * `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
  * `r31` (1), `r32` (1), `r33` (1).
  *
- * Joints, in order; angles lie in (-pi, pi]: Axis1 (rad), Axis2 (rad), Axis3 (rad), Axis4 (rad), Axis5 (rad), Axis6 (rad).
+ * Joints, in order; angles are in (-pi, pi]: Axis1 (rad), Axis2 (rad), Axis3 (rad), Axis4 (rad), Axis5 (rad), Axis6 (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef IRB120_H
 #define IRB120_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define IRB120_INPUTS 12
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define IRB120_JOINTS 6
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define IRB120_CAPACITY 22
 
 /* irb120_solution, irb120_pairs, irb120_solve, ... */

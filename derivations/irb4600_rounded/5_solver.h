@@ -10,19 +10,19 @@
  * `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
  * `r31` (1), `r32` (1), `r33` (1).
  *
- * Joints, in order; angles lie in (-pi, pi]: joint_1 (rad), joint_2 (rad), joint_3 (rad), joint_4 (rad), joint_5 (rad), joint_6 (rad).
+ * Joints, in order; angles are in (-pi, pi]: joint_1 (rad), joint_2 (rad), joint_3 (rad), joint_4 (rad), joint_5 (rad), joint_6 (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef IRB4600_TOOL0_H
 #define IRB4600_TOOL0_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define IRB4600_TOOL0_INPUTS 12
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define IRB4600_TOOL0_JOINTS 6
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define IRB4600_TOOL0_CAPACITY 22
 
 /* irb4600_tool0_solution, irb4600_tool0_pairs, irb4600_tool0_solve, ... */

@@ -8,19 +8,19 @@
  * `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
  * `r31` (1), `r32` (1), `r33` (1).
  *
- * Joints, in order; angles lie in (-pi, pi]: Joint1 (rad), Joint2 (rad), Joint3 (rad), Joint4 (rad), Joint5 (rad), Joint6 (rad).
+ * Joints, in order; angles are in (-pi, pi]: Joint1 (rad), Joint2 (rad), Joint3 (rad), Joint4 (rad), Joint5 (rad), Joint6 (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef JACO_LIKE_H
 #define JACO_LIKE_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define JACO_LIKE_INPUTS 12
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define JACO_LIKE_JOINTS 6
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define JACO_LIKE_CAPACITY 32
 
 /* jaco_like_solution, jaco_like_pairs, jaco_like_solve, ... */

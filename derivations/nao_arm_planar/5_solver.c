@@ -34,7 +34,7 @@ const gb_real nao_arm_planar_limits[2 * NAO_ARM_PLANAR_JOINTS] = {-INFINITY, INF
 #include "groebot.h"
 #if GB_WIDTH > 0
 
-/* The numbers of a target that the walk and the equations read. */
+/* The parameters that the blocks and the equations read, computed from a target. */
 GB_INLINE void GB_(parameters)(const T *target, T *p)
 {
     const T py = target[0], pz = target[1];
@@ -91,13 +91,13 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
     }
 }
 
-/* Walks through the blocks. */
+/* Evaluates the blocks. */
 GB_INLINE void GB_(walk)(const T *p, GB_(sink) *c)
 {
     GB_(block_1)(p, c);
 }
 
-/* What the equations compare with parameters. */
+/* The values that the equations compare with parameters. */
 GB_INLINE void GB_(tip)(const T *at, T *tip)
 {
     const T c2 = at[0], s2 = at[1], c4 = at[2], s4 = at[3];

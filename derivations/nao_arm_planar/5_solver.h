@@ -7,19 +7,19 @@
  * Target, in order:
  * `py` (mm), `pz` (mm).
  *
- * Joints, in order; angles lie in (-pi, pi]: ShoulderRoll (rad), ForearmAngle (rad).
+ * Joints, in order; angles are in (-pi, pi]: ShoulderRoll (rad), ForearmAngle (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef NAO_ARM_PLANAR_H
 #define NAO_ARM_PLANAR_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define NAO_ARM_PLANAR_INPUTS 2
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define NAO_ARM_PLANAR_JOINTS 2
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define NAO_ARM_PLANAR_CAPACITY 4
 
 /* nao_arm_planar_solution, nao_arm_planar_pairs, nao_arm_planar_solve, ... */

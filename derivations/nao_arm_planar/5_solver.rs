@@ -7,33 +7,33 @@
 //! Target, in order:
 //! `py` (mm), `pz` (mm).
 //!
-//! Joints, in order; angles lie in (-pi, pi]: `ShoulderRoll` (rad), `ForearmAngle` (rad).
+//! Joints, in order; angles are in (-pi, pi]: `ShoulderRoll` (rad), `ForearmAngle` (rad).
 //!
 //! With `use nao_arm_planar::{CAPACITY, EMPTY, Solve, Solver};`, and `out` as `[EMPTY; CAPACITY]`, `Solver.solve(&target, &mut out)?` is the number of solutions at the
-//! front of `out`; [`Solve`] has all else. It needs the crate `groebot-runtime`, which allocates nothing and, without its feature `std`, has no `std`.
+//! front of `out`; [`Solve`] has the other functions. It needs the crate `groebot-runtime`, which does not allocate and, without its feature `std`, is `no_std`.
 #![allow(dead_code, non_snake_case, unused_imports, unused_parens, unused_variables, clippy::all)]
 
 use groebot_runtime::{Candidates, Condition, Facts, Fixed, Found, Joint, Mechanism, Number, Preference, Reached, Short, With, rarely};
 pub use groebot_runtime::{Error, Solve};
 
-/// Inverse kinematics of `nao_arm_planar`: what is particular to it.
+/// The inverse kinematics solver of `nao_arm_planar`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Solver;
 
-/// One answer.
+/// One solution.
 pub type Solution = groebot_runtime::Solution<Solver>;
-/// One answer by cosines and sines.
+/// One solution by cosines and sines.
 pub type Pairs = groebot_runtime::Pairs<Solver>;
 
-/// Numbers of a target.
+/// Number of target numbers.
 pub const INPUTS: usize = 2;
-/// Joints of a solution.
+/// Number of joints of a solution.
 pub const JOINTS: usize = 2;
-/// The most solutions that a target can have.
+/// Maximal number of solutions of a target.
 pub const CAPACITY: usize = 4;
-/// No answer yet: what a buffer is filled with.
+/// An empty entry, with which a buffer is filled.
 pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0, settled: true };
-/// The names of a target's numbers, in order.
+/// The names of the target numbers, in order.
 pub const INPUT_NAMES: [&str; INPUTS] = ["py", "pz"];
 /// The names of the joints, in order.
 pub const JOINT_NAMES: [&str; JOINTS] = ["ShoulderRoll", "ForearmAngle"];
@@ -126,7 +126,7 @@ fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 3], c: &mut C) where f64
     }
 }
 
-/// What the equations compare with parameters.
+/// The values that the equations compare with parameters.
 #[inline(always)]
 fn tip<N: Number>(at: &[N; 4]) -> [N; 2] where f64: With<N> {
     let [c2, s2, c4, s4] = *at;

@@ -38,7 +38,7 @@ const gb_real nao_head_limits[2 * NAO_HEAD_JOINTS] = {(gb_real)-2.08566845613322
 #if GB_WIDTH > 0
 
 #if GB_WIDTH == 1
-/* Where cases put a free joint: cosine and sine. */
+/* Samples of a free joint: cosine and sine. */
 static const gb_real samples_1[][2] = {
     {-R(0.9210609940028851), -R(0.3894183423086505)},
     {-R(0.37592812418099103), -R(0.926648825310733)},
@@ -49,7 +49,7 @@ static const gb_real samples_1[][2] = {
 };
 #endif
 
-/* The numbers of a target that the walk and the equations read. */
+/* The parameters that the blocks and the equations read, computed from a target. */
 GB_INLINE void GB_(parameters)(const T *target, T *p)
 {
     const T dx = target[0], dy = target[1], dz = target[2];
@@ -98,13 +98,13 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
     }
 }
 
-/* Walks through the blocks. */
+/* Evaluates the blocks. */
 GB_INLINE void GB_(walk)(const T *p, GB_(sink) *c)
 {
     GB_(block_1)(p, c);
 }
 
-/* What the equations compare with parameters. */
+/* The values that the equations compare with parameters. */
 GB_INLINE void GB_(tip)(const T *at, T *tip)
 {
     const T c1 = at[0], s1 = at[1], c2 = at[2], s2 = at[3];

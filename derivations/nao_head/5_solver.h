@@ -7,19 +7,19 @@
  * Target, in order:
  * `dx` (1), `dy` (1), `dz` (1).
  *
- * Joints, in order; angles lie in (-pi, pi]: HeadYaw (rad), HeadPitch (rad).
+ * Joints, in order; angles are in (-pi, pi]: HeadYaw (rad), HeadPitch (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef NAO_HEAD_H
 #define NAO_HEAD_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define NAO_HEAD_INPUTS 3
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define NAO_HEAD_JOINTS 2
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define NAO_HEAD_CAPACITY 6
 
 /* nao_head_solution, nao_head_pairs, nao_head_solve, ... */

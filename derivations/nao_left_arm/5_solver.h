@@ -7,19 +7,19 @@
  * Target, in order:
  * `px` (m), `py` (m), `pz` (m), `dx` (1), `dy` (1), `dz` (1).
  *
- * Joints, in order; angles lie in (-pi, pi]: ShoulderPitch (rad), ShoulderRoll (rad), ElbowYaw (rad), ElbowRoll (rad), WristYaw (rad).
+ * Joints, in order; angles are in (-pi, pi]: ShoulderPitch (rad), ShoulderRoll (rad), ElbowYaw (rad), ElbowRoll (rad), WristYaw (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef NAO_LEFT_ARM_H
 #define NAO_LEFT_ARM_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define NAO_LEFT_ARM_INPUTS 6
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define NAO_LEFT_ARM_JOINTS 5
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define NAO_LEFT_ARM_CAPACITY 23
 
 /* nao_left_arm_solution, nao_left_arm_pairs, nao_left_arm_solve, ... */

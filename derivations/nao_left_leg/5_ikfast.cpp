@@ -13,16 +13,16 @@
 //   AnklePitch
 //   AnkleRoll
 //
-// A target has 22 solutions at most. A solution lists no free joints: where a singular target leaves joints free, it is one
-// member of the self-motion. GetSolutionIndices gives the number of its branch, which is the same from target to target.
+// A target has at most 22 solutions. A solution does not list free joints: if joints are free at a singular target, it is one
+// member of the self-motion. GetSolutionIndices gives the number of its branch, which is consistent from target to target.
 //
-// Where the steps of polishing that a target may take (GB_MOST_STEPS) are spent before all work is done, other solutions may be missing; IKFast has no place to
-// report that. Where none was found before, ComputeIk returns false.
+// If the polishing steps of a target (GB_MOST_STEPS) are used up before all work is done, other solutions may be missing. The interface of IKFast cannot
+// report that. If no solution was found before, ComputeIk returns false.
 //
 // C++11. Place ikfast.h where #include "ikfast.h" finds it. The file may be included within a namespace when the headers below have been
 // included before. Not for -ffast-math, which drops NaN and infinity. Define IKFAST_NO_MAIN to leave main out.
 #ifdef __FAST_MATH__
-#error "this file tells NaN and infinity apart: compile it without -ffast-math"
+#error "this file uses NaN and infinity: compile it without -ffast-math"
 #endif
 
 #ifndef IKFAST_HAS_LIBRARY
@@ -59,10 +59,10 @@ using std::memset;
 using std::size_t;
 using std::sqrt;
 
-/* A length in metres times this is one in the unit of the equations. */
+/* Number of length units of the equations per metre. */
 static const double UNITS = 1.0;
 
-/* Moves a matrix by rows onto the nearest rotation, for messages round their numbers; false when it is farther off than 1e-3. */
+/* Replaces a matrix by rows by the nearest rotation, because messages round their numbers; false when it is farther than 1e-3 from a rotation. */
 static bool onto_rotation(double *r)
 {
     for (int step = 0; step < 6; step++) {
@@ -87,7 +87,7 @@ static bool onto_rotation(double *r)
     return true;
 }
 
-/* The target of the equations; false when there is none. */
+/* The target of the equations; false when it is invalid. */
 static bool read_target(const IkReal *eetrans, const IkReal *eerot, const IkReal *pfree, double *target)
 {
     (void)pfree;
@@ -106,11 +106,11 @@ static bool read_target(const IkReal *eetrans, const IkReal *eerot, const IkReal
     return onto_rotation(target + 3);
 }
 
-/* One solution as IKFast keeps it. */
+/* One solution in IKFast's format. */
 static std::vector<IkSingleDOFSolutionBase<IkReal> > kept(const nao_left_leg_solution &answer, const IkReal *pfree)
 {
     static const unsigned char kinds[NAO_LEFT_LEG_JOINTS] = { 0x01, 0x01, 0x01, 0x01, 0x01, 0x01 };
-    /* The branch number has one digit a joint in these bases. */
+    /* The branch number has one digit per joint in these bases. */
     static const unsigned char bases[NAO_LEFT_LEG_JOINTS] = { 36, 1, 1, 1, 1, 1 };
     (void)pfree;
     std::vector<IkSingleDOFSolutionBase<IkReal> > joints(NAO_LEFT_LEG_JOINTS);
@@ -233,7 +233,7 @@ IKFAST_API bool ComputeIk2(const IkReal *eetrans, const IkReal *eerot, const IkR
 using namespace IKFAST_NAMESPACE;
 #endif
 
-// Reads a target from the command line and prints its solutions, a line each.
+// Reads a target from the command line and prints its solutions, one per line.
 int main(int argc, char **argv)
 {
     const int numbers = 12;

@@ -32,7 +32,7 @@ const gb_real nao_leg_sagittal_limits[2 * NAO_LEG_SAGITTAL_JOINTS] = {-INFINITY,
 #include "groebot.h"
 #if GB_WIDTH > 0
 
-/* The numbers of a target that the walk and the equations read. */
+/* The parameters that the blocks and the equations read, computed from a target. */
 GB_INLINE void GB_(parameters)(const T *target, T *p)
 {
     const T px = target[0], pz = target[1];
@@ -64,7 +64,7 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
     }
 }
 
-/* Walks through the blocks. */
+/* Evaluates the blocks. */
 GB_INLINE void GB_(walk)(const T *p, GB_(sink) *c)
 {
     GB_(block_1)(p, c);

@@ -7,19 +7,19 @@
  * Target, in order:
  * `px` (mm), `pz` (mm).
  *
- * Joints, in order; angles lie in (-pi, pi]: HipPitch (rad), KneePitch (rad).
+ * Joints, in order; angles are in (-pi, pi]: HipPitch (rad), KneePitch (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef NAO_LEG_SAGITTAL_H
 #define NAO_LEG_SAGITTAL_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define NAO_LEG_SAGITTAL_INPUTS 2
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define NAO_LEG_SAGITTAL_JOINTS 2
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define NAO_LEG_SAGITTAL_CAPACITY 2
 
 /* nao_leg_sagittal_solution, nao_leg_sagittal_pairs, nao_leg_sagittal_solve, ... */

@@ -7,19 +7,19 @@
  * Target, in order:
  * `px` (m), `py` (m).
  *
- * Joints, in order; angles lie in (-pi, pi]: Shoulder (rad), Elbow (rad).
+ * Joints, in order; angles are in (-pi, pi]: Shoulder (rad), Elbow (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef PLANAR_2R_H
 #define PLANAR_2R_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define PLANAR_2R_INPUTS 2
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define PLANAR_2R_JOINTS 2
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define PLANAR_2R_CAPACITY 6
 
 /* planar_2r_solution, planar_2r_pairs, planar_2r_solve, ... */

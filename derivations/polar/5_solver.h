@@ -7,19 +7,19 @@
  * Target, in order:
  * `px` (m), `py` (m), `pz` (m).
  *
- * Joints, in order; angles lie in (-pi, pi]: Yaw (rad), Pitch (rad), Slide (m).
+ * Joints, in order; angles are in (-pi, pi]: Yaw (rad), Pitch (rad), Slide (m).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef POLAR_H
 #define POLAR_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define POLAR_INPUTS 3
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define POLAR_JOINTS 3
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define POLAR_CAPACITY 11
 
 /* polar_solution, polar_pairs, polar_solve, ... */

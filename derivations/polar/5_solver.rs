@@ -7,33 +7,33 @@
 //! Target, in order:
 //! `px` (m), `py` (m), `pz` (m).
 //!
-//! Joints, in order; angles lie in (-pi, pi]: `Yaw` (rad), `Pitch` (rad), `Slide` (m).
+//! Joints, in order; angles are in (-pi, pi]: `Yaw` (rad), `Pitch` (rad), `Slide` (m).
 //!
 //! With `use polar::{CAPACITY, EMPTY, Solve, Solver};`, and `out` as `[EMPTY; CAPACITY]`, `Solver.solve(&target, &mut out)?` is the number of solutions at the
-//! front of `out`; [`Solve`] has all else. It needs the crate `groebot-runtime`, which allocates nothing and, without its feature `std`, has no `std`.
+//! front of `out`; [`Solve`] has the other functions. It needs the crate `groebot-runtime`, which does not allocate and, without its feature `std`, is `no_std`.
 #![allow(dead_code, non_snake_case, unused_imports, unused_parens, unused_variables, clippy::all)]
 
 use groebot_runtime::{Candidates, Condition, Facts, Fixed, Found, Joint, Mechanism, Number, Preference, Reached, Short, With, rarely};
 pub use groebot_runtime::{Error, Solve};
 
-/// Inverse kinematics of `polar`: what is particular to it.
+/// The inverse kinematics solver of `polar`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Solver;
 
-/// One answer.
+/// One solution.
 pub type Solution = groebot_runtime::Solution<Solver>;
-/// One answer by cosines and sines.
+/// One solution by cosines and sines.
 pub type Pairs = groebot_runtime::Pairs<Solver>;
 
-/// Numbers of a target.
+/// Number of target numbers.
 pub const INPUTS: usize = 3;
-/// Joints of a solution.
+/// Number of joints of a solution.
 pub const JOINTS: usize = 3;
-/// The most solutions that a target can have.
+/// Maximal number of solutions of a target.
 pub const CAPACITY: usize = 11;
-/// No answer yet: what a buffer is filled with.
+/// An empty entry, with which a buffer is filled.
 pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0, settled: true };
-/// The names of a target's numbers, in order.
+/// The names of the target numbers, in order.
 pub const INPUT_NAMES: [&str; INPUTS] = ["px", "py", "pz"];
 /// The names of the joints, in order.
 pub const JOINT_NAMES: [&str; JOINTS] = ["Yaw", "Pitch", "Slide"];
@@ -59,7 +59,7 @@ const FACTS: Facts<'static> = Facts {
     ..Facts::NONE
 };
 
-/// Where cases put a free joint: cosine and sine.
+/// Samples of a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -158,7 +158,7 @@ fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 4], c: &mut C) where f64
     }
 }
 
-/// What the equations compare with parameters.
+/// The values that the equations compare with parameters.
 #[inline(always)]
 fn tip<N: Number>(at: &[N; 5]) -> [N; 3] where f64: With<N> {
     let [c1, s1, c2, s2, d3] = *at;

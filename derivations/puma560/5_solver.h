@@ -8,19 +8,19 @@
  * `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
  * `r31` (1), `r32` (1), `r33` (1).
  *
- * Joints, in order; angles lie in (-pi, pi]: Waist (rad), Shoulder (rad), Elbow (rad), WristRoll (rad), WristPitch (rad), Flange (rad).
+ * Joints, in order; angles are in (-pi, pi]: Waist (rad), Shoulder (rad), Elbow (rad), WristRoll (rad), WristPitch (rad), Flange (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef PUMA560_H
 #define PUMA560_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define PUMA560_INPUTS 12
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define PUMA560_JOINTS 6
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define PUMA560_CAPACITY 22
 
 /* puma560_solution, puma560_pairs, puma560_solve, ... */

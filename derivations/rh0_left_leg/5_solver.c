@@ -38,7 +38,7 @@ const gb_real rh0_left_leg_limits[2 * RH0_LEFT_LEG_JOINTS] = {(gb_real)-0.698131
 #if GB_WIDTH > 0
 
 #if GB_WIDTH == 1
-/* Where cases put a free joint: cosine and sine. */
+/* Samples of a free joint: cosine and sine. */
 static const gb_real samples_1[][2] = {
     {-R(0.9210609940028851), -R(0.3894183423086505)},
     {-R(0.37592812418099103), -R(0.926648825310733)},
@@ -49,7 +49,7 @@ static const gb_real samples_1[][2] = {
 };
 #endif
 
-/* The numbers of a target that the walk and the equations read. */
+/* The parameters that the blocks and the equations read, computed from a target. */
 GB_INLINE void GB_(parameters)(const T *target, T *p)
 {
     const T px = target[0], py = target[1], pz = target[2], r11_ = target[3], r12_ = target[4];
@@ -206,13 +206,13 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
     }
 }
 
-/* Walks through the blocks. */
+/* Evaluates the blocks. */
 GB_INLINE void GB_(walk)(const T *p, GB_(sink) *c)
 {
     GB_(block_1)(p, c);
 }
 
-/* What the equations compare with parameters. */
+/* The values that the equations compare with parameters. */
 GB_INLINE void GB_(tip)(const T *at, T *tip)
 {
     const T c12 = at[0], s12 = at[1], c11 = at[2], s11 = at[3], c10 = at[4], s10 = at[5], c9 = at[6];

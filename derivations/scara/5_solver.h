@@ -8,19 +8,19 @@
  * `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
  * `r31` (1), `r32` (1), `r33` (1).
  *
- * Joints, in order; angles lie in (-pi, pi]: Shoulder (rad), Elbow (rad), Quill (m), Tool (rad).
+ * Joints, in order; angles are in (-pi, pi]: Shoulder (rad), Elbow (rad), Quill (m), Tool (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef SCARA_H
 #define SCARA_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define SCARA_INPUTS 12
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define SCARA_JOINTS 4
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define SCARA_CAPACITY 8
 
 /* scara_solution, scara_pairs, scara_solve, ... */

@@ -8,19 +8,19 @@
  * `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
  * `r31` (1), `r32` (1), `r33` (1).
  *
- * Joints, in order; angles lie in (-pi, pi]: HipYaw (rad), HipRoll (rad), HipPitch (rad), KneePitch (rad), AnklePitch (rad), AnkleRoll (rad).
+ * Joints, in order; angles are in (-pi, pi]: HipYaw (rad), HipRoll (rad), HipPitch (rad), KneePitch (rad), AnklePitch (rad), AnkleRoll (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef TEO_LEG_H
 #define TEO_LEG_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define TEO_LEG_INPUTS 12
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define TEO_LEG_JOINTS 6
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define TEO_LEG_CAPACITY 22
 
 /* teo_leg_solution, teo_leg_pairs, teo_leg_solve, ... */

@@ -8,19 +8,19 @@
  * `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
  * `r31` (1), `r32` (1), `r33` (1).
  *
- * Joints, in order; angles lie in (-pi, pi]: ShoulderPan (rad), ShoulderLift (rad), Elbow (rad), Wrist1 (rad), Wrist2 (rad), Wrist3 (rad).
+ * Joints, in order; angles are in (-pi, pi]: ShoulderPan (rad), ShoulderLift (rad), Elbow (rad), Wrist1 (rad), Wrist2 (rad), Wrist3 (rad).
  *
- * groebot.h tells what the functions do. */
+ * groebot.h documents the functions. */
 #ifndef UR5_H
 #define UR5_H
 
 #include "groebot.h"
 
-/* Numbers of a target. */
+/* Number of target numbers. */
 #define UR5_INPUTS 12
-/* Joints of a solution. */
+/* Number of joints of a solution. */
 #define UR5_JOINTS 6
-/* The most solutions that a target can have. */
+/* Maximal number of solutions of a target. */
 #define UR5_CAPACITY 22
 
 /* ur5_solution, ur5_pairs, ur5_solve, ... */
