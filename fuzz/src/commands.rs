@@ -15,7 +15,7 @@ use super::{Target, check_shown, read, text};
 pub(super) const TARGETS: [Target; 7] = [
     Target {
         name: "command_line",
-        about: "arguments, one a line, `cli::readers::command_line`",
+        about: "arguments, one per line, `cli::readers::command_line`",
         run: command_line,
         damaged: 200,
     },
@@ -26,7 +26,7 @@ pub(super) const TARGETS: [Target; 7] = [
     Target { name: "poses", about: "tables of poses for `follow`", run: poses, damaged: 200 },
     Target {
         name: "names",
-        about: "names and escaping, in messages, Markdown and printed code",
+        about: "names and their escaping, in messages, Markdown and generated code",
         run: names,
         damaged: 100,
     },

@@ -19,7 +19,7 @@ use super::{Target, read, text};
 pub(super) const TARGETS: [Target; 6] = [
     Target {
         name: "program_json",
-        about: "derived solvers, `solver::Program`, and code of them",
+        about: "derived solvers, `solver::Program`, and their generated code",
         run: program_json,
         damaged: 100,
     },
@@ -33,16 +33,11 @@ pub(super) const TARGETS: [Target; 6] = [
     },
     Target {
         name: "folder",
-        about: "a folder with one file changed, `folder::check`; the first line is the file's name",
+        about: "a folder with one modified file, `folder::check`; the first line is the file's name",
         run: folder,
         damaged: 20,
     },
-    Target {
-        name: "reach_json",
-        about: "maps of what solvers reach, `reach::ReachMap`",
-        run: reach_json,
-        damaged: 200,
-    },
+    Target { name: "reach_json", about: "reach maps of solvers, `reach::ReachMap`", run: reach_json, damaged: 200 },
 ];
 
 /// Maps with more points are read but not drawn.

@@ -14,7 +14,7 @@ use super::{Target, read, text};
 
 pub(super) const TARGETS: [Target; 10] = [
     Target { name: "chain_toml", about: "chains, `kinematics::Chain::from_toml`", run: chain_toml, damaged: 200 },
-    Target { name: "dh_toml", about: "tables of Denavit and Hartenberg", run: dh_toml, damaged: 100 },
+    Target { name: "dh_toml", about: "Denavit-Hartenberg tables", run: dh_toml, damaged: 100 },
     Target { name: "system_toml", about: "equations of a mechanism, `derive::System`", run: system_toml, damaged: 200 },
     Target { name: "coupled_toml", about: "coupled chains", run: coupled_toml, damaged: 200 },
     Target { name: "task_toml", about: "tasks of a mechanism, `derive::Ends`", run: task_toml, damaged: 200 },
@@ -25,7 +25,7 @@ pub(super) const TARGETS: [Target; 10] = [
         run: urdf,
         damaged: 100,
     },
-    Target { name: "input", about: "any file that `derive` takes, `derive::Source`", run: input, damaged: 100 },
+    Target { name: "input", about: "any input file of `derive`, `derive::Source`", run: input, damaged: 100 },
     Target { name: "mesh", about: "STL, `model::Meshes::triangles`", run: mesh, damaged: 200 },
     Target { name: "mesh_path", about: "names of meshes, `model::Meshes::find`", run: mesh_path, damaged: 200 },
 ];

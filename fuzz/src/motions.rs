@@ -12,14 +12,14 @@ use super::{Target, check_shown, read, text};
 
 pub(super) const TARGETS: [Target; 9] = [
     Target { name: "states", about: "tables of states, `motion::StateTable`", run: states, damaged: 300 },
-    Target { name: "log", about: "logs of `identify`, and what is identified", run: log, damaged: 100 },
+    Target { name: "log", about: "logs of `identify`, and the identified parameters", run: log, damaged: 100 },
     Target { name: "trajectory_csv", about: "trajectories in CSV", run: trajectory_csv, damaged: 200 },
     Target { name: "trajectory_json", about: "trajectories in JSON", run: trajectory_json, damaged: 200 },
     Target { name: "walk_json", about: "walks in JSON, and their page", run: walk_json, damaged: 100 },
     Target { name: "task_json", about: "tasks in JSON, `sim::TaskRecord`", run: task_json, damaged: 200 },
     Target { name: "footsteps", about: "footsteps in CSV, `gait::Route`", run: footsteps, damaged: 300 },
-    Target { name: "walk_words", about: "walks in words, `gait::words`", run: walk_words, damaged: 300 },
-    Target { name: "vrml", about: "VRML as RH0 Fig. 5-4 shows it, written in all formats", run: vrml, damaged: 200 },
+    Target { name: "walk_words", about: "text descriptions of walks, `gait::words`", run: walk_words, damaged: 300 },
+    Target { name: "vrml", about: "VRML in the form of RH0 Fig. 5-4, written in all formats", run: vrml, damaged: 200 },
 ];
 
 /// Rows have the number of columns of the table. Errors have a line.

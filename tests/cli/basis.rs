@@ -156,9 +156,9 @@ fn bad_files_are_refused_with_line_and_column() {
         (b"variables: x\r\nx + y\r\n", "line 2: column 5: `y` is not declared"),
         (b"ring r = 0,(x,y),ws(1,2);\nideal i = x;", "line 1: column 18: the order `ws`"),
         (b"ring r = 0,(x,y),dp;\nideal i = x,\n3xz;", "line 3: column 1: `3xz` is not declared"),
-        (b"x, y\n0\nx + 0.5,\ny", "line 3: column 6: `.` has no meaning"),
+        (b"x, y\n0\nx + 0.5,\ny", "line 3: column 6: `.` is not allowed"),
         (b"x + \xff", "line 1: column 5: the text is not UTF-8"),
-        (b"x + y\n\0", "line 2: column 1: `\\0` has no meaning"),
+        (b"x + y\n\0", "line 2: column 1: `\\0` is not allowed"),
         (b"x\n(x + y + z + w + v)^1000", "line 2: column 1: the expansion"),
     ];
     for (bytes, words) in cases {
@@ -182,8 +182,8 @@ fn wishes_that_do_not_fit_are_refused() {
         (CYCLIC, &["--eliminate", "x,x"], "named twice"),
         (CYCLIC, &["--eliminate", "x,y,z"], "no variable would remain"),
         (CYCLIC, &["--characteristic", "9"], "--characteristic: 9 is not a prime"),
-        (CYCLIC, &["--format", "msolve"], "line 1: column 6: `:` has no meaning"),
-        ("x\n7\nx", &["--characteristic", "11"], "modulo 7 already"),
+        (CYCLIC, &["--format", "msolve"], "line 1: column 6: `:` is not allowed"),
+        ("x\n7\nx", &["--characteristic", "11"], "already modulo 7"),
         (CIRCLE, &["--output-format", "msolve"], "no parameters"),
         ("x - 1/7", &["--characteristic", "7"], "line 1: column 1: division by `7`"),
     ];

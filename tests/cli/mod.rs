@@ -184,5 +184,5 @@ fn info_describes_chains_and_systems() {
     let chain = succeed(&["info", text(&root("derivations/nao_leg_sagittal"))]);
     assert!(chain.contains("KneePitch") && chain.contains("turns about") && chain.contains("c4 > c3 > s4 > s3"));
     let system = succeed(&["info", text(&root("derivations/nao_arm_planar/0_system.toml"))]);
-    assert!(system.contains("(6.7.1)  105*c2 + 113.7*s4 - pz = 0"), "{system}");
+    assert!(system.contains("(6.7.1)  f1 = 105*c2 + 113.7*s4 - pz = 0"), "{system}");
 }

@@ -128,7 +128,7 @@ fn programs() {
     assert!(malformed.contains("5_program.json: line 2:"), "{malformed}");
     fs::write(&file, "{ \"name\": \"leg\",\n \"version\": \"0.1.0\" }").unwrap();
     let old = refused(&["solve", text(folder.path()), "--target", "1,2"]);
-    assert!(old.contains("written by groebot 0.1.0; 2 is read: `groebot derive`"), "{old}");
+    assert!(old.contains("written by groebot 0.1.0; 2 to 3 are read: `groebot derive`"), "{old}");
     fs::write(&file, noise(100_000)).unwrap();
     refused(&["solve", text(&file), "--target", "1,2"]);
     let robot = root("tests/corpus/urdf/ur5.urdf");

@@ -68,7 +68,7 @@ fn forge_cofactors<F: Field>(honest: &Owned<F>) {
         }
         let other = (row + 1) % honest.basis.len();
         let first = row.min(other) + 1;
-        let place = format!("cofactors of basis element {first} do not");
+        let place = format!("cofactors of basis element {first} is not");
         honest.forged(|claim| claim.cofactors.swap(row, other)).refused(&place);
         let short = format!("element {} has 2 cofactors for 3 generators", row + 1);
         honest.forged(|claim| drop(claim.cofactors[row].pop())).refused(&short);

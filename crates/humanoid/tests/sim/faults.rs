@@ -68,7 +68,7 @@ const FAULTS: [(&str, &str, ErrorKind, &str); 15] = [
         "</joint>",
         "<mimic joint=\"pan\"/></joint>",
         ErrorKind::BadValue,
-        "joint `pan`: the joints that it mimics mimic one another",
+        "joint `pan`: the chain of joints that it mimics is a cycle",
     ),
     (
         "</joint>",

@@ -125,5 +125,5 @@ fn requested_tasks_must_fit() {
     assert_error(&head.solve(&target).unwrap_err(), ErrorKind::BadValue, None, "direction");
     let polar = robots::polar();
     let polar = polar.with_task(Task::Direction, polar.direction().clone(), vec!["Yaw".into()]).unwrap();
-    assert_error(&ScrewSolver::new(&polar).unwrap_err(), ErrorKind::PositiveDimensional, None, "`Slide` slides");
+    assert_error(&ScrewSolver::new(&polar).unwrap_err(), ErrorKind::PositiveDimensional, None, "`Slide` is prismatic");
 }

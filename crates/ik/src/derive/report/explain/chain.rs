@@ -44,9 +44,9 @@ pub fn document(derived: SequentialView<'_>, stage: Option<Stage>) -> Result<Doc
 
 /// Text on the cut of the loop for a task that leaves the yaw open.
 pub(super) const YAW_OPEN: &str = "The yaw is left open, and the first joint turns about a vertical as the yaw does. So the loop is cut \
-     there: behind the tip follow the roll and the pitch, which are given, the turn about the vertical that is left, the way from the first \
-     axis to the tip and the tip's height, which are given, and last the first joint, counted from where the tip is to be, seen from above. \
-     This loop closes where its tip is back at the base: its target never changes.";
+     there. After the tip it continues with the given roll and pitch, the remaining rotation about the vertical, the distance from the \
+     first axis to the tip, the given height of the tip, and the first joint, measured from the direction of the wanted tip seen from above. \
+     The loop closes where its tip is at the base again, so its target is constant.";
 
 fn introduce(page: &mut Document, derived: SequentialView<'_>) {
     let parts = derived.problem.chain.parts();
