@@ -208,8 +208,8 @@ fn square_roots_of_numbers_are_positive_and_independent() {
         assert!(System::new(with(fine)).is_ok(), "{fine:?}");
     }
     let bad = ErrorKind::BadValue;
-    refused(with(&["4"]), bad, "follows");
-    refused(with(&["0.25"]), bad, "follows");
+    refused(with(&["4"]), bad, "depends on earlier roots");
+    refused(with(&["0.25"]), bad, "depends on earlier roots");
     refused(with(&["0"]), bad, "not positive");
     refused(with(&["-2"]), bad, "not positive");
     refused(with(&["2^1000 + 1", "((3^1000)^20)"]), ErrorKind::Overflow, "digits");

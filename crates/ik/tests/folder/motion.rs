@@ -74,7 +74,7 @@ fn forged_certificates_of_motion_are_refused() {
         ("\"terms\"", &masses(&both)),
         ("planar_2r", "planar_3r"),
         ("\"dynamics\"", "\"chain\""),
-        ("\"format\": 6", "\"format\": 1"),
+        ("\"format\": 7", "\"format\": 1"),
         ("\"format\"", "\"more\": 1,\n  \"format\""),
         ("\n", " \n"),
     ] {
