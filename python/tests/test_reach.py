@@ -130,7 +130,7 @@ def test_wrong_questions_are_refused(ur5):
             reach_map(ur5, GRID, 5, seed=seed)
     with pytest.raises(BadValueError, match="lesser one|limits"):
         reach_map(ur5, GRID, 5, limits=[[1, 0]] * 6)
-    with pytest.raises(groebot.GroebotError, match="none is known here"):
+    with pytest.raises(groebot.GroebotError, match="requires the chain"):
         reach_map(Solver.from_json(json.dumps(json.loads(ur5.to_json())["program"])), GRID, 5, "manipulability")
     with pytest.raises(groebot.GroebotError, match="positions of one tip"):
         reach_map(Solver.named("nao_head"), GRID)

@@ -49,7 +49,10 @@ fn expect(error: &groebot_ik::Error, words: &str) {
 fn forged_claims_are_refused_and_located() {
     let basis = |value: &mut Value, tree: &str, stratum: usize| value[tree][stratum]["claim"]["basis"].take();
     let error = damaged(|v| v["requested"][0]["claim"]["basis"][1] = "s4".into());
-    expect(&error, "requested order: stratum `generic`: the combination of the generators with the cofactors of basis element 2");
+    expect(
+        &error,
+        "requested order: stratum `generic`: the combination of the generators with the cofactors of basis element 2",
+    );
     let error = damaged(|v| v["requested"][0]["claim"]["cofactors"][2][0] = "0".into());
     expect(&error, "the cofactors of basis element 3");
     let error = damaged(|v| {

@@ -269,6 +269,9 @@ fn tolerances_follow_the_idealisation() {
 fn planes_that_are_tilted_beyond_the_tolerance_are_refused_with_the_option_that_helps() {
     let planar = with_task(&robot(&PLANAR, ["1.571", "3.142"]), Task::PlanarPose { plane: Plane::Xz }, [0, 0, 1]);
     let error = planar.ideal_within(1e-6).unwrap_err().to_string();
-    assert!(error.contains("`j1`") && error.contains("the deviation is 2.0e-4 rad") && error.contains("--snap"), "{error}");
+    assert!(
+        error.contains("`j1`") && error.contains("the deviation is 2.0e-4 rad") && error.contains("--snap"),
+        "{error}"
+    );
     assert!(planar.ideal_within(1e-3).is_ok());
 }

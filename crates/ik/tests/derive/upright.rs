@@ -97,7 +97,11 @@ fn arms_that_do_not_turn_about_a_vertical_are_refused() {
     let held = asked(&arm(["0", "0", "1"], ["0", "0", "0"]), vec!["base".into()]);
     for chain in [tilted, held] {
         let error = chain.upright().unwrap_err();
-        assert!(error.kind() == ErrorKind::Unsupported && error.message().contains("first joint rotates about the base's z"), "{error}");
+        assert!(
+            error.kind() == ErrorKind::Unsupported
+                && error.message().contains("first joint rotates about the base's z"),
+            "{error}"
+        );
         assert_eq!(Derivation::sequentially(&chain, &Watch::none()).unwrap_err().kind(), ErrorKind::Unsupported);
     }
 }

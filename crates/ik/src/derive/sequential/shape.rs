@@ -24,14 +24,19 @@ pub struct Shape {
 /// The form of the equations of `step` in its joint.
 ///
 /// # Errors
-/// [`ErrorKind::Unsupported`] if the equations do not have the structure that the step claims.
+/// [`ErrorKind::Unsupported`] if the equations do not have the structure that the step claims. [`ErrorKind::Certificate`] if an equation does not contain the
+/// joint, as 0 = 0.
 pub(super) fn shape(mechanism: &Mechanism, step: &PlanStep) -> Result<Shape> {
     let plain = |form| Ok(Shape { form, ratio: None });
     let revolute = mechanism.joints()[step.joint].is_revolute();
     match &step.method {
-        StepMethod::Single(_) if revolute => plain(Form::Angle),
+        StepMethod::Single(relation) if revolute => {
+            contains(&Symbolic::new(mechanism)?.polynomial(mechanism, relation)?, step.joint)?;
+            plain(Form::Angle)
+        }
         StepMethod::Single(relation) => {
             let polynomial = Symbolic::new(mechanism)?.polynomial(mechanism, relation)?;
+            contains(&polynomial, step.joint)?;
             let square = !part(&polynomial, Factor::LengthSquared(step.joint)).is_empty();
             plain(if square { Form::Quadratic } else { Form::Linear })
         }
@@ -56,6 +61,14 @@ fn follows(joint: usize, relations: [&Relation; 2]) -> bool {
         .iter()
         .zip(0..)
         .all(|(followed, unknown)| followed.is_some_and(|[follower, _, own]| follower == joint && own == unknown))
+}
+
+/// Checks that an equation contains the joint. Otherwise every value of the joint would solve it.
+fn contains(polynomial: &Multilinear<TargetPoly>, joint: usize) -> Result<()> {
+    let is_contained =
+        polynomial.terms().any(|(product, _)| product.list().iter().any(|factor| factor.joint() == joint));
+    let text = "an equation of the step does not contain its joint";
+    is_contained.then_some(()).ok_or_else(|| Error::new(ErrorKind::Certificate, text))
 }
 
 /// The form of the result of an elimination.
@@ -93,6 +106,7 @@ fn turn(mechanism: &Mechanism, joint: usize, relations: &[Relation; 2]) -> Resul
     let mut parts = Vec::new();
     for relation in relations {
         let polynomial = symbolic.polynomial(mechanism, relation)?;
+        contains(&polynomial, joint)?;
         parts.push((part(&polynomial, Factor::Cosine(joint)), part(&polynomial, Factor::Sine(joint))));
     }
     let square = &mechanism.joints()[joint].square;

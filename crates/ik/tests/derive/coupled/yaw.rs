@@ -182,7 +182,7 @@ fn the_certificate_proves_it_again_and_no_other() {
         let error = Derivation::prove(STANDING.problem().clone(), &changed).unwrap_err();
         assert!(error.kind() == ErrorKind::Certificate && error.message().contains(words), "`{words}`: {error}");
     };
-    refused("\"member\": \"", "\"member\": \"x3 + ", "is not equal to it");
+    refused("\"member\": \"", "\"member\": \"x3 + ", "do not multiply out");
     refused("\"1/20\"", "\"1/10\"", "");
     refused("\"joints\": [0, 3]", "\"joints\": [3, 0]", "");
 }

@@ -64,6 +64,22 @@ fn a_forged_relation_or_form_is_refused() {
     assert!(text.contains("the forms are not those of the steps"), "{text}");
 }
 
+/// An equation about the direction zero is 0 = 0. It is true, but every value of the joint solves it.
+#[test]
+fn an_equation_without_its_joint_is_refused() {
+    let chain = Chain::from_toml(include_str!("../../../../../derivations/polar/0_chain.toml")).unwrap();
+    let whole: Value = serde_json::from_str(&derive(&chain).certificate().unwrap()).unwrap();
+    for step in 0..3 {
+        let mut value = whole.clone();
+        let direction = &mut value["claims"]["plan"]["steps"][step]["way"]["single"]["fixed"]["direction"];
+        assert!(direction.is_array(), "{direction}");
+        *direction = serde_json::json!(["0", "0", "0"]);
+        let error = Derivation::prove(&chain, &value.to_string()).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Certificate, "{error}");
+        assert!(error.message().contains("does not contain its joint"), "{error}");
+    }
+}
+
 /// A position does not specify other points of the tip. An equation about such a point holds in the loop, but not for all poses with that position.
 #[test]
 fn an_equation_about_what_the_task_does_not_see_is_refused() {
