@@ -163,7 +163,7 @@ impl Columns {
         let all: Vec<(usize, &str)> = names.iter().enumerate().collect();
         let scaled = |&(place, name): &(usize, &str)| Some((place, self.scale(field, name)?));
         let has = |name: &str| names.iter().any(|own| own == name);
-        let is_joint = self.joints.iter().any(|joint| *joint == field.name);
+        let is_joint = self.joints.contains(&field.name);
         if field.number.is_some() && is_joint && has("outside_limits") && !has("solutions") {
             return all.iter().rev().find_map(scaled);
         }

@@ -31,9 +31,9 @@ fn cases(reached: impl Fn(&[f64]) -> Vec<f64>) -> Vec<[Isometry3<f64>; 3]> {
         let (base, tool, far) = (pose(1.0), pose(0.1), pose(1.0));
         let q: Vec<f64> = (0..6).map(|_| between(-3.0, 3.0)).collect();
         let Ok(Target::Pose(tip)) = Task::Pose.layout().target(&reached(&q)) else { unreachable!() };
-        [base, tool, if index % 4 == 0 { far } else { base * tip * tool }]
+        [base, tool, if index.is_multiple_of(4) { far } else { base * tip * tool }]
     };
-    (0..40).map(|index| case(index)).collect()
+    (0..40).map(case).collect()
 }
 
 #[test]

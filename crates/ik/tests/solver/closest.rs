@@ -193,7 +193,7 @@ fn other_tasks_have_closest_joints_too() {
         let solver = program(name).solver();
         let found = solver.closest(target).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(found.is_minimum, "{name}: {found:?}");
-        let [distance, angle] = (|| {
+        let (distance, angle) = {
             let (own, goal) = (values(&found.reached), values(&target));
             let lengths = if matches!(target, Target::Direction(_)) { 0 } else { 2.max(goal.len().min(3)) };
             let lengths = if matches!(target, Target::PlanarPose(_)) { 2 } else { lengths };
@@ -203,8 +203,8 @@ fn other_tasks_have_closest_joints_too() {
                 | (Target::Ray { direction: a, .. }, Target::Ray { direction: b, .. }) => a.angle(&b),
                 _ => found.angle,
             };
-            [distance, angle]
-        })();
+            (distance, angle)
+        };
         assert!((found.distance - distance).abs() < 1e-9, "{name}: {distance} {found:?}");
         assert!((found.angle - angle).abs() < 1e-7, "{name}: {angle} {found:?}");
         assert_eq!(found.reachable, !solver.solve(target).unwrap().is_empty(), "{name}");

@@ -8,33 +8,33 @@
 //! `px` (m), `py` (m), `pz` (m), `r11` (1), `r12` (1), `r13` (1), `r21` (1), `r22` (1), `r23` (1),
 //! `r31` (1), `r32` (1), `r33` (1).
 //!
-//! Joints, in order; angles lie in (-pi, pi]: `HipYaw` (rad), `HipRoll` (rad), `HipPitch` (rad), `KneePitch` (rad), `AnklePitch` (rad), `AnkleRoll` (rad).
+//! Joints, in order; angles are in (-pi, pi]: `HipYaw` (rad), `HipRoll` (rad), `HipPitch` (rad), `KneePitch` (rad), `AnklePitch` (rad), `AnkleRoll` (rad).
 //!
 //! With `use teo_leg::{CAPACITY, EMPTY, Solve, Solver};`, and `out` as `[EMPTY; CAPACITY]`, `Solver.solve(&target, &mut out)?` is the number of solutions at the
-//! front of `out`; [`Solve`] has all else. It needs the crate `groebot-runtime`, which allocates nothing and, without its feature `std`, has no `std`.
+//! front of `out`; [`Solve`] has the other functions. It needs the crate `groebot-runtime`, which does not allocate and, without its feature `std`, is `no_std`.
 #![allow(dead_code, non_snake_case, unused_imports, unused_parens, unused_variables, clippy::all)]
 
 use groebot_runtime::{Candidates, Condition, Facts, Fixed, Found, Joint, Mechanism, Number, Preference, Reached, Short, With, rarely};
 pub use groebot_runtime::{Error, Solve};
 
-/// Inverse kinematics of `teo_leg`: what is particular to it.
+/// The inverse kinematics solver of `teo_leg`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Solver;
 
-/// One answer.
+/// One solution.
 pub type Solution = groebot_runtime::Solution<Solver>;
-/// One answer by cosines and sines.
+/// One solution by cosines and sines.
 pub type Pairs = groebot_runtime::Pairs<Solver>;
 
-/// Numbers of a target.
+/// Number of target numbers.
 pub const INPUTS: usize = 12;
-/// Joints of a solution.
+/// Number of joints of a solution.
 pub const JOINTS: usize = 6;
-/// The most solutions that a target can have.
+/// Maximal number of solutions of a target.
 pub const CAPACITY: usize = 22;
-/// No answer yet: what a buffer is filled with.
+/// An empty entry, with which a buffer is filled.
 pub const EMPTY: Solution = Solution { q: [0.0; JOINTS], residual: 0.0, relative: 0.0, branch: 0, chosen: false, free: 0, settled: true };
-/// The names of a target's numbers, in order.
+/// The names of the target numbers, in order.
 pub const INPUT_NAMES: [&str; INPUTS] = ["px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"];
 /// The names of the joints, in order.
 pub const JOINT_NAMES: [&str; JOINTS] = ["HipYaw", "HipRoll", "HipPitch", "KneePitch", "AnklePitch", "AnkleRoll"];
@@ -62,7 +62,7 @@ const FACTS: Facts<'static> = Facts {
     ..Facts::NONE
 };
 
-/// Where cases put a free joint: cosine and sine.
+/// Samples of a free joint: cosine and sine.
 const SAMPLES_1: [[f64; 2]; 8] = [
     [-0.9210609940028851, -0.3894183423086505], [-0.37592812418099103, -0.926648825310733],
     [0.38941834230865047, -0.9210609940028851], [0.926648825310733, -0.375928124180991],
@@ -192,7 +192,7 @@ fn block_1<N: Number, C: Candidates<N, Solver>>(p: &[N; 13], c: &mut C) where f6
     }
 }
 
-/// What the equations compare with parameters.
+/// The values that the equations compare with parameters.
 #[inline(always)]
 fn tip<N: Number>(at: &[N; 12]) -> [N; 12] where f64: With<N> {
     let [c1, s1, c2, s2, c3, s3, c4, s4, c5, s5, c6, s6] = *at;

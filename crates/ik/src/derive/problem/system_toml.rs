@@ -51,9 +51,9 @@
 //! * The circle relation of every angle is added when the equations do not contain it.
 //! * The default order is that of [`SystemParts::default_order`].
 //! * A constant is a number, an expression in constants above it, or `{ square = "1/2" }`: the positive square root of
-//! such an expression. An irrational root remains a name in the equations: a [`Parameter`] with its square.
+//!   such an expression. An irrational root remains a name in the equations: a [`Parameter`] with its square.
 //! * A parameter with `quantity = "angle"` needs `cosine = "cphi"` and `sine = "sphi"`, the names that the equations use.
-//! They enter as two parameters, related by `sphi^2 = 1 - cphi^2`.
+//!   They enter as two parameters, related by `sphi^2 = 1 - cphi^2`.
 
 use std::collections::HashMap;
 use std::path::Path;
