@@ -20,7 +20,7 @@ fn numbers(pose: &Isometry3<f64>) -> Vec<f64> {
 /// base, tool, and the pose of the tool in the world: every fourth is out of reach.
 fn cases(reached: impl Fn(&[f64]) -> Vec<f64>) -> Vec<[Isometry3<f64>; 3]> {
     let mut between = random();
-    let mut case = |index: usize| {
+    let case = |index: usize| {
         let mut pose = |size: f64| {
             let [x, y, z, roll, pitch, yaw] = std::array::from_fn(|_| between(-3.0, 3.0));
             Isometry3::from_parts(
