@@ -70,6 +70,16 @@ proptest! {
     }
 }
 
+/// In this order, `x^2` appears after `x^2 - x*y*z^2`, whose sugar is too large to reduce it. One of them must stay in the basis.
+#[test]
+fn elements_with_equal_leading_monomials_do_not_remove_each_other() {
+    for p in PRIMES {
+        let ring = ring(p, &["x", "y", "z"], Order::elimination(2, 3));
+        let found = f4(&ring, &read(&ring, &["x+y^2", "x^2-x*y*z^2", "x*y"]), &Watch::none()).unwrap();
+        assert_eq!(found.polynomials, read(&ring, &["y^2+x", "x*y", "x^2"]), "modulo {p}");
+    }
+}
+
 #[test]
 fn known_bases() {
     let mut seen = 0;

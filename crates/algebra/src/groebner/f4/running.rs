@@ -91,11 +91,11 @@ impl<const W: usize> Running<W> {
         let fresh = self.fresh_pairs(&lead, element, excess)?;
         self.drop_covered(&lead);
         self.pairs.extend(fresh);
-        let redundant = self.divisor(&lead, u32::MAX).is_some();
-        let packing = &self.packing;
-        self.leads.retain(|old| !packing.divides(&lead, &old.key));
         let head = Lead { key: lead, element, excess };
-        if !redundant {
+        // An old element of the same leading monomial stays: it may have had too much sugar to reduce the new one.
+        if self.divisor(&lead, u32::MAX).is_none() {
+            let packing = &self.packing;
+            self.leads.retain(|old| !packing.divides(&lead, &old.key));
             self.leads.push(head);
         }
         if let Some(all) = &mut self.all {
