@@ -143,7 +143,7 @@ def test_work_of_ones_own(tmp_path, client):
 class Squares(blocks.Work):
     rows = 1_050
 
-    def reported(self):
+    def parameters(self):
         return {"work": "squares"}
 
     def tables(self, start, stop):
