@@ -12,6 +12,7 @@ const STEPS: usize = 80;
 const MOST_DAMPING: f64 = 1e8;
 /// Rounding error of an error, relative to it.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// The search from one point.
 pub(super) struct Descent<'a> {
     pub measure: &'a Measure<'a>,

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use groebot_robot::kinematics::{Target, Task};
 
 use crate::solver::Solver;
-use crate::solver::prepared::{Outline, Sights};
+use crate::solver::prepared::{Outline, ReachedNumbers};
 use crate::{Error, ErrorKind, Result};
 
 /// The ratio of consecutive weights.
@@ -47,7 +47,7 @@ impl<'a> Measure<'a> {
             solver,
             task,
             lengths: task.layout().lengths(),
-            target: sights_of(task, &target[..outline.own]),
+            target: pairs_of(task, &target[..outline.own]),
             goal: Vec::new(),
             lever,
             weight: length.unwrap_or(outline.scale) / outline.scale,
@@ -55,7 +55,7 @@ impl<'a> Measure<'a> {
             unknown: outline.independent(),
         };
         measure.goal = measure.features(&measure.target);
-        measure.sights(&measure.given, false).ok_or_else(unsupported)?;
+        measure.reached_numbers(&measure.given, false).ok_or_else(unsupported)?;
         Ok(measure)
     }
 
@@ -78,8 +78,8 @@ impl<'a> Measure<'a> {
         &self.solver.outline
     }
 
-    fn sights(&self, q: &[f64], with_derivatives: bool) -> Option<Sights> {
-        self.solver.sights(q, with_derivatives)
+    fn reached_numbers(&self, q: &[f64], with_derivatives: bool) -> Option<ReachedNumbers> {
+        self.solver.reached_numbers(q, with_derivatives)
     }
 
     /// All joint values for those of the unknown joints.
@@ -92,7 +92,7 @@ impl<'a> Measure<'a> {
 
     /// The squared norm of the residuals at `q`; `None` if it is not finite.
     pub fn error(&self, q: &[f64]) -> Option<f64> {
-        let features = self.features(&self.sights(q, false)?.values);
+        let features = self.features(&self.reached_numbers(q, false)?.values);
         let error: f64 = features.iter().zip(&self.goal).map(|(a, b)| (a - b) * (a - b)).sum();
         error.is_finite().then_some(error)
     }
@@ -100,11 +100,11 @@ impl<'a> Measure<'a> {
     /// Half the gradient of the error by the unknown joints, in units of the step of each ([`Measure::unit`]).
     pub fn gradient(&self, values: &[f64]) -> Option<Vec<f64>> {
         let q = self.whole(values);
-        let sights = self.sights(&q, true)?;
-        let features = self.features(&sights.values);
+        let reached = self.reached_numbers(&q, true)?;
+        let features = self.features(&reached.values);
         let residuals: Vec<f64> = features.iter().zip(&self.goal).map(|(a, b)| a - b).collect();
         let along = |joint: usize| -> f64 {
-            let moved = self.features(&sights.by_joint[joint]);
+            let moved = self.features(&reached.by_joint[joint]);
             moved.iter().zip(&residuals).map(|(a, b)| a * b).sum()
         };
         let all: Vec<f64> = (0..q.len()).map(along).collect();
@@ -117,9 +117,9 @@ impl<'a> Measure<'a> {
         if self.outline().joints[joint].is_angle { 1.0 } else { self.outline().scale }
     }
 
-    /// The features of what joint values reach: lengths in units of the scale, then numbers whose differences are chords, weighted. They are linear.
-    fn features(&self, sights: &[f64]) -> Vec<f64> {
-        let (lengths, rest) = sights.split_at(self.lengths);
+    /// The features of reached numbers: lengths in units of the scale, then numbers whose differences are chords, weighted. They are linear.
+    fn features(&self, numbers: &[f64]) -> Vec<f64> {
+        let (lengths, rest) = numbers.split_at(self.lengths);
         let scale = self.outline().scale;
         let mut features: Vec<f64> = lengths.iter().map(|length| length / scale).collect();
         match self.task {
@@ -136,7 +136,7 @@ impl<'a> Measure<'a> {
 
     /// The distance from the target in the unit of the inputs, and the angle \[rad\].
     pub fn missed(&self, q: &[f64]) -> Option<[f64; 2]> {
-        let features = self.features(&self.sights(q, false)?.values);
+        let features = self.features(&self.reached_numbers(q, false)?.values);
         let norm =
             |part: &[f64], goal: &[f64]| part.iter().zip(goal).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
         let (lengths, chords) = features.split_at(self.lengths);
@@ -152,8 +152,8 @@ impl<'a> Measure<'a> {
     }
 }
 
-/// The sights of a target: an angle has two numbers.
-fn sights_of(task: Task, target: &[f64]) -> Vec<f64> {
+/// The numbers of a target, where an angle is its cosine and sine.
+fn pairs_of(task: Task, target: &[f64]) -> Vec<f64> {
     match task {
         Task::PlanarPose { .. } | Task::PositionYaw { .. } => {
             let (lengths, angles) = target.split_at(task.layout().lengths());

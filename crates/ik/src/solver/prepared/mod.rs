@@ -10,9 +10,9 @@ mod equations;
 mod mechanism;
 mod outline;
 mod parameters;
+mod reached_numbers;
 mod run;
 mod shaped;
-mod sights;
 mod spare;
 mod storage;
 
@@ -20,8 +20,8 @@ use serde::Serialize;
 
 pub use self::batch::{Batch, Solved};
 pub(super) use self::outline::{JointOutline, Outline};
+pub(super) use self::reached_numbers::ReachedNumbers;
 use self::shaped::Shaped;
-pub(super) use self::sights::Sights;
 use self::storage::{Dynamic, SixJoints};
 use super::program::Program;
 use super::{Facts, Layout, Pairs};
@@ -153,8 +153,8 @@ impl Solver {
     }
 
     /// The numbers of the target that joint values reach, with derivatives on request.
-    pub(super) fn sights(&self, q: &[f64], with_derivatives: bool) -> Option<Sights> {
-        shaped!(self, shaped => shaped.sights(q, with_derivatives))
+    pub(super) fn reached_numbers(&self, q: &[f64], with_derivatives: bool) -> Option<ReachedNumbers> {
+        shaped!(self, shaped => shaped.reached_numbers(q, with_derivatives))
     }
 
     /// The values of the program's parameters for a target, `p0` and so on in its code, and after them the magnitude,

@@ -1,4 +1,4 @@
-//! Where joint values bring the tip, with derivatives. Main type: [`Sights`].
+//! The target numbers that joint values reach, with derivatives. Main type: [`ReachedNumbers`].
 
 use groebot_runtime as runtime;
 use groebot_runtime::mechanism::{Equations, Inputs, Mechanism, Parameters, Places};
@@ -9,7 +9,7 @@ use super::shaped::Shaped;
 
 /// The numbers of a target that joint values reach: an angle has two, its cosine and its sine; a given joint has none.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Sights {
+pub(crate) struct ReachedNumbers {
     pub values: Vec<f64>,
     /// By joint, the derivatives of the values; empty if they are not requested.
     pub by_joint: Vec<Vec<f64>>,
@@ -17,7 +17,7 @@ pub(crate) struct Sights {
 
 impl<S: Storage + 'static> Shaped<S> {
     /// The numbers that `q` reaches, if the equations compare the tip with the target.
-    pub fn sights(&self, q: &[f64], with_derivatives: bool) -> Option<Sights> {
+    pub fn reached_numbers(&self, q: &[f64], with_derivatives: bool) -> Option<ReachedNumbers> {
         let facts = self.facts();
         if facts.has_extras || facts.reached.len() != facts.inputs || q.len() != facts.joints.len() {
             return None;
@@ -38,7 +38,7 @@ impl<S: Storage + 'static> Shaped<S> {
             list
         };
         let by_joint = if with_derivatives { self.columns(&p, &at).iter().map(picked).collect() } else { Vec::new() };
-        Some(Sights { values: picked(&values), by_joint })
+        Some(ReachedNumbers { values: picked(&values), by_joint })
     }
 
     /// The numbers that the equations read of joint values.
@@ -53,12 +53,12 @@ impl<S: Storage + 'static> Shaped<S> {
         at
     }
 
-    /// What the equations compare, of the mechanism as described.
+    /// The values that the equations compare, of the mechanism as described.
     fn seen(&self, p: &Parameters<Self>, at: &Places<Self>) -> Equations<Self> {
         if self.facts.within.is_some() { Mechanism::described(self, p, at) } else { Mechanism::tip(self, at) }
     }
 
-    /// By joint, the derivative of what the equations compare. Most are affine in the numbers of each joint: the derivative is the value at the derivatives of
+    /// By joint, the derivative of the values that the equations compare. Most are affine in the numbers of each joint: the derivative is the value at the derivatives of
     /// these numbers, less that at zeros.
     fn columns(&self, p: &Parameters<Self>, at: &Places<Self>) -> Vec<Equations<Self>> {
         let (joints, equations) = (self.kinds.joints.len(), self.facts.equations);
