@@ -1,6 +1,6 @@
 //! Navigation: readers of maps, distances compared with brute force, fields and paths checked against their equations.
 
-mod again;
+mod update;
 mod exact;
 mod fields;
 mod maps;

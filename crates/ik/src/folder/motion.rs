@@ -71,7 +71,7 @@ pub fn check(source: &Source, stored: &Stored) -> Vec<Finding> {
         vec![Finding::refused(
             folder,
             name,
-            format!("nothing proves this file: `{other}`, which belongs to it, is missing"),
+            format!("this file is unproved: `{other}`, which belongs to it, is missing"),
         )]
     };
     match MOTION.map(|name| stored.get(name)) {
@@ -90,7 +90,7 @@ fn checked(source: &Source, stored: &Stored, text: &str, json: &str) -> Vec<Find
     match read(source, json) {
         Err(error) => {
             let unproved =
-                Error::new(ErrorKind::Certificate, format!("nothing proves this file: `{DYNAMICS}` does not hold"));
+                Error::new(ErrorKind::Certificate, format!("this file is unproved: `{DYNAMICS}` does not hold"));
             vec![fails(DYNAMICS, error), fails(DYNAMICS_TEXT, unproved)]
         }
         Ok((certificate, moving)) => match certificate.prove(&moving.chain, text) {

@@ -247,7 +247,7 @@ fn check(limits: &[[f64; 2]], program: &Program) -> Result<()> {
         }
         Some(joint) => {
             let [low, high] = limits[joint];
-            format!("limits of `{}`: from {low} to {high}; the lesser one comes first", joints[joint].name)
+            format!("limits of `{}`: from {low} to {high}; give the lower one first", joints[joint].name)
         }
         None => return Ok(()),
     };
