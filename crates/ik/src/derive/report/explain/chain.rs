@@ -224,8 +224,8 @@ fn singularities(page: &mut Document) {
          residual, and merges equal ones.",
     );
     page.text(
-        "Where a joint is free there is a self-motion. The program sets an angle to eight values, a length to five, \
-         continues with the later steps, and returns the best member that it finds. The solution names the joints that are free, \
+        "Where a joint is free there is a self-motion. The program samples an angle at 8 or 16 values, a length at 5 or more. \
+         It continues with the later steps and returns the best member that it finds. The solution names the joints that are free, \
          and all members share one branch number.",
     );
 }
