@@ -23,7 +23,12 @@ pub(super) const TARGETS: [Target; 6] = [
         run: program_json,
         damaged: 100,
     },
-    Target { name: "certificate", about: "certificates, `derive::Derivation::prove_source`", run: certificate, damaged: 60 },
+    Target {
+        name: "certificate",
+        about: "certificates, `derive::Derivation::prove_source`",
+        run: certificate,
+        damaged: 60,
+    },
     Target { name: "dynamics_json", about: "certificates of equations of motion", run: dynamics_json, damaged: 100 },
     Target {
         name: "dynamics_text",

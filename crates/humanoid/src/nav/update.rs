@@ -35,8 +35,8 @@ impl Field {
         let watch = Watch::or_none(watch);
         self.check(map)?;
         match self.method {
-            Method::M3r => self.mended(map, &Along, watch),
-            Method::FastMarching(1) => self.mended(map, &Eikonal, watch),
+            Method::M3r => self.updated(map, &Along, watch),
+            Method::FastMarching(1) => self.updated(map, &Eikonal, watch),
             Method::FastMarching(_) => {
                 let goals: Vec<_> = self.goals.iter().map(|goal| map.centre(*goal)).collect();
                 let field = Field::new(map, &goals, self.method, watch)?;
@@ -92,7 +92,7 @@ impl Field {
         Ok(self)
     }
 
-    fn mended(mut self, map: &Map, rule: &impl Rule, watch: &Watch) -> Result<UpdatedField> {
+    fn updated(mut self, map: &Map, rule: &impl Rule, watch: &Watch) -> Result<UpdatedField> {
         let grid = Grid::new(map, Window::of(map));
         let mut times = grid.untouched(map);
         grid.fill(&mut times, &self.times);

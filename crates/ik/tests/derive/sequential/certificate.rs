@@ -26,6 +26,15 @@ fn it_proves_the_same_derivation_again() {
     }
 }
 
+/// Earlier certificates name the method of a step `way`.
+#[test]
+fn the_former_key_of_a_method_is_read() {
+    let (chain, text) = puma();
+    let former = text.replace("\"method\":", "\"way\":");
+    assert_ne!(former, text);
+    assert_eq!(Derivation::prove(&chain, &former), Derivation::prove(&chain, &text));
+}
+
 fn refused(change: impl Fn(&mut Value)) -> String {
     let (chain, text) = puma();
     let mut value: Value = serde_json::from_str(&text).unwrap();

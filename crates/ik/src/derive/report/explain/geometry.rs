@@ -63,12 +63,8 @@ pub fn conserved(measure: Measure) -> &'static str {
         Measure::Angle => {
             "the angle between the two, hence their scalar product, is equal along both paths round the loop"
         }
-        Measure::Offset => {
-            "the distance along the normal between the two is equal along both paths round the loop"
-        }
-        Measure::Distance => {
-            "the distance between the two, hence its square, is equal along both paths round the loop"
-        }
+        Measure::Offset => "the distance along the normal between the two is equal along both paths round the loop",
+        Measure::Distance => "the distance between the two, hence its square, is equal along both paths round the loop",
         Measure::Moment => "the mutual moment of the two is equal along both paths round the loop",
         Measure::Follow => "the position of one joint determines that of the other",
     }

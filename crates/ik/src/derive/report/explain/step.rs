@@ -92,7 +92,8 @@ impl Writer<'_> {
         match used.as_slice() {
             [] => self.page.text("This step needs the target only."),
             list => {
-                let text = format!("It uses the values of {} from earlier steps.", geometry::numbers(list.iter().copied()));
+                let text =
+                    format!("It uses the values of {} from earlier steps.", geometry::numbers(list.iter().copied()));
                 self.page.text(&text);
             }
         }
@@ -216,8 +217,9 @@ impl Writer<'_> {
         }
         self.page.text("The element of their ideal that contains only this joint:");
         let number = self.equation(format!("{} = 0", text(&elimination.member)));
-        self.page
-            .text("It is this combination of them, multiplied out exactly, so every solution of the loop satisfies it:");
+        self.page.text(
+            "It is this combination of them, multiplied out exactly, so every solution of the loop satisfies it:",
+        );
         let terms = elimination.cofactors.iter().enumerate().filter(|(_, f)| !f.is_zero());
         let sum = signs(terms.map(|(number, f)| format!("{}*f{}", strata::factor(&text(f)), number + 1)));
         match sum.len() {
