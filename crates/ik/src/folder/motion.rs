@@ -40,7 +40,7 @@ impl Moving {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a chain without masses. Otherwise those of [`masses`].
     pub fn numbers(&self) -> Result<Vec<[BigRational; 10]>> {
-        let text = "this chain's description has no masses; leave --numbers out";
+        let text = "this chain's description has no masses; omit --numbers";
         let robot = self.robot.as_ref().ok_or_else(|| Error::new(ErrorKind::BadValue, text))?;
         let path = robot.path(self.ends.base.as_deref(), self.ends.tip.as_deref())?;
         masses(robot, &path, &self.chain)
@@ -112,7 +112,7 @@ fn read(source: &Source, json: &str) -> Result<(Certificate, Moving)> {
         return refused("its mass parameters differ from those of the description");
     }
     if certificate.to_json() != json {
-        return refused("it is not written as `groebot dynamics --symbolic` writes it, which writes it anew");
+        return refused("it differs from the output of `groebot dynamics --symbolic`, which writes the correct one");
     }
     Ok((certificate, moving))
 }
