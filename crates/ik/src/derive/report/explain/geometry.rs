@@ -48,7 +48,7 @@ pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
         }
         let verb = if idle.len() == 1 { " leaves" } else { " leave" };
         let who = numbers(idle.iter().copied());
-        what.and(&format!(": {who}{verb} it in place: {}.", reason(mechanism, idle, object, relation.measure)))
+        what.and(&format!(": {who}{verb} it in place, because {}.", reason(mechanism, idle, object, relation.measure)))
     };
     let [run, tail] = relation.cancelled(mechanism);
     // Coordinates of the tip that the task does not use are not constrained after the last joint.
