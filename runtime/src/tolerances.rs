@@ -216,4 +216,4 @@ pub const EIGENVALUES: Eigenvalues = Eigenvalues {
     aside: [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3, 1e-2, 1e-2],
 };
 /// Tolerances of arcs.
-pub const ARCS: Arcs = Arcs { singular: 1e-9, rounding: 1e-11, same: 1e-7, found: 1e-6, tied: 1e-8, rate: 1e-6 };
+pub const ARCS: Arcs = Arcs { singular: 1e-6, rounding: 1e-11, same: 1e-7, found: 1e-6, tied: 1e-8, rate: 1e-6 };

@@ -47,7 +47,12 @@ impl Journey {
 
     /// The scaled joint values of the curve at a share of the present piece.
     pub fn at(&self, model: &Model<'_>, share: f64) -> Q {
-        let mut x = self.piece.at(share);
+        Journey::on(model, &self.piece, share)
+    }
+
+    /// The scaled joint values of the curve at a share of a piece.
+    pub fn on(model: &Model<'_>, piece: &Piece, share: f64) -> Q {
+        let mut x = piece.at(share);
         for _ in 0..CORRECTIONS {
             let place = model.place(&x);
             let step = place.linear.least(&place.values);

@@ -339,7 +339,10 @@ fn search_from(
         }
         Stop::End(_) => false,
         Stop::Lost(_) => {
-            output.push(Arc { is_unsure: true, length: 0.0, ..arc });
+            output.is_unsure = true;
+            if output.count == 0 {
+                output.push(Arc { is_unsure: true, length: 0.0, ..arc });
+            }
             false
         }
     }

@@ -9,6 +9,7 @@
 mod along;
 mod arcs;
 mod arm;
+mod best;
 mod crossing;
 mod elimination;
 mod ends;
@@ -22,4 +23,5 @@ mod within;
 pub use along::{at, sample};
 pub use arcs::{Arc, End, Outcome, arcs};
 pub use arm::{Arm, Given, Limits, MOST_JOINTS, Member, Members, Q, Redundant, Target, Task};
+pub use best::{Best, Criterion, best, optima};
 pub use within::{Within, any_within};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use groebot_runtime::redundant::{Arc, Q, Redundant, arcs};
+use groebot_runtime::redundant::{Arc, Criterion, Q, Redundant, Within, any_within, arcs, at, best};
 
 use super::srs::{Circle, Srs, pose};
 use crate::random;
@@ -45,7 +45,7 @@ impl Scan<'_> {
         let (ma, mb) = (margin(qa, self.limits), margin(qb, self.limits));
         let is_crossing = (ma > 0.0) != (mb > 0.0);
         let is_near = ma.abs().min(mb.abs()) < step;
-        let is_fine = step < 2e-3 && (!is_near || step < 2e-5) && (!is_crossing || step < 1e-7);
+        let is_fine = step < 5e-3 && (!is_near || step < 1e-4) && (!is_crossing || step < 1e-7);
         if is_fine || depth == 0 {
             self.points.push((b, *qb));
             return;
@@ -118,6 +118,7 @@ struct Counts {
     compared: usize,
     unsure: usize,
     wrong: usize,
+    lost: usize,
     ends: usize,
     arcs: usize,
 }
@@ -126,16 +127,52 @@ struct Counts {
 fn compare(vectors: &[Q]) -> Counts {
     let robot = Srs::iiwa();
     let limits = robot.arm().limits;
-    let mut counts = Counts { poses: 0, compared: 0, unsure: 0, wrong: 0, ends: 0, arcs: 0 };
+    let mut counts = Counts { poses: 0, compared: 0, unsure: 0, wrong: 0, lost: 0, ends: 0, arcs: 0 };
     for q in vectors {
         let target = pose(q);
         let mut out = [Arc::NONE; 256];
         let outcome = arcs(&robot, &target, &limits, &mut out).unwrap();
+        if outcome.count > 256 {
+            println!("{q:?} {outcome:?} {:?}", &out[250]);
+            continue;
+        }
         let found = &out[..outcome.count];
         counts.poses += 1;
         counts.unsure += usize::from(outcome.is_unsure);
+        if outcome.is_unsure {
+            println!(
+                "unsure {:?} arcs {} of {}, {:.2e} closed {} surface {}",
+                q.map(|x| (x.to_degrees() * 1e3).round() / 1e3),
+                found.iter().filter(|a| a.is_unsure).count(),
+                outcome.count,
+                regularity(&Circle::new(&target)),
+                outcome.closed,
+                outcome.is_surface
+            );
+        }
         counts.ends += outcome.ends;
         counts.arcs += outcome.count;
+        // Joint values at a known solution differ from the nearest ones on an arc by less than 1e-6.
+        let nearest = Criterion::Nearest { q0: *q, weights: [1.0; 7] };
+        let nearest = best(&robot.arm, &target, &limits, found, &nearest).unwrap();
+        let is_held = nearest.is_some_and(|best| {
+            let again = at(&robot.arm, &target, &limits, &found[best.arc], best.s).unwrap();
+            best.value > -1e-6 && distance(&again, &best.q) < 1e-6
+        });
+        if !is_held {
+            counts.lost += 1;
+            if counts.lost < 8 {
+                println!("lost {:?} {nearest:?} {outcome:?}", q.map(|x| (x.to_degrees() * 1e3).round() / 1e3));
+            }
+        }
+        match any_within(&robot, &target, &limits).unwrap() {
+            Within::Solution(found) => {
+                let reached = pose(&found);
+                assert!(margin(&found, &limits) > -1e-9);
+                assert!((0..12).all(|i| (reached[i] - target[i]).abs() < 1e-7), "{q:?}");
+            }
+            other => panic!("{other:?} at {q:?}"),
+        }
         let circle = Circle::new(&target);
         if regularity(&circle) < 3e-3 {
             continue;
@@ -164,10 +201,11 @@ fn compare(vectors: &[Q]) -> Counts {
 
 fn report(name: &str, c: &Counts) {
     println!(
-        "{name}: {} poses, {} compared, {} wrong, {} unsure, {:.1} ends, {:.1} arcs",
+        "{name}: {} poses, {} compared, {} wrong, {} lost, {} unsure, {:.1} ends, {:.1} arcs",
         c.poses,
         c.compared,
         c.wrong,
+        c.lost,
         c.unsure,
         c.ends as f64 / c.poses as f64,
         c.arcs as f64 / c.poses as f64
