@@ -208,7 +208,7 @@ fn along(model: &mut Model<'_>, arc: &Arc, number: usize, criterion: &Criterion,
             let s = f64::min(journey.before + share * journey.piece.length, arc.length);
             let value = criterion.value(model, &journey.piece.at(journey.share(s)));
             if middle.value >= before.value && middle.value > value {
-                refine(model, &stretch, [before.s, s], (number, criterion), list);
+                refine(model, &stretch, [before.s, s], None, (number, criterion), list);
             }
             (before, middle) = (middle, Sample { s, value });
             if s >= arc.length {
@@ -217,16 +217,18 @@ fn along(model: &mut Model<'_>, arc: &Arc, number: usize, criterion: &Criterion,
         }
     }
     if middle.value >= before.value {
-        refine(model, &stretch, [before.s, middle.s], (number, criterion), list);
+        refine(model, &stretch, [before.s, middle.s], Some(arc), (number, criterion), list);
     }
 }
 
-/// The optimum between two lengths, by golden section search (J. Kiefer, Proc. AMS 4 (1953) 502-506) and comparison with both ends.
+/// The optimum between two lengths, by golden section search (J. Kiefer, Proc. AMS 4 (1953) 502-506) and comparison with both ends, and with the end of the arc
+/// if this is the last search on it.
 fn refine(
     model: &Model<'_>,
     stretch: &Stretch,
     [mut low, mut high]: [f64; 2],
-    (arc, criterion): (usize, &Criterion),
+    ending: Option<&Arc>,
+    (number, criterion): (usize, &Criterion),
     list: &mut Sorted<'_>,
 ) {
     let value = |s: f64| criterion.value(model, &stretch.at(model, s));
@@ -253,7 +255,15 @@ fn refine(
             top = sample;
         }
     }
+    if let Some(arc) = ending {
+        // Rounding of the length may keep the search from the very end.
+        let at_end = criterion.value(model, &model.scaled(&arc.end.q));
+        if at_end >= top.value {
+            list.insert(Best { q: arc.end.q, value: at_end, arc: number, s: arc.length });
+            return;
+        }
+    }
     if list.has_room(top.value) {
-        list.insert(Best { q: model.unscaled(&stretch.at(model, top.s)), value: top.value, arc, s: top.s });
+        list.insert(Best { q: model.unscaled(&stretch.at(model, top.s)), value: top.value, arc: number, s: top.s });
     }
 }

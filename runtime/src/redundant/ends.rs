@@ -1,6 +1,7 @@
 //! End points of arcs: solutions where a joint is at a limit ([`Ends`]).
 
 use super::arm::{Given, MOST_JOINTS, Members, Q, Redundant, Target};
+use super::elimination::Rows;
 use super::model::Model;
 use super::step::{Piece, Point};
 use super::trace::is_on;
@@ -203,6 +204,11 @@ impl Ends {
         for k in 0..self.count {
             let mut end = self.list[k];
             let place = model.place(&end.at.x);
+            let is_solution = largest(&place.values) <= ARCS.found;
+            if !is_solution {
+                self.is_unsure = true;
+                continue;
+            }
             end.at = Point::of(&place, 1.0);
             let (forward, backward, tied) = open(model, &end);
             end.tied = tied;
@@ -272,6 +278,15 @@ pub(super) fn tied_at(model: &Model<'_>, x: &Q) -> u32 {
         }
     }
     tied
+}
+
+/// The largest magnitude of an equation's value.
+fn largest(values: &Rows) -> f64 {
+    let mut largest = 0.0;
+    for value in values {
+        largest = f64::max(largest, value.abs());
+    }
+    largest
 }
 
 /// The largest magnitude of an entry.

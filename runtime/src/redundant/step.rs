@@ -17,7 +17,7 @@ const SHORTEST: f64 = 1e-5;
 /// Lengths of the steps across such a crossing.
 const LEAPS: [f64; 4] = [1e-4, 1e-3, 1e-2, 5e-2];
 /// Maximal length of the first correction.
-const CORRECTION: f64 = 4e-3;
+const CORRECTION: f64 = 2e-3;
 /// Maximal ratio of the second correction to the first one.
 const CONTRACTION: f64 = 0.25;
 /// The least cosine of the angle between directions at both ends of a step.

@@ -26,9 +26,10 @@ fn distance(a: &Q, b: &Q) -> f64 {
     (0..7).map(|i| turn(a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The least distance to a limit.
+/// The least distance to a limit. The elbow's angle is constant, and may be at its limit.
 fn margin(q: &Q, limits: &[[f64; 2]; 7]) -> f64 {
-    (0..7).map(|i| (q[i] - limits[i][0]).min(limits[i][1] - q[i])).fold(f64::INFINITY, f64::min) + 1e-9
+    let of = |i: usize| (q[i] - limits[i][0]).min(limits[i][1] - q[i]) + if i == 3 { 1e-9 } else { 0.0 };
+    (0..7).map(of).fold(f64::INFINITY, f64::min)
 }
 
 /// Points of a curve, dense where it moves fast or is near a limit.
@@ -115,6 +116,7 @@ fn regularity(circle: &Circle) -> f64 {
 
 struct Counts {
     poses: usize,
+    /// Those whose curves are regular.
     compared: usize,
     unsure: usize,
     wrong: usize,
@@ -132,24 +134,9 @@ fn compare(vectors: &[Q]) -> Counts {
         let target = pose(q);
         let mut out = [Arc::NONE; 256];
         let outcome = arcs(&robot, &target, &limits, &mut out).unwrap();
-        if outcome.count > 256 {
-            println!("{q:?} {outcome:?} {:?}", &out[250]);
-            continue;
-        }
         let found = &out[..outcome.count];
         counts.poses += 1;
         counts.unsure += usize::from(outcome.is_unsure);
-        if outcome.is_unsure {
-            println!(
-                "unsure {:?} arcs {} of {}, {:.2e} closed {} surface {}",
-                q.map(|x| (x.to_degrees() * 1e3).round() / 1e3),
-                found.iter().filter(|a| a.is_unsure).count(),
-                outcome.count,
-                regularity(&Circle::new(&target)),
-                outcome.closed,
-                outcome.is_surface
-            );
-        }
         counts.ends += outcome.ends;
         counts.arcs += outcome.count;
         // Joint values at a known solution differ from the nearest ones on an arc by less than 1e-6.
@@ -159,16 +146,11 @@ fn compare(vectors: &[Q]) -> Counts {
             let again = at(&robot.arm, &target, &limits, &found[best.arc], best.s).unwrap();
             best.value > -1e-6 && distance(&again, &best.q) < 1e-6
         });
-        if !is_held {
-            counts.lost += 1;
-            if counts.lost < 8 {
-                println!("lost {:?} {nearest:?} {outcome:?}", q.map(|x| (x.to_degrees() * 1e3).round() / 1e3));
-            }
-        }
+        counts.lost += usize::from(!is_held);
         match any_within(&robot, &target, &limits).unwrap() {
             Within::Solution(found) => {
                 let reached = pose(&found);
-                assert!(margin(&found, &limits) > -1e-9);
+                assert!(margin(&found, &limits) > -1.1e-9);
                 assert!((0..12).all(|i| (reached[i] - target[i]).abs() < 1e-7), "{q:?}");
             }
             other => panic!("{other:?} at {q:?}"),
@@ -220,7 +202,9 @@ fn random_vectors() {
         (0..200).map(|_| std::array::from_fn(|i| limits[i][0] + next() * (limits[i][1] - limits[i][0]))).collect();
     let counts = compare(&vectors);
     report("random", &counts);
-    assert_eq!(counts.wrong, 0);
+    assert_eq!(counts.wrong, 0, "arcs that differ from the scan");
+    assert_eq!(counts.lost, 0, "vectors on no arc");
+    assert_eq!(counts.unsure, 0, "unsure outcomes");
 }
 
 #[test]
@@ -238,7 +222,9 @@ fn round_vectors() {
         .collect();
     let counts = compare(&vectors);
     report("round", &counts);
-    assert_eq!(counts.wrong, 0);
+    assert_eq!(counts.wrong, 0, "arcs that differ from the scan");
+    // Vectors with a straight elbow and another singular joint, where the solutions are not regular curves.
+    assert!(50 * counts.lost <= counts.poses, "vectors on no arc");
 }
 
 #[test]
