@@ -38,6 +38,7 @@ mod order;
 mod placement;
 mod problem;
 mod quartic;
+pub mod redundant;
 mod refine;
 pub mod registers;
 pub mod roots;
@@ -49,10 +50,10 @@ pub mod solve;
 #[cfg(feature = "sources")]
 pub mod sources;
 
+mod rejected;
 mod starts;
 mod steps;
 pub mod storage;
-mod strays;
 #[doc(hidden)]
 pub mod tolerances;
 mod triangle;
