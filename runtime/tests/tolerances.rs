@@ -100,7 +100,7 @@ targets! {
     roots_zero: crx, ORDINARY, 4, 0;
     /// 0: 8 solutions.
     strata_near: crx, NEAR_A_CURVE, 16, 0;
-    /// 0: no solution.
+    /// 0: no solution. The axes of joints 1, 4 and 6 coincide: two surfaces of solutions, with the arm upwards and downwards.
     derived_strata_close: stanford, [0.0, 0.0, 0.1, FRAC_PI_2, FRAC_PI_2, FRAC_PI_2], 2, 2;
     /// 4e-12: 4 solutions with free joints, and none at these joint values.
     derived_strata_lost: stanford,
