@@ -181,7 +181,8 @@ impl<M: Mechanism> Problem<'_, M> {
         sum
     }
 
-    /// The distance along `direction` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance `ahead`.
+    /// The distance along `direction` from a root to a second one, if the equations are quadratic there. It is computed by a Newton step at the distance
+    /// `ahead`.
     pub fn second_root(&mut self, root: &Joints<M>, direction: &Joints<M>, ahead: f64) -> Option<f64> {
         let there: Joints<M> = Array::by(self.joints(), |i| ahead * direction.as_ref()[i]);
         let start = shifted::<M>(&self.facts(), root, &there);
