@@ -57,12 +57,7 @@ fn all_else_is_refused_with_its_line() {
         ("Transform { scale 1 0 1 }", BadValue, 1, "give a positive number"),
         ("Transform { rotation 0 0 0 1 }", BadValue, 1, "no direction"),
         ("Shape { geometry Box { size 1 -1 1 } }", BadValue, 1, "give a positive number"),
-        (
-            "Shape { appearance Appearance { material Material {\ndiffuseColor 0 0 1.5 } } }",
-            BadValue,
-            2,
-            "from 0 to 1",
-        ),
+        ("Shape { appearance Appearance { material Material {\ndiffuseColor 0 0 1.5 } } }", BadValue, 2, "from 0 to 1"),
         ("Transform\n[ ]", Syntax, 2, "give `{`"),
         ("Transform {\n children [\n Shape { }", Syntax, 3, "the text ends here; a node is missing"),
         ("DEF", Syntax, 1, "a name is missing"),
