@@ -64,7 +64,7 @@ pub(super) fn trace(model: &Model<'_>, start: &Start, ends: &mut Ends, seeds: &m
         if let Some(crossing) = Crossing::first(model, &piece, start.tied) {
             let is_last = piece.length <= SHORTEST;
             if let Some(end) = arrive(model, &crossing, &piece, &walk, ends, is_last) {
-                piece = last_piece(model, &piece.from, &ends.list[end].at.x, &piece.to);
+                piece = last_piece(model, &piece.from, &ends.list[end].at, &piece.to);
                 seeds.pass(model, &piece);
                 ends.pass(model, &piece);
                 let is_unsure = walk.is_unsure || is_last && ends.list[end].is_unsure;
@@ -84,12 +84,15 @@ pub(super) fn trace(model: &Model<'_>, start: &Start, ends: &mut Ends, seeds: &m
     Trace { stop: Stop::Lost(walk.at.x), length, is_unsure: true }
 }
 
-/// The piece from a point to a known one near `to`.
-fn last_piece(model: &Model<'_>, from: &Point, x: &Q, to: &Point) -> Piece {
-    let place = model.place(x);
-    let side = if dot(&place.linear.tangent, &to.t) < 0.0 { -1.0 } else { 1.0 };
-    let mut last = Point::of(&place, side);
-    last.x = plus(&from.x, 1.0, &model.difference(x, &from.x));
+/// The piece from a point to a known one near `to`, in the direction of travel.
+fn last_piece(model: &Model<'_>, from: &Point, end: &Point, to: &Point) -> Piece {
+    let mut last = *end;
+    if dot(&end.t, &to.t) < 0.0 {
+        for value in &mut last.t {
+            *value = -*value;
+        }
+    }
+    last.x = plus(&from.x, 1.0, &model.difference(&end.x, &from.x));
     Piece::new(from, &last)
 }
 
