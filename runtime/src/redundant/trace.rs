@@ -6,12 +6,12 @@ use super::ends::{Ends, FREE, farthest};
 use super::model::{Model, dot, norm, plus};
 use super::seeds::Seeds;
 use super::step::{Piece, Point, Walk};
-use crate::tolerances::ARCS;
+use crate::tolerances::{ACCEPTANCE, MERGING};
 
 /// Maximal number of steps along a curve.
 const MOST_PIECES: usize = 5000;
 /// A crossing is not searched for with steps shorter than this.
-const SHORTEST: f64 = 2e-5;
+const SHORTEST: f64 = 0.2 * MERGING.apart;
 /// Newton steps to a crossing that is no known end point.
 const LOCATING: usize = 12;
 /// The least cosine of the angle between the directions of a curve and of an end point on it.
@@ -116,7 +116,7 @@ pub(super) fn is_on(model: &Model<'_>, piece: &Piece, x: &Q) -> bool {
     if !(0.0..=1.0).contains(&share) {
         return false;
     }
-    farthest(&model.difference(&piece.at(share), x)) <= ON * piece.length + ARCS.same
+    farthest(&model.difference(&piece.at(share), x)) <= ON * piece.length + MERGING.joints
 }
 
 /// The end point at which a curve reaches a limit. `None` where a shorter step is necessary to decide. Where the joint has no solver, or with the shortest step,
@@ -140,7 +140,7 @@ fn arrive(
             }
         }
     }
-    if nearest.1 <= 0.25 * size + ARCS.found {
+    if nearest.1 <= 0.25 * size + 10.0 * MERGING.joints {
         let end = &ends.list[nearest.0];
         let is_outward = -end.inward * dot(&end.at.t, &point.t) >= ALIGNED;
         let is_certain =
@@ -164,11 +164,11 @@ fn locate(model: &Model<'_>, crossing: &Crossing, near: &Point, walk: &Walk, end
     let mut size = f64::INFINITY;
     for _ in 0..LOCATING {
         (point, size) = crossing.corrected(model, &point.x, walk.side, 0.1)?;
-        if size <= ARCS.rounding {
+        if size <= ACCEPTANCE.residual {
             break;
         }
     }
-    let is_located = size <= ARCS.same;
+    let is_located = size <= MERGING.joints;
     if !is_located {
         return None;
     }
