@@ -5,7 +5,7 @@ use super::arm::{Arm, Limits, Q, Target};
 use super::model::{Model, dot, norm, plus};
 use super::step::{Piece, Point, Walk};
 use crate::solution::Error;
-use crate::tolerances::ARCS;
+use crate::tolerances::ACCEPTANCE;
 
 /// Newton steps from the cubic of a piece to the curve.
 const CORRECTIONS: usize = 8;
@@ -57,7 +57,7 @@ impl Journey {
             let place = model.place(&x);
             let step = place.linear.least(&place.values);
             x = plus(&x, -1.0, &step);
-            if norm(&step) <= ARCS.rounding || dot(&step, &step) > 1.0 {
+            if norm(&step) <= ACCEPTANCE.residual || dot(&step, &step) > 1.0 {
                 break;
             }
         }

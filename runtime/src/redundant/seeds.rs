@@ -8,7 +8,7 @@ use super::model::Model;
 use super::step::Piece;
 use crate::arithmetic::Arithmetic;
 use crate::solution::Error;
-use crate::tolerances::{ACCEPTANCE, ARCS};
+use crate::tolerances::{ACCEPTANCE, MERGING};
 
 /// Maximal number of solutions that are waiting for a curve.
 pub(super) const MOST_SEEDS: usize = 256;
@@ -207,6 +207,6 @@ impl Seeds {
             }
         }
         let x = piece.at(share);
-        farthest(&model.difference(&x, &self.list[k])) <= ON * piece.length + ARCS.same
+        farthest(&model.difference(&x, &self.list[k])) <= ON * piece.length + MERGING.joints
     }
 }

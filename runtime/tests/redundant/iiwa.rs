@@ -114,6 +114,11 @@ fn regularity(circle: &Circle) -> f64 {
     least
 }
 
+/// The number of vectors: `GROEBOT_VECTORS` for long runs.
+fn count(usual: usize) -> usize {
+    std::env::var("GROEBOT_VECTORS").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
+
 struct Counts {
     poses: usize,
     /// Those whose curves are regular.
@@ -198,8 +203,9 @@ fn report(name: &str, c: &Counts) {
 fn random_vectors() {
     let limits = Srs::iiwa().arm.limits;
     let mut next = random();
-    let vectors: Vec<Q> =
-        (0..200).map(|_| std::array::from_fn(|i| limits[i][0] + next() * (limits[i][1] - limits[i][0]))).collect();
+    let vectors: Vec<Q> = (0..count(60))
+        .map(|_| std::array::from_fn(|i| limits[i][0] + next() * (limits[i][1] - limits[i][0])))
+        .collect();
     let counts = compare(&vectors);
     report("random", &counts);
     assert_eq!(counts.wrong, 0, "arcs that differ from the scan");
@@ -212,7 +218,7 @@ fn round_vectors() {
     let limits = Srs::iiwa().arm.limits;
     let mut next = random();
     let step = 15.0_f64.to_radians();
-    let vectors: Vec<Q> = (0..200)
+    let vectors: Vec<Q> = (0..count(60))
         .map(|_| {
             std::array::from_fn(|i| {
                 let most = (limits[i][1] / step + 1e-9).floor();
@@ -240,15 +246,21 @@ fn times() {
     let (mut all, mut solving) = (Vec::new(), Vec::new());
     let mut members = groebot_runtime::redundant::Members::NONE;
     for target in &targets {
-        let start = std::time::Instant::now();
-        let outcome = arcs(&robot, target, &limits, &mut out).unwrap();
-        all.push(start.elapsed().as_secs_f64() * 1e6);
-        assert!(outcome.count > 0);
-        let start = std::time::Instant::now();
-        for k in 0..28 {
-            robot.solve_given(target, [0, 1, 2, 4, 5, 6, 2][k % 7], limits[k % 7][k / 14], &mut members).unwrap();
+        // The machine may be busy: the least of some times.
+        let mut least = [f64::INFINITY; 2];
+        for _ in 0..20 {
+            let start = std::time::Instant::now();
+            let outcome = arcs(&robot, target, &limits, &mut out).unwrap();
+            least[0] = least[0].min(start.elapsed().as_secs_f64() * 1e6);
+            assert!(outcome.count > 0);
+            let start = std::time::Instant::now();
+            for k in 0..28 {
+                robot.solve_given(target, [0, 1, 2, 4, 5, 6, 2][k % 7], limits[k % 7][k / 14], &mut members).unwrap();
+            }
+            least[1] = least[1].min(start.elapsed().as_secs_f64() * 1e6);
         }
-        solving.push(start.elapsed().as_secs_f64() * 1e6);
+        all.push(least[0]);
+        solving.push(least[1]);
     }
     all.sort_by(f64::total_cmp);
     solving.sort_by(f64::total_cmp);
