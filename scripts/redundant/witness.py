@@ -1,6 +1,6 @@
 """All arcs of solutions within limits, of poses of an arm, without groebot.
 
-    python witness.py ARMS_FOLDER OUT_FOLDER [--only ID,...] [--count 7] [--starts 400] [--seed 1] [--bytes 24000]
+    python witness.py ARMS_FOLDER OUT_FOLDER [--only ID,...] [--count 7] [--starts 400] [--seed 1] [--bytes 16000]
 
 Whole curves are found from random starts, traced, and cut at the limits (trace.py, cut.py). A pose has one entry of the file OUT_FOLDER/ID.json.
 """
@@ -109,7 +109,7 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=7)
     parser.add_argument("--starts", type=int, default=400)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--bytes", type=int, default=24000, help="the greatest size of a file; poses beyond are left out")
+    parser.add_argument("--bytes", type=int, default=16000, help="the greatest size of a file; poses beyond are left out")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     for path in sorted(args.arms.glob("*.urdf")):
@@ -119,7 +119,8 @@ def main() -> None:
         chosen = vectors(arm, args.count, args.seed)
         targets, curves = curves_of(arm, np.array([q for _, q in chosen]), args.starts, args.seed)
         entries = [entry(arm, kind, q, (targets[0][i], targets[1][i]), curves[i]) for i, (kind, q) in enumerate(chosen)]
-        written(args.out / f"{arm.name}.json", {"arm": arm.name, "starts": args.starts, "seed": args.seed}, entries, args.bytes)
+        head = {"arm": arm.name, "starts": args.starts, "seed": args.seed, "count": args.count}
+        written(args.out / f"{arm.name}.json", head, entries, args.bytes)
         print(arm.name, len(entries), f"{time.perf_counter() - start:.1f} s", flush=True)
 
 
