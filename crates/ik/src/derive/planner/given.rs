@@ -4,7 +4,7 @@
 use std::cmp::Reverse;
 use std::fmt;
 
-use super::plan;
+use super::attempt;
 use super::refuse::{self, driven};
 use super::types::Plan;
 use crate::derive::closure::Mechanism;
@@ -91,9 +91,10 @@ fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize,
     for &joint in &places {
         watch.report("choose the joint that is given", joint, places.len());
         let with: Vec<usize> = given.iter().copied().chain([joint]).collect();
-        match plan(&mechanism.clone().with_given(&with)?, watch) {
-            Ok(plan) => plans.push((joint, [hardest(&plan), plan.dimension])),
-            Err(error) if is_refusal(error.kind()) => refusals.push((joint, error)),
+        match attempt(&mechanism.clone().with_given(&with)?, watch) {
+            Ok(Ok(plan)) => plans.push((joint, [hardest(&plan), plan.dimension])),
+            Ok(Err(refusal)) => refusals.push((joint, refusal.result)),
+            Err(error) if is_refusal(error.kind()) => refusals.push((joint, error.message().to_owned())),
             Err(error) => return Err(error),
         }
     }
