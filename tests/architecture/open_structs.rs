@@ -1,5 +1,7 @@
 //! Public structs are `#[non_exhaustive]` or have private fields, so that a field can be added without breaking callers. Exceptions have a reason.
 
+use std::collections::HashMap;
+
 use super::lexer::Token;
 use super::{Source, root, sources};
 
@@ -239,18 +241,21 @@ fn common(a: &[&str], b: &[String]) -> usize {
 }
 
 /// The open structs that the list of public items has, as module of the definition and name. A name that several modules define is the definition
-/// that shares most modules with its public path.
+/// that shares most modules with its public path, or each of them if several do.
 fn public_open_structs(list: &str, sources: &[Source]) -> Vec<String> {
-    let defines = |source: &Source, name: &str| {
-        source.tokens.windows(3).any(|own| own[0].text == "pub" && own[1].text == "struct" && own[2].text == name)
-    };
+    let mut defined: HashMap<&str, Vec<&Source>> = HashMap::new();
+    for source in sources {
+        for own in source.tokens.windows(3).filter(|own| own[0].text == "pub" && own[1].text == "struct") {
+            defined.entry(&own[2].text).or_default().push(source);
+        }
+    }
     let mut found = Vec::new();
     for path in list.lines().filter_map(|line| line.strip_prefix("groebot::")?.strip_suffix(" struct")) {
         let path: Vec<&str> = path.split("::").collect();
         let (name, modules) = path.split_last().unwrap();
-        let candidates: Vec<&Source> = sources.iter().filter(|source| defines(source, name)).collect();
+        let Some(candidates) = defined.get(name) else { continue };
         let most = candidates.iter().map(|source| common(modules, &source.module)).max().unwrap_or(0);
-        let nearest = candidates.into_iter().filter(|source| common(modules, &source.module) == most);
+        let nearest = candidates.iter().filter(|source| common(modules, &source.module) == most);
         let open = nearest.filter(|source| open_structs(&source.tokens).iter().any(|open| open == name));
         found.extend(open.map(|source| format!("{}::{name}", source.module.join("::"))));
     }

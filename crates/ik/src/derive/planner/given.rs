@@ -17,6 +17,7 @@ const AS_GOOD: f64 = 0.8;
 
 /// The joints whose values are given, and the alternatives.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Choice {
     /// The names of all given joints, from the base, including those that were given before.
     pub given: Vec<String>,
