@@ -34,6 +34,7 @@ pub mod number;
 mod placement;
 mod problem;
 mod quartic;
+pub mod redundant;
 mod refine;
 pub mod registers;
 pub mod roots;
@@ -45,10 +46,10 @@ pub mod solve;
 #[cfg(feature = "sources")]
 pub mod sources;
 
+mod rejected;
 mod starts;
 mod steps;
 pub mod storage;
-mod strays;
 #[doc(hidden)]
 pub mod tolerances;
 pub mod trigonometry;
