@@ -1,6 +1,6 @@
 //! Arrival-time fields: M3R of the thesis compared with shortest paths, fast marching compared with distances and with its own equation.
 
-use groebot_humanoid::nav::{Enclosure, Field, Map, Method, Shape};
+use groebot_humanoid::nav::{Field, Map, Method, Shape};
 use groebot_humanoid::{ErrorKind, Watch};
 use nalgebra::Point2;
 
