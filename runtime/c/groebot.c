@@ -61,13 +61,18 @@ static bool gb_is_between(gb_real x, gb_real low, gb_real high)
 #include "groebot/roots.c"
 #include "groebot/joints.c"
 #include "groebot/problem.c"
+#include "groebot/triangle.c"
 #include "groebot/newton.c"
 #include "groebot/self_motion.c"
+#include "groebot/connection.c"
 #include "groebot/rejected.c"
 #include "groebot/freedom.c"
+#include "groebot/curve_steps.c"
 #include "groebot/curve.c"
+#include "groebot/keep.c"
 #include "groebot/refine.c"
 #include "groebot/members.c"
+#include "groebot/order.c"
 #include "groebot/limits.c"
 
 #endif

@@ -197,7 +197,7 @@ struct gb_problem {
 /* Candidates for members of self-motions that turn out to be none, by branch and free joints: their number, the largest relative residual, and whether they
  * are known not to be members. */
 #define GB_KINDS 16
-#define GB_ISOLATED 8
+#define GB_KNOWN_ISOLATED 8
 #define GB_MEMBERS 32
 typedef struct {
     size_t branch;
@@ -250,8 +250,8 @@ typedef struct {
     /* Candidates next to which a curve is followed after all candidates are processed. */
     gb_starts starts;
     /* Isolated solutions known to be on no self-motion of these joints. When their maximal number is exceeded, the first is removed. */
-    gb_real known_isolated[GB_ISOLATED][GB_MAX_JOINTS];
-    uint32_t known_isolated_of[GB_ISOLATED];
+    gb_real known_isolated[GB_KNOWN_ISOLATED][GB_MAX_JOINTS];
+    uint32_t known_isolated_of[GB_KNOWN_ISOLATED];
     size_t known_isolated_count;
     /* Whether a stratum was met for which no derivation exists. */
     bool is_open;
