@@ -335,7 +335,7 @@ impl<M: Mechanism> Problem<'_, M> {
 }
 
 /// The index of the entry with the greatest magnitude, the first of equals.
-fn farthest(delta: &[f64]) -> usize {
+pub(crate) fn farthest(delta: &[f64]) -> usize {
     let farther = |best: usize, i: usize| if delta[i].abs() > delta[best].abs() { i } else { best };
     (1..delta.len()).fold(0, farther)
 }

@@ -29,6 +29,7 @@ pub mod limits;
 mod measure;
 pub mod mechanism;
 mod members;
+mod nearest;
 mod newton;
 pub mod number;
 mod placement;

@@ -252,7 +252,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// The Jacobian of the equations and their values.
-    fn slopes(&self, q: &Joints<M>) -> (Equations<M, Joints<M>>, Equations<M>) {
+    pub(crate) fn slopes(&self, q: &Joints<M>) -> (Equations<M, Joints<M>>, Equations<M>) {
         let at = self.place(q);
         (self.derivatives(&at), self.mechanism.values(self.parameters, &at))
     }

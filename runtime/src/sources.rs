@@ -1,7 +1,7 @@
 //! Source text of the run time, from which single-file solvers are assembled.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 38] = [
+pub const RUST: [(&str, &str); 39] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -22,6 +22,7 @@ pub const RUST: [(&str, &str); 38] = [
     ("measure", include_str!("measure.rs")),
     ("mechanism", include_str!("mechanism.rs")),
     ("members", include_str!("members.rs")),
+    ("nearest", include_str!("nearest.rs")),
     ("newton", include_str!("newton.rs")),
     ("number", include_str!("number.rs")),
     ("placement", include_str!("placement.rs")),
