@@ -72,7 +72,9 @@ pub(crate) fn nearest_to<M: Mechanism>(
         relative: list[k].relative,
         member: Some(k),
     });
-    let best = if facts.has_extras || list.iter().all(Solution::is_isolated) || !aim.is_finite() {
+    let member = list.iter().position(|answer| answer.free != 0);
+    let known = member.or(listed.as_ref().and_then(|best| best.member)).unwrap_or(0);
+    let best = if facts.has_extras || count == 0 || !aim.is_finite() {
         listed
     } else {
         let mut target = target.clone();
@@ -82,12 +84,16 @@ pub(crate) fn nearest_to<M: Mechanism>(
             along_ideal(mechanism, &p, list, (aim, listed), &mut steps)
         } else {
             let mut search = Search { problem: Problem::new(mechanism, &p, &mut steps), aim, best: listed };
-            search.all(list);
+            if member.is_some() {
+                search.all(list)
+            } else {
+                search.beside()
+            }
             search.best
         }
     };
     Ok(best.map(|best| {
-        let member = best.member.unwrap_or_else(|| list.iter().position(|answer| answer.free != 0).unwrap_or(0));
+        let member = best.member.unwrap_or(known);
         let Best { turned, residual, relative, .. } = best;
         (Solution { q: turned.q, residual, relative, ..list[member].clone() }, turned.distance)
     }))
@@ -122,7 +128,17 @@ impl<M: Mechanism> Search<'_, '_, M> {
         }
     }
 
-    /// Whether a solution of a known self-motion equals the reference within rounding.
+    /// Searches next to the reference if it is a solution itself. Next to a singular pose rounding moves the listed solution away from it.
+    fn beside(&mut self) {
+        if !self.is_reached() {
+            let fit = self.problem.measure(self.aim.reference);
+            if fit.relative <= ACCEPTANCE.unsettled {
+                self.descend(self.aim.reference.clone(), None);
+            }
+        }
+    }
+
+    /// Whether a listed solution, or one on its self-motion, equals the reference within rounding.
     fn is_reached(&self) -> bool {
         let rounding = ACCEPTANCE.rounding * ACCEPTANCE.rounding;
         self.best.as_ref().is_some_and(|best| best.member.is_some() && best.turned.distance <= rounding)

@@ -80,7 +80,7 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// The files that the C sources include, each by its path.
-pub const C_PARTS: [(&str, &str); 49] = [
+pub const C_PARTS: [(&str, &str); 50] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -92,6 +92,7 @@ pub const C_PARTS: [(&str, &str); 49] = [
     ("groebot/freedom.c", include_str!("../c/groebot/freedom.c")),
     ("groebot/joints.c", include_str!("../c/groebot/joints.c")),
     ("groebot/limits.c", include_str!("../c/groebot/limits.c")),
+    ("groebot/nearest.c", include_str!("../c/groebot/nearest.c")),
     ("groebot/measure.h", include_str!("../c/groebot/measure.h")),
     ("groebot/mechanism.h", include_str!("../c/groebot/mechanism.h")),
     ("groebot/members.c", include_str!("../c/groebot/members.c")),

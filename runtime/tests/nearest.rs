@@ -2,9 +2,8 @@
 
 #![allow(clippy::duplicate_mod)]
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use groebot_runtime::mechanism::Inputs;
 use groebot_runtime::storage::Array;
 use groebot_runtime::{Mechanism, Solution, Solve};
 
@@ -26,59 +25,206 @@ mod irb4600_rounded;
 #[path = "../../derivations/puma560/5_solver.rs"]
 mod puma560;
 
-fn probe<M: Mechanism>(m: &M, name: &str, make: impl Fn(&mut dyn FnMut() -> f64) -> [f64; 6], sure: f64) {
-    let n = 500;
-    let mut random = random();
+type Six = [f64; 6];
+
+const FREE: [[f64; 2]; 6] = [[-TAU, TAU]; 6];
+
+/// The nearest solution for the pose that `q` reaches, and its distance.
+fn nearest<M: Mechanism>(
+    m: &M,
+    q: &Six,
+    reference: &Six,
+    weights: &Six,
+    limits: &[[f64; 2]; 6],
+) -> Option<(Solution<M>, f64)> {
     let mut out = vec![Solution::empty(m); m.facts().capacity];
-    let weights = Array::by(6, |_| 1.0);
-    let limits = Array::by(6, |_| [-PI, PI]);
-    let (mut good, mut worst, mut isolated, mut none, mut listed) = (0, 0.0_f64, 0, 0, 0);
-    let start = std::time::Instant::now();
-    let mut bad = None;
-    for _ in 0..n {
-        let q0 = make(&mut random);
-        let q = Array::by(6, |i| q0[i]);
-        let target: Inputs<M> = m.forward(&q).unwrap();
-        match m.nearest_to(&target, &q, &weights, &limits, &mut out) {
-            Ok(Some((found, distance))) => {
-                worst = worst.max(distance.sqrt());
-                good += usize::from(distance.sqrt() <= sure);
-                if distance.sqrt() > sure && bad.is_none() { bad = Some((q0, found.clone())); }
-                isolated += usize::from(found.free == 0);
-            }
-            other => { none += 1; if bad.is_none() { println!("{other:?}"); } }
-        }
-        let count = m.solve(&target, &mut out).unwrap();
-        if let Some((_, q)) = m.nearest(&out[..count], &q, &weights, &limits) {
-            let d: f64 = q.as_ref().iter().zip(q0).map(|(a, b)| (a - b) * (a - b)).sum();
-            listed += usize::from(d.sqrt() <= sure);
-        }
-    }
-    println!("{name}: {good}/{n} worst {worst:e} isolated {isolated} none {none} listed {listed} {:?} each", start.elapsed() / n);
-    if let Some((q0, found)) = bad { println!("   {q0:?} {found:?}"); }
+    let target = m.forward(&Array::by(6, |i| q[i])).unwrap();
+    let [reference, weights] = [reference, weights].map(|row| Array::by(6, |i| row[i]));
+    m.nearest_to(&target, &reference, &weights, &Array::by(6, |i| limits[i]), &mut out).unwrap()
 }
 
-fn any(r: &mut dyn FnMut() -> f64) -> [f64; 6] {
-    [(); 6].map(|()| PI * (2.0 * r() - 1.0))
+/// Checks that the solution nearest to joint values, for the pose that they reach, is these joint values.
+#[track_caller]
+fn check_itself<M: Mechanism>(m: &M, q: &Six, tolerance: f64) {
+    let (found, distance) = nearest(m, q, q, &[1.0; 6], &FREE).unwrap();
+    assert!(distance.sqrt() <= tolerance, "{q:?}: {distance:e} {found:?}");
+    let [reached, target] = [&found.q, &Array::by(6, |i| q[i])].map(|q| m.forward(q).unwrap());
+    let error = reached.as_ref().iter().zip(target.as_ref()).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()));
+    assert!(error <= 1e-11, "{q:?}: {error:e}");
 }
 
-fn round(r: &mut dyn FnMut() -> f64) -> [f64; 6] {
-    [(); 6].map(|()| PI / 12.0 * ((24.0 * r()).floor() - 11.0))
+fn any(random: &mut impl FnMut() -> f64) -> Six {
+    [(); 6].map(|()| PI * (2.0 * random() - 1.0))
+}
+
+/// Joint values with this value of the fifth joint.
+fn with_wrist(q5: f64) -> impl Iterator<Item = Six> {
+    let mut random = random();
+    (0..500).map(move |_| {
+        let mut q = any(&mut random);
+        q[4] = q5;
+        q
+    })
 }
 
 #[test]
-fn probing() {
-    for (name, five) in [("exact", 0.0), ("1e-10", 1e-10), ("1e-9", 1e-9), ("1e-8", 1e-8), ("1e-7", 1e-7), ("1e-6", 1e-6), ("1e-5", 1e-5), ("ordinary", 0.5)] {
-        let with = |q5: f64| move |r: &mut dyn FnMut() -> f64| { let mut q = any(r); q[4] = q5; q };
-        probe(&puma::Solver, &format!("puma {name}"), with(FRAC_PI_2 + five), 1e-6);
-        probe(&puma560::Solver, &format!("puma560 {name}"), with(five), 1e-6);
-        probe(&ur5::Solver, &format!("ur5 {name}"), with(five), 1e-6);
-        probe(&irb120::Solver, &format!("irb120 {name}"), with(five), 1e-6);
-        probe(&irb4600_rounded::Solver, &format!("irb4600_rounded {name}"), with(five), 1e-6);
+fn the_members_of_self_motions_are_the_references_that_made_them() {
+    with_wrist(FRAC_PI_2).for_each(|q| check_itself(&puma::Solver, &q, 1e-9));
+    with_wrist(0.0).for_each(|q| check_itself(&puma560::Solver, &q, 1e-9));
+    with_wrist(0.0).for_each(|q| check_itself(&ur5::Solver, &q, 1e-9));
+    with_wrist(FRAC_PI_2).for_each(|q| check_itself(&irb120::Solver, &q, 1e-9));
+    with_wrist(0.0).for_each(|q| check_itself(&irb4600_rounded::Solver, &q, 1e-6));
+}
+
+/// Rounding moves listed solutions by the reciprocal of the distance from the singular pose.
+#[test]
+fn next_to_singular_poses_the_reference_is_found_too() {
+    for beside in [1e-10, 1e-9, -1e-8, 1e-7, 1e-6] {
+        with_wrist(FRAC_PI_2 + beside).for_each(|q| check_itself(&puma::Solver, &q, 1e-6));
+        with_wrist(beside).for_each(|q| check_itself(&puma560::Solver, &q, 1e-6));
+        with_wrist(beside).for_each(|q| check_itself(&ur5::Solver, &q, 1e-6));
+        with_wrist(FRAC_PI_2 + beside).for_each(|q| check_itself(&irb120::Solver, &q, 1e-6));
+        with_wrist(beside).take(100).for_each(|q| check_itself(&irb4600_rounded::Solver, &q, 1e-6));
     }
-    probe(&puma::Solver, "puma round", round, 1e-6);
-    probe(&puma560::Solver, "puma560 round", round, 1e-6);
-    probe(&ur5::Solver, "ur5 round", round, 1e-6);
-    probe(&irb120::Solver, "irb120 round", round, 1e-6);
-    probe(&irb4600_rounded::Solver, "irb4600 round", round, 1e-6);
+}
+
+#[test]
+fn round_joint_values_are_found() {
+    let mut random = random();
+    for _ in 0..500 {
+        let q = [(); 6].map(|()| PI / 12.0 * ((24.0 * random()).floor() - 11.0));
+        check_itself(&puma::Solver, &q, 1e-6);
+        check_itself(&puma560::Solver, &q, 1e-6);
+        check_itself(&ur5::Solver, &q, 1e-6);
+        check_itself(&irb120::Solver, &q, 1e-6);
+        check_itself(&irb4600_rounded::Solver, &q, 1e-6);
+    }
+}
+
+/// The distance of the wrist's centre from the first axis, in the plane of the arm.
+fn off_the_first_axis(q2: f64, q3: f64) -> f64 {
+    let tip = irb120::Solver.forward(&[0.0, q2, q3, 0.0, 0.0, 0.0]).unwrap();
+    // The third column of the rotation leads from the wrist's centre to the tip.
+    tip[0] - 0.16 * tip[5]
+}
+
+/// With the wrist's centre on the first axis, that joint rotates, and all joints of the wrist compensate: a closed curve that no joint parametrises everywhere.
+#[test]
+fn the_reference_is_found_where_the_wrist_is_on_the_first_axis() {
+    let mut random = random();
+    let mut singular = 0;
+    while singular < 500 {
+        let mut q = any(&mut random);
+        let (mut low, mut high) = (q[1], q[1] + FRAC_PI_2);
+        if off_the_first_axis(low, q[2]) * off_the_first_axis(high, q[2]) > 0.0 {
+            continue;
+        }
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            let is_left = off_the_first_axis(low, q[2]) * off_the_first_axis(middle, q[2]) <= 0.0;
+            (low, high) = if is_left { (low, middle) } else { (middle, high) };
+        }
+        q[1] = 0.5 * (low + high);
+        check_itself(&irb120::Solver, &q, 1e-6);
+        singular += 1;
+    }
+}
+
+/// On the self-motion of a wrist the fourth and the sixth joint rotate against each other, so that the nearest place is known.
+#[test]
+fn displaced_references_lead_to_their_projections() {
+    let mut random = random();
+    for mut q in with_wrist(0.0) {
+        q = q.map(|value| 0.5 * value);
+        let aside = [(); 6].map(|()| 0.05 * (2.0 * random() - 1.0));
+        let weights = [(); 6].map(|()| 0.2 + random());
+        let reference: Six = std::array::from_fn(|i| q[i] + aside[i]);
+        let along = (weights[3] * aside[3] - weights[5] * aside[5]) / (weights[3] + weights[5]);
+        let gaps = [aside[0], aside[1], aside[2], aside[3] - along, aside[4], aside[5] + along];
+        let expected: f64 = gaps.iter().zip(weights).map(|(gap, weight)| weight * gap * gap).sum();
+        let (found, distance) = nearest(&puma560::Solver, &q, &reference, &weights, &FREE).unwrap();
+        assert!(distance <= expected + 1e-14, "{q:?} {reference:?}: {distance:e} {expected:e} {found:?}");
+        let moved: Six = std::array::from_fn(|i| {
+            q[i] + if i == 3 {
+                along
+            } else if i == 5 {
+                -along
+            } else {
+                0.0
+            }
+        });
+        let near = found.q.iter().zip(moved).all(|(a, b)| (a - b).abs() < 1e-6);
+        assert!(near || distance < expected - 1e-14, "{q:?} {reference:?}: {found:?} {moved:?}");
+        // The reference was a solution before it was displaced.
+        let whole = aside.iter().map(|value| value * value).sum::<f64>();
+        for q in [q, [q[0], q[1], q[2], q[3], 0.0, q[5]]] {
+            let (_, distance) =
+                nearest(&ur5::Solver, &q, &std::array::from_fn(|i| q[i] + aside[i]), &[1.0; 6], &FREE).unwrap();
+            assert!(distance <= whole, "{q:?} {aside:?}: {distance:e} {whole:e}");
+        }
+    }
+}
+
+/// The fourth joint is at its limit, and the sixth one moves as far in the opposite direction.
+#[test]
+fn limits_end_the_search_along_a_self_motion() {
+    for (q, width) in with_wrist(0.0).zip([0.5, 0.05, 0.001].into_iter().cycle()) {
+        let q = q.map(|value| 0.5 * value);
+        let mut limits = FREE;
+        limits[3] = [q[3] + 0.3, q[3] + 0.3 + width];
+        for joint in [0, 1, 2, 4] {
+            limits[joint] = [q[joint] - 0.1, q[joint] + 0.1];
+        }
+        let (found, distance) = nearest(&puma560::Solver, &q, &q, &[1.0; 6], &limits).unwrap();
+        assert!((distance - 0.18).abs() < 1e-8, "{q:?}: {distance} {found:?}");
+        limits[5] = [q[5] - 0.25, q[5] + 0.25];
+        assert!(nearest(&puma560::Solver, &q, &q, &[1.0; 6], &limits).is_none());
+    }
+}
+
+#[test]
+fn dumping() {
+    use std::fmt::Write;
+    fn dump<M: Mechanism>(m: &M, name: &str, q5: f64) {
+        let mut text = String::new();
+        let mut random = random();
+        for (k, mut q) in with_wrist(q5).take(150).enumerate() {
+            if k % 3 == 1 {
+                q[4] += 1e-8;
+            }
+            if k % 7 == 1 {
+                q[1] = 0.0;
+                q[2] = 0.0;
+            }
+            let reference: Six = std::array::from_fn(|i| q[i] + if k % 2 == 0 { 0.0 } else { 0.3 * random() });
+            let weights: Six = std::array::from_fn(|_| 0.3 + random());
+            let limits: [[f64; 2]; 6] =
+                std::array::from_fn(|i| if k % 5 == 2 && i == 3 { [q[3] + 0.1, q[3] + 0.15] } else { [-TAU, TAU] });
+            let target = m.forward(&Array::by(6, |i| q[i])).unwrap();
+            let found = nearest(m, &q, &reference, &weights, &limits);
+            let mut row: Vec<f64> = target.as_ref().to_vec();
+            row.extend(reference);
+            row.extend(weights);
+            row.extend(limits.concat());
+            match found {
+                None => row.extend([0.0; 9]),
+                Some((f, _)) => {
+                    row.push(1.0);
+                    row.extend(f.q.as_ref());
+                    row.push(f.branch as f64);
+                    row.push(f.residual);
+                }
+            }
+            for v in row {
+                write!(text, "{v:e} ").unwrap();
+            }
+            text.push('\n');
+        }
+        std::fs::write(format!("/tmp/near/{name}.txt"), text).unwrap();
+    }
+    dump(&puma::Solver, "puma", FRAC_PI_2);
+    dump(&ur5::Solver, "ur5", 0.0);
+    dump(&irb120::Solver, "irb120", FRAC_PI_2);
+    dump(&puma560::Solver, "puma560", 0.0);
+    dump(&irb4600_rounded::Solver, "irb4600_rounded", 0.0);
 }
