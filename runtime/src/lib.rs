@@ -14,8 +14,10 @@ mod approach;
 mod arithmetic;
 mod batch;
 mod conditions;
+mod connection;
 pub mod counters;
 mod curve;
+mod curve_steps;
 pub mod derivatives;
 mod described;
 mod double;
@@ -24,6 +26,7 @@ mod effort;
 mod exactly;
 mod freedom;
 mod joints;
+mod keep;
 pub mod lanes;
 pub mod limits;
 mod measure;
@@ -32,6 +35,7 @@ mod members;
 mod nearest;
 mod newton;
 pub mod number;
+mod order;
 mod placement;
 mod problem;
 mod quartic;
@@ -47,12 +51,13 @@ pub mod solve;
 #[cfg(feature = "sources")]
 pub mod sources;
 
+mod rejected;
 mod starts;
 mod steps;
 pub mod storage;
-mod strays;
 #[doc(hidden)]
 pub mod tolerances;
+mod triangle;
 pub mod trigonometry;
 
 pub use effort::MOST_STEPS;

@@ -7,7 +7,7 @@
 
 use crate::arithmetic::Arithmetic;
 use crate::conditions::conform;
-use crate::curve::farthest;
+use crate::curve_steps::farthest;
 use crate::described::along_ideal;
 use crate::effort::{DESCENTS, LEAPS, MOST_STEPS, RETURNS};
 use crate::joints::{beyond, differences, is_in, shifted, stepped};

@@ -136,7 +136,7 @@ typedef struct {
     gb_real distance;
     /* The sum of the distances from the limits of joints that no turn brings within them. */
     gb_real excess;
-} gb_turned;
+} gb_turned_joints;
 
 /* A value that no turn brings within limits, at the turn nearest to their middle. */
 static gb_real gb_beside(const gb_joint *joint, gb_real value, const gb_real *limit)
@@ -151,7 +151,7 @@ static gb_real gb_excess(gb_real value, const gb_real *limit)
 }
 
 /* The nearest turn of joint values. */
-static void gb_turn_to(const gb_mechanism *m, const gb_aim *aim, const gb_real *q, gb_turned *turned)
+static void gb_turn_to(const gb_mechanism *m, const gb_aim *aim, const gb_real *q, gb_turned_joints *turned)
 {
     turned->distance = turned->excess = R(0.0);
     for (size_t i = 0; i < m->joints; i++) {
@@ -171,7 +171,7 @@ static void gb_turn_to(const gb_mechanism *m, const gb_aim *aim, const gb_real *
 }
 
 /* Whether joint values are nearer to the limits than others, or equally near and nearer to the reference. */
-static bool gb_is_better(const gb_turned *a, const gb_turned *b)
+static bool gb_is_better(const gb_turned_joints *a, const gb_turned_joints *b)
 {
     return a->excess < b->excess || (a->excess == b->excess && a->distance < b->distance);
 }
@@ -200,7 +200,7 @@ GB_LINKAGE int gb_nearest(const gb_answers *all, const gb_real *reference, const
     gb_real least = INFINITY;
     int best = -1;
     for (size_t k = 0; k < all->count; k++) {
-        gb_turned turned;
+        gb_turned_joints turned;
         gb_turn_to(m, &aim, gb_q_of(all, k), &turned);
         if (turned.excess == R(0.0) && turned.distance < least) {
             least = turned.distance;

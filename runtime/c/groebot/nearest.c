@@ -23,12 +23,12 @@ typedef struct {
 /* A place on a self-motion. */
 typedef struct {
     gb_real q[GB_MAX_JOINTS];
-    gb_turned turned;
+    gb_turned_joints turned;
 } gb_stop;
 
 /* Keeps joint values if they are a solution within limits and nearer than the others. `member` is the index of the listed solution on their self-motion, or
  * -1. */
-static void gb_consider(const gb_search *search, const gb_end *end, int member, gb_turned *turned)
+static void gb_consider(const gb_search *search, const gb_end *end, int member, gb_turned_joints *turned)
 {
     const gb_mechanism *m = search->problem->mechanism;
     gb_nearest_end *best = search->best;
@@ -57,7 +57,7 @@ static void gb_consider(const gb_search *search, const gb_end *end, int member, 
 static void gb_toward(const gb_search *search, const gb_real *q, uint32_t held, gb_real *toward)
 {
     const gb_mechanism *m = search->problem->mechanism;
-    gb_turned turned;
+    gb_turned_joints turned;
     gb_turn_to(m, &search->aim, q, &turned);
     for (size_t i = 0; i < m->joints; i++) {
         const gb_real *limit = search->aim.limits + 2 * i;
@@ -131,7 +131,7 @@ static void gb_descend(const gb_search *search, const gb_real *start, int member
     gb_stop_at_limits(m, &search->aim, q);
     for (int k = 0; k < GB_DESCENTS; k++) {
         gb_end end;
-        gb_turned turned;
+        gb_turned_joints turned;
         gb_toward(search, q, held, toward);
         if (!gb_project(search, q, toward, held, step)) {
             return;
@@ -234,7 +234,7 @@ static bool gb_is_hopeless(const gb_search *search, const gb_stop *const *places
 }
 
 /* The place on the curve at a share, from -1 to 1, of the distances from the middle one of three places. */
-static void gb_between(const gb_search *search, const gb_stop *const *places, gb_real share, uint32_t held, int member, gb_turned *turned)
+static void gb_between(const gb_search *search, const gb_stop *const *places, gb_real share, uint32_t held, int member, gb_turned_joints *turned)
 {
     gb_end end;
     gb_beyond(search->problem->mechanism, places[share < R(0.0) ? 0 : 2]->q, places[1]->q, -gb_magnitude(share), end.q);
@@ -245,14 +245,14 @@ static void gb_between(const gb_search *search, const gb_stop *const *places, gb
 /* Searches a minimum between three consecutive places if the middle one is the best of them: nearest to the limits, then nearest to the reference. */
 static void gb_bracket(const gb_search *search, const gb_stop *const *places, int member)
 {
-    const gb_turned *middle = &places[1]->turned;
+    const gb_turned_joints *middle = &places[1]->turned;
     if (gb_is_better(&places[0]->turned, middle) || gb_is_better(&places[2]->turned, middle) || gb_is_hopeless(search, places)) {
         return;
     }
     const uint32_t held = (uint32_t)1 << gb_farthest_joint(search->problem->mechanism, places[0]->q, places[2]->q);
     gb_real low = R(-1.0), high = R(1.0);
     gb_real left = low + (R(1.0) - GB_NEAREST_GOLDEN) * (high - low), right = low + GB_NEAREST_GOLDEN * (high - low);
-    gb_turned at_left, at_right;
+    gb_turned_joints at_left, at_right;
     gb_between(search, places, left, held, member, &at_left);
     gb_between(search, places, right, held, member, &at_right);
     for (int k = 0; k < GB_NEAREST_SECTIONS; k++) {
@@ -279,7 +279,7 @@ static bool gb_is_closed(const gb_search *search, const gb_stop *home, gb_real *
     gb_real opposite[GB_MAX_JOINTS], back = gb_nearest_pace[1], pace = gb_nearest_pace[1];
     gb_stop before, at = *home, next;
     gb_end end;
-    gb_turned turned;
+    gb_turned_joints turned;
     bool is_home = false;
     for (size_t i = 0; i < m->joints; i++) {
         opposite[i] = -tangent[i];
@@ -308,7 +308,7 @@ static bool gb_is_closed(const gb_search *search, const gb_stop *home, gb_real *
 }
 
 /* Follows the self-motion of a member in both directions if it is a curve. Otherwise the distance is minimised from the member. */
-static void gb_follow(const gb_search *search, const gb_real *q, uint32_t free, int member)
+static void gb_follow_member(const gb_search *search, const gb_real *q, uint32_t free, int member)
 {
     const gb_mechanism *m = search->problem->mechanism;
     gb_real tangent[GB_MAX_JOINTS], opposite[GB_MAX_JOINTS];
@@ -338,7 +338,7 @@ GB_LINKAGE void gb_begin_nearest(const gb_answers *all, const gb_real *reference
 {
     const gb_mechanism *m = all->problem.mechanism;
     const gb_aim aim = {reference, weights, limits};
-    gb_turned turned;
+    gb_turned_joints turned;
     best->member = gb_nearest(all, reference, weights, limits, best->q);
     best->is_found = best->member >= 0;
     best->can_search = !m->has_extras && all->count > 0;
@@ -357,14 +357,14 @@ GB_LINKAGE void gb_begin_nearest(const gb_answers *all, const gb_real *reference
 GB_LINKAGE void gb_search_along(const gb_problem *problem, const gb_real *q, uint32_t free, const gb_real *const *aim, gb_nearest_end *best)
 {
     const gb_search search = {problem, {aim[0], aim[1], aim[2]}, best};
-    gb_follow(&search, q, free, best->follows);
+    gb_follow_member(&search, q, free, best->follows);
 }
 
 /* Moves the nearest solution to `q` if that is within limits. */
 GB_LINKAGE void gb_move_nearest(const gb_mechanism *m, const gb_real *q, const gb_fit *fit, const gb_real *const *aim, gb_nearest_end *best)
 {
     const gb_aim own = {aim[0], aim[1], aim[2]};
-    gb_turned turned;
+    gb_turned_joints turned;
     gb_turn_to(m, &own, q, &turned);
     if (turned.excess == R(0.0)) {
         gb_copy(best->q, turned.q, m->joints);
@@ -388,7 +388,7 @@ GB_LINKAGE void gb_search_all(const gb_answers *all, const gb_real *const *aim, 
     gb_descend(&search, aim[0], -1);
     for (size_t k = 0; k < all->count && !gb_is_reached(best); k++) {
         if (*gb_free_of(all, k) != 0) {
-            gb_follow(&search, gb_q_of(all, k), *gb_free_of(all, k), (int)k);
+            gb_follow_member(&search, gb_q_of(all, k), *gb_free_of(all, k), (int)k);
         }
     }
 }

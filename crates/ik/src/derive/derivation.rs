@@ -124,7 +124,7 @@ impl Derivation {
     ///
     /// # Errors
     /// As [`Problem::of`] and [`Derivation::prove`].
-    pub fn again(source: &Source, text: &str) -> Result<Self> {
+    pub fn prove_source(source: &Source, text: &str) -> Result<Self> {
         Derivation::prove(Problem::of(source)?, text)
     }
 

@@ -6,7 +6,7 @@ use crate::derive::sequential::Sequential;
 use crate::derive::{AnyView, Derivation};
 
 /// The number of steps, bases or eigenvalue problems that were proved again, as text.
-pub fn proof_words(derivation: &Derivation) -> String {
+pub fn proof_text(derivation: &Derivation) -> String {
     match derivation.view() {
         AnyView::Equations(equations) => proved_equations(equations.method),
         AnyView::Sequential(chain) => proved_chain(chain.method),
