@@ -34,6 +34,7 @@ pub mod number;
 mod placement;
 mod problem;
 mod quartic;
+pub mod redundant;
 mod refine;
 pub mod registers;
 pub mod roots;

@@ -1,0 +1,11 @@
+//! Arms with one joint more than their task determines: seven joints and a pose, four and a position, six and a ray, five and a position with yaw.
+//!
+//! The solutions of a target are curves. Along a curve, joint values stay within limits until a joint reaches one of its limits. These end points are solutions
+//! of at most `2n` problems in which one joint is given at a limit ([`Redundant::solve_given`]). Curves are traced from end point to end point, and each end
+//! point belongs to one arc. Curves that touch no limit are found by a search over the values of one joint.
+//!
+//! No function allocates. Equal targets have bitwise equal results on every machine.
+
+mod arm;
+
+pub use arm::{Arm, Given, Limits, MOST_JOINTS, Member, Members, Q, Redundant, Target, Task};
