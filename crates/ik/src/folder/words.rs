@@ -10,7 +10,8 @@ pub fn proof_words(derivation: &Derivation) -> String {
     let own = method_words(derivation);
     let Some(redundancy) = derivation.redundancy() else { return own };
     let joints = &derivation.program().joints;
-    let other = |(joint, other): (usize, &Derivation)| format!("; {} given: {}", joints[joint].name, method_words(other));
+    let other =
+        |(joint, other): (usize, &Derivation)| format!("; {} given: {}", joints[joint].name, method_words(other));
     own + &redundancy.derivations().map(other).collect::<String>()
 }
 

@@ -9,12 +9,12 @@ mod report;
 
 pub(in crate::derive) use certificate::{certificate, is_certificate, prove};
 pub(in crate::derive) use data::data;
-pub(in crate::derive) use report::{items, section};
+pub(in crate::derive) use report::section;
 
+use groebot_runtime::redundant::MOST_JOINTS;
 use rayon::prelude::*;
 
 use crate::derive::{ChainProblem, Derivation};
-use crate::solver::Redundancy as Data;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
 
@@ -104,8 +104,7 @@ pub(in crate::derive) fn check(chain: &Chain) -> Result<usize> {
         [joint] if is_redundant(chain) => Ok(joint),
         _ => {
             let text = format!(
-                "a redundant solver needs one joint more than the task determines, at most {} joints, no mimic joint and one given joint",
-                Data::MOST_JOINTS
+                "a redundant solver needs one joint more than the task determines, at most {MOST_JOINTS} joints, no mimic joint and one given joint"
             );
             Err(Error::new(ErrorKind::Unsupported, text))
         }
@@ -117,8 +116,7 @@ pub fn is_redundant(chain: &Chain) -> bool {
     let count = chain.joints().len();
     let by_steps = chain.order().is_none() && chain.choice().is_none();
     by_steps
-        && count <= Data::MOST_JOINTS
+        && count <= MOST_JOINTS
         && count == chain.task().freedoms() + 1
-        && Data::has_task(chain.task())
         && chain.joints().iter().all(|joint| joint.mimic.is_none())
 }

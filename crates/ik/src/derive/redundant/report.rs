@@ -17,7 +17,7 @@ pub(in crate::derive) fn section(page: &mut Document, derivation: &Derivation, r
 }
 
 /// By joint, the solver with this joint given.
-pub(in crate::derive) fn items(derivation: &Derivation, redundancy: &Redundancy) -> Vec<Line> {
+fn items(derivation: &Derivation, redundancy: &Redundancy) -> Vec<Line> {
     let joints = &derivation.program().joints;
     let line = |(joint, part): (usize, &Part)| {
         let line = Line::default().name(&joints[joint].name).words(": ");

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::solver::eigenvalue::Line;
 use crate::solver::{Program, Unit};
 use crate::{Error, ErrorKind, Result};
-use groebot_robot::kinematics::Task;
+use groebot_runtime::redundant::MOST_JOINTS;
 
 /// The greatest deviation of a direction from length one, and of a rotation from its inverse's transpose.
 const UNIT: f64 = 1e-9;
@@ -41,14 +41,6 @@ pub enum RedundantPart {
 }
 
 impl Redundancy {
-    /// The maximum number of joints of a redundant solver.
-    pub const MOST_JOINTS: usize = 7;
-
-    /// Whether redundant solvers exist for a task.
-    pub fn has_task(task: Task) -> bool {
-        matches!(task, Task::Pose | Task::Position | Task::Ray | Task::PositionYaw { .. })
-    }
-
     /// By joint, the least and the greatest value; infinite without limits.
     pub fn limit_pairs(&self) -> Vec<[f64; 2]> {
         self.limits.iter().map(|limits| limits.unwrap_or([f64::NEG_INFINITY, f64::INFINITY])).collect()
@@ -60,9 +52,9 @@ impl Redundancy {
     /// [`ErrorKind::BadValue`] with the wrong part.
     pub(in crate::solver) fn validate(&self, main: &Program) -> Result<()> {
         let count = main.joints.len();
-        let has_task = main.tip().is_some_and(|tip| Redundancy::has_task(tip.task));
-        ensure(has_task, "a task of one tip: pose, position, ray or position_yaw is allowed")?;
-        ensure(count <= Redundancy::MOST_JOINTS, "at most 7 joints are allowed")?;
+        let determines = main.tip().is_some_and(|tip| count == tip.task.freedoms() + 1);
+        ensure(determines, "one tip is allowed, whose task determines all joints but one")?;
+        ensure(count <= MOST_JOINTS, "at most 7 joints are allowed")?;
         let sizes = [self.lines.len(), self.limits.len(), self.parts.len()];
         ensure(sizes == [count; 3], "one line, one pair of limits and one part per joint")?;
         let numbers = self.lines.iter().flat_map(|line| line.direction.iter().chain(&line.point));
@@ -71,8 +63,8 @@ impl Redundancy {
         let is_unit = |row: &[f64; 3]| (dot(row, row) - 1.0).abs() <= UNIT;
         ensure(self.lines.iter().all(|line| is_unit(&line.direction)), "a direction is not of length one")?;
         let [x, y, z] = &self.rotation;
-        let is_rotation = [x, y, z].into_iter().all(is_unit)
-            && [(x, y), (y, z), (z, x)].iter().all(|(a, b)| dot(a, b).abs() <= UNIT);
+        let is_rotation =
+            [x, y, z].into_iter().all(is_unit) && [(x, y), (y, z), (z, x)].iter().all(|(a, b)| dot(a, b).abs() <= UNIT);
         ensure(is_rotation, "the rotation of the tip is not a rotation")?;
         let are_ordered = self.limits.iter().flatten().all(|[low, high]| low <= high);
         ensure(are_ordered, "limits: the least, then the greatest value")?;
