@@ -63,7 +63,7 @@ impl Recount {
             &derived.method.evidence,
             derived.method.dimension(),
         )?;
-        if *self.formulations(&derived.method.six)? == derived.method.formulations {
+        if *self.formulations(&derived.problem.chain)? == derived.method.formulations {
             return Ok(());
         }
         Err(refused("the formulations are not the regular and most accurate ones, ordered by accuracy".to_owned()))
@@ -92,12 +92,12 @@ impl Recount {
         Ok(self.evidence[place].1.as_deref())
     }
 
-    /// The formulations of the eigenvalue problem that a derivation of these six joints uses.
-    fn formulations(&mut self, six: &Chain) -> Result<&Vec<Regular>> {
-        let place = match self.formulations.iter().position(|(known, _)| known == six) {
+    /// The formulations of the eigenvalue problem that a derivation of `chain` uses.
+    fn formulations(&mut self, chain: &Chain) -> Result<&Vec<Regular>> {
+        let place = match self.formulations.iter().position(|(known, _)| known == chain) {
             Some(place) => place,
             None => {
-                self.formulations.push((six.clone(), ranked(six)?));
+                self.formulations.push((chain.clone(), ranked(chain)?));
                 self.formulations.len() - 1
             }
         };

@@ -239,7 +239,7 @@ impl Context<'_> {
                 self.set(*unknown, place)
             }
             Step::SixAxes(six) => {
-                six.parts().target.iter().try_for_each(|&operand| self.operand(operand, place))?;
+                six.operands().into_iter().try_for_each(|operand| self.operand(operand, place))?;
                 let unknowns = six.parts().joints.iter().flat_map(|joint| joint.unknowns());
                 unknowns.into_iter().try_for_each(|unknown| self.set(unknown, place))
             }

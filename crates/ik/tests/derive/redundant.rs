@@ -65,7 +65,7 @@ fn every_joint_but_the_elbow_has_a_closed_form() {
             Part::Derived(other) => {
                 assert!(!is_given && other.sequential().is_some() && other.dimension() == Some(8), "{joint}");
             }
-            Part::Constant | Part::Unsolved(_) => assert_eq!(joint, 3),
+            Part::Constant => assert_eq!(joint, 3),
             _ => panic!("{part:?}"),
         }
     }
@@ -122,6 +122,8 @@ fn damaged_certificates_are_refused() {
         given[0]["claims"] = serde_json::json!({ "unsolved": "none" });
     });
     assert!(text.contains("A7 given"), "{text}");
+    let text = refusal(|given| given[1]["claims"] = serde_json::json!({ "constant": {} }));
+    assert!(text.contains("A2 given") && text.contains("no relation proves"), "{text}");
     let main = |given: &mut Vec<Value>| {
         let own = &derived().0.ends.given[0];
         let proof = given.iter_mut().find(|proof| proof["joint"] == own.as_str()).unwrap();

@@ -18,7 +18,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{Certificate, Proves, head_of};
 use groebot_robot::kinematics::Chain;
 
-/// The solution by eigenvalue problems of a chain of six joints with arbitrary axes. Further joints at its ends may be given.
+/// The solution by eigenvalue problems of a chain of six joints with arbitrary axes. Further joints anywhere in the chain may be given.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Eigenvalue {
@@ -59,7 +59,7 @@ impl Eigenvalue {
         let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
         let evidence = planner::evidence(&Mechanism::new(&problem.chain)?, watch)?;
         let evidence = evidence.ok_or_else(|| unsupported("joints are free at every target"))?;
-        let formulations = ranked(&six.chain)?;
+        let formulations = ranked(&problem.chain)?;
         Eigenvalue { six: six.chain, evidence, formulations }.compiled(problem)
     }
 
@@ -76,14 +76,14 @@ impl Eigenvalue {
     /// # Errors
     /// [`ErrorKind::Certificate`] for a false claim.
     pub(in crate::derive) fn prove_claims(problem: &ChainProblem, claims: Claims) -> Result<(Self, Program)> {
-        let six = Six::of(&problem.chain)?.chain;
+        let six = Six::of(&problem.chain)?;
         let formulations: Result<Vec<Regular>> = claims.formulations.iter().map(|entry| entry.prove(&six)).collect();
         let formulations = formulations?;
         let claimed = claims.evidence.iter().map(|evidence| evidence.dimension).max().unwrap_or(0);
         if formulations.is_empty() || claimed == 0 || claimed > SIZE {
             return Err(refused(format!("{} formulations, {claimed} solutions", formulations.len())));
         }
-        Eigenvalue { six, evidence: claims.evidence, formulations }.compiled(problem)
+        Eigenvalue { six: six.chain, evidence: claims.evidence, formulations }.compiled(problem)
     }
 
     /// The least of the counted numbers of complex solutions.
@@ -138,14 +138,14 @@ pub(in crate::derive) fn is_certificate(text: &str) -> bool {
 }
 
 impl Entry {
-    fn prove(&self, chain: &Chain) -> Result<Regular> {
+    fn prove(&self, six: &Six) -> Result<Regular> {
         let formulation = self.formulation;
         let name = format!("the formulation that hides joint {}", formulation.hidden + 1);
         if !formulation.is_valid() || self.determinants.iter().all(|determinant| determinant.value == 0) {
             return Err(refused(format!("{name} is not shown to be regular")));
         }
         for determinant in &self.determinants {
-            let again = Determinant::evaluate(chain, formulation, determinant.prime, determinant.seed)?;
+            let again = Determinant::of_six(six, formulation, determinant.prime, determinant.seed)?;
             if again != *determinant {
                 return Err(refused(format!("{name}: the determinant modulo {} differs", determinant.prime)));
             }

@@ -46,14 +46,26 @@ impl EigenvalueView<'_> {
     pub fn given(&self) -> Option<String> {
         let given = self.problem.chain.given();
         let names: Vec<&str> = given.iter().map(|&joint| self.problem.chain.joints()[joint].name.as_str()).collect();
-        let text = match names.as_slice() {
+        let [motion, are] = match names.as_slice() {
             [] => return None,
-            [one] => format!("{one} is given: its motion is taken off the target"),
-            [many @ .., last] => {
-                format!("{} and {last} are given: their motions are taken off the target", many.join(", "))
-            }
+            [one] => [format!("{one} is given: its motion"), "is".to_owned()],
+            [many @ .., last] => [format!("{} and {last} are given: their motions", many.join(", ")), "are".to_owned()],
         };
-        Some(format!("{text}, and what is left is the target of the six others."))
+        let is_solved = |name: &str| self.method.six.joints().iter().any(|joint| joint.name == name);
+        let is_unknown = |&joint: &usize| is_solved(&self.problem.chain.joints()[joint].name);
+        let unknown: Vec<usize> = (0..self.problem.chain.joints().len()).filter(is_unknown).collect();
+        let (first, last) = (unknown.first()?, unknown.last()?);
+        let count = given.iter().filter(|joint| (first..last).contains(joint)).count();
+        let text = if count == 0 {
+            format!("{motion} {are} taken off the target, and what is left is the target of the six others.")
+        } else if count == given.len() {
+            format!("{motion} {are} applied to the axes of the joints after it and to the tip, at run time.")
+        } else {
+            format!(
+                "{motion} {are} taken off the target at the ends of the chain; between the six others they are applied to the axes of the joints after them and to the tip, at run time."
+            )
+        };
+        Some(text)
     }
 
     /// The counts of random targets modulo primes, as text.

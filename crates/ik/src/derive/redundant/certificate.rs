@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Part, Redundancy, check, given};
+use super::{Part, Redundancy, check, given, is_determined};
 use crate::Result;
 use crate::derive::equations::certificate::refused;
 use crate::derive::{AnyView, ChainProblem, Derivation, eigenvalue, sequential};
@@ -115,7 +115,10 @@ fn again(problem: &ChainProblem, claim: Claim) -> Result<Part> {
             let solved = eigenvalue::Eigenvalue::prove_claims(problem, claims)?;
             Part::Derived(Box::new(Derivation::eigenvalue_of(problem.clone(), solved)))
         }
-        Claim::Constant {} => Part::Constant,
+        Claim::Constant {} if is_determined(problem)? => Part::Constant,
+        Claim::Constant {} => {
+            return Err(refused("no relation proves that the target determines the joint".to_owned()));
+        }
         Claim::Unsolved(reason) => Part::Unsolved(reason),
     })
 }

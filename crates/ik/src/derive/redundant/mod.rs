@@ -14,6 +14,8 @@ pub(in crate::derive) use report::section;
 use groebot_runtime::redundant::MOST_JOINTS;
 use rayon::prelude::*;
 
+use crate::derive::closure::Mechanism;
+use crate::derive::planner::is_constant;
 use crate::derive::{ChainProblem, Derivation};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
@@ -72,9 +74,18 @@ impl Redundancy {
 fn part(problem: &ChainProblem, watch: &Watch) -> Result<Part> {
     match Derivation::of_problem(problem.clone(), watch) {
         Ok(derivation) => Ok(Part::Derived(Box::new(derivation))),
+        Err(error) if is_refusal(error.kind()) && is_determined(problem)? => Ok(Part::Constant),
         Err(error) if is_refusal(error.kind()) => Ok(Part::Unsolved(error.message().to_owned())),
         Err(error) => Err(error),
     }
+}
+
+/// Whether the target determines the given joint of `problem`: it is proved to be constant on every self-motion.
+fn is_determined(problem: &ChainProblem) -> Result<bool> {
+    let mechanism = Mechanism::new(&problem.chain)?;
+    let given = problem.chain.given();
+    Ok(mechanism.upright_loop().is_none()
+        && given.iter().all(|&joint| matches!(is_constant(&mechanism, joint), Ok(true))))
 }
 
 fn is_refusal(kind: ErrorKind) -> bool {
