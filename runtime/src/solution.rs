@@ -142,6 +142,8 @@ pub enum Error {
     Unsettled,
     /// The task is not the pose of one tip. The base and the tool cannot be removed from the target.
     NotPose,
+    /// The limits of the joint with this number are not in order, or NaN.
+    Limits(usize),
 }
 
 impl fmt::Display for Error {
@@ -159,6 +161,9 @@ impl fmt::Display for Error {
             }
             Error::OpenStratum(number) => {
                 write!(f, "the target is on stratum {number}, for which no derivation exists")
+            }
+            Error::Limits(joint) => {
+                write!(f, "the limits of joint {joint} are not in order; the lower limit must be at most the upper one")
             }
             Error::NotPose => {
                 f.write_str("the task is not the pose of one tip; give the target in the frame of the base")

@@ -6,6 +6,20 @@
 //!
 //! No function allocates. Equal targets have bitwise equal results on every machine.
 
+mod along;
+mod arcs;
 mod arm;
+mod crossing;
+mod elimination;
+mod ends;
+mod goal;
+mod model;
+mod seeds;
+mod step;
+mod trace;
+mod within;
 
+pub use along::{at, sample};
+pub use arcs::{Arc, End, Outcome, arcs};
 pub use arm::{Arm, Given, Limits, MOST_JOINTS, Member, Members, Q, Redundant, Target, Task};
+pub use within::{Within, any_within};

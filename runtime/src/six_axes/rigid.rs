@@ -56,14 +56,14 @@ impl Rigid {
     }
 
     #[inline(always)]
-    pub(super) fn column(&self, index: usize) -> Vector {
+    pub(crate) fn column(&self, index: usize) -> Vector {
         let [x, y, z] = &self.rotation;
         [x[index], y[index], z[index]]
     }
 
     /// Followed by a rotation about the moved z axis, given its cosine and sine.
     #[inline(always)]
-    pub(super) fn then_turned(&self, [c, s]: [f64; 2]) -> Rigid {
+    pub(crate) fn then_turned(&self, [c, s]: [f64; 2]) -> Rigid {
         let turned = |[x, y, z]: Vector| [c * x + s * y, c * y - s * x, z];
         let [x, y, z] = self.rotation;
         Rigid { rotation: [turned(x), turned(y), turned(z)], ..*self }
@@ -71,7 +71,7 @@ impl Rigid {
 
     /// Followed by a translation along the moved z axis.
     #[inline(always)]
-    pub(super) fn then_slid(&self, distance: f64) -> Rigid {
+    pub(crate) fn then_slid(&self, distance: f64) -> Rigid {
         Rigid { translation: add(&self.translation, &scale(&self.column(2), distance)), ..*self }
     }
 }

@@ -1,0 +1,202 @@
+//! Elimination of `n - 1` linear equations in `n` unknowns: the null vector and least solutions ([`Elimination`]).
+
+use super::arm::{MOST_JOINTS, Q};
+use crate::arithmetic::Arithmetic;
+
+/// Maximal number of equations.
+pub(super) const MOST_ROWS: usize = MOST_JOINTS - 1;
+
+/// One number for each equation. Entries beyond the number of equations are not read.
+pub(super) type Rows = [f64; MOST_ROWS];
+
+/// Factors of a matrix by columns, `L U = J P`, with columns exchanged so that each pivot is the largest of its row.
+#[derive(Clone, Copy)]
+pub(super) struct Elimination {
+    /// The number of pivots; there is one more unknown.
+    rank: usize,
+    /// Column `j` is that of unknown `order[j]`: `U` down to the diagonal, multipliers of `L` below it.
+    columns: [Rows; MOST_JOINTS],
+    order: [usize; MOST_JOINTS],
+    /// Row `k` is that of equation `rows[k]`.
+    rows: [usize; MOST_ROWS],
+    /// The null vector of length one, oriented such that the matrix with this vector as last row has a positive determinant. It is continuous along a curve of
+    /// regular points.
+    pub tangent: Q,
+    /// The square root of `det(J J^T)`.
+    pub volume: f64,
+    /// The least magnitude of a pivot relative to the largest.
+    pub pivot: f64,
+}
+
+impl Elimination {
+    /// Factors the matrix with `rank + 1` columns and as many rows as `rank`.
+    pub fn of(columns: [Rows; MOST_JOINTS], rank: usize) -> Elimination {
+        let mut done = Elimination::start(columns, rank);
+        let mut sign = 1.0;
+        for k in 0..rank {
+            let mut best = k;
+            for j in k + 1..=rank {
+                if done.columns[j][k].abs() > done.columns[best][k].abs() {
+                    best = j;
+                }
+            }
+            if best != k {
+                done.exchange(k, best);
+                sign = -sign;
+            }
+            done.eliminate(k, rank);
+        }
+        done.orient(sign);
+        done
+    }
+
+    /// Factors a matrix of `rank + 2` columns and `rank + 1` rows without one of its columns. The remaining rows are dependent, and one of them is left out.
+    pub fn without(columns: [Rows; MOST_JOINTS], rank: usize, left_out: usize) -> Elimination {
+        let mut done = Elimination::start(columns, rank);
+        done.exchange(left_out, rank + 1);
+        let mut sign = 1.0;
+        for k in 0..rank {
+            let mut best = [k, k];
+            for j in k..=rank {
+                for r in k..=rank {
+                    if done.columns[j][r].abs() > done.columns[best[0]][best[1]].abs() {
+                        best = [j, r];
+                    }
+                }
+            }
+            if best[0] != k {
+                done.exchange(k, best[0]);
+                sign = -sign;
+            }
+            if best[1] != k {
+                done.rows.swap(k, best[1]);
+                for column in &mut done.columns {
+                    column.swap(k, best[1]);
+                }
+                sign = -sign;
+            }
+            done.eliminate(k, rank + 1);
+        }
+        done.orient(sign);
+        done
+    }
+
+    fn start(columns: [Rows; MOST_JOINTS], rank: usize) -> Elimination {
+        Elimination {
+            rank,
+            columns,
+            order: [0, 1, 2, 3, 4, 5, 6],
+            rows: [0, 1, 2, 3, 4, 5],
+            tangent: [0.0; MOST_JOINTS],
+            volume: 0.0,
+            pivot: 0.0,
+        }
+    }
+
+    fn exchange(&mut self, k: usize, j: usize) {
+        self.columns.swap(k, j);
+        self.order.swap(k, j);
+    }
+
+    /// Subtracts row `k` from those below it.
+    fn eliminate(&mut self, k: usize, rows: usize) {
+        let pivot = self.columns[k][k];
+        let inverse = if pivot == 0.0 { 0.0 } else { 1.0 / pivot };
+        for r in k + 1..rows {
+            self.columns[k][r] *= inverse;
+        }
+        let multipliers = self.columns[k];
+        for j in k + 1..=self.rank {
+            let upper = self.columns[j][k];
+            for r in k + 1..rows {
+                self.columns[j][r] -= multipliers[r] * upper;
+            }
+        }
+    }
+
+    /// Computes the null vector.
+    fn orient(&mut self, sign: f64) {
+        let (mut determinant, mut least, mut largest) = (sign, f64::INFINITY, 0.0);
+        for k in 0..self.rank {
+            let pivot = self.columns[k][k];
+            determinant *= pivot;
+            least = f64::min(least, pivot.abs());
+            largest = f64::max(largest, pivot.abs());
+        }
+        self.pivot = if largest > 0.0 { least / largest } else { 0.0 };
+        let mut y = [0.0; MOST_JOINTS];
+        y[self.rank] = 1.0;
+        let mut square = 1.0;
+        for k in (0..self.rank).rev() {
+            let mut sum = 0.0;
+            for j in k + 1..=self.rank {
+                sum += self.columns[j][k] * y[j];
+            }
+            let pivot = self.columns[k][k];
+            y[k] = if pivot == 0.0 { 0.0 } else { -sum / pivot };
+            square += y[k] * y[k];
+        }
+        let norm = Arithmetic::sqrt(square);
+        let factor = if determinant < 0.0 { -1.0 / norm } else { 1.0 / norm };
+        for k in 0..=self.rank {
+            self.tangent[self.order[k]] = y[k] * factor;
+        }
+        self.volume = determinant.abs() * norm;
+    }
+
+    /// Reverses the null vector.
+    pub fn reverse(&mut self) {
+        for value in &mut self.tangent {
+            *value = -*value;
+        }
+    }
+
+    /// A solution of `J x = values`, not the least one.
+    pub fn some(&self, values: &Rows) -> Q {
+        let mut z = [0.0; MOST_ROWS];
+        for k in 0..self.rank {
+            z[k] = values[self.rows[k]];
+        }
+        for k in 0..self.rank {
+            for r in k + 1..self.rank {
+                z[r] -= self.columns[k][r] * z[k];
+            }
+        }
+        let mut x = [0.0; MOST_JOINTS];
+        for k in (0..self.rank).rev() {
+            let mut sum = z[k];
+            for j in k + 1..self.rank {
+                sum -= self.columns[j][k] * x[self.order[j]];
+            }
+            let pivot = self.columns[k][k];
+            x[self.order[k]] = if pivot == 0.0 { 0.0 } else { sum / pivot };
+        }
+        x
+    }
+
+    /// The least solution of `J x = values`: the one that is orthogonal to the null vector.
+    pub fn least(&self, values: &Rows) -> Q {
+        let mut x = self.some(values);
+        let mut along = 0.0;
+        for k in 0..MOST_JOINTS {
+            along += x[k] * self.tangent[k];
+        }
+        for k in 0..MOST_JOINTS {
+            x[k] -= along * self.tangent[k];
+        }
+        x
+    }
+
+    /// The solution of `J x = values` with a given value of one unknown; `None` if that unknown does not change along the null vector.
+    pub fn with(&self, values: &Rows, unknown: usize, value: f64) -> Option<Q> {
+        let mut x = self.least(values);
+        if self.tangent[unknown].abs() < f64::MIN_POSITIVE {
+            return None;
+        }
+        let along = (value - x[unknown]) / self.tangent[unknown];
+        for k in 0..MOST_JOINTS {
+            x[k] += along * self.tangent[k];
+        }
+        Some(x)
+    }
+}

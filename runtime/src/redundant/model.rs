@@ -1,0 +1,248 @@
+//! Kinematics of an arm on the way to a target ([`Model`]): the equations, their derivatives, the direction and the curvature of the curve of solutions.
+
+use core::f64::consts::TAU;
+
+use super::arm::{Arm, Given, Limits, MOST_JOINTS, Q, Target};
+use super::elimination::{Elimination, MOST_ROWS, Rows};
+use super::goal::{Goal, across, carried};
+use crate::arithmetic::Arithmetic;
+use crate::six_axes::vector::{add, cross, scale, sub};
+use crate::six_axes::{Rigid, Vector};
+use crate::solution::Error;
+use crate::tolerances::ACCEPTANCE;
+use crate::trigonometry::cosine_and_sine;
+
+/// An arm and a target. Joint values `x` are scaled: a length is relative to [`Arm::length`], which all lengths are.
+pub(super) struct Model<'a> {
+    pub arm: &'a Arm,
+    pub count: usize,
+    /// By joint: its frame at zero in the frame of the joint before, z along the axis. The last one is the tip's.
+    frames: [Rigid; MOST_JOINTS + 1],
+    goal: Goal,
+    /// Limits of the scaled values, as given.
+    pub limits: Limits,
+    /// Whether a joint is revolute and its range is at least one turn: its limits are reached by no curve, and values are compared up to whole turns.
+    pub turns: [bool; MOST_JOINTS],
+    /// The unit of the scaled values: 1 for an angle.
+    pub units: [f64; MOST_JOINTS],
+    /// A joint that is constant along the curve, where the equations are singular along the whole curve with this joint, and regular without it.
+    pub frozen: Option<usize>,
+}
+
+/// Axes, points on them, and the tip at joint values.
+struct Axes {
+    directions: [Vector; MOST_JOINTS],
+    points: [Vector; MOST_JOINTS],
+    tip: Rigid,
+}
+
+/// The equations at joint values.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    pub x: Q,
+    pub values: Rows,
+    pub linear: Elimination,
+    /// The second derivative of the curve by its length.
+    pub bend: Q,
+}
+
+/// A frame whose z axis has a direction, and whose origin is a point.
+fn frame(direction: &Vector, point: &Vector) -> Rigid {
+    let [x, y] = across(direction);
+    let z = direction;
+    Rigid { rotation: [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]], translation: *point }
+}
+
+impl<'a> Model<'a> {
+    /// # Errors
+    ///
+    /// [`Error::Limits`].
+    pub fn new(arm: &'a Arm, target: &Target, limits: &Limits) -> Result<Model<'a>, Error> {
+        let mut model = Model {
+            arm,
+            count: arm.count,
+            frames: [Rigid::NONE; MOST_JOINTS + 1],
+            goal: Goal::new(arm, target),
+            limits: [[f64::NEG_INFINITY, f64::INFINITY]; MOST_JOINTS],
+            turns: [false; MOST_JOINTS],
+            units: [1.0; MOST_JOINTS],
+            frozen: None,
+        };
+        let shrink = 1.0 / arm.length;
+        let mut before = Rigid::NONE;
+        for i in 0..arm.count {
+            let [low, high] = limits[i];
+            let is_ordered = low <= high;
+            if !is_ordered {
+                return Err(Error::Limits(i));
+            }
+            model.turns[i] = !arm.slides[i] && high - low >= TAU - ACCEPTANCE.input;
+            model.units[i] = if arm.slides[i] { arm.length } else { 1.0 };
+            model.limits[i] = [low / model.units[i], high / model.units[i]];
+            let point = if arm.slides[i] { arm.tip.translation } else { arm.points[i] };
+            let here = frame(&arm.directions[i], &scale(&point, shrink));
+            model.frames[i] = before.inverse().after(&here);
+            before = here;
+        }
+        let tip = Rigid { translation: scale(&arm.tip.translation, shrink), ..arm.tip };
+        model.frames[arm.count] = before.inverse().after(&tip);
+        Ok(model)
+    }
+
+    fn axes(&self, x: &Q) -> Axes {
+        let mut axes = Axes { directions: [[0.0; 3]; MOST_JOINTS], points: [[0.0; 3]; MOST_JOINTS], tip: Rigid::NONE };
+        let mut at = self.frames[0];
+        for i in 0..self.count {
+            axes.directions[i] = at.column(2);
+            axes.points[i] = at.translation;
+            at = if self.arm.slides[i] { at.then_slid(x[i]) } else { at.then_turned(cosine_and_sine(x[i])) };
+            at = at.after(&self.frames[i + 1]);
+        }
+        axes.tip = at;
+        axes
+    }
+
+    /// The values of the equations.
+    pub fn values(&self, x: &Q) -> Rows {
+        let mut at = self.frames[0];
+        for i in 0..self.count {
+            at = if self.arm.slides[i] { at.then_slid(x[i]) } else { at.then_turned(cosine_and_sine(x[i])) };
+            at = at.after(&self.frames[i + 1]);
+        }
+        self.goal.values(&at)
+    }
+
+    /// The equations, their derivatives, and the curve's direction and curvature.
+    pub fn place(&self, x: &Q) -> Place {
+        let axes = self.axes(x);
+        let images = self.goal.images(&axes.tip);
+        let mut columns = [[0.0; MOST_ROWS]; MOST_JOINTS];
+        for i in 0..self.count {
+            let axis = &axes.directions[i];
+            columns[i] = if self.arm.slides[i] {
+                self.goal.rates(&images, axis, &[0.0; 3])
+            } else {
+                let arm = sub(&axes.tip.translation, &axes.points[i]);
+                self.goal.rates(&images, &cross(axis, &arm), axis)
+            };
+        }
+        let rows = self.goal.rows();
+        let linear = match self.frozen {
+            None => Elimination::of(columns, rows),
+            Some(joint) => Elimination::without(columns, rows - 1, joint),
+        };
+        let second = self.second(&axes, &images, &linear.tangent);
+        let mut bend = linear.least(&second);
+        for value in &mut bend {
+            *value = -*value;
+        }
+        Place { x: *x, values: self.goal.values(&axes.tip), linear, bend }
+    }
+
+    /// The second derivatives of the equations where the joints move with constant rates `t`.
+    fn second(&self, axes: &Axes, images: &[Vector; 2], t: &Q) -> Rows {
+        let [mut velocity, mut angular, mut linear] = [[0.0; 3]; 3];
+        for i in 0..self.count {
+            let motion = scale(&axes.directions[i], t[i]);
+            if self.arm.slides[i] {
+                linear = add(&linear, &scale(&cross(&velocity, &motion), 2.0));
+            } else {
+                angular = add(&angular, &cross(&velocity, &motion));
+                velocity = add(&velocity, &motion);
+            }
+            let next = if i + 1 < self.count { &axes.points[i + 1] } else { &axes.tip.translation };
+            let r = sub(next, &axes.points[i]);
+            linear = add(&linear, &carried(&r, &angular, &velocity));
+        }
+        self.goal.accelerations(images, &linear, &angular, &velocity)
+    }
+
+    /// Scaled joint values.
+    pub fn scaled(&self, q: &Q) -> Q {
+        let mut x = [0.0; MOST_JOINTS];
+        for i in 0..self.count {
+            x[i] = q[i] / self.units[i];
+        }
+        x
+    }
+
+    /// Joint values of scaled ones. An angle whose range is at least one turn is moved within its limits.
+    pub fn unscaled(&self, x: &Q) -> Q {
+        let mut q = [0.0; MOST_JOINTS];
+        for i in 0..self.count {
+            q[i] = x[i] * self.units[i];
+            if self.turns[i] {
+                q[i] = shifted(q[i], self.limits[i]);
+            }
+        }
+        q
+    }
+
+    /// Whether limits of the joint are reached along curves.
+    pub fn is_limited(&self, joint: usize) -> bool {
+        !self.turns[joint] && self.arm.given[joint] != Given::Constant
+    }
+
+    /// Moves angles by whole turns within limits, or next to them. Returns the joints that are beyond their limits by more than the tolerance, as bits.
+    pub fn lift(&self, x: &mut Q) -> u32 {
+        let mut beyond = 0;
+        for i in 0..self.count {
+            if self.turns[i] {
+                continue;
+            }
+            let [low, high] = self.limits[i];
+            if !self.arm.slides[i] {
+                x[i] = shifted(x[i], self.limits[i]);
+            }
+            if x[i] < low - ACCEPTANCE.input || x[i] > high + ACCEPTANCE.input {
+                beyond |= 1 << i;
+            }
+        }
+        beyond
+    }
+
+    /// The difference `a - b`; angles whose range is at least one turn are compared up to whole turns.
+    pub fn difference(&self, a: &Q, b: &Q) -> Q {
+        let mut d = [0.0; MOST_JOINTS];
+        for i in 0..self.count {
+            d[i] = a[i] - b[i];
+            if self.turns[i] {
+                d[i] -= TAU * Arithmetic::round(d[i] / TAU);
+            }
+        }
+        d
+    }
+}
+
+/// The angle moved by as few turns as possible within limits. Where that is impossible, it is moved to where it exceeds them least.
+fn shifted(angle: f64, [low, high]: [f64; 2]) -> f64 {
+    let up = Arithmetic::ceil((low - ACCEPTANCE.input - angle) / TAU);
+    let down = Arithmetic::floor((high + ACCEPTANCE.input - angle) / TAU);
+    if up <= down {
+        return angle + TAU * f64::min(f64::max(0.0, up), down);
+    }
+    // `up` is the first turn above the lower limit, and beyond the upper one; `down` is the last turn below.
+    let (above, below) = (angle + TAU * up, angle + TAU * down);
+    if above - high < low - below { above } else { below }
+}
+
+pub(super) fn dot(a: &Q, b: &Q) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..MOST_JOINTS {
+        sum += a[i] * b[i];
+    }
+    sum
+}
+
+pub(super) fn norm(a: &Q) -> f64 {
+    Arithmetic::sqrt(dot(a, a))
+}
+
+/// `a + factor b`.
+pub(super) fn plus(a: &Q, factor: f64, b: &Q) -> Q {
+    let mut sum = *a;
+    for i in 0..MOST_JOINTS {
+        sum[i] += factor * b[i];
+    }
+    sum
+}

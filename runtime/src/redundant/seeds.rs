@@ -1,0 +1,209 @@
+//! Solutions for a grid of values of the scanned joint. Those that are on no traced curve lead to closed curves ([`Seeds`]).
+
+use core::f64::consts::{PI, TAU};
+
+use super::arm::{MOST_JOINTS, Members, Q, Redundant, Target};
+use super::ends::{Ends, farthest};
+use super::model::Model;
+use super::step::Piece;
+use crate::arithmetic::Arithmetic;
+use crate::solution::Error;
+use crate::tolerances::{ACCEPTANCE, ARCS};
+
+/// Maximal number of solutions that are waiting for a curve.
+pub(super) const MOST_SEEDS: usize = 256;
+/// The number of values of the scanned joint at first.
+const LEVELS: usize = 16;
+/// Between two values, so many times the middle is added where the number of solutions changes, or where solutions are close to each other.
+const HALVINGS: usize = 2;
+/// Solutions for one value are close when no joint differs by more than this (rad, or relative to the characteristic length).
+const CLOSE: f64 = 0.3;
+/// A solution is on a piece when it is within this distance, relative to the piece's length.
+const ON: f64 = 0.02;
+/// Steps of Newton's method for a root of a cubic.
+const ROOT_STEPS: usize = 3;
+
+/// Solutions within limits that are on no known curve.
+pub(super) struct Seeds {
+    /// The values of the scanned joint.
+    values: [f64; MOST_SEEDS],
+    pub list: [Q; MOST_SEEDS],
+    pub count: usize,
+    joint: usize,
+    pub is_unsure: bool,
+    /// The number of values for which the problem itself has a self-motion, and one of their solutions within limits.
+    pub surfaces: usize,
+    pub surface: Option<Q>,
+    members: Members,
+}
+
+/// What is compared between neighbouring values.
+#[derive(Clone, Copy, PartialEq)]
+struct Level {
+    value: f64,
+    solutions: usize,
+    has_close: bool,
+}
+
+/// The range of values that are scanned.
+pub(super) fn range(model: &Model<'_>) -> [f64; 2] {
+    let joint = model.arm.scanned;
+    let [low, high] = model.limits[joint];
+    if model.turns[joint] {
+        let low = if low.is_finite() { low } else { -PI };
+        return [low, low + TAU];
+    }
+    [f64::max(low, -10.0), f64::min(high, 10.0)]
+}
+
+impl Seeds {
+    pub const NONE: Seeds = Seeds {
+        values: [0.0; MOST_SEEDS],
+        list: [[0.0; MOST_JOINTS]; MOST_SEEDS],
+        count: 0,
+        joint: 0,
+        is_unsure: false,
+        surfaces: 0,
+        surface: None,
+        members: Members::NONE,
+    };
+
+    /// Solves the problems with values of the scanned joint.
+    pub fn find(
+        &mut self,
+        robot: &dyn Redundant,
+        model: &Model<'_>,
+        target: &Target,
+        ends: &mut Ends,
+    ) -> Result<(), Error> {
+        self.joint = model.arm.scanned;
+        let [low, high] = range(model);
+        let width = (high - low) / LEVELS as f64;
+        let mut before: Option<Level> = None;
+        for k in 0..LEVELS {
+            let level = self.solve(robot, model, target, low + (k as f64 + 0.5) * width, ends)?;
+            if let Some(before) = before {
+                self.between(robot, model, target, [before, level], ends)?;
+            }
+            before = Some(level);
+        }
+        Ok(())
+    }
+
+    /// Adds values between two neighbouring ones, where solutions appear or vanish.
+    fn between(
+        &mut self,
+        robot: &dyn Redundant,
+        model: &Model<'_>,
+        target: &Target,
+        [mut low, mut high]: [Level; 2],
+        ends: &mut Ends,
+    ) -> Result<(), Error> {
+        for _ in 0..HALVINGS {
+            let differ = low.solutions != high.solutions;
+            if !differ && !(low.has_close && high.has_close) {
+                return Ok(());
+            }
+            let middle = self.solve(robot, model, target, 0.5 * (low.value + high.value), ends)?;
+            if middle.solutions == low.solutions {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Ok(())
+    }
+
+    fn solve(
+        &mut self,
+        robot: &dyn Redundant,
+        model: &Model<'_>,
+        target: &Target,
+        value: f64,
+        ends: &mut Ends,
+    ) -> Result<Level, Error> {
+        self.members.clear();
+        robot.solve_given(target, self.joint, value * model.units[self.joint], &mut self.members)?;
+        self.is_unsure |= self.members.is_short();
+        let first = self.count;
+        let (mut is_surface, mut solutions) = (false, 0);
+        for k in 0..self.members.as_slice().len() {
+            let member = self.members.as_slice()[k];
+            self.is_unsure |= !member.settled;
+            solutions += 1;
+            let mut x = model.scaled(&member.q);
+            x[self.joint] = value;
+            let beyond = model.lift(&mut x);
+            ends.beyond.pass(model, &x, beyond);
+            if beyond != 0 {
+                is_surface |= member.free != 0;
+                continue;
+            }
+            if member.free != 0 {
+                is_surface = true;
+                self.surface = Some(x);
+            } else if self.count < MOST_SEEDS {
+                self.values[self.count] = value;
+                self.list[self.count] = x;
+                self.count += 1;
+            } else {
+                self.is_unsure = true;
+            }
+        }
+        self.surfaces += usize::from(is_surface);
+        Ok(Level { value, solutions, has_close: self.has_close(model, first) })
+    }
+
+    /// Whether two of the solutions from this one on are close to each other.
+    fn has_close(&self, model: &Model<'_>, first: usize) -> bool {
+        for i in first..self.count {
+            for j in first..i {
+                if farthest(&model.difference(&self.list[i], &self.list[j])) <= CLOSE {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Removes the solutions on a piece of a curve.
+    pub fn pass(&mut self, model: &Model<'_>, piece: &Piece) {
+        let (from, to) = (piece.from.x[self.joint], piece.to.x[self.joint]);
+        let (least, greatest) = (f64::min(from, to) - ACCEPTANCE.input, f64::max(from, to) + ACCEPTANCE.input);
+        let mut k = 0;
+        while k < self.count {
+            let mut value = self.values[k];
+            if model.turns[self.joint] {
+                value += TAU * Arithmetic::ceil((least - value) / TAU);
+            }
+            if value >= least && value <= greatest && self.is_on(model, piece, value, k) {
+                self.remove(k);
+            } else {
+                k += 1;
+            }
+        }
+    }
+
+    /// Removes a solution.
+    pub fn remove(&mut self, k: usize) {
+        self.count -= 1;
+        self.list[k] = self.list[self.count];
+        self.values[k] = self.values[self.count];
+    }
+
+    /// Whether a solution is on the piece, where the scanned joint has a certain value.
+    fn is_on(&self, model: &Model<'_>, piece: &Piece, value: f64, k: usize) -> bool {
+        let (from, to) = (piece.from.x[self.joint], piece.to.x[self.joint]);
+        let mut share = if from == to { 0.5 } else { (value - from) / (to - from) };
+        let [c, b, a] = piece.cubic(self.joint);
+        for _ in 0..ROOT_STEPS {
+            let slope = c + share * (2.0 * b + share * 3.0 * a);
+            let miss = from + share * (c + share * (b + share * a)) - value;
+            if slope != 0.0 {
+                share = f64::min(f64::max(share - miss / slope, 0.0), 1.0);
+            }
+        }
+        let x = piece.at(share);
+        farthest(&model.difference(&x, &self.list[k])) <= ON * piece.length + ARCS.same
+    }
+}

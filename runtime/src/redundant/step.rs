@@ -1,0 +1,202 @@
+//! Steps along a curve of solutions: predictor, corrector and their acceptance ([`Walk`]).
+//!
+//! The predictor is a cubic with the curve's direction, curvature and the curvature's last change. The corrector is the simplified Newton method. A step is
+//! accepted by an affine-invariant estimate of the Newton-Kantorovich condition (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, sections 2.1 and
+//! 5.2): the second correction must be at most a quarter of the first one. The oriented direction must not turn back. Where it does, the step has left the curve
+//! for another one that nearly crosses it.
+
+use super::arm::{MOST_JOINTS, Q};
+use super::model::{Model, Place, dot, norm, plus};
+use crate::arithmetic::Arithmetic;
+use crate::tolerances::ARCS;
+
+/// The first and the longest step (rad, or relative to the characteristic length).
+pub(super) const PACE: [f64; 2] = [0.1, 0.5];
+/// The shortest step. Where a shorter one would be necessary, two curves cross.
+const SHORTEST: f64 = 1e-5;
+/// Lengths of the steps across such a crossing.
+const LEAPS: [f64; 4] = [1e-4, 1e-3, 1e-2, 5e-2];
+/// Maximal length of the first correction.
+const CORRECTION: f64 = 4e-3;
+/// Maximal ratio of the second correction to the first one.
+const CONTRACTION: f64 = 0.25;
+/// The least cosine of the angle between directions at both ends of a step.
+const STRAIGHT: f64 = 0.8;
+
+/// A point on a curve.
+#[derive(Clone, Copy)]
+pub(super) struct Point {
+    /// Scaled joint values.
+    pub x: Q,
+    /// The direction of travel, of length one.
+    pub t: Q,
+    /// The second derivative by the length.
+    pub bend: Q,
+}
+
+impl Point {
+    pub const NONE: Point = Point { x: [0.0; MOST_JOINTS], t: [0.0; MOST_JOINTS], bend: [0.0; MOST_JOINTS] };
+
+    /// The point of a place whose direction of travel is the oriented one times `side`.
+    pub fn of(place: &Place, side: f64) -> Point {
+        let mut t = place.linear.tangent;
+        for value in &mut t {
+            *value *= side;
+        }
+        Point { x: place.x, t, bend: place.bend }
+    }
+}
+
+/// A piece of a curve, from one step.
+#[derive(Clone, Copy)]
+pub(super) struct Piece {
+    pub from: Point,
+    pub to: Point,
+    pub length: f64,
+}
+
+impl Piece {
+    pub fn new(from: &Point, to: &Point) -> Piece {
+        Piece { from: *from, to: *to, length: length(from, to) }
+    }
+
+    /// The joint values at a share of the length, by the cubic with the positions and directions of both ends.
+    pub fn at(&self, share: f64) -> Q {
+        let mut x = [0.0; MOST_JOINTS];
+        for i in 0..MOST_JOINTS {
+            x[i] = self.value(i, share);
+        }
+        x
+    }
+
+    /// One joint's value at a share of the length.
+    pub fn value(&self, joint: usize, share: f64) -> f64 {
+        let [c, b, a] = self.cubic(joint);
+        self.from.x[joint] + share * (c + share * (b + share * a))
+    }
+
+    /// The coefficients of the joint's cubic, without the constant one.
+    pub fn cubic(&self, joint: usize) -> [f64; 3] {
+        let rise = self.to.x[joint] - self.from.x[joint];
+        let (first, last) = (self.length * self.from.t[joint], self.length * self.to.t[joint]);
+        [first, 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise]
+    }
+}
+
+/// The length of the curve between two points, by the slopes at both ends: that of a cubic, and for a circle up to the sixth power of the angle.
+fn length(from: &Point, to: &Point) -> f64 {
+    let chord = plus(&to.x, -1.0, &from.x);
+    let square = dot(&chord, &chord);
+    if square == 0.0 {
+        return 0.0;
+    }
+    let distance = Arithmetic::sqrt(square);
+    // The directions without their shares along the chord.
+    let (first, last) = (dot(&from.t, &chord) / distance, dot(&to.t, &chord) / distance);
+    let (a, b) = (1.0 - first * first, 1.0 - last * last);
+    let both = dot(&from.t, &to.t) - first * last;
+    // Squares of sines, made squares of angles.
+    let mean = 0.5 * (a + b);
+    let slopes = (2.0 * a + 2.0 * b - both) * (1.0 + mean / 3.0);
+    distance * (1.0 + slopes / 30.0 + 7.0 / 360.0 * mean * mean)
+}
+
+/// A walk along a curve.
+pub(super) struct Walk {
+    pub at: Point,
+    /// The sign of the direction of travel against the oriented one.
+    pub side: f64,
+    /// The next step.
+    pub pace: f64,
+    longest: f64,
+    /// The change of the curvature by the length.
+    third: Q,
+    /// Whether the walk has crossed a singular point, where curves meet.
+    pub is_unsure: bool,
+}
+
+impl Walk {
+    /// A walk from a point. Steps are divided by four at each level.
+    pub fn new(at: &Point, side: f64, level: u32) -> Walk {
+        let mut share = 1.0;
+        for _ in 0..level {
+            share *= 0.25;
+        }
+        Walk {
+            at: *at,
+            side,
+            pace: PACE[0] * share,
+            longest: PACE[1] * share,
+            third: [0.0; MOST_JOINTS],
+            is_unsure: false,
+        }
+    }
+
+    /// The next piece of the curve. The walk remains where it is until [`Walk::go`]. `None` where the curve cannot be followed.
+    pub fn piece(&mut self, model: &Model<'_>) -> Option<Piece> {
+        while self.pace >= SHORTEST {
+            if let Some((place, size)) = self.attempt(model, self.pace, self.side) {
+                let piece = Piece::new(&self.at, &Point::of(&place, self.side));
+                let grown = Arithmetic::sqrt(Arithmetic::sqrt(0.5 * CORRECTION / f64::max(size, 1e-12)));
+                self.pace = f64::min(self.longest, self.pace * f64::min(2.0, f64::max(0.5, grown)));
+                return Some(piece);
+            }
+            self.pace *= 0.4;
+        }
+        self.leap(model)
+    }
+
+    /// A step across a singular point. Beyond it the oriented direction is opposite to the direction of travel.
+    #[cold]
+    fn leap(&mut self, model: &Model<'_>) -> Option<Piece> {
+        for leap in LEAPS {
+            for side in [-self.side, self.side] {
+                if let Some((place, _)) = self.attempt(model, leap, side) {
+                    self.side = side;
+                    self.is_unsure = true;
+                    self.pace = leap;
+                    return Some(Piece::new(&self.at, &Point::of(&place, side)));
+                }
+            }
+        }
+        None
+    }
+
+    /// A step of a certain length: the place where it ends, and the length of its correction. `None` if it is not accepted.
+    fn attempt(&self, model: &Model<'_>, pace: f64, side: f64) -> Option<(Place, f64)> {
+        let mut x = self.at.x;
+        for i in 0..model.count {
+            x[i] += pace * (self.at.t[i] + pace * (0.5 * self.at.bend[i] + pace / 6.0 * self.third[i]));
+        }
+        let mut place = model.place(&x);
+        if model.frozen.is_some() && side * dot(&place.linear.tangent, &self.at.t) < 0.0 {
+            // One of the equations is left out, so that the orientation is not continuous.
+            place.linear.reverse();
+        }
+        if place.linear.pivot <= ARCS.singular || side * dot(&place.linear.tangent, &self.at.t) < STRAIGHT {
+            return None;
+        }
+        let first = place.linear.least(&place.values);
+        let size = norm(&first);
+        let is_short = size <= CORRECTION;
+        if !is_short {
+            return None;
+        }
+        place.x = plus(&place.x, -1.0, &first);
+        let second = place.linear.least(&model.values(&place.x));
+        place.x = plus(&place.x, -1.0, &second);
+        let is_contracting = norm(&second) <= CONTRACTION * size + ARCS.rounding;
+        if is_contracting { Some((place, size)) } else { None }
+    }
+
+    /// Moves the walk to the end of a piece.
+    pub fn go(&mut self, piece: &Piece) {
+        if piece.length > 0.0 {
+            self.third = [0.0; MOST_JOINTS];
+            for i in 0..MOST_JOINTS {
+                self.third[i] = (piece.to.bend[i] - piece.from.bend[i]) / piece.length;
+            }
+        }
+        self.at = piece.to;
+    }
+}
