@@ -118,7 +118,8 @@ fn narrowed(
     let place = program.joints.iter().position(|joint| joint.name == name);
     let joint = place.ok_or_else(|| {
         let names: Vec<&str> = program.joints.iter().map(|joint| joint.name.as_str()).collect();
-        let text = format!("--limits: there is no joint `{}`; the joints are {}", targets::shown(name), names.join(", "));
+        let text =
+            format!("--limits: there is no joint `{}`; the joints are {}", targets::shown(name), names.join(", "));
         Error::new(ErrorKind::UnknownName, text)
     })?;
     let pair = [value(program, joint, low, angles)?, value(program, joint, high, angles)?];
@@ -198,7 +199,7 @@ impl ArcAnswer<'_> {
     }
 
     fn best_text(&self, best: &Best) -> String {
-        let arc = best.arc.map(|arc| format!(" on arc {}", arc + 1)).unwrap_or_default();
+        let arc = format!(" on arc {}", best.arc + 1);
         let title = match self.question.criterion {
             Criterion::Margin => format!("largest margin to the limits{arc}: {:.6}", best.value),
             _ => format!("nearest solution{arc}: distance {:.6}", best.value),
@@ -309,5 +310,5 @@ struct BestEntry {
     criterion: &'static str,
     value: f64,
     /// The index of its arc.
-    arc: Option<usize>,
+    arc: usize,
 }

@@ -8,6 +8,7 @@ mod derivatives;
 mod follow;
 mod formats;
 mod placed;
+mod redundant;
 mod refused;
 mod task;
 

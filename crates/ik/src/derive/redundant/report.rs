@@ -33,6 +33,14 @@ fn items(derivation: &Derivation, redundancy: &Redundancy) -> Vec<Line> {
     redundancy.parts.iter().enumerate().map(line).collect()
 }
 
+impl Derivation {
+    /// By joint of a redundant chain, the solver with this joint given, as text; empty for other derivations.
+    pub fn redundancy_lines(&self) -> Vec<String> {
+        let lines = self.redundancy().map(|redundancy| items(self, redundancy)).unwrap_or_default();
+        lines.iter().map(Line::to_plain).collect()
+    }
+}
+
 /// The method of a derivation, such as `closed form, up to 8 solutions`.
 fn solved(derivation: &Derivation) -> String {
     let method = match derivation.view() {

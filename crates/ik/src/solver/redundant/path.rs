@@ -125,7 +125,8 @@ impl RedundantSolver {
         for (sample, target) in targets.iter().enumerate() {
             watch.check()?;
             watch.report("targets of the path", sample, targets.len() - sample);
-            let (arcs, doubt) = steps.arcs(target).map_err(|error| error.with_context(format!("target {}", sample + 1)))?;
+            let (arcs, doubt) =
+                steps.arcs(target).map_err(|error| error.with_context(format!("target {}", sample + 1)))?;
             is_unsure |= doubt;
             let states = steps.reached(sample, target, &arcs, layers.last().map(Vec::as_slice))?;
             layers.push(states);
@@ -193,7 +194,9 @@ impl Steps<'_> {
                 |before| before.iter().enumerate().map(|(from, state)| (from, &state.q[..], state.cost)).collect(),
             );
             for (from, own, cost) in starts {
-                let Some((bin, q)) = nearest(self.solver, target, sampled, own, |a, b| self.near(a, b))? else { continue };
+                let Some((bin, q)) = nearest(self.solver, target, sampled, own, |a, b| self.near(a, b))? else {
+                    continue;
+                };
                 if !self.is_within(&q) {
                     continue;
                 }
@@ -211,18 +214,7 @@ impl Steps<'_> {
 
     /// The same angles by whole turns nearest to `before`, within limits.
     fn near(&self, q: &[f64], before: &[f64]) -> Vec<f64> {
-        let value = |joint: usize| {
-            let ([low, high], own) = (self.limits.rows[joint], q[joint]);
-            if self.solver.joints[joint].unit != Unit::Radian {
-                return own;
-            }
-            let turn = std::f64::consts::TAU;
-            let nearest = own + turn * ((before[joint] - own) / turn).round();
-            let least = if low.is_finite() { own + turn * ((low - own) / turn).ceil() } else { nearest };
-            let most = if high.is_finite() { own + turn * ((high - own) / turn).floor() } else { nearest };
-            if least <= most { nearest.max(least).min(most) } else { own }
-        };
-        (0..q.len()).map(value).collect()
+        self.solver.turned(&self.limits, q, before)
     }
 
     /// The maximum step of a joint without a jump.
@@ -266,10 +258,10 @@ impl Steps<'_> {
         let share = |joint: usize| (q[joint] - before[joint]).abs() / self.most(sample, joint);
         let joint = (0..q.len()).max_by(|a, b| share(*a).total_cmp(&share(*b))).filter(|joint| share(*joint) > 1.0)?;
         let name = |joint: usize| &self.solver.joints[joint].name;
-        let [at_limit, ..] = [(0..q.len()).find(|joint| {
+        let at_limit = (0..q.len()).find(|joint| {
             let [low, high] = self.limits.rows[*joint];
             (before[*joint] - low).min(high - before[*joint]) < AT_LIMIT
-        })];
+        });
         let why = match at_limit {
             _ if sample == 0 => "the path does not begin at the current joint values".to_owned(),
             Some(limited) => format!("the arc ends: `{}` is at its limit", name(limited)),
