@@ -4,16 +4,16 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use groebot::Watch;
-use groebot::gait::{Biped, Footprint, Regular, Request, Route, Side, Usual, Walker, plan};
+use groebot::gait::{Biped, Footprint, GaitDefaults, Regular, Request, Route, Side, Walker, plan};
 use groebot::model::Meshes;
 use groebot::nav::Room;
 use groebot::robots::{NAO_PREVIEW, NAO_SINE, Outline, nao_walker, rh0, rh0_walker};
 use groebot::task::{Body, Floor, Goal, Pilot, Plan};
 use nalgebra::Point2;
 
-fn request(usual: &Usual, robot: &Biped, length: f64, turn: f64) -> Request {
+fn request(defaults: &GaitDefaults, robot: &Biped, length: f64, turn: f64) -> Request {
     let regular = Regular { steps: 8, length, aside: 0.0, turn, half_width: robot.half_width(), first: Side::Left };
-    usual.request(robot, Route::regular(&regular).expect("eight steps"), usual.hip_heights[0])
+    defaults.request(robot, Route::regular(&regular).expect("eight steps"), defaults.hip_heights[0])
 }
 
 fn walk(c: &mut Criterion) {
@@ -37,8 +37,8 @@ fn navigate(c: &mut Criterion) {
     group.sample_size(20);
     let walker = rh0_walker().expect("the crate's own data");
     let body = Body::new(&rh0(), &walker.biped, &Meshes::default()).expect("its shapes");
-    let usual = walker.gaits[0].1.clone();
-    let pilot = Pilot::new(walker, usual, body, true, &Watch::none()).expect("it walks");
+    let defaults = walker.gaits[0].1.clone();
+    let pilot = Pilot::new(walker, defaults, body, true, &Watch::none()).expect("it walks");
     let room = |size: f64| {
         let wall = |name: &str, x: f64, y: f64| {
             format!("[[furniture]]\nname = \"{name}\"\nbox = [0.2, 1.2]\nat = [{x}, {y}]\n")

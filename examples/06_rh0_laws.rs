@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use groebot::gait::{Action, Measures, Route, Walker, plan, words};
+use groebot::gait::{Action, Measures, Route, Walker, plan, step_commands};
 use groebot::robots::{RH0_SIMULATION, rh0_walker};
 use groebot::{Result, Watch};
 
@@ -50,7 +50,7 @@ impl Frame {
 fn main() -> Result<()> {
     let Walker { biped: robot, legs, .. } = rh0_walker()?;
     let measures = Measures { length: LENGTH, half_width: HALF_WIDTH, most_turn: 0.1 };
-    let route = Route::of_words(&words("out right, stride left")?, &measures)?;
+    let route = Route::of_commands(&step_commands("out right, stride left")?, &measures)?;
     let request = RH0_SIMULATION.request(&robot, route, RH0_SIMULATION.hip_heights[0]);
     let walk = plan(&robot, &legs, &request, &Watch::none())?;
 

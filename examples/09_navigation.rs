@@ -27,8 +27,8 @@ fn main() -> Result<()> {
     }
     let walker = walker("rh0", Outline::Measured).expect("RH0 is one of groebot's robots")?;
     let body = Body::new(&rh0(), &walker.biped, &Meshes::default())?;
-    let usual = walker.gaits[0].1.clone();
-    let pilot = Pilot::new(walker, usual, body, true, None)?;
+    let defaults = walker.gaits[0].1.clone();
+    let pilot = Pilot::new(walker, defaults, body, true, None)?;
     let floor = Floor::new(&room.map()?, 0.02)?;
     let start = Footprint { x: 3.0, y: 3.0, yaw: 0.0 }.feet(pilot.half_width());
     let goal = Goal { place: Point2::new(7.0, 3.0), heading: Some(0.0) };

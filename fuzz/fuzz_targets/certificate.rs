@@ -1,4 +1,4 @@
-//! Certificates, `derive::Derivation::again`.
+//! Certificates, `derive::Derivation::prove_source`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

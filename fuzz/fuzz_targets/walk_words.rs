@@ -1,4 +1,4 @@
-//! Text descriptions of walks, `gait::words`.
+//! Text descriptions of walks, `gait::step_commands`.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -23,7 +23,12 @@ pub(super) const TARGETS: [Target; 6] = [
         run: program_json,
         damaged: 100,
     },
-    Target { name: "certificate", about: "certificates, `derive::Derivation::again`", run: certificate, damaged: 60 },
+    Target {
+        name: "certificate",
+        about: "certificates, `derive::Derivation::prove_source`",
+        run: certificate,
+        damaged: 60,
+    },
     Target { name: "dynamics_json", about: "certificates of equations of motion", run: dynamics_json, damaged: 100 },
     Target {
         name: "dynamics_text",
@@ -58,9 +63,9 @@ fn program_json(bytes: &[u8]) {
 /// A certificate that proves a derivation is written again as one with the same claims.
 fn certificate(bytes: &[u8]) {
     for source in &*SOURCES {
-        let Some(proved) = read(Derivation::again(source, &text(bytes))) else { continue };
+        let Some(proved) = read(Derivation::prove_source(source, &text(bytes))) else { continue };
         let printed = proved.certificate().expect("what is proved is printed");
-        assert_eq!(Derivation::again(source, &printed).as_ref(), Ok(&proved));
+        assert_eq!(Derivation::prove_source(source, &printed).as_ref(), Ok(&proved));
     }
 }
 
@@ -85,7 +90,7 @@ fn dynamics_text(bytes: &[u8]) {
 /// The derivation of a chain with two joints, its numeric checks, and the files of its folder.
 static HONEST: LazyLock<(Derivation, Report, Stored)> = LazyLock::new(|| {
     let source = &SOURCES[1];
-    let proved = Derivation::again(source, PLANAR_2R_CERTIFICATE).expect("is committed").about(source);
+    let proved = Derivation::prove_source(source, PLANAR_2R_CERTIFICATE).expect("is committed").about(source);
     let checked = witness::check(source, &proved, &Watch::none()).expect("is committed");
     let written = folder::derived(source, &proved, &checked).expect("is committed");
     let motion = [(DYNAMICS, PLANAR_2R_DYNAMICS), (DYNAMICS_TEXT, PLANAR_2R_EQUATIONS)];

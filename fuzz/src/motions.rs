@@ -1,7 +1,7 @@
 //! Motions: trajectories, walks, tasks, footsteps, tables of states, logs, scenes.
 
 use groebot::cli::readers;
-use groebot::gait::{Measures, Route, words};
+use groebot::gait::{Measures, Route, step_commands};
 use groebot::motion::{StateTable, Trajectory};
 use groebot::sim::TaskRecord;
 use groebot::sim::export::Scene;
@@ -18,7 +18,12 @@ pub(super) const TARGETS: [Target; 9] = [
     Target { name: "walk_json", about: "walks in JSON, and their page", run: walk_json, damaged: 100 },
     Target { name: "task_json", about: "tasks in JSON, `sim::TaskRecord`", run: task_json, damaged: 200 },
     Target { name: "footsteps", about: "footsteps in CSV, `gait::Route`", run: footsteps, damaged: 300 },
-    Target { name: "walk_words", about: "text descriptions of walks, `gait::words`", run: walk_words, damaged: 300 },
+    Target {
+        name: "walk_words",
+        about: "text descriptions of walks, `gait::step_commands`",
+        run: walk_words,
+        damaged: 300,
+    },
     Target { name: "vrml", about: "VRML in the form of RH0 Fig. 5-4, written in all formats", run: vrml, damaged: 200 },
 ];
 
@@ -95,8 +100,8 @@ fn footsteps(bytes: &[u8]) {
 
 fn walk_words(bytes: &[u8]) {
     let measures = Measures { length: 0.04, half_width: 0.05, most_turn: 0.3 };
-    if let Some(words) = read(words(&text(bytes))) {
-        let _ = read(Route::of_words(&words, &measures));
+    if let Some(words) = read(step_commands(&text(bytes))) {
+        let _ = read(Route::of_commands(&words, &measures));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use groebot::gait::{Biped, Footprint, Usual, Walker};
+use groebot::gait::{Biped, Footprint, GaitDefaults, Walker};
 use groebot::model::Meshes;
 use groebot::nav::{Cell, Map, Room};
 use groebot::robots::{self, Outline};
@@ -63,10 +63,10 @@ fn pilot(name: &str, watch: &groebot::Watch) -> Result<Pilot> {
     let robot = robots::robot(name).ok_or_else(unknown)?;
     let walker: Walker = robots::walker(name, Outline::Measured).ok_or_else(unknown)??;
     let body = Body::new(&robot, &walker.biped, &Meshes::default())?;
-    let one_step = |(_, usual): &(&str, Usual)| Some(usual.clone()).filter(|usual| usual.gait.is_one_step());
+    let one_step = |(_, defaults): &(&str, GaitDefaults)| Some(defaults.clone()).filter(|defaults| defaults.gait.is_one_step());
     let none = || Error::new(ErrorKind::Unsupported, format!("`{name}` has no gait by one step goal"));
-    let usual = walker.gaits.iter().find_map(one_step).ok_or_else(none)?;
-    Pilot::new(walker, usual, body, true, watch)
+    let defaults = walker.gaits.iter().find_map(one_step).ok_or_else(none)?;
+    Pilot::new(walker, defaults, body, true, watch)
 }
 
 /// A map, and the start that a room defines.

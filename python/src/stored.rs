@@ -192,7 +192,7 @@ impl Stored {
         let mut source = self.source()?;
         source.choose_given(watch)?;
         let proved = match &self.certificate {
-            Some(certificate) => Derivation::again(&source, certificate)?,
+            Some(certificate) => Derivation::prove_source(&source, certificate)?,
             None => Derivation::of(&source, watch)?,
         };
         let proved = Arc::new(proved.about(&source));

@@ -63,7 +63,7 @@ static bool gb_is_between(gb_real x, gb_real low, gb_real high)
 #include "groebot/problem.c"
 #include "groebot/newton.c"
 #include "groebot/self_motion.c"
-#include "groebot/strays.c"
+#include "groebot/rejected.c"
 #include "groebot/freedom.c"
 #include "groebot/curve.c"
 #include "groebot/refine.c"

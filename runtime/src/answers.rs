@@ -8,11 +8,11 @@ use crate::measure::{Fits, joints};
 use crate::mechanism::{Abreast, Candidates, Facts, Found, Joint, Joints, Mechanism, Parameters, Places, elected};
 use crate::number::Guard;
 use crate::problem::{End, Fit, Problem};
+use crate::rejected::{IsolatedSolutions, KnownMembers, Merged, RejectedKinds};
 use crate::solution::{Error, Pairs, Solution};
 use crate::starts::Starts;
 use crate::steps::settle;
 use crate::storage::Array;
-use crate::strays::{Loners, Merged, Strays, Trails};
 use crate::tolerances::{ACCEPTANCE, MERGING};
 
 /// Two angles differ by more than `MERGING.blur` where the cosine of their difference is below this.
@@ -36,11 +36,11 @@ pub(crate) struct Answers<'a, M: Mechanism> {
     /// Whether, on each stratum so far, the cases before it have lost no solution. Always false with the formulas of a nearby mechanism.
     pub suffices: bool,
     /// Candidates for members of self-motions that were dropped for this reason.
-    pub strays: Strays,
+    pub rejected: RejectedKinds,
     /// Solutions that are not members of self-motions.
-    pub loners: Loners<M>,
+    pub known_isolated: IsolatedSolutions<M>,
     /// Members of self-motions in the list.
-    pub trails: Trails<M>,
+    pub members: KnownMembers<M>,
     /// Whether the member that is being kept is on none of the known self-motions.
     pub is_another: bool,
     /// Members with several free joints that were found to be on a self-motion in the list.
@@ -132,9 +132,9 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             unsound: 0,
             doubted: 0,
             suffices: nearby.is_none(),
-            strays: Strays::NONE,
-            loners: Loners::NONE,
-            trails: Trails::NONE,
+            rejected: RejectedKinds::NONE,
+            known_isolated: IsolatedSolutions::NONE,
+            members: KnownMembers::NONE,
             is_another: false,
             merged: Merged::NONE,
             starts: None,
@@ -160,7 +160,7 @@ impl<'a, M: Mechanism> Answers<'a, M> {
         walk(mechanism, parameters, self);
         self.flush();
         self.walk_curves();
-        if self.strays.are_doubtful() && !self.are_all() && !self.problem.steps.are_spent() {
+        if self.rejected.are_doubtful() && !self.are_all() && !self.problem.steps.are_spent() {
             self.suffices = false;
             walk(mechanism, parameters, self);
             self.flush();

@@ -46,10 +46,10 @@ pub mod solve;
 #[cfg(feature = "sources")]
 pub mod sources;
 
+mod rejected;
 mod starts;
 mod steps;
 pub mod storage;
-mod strays;
 #[doc(hidden)]
 pub mod tolerances;
 pub mod trigonometry;

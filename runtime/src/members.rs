@@ -17,16 +17,16 @@ impl<M: Mechanism> Answers<'_, M> {
         if is_known && (!found.free.is_power_of_two() || self.problem.steps.are_spent()) {
             return;
         }
-        if self.trails.contains(&self.problem.facts(), &q, found.free, MERGING.joints) {
+        if self.members.contains(&self.problem.facts(), &q, found.free, MERGING.joints) {
             return;
         }
         let mut end = self.problem.measured(q);
         let missed = end.1.relative;
-        if self.suffices && (missed > ACCEPTANCE.unsettled || self.strays.are_known(found, missed)) {
+        if self.suffices && (missed > ACCEPTANCE.unsettled || self.rejected.are_known(found, missed)) {
             return self.miss(end);
         }
         // Repeated to find a solution next to a self-motion's end, but not where that end is far.
-        if missed > STRATA.near && self.strays.are_astray(found) {
+        if missed > STRATA.near && self.rejected.are_rejected(found) {
             return self.miss(end);
         }
         if self.problem.steps.are_spent() {
@@ -64,11 +64,11 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Keeps a member of a long self-motion within rounding if no solution is lost without further tests. Returns whether it was kept.
     fn keep_long_member(&mut self, found: &Found, end: &End<M>, is_known: bool) -> bool {
         if end.1.relative <= ACCEPTANCE.rounding && self.problem.is_on_long_self_motion(&end.0, found.free) {
-            self.keep_on_trail(found, end.clone());
+            self.keep_remembered(found, end.clone());
             return true;
         }
         if !is_known {
-            self.strays.mark(found);
+            self.rejected.mark(found);
         }
         self.miss(end.clone());
         true
@@ -85,13 +85,13 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Whether a member is on a known self-motion of its branch: a continuous motion connects them. Where further joints are free, it is assumed to be on one,
     /// and this is recorded.
     fn is_on_known(&mut self, found: &Found, (q, fit): &End<M>) -> bool {
-        let Answers { problem, out, count, trails, .. } = self;
-        let last = trails.last(found.branch, |free| free == found.free);
+        let Answers { problem, out, count, members, .. } = self;
+        let last = members.last(found.branch, |free| free == found.free);
         // First, because it is the fastest test.
         if fit.relative > ACCEPTANCE.rounding
             || last.is_some_and(|last| problem.leads_straight_to(&last.q, q, found.free))
         {
-            trails.remember(found, q, None);
+            members.remember(found, q, None);
             return true;
         }
         let tangent = problem.tangent(q, found.free);
@@ -102,7 +102,7 @@ impl<M: Mechanism> Answers<'_, M> {
             })
             || out[..*count].iter().rev().any(|a| is_member_of(a, found) && problem.leads_to(&a.q, q, found.free));
         if joins {
-            trails.remember(found, q, tangent);
+            members.remember(found, q, tangent);
         }
         joins
     }
@@ -136,13 +136,13 @@ impl<M: Mechanism> Answers<'_, M> {
             return self.miss(end);
         }
         let is_listed = self.is_listed(&end.0);
-        if !is_listed && self.is_on_trail(found, &end.0) {
+        if !is_listed && self.is_on_remembered(found, &end.0) {
             return;
         }
         let joint = if is_listed { None } else { self.problem.joint_on_self_motion(&end.0, end.1.relative) };
         let alone = Found { free: joint.unwrap_or(0), ..*found };
         let known = self.count;
-        self.keep_on_trail(&alone, end.clone());
+        self.keep_remembered(&alone, end.clone());
         if joint.is_none() && self.count > known && (ACCEPTANCE.rounding..=STRATA.near).contains(&missed) {
             self.around(&alone, &end, missed);
         }
@@ -152,27 +152,27 @@ impl<M: Mechanism> Answers<'_, M> {
     fn keep_member(&mut self, found: &Found, end: &End<M>) -> bool {
         let is_member = end.1.accepted && self.problem.is_on_self_motion(&end.0, found.free, end.1.relative);
         if is_member {
-            self.keep_on_trail(found, end.clone());
+            self.keep_remembered(found, end.clone());
         }
         is_member
     }
 
     /// Keeps a solution, and records a member.
-    fn keep_on_trail(&mut self, found: &Found, end: End<M>) {
+    fn keep_remembered(&mut self, found: &Found, end: End<M>) {
         if found.free != 0 {
-            self.trails.remember(found, &end.0, None);
+            self.members.remember(found, &end.0, None);
         }
         self.keep(found, end);
     }
 
     /// Whether joints are on a self-motion of one joint that recent candidates of this branch have led to.
-    fn is_on_trail(&mut self, found: &Found, q: &Joints<M>) -> bool {
-        let Answers { problem, trails, .. } = self;
-        let Some(last) = trails.last(found.branch, u32::is_power_of_two) else { return false };
+    fn is_on_remembered(&mut self, found: &Found, q: &Joints<M>) -> bool {
+        let Answers { problem, members, .. } = self;
+        let Some(last) = members.last(found.branch, u32::is_power_of_two) else { return false };
         let free = last.free;
         let is_on = problem.regularity(q) <= PIVOTS.regular && problem.leads_to(&last.q, q, free);
         if is_on {
-            trails.remember(&Found { free, ..*found }, q, None);
+            members.remember(&Found { free, ..*found }, q, None);
         }
         is_on
     }

@@ -9,9 +9,9 @@ use crate::joints::{differences, moved, shifted};
 use crate::mechanism::{Found, Joints, Mechanism};
 use crate::newton::Triangle;
 use crate::problem::{End, Fit, Problem};
+use crate::rejected::IsolatedSolutions;
 use crate::solution::Solution;
 use crate::storage::Array;
-use crate::strays::Loners;
 use crate::tolerances::{ACCEPTANCE, MERGING, NEARBY_ROBOTS, PIVOTS, STRATA};
 
 /// Maximal number of solutions of a target.
@@ -313,7 +313,7 @@ impl<M: Mechanism> Answers<'_, M> {
     /// Whether two solutions are one: members of one self-motion, one singular configuration, or within `MERGING.joints` without the joints that are free in
     /// either.
     fn is_one(&mut self, index: usize, b: &Solution<M>) -> bool {
-        let Answers { problem, out, is_another, suffices, loners, .. } = self;
+        let Answers { problem, out, is_another, suffices, known_isolated, .. } = self;
         let a = &out[index];
         if problem.facts().is_close(a.q.as_ref(), b.q.as_ref(), a.free | b.free, MERGING.joints) {
             return true;
@@ -328,8 +328,8 @@ impl<M: Mechanism> Answers<'_, M> {
                 let is_alike = a.free == b.free && !are_apart;
                 is_alike && (are_by_branch(problem, a, b) || problem.leads_to(&a.q, &b.q, a.free))
             }
-            (true, false) => is_on(problem, loners, b, a, *suffices),
-            (false, true) => is_on(problem, loners, a, b, *suffices),
+            (true, false) => is_on(problem, known_isolated, b, a, *suffices),
+            (false, true) => is_on(problem, known_isolated, a, b, *suffices),
         }
     }
 }
@@ -351,17 +351,17 @@ impl<M: Mechanism> Problem<'_, M> {
 /// the self-motion may be larger.
 fn is_on<M: Mechanism>(
     problem: &mut Problem<'_, M>,
-    loners: &mut Loners<M>,
+    known_isolated: &mut IsolatedSolutions<M>,
     member: &Solution<M>,
     isolated: &Solution<M>,
     suffices: bool,
 ) -> bool {
     let free = member.free;
-    if member.relative > ACCEPTANCE.rounding || loners.contains(&isolated.q, free) {
+    if member.relative > ACCEPTANCE.rounding || known_isolated.contains(&isolated.q, free) {
         return false;
     }
     if !problem.is_on_self_motion(&isolated.q, free, ACCEPTANCE.rounding) {
-        loners.remember(&isolated.q, free);
+        known_isolated.remember(&isolated.q, free);
         return false;
     }
     !suffices || problem.leads_to(&member.q, &isolated.q, free)

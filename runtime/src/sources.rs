@@ -37,7 +37,7 @@ pub const RUST: [(&str, &str); 38] = [
     ("starts", include_str!("starts.rs")),
     ("steps", include_str!("steps.rs")),
     ("storage", include_str!("storage.rs")),
-    ("strays", include_str!("strays.rs")),
+    ("rejected", include_str!("rejected.rs")),
     ("tolerances", include_str!("tolerances.rs")),
     ("trigonometry", include_str!("trigonometry.rs")),
 ];
@@ -106,7 +106,7 @@ pub const C_PARTS: [(&str, &str); 50] = [
     ("groebot/self_motion.c", include_str!("../c/groebot/self_motion.c")),
     ("groebot/shared.h", include_str!("../c/groebot/shared.h")),
     ("groebot/solve.h", include_str!("../c/groebot/solve.h")),
-    ("groebot/strays.c", include_str!("../c/groebot/strays.c")),
+    ("groebot/rejected.c", include_str!("../c/groebot/rejected.c")),
     ("groebot/tolerances.h", include_str!("../c/groebot/tolerances.h")),
     ("groebot/trigonometry.c", include_str!("../c/groebot/trigonometry.c")),
     ("groebot/approaches.h", include_str!("../c/groebot/approaches.h")),

@@ -14,7 +14,7 @@ use super::progress::{Limits, Session};
 use super::walker::{self, GaitName, Named, SoleArguments};
 use super::{Halt, Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_humanoid::gait::{Footstep, Summary, Usual};
+use groebot_humanoid::gait::{Footstep, GaitDefaults, Summary};
 use groebot_humanoid::task::{Blocked, Body, Floor, Method, Pilot, Plan, Refusal};
 use groebot_humanoid::walkers::Outline;
 
@@ -142,8 +142,8 @@ impl Arguments {
             Some(_) => return Err(bad("--body takes two numbers: --body 0.3,0.5")),
             None => Body::new(&named.robot, &named.walker.biped, &named.meshes)?,
         };
-        let usual = steps(&named.walker.gaits, self.gait)?;
-        Pilot::new(named.walker, usual, body, !self.crouched, watch)
+        let defaults = steps(&named.walker.gaits, self.gait)?;
+        Pilot::new(named.walker, defaults, body, !self.crouched, watch)
     }
 
     /// The output; it replaces neither the robot nor the map.
@@ -208,13 +208,13 @@ impl MethodName {
 }
 
 /// The gait of that name, or the first one by one step goal.
-fn steps(gaits: &[(&'static str, Usual)], wanted: Option<GaitName>) -> Result<Usual> {
-    let usual = match wanted {
-        Some(_) => Some(walker::usual(gaits, wanted)?),
-        None => gaits.iter().map(|(_, usual)| usual.clone()).find(|usual| usual.gait.is_one_step()),
+fn steps(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>) -> Result<GaitDefaults> {
+    let defaults = match wanted {
+        Some(_) => Some(walker::defaults(gaits, wanted)?),
+        None => gaits.iter().map(|(_, defaults)| defaults.clone()).find(|defaults| defaults.gait.is_one_step()),
     };
-    let usual = usual.filter(|usual| usual.gait.is_one_step());
-    usual.ok_or_else(|| {
+    let defaults = defaults.filter(|defaults| defaults.gait.is_one_step());
+    defaults.ok_or_else(|| {
         bad("a path needs a gait by one step goal; give --gait osg, rh0 or rh0-real, if this robot has it")
     })
 }

@@ -104,11 +104,11 @@ impl Mechanism {
         Ok(RequestedChain { source, choice })
     }
 
-    /// Same as [`Mechanism::asked`], but for a numeric search, which needs no closed form. A redundant joint that the
+    /// Same as [`Mechanism::requested`], but for a numeric search, which needs no closed form. A redundant joint that the
     /// planner cannot choose stays free.
     ///
     /// # Errors
-    /// As [`Mechanism::asked`].
+    /// As [`Mechanism::requested`].
     pub fn searched(&self) -> Result<RequestedChain> {
         let mut source = self.source()?;
         let choice = match source.choose_given(&Watch::none()) {

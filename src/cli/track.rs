@@ -12,7 +12,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_algebra::number::{BigRational, parse_rational};
 use groebot_robot::control::{
     ClosedLoop, ComputedTorque, Desired, Disturbance, Gains, GravityCompensation, Inversion, Law, Limited, OpenLoop,
-    Sample, WorkSpace, errors_and_torques,
+    OperationalSpace, Sample, errors_and_torques,
 };
 use groebot_robot::dynamics::{Base, Equations, State, Workspace};
 use groebot_robot::model::Robot;
@@ -21,7 +21,7 @@ use groebot_robot::motion::{Spline, StateTable};
 const EXAMPLES: &str = "Examples:
   groebot track ur5.urdf --law computed-torque --trajectory t.csv --plot p.svg
   groebot track ur5.urdf --law computed-torque --trajectory t.csv --masses 1.05 --delay 1 -o tracked.csv
-  groebot track ur5.urdf --law work-space --link wrist_3_link --trajectory t.csv
+  groebot track ur5.urdf --law operational-space --link wrist_3_link --trajectory t.csv
 
 t.csv begins with a row of names: t, q0, q1, ... (the independent joints, in the order of the
 description), and optionally v0.. and a0..; the motion is interpolated smoothly between its rows.
@@ -29,7 +29,7 @@ The robot starts at the trajectory, or at the distance --error from it. Its moti
 the Runge-Kutta method of order four, with a constant torque during each step. The columns of -o are
 t, q0.., v0.., tau0.. (the torques of the law) and d0.. (the desired positions).
 
-Laws: open-loop is RH0 (2-46), computed-torque (2-47), work-space (2-50), gravity-compensation N -
+Laws: open-loop is RH0 (2-46), computed-torque (2-47), operational-space (2-50), gravity-compensation N -
 Kv e' - Kp e. Gains are Kp = w^2 and Kv = 2 w for --frequency w; those of gravity-compensation are
 multiplied by 1 kg m^2.";
 
@@ -48,8 +48,8 @@ pub struct Arguments {
     trajectory: PathBuf,
     #[command(flatten)]
     part: PartArguments,
-    /// The controlled link, for the law work-space
-    #[arg(long, value_name = "LINK", required_if_eq("law", "work-space"))]
+    /// The controlled link, for the law operational-space
+    #[arg(long, value_name = "LINK", required_if_eq_any([("law", "operational-space"), ("law", "work-space")]))]
     link: Option<String>,
     /// Damp the inverse Jacobian by this fraction of its greatest singular value (default: no damping; singular
     /// configurations are refused)
@@ -100,7 +100,8 @@ enum LawName {
     OpenLoop,
     ComputedTorque,
     GravityCompensation,
-    WorkSpace,
+    #[value(alias = "work-space")]
+    OperationalSpace,
 }
 
 fn factor(text: &str) -> std::result::Result<BigRational, String> {
@@ -110,7 +111,7 @@ fn factor(text: &str) -> std::result::Result<BigRational, String> {
 
 /// A control law of a link as one of joints: the target is the link's motion computed from that of the joints.
 struct Following {
-    law: WorkSpace,
+    law: OperationalSpace,
     equations: Equations,
     room: Workspace,
     link: usize,
@@ -190,10 +191,10 @@ fn law(arguments: &Arguments, robot: &Robot, known: &Equations) -> Result<Box<dy
         LawName::OpenLoop => Box::new(OpenLoop::new(known)?),
         LawName::ComputedTorque => Box::new(ComputedTorque::new(known, gains)?),
         LawName::GravityCompensation => Box::new(GravityCompensation::new(known, gains)?),
-        LawName::WorkSpace => {
+        LawName::OperationalSpace => {
             let link = robot.link(arguments.link.as_deref().unwrap_or_default())?;
             let inversion = arguments.damped.map_or(Inversion::Exact(1e-3), Inversion::Damped);
-            let law = WorkSpace::new(known, link, [proportional, derivative], inversion)?;
+            let law = OperationalSpace::new(known, link, [proportional, derivative], inversion)?;
             Box::new(Following { law, equations: known.clone(), room: known.workspace(), link })
         }
     })

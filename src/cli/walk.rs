@@ -12,8 +12,8 @@ use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 use groebot_humanoid::gait::{
-    Biped, Chains, Difference, Forces, Gait, Laws, Measures, Regular, Request, Route, Side, Summary, Usual, Walk,
-    Walker, plan_at, words,
+    Biped, Chains, Difference, Forces, Gait, GaitDefaults, Laws, Measures, Regular, Request, Route, Side, Summary,
+    Walk, Walker, plan_at, step_commands,
 };
 use groebot_humanoid::walkers::Outline;
 use groebot_robot::document::read_text;
@@ -103,7 +103,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     footsteps: Option<PathBuf>,
     /// The walk as text, separated by commas: out, stride, in with left or right; turn left or right with degrees
-    #[arg(long, value_name = "WORDS")]
+    #[arg(long, value_name = "COMMANDS")]
     plan: Option<String>,
     /// Walk to a place in the initial frame of the feet: forward, to the left [m], and an optional final heading
     /// [degrees]
@@ -196,10 +196,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let output = arguments.output()?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
     let walker = walker::named(&arguments.robot, outline, &arguments.soles, &session.watch)?.walker;
-    let usual = arguments.usual(&walker)?;
+    let defaults = arguments.defaults(&walker)?;
     let biped = &walker.biped;
-    let request = |height, ease| arguments.request(&usual.clone().eased(ease), biped, height);
-    let walk = plan_at((biped, &walker.legs), arguments.hip_height, &usual.hip_heights, request, &session.watch)?;
+    let request = |height, ease| arguments.request(&defaults.clone().eased(ease), biped, height);
+    let walk = plan_at((biped, &walker.legs), arguments.hip_height, &defaults.hip_heights, request, &session.watch)?;
     drop(session);
     let forces = arguments.torques.then(|| walk.forces(biped));
     let chains = forces.as_ref().filter(|_| arguments.chains).map(|forces| walk.chains(biped, forces));
@@ -239,31 +239,31 @@ fn torques(biped: &Biped, walk: &Walk, forces: &[Forces]) -> String {
 
 impl Arguments {
     /// The parameters of the gait, with the given ones replaced.
-    fn usual(&self, walker: &Walker) -> Result<Usual> {
-        let mut usual = walker::usual(&walker.gaits, self.gait)?;
+    fn defaults(&self, walker: &Walker) -> Result<GaitDefaults> {
+        let mut defaults = walker::defaults(&walker.gaits, self.gait)?;
         let places = [
-            (&mut usual.length, self.length),
-            (&mut usual.lift, self.lift),
-            (&mut usual.amplitude, self.amplitude),
-            (&mut usual.ahead, self.ahead),
-            (&mut usual.period, self.period),
-            (&mut usual.double_support, self.double_support),
-            (&mut usual.rest, self.rest),
-            (&mut usual.tick, self.tick),
-            (&mut usual.margin, self.margin),
-            (&mut usual.speed_share, self.speed),
-            (&mut usual.most_turn, self.max_turn.map(f64::to_radians)),
+            (&mut defaults.length, self.length),
+            (&mut defaults.lift, self.lift),
+            (&mut defaults.amplitude, self.amplitude),
+            (&mut defaults.ahead, self.ahead),
+            (&mut defaults.period, self.period),
+            (&mut defaults.double_support, self.double_support),
+            (&mut defaults.rest, self.rest),
+            (&mut defaults.tick, self.tick),
+            (&mut defaults.margin, self.margin),
+            (&mut defaults.speed_share, self.speed),
+            (&mut defaults.most_turn, self.max_turn.map(f64::to_radians)),
         ];
         for (place, given) in places {
             *place = given.unwrap_or(*place);
         }
-        usual.half_width = self.half_width.or(usual.half_width);
-        let double = usual.double_support;
+        defaults.half_width = self.half_width.or(defaults.half_width);
+        let double = defaults.double_support;
         if !(double > 0.0 && double < 1.0) {
             return Err(bad(format!("--double-support is {double}; give a fraction between 0 and 1")));
         }
-        self.one_step(&mut usual.gait)?;
-        Ok(usual)
+        self.one_step(&mut defaults.gait)?;
+        Ok(defaults)
     }
 
     /// Sets the given parameters of one step goal.
@@ -286,15 +286,15 @@ impl Arguments {
         Ok(())
     }
 
-    fn request(&self, usual: &Usual, biped: &Biped, hip_height: f64) -> Result<Request> {
-        let route = self.route(usual, usual.half_width(biped))?;
-        let usual = if self.crouched { usual.clone() } else { usual.clone().from_upright(biped) };
-        let mut request = usual.request(biped, route, hip_height);
+    fn request(&self, defaults: &GaitDefaults, biped: &Biped, hip_height: f64) -> Result<Request> {
+        let route = self.route(defaults, defaults.half_width(biped))?;
+        let defaults = if self.crouched { defaults.clone() } else { defaults.clone().from_upright(biped) };
+        let mut request = defaults.request(biped, route, hip_height);
         request.durations.lower = self.descent_intervals.map(|count| f64::from(count) * request.tick);
         Ok(request)
     }
 
-    fn route(&self, usual: &Usual, half_width: f64) -> Result<Route> {
+    fn route(&self, defaults: &GaitDefaults, half_width: f64) -> Result<Route> {
         if let Some(file) = &self.footsteps {
             let text = read_text(file, FOOTSTEPS_LIMIT)?;
             return Route::from_csv(&text, half_width).map_err(|error| error.in_file(file));
@@ -303,9 +303,9 @@ impl Arguments {
             FootName::Left => Side::Left,
             FootName::Right => Side::Right,
         };
-        let measures = Measures { length: usual.length, half_width, most_turn: usual.most_turn };
+        let measures = Measures { length: defaults.length, half_width, most_turn: defaults.most_turn };
         if let Some(text) = &self.plan {
-            return Route::of_words(&words(text)?, &measures);
+            return Route::of_commands(&step_commands(text)?, &measures);
         }
         match self.goal.as_deref() {
             Some(&[x, y]) => return Route::towards(&Point2::new(x, y), None, first, &measures),
@@ -316,7 +316,14 @@ impl Arguments {
             None => {}
         }
         let turn = self.turn.to_radians();
-        Route::regular(&Regular { steps: self.steps, length: usual.length, aside: self.aside, turn, half_width, first })
+        Route::regular(&Regular {
+            steps: self.steps,
+            length: defaults.length,
+            aside: self.aside,
+            turn,
+            half_width,
+            first,
+        })
     }
 
     /// The output; it replaces neither the robot nor the footsteps.

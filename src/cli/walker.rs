@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::Point2;
 
 use crate::{Error, ErrorKind, Result, Watch};
-use groebot_humanoid::gait::{Biped, LegSolver, Usual, Walker};
+use groebot_humanoid::gait::{Biped, GaitDefaults, LegSolver, Walker};
 use groebot_humanoid::walkers::{self, Outline};
 use groebot_ik::derive::{Description, InputFile, Options};
 use groebot_robot::document::{is_stdin, shown};
@@ -33,12 +33,12 @@ pub enum GaitName {
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for a gait that this robot does not have.
-pub fn usual(gaits: &[(&'static str, Usual)], wanted: Option<GaitName>) -> Result<Usual> {
+pub fn defaults(gaits: &[(&'static str, GaitDefaults)], wanted: Option<GaitName>) -> Result<GaitDefaults> {
     let Some(wanted) = wanted else { return Ok(gaits[0].1.clone()) };
     let value = clap::ValueEnum::to_possible_value(&wanted);
     let wanted = value.as_ref().map_or("", |value| value.get_name());
     let found = gaits.iter().find(|(name, _)| *name == wanted);
-    found.map(|(_, usual)| usual.clone()).ok_or_else(|| {
+    found.map(|(_, defaults)| defaults.clone()).ok_or_else(|| {
         let names = gaits.iter().map(|(name, _)| format!("`{name}`")).collect::<Vec<_>>().join(", ");
         Error::new(ErrorKind::BadValue, format!("this robot does not have the gait `{wanted}`; give one of {names}"))
     })

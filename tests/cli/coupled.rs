@@ -111,7 +111,7 @@ fn check_proves_it_again_and_finds_what_was_changed() {
     let (folder, _) = arms();
     let page = succeed(&["check", text(folder.path())]);
     assert!(page.lines().all(|line| line.starts_with('\u{2713}')), "{page}");
-    has(&page, &["2 chains on 4 actuators", "a: 2 steps proved again", "targets solved again and right"]);
+    has(&page, &["2 chains on 4 actuators", "a: 2 steps proved again", "targets solved again, all correct"]);
     let copy = tempdir().unwrap();
     for (name, bytes) in content(folder.path()) {
         fs::write(copy.path().join(name), bytes).unwrap();

@@ -27,6 +27,10 @@ fn a_task_is_done_checked_and_shown() {
     let written = fs::read_to_string(&json).unwrap();
     let walk = Trajectory::from_json(&written).unwrap();
     let record = TaskRecord::from_json(&written).unwrap().unwrap();
+    // Earlier files name the path of a stage `way`.
+    let former = written.replace("\"path\":", "\"way\":");
+    assert_ne!(former, written);
+    assert_eq!(TaskRecord::from_json(&former).unwrap().unwrap(), record);
     assert_eq!((record.stages.len(), record.stages[1].pieces[1].at), (2, [1.6, 2.3, 0.0]));
     assert!(record.stages[1].from > 0.0 && record.stages[1].from < walk.times[walk.times.len() - 1]);
     let value: Value = serde_json::from_str(&written).unwrap();

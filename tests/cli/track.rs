@@ -71,8 +71,8 @@ fn what_cannot_be_followed_is_refused() {
     write("t,q0\n0,0\n1,0\n");
     assert!(refused(&law("open-loop")).contains("6 independent joints"));
     write("t,q0,q1,q2,q3,q4,q5\n0,0,0,0,0,0,0\n1,0,0,0,0,0,0\n");
-    let refusal = refused(&[&law("work-space")[..], &["--link", "wrist_3_link"]].concat());
+    let refusal = refused(&[&law("operational-space")[..], &["--link", "wrist_3_link"]].concat());
     assert!(refusal.contains("at 0.0000 s") && refusal.contains("singular"), "{refusal}");
-    succeed(&[&law("work-space")[..], &["--link", "wrist_3_link", "--damped", "0.02"]].concat());
+    succeed(&[&law("operational-space")[..], &["--link", "wrist_3_link", "--damped", "0.02"]].concat());
     assert!(refused(&[&law("computed-torque")[..], &["--step", "0"]].concat()).contains("positive"));
 }

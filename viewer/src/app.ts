@@ -1,4 +1,4 @@
-/** The robot at a time: what `window.groebot` tells, and what all parts of the page show. */
+/** The state of the robot at the current time, which all parts of the page display and `window.groebot` returns. */
 
 import type { Data, Motion } from "./data";
 import { complete, forward, REST } from "./kinematics";
@@ -9,7 +9,7 @@ import { at, placeOf, poseAt, type Place } from "./time";
 
 /** The pose of the robot at a time. */
 export interface Pose {
-  /** The value of each joint that turns or slides, and of the others zero [rad or m]. */
+  /** The value of each revolute or prismatic joint; zero for other joints [rad or m]. */
   joints: Record<string, number>;
   /** Position and quaternion xyzw of the root in the world. */
   base: number[];
@@ -18,18 +18,18 @@ export interface Pose {
 }
 
 export class App {
-  /** Where the motion is; undefined without one. */
+  /** The current place in the motion; undefined without a motion. */
   place: Place | undefined;
   values: number[] = [];
   base: number[] = REST;
   frames: Frame[] = [];
-  /** The room of a task that was done. */
+  /** The room of a recorded task. */
   readonly task: Task | undefined;
-  /** What a limb reaches. */
+  /** The reach map of a limb. */
   readonly reached: Reached | undefined;
-  /** Whether the room has become another one with the last change of time. */
+  /** Whether the last change of time changed the room. */
   hasNewRoom = false;
-  /** Hear of every change. */
+  /** Functions called after every change. */
   readonly watchers: (() => void)[] = [];
   private readonly moved = new Map<number, number>();
 
@@ -43,7 +43,7 @@ export class App {
     return this.place?.time ?? 0;
   }
 
-  /** Goes to a time, held within the motion [s]. */
+  /** Sets the time, clamped to the motion [s]. */
   seek(time: number): void {
     const { motion, robot } = this.data;
     if (motion) {
@@ -59,13 +59,13 @@ export class App {
     this.watchers.forEach((watcher) => watcher());
   }
 
-  /** Takes a motion that has become longer, or another one; stays where it is. */
+  /** Replaces the motion by a longer or another one; the time is unchanged. */
   grow(motion: Motion): void {
     this.data.motion = motion;
     this.seek(this.time);
   }
 
-  /** Goes so many samples on or back, first to the next one. */
+  /** Moves by a number of samples, forward or backward; from between two samples, first to the nearer end in that direction. */
   step(samples: number): void {
     const times = this.data.motion?.times;
     if (!times || !this.place) return;
@@ -73,19 +73,19 @@ export class App {
     this.seek(times[Math.min(Math.max(from + samples, 0), times.length - 1)]!);
   }
 
-  /** Moves a joint by hand. */
+  /** Sets the value of a joint. */
   move(joint: number, value: number): void {
     this.moved.set(joint, value);
     this.seek(0);
   }
 
-  /** Moves several joints by hand: pairs of their places and values. */
+  /** Sets several joints: pairs of index and value. */
   moveAll(moved: [number, number][]): void {
     moved.forEach(([joint, value]) => this.moved.set(joint, value));
     this.seek(0);
   }
 
-  /** Brings all joints back. */
+  /** Resets all joints. */
   rest(): void {
     this.moved.clear();
     this.seek(0);
@@ -101,13 +101,13 @@ export class App {
     };
   }
 
-  /** A point of the motion by its name; null where there is none [m]. */
+  /** A point of the motion by its name; null if there is none [m]. */
   point(name: string): Vector | null {
     const found = this.data.motion?.points.find((point) => point.name === name);
     return found && this.place ? (found.at.map((track) => at(track, this.place!)) as Vector) : null;
   }
 
-  /** A figure of the motion by its name; null where there is none. */
+  /** A quantity of the motion by its name; null if there is none. */
   figure(name: string): number | null {
     const found = this.data.motion?.figures.find((figure) => figure.name === name);
     return found && this.place ? at(found.values, this.place) : null;

@@ -1,4 +1,4 @@
-/** The robot in the room: its shapes, and bones between joints where it has none. */
+/** The drawn robot: its shapes, and rods between joints where it has none. */
 
 import {
   Box3, BoxGeometry, BufferAttribute, BufferGeometry, CapsuleGeometry, Color, CylinderGeometry, DoubleSide, Group, Matrix4, Mesh, MeshLambertMaterial,
@@ -20,13 +20,13 @@ export class Body {
   private readonly links: Group[];
   private readonly plain = new MeshLambertMaterial();
   private readonly bone = new MeshLambertMaterial();
-  /** Whether any shape or bone is there. */
+  /** Whether there is any shape or rod. */
   readonly isSeen: boolean;
-  /** How large the robot is with the given joint values [m], and the box it fills with its root at the origin. */
+  /** Size of the robot at the given joint values [m], and its bounding box with the root at the origin. */
   readonly size: number;
   readonly box: Box3;
 
-  /** With `only`, a copy of those links that throws no shadow. */
+  /** With `only`, a copy of those links without shadow. */
   constructor(private readonly robot: Robot, values: number[], private readonly only?: Set<number>) {
     this.links = robot.links.map(() => {
       const link = new Group();
@@ -48,7 +48,7 @@ export class Body {
     this.size = this.isSeen ? Math.max(this.box.getSize(new Vector3()).length(), 1e-3) : 1;
   }
 
-  /** Puts the links where they are. */
+  /** Sets the frames of the links. */
   show(frames: Frame[]): void {
     frames.forEach((frame, place) => {
       const link = this.links[place]!;
@@ -58,18 +58,18 @@ export class Body {
     this.group.updateMatrixWorld(true);
   }
 
-  /** Takes the colours of the theme; all of one where it is told. */
+  /** Applies the colours of the theme, or the colour `all` to every part. */
   paint(all?: string): void {
     this.plain.color.copy(colour(all ?? "robot"));
     this.bone.color.copy(colour(all ?? "bone"));
   }
 
-  /** Lets what is behind be seen. */
+  /** Makes the body translucent. */
   fade(opacity: number): void {
     for (const material of [this.plain, this.bone]) Object.assign(material, { opacity, transparent: true, depthWrite: false });
   }
 
-  /** Gives back what the picture's memory holds for it. */
+  /** Releases its geometry and materials on the graphics processor. */
   dispose(): void {
     this.group.traverse((part) => {
       if (!(part instanceof Mesh)) return;
@@ -82,7 +82,7 @@ export class Body {
     return this.only?.has(link) ?? true;
   }
 
-  /** The diagonal of the box about all shapes and joints. */
+  /** The diagonal of the bounding box of all shapes and joints. */
   private extent(frames: Frame[]): number {
     const box = new Box3().setFromObject(this.group);
     for (const frame of frames) box.expandByPoint(new Vector3(frame[3], frame[7], frame[11]));
@@ -106,7 +106,7 @@ export class Body {
     return solid;
   }
 
-  /** Thin bones join shapes; a robot without shapes is made of thick ones, with its axes. */
+  /** Adds thin rods between shapes; a robot without shapes has thick rods, and cylinders along its axes. */
   private addBones(span: number): void {
     const { links, joints } = this.robot;
     const isBare = links.every(({ shapes }) => shapes.length === 0);
@@ -134,7 +134,7 @@ export class Body {
     return axle;
   }
 
-  /** The joints that move, or carry a shape or a joint that matters. */
+  /** The joints that move, or that carry a shape or another such joint. */
   private mattering(): Set<Joint> {
     const found = new Set<Joint>();
     const links = new Set<number>();
@@ -155,7 +155,7 @@ function mesh(geometry: BufferGeometry, material: MeshLambertMaterial): Mesh<Buf
   return made;
 }
 
-/** The solid with the axis of round ones along z. */
+/** The solid; cylinders and capsules are along z. */
 function geometry(shape: Shape): BufferGeometry {
   switch (shape.kind) {
     case "box":

@@ -1,4 +1,4 @@
-/** What a limb reaches in the picture: a box at each place that is chosen. */
+/** The reach map in three dimensions: a box at each selected place. */
 
 import { BufferAttribute, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, ShaderMaterial, Vector3 } from "three";
 import type { Axis } from "./data";
@@ -6,15 +6,15 @@ import { matrix } from "./body";
 import type { Reached } from "./map";
 import type { Frame, Vector } from "./pose";
 
-/** From least to greatest: viridis of matplotlib, as crates/ik/src/reach/drawing.rs has it. */
+/** Colours from least to greatest: viridis of matplotlib, as in crates/ik/src/reach/drawing.rs. */
 export const VIRIDIS = [
   [68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37],
 ] as const;
-/** The most boxes that are drawn. */
+/** The maximum number of boxes. */
 const MOST = 100_000;
-/** The sides of a box, and how thin it is across a map that is flat, in steps of the grid. */
+/** The sides of a box, and its thickness normal to a flat map, in steps of the grid. */
 const [SIDE, THIN] = [0.5, 0.06];
-/** The corners of a box by their signs, and its triangles, seen from outside. */
+/** The corners of a box by their signs, and its triangles, anticlockwise from outside. */
 const CORNERS: Vector[] = [[-1, -1, -1], [1, -1, -1], [-1, 1, -1], [1, 1, -1], [-1, -1, 1], [1, -1, 1], [-1, 1, 1], [1, 1, 1]];
 const TRIANGLES = [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5];
 /** Steps of the evenly spread sequence R3 (M. Roberts, 2018): powers of the inverse of the root of x^4 = x + 1. */
@@ -32,7 +32,7 @@ const VERTEX = `
     place = position;
     gl_Position = projectionMatrix * modelViewMatrix * vec4(middle + position, 1.0);
   }`;
-/** The faces above have the colours of the legend, the others darker ones, whatever the light. */
+/** The upper faces have the colours of the legend and the others darker ones, independent of the light. */
 const FRAGMENT = `
   varying vec3 place;
   varying vec3 tone;
@@ -64,18 +64,18 @@ export class Cloud {
     this.fill();
   }
 
-  /** How many boxes are drawn. */
+  /** The number of drawn boxes. */
   get drawn(): number {
     return this.mesh.geometry.instanceCount;
   }
 
-  /** Goes with the link in whose frame the map is. */
+  /** Moves with the link in whose frame the map is. */
   show(frames: Frame[]): void {
     this.mesh.matrix.copy(matrix(frames[this.map.data.base]!));
     this.mesh.matrixWorldNeedsUpdate = true;
   }
 
-  /** Draws a box at each place that is chosen, or where these are too many at some of them, evenly spread. */
+  /** Draws a box at each selected place, or, if there are too many, at an evenly spread subset. */
   fill(): void {
     const { chosen, values, greatest } = this.map;
     // Points are spread evenly, so their number differs slightly from the requested one.
@@ -93,7 +93,7 @@ export class Cloud {
   }
 }
 
-/** A number from 0 to 1 for each place, spread so evenly that those below a share are so, too. */
+/** A number from 0 to 1 for each place. The places with numbers below any share are evenly spread. */
 function spread(numbers: Vector): number {
   const sum = numbers.reduce((sum, number, axis) => sum + number * SPREAD[axis]!, 0);
   return sum - Math.floor(sum);

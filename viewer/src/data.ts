@@ -1,11 +1,11 @@
 /**
- * What the page shows, as `groebot view` writes it into `<script type="application/json" id="groebot-data">`; crates/humanoid/src/view/data.rs says the same in
- * Rust. Metres, radians, seconds; frames are the twelve numbers of a 3x4 matrix by rows; poses are position and quaternion xyzw.
+ * The data of the page, which `groebot view` writes into `<script type="application/json" id="groebot-data">`. The same types in Rust are in
+ * crates/humanoid/src/view/data.rs. Metres, radians, seconds; frames are the twelve numbers of a 3x4 matrix by rows; poses are position and quaternion xyzw.
  */
 
 /**
- * A number for each sample: the same for all, or doubles packed. Packed are the little-endian doubles' first bytes, then their second ones and so on, as
- * zlib in base64: no bit is lost.
+ * One number for each sample: a constant, or packed doubles. Packed data are the first bytes of all little-endian doubles, then all second bytes and so on,
+ * compressed with zlib, in base64. They are lossless.
  */
 export type Column = number | string;
 
@@ -13,7 +13,7 @@ export type Solid =
   | { kind: "box"; size: [number, number, number] }
   | { kind: "cylinder" | "capsule"; radius: number; length: number }
   | { kind: "sphere"; radius: number }
-  /** Singles and whole numbers of 32 bits, little-endian in base64. */
+  /** 32-bit floats and 32-bit unsigned integers, little-endian in base64. */
   | { kind: "mesh"; positions: string; triangles: string };
 
 export type Shape = Solid & { pose: number[]; colour?: [number, number, number, number] };
@@ -28,7 +28,7 @@ export interface Link {
 export interface Joint {
   name: string;
   kind: "fixed" | "revolute" | "continuous" | "prismatic" | "floating" | "planar";
-  /** Places of links. */
+  /** Indices of links. */
   parent: number;
   child: number;
   /** Its frame in the parent's, at the value zero. */
@@ -37,7 +37,7 @@ export interface Joint {
   axis: [number, number, number];
   limits?: [number, number];
   speed?: number;
-  /** value = factor * value of `joint` + offset, where no column of the motion says another. */
+  /** value = factor * value of `joint` + offset, unless the motion has a column for this joint. */
   follows?: { joint: number; factor: number; offset: number };
 }
 
@@ -66,7 +66,7 @@ export interface Phase {
   to: number;
 }
 
-/** `C` is Column as it is written, and number or Track when it is unpacked. */
+/** `C` is Column in the file, and number or Track when unpacked. */
 interface WrittenMotion<C> {
   times: C;
   joints: number[];
@@ -75,19 +75,19 @@ interface WrittenMotion<C> {
   contacts: { name: string; poses: C[]; stands: string; outline?: [number, number][] }[];
   points: { name: string; at: C[] }[];
   figures: { name: string; unit: string; values: C }[];
-  /** The sample from which on each polygon holds, its number of corners, and x and y of the corners of all. */
+  /** For each polygon its first sample and its number of corners; x and y of all corners. */
   support?: { starts: C; counts: C; corners: C };
   steps?: Step[];
   phases?: Phase[];
 }
 
-/** Numbers of all samples, exactly as they were written. */
+/** Numbers of all samples. */
 export type Track = Float64Array;
 
 export interface Contact {
   name: string;
   poses: Track[];
-  /** `1` where it stands: a letter a sample. */
+  /** One letter for each sample: `1` in contact. */
   stands: string;
   outline: [number, number][];
 }
@@ -97,14 +97,14 @@ export type Polygon = Float64Array;
 
 export interface Motion {
   times: Track;
-  /** The joint of each track of `q`, by its place. */
+  /** The index of the joint of each track of `q`. */
   joints: number[];
   q: Track[];
   base?: Track[];
   contacts: Contact[];
   points: { name: string; at: Track[] }[];
   figures: { name: string; unit: string; values: Track }[];
-  /** One a sample. */
+  /** One for each sample. */
   support?: Polygon[];
   steps: Step[];
   phases: Phase[];
@@ -113,7 +113,7 @@ export interface Motion {
 /** A limb whose solutions are shown. */
 export interface Limb {
   name: string;
-  /** The links between which the target is: the pose of `tip` in `base`. */
+  /** The links of the target: the pose of `tip` in `base`. */
   base: number;
   tip: number;
   /** Joints in the solver's order. */
@@ -126,9 +126,9 @@ export interface Limb {
   certificate?: string;
 }
 
-/** A run of the simulator: what it is asked for, and the room as it is drawn. */
+/** A run of the simulator: its request, and the drawn room. */
 export interface RunData {
-  /** A robot of groebot that walks. */
+  /** The name of a walking robot of groebot. */
   robot: string;
   /** TOML. */
   room: string;
@@ -146,7 +146,7 @@ export interface Scene {
   pieces: Piece[];
 }
 
-/** Furniture; its outline is about its own origin. */
+/** Furniture; its outline is relative to its own origin. */
 export interface Piece {
   name: string;
   outline: [number, number][];
@@ -154,7 +154,7 @@ export interface Piece {
   at: [number, number, number];
 }
 
-/** The room of a task that was done, and the ways through it, each from its time on. */
+/** The room of a recorded task, and the paths through it, each with its start time. */
 export interface TaskData {
   scene: Scene;
   stages: Stage[];
@@ -163,23 +163,23 @@ export interface TaskData {
 export interface Stage {
   from: number;
   goal: number[];
-  way: [number, number][];
+  path: [number, number][];
   pieces: Piece[];
 }
 
-/** `C` as of a motion. */
+/** `C` as in a motion. */
 interface WrittenReach<C> {
-  /** The link in whose frame the grid is, by its place. */
+  /** The index of the link in whose frame the grid is. */
   base: number;
-  /** The solver and what is asked of its tip, in words. */
+  /** The solver and its task, as text. */
   of: string;
-  /** By x, y and z: from, to [m], and how many. */
+  /** For x, y and z: from, to [m], and the number of places. */
   axes: [Axis, Axis, Axis];
-  /** How many orientations each place has. */
+  /** The number of orientations of each place. */
   orientations: number;
-  /** Whether only answers within limits were counted. */
+  /** Whether only solutions within limits were counted. */
   limited: boolean;
-  /** By place, of which z changes first: how many orientations have an answer, how many answers there are, and the mean manipulability. */
+  /** For each place, with z changing fastest: the number of reached orientations, the number of solutions, and the mean manipulability. */
   reached: C;
   answers: C;
   manipulability?: C;
@@ -187,7 +187,7 @@ interface WrittenReach<C> {
 
 export type Axis = [from: number, to: number, count: number];
 
-/** What a limb reaches, place by place of a grid. */
+/** A reach map of a limb: the values of each place of a grid. */
 export type Reach = WrittenReach<Track>;
 
 export interface Data {
@@ -198,21 +198,21 @@ export interface Data {
   run?: RunData;
   task?: TaskData;
   reach?: Reach;
-  /** The WebAssembly that solves and walks, packed. */
+  /** The packed WebAssembly of groebot. */
   wasm?: string;
 }
 
 const FORMAT = 1;
-/** The most places of a grid, as crates/ik/src/reach/grid.rs says. */
+/** The maximum number of places of a grid, as in crates/ik/src/reach/grid.rs. */
 const MOST_PLACES = 1e8;
 
-/** The data that `text` holds; rejected with an Error that says what is wrong with them. */
+/** Reads the data of `text`; rejected with an Error that names the fault. */
 export async function read(text: string): Promise<Data> {
   let data;
   try {
     data = JSON.parse(text);
   } catch {
-    throw new Error("Its data are no JSON; the file is cut off or changed");
+    throw new Error("Its data are not JSON; the file is cut off or changed");
   }
   if (data?.format !== FORMAT) throw new Error(`Its data have the format ${data?.format}; this page reads ${FORMAT}`);
   try {
@@ -241,12 +241,12 @@ function checkRobot(robot: Robot): void {
 
 function checkLimb({ name, base, tip, joints }: Limb, robot: Robot): void {
   const isThere = [base, tip].every((link) => robot.links[link]) && joints.every((joint) => robot.joints[joint]);
-  if (!isThere) throw new Error(`limb ${name} has a link or a joint that is not there`);
+  if (!isThere) throw new Error(`limb ${name} has a link or a joint that does not exist`);
 }
 
 function checkTask({ scene, stages }: TaskData): void {
-  const isWhole = Array.isArray(scene?.pieces) && stages?.length > 0 && stages.every(({ goal, way, pieces }) => goal.length > 1 && Array.isArray(way) && Array.isArray(pieces));
-  if (!isWhole) throw new Error("the task has no room or no way");
+  const isWhole = Array.isArray(scene?.pieces) && stages?.length > 0 && stages.every(({ goal, path, pieces }) => goal.length > 1 && Array.isArray(path) && Array.isArray(pieces));
+  if (!isWhole) throw new Error("the task has no room or no path");
 }
 
 type Unpacked = number | Track;
@@ -280,11 +280,11 @@ function readMotion(written: WrittenMotion<Unpacked>, robot: Robot): Motion {
     return values;
   };
   const tracks = (columns: Unpacked[], width: number) => {
-    if (columns.length !== width) throw new Error(`${columns.length} tracks where ${width} belong`);
+    if (columns.length !== width) throw new Error(`${columns.length} tracks instead of ${width}`);
     return columns.map(track);
   };
   if (count === 0) throw new Error("the motion has no sample");
-  if (!written.joints.every((joint) => robot.joints[joint])) throw new Error("the motion moves a joint that is not there");
+  if (!written.joints.every((joint) => robot.joints[joint])) throw new Error("the motion moves a joint that does not exist");
   const contacts = written.contacts.map(({ name, poses, stands, outline = [] }) => {
     if (stands.length !== count) throw new Error(`contact ${name} has ${stands.length} of ${count} samples`);
     return { name, poses: tracks(poses, 7), stands, outline };
@@ -319,19 +319,19 @@ function polygons(written: { starts: Unpacked; counts: Unpacked; corners: Unpack
   return found;
 }
 
-/** The reach with a number for each place in all its columns. */
+/** The reach map with all its columns unpacked. */
 async function readReach(written: WrittenReach<Column>, robot: Robot): Promise<Reach> {
   const { base, axes, orientations } = written;
-  if (!robot.links[base]) throw new Error("the reach starts at a link that is not there");
-  if (axes.length !== 3 || !axes.every(isAxis)) throw new Error("the reach has an axis that is none");
-  if (!Number.isInteger(orientations) || orientations < 1) throw new Error("the reach has no orientations");
+  if (!robot.links[base]) throw new Error("the reach map starts at a link that does not exist");
+  if (axes.length !== 3 || !axes.every(isAxis)) throw new Error("the reach map has an invalid axis");
+  if (!Number.isInteger(orientations) || orientations < 1) throw new Error("the reach map has no orientations");
   const places = axes.reduce((product, [, , count]) => product * count, 1);
-  if (places > MOST_PLACES) throw new Error(`the reach has ${places} places; at most ${MOST_PLACES} are allowed`);
+  if (places > MOST_PLACES) throw new Error(`the reach map has ${places} places; at most ${MOST_PLACES} are allowed`);
   const column = async (packed: Column, isAllowed: (value: number, place: number) => boolean) => {
     const found = await unpack(packed);
     const values = typeof found === "number" ? new Float64Array(places).fill(found) : found;
-    if (values.length !== places) throw new Error(`a column of the reach has ${values.length} of ${places} places`);
-    if (!values.every(isAllowed)) throw new Error("the reach counts what cannot be");
+    if (values.length !== places) throw new Error(`a column of the reach map has ${values.length} of ${places} places`);
+    if (!values.every(isAllowed)) throw new Error("the reach map has invalid counts");
     return values;
   };
   const reached = await column(written.reached, (value) => Number.isInteger(value) && value >= 0 && value <= orientations);
@@ -350,12 +350,12 @@ function bytes(base64: string): ArrayBuffer {
   return Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)).buffer;
 }
 
-/** What zlib and base64 have packed. */
+/** Decodes base64 and zlib. */
 export async function inflated(base64: string): Promise<ArrayBuffer> {
   return new Response(new Blob([bytes(base64)]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 }
 
-/** Doubles of which the first bytes stand first, then the second ones and so on. */
+/** Decodes doubles from byte planes: all first bytes, then all second bytes and so on. */
 function doubles(buffer: ArrayBuffer): Track {
   const planes = new Uint8Array(buffer);
   const count = planes.length / 8;

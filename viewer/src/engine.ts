@@ -1,12 +1,12 @@
-/** What computes in the page: WebAssembly of groebot, asked in JSON as viewer/wasm/src/desk.rs says. */
+/** The WebAssembly of groebot. Requests and responses are JSON, specified in viewer/wasm/src/session.rs. */
 
 interface Exports {
   memory: WebAssembly.Memory;
-  /** Room for a request of so many bytes. */
+  /** Allocates memory for a request of this number of bytes. */
   allocate(bytes: number): number;
-  /** Answers the request; where the answer is. */
+  /** Processes the request. Returns the address of the response. */
   call(): number;
-  /** How long it is. */
+  /** Length of the response in bytes. */
   length(): number;
 }
 
@@ -21,14 +21,14 @@ export class Engine {
     return new Engine(instance.exports as unknown as Exports);
   }
 
-  /** The answer to a request; throws an Error with the reason where there is none. */
-  ask<Answer>(request: unknown): Answer {
+  /** Sends a request and returns the response; throws an Error with the reason if it is refused. */
+  request<Answer>(request: unknown): Answer {
     const text = this.encoder.encode(JSON.stringify(request));
     const place = this.exports.allocate(text.length);
     new Uint8Array(this.exports.memory.buffer, place, text.length).set(text);
     const answer = this.exports.call();
-    const told = this.decoder.decode(new Uint8Array(this.exports.memory.buffer, answer, this.exports.length()));
-    const read = JSON.parse(told);
+    const response = this.decoder.decode(new Uint8Array(this.exports.memory.buffer, answer, this.exports.length()));
+    const read = JSON.parse(response);
     if (read.error !== undefined) throw new Error(read.error);
     return read;
   }

@@ -1,4 +1,4 @@
-/** The solutions in the picture: a ghost each, and the target that is dragged. */
+/** The drawn solutions: one translucent copy of the limb each, and the target that the user drags. */
 
 import { Group, Matrix4 } from "three";
 import { TransformControls } from "three/examples/jsm/controls/TransformControls.js";
@@ -8,12 +8,12 @@ import type { Limb } from "./data";
 import { inverse, multiply, type Frame } from "./pose";
 import type { Stage } from "./stage";
 
-/** How much of what is behind a ghost is hidden by it, and by the one that is pointed at. */
+/** Opacity of a translucent copy, and of the highlighted one. */
 const OPACITY = [0.16, 0.6] as const;
 
 export class Ghosts {
   private readonly bodies: Body[] = [];
-  /** Those along a self-motion. */
+  /** The copies along a self-motion. */
   private readonly fan: Body[] = [];
   private readonly group = new Group();
   private readonly handle = new Group();
@@ -21,7 +21,7 @@ export class Ghosts {
   private limb: Limb | undefined;
   private moving = false;
 
-  /** `dragged` hears of every target that is dragged, `holds` of its beginning and end. */
+  /** `dragged` is called with every dragged target, `holds` when dragging starts and ends. */
   constructor(private readonly app: App, private readonly stage: Stage, canvas: HTMLCanvasElement, dragged: (target: Frame) => void, holds: (isHeld: boolean) => void) {
     this.controls = new TransformControls(stage.camera, canvas);
     this.controls.size = 0.7;
@@ -35,14 +35,14 @@ export class Ghosts {
     this.hide();
   }
 
-  /** Whether the target is turned instead of moved. */
+  /** Whether dragging rotates the target instead of moving it. */
   set turns(isTurned: boolean) {
     this.controls.setMode(isTurned ? "rotate" : "translate");
     this.controls.setSpace(isTurned ? "local" : "world");
     this.stage.draw();
   }
 
-  /** Shows the solutions of a limb; the one that the robot takes has no ghost. */
+  /** Shows the solutions of a limb, except the one that the robot has. */
   show(limb: Limb, target: Frame, frames: Frame[][], taken: number): void {
     if (this.limb !== limb) this.clear();
     this.limb = limb;
@@ -60,7 +60,7 @@ export class Ghosts {
     this.stage.draw();
   }
 
-  /** Makes one ghost stand out, with those along its self-motion; or none. */
+  /** Highlights one copy and shows its self-motion; undefined highlights none. */
   point(place: number | undefined, along: Frame[][] = []): void {
     this.spread(along);
     this.bodies.forEach((body, own) => body.fade(OPACITY[own === place ? 1 : 0]));

@@ -1,17 +1,17 @@
-/** Where the links are. */
+/** Forward kinematics. */
 
 import type { Joint, Robot } from "./data";
 import { fromPose, multiply, shift, turn, type Frame } from "./pose";
 
 export const REST = [0, 0, 0, 0, 0, 0, 1];
 
-/** Whether one number says where it is. */
+/** Whether the joint has one degree of freedom. */
 export const moves = ({ kind }: Joint): boolean => kind === "revolute" || kind === "continuous" || kind === "prismatic";
 
 /** `rad` or `m`. */
 export const unit = ({ kind }: Joint): string => (kind === "prismatic" ? "m" : "rad");
 
-/** The values of all joints: those of `given`, and of the joints that follow them; of the others the nearest to zero within their limits. */
+/** The values of all joints: those of `given`, those of joints that follow them, and for others the value nearest to zero within the limits. */
 export function complete(robot: Robot, given: Map<number, number>): number[] {
   const own = robot.joints.map((joint, place) => given.get(place) ?? nearest(0, joint));
   return robot.joints.map(({ follows }, place) =>

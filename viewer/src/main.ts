@@ -1,11 +1,11 @@
-/** Starts the page. `window.groebot` is for scripts and tests; docs/simulator.md tells of it. */
+/** Starts the page. `window.groebot` is for scripts and tests; docs/simulator.md describes it. */
 
 import { App, type Pose } from "./app";
 import { inflated, read, type Data } from "./data";
-import { Desk, element, message, Theme } from "./desk";
+import { UserInterface, element, message, Theme } from "./user_interface";
 import { Picture } from "./picture";
 import type { Vector } from "./pose";
-import type { Solution } from "./limbs";
+import type { Solution } from "./limb_solver";
 import { Engine } from "./engine";
 import type { Choice, Found } from "./map";
 import { ReachPanel } from "./reach";
@@ -16,66 +16,66 @@ import { Solutions } from "./solutions";
 import { NoPicture } from "./stage";
 
 export interface Groebot {
-  /** Settled when the robot has been drawn; rejected, with the reason, where the page cannot be shown. */
+  /** Resolved when the robot has been drawn; rejected with the reason if the page cannot be shown. */
   ready: Promise<void>;
-  /** Where the motion is [s]. */
+  /** The current time [s]. */
   readonly time: number;
-  /** Goes to a time, held within the motion [s]; between two samples values lie on the line between theirs. */
+  /** Sets the time, clamped to the motion [s]; values are interpolated linearly between samples. */
   seek(time: number): void;
   /** Joint values, the root's pose and the frames of all links. */
   pose(): Pose;
-  /** The zero moment point [m]; null where the motion has none. */
+  /** The zero moment point [m]; null if the motion has none. */
   zmp(): Vector | null;
-  /** How far it is within the support polygon [m]; null where the motion does not tell. */
+  /** Distance of the zero moment point inside the support polygon [m]; null if the motion does not contain it. */
   margin(): number | null;
-  /** Where a point of the room is on the screen [m, pixels]; null without a picture. */
+  /** The position of a point on the screen [m, pixels]; null without WebGL. */
   screen(point: Vector): [number, number] | null;
   /** The limbs whose solutions are shown. */
   readonly limbs: string[];
-  /** Brings the tip of a limb to a target in the frame of its base: position [m], then the rotation by rows; the robot takes the nearest solution. */
+  /** Moves the tip of a limb to a target in the frame of its base: position [m], then the rotation by rows. The robot takes the nearest solution. */
   drag(limb: string, numbers: number[]): void;
   /** All solutions of the last target. */
   solutions(): Solution[];
-  /** Joint values along the self-motion of a solution, by its place, within limits; none where no joint is free. */
+  /** Joint values along the self-motion of the solution with this index, within limits; empty if no joint is free. */
   self_motion(place: number): number[][];
-  /** How long they took, without drawing [ms]. */
+  /** Time to compute the solutions, without drawing [ms]. */
   readonly update_ms: number;
-  /** What the limb reaches; null without a map. */
+  /** The reach map of the limb; null without a map. */
   readonly reach: Reaching | null;
-  /** The figures of the gait by their names; null where the gait has none. */
+  /** The parameters of the gait by their names; null if the gait does not have one. */
   readonly parameters: Record<string, number | null>;
-  /** Another value of a figure from the next step on; throws the reason where it cannot be walked. */
+  /** Sets a parameter from the next step on; throws the reason if it is infeasible. */
   set(name: string, value: number): void;
-  /** Another goal, with where to look there if that is asked for [m, rad]; throws the reason where it cannot be. */
+  /** Sets the goal, with an optional heading [m, rad]; throws the reason if it is refused. */
   goal(x: number, y: number, heading?: number): void;
-  /** A piece of furniture elsewhere [m, rad], or without it; throws the reason where it cannot be. */
+  /** Moves a piece of furniture [m, rad], or removes it; throws the reason if it is refused. */
   furniture(name: string, at: Spot | null): void;
   /** Takes the next step. */
   step(): "step" | "arrived";
-  /** The corners of the way [m]; null where there is none. */
-  way(): [number, number][] | null;
-  /** Where the goal and the furniture are now [m, rad]. */
+  /** The corners of the path [m]; null if there is none. */
+  path(): [number, number][] | null;
+  /** The current poses of the goal and the furniture [m, rad]. */
   room(): { goal: number[]; furniture: Record<string, Spot> };
-  /** What has been walked, as crates/robot/src/motion/table.rs says. */
+  /** The walk so far as CSV, in the format of crates/robot/src/motion/table.rs. */
   csv(): string;
-  /** How long the last replanning took [ms]. */
+  /** Duration of the last replanning [ms]. */
   readonly replan_ms: number;
 }
 
-/** A map of what a limb reaches. */
+/** A reach map. */
 export interface Reaching {
-  /** How many places it has. */
+  /** The number of places. */
   readonly places: number;
-  /** How many of them are shown: reached, with enough of the quantity, not beyond, and the map visible. */
+  /** The number of shown places: reached, with enough of the quantity, within `upto`, while the map is visible. */
   readonly shown: number;
   /** The greatest value of the quantity. */
   readonly greatest: number;
   /**
-   * Shows others; what is not told stays. `quantity` is `share`, `answers` or `manipulability`, `least` a share of the greatest, `upto` x, y and z in the frame of the
-   * limb's base [m]. Throws the reason where that cannot be.
+   * Changes the selection; omitted fields are unchanged. `quantity` is `share`, `answers` or `manipulability`, `least` a share of the
+   * greatest, `upto` x, y and z in the frame of the limb's base [m]. Throws the reason if a value is invalid.
    */
-  show(told: Partial<Choice>): void;
-  /** What was found at the place that is nearest to a point in the frame of the limb's base [m]. */
+  show(changed: Partial<Choice>): void;
+  /** The values at the place nearest to a point in the frame of the limb's base [m]. */
   at(x: number, y: number, z: number): Found;
 }
 
@@ -94,9 +94,9 @@ interface Started {
   simulator: Simulator | undefined;
 }
 
-/** The run of a page, ready at its start: its motion is the page's. */
+/** The run of a page, at its start. Its motion is that of the page. */
 function begun(data: Data, engine: Engine | undefined): Run {
-  if (!engine) throw new Error("This browser runs no WebAssembly, by which the robot walks");
+  if (!engine) throw new Error("This browser has no WebAssembly, which the simulator needs");
   const run = new Run(engine, data.robot, data.run!);
   data.motion = run.motion;
   return run;
@@ -115,12 +115,12 @@ async function start(): Promise<Started> {
   } catch (error) {
     if (!(error instanceof NoPicture)) throw error;
     element("canvas").hidden = true;
-    message("No picture here", "This browser gives the page no WebGL, by which the robot is drawn. Joint values, plots and the timeline work.");
+    message("No picture", "This browser has no WebGL, which draws the robot. Joint values, plots and the timeline work.");
   }
   const solutions = Solutions.start(app, picture, engine);
   const reach = ReachPanel.start(app, picture);
-  const { simulator } = new Desk(app, picture, theme, solutions, run);
-  if (picture && !picture.isSeen) message("Nothing to see", `The robot ${app.data.robot.name} has no shape, and no joint away from another one.`);
+  const { simulator } = new UserInterface(app, picture, theme, solutions, run);
+  if (picture && !picture.isSeen) message("Nothing to see", `The robot ${app.data.robot.name} has no shapes, and all its joints are at one point.`);
   return { app, picture, solutions, reach, run, simulator };
 }
 
@@ -141,17 +141,17 @@ const ready = start().then(
 ready.catch(() => {});
 
 const shown = (): App => {
-  if (!started) throw new Error("nothing is shown yet, or ever: wait for ready");
+  if (!started) throw new Error("the page is not ready: wait for `groebot.ready`");
   return started.app;
 };
 const running = (): { run: Run; simulator: Simulator } => {
   const { run, simulator } = started ?? {};
-  if (!run || !simulator) throw new Error("nobody walks through a room in this page");
+  if (!run || !simulator) throw new Error("this page has no simulator");
   return { run, simulator };
 };
 const furnished = (): Furnished => shown().task ?? running().run;
 const solved = (): Solutions => {
-  if (!started?.solutions) throw new Error("this page has no limb that is solved");
+  if (!started?.solutions) throw new Error("this page has no limb with a solver");
   return started.solutions;
 };
 
@@ -178,14 +178,14 @@ window.groebot = {
     return started?.reach ?? null;
   },
   get parameters() {
-    return Object.fromEntries(running().run.told.figures.map(({ name, value }) => [name, value]));
+    return Object.fromEntries(running().run.state.figures.map(({ name, value }) => [name, value]));
   },
   set: (name, value) => running().simulator.set(name, value),
   goal: (x, y, heading) => running().run.setGoal(heading === undefined ? [x, y] : [x, y, heading]),
   furniture: (name, at) => running().run.furnish(name, at),
   step: () => (running().simulator.step() ? "arrived" : "step"),
-  way: () => furnished().told.way,
-  room: () => ({ goal: [...furnished().goal], furniture: Object.fromEntries(furnished().told.furniture.map(({ name, at }) => [name, [...at] as Spot])) }),
+  path: () => furnished().state.path,
+  room: () => ({ goal: [...furnished().goal], furniture: Object.fromEntries(furnished().state.furniture.map(({ name, at }) => [name, [...at] as Spot])) }),
   csv: () => running().run.csv(),
   get replan_ms() {
     return running().run.replanMs;

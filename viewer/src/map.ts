@@ -1,55 +1,55 @@
-/** What a limb reaches, and which of its places are chosen to be shown. */
+/** The reach map of a limb, and the selection of its places. */
 
 import type { Axis, Reach } from "./data";
 import type { Vector } from "./pose";
 
 export type Quantity = "share" | "answers" | "manipulability";
 
-/** What was found at a place. */
+/** The values at a place. */
 export interface Found {
-  /** How many orientations are reached. */
+  /** The number of reached orientations. */
   reached: number;
   answers: number;
-  /** The share of orientations that are reached. */
+  /** The share of reached orientations. */
   share: number;
-  /** The mean, over those that are reached, of the greatest manipulability of each; where it was measured. */
+  /** The mean over the reached orientations of the greatest manipulability, if it was measured. */
   manipulability?: number;
 }
 
-/** What is shown of a map. */
+/** The selection of a map's places. */
 export interface Choice {
   quantity: Quantity;
   /** Places with less of the quantity than this share of the greatest are not shown. */
   least: number;
-  /** By axis, places beyond this one are not shown [m]. */
+  /** For each axis, the greatest shown coordinate [m]. */
   upto: Vector;
   visible: boolean;
 }
 
-/** The place of an axis with this number [m]. */
+/** The coordinate with this index on an axis [m]. */
 export function along([from, to, count]: Axis, number: number): number {
   const share = count === 1 ? 0 : number / (count - 1);
   return from * (1 - share) + to * share;
 }
 
-/** The number of the place of an axis at a value, rounded, and held on the axis. */
+/** The index on an axis of a coordinate, rounded by `round` and clamped. */
 function numberAt([from, to, count]: Axis, value: number, round: (number: number) => number): number {
   const number = to > from ? round(((value - from) / (to - from)) * (count - 1)) : 0;
   return Math.min(Math.max(number, 0), count - 1);
 }
 
-/** A number that rounding has made too small is still up to itself. */
+/** Rounds down, with a tolerance for rounding errors. */
 const floor = (number: number) => Math.floor(number + 1e-9);
 
 export class Reached {
   readonly places: number;
-  /** How many of them are reached. */
+  /** The number of reached places. */
   readonly reached: number;
-  /** The greatest value of the chosen quantity. */
+  /** The greatest value of the selected quantity. */
   greatest = 0;
-  /** Those places that are chosen. */
+  /** The selected places. */
   chosen: number[] = [];
-  /** By place the chosen quantity. */
+  /** The selected quantity of each place. */
   values: Float64Array = new Float64Array();
   choice: Readonly<Choice>;
 
@@ -60,30 +60,30 @@ export class Reached {
     this.choose({});
   }
 
-  /** What can be shown. */
+  /** The available quantities. */
   get quantities(): Quantity[] {
     return this.data.manipulability ? ["share", "answers", "manipulability"] : ["share", "answers"];
   }
 
-  /** By axis the number of the last place that is shown. */
+  /** For each axis, the index of the last shown coordinate. */
   get last(): Vector {
     return this.choice.upto.map((upto, axis) => numberAt(this.data.axes[axis]!, upto, floor)) as Vector;
   }
 
-  /** Chooses anew; what is not told stays. Throws the reason where it cannot be. */
-  choose(told: Partial<Choice>): void {
-    const choice = { ...this.choice, ...told };
+  /** Changes the selection; omitted fields are unchanged. Throws the reason if a value is invalid. */
+  choose(changed: Partial<Choice>): void {
+    const choice = { ...this.choice, ...changed };
     const { quantity, least, upto } = choice;
     if (!this.quantities.includes(quantity)) throw new Error(`the map has no ${quantity}; it has ${this.quantities.join(", ")}`);
-    if (!(least >= 0 && least <= 1)) throw new Error("the least is a share of the greatest, from 0 to 1");
-    if (upto.length !== 3 || !upto.every((value) => typeof value === "number" && !Number.isNaN(value))) throw new Error("places are shown up to three numbers: x, y and z");
+    if (!(least >= 0 && least <= 1)) throw new Error("`least` is a share of the greatest value, from 0 to 1");
+    if (upto.length !== 3 || !upto.every((value) => typeof value === "number" && !Number.isNaN(value))) throw new Error("`upto` is three numbers: x, y and z");
     const isNew = quantity !== this.choice.quantity || this.values.length === 0;
     this.choice = { ...choice, upto: [...upto] };
     if (isNew) this.measure(quantity);
     this.chosen = choice.visible ? this.filtered() : [];
   }
 
-  /** What was found at the place that is nearest to a point [m]. */
+  /** The values at the place nearest to a point [m]. */
   at(...point: Vector): Found {
     if (point.length !== 3 || !point.every(Number.isFinite)) throw new Error("a place is three finite numbers");
     const { axes, reached, answers, manipulability, orientations } = this.data;
@@ -93,13 +93,13 @@ export class Reached {
     return manipulability ? { ...found, manipulability: manipulability[place]! } : found;
   }
 
-  /** By axis the number of a place. */
+  /** The indices of a place on the axes. */
   numbers(place: number): Vector {
     const [, [, , rows], [, , layers]] = this.data.axes;
     return [Math.floor(place / (rows * layers)), Math.floor(place / layers) % rows, place % layers];
   }
 
-  /** Where a place is [m]. */
+  /** The coordinates of a place [m]. */
   where(place: number): Vector {
     return this.numbers(place).map((number, axis) => along(this.data.axes[axis]!, number)) as Vector;
   }
@@ -110,7 +110,7 @@ export class Reached {
     this.greatest = this.values.reduce((greatest, value, place) => (reached[place]! > 0 ? Math.max(greatest, value) : greatest), 0);
   }
 
-  /** The places that are reached, have enough of the quantity, and are not beyond. */
+  /** The reached places with enough of the quantity and within `upto`. */
   private filtered(): number[] {
     const { axes, reached } = this.data;
     const [lastX, lastY, lastZ] = this.last;

@@ -1,4 +1,4 @@
-/** What a walk shows beside the robot: soles, footsteps, the support polygon, points such as the zero moment point, and their trails. */
+/** Overlays of a walk: soles, footsteps, the support polygon, points such as the zero moment point, and their paths. */
 
 import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Mesh, MeshBasicMaterial, SphereGeometry } from "three";
 import { Line2 } from "three/examples/jsm/lines/Line2.js";
@@ -8,12 +8,12 @@ import type { Motion, Polygon } from "./data";
 import { fromPose, move, turn, type Frame, type Vector } from "./pose";
 import { colour } from "./stage";
 import { at, poseAt, type Place } from "./time";
-import { named } from "./words";
+import { displayName } from "./format";
 
-/** A kind of thing that can be shown or hidden. */
+/** A group of objects that can be shown or hidden. */
 export interface Layer {
   name: string;
-  /** The colour of the style sheet that stands for it. */
+  /** Its colour in the style sheet. */
   tone: string;
   isFlat: boolean;
   group: Group;
@@ -26,7 +26,7 @@ export class Overlays {
   readonly group = new Group();
   private readonly painted: [Painted, string, number][] = [];
   private readonly updates: ((place: Place) => void)[] = [];
-  /** Heights over the floor, so that what is nearer the eye is drawn over the rest [m]. */
+  /** Step of heights above the floor, which separates coplanar layers [m]. */
   private readonly lift: number;
 
   constructor(private readonly motion: Motion, private readonly size: number) {
@@ -37,7 +37,7 @@ export class Overlays {
     for (const { name, at: tracks } of motion.points) this.addPoint(name, tracks as [Float64Array, Float64Array, Float64Array]);
   }
 
-  /** Gives back what the picture's memory holds for it. */
+  /** Releases its geometry and materials on the graphics processor. */
   dispose(): void {
     this.group.traverse((part) => {
       if ("geometry" in part) (part.geometry as BufferGeometry).dispose();
@@ -66,7 +66,7 @@ export class Overlays {
     return material;
   }
 
-  /** A material of thick lines. They are never transparent: where pieces of a line overlap, they would be seen. */
+  /** A material of thick lines. They are opaque, because overlapping segments of transparent lines would be visible. */
   private thick(tone: string, linewidth: number, faint = 0): LineMaterial {
     const material = new LineMaterial({ linewidth, depthWrite: false });
     this.painted.push([material as unknown as Painted, tone, faint]);
@@ -102,7 +102,7 @@ export class Overlays {
     });
   }
 
-  /** The corners of a polygon on the floor, the first one once more at the end. */
+  /** The corners of a polygon on the floor; the first is repeated at the end. */
   private onFloor(polygon: ArrayLike<number>, level: number): number[] {
     const points: number[] = [];
     for (let place = 0; place < polygon.length; place += 2) points.push(polygon[place]!, polygon[place + 1]!, level * this.lift);
@@ -135,7 +135,7 @@ export class Overlays {
     return line;
   }
 
-  /** The outlines of the soles, strong where they stand; of soles that have none the frames' axes. */
+  /** The outlines of the soles, thick while in contact; for soles without outline the axes of their frames. */
   private addSoles(): void {
     const group = this.layer("Soles", "ink");
     const [standing, swinging] = [this.thick("ink", 2.5), this.thick("ink", 1.5, 0.5)];
@@ -155,10 +155,10 @@ export class Overlays {
     }
   }
 
-  /** A point, the way that it goes, as far as it has gone, and a plumb line where it is over the floor. */
+  /** A point, its whole path, its path so far, and a plumb line if it is above the floor. */
   private addPoint(name: string, tracks: [Float64Array, Float64Array, Float64Array]): void {
     const tone = name === "zmp" ? "accent" : name === "com" ? "ink" : "trace";
-    const group = this.layer(named(name), tone, false);
+    const group = this.layer(displayName(name), tone, false);
     group.visible = name === "zmp" || name === "com";
     const level = 5 * this.lift;
     const positions = Array.from(tracks[0], (x, sample) => [x, tracks[1][sample]!, tracks[2][sample]! + level]).flat();

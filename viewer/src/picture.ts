@@ -1,11 +1,11 @@
-/** The robot in three dimensions, with all that stands about it. */
+/** The three-dimensional picture: the robot with overlays, solutions, reach map and room. */
 
 import { Box3, Vector3 } from "three";
 import type { App } from "./app";
 import { Body } from "./body";
 import { Cloud } from "./cloud";
 import type { Motion, Scene } from "./data";
-import { Eye, type View } from "./eye";
+import { CameraControl, type View } from "./camera";
 import { Overlays, type Layer } from "./overlays";
 import { Ghosts } from "./ghosts";
 import { move, type Frame, type Vector } from "./pose";
@@ -13,7 +13,7 @@ import { RoomView, type Dragging } from "./room";
 import type { Run } from "./run";
 import { Stage } from "./stage";
 
-/** What is seen of a room as a whole. */
+/** The extent of a whole room for the camera. */
 function furnished({ size: [length, width], origin: [x, y, yaw] }: Scene): { middle: Vector; extent: [number, number] } {
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
   const [ahead, aside] = [length / 2, width / 2];
@@ -28,12 +28,12 @@ export class Picture {
   private readonly stage: Stage;
   private readonly body: Body;
   private overlays: Overlays | undefined;
-  private readonly eye: Eye;
+  private readonly camera: CameraControl;
   private ghosts: Ghosts | undefined;
   private room: RoomView | undefined;
   private readonly cloud: Cloud | undefined;
 
-  /** Throws NoPicture where the browser gives no WebGL. */
+  /** Throws NoPicture if the browser has no WebGL. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly app: App) {
     const { robot, motion } = app.data;
     this.body = new Body(robot, app.values);
@@ -50,7 +50,7 @@ export class Picture {
     if (this.cloud) this.stage.scene.add(this.cloud.mesh);
     const { middle, extent } = this.sight();
     const { scene } = app.data.run ?? app.data.task ?? {};
-    this.eye = new Eye(this.stage, canvas, middle, extent, scene && furnished(scene));
+    this.camera = new CameraControl(this.stage, canvas, middle, extent, scene && furnished(scene));
     if (app.task) this.room = new RoomView(app.task, this.stage, canvas);
     this.paint();
     this.stage.resize();
@@ -62,7 +62,7 @@ export class Picture {
     return this.app.base.slice(0, 3) as Vector;
   }
 
-  /** What is seen of the robot, and of what it reaches, from its root: the middle, and radius and height of an upright cylinder [m]. */
+  /** The extent of the robot and its reach, from its root: the middle, and radius and height of an upright cylinder [m]. */
   private sight(): { middle: Vector; extent: [number, number] } {
     const { min, max } = this.body.box;
     const corners = this.body.isSeen ? [min, max, new Vector3(min.x, max.y, min.z), new Vector3(max.x, min.y, min.z)] : [];
@@ -74,7 +74,7 @@ export class Picture {
     return { middle: middle.toArray(), extent: [radius, box.max.z - box.min.z] };
   }
 
-  /** The places that are reached, from the root [m]. */
+  /** The reached places, from the root [m]. */
   private reached(): Vector3[] {
     const { reached, frames } = this.app;
     const root = new Vector3(...this.root);
@@ -87,36 +87,36 @@ export class Picture {
     if (this.app.place) this.overlays?.show(this.app.place);
     if (this.app.hasNewRoom) this.room?.show();
     this.stage.moveTo(this.root);
-    this.eye.go(this.root);
+    this.camera.go(this.root);
     this.stage.draw();
   }
 
-  /** Where a point of the room is on the screen [pixels]. */
+  /** The position of a point on the screen [pixels]. */
   onScreen(point: Vector): [number, number] {
     return this.stage.onScreen(point);
   }
 
-  /** The ghosts of solutions, with a target that is dragged. */
+  /** Adds the translucent copies of solutions and the target. */
   withGhosts(dragged: (target: Frame) => void): Ghosts {
-    this.ghosts = new Ghosts(this.app, this.stage, this.canvas, dragged, (isHeld) => this.eye.hold(isHeld));
+    this.ghosts = new Ghosts(this.app, this.stage, this.canvas, dragged, (isHeld) => this.camera.hold(isHeld));
     return this.ghosts;
   }
 
-  /** Draws what is chosen of the places that are reached; how many of them are drawn. */
+  /** Draws the selected places of the reach map. Returns the number of drawn places. */
   showReach(): number {
     this.cloud?.fill();
     this.stage.draw();
     return this.cloud?.drawn ?? 0;
   }
 
-  /** The room of a run, whose goal and furniture are dragged. */
+  /** Adds the room of a run; its goal and furniture can be dragged. */
   withRoom(run: Run, dropped: Dragging["dropped"]): RoomView {
-    this.room = new RoomView(run, this.stage, this.canvas, { dropped, holds: (isHeld) => this.eye.hold(isHeld) });
+    this.room = new RoomView(run, this.stage, this.canvas, { dropped, holds: (isHeld) => this.camera.hold(isHeld) });
     this.room.paint();
     return this.room;
   }
 
-  /** Shows a motion that has become longer: what is shown and hidden stays so. */
+  /** Shows a longer motion; the visibility of layers is unchanged. */
   grow(motion: Motion): void {
     const before = this.overlays;
     if (!before) return;
@@ -134,7 +134,7 @@ export class Picture {
   }
 
   look(view: View): void {
-    this.eye.look(view, this.root);
+    this.camera.look(view, this.root);
   }
 
   toggle(layer: Layer): void {
@@ -142,12 +142,12 @@ export class Picture {
     this.stage.draw();
   }
 
-  /** Keeps clear of what covers the picture at the top and at the bottom [pixels]. */
+  /** Centres the picture between the parts covered at the top and at the bottom [pixels]. */
   keepClear(top: number, bottom: number): void {
     this.stage.keepClear(top, bottom);
   }
 
-  /** Takes the colours of the theme. */
+  /** Applies the colours of the theme. */
   paint(): void {
     this.body.paint();
     this.overlays?.paint();

@@ -1,15 +1,15 @@
-/** Lets time go on. */
+/** Playback of a motion. */
 
 import type { App } from "./app";
 
 export class Player {
   speed = 1;
-  /** Asked at the end for more of the motion; whether there is some. */
+  /** Called at the end of the motion to extend it. Returns whether it was extended. */
   more: (() => boolean) | undefined;
   private last: number | undefined;
   private frame = 0;
 
-  /** `changed` hears when it starts and stops. */
+  /** `changed` is called when playback starts and stops. */
   constructor(private readonly app: App, private readonly changed: () => void) {}
 
   get isPlaying(): boolean {
@@ -23,7 +23,7 @@ export class Player {
     if (this.app.time >= times.at(-1)! && !this.more) this.app.seek(times[0]!);
     this.last = performance.now();
     this.changed();
-    this.ask();
+    this.requestFrame();
   }
 
   pause(): void {
@@ -33,8 +33,8 @@ export class Player {
     this.changed();
   }
 
-  /** Asks for the next frame: one at a time. */
-  private ask(): void {
+  /** Requests the next animation frame. */
+  private requestFrame(): void {
     this.frame = requestAnimationFrame((now) => this.tick(now));
   }
 
@@ -44,6 +44,6 @@ export class Player {
     this.last = now;
     this.app.seek(this.app.time + this.speed * passed);
     if (this.app.time >= this.app.data.motion!.times.at(-1)! && !this.more?.()) return this.pause();
-    this.ask();
+    this.requestFrame();
   }
 }

@@ -17,7 +17,7 @@ export function multiply(a: ArrayLike<number>, b: ArrayLike<number>): Frame {
   return product;
 }
 
-/** The frame that undoes another one. */
+/** The inverse of a frame. */
 export function inverse(frame: ArrayLike<number>): Frame {
   const undone = new Float64Array(12);
   for (let row = 0; row < 3; row++) {
@@ -29,7 +29,7 @@ export function inverse(frame: ArrayLike<number>): Frame {
   return undone;
 }
 
-/** Where a frame takes a point. */
+/** A point transformed by a frame. */
 export function move(frame: ArrayLike<number>, [x, y, z]: Vector): Vector {
   const row = (r: number) => frame[r]! * x + frame[r + 1]! * y + frame[r + 2]! * z + frame[r + 3]!;
   return [row(0), row(4), row(8)];
@@ -47,12 +47,12 @@ export function turn([x, y, z]: Vector, angle: number): Frame {
   );
 }
 
-/** The shift along a unit vector. */
+/** The translation along a unit vector. */
 export function shift([x, y, z]: Vector, distance: number): Frame {
   return Float64Array.of(1, 0, 0, x * distance, 0, 1, 0, y * distance, 0, 0, 1, z * distance);
 }
 
-/** The frame of a position and a quaternion xyzw of length one. */
+/** The frame of a position and a unit quaternion xyzw. */
 export function fromPose([px, py, pz, x, y, z, w]: number[]): Frame {
   return Float64Array.of(
     1 - 2 * (y! * y! + z! * z!), 2 * (x! * y! - z! * w!), 2 * (x! * z! + y! * w!), px!,
@@ -61,7 +61,7 @@ export function fromPose([px, py, pz, x, y, z, w]: number[]): Frame {
   );
 }
 
-/** Roll, pitch and yaw of a frame, as a URDF tells them [rad]. */
+/** Roll, pitch and yaw of a frame, as in URDF [rad]. */
 export function toAngles(frame: ArrayLike<number>): Vector {
   const [r11, r21, r31, r32, r33] = [0, 4, 8, 9, 10].map((place) => frame[place]!) as [number, number, number, number, number];
   return [Math.atan2(r32, r33), Math.atan2(-r31, Math.hypot(r11, r21)), Math.atan2(r21, r11)];
@@ -74,7 +74,7 @@ export function fromAngles([x, y, z]: ArrayLike<number> & Iterable<number>, [rol
   return turned;
 }
 
-/** The pose at a share of the way from one to another: on the line, and by the shorter arc. */
+/** The interpolated pose at a share of the path between two: linear in position, normalised linear in the quaternion, by the shorter arc. */
 export function between(a: number[], b: number[], share: number): number[] {
   const sign = a[3]! * b[3]! + a[4]! * b[4]! + a[5]! * b[5]! + a[6]! * b[6]! < 0 ? -1 : 1;
   const mixed = a.map((value, place) => value + ((place < 3 ? 1 : sign) * b[place]! - value) * share);

@@ -1,12 +1,12 @@
-/** The panel of what a limb reaches: what is coloured, and which places are shown. */
+/** The panel of the reach map: the displayed quantity and the selection of places. */
 
 import type { App } from "./app";
 import { VIRIDIS } from "./cloud";
-import { element, worded } from "./desk";
+import { element, textElement } from "./user_interface";
 import { along, type Choice, type Found, type Quantity, type Reached } from "./map";
 import type { Picture } from "./picture";
 import type { Vector } from "./pose";
-import { number } from "./words";
+import { number } from "./format";
 
 const NAMES: Record<Quantity, string> = { share: "Share of orientations", answers: "Answers per orientation", manipulability: "Mean manipulability" };
 const AXES = ["x", "y", "z"];
@@ -20,11 +20,11 @@ export class ReachPanel {
   private readonly visible = element<HTMLInputElement>("reach-visible");
   private readonly quantity = element<HTMLSelectElement>("reach-quantity");
   private readonly least: Slider;
-  /** By axis; none where it has one place. */
+  /** One slider for each axis with more than one place. */
   private readonly upto: (Slider | undefined)[];
   private drawn = 0;
 
-  /** The panel of a page with a map; undefined where there is none. */
+  /** The panel of a page with a map; undefined without a map. */
   static start({ reached }: App, picture: Picture | undefined): ReachPanel | undefined {
     return reached && new ReachPanel(reached, picture);
   }
@@ -45,7 +45,7 @@ export class ReachPanel {
     return this.map.places;
   }
 
-  /** How many places are shown, if all of them can be drawn. */
+  /** The number of selected places. */
   get shown(): number {
     return this.map.chosen.length;
   }
@@ -59,9 +59,9 @@ export class ReachPanel {
     return this.map.at(...point);
   }
 
-  /** Shows other places, or another quantity; what is not told stays. */
-  show(told: Partial<Choice>): void {
-    this.map.choose(told);
+  /** Changes the selection; omitted fields are unchanged. */
+  show(changed: Partial<Choice>): void {
+    this.map.choose(changed);
     this.drawn = this.picture?.showReach() ?? 0;
     const { quantity, least, visible } = this.map.choice;
     this.visible.checked = visible;
@@ -82,7 +82,7 @@ export class ReachPanel {
     this.show({ upto });
   }
 
-  /** Colours below `least` percent are covered, as their places are not shown. */
+  /** Shows the legend. Colours below `least` percent are covered: their places are not shown. */
   private showLegend(name: string, least: number): void {
     const legend = element("legend");
     const stops = VIRIDIS.map((colour) => `rgb(${colour.join(" ")})`).join(", ");
@@ -107,7 +107,7 @@ export class ReachPanel {
     input.addEventListener("input", () => moved(Number(input.value)));
     label.htmlFor = input.id;
     output.htmlFor.add(input.id);
-    label.append(worded("span", name), output);
+    label.append(textElement("span", name), output);
     item.append(label, input);
     element("reach").querySelector("ul")!.append(item);
     return { input, output };

@@ -1,4 +1,4 @@
-/** The room of a run: walls, furniture, goal and way, dragged on the floor. */
+/** The drawn room of a run: walls, furniture, goal and path. Goal and furniture can be dragged on the floor. */
 
 import {
   BoxGeometry, CylinderGeometry, ExtrudeGeometry, Group, InstancedMesh, Matrix4, Mesh, MeshLambertMaterial, Plane, PlaneGeometry, Raycaster, Shape, Vector2, Vector3, type Object3D,
@@ -9,33 +9,33 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import type { Scene } from "./data";
 import { colour, type Stage } from "./stage";
 
-/** Place and yaw [m, rad]. */
+/** Position and yaw [m, rad]. */
 export type Spot = [number, number, number];
 
-/** A room with what is in it now. */
+/** A room in its current state. */
 export interface Furnished {
   readonly scene: Scene;
-  /** x, y and perhaps where to look. */
+  /** x, y and an optional heading. */
   readonly goal: number[];
-  readonly told: { furniture: { name: string; at: Spot }[]; way: [number, number][] | null; enclosure?: [number, number][] };
+  readonly state: { furniture: { name: string; at: Spot }[]; path: [number, number][] | null; enclosure?: [number, number][] };
 }
 
-/** The goal among what is dragged: furniture may have any name. */
+/** The key of the goal among draggable things; a symbol, because furniture may have any name. */
 export const GOAL = Symbol("goal");
 export type Thing = string | typeof GOAL;
 
-/** Hears where something was put, and of the beginning and end of a drag. */
+/** Receiver of dropped things, and of the start and end of a drag. */
 export interface Dragging {
   dropped(thing: Thing, at: Spot): void;
   holds(isHeld: boolean): void;
 }
 
-/** How high walls are drawn: low, so that one sees over them [m]. */
+/** Drawn height of walls, low for a view into the room [m]. */
 const WALL = 0.25;
 const FLOOR = new Plane(new Vector3(0, 0, 1), 0);
-/** The side of a cell that stands alone [m]. */
+/** The side of an isolated cell [m]. */
 const CELL = 0.05;
-/** Middles of cells that are nearer than this are beside the same line [m]. */
+/** Centres of cells whose coordinates differ by less than this are in one row [m]. */
 const SAME = 1e-4;
 
 export class RoomView {
@@ -46,13 +46,13 @@ export class RoomView {
   private readonly mark = new MeshLambertMaterial();
   private readonly closed = new MeshLambertMaterial({ transparent: true, opacity: 0.35, depthWrite: false });
   private readonly line = new LineMaterial({ linewidth: 3, dashed: true, dashSize: 0.12, gapSize: 0.08, depthWrite: false });
-  private readonly way = new Line2(new LineGeometry(), this.line);
+  private readonly path = new Line2(new LineGeometry(), this.line);
   private readonly tile = new PlaneGeometry();
   private cells: InstancedMesh | undefined;
   private enclosure: [number, number][] | undefined;
   private held: { thing: Thing; group: Group; pointer: number; from: Vector3; off: Vector3 } | undefined;
 
-  /** Without `dragging` all stays where it is. */
+  /** Without `dragging`, nothing can be dragged. */
   constructor(
     private readonly room: Furnished,
     private readonly stage: Stage,
@@ -65,9 +65,9 @@ export class RoomView {
     const foot = new Mesh(new CylinderGeometry(0.12, 0.12, 0.01, 32).rotateX(Math.PI / 2).translate(0, 0, 0.005), this.mark);
     const flag = new Mesh(new BoxGeometry(0.2, 0.012, 0.12).translate(0.1, 0, 0.44), this.mark);
     this.addThing(GOAL, [pole, foot, flag]);
-    this.way.frustumCulled = false;
-    this.way.position.z = 0.004;
-    this.group.add(this.way);
+    this.path.frustumCulled = false;
+    this.path.position.z = 0.004;
+    this.group.add(this.path);
     stage.scene.add(this.group);
     if (dragging) {
       canvas.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
@@ -78,10 +78,10 @@ export class RoomView {
     this.show();
   }
 
-  /** Puts all where the room has it, but for what is held. */
+  /** Updates all poses except that of the dragged thing. */
   show(): void {
-    const { told, goal } = this.room;
-    const there = new Map<Thing, Spot>(told.furniture.map(({ name, at }) => [name, at]));
+    const { state, goal } = this.room;
+    const there = new Map<Thing, Spot>(state.furniture.map(({ name, at }) => [name, at]));
     there.set(GOAL, [goal[0]!, goal[1]!, goal[2] ?? 0]);
     for (const [thing, group] of this.things) {
       if (group === this.held?.group) continue;
@@ -89,13 +89,13 @@ export class RoomView {
       group.visible = at !== undefined;
       if (at) this.put(group, at);
     }
-    this.way.visible = told.way !== null && told.way.length > 1;
-    if (this.way.visible) {
-      this.way.geometry.dispose();
-      this.way.geometry = new LineGeometry().setPositions(told.way!.flatMap(([x, y]) => [x, y, 0]));
-      this.way.computeLineDistances();
+    this.path.visible = state.path !== null && state.path.length > 1;
+    if (this.path.visible) {
+      this.path.geometry.dispose();
+      this.path.geometry = new LineGeometry().setPositions(state.path!.flatMap(([x, y]) => [x, y, 0]));
+      this.path.computeLineDistances();
     }
-    this.showClosed(told.enclosure);
+    this.showClosed(state.enclosure);
     this.stage.draw();
   }
 
@@ -137,7 +137,7 @@ export class RoomView {
     this.group.add(walls);
   }
 
-  /** The cells that enclose start or goal, where there is no way. */
+  /** Shows the cells that enclose start or goal if there is no path. */
   private showClosed(enclosure: [number, number][] | undefined): void {
     if (enclosure === this.enclosure) return;
     this.enclosure = enclosure;
@@ -152,7 +152,7 @@ export class RoomView {
     this.group.add(this.cells);
   }
 
-  /** Where a pointer is on the floor. */
+  /** The point of the floor under a pointer. */
   private onFloor(event: PointerEvent, ray = this.ray(event)): Vector3 | undefined {
     return ray.ray.intersectPlane(FLOOR, new Vector3()) ?? undefined;
   }
@@ -184,7 +184,7 @@ export class RoomView {
     this.stage.draw();
   }
 
-  /** Ends a drag: what was dropped is told, else it is put back. */
+  /** Ends a drag: reports the dropped thing, or restores its pose. */
   private end(event: PointerEvent, isDropped: boolean): void {
     if (this.held?.pointer !== event.pointerId) return;
     const { thing, group, from } = this.held;
@@ -196,7 +196,7 @@ export class RoomView {
   }
 }
 
-/** The side of square cells by their middles, in a room turned by `yaw` [m, rad]. */
+/** The side of square cells, from their centres in a room rotated by `yaw` [m, rad]. */
 function sideOf(middles: [number, number][], yaw: number): number {
   const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
   const own = [middles.map(([x, y]) => c * x + s * y), middles.map(([x, y]) => c * y - s * x)];

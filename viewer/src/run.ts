@@ -1,19 +1,19 @@
-/** A robot that walks through a room while its goal, the furniture and the figures of its gait change. */
+/** A robot that walks through a room while its goal, the furniture and the parameters of its gait change. */
 
 import type { Contact, Motion, Polygon, Robot, RunData, Scene } from "./data";
 import type { Engine } from "./engine";
 import type { Furnished, Spot } from "./room";
 
-/** A figure of the gait. */
+/** A parameter of the gait. */
 export interface Figure {
   name: string;
   what: string;
   unit: string;
-  /** Null where the gait has none. */
+  /** Null if the gait does not have it. */
   value: number | null;
 }
 
-/** Figures of the thesis, in the order of the run's own. */
+/** A preset from the thesis, in the order of the run's parameters. */
 export interface Preset {
   name: string;
   values: number[];
@@ -37,12 +37,14 @@ interface Walked {
   arrived?: boolean;
 }
 
-interface Told extends Walked {
+interface RunState extends Walked {
   joints: string[];
   outlines: [[number, number][], [number, number][]];
   figures: Figure[];
   presets: Preset[];
-  way: [number, number][] | null;
+  path: [number, number][] | null;
+  /** The path, from a WebAssembly module of an earlier version. */
+  way?: [number, number][] | null;
   blocked?: string;
   enclosure?: [number, number][];
   furniture: { name: string; at: Spot }[];
@@ -51,7 +53,7 @@ interface Told extends Walked {
 const SIDES = ["left", "right"] as const;
 const PLACE = ["x", "y", "heading"] as const;
 
-/** A column of numbers that grows: what is appended costs in proportion to itself, and views that were taken stay. */
+/** A growing column of numbers: appending takes amortised constant time, and earlier views stay valid. */
 class Column {
   private held = new Float64Array(512);
   private count = 0;
@@ -70,27 +72,27 @@ class Column {
   }
 }
 
-/** The tracks of a motion, a number each: time, joints, torso, soles, centre of mass, zero moment point, margin. */
+/** The values of a sample, one for each track: time, joints, torso, soles, centre of mass, zero moment point, margin. */
 function row({ time, q, torso, soles, com, zmp, margin }: Sample): number[] {
   return [time, ...q, ...torso, ...soles.flat(), ...com, ...zmp, 0, margin];
 }
 
-/** Throws where something is no number, before the engine is asked. */
+/** Throws an Error if a value is not a finite number. */
 function check(values: readonly number[], names: readonly string[]): void {
   const place = values.findIndex((value) => !Number.isFinite(value));
   if (place >= 0) throw new Error(`give a number for ${names[place]}`);
 }
 
 export class Run implements Furnished {
-  /** What the last answer told but for samples. */
-  told!: Told;
-  /** What has been walked. */
+  /** The last response, without its samples. */
+  state!: RunState;
+  /** The motion so far. */
   motion!: Motion;
   goal: number[] = [];
   hasArrived = false;
-  /** How long the last replanning took [ms]. */
+  /** Duration of the last replanning [ms]. */
   replanMs = 0;
-  /** Hear of new samples and of new plans. */
+  /** Functions called after new samples and new plans. */
   readonly watchers: (() => void)[] = [];
   private samples: Sample[] = [];
   private columns: Column[] = [];
@@ -105,20 +107,20 @@ export class Run implements Furnished {
     return this.data.scene;
   }
 
-  /** Stands at the start again, all as it was. */
+  /** Restarts the run in its initial state. */
   begin(): void {
     const { robot, room, start, goal, apart } = this.data;
     [this.samples, this.columns, this.stands, this.support] = [[], [], ["", ""], []];
     this.goal = [...goal];
-    this.take(this.engine.ask({ run: { robot, room, start, goal, apart } }));
+    this.take(this.engine.request({ run: { robot, room, start, goal, apart } }));
   }
 
-  /** Takes the next step; whether it has arrived. Throws an Error with the reason where it cannot. */
+  /** Takes the next step. Returns whether the robot has arrived. Throws an Error with the reason if it is infeasible. */
   step(): boolean {
-    const walked = this.engine.ask<Walked>("step");
+    const walked = this.engine.request<Walked>("step");
     this.hasArrived = walked.arrived === true;
     if (!this.hasArrived) this.grow(walked);
-    this.tell();
+    this.notify();
     return this.hasArrived;
   }
 
@@ -126,27 +128,27 @@ export class Run implements Furnished {
     check(goal, PLACE);
     this.replan({ goal });
     this.goal = goal;
-    this.tell();
+    this.notify();
   }
 
-  /** A piece of furniture elsewhere; nowhere takes it away. */
+  /** Moves a piece of furniture; null removes it. */
   furnish(name: string, at: Spot | null): void {
     if (at) check(at, PLACE);
     this.replan({ furniture: { name, at } });
-    this.tell();
+    this.notify();
   }
 
   set(name: string, value: number): void {
     check([value], [name]);
     this.replan({ set: { name, value } });
-    this.tell();
+    this.notify();
   }
 
-  /** The walk as `groebot view` and others read it: crates/robot/src/motion/table.rs. */
+  /** The walk as CSV, in the format of crates/robot/src/motion/table.rs. */
   csv(): string {
     const pose = (name: string) => ["x [m]", "y [m]", "z [m]", "qx [1]", "qy [1]", "qz [1]", "qw [1]"].map((end) => `${name}_${end}`);
     const point = (name: string) => ["x", "y", "z"].map((end) => `${name}_${end} [m]`);
-    const names = ["time [s]", ...this.told.joints.map((joint) => `q:${joint} [rad]`), ...pose("base")];
+    const names = ["time [s]", ...this.state.joints.map((joint) => `q:${joint} [rad]`), ...pose("base")];
     for (const side of SIDES) names.push(...pose(side), `${side}_stands [1]`);
     names.push(...point("com"), ...point("zmp"), "margin [m]");
     const row = ({ time, q, torso, soles, stands, com, zmp, margin }: Sample) => {
@@ -158,18 +160,18 @@ export class Run implements Furnished {
 
   private replan(request: unknown): void {
     const started = performance.now();
-    const told = this.engine.ask<Told>(request);
+    const state = this.engine.request<RunState>(request);
     this.replanMs = performance.now() - started;
-    this.take(told);
+    this.take(state);
   }
 
-  private take(told: Told): void {
-    this.told = told;
+  private take(state: RunState): void {
+    this.state = { ...state, path: state.path ?? state.way ?? null };
     this.hasArrived = false;
-    this.grow(told);
+    this.grow(state);
   }
 
-  private tell(): void {
+  private notify(): void {
     this.watchers.forEach((watcher) => watcher());
   }
 
@@ -178,12 +180,12 @@ export class Run implements Furnished {
     samples.forEach((sample) => this.append(sample));
     const views = this.columns.map(({ view }) => view);
     const next = (width: number) => views.splice(0, width);
-    const contact = (side: 0 | 1): Contact => ({ name: SIDES[side], poses: next(7), stands: this.stands[side], outline: this.told.outlines[side] });
+    const contact = (side: 0 | 1): Contact => ({ name: SIDES[side], poses: next(7), stands: this.stands[side], outline: this.state.outlines[side] });
     // In the order of `row`.
     this.motion = {
       times: next(1)[0]!,
-      joints: this.told.joints.map((name) => this.robot.joints.findIndex((joint) => joint.name === name)),
-      q: next(this.told.joints.length),
+      joints: this.state.joints.map((name) => this.robot.joints.findIndex((joint) => joint.name === name)),
+      q: next(this.state.joints.length),
       base: next(7),
       contacts: [contact(0), contact(1)],
       points: [{ name: "com", at: next(3) }, { name: "zmp", at: next(3) }],

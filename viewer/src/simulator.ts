@@ -1,7 +1,7 @@
-/** The panel of a run: the figures of the gait with their presets, what stands where, and recording. */
+/** The panel of a run: the parameters of the gait with their presets, poses of goal and furniture, and recording. */
 
 import type { App } from "./app";
-import { element, worded } from "./desk";
+import { element, textElement } from "./user_interface";
 import type { Picture } from "./picture";
 import { GOAL, type RoomView, type Spot, type Thing } from "./room";
 import type { Run } from "./run";
@@ -17,13 +17,13 @@ export class Simulator {
   private readonly room: RoomView | undefined;
   private film: MediaRecorder | undefined;
 
-  /** `grown` hears of new samples. */
+  /** `grown` is called after new samples. */
   constructor(private readonly run: Run, private readonly app: App, private readonly canvas: HTMLCanvasElement, picture: Picture | undefined, private readonly grown: () => void) {
     this.room = picture?.withRoom(run, (thing, at) => this.attempt(() => this.dropped(thing, at)));
-    for (const { name, what, unit, value } of run.told.figures) if (value !== null) this.addFigure(name, what, unit);
-    element<HTMLSelectElement>("preset").append(...run.told.presets.map(({ name }) => new Option(name)));
+    for (const { name, what, unit, value } of run.state.figures) if (value !== null) this.addFigure(name, what, unit);
+    element<HTMLSelectElement>("preset").append(...run.state.presets.map(({ name }) => new Option(name)));
     element("preset").onchange = () => this.preset();
-    this.choice.append(...["goal", ...run.told.furniture.map(({ name }) => name)].map((name) => new Option(name, name)));
+    this.choice.append(...["goal", ...run.state.furniture.map(({ name }) => name)].map((name) => new Option(name, name)));
     this.choice.onchange = () => this.show();
     this.spot = PLACE.map(([name, unit, step]) => this.input("place", name, unit, step, () => this.typed()));
     element("run-step").onclick = () => this.attempt(() => this.step());
@@ -35,14 +35,14 @@ export class Simulator {
     this.show();
   }
 
-  /** Whether there is more to be played: the next step, if it can be taken. */
+  /** Takes the next step if it is feasible. Returns whether the motion was extended. */
   more(): boolean {
     let hasArrived = true;
     this.attempt(() => (hasArrived = this.step()));
     return !hasArrived;
   }
 
-  /** Takes a step; whether the robot has arrived. */
+  /** Takes a step. Returns whether the robot has arrived. */
   step(): boolean {
     const hasArrived = this.run.step();
     this.grown();
@@ -54,7 +54,7 @@ export class Simulator {
     this.grown();
   }
 
-  /** The goal is the first of the choice. */
+  /** The selected thing; the goal is the first option. */
   private get chosen(): Thing {
     return this.choice.selectedIndex === 0 ? GOAL : this.choice.value;
   }
@@ -75,7 +75,7 @@ export class Simulator {
     this.app.seek(0);
   }
 
-  /** Does something that may be refused; the reason is told, and all fields show what holds, `typed` too. */
+  /** Runs an action that may be refused and shows the reason. All fields then show current values, `typed` too. */
   private attempt(act: () => void, typed?: HTMLInputElement): void {
     try {
       act();
@@ -92,19 +92,19 @@ export class Simulator {
   }
 
   private show(typed?: HTMLInputElement): void {
-    const { told, hasArrived } = this.run;
+    const { state, hasArrived } = this.run;
     this.room?.show();
     this.fill(typed);
-    if (told.blocked) this.state(told.blocked, true);
-    else this.state(hasArrived ? "It stands at the goal" : `${this.run.motion.steps.length} steps`);
+    if (state.blocked) this.state(state.blocked, true);
+    else this.state(hasArrived ? "The robot has reached the goal" : `${this.run.motion.steps.length} steps`);
   }
 
-  /** Writes what holds into all fields but the one that somebody types in; into that one too where it is `typed`. */
+  /** Writes current values into all fields except the focused one, unless that is `typed`. */
   private fill(typed?: HTMLInputElement): void {
     const write = (input: HTMLInputElement | undefined, value: string) => {
       if (input && (input === typed || document.activeElement !== input)) input.value = value;
     };
-    const { figures, furniture } = this.run.told;
+    const { figures, furniture } = this.run.state;
     for (const { name, value } of figures) if (value !== null) write(this.fields.get(name), String(Number(value.toPrecision(4))));
     const own: number[] = this.chosen === GOAL ? this.run.goal : (furniture.find(({ name }) => name === this.chosen)?.at ?? []);
     this.spot.forEach((input, place) => {
@@ -126,12 +126,12 @@ export class Simulator {
     Object.assign(input, { type: "number", step, inputMode: "decimal" });
     input.addEventListener("change", () => this.attempt(changed, input));
     input.addEventListener("blur", () => this.fill());
-    label.append(`${name} `, worded("small", unit), input);
+    label.append(`${name} `, textElement("small", unit), input);
     element(parent).append(label);
     return input;
   }
 
-  /** Takes x, y and heading; a goal may be without heading. */
+  /** Applies x, y and heading; the heading of a goal is optional. */
   private typed(): void {
     const [x, y, heading] = this.spot.map(({ valueAsNumber }) => valueAsNumber) as Spot;
     const { value, validity } = this.spot[2]!;
@@ -139,12 +139,12 @@ export class Simulator {
     this.place(this.chosen, isBare ? [x, y] : [x, y, heading * DEGREE]);
   }
 
-  /** Takes the figures of a preset, one by one; what is refused stays as it was. */
+  /** Applies the parameters of a preset one by one; refused ones are unchanged. */
   private preset(): void {
-    const chosen = this.run.told.presets[element<HTMLSelectElement>("preset").selectedIndex - 1];
+    const chosen = this.run.state.presets[element<HTMLSelectElement>("preset").selectedIndex - 1];
     if (!chosen) return;
     const refused: string[] = [];
-    this.run.told.figures.forEach(({ name, value }, place) => {
+    this.run.state.figures.forEach(({ name, value }, place) => {
       const wanted = chosen.values[place]!;
       if (value === null || Math.abs(value - wanted) < 1e-9) return;
       try {
@@ -166,7 +166,7 @@ export class Simulator {
       this.film = new MediaRecorder(stream, { mimeType: "video/webm" });
     } catch {
       release();
-      return this.state("This browser records no film", true);
+      return this.state("This browser cannot record video", true);
     }
     this.film.ondataavailable = ({ data }) => parts.push(data);
     this.film.onstop = () => {
@@ -180,7 +180,7 @@ export class Simulator {
   }
 }
 
-/** Lets the browser save a file. */
+/** Offers a file for download. */
 function offer(file: Blob, name: string): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(file);

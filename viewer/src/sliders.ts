@@ -1,8 +1,8 @@
-/** The joints with their values: moved by hand, or shown while a motion moves them. */
+/** The panel of joint values: sliders, read-only while a motion determines them. */
 
 import type { Robot } from "./data";
 import { moves, unit } from "./kinematics";
-import { number, range } from "./words";
+import { number, range } from "./format";
 
 interface Row {
   input: HTMLInputElement;
@@ -13,7 +13,7 @@ interface Row {
 export class Sliders {
   private readonly rows: Row[];
 
-  /** `moved` hears of a joint that was moved by hand; without it nothing is moved by hand. */
+  /** `moved` is called when a slider is moved; without it the sliders are read-only. */
   constructor(private readonly panel: HTMLElement, private readonly robot: Robot, moved?: (joint: number, value: number) => void) {
     const places = [...robot.joints.keys()].filter((place) => moves(robot.joints[place]!));
     this.rows = places.map((place) => this.row(place, moved));

@@ -1,10 +1,10 @@
-/** The panel of all solutions: limb, target in numbers, and a row a solution. */
+/** The panel of all solutions: limb, numbers of the target, and one row for each solution. */
 
 import type { App } from "./app";
-import { element, worded } from "./desk";
+import { element, textElement } from "./user_interface";
 import type { Engine } from "./engine";
 import type { Ghosts } from "./ghosts";
-import { LimbSolver, type Solution } from "./limbs";
+import { LimbSolver, type Solution } from "./limb_solver";
 import type { Picture } from "./picture";
 import { fromAngles, toAngles, type Frame } from "./pose";
 
@@ -19,18 +19,18 @@ export class Solutions {
   private readonly inputs: HTMLInputElement[];
   private readonly ghosts: Ghosts | undefined;
   private chosen: LimbSolver;
-  /** The solution that the robot takes, by its place. */
+  /** The index of the solution that the robot has. */
   private taken = -1;
 
-  /** The panel of a page with limbs; undefined where there are none, or nothing computes here, which is told. */
+  /** The panel of a page with limbs; undefined without limbs. Without WebAssembly it shows a message and returns undefined. */
   static start(app: App, picture: Picture | undefined, engine: Engine | undefined): Solutions | undefined {
     const { limbs } = app.data;
     if (limbs.length === 0) return undefined;
     try {
-      if (!engine) throw new Error("this browser runs no WebAssembly");
+      if (!engine) throw new Error("this browser has no WebAssembly");
       return new Solutions(app, picture, limbs.map((limb) => new LimbSolver(engine, app, limb)));
     } catch (error) {
-      element("solutions-state").textContent = `Nothing is solved here: ${error instanceof Error ? error.message : error}.`;
+      element("solutions-state").textContent = `Solutions are unavailable: ${error instanceof Error ? error.message : error}.`;
       return undefined;
     }
   }
@@ -66,7 +66,7 @@ export class Solutions {
     return this.chosen.updateMs;
   }
 
-  /** Shows or hides the ghosts with the panel. */
+  /** Shows or hides the translucent copies with the panel. */
   open(isOpen: boolean): void {
     if (isOpen) this.show();
     else this.ghosts?.hide();
@@ -82,7 +82,7 @@ export class Solutions {
     this.solve(Float64Array.of(r[0]!, r[1]!, r[2]!, x, r[3]!, r[4]!, r[5]!, y, r[6]!, r[7]!, r[8]!, z));
   }
 
-  /** Joints were moved by hand: the target is where the tip is now. */
+  /** Sets the target to the current pose of the tip. */
   follow(): void {
     this.choose(this.chosen);
   }
@@ -95,15 +95,15 @@ export class Solutions {
 
   private showCertificate(hash: string | undefined): void {
     const [shown, copy] = [element("certificate"), element("certificate-copy")];
-    const told = worded("code", hash ?? "");
-    shown.replaceChildren(...(hash ? ["Certificate ", told] : []));
+    const hashText = textElement("code", hash ?? "");
+    shown.replaceChildren(...(hash ? ["Certificate ", hashText] : []));
     copy.hidden = !hash;
     copy.onclick = async () => {
       try {
         await navigator.clipboard.writeText(hash!);
       } catch {
         // If the browser does not permit copying, the text is selected for manual copying.
-        getSelection()?.selectAllChildren(told);
+        getSelection()?.selectAllChildren(hashText);
       }
     };
   }
@@ -119,7 +119,7 @@ export class Solutions {
     this.take(chosen.nearest());
   }
 
-  /** Lets the robot take a solution. */
+  /** Sets the robot to a solution. */
   private take(place: number): void {
     this.taken = place;
     const solution = this.chosen.solutions[place];
@@ -160,7 +160,7 @@ export class Solutions {
     facts!.textContent = [...words, `residual ${solution.residual.toExponential(1)}`].join(" \u00b7 ");
   }
 
-  /** Makes a solution stand out, with its self-motion where it has one. */
+  /** Highlights a solution, with its self-motion if it has one. */
   private point(place: number): void {
     const { chosen } = this;
     this.ghosts?.point(place, chosen.selfMotion(place).map((q) => chosen.framesOf(q)));
@@ -169,7 +169,7 @@ export class Solutions {
   private row(place: number): HTMLLIElement {
     const [item, press] = [document.createElement("li"), document.createElement("button")];
     press.type = "button";
-    press.append(worded("strong", ""), worded("small", ""));
+    press.append(textElement("strong", ""), textElement("small", ""));
     press.addEventListener("click", () => {
       this.take(place);
       this.point(place);
@@ -186,13 +186,13 @@ export class Solutions {
     const [label, input] = [document.createElement("label"), document.createElement("input")];
     Object.assign(input, { type: "number", step, inputMode: "decimal" });
     input.ariaLabel = `Target ${name.toLowerCase()}, ${unit === "m" ? "metres" : "degrees"}`;
-    label.append(`${name} `, worded("small", unit), input);
+    label.append(`${name} `, textElement("small", unit), input);
     element("target").append(label);
     input.addEventListener("input", () => this.type());
     return input;
   }
 
-  /** Takes the numbers of the fields where all of them are numbers. */
+  /** Solves for the numbers of the fields if all are finite. */
   private type(): void {
     const numbers = this.inputs.map(({ valueAsNumber }) => valueAsNumber);
     if (!numbers.every(Number.isFinite)) return;

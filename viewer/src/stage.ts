@@ -1,14 +1,14 @@
-/** The room that robots are seen in: renderer, light, floor, grid, axes; drawn when something has changed. */
+/** Renderer, light, floor, grid and axes. It draws only after changes. */
 
 import {
   AxesHelper, Color, DirectionalLight, Group, HemisphereLight, Mesh, PCFShadowMap, PerspectiveCamera, PlaneGeometry, Scene, ShaderMaterial,
   ShadowMaterial, Vector2, Vector3, WebGLRenderer,
 } from "three";
 
-/** A colour of the page, as its style sheet says for the theme that is on; `faint` is how far it goes to the ground's, from 0 to 1. */
+/** A colour of the style sheet in the current theme, mixed with that of the ground by `faint`, from 0 to 1. */
 export function colour(name: string, faint = 0): Color {
-  const told = getComputedStyle(document.documentElement);
-  const [own, ground] = [name, "scene"].map((each) => new Color(told.getPropertyValue(`--${each}`).trim())) as [Color, Color];
+  const style = getComputedStyle(document.documentElement);
+  const [own, ground] = [name, "scene"].map((each) => new Color(style.getPropertyValue(`--${each}`).trim())) as [Color, Color];
   return own.lerp(ground, faint);
 }
 
@@ -45,7 +45,7 @@ export function roundLength(length: number): number {
   return power * (length / power < 1.5 ? 1 : length / power < 3.5 ? 2 : length / power < 7.5 ? 5 : 10);
 }
 
-/** That the browser gives no WebGL. */
+/** The browser has no WebGL. */
 export class NoPicture extends Error {}
 
 export class Stage {
@@ -59,10 +59,10 @@ export class Stage {
   private readonly sun = new DirectionalLight(0xffffff, 1.9);
   private readonly grid: Mesh<PlaneGeometry, ShaderMaterial>;
   private readonly shade: Mesh<PlaneGeometry, ShadowMaterial>;
-  private asked = false;
+  private isRequested = false;
   private covered: [number, number] = [0, 0];
 
-  /** Throws NoPicture where the browser gives no WebGL. `size` is that of the robot [m], `floor` the height of the floor. */
+  /** Throws NoPicture if the browser has no WebGL. `size` is that of the robot, `floor` the height of the floor [m]. */
   constructor(canvas: HTMLCanvasElement, private readonly size: number, floor: number) {
     try {
       this.renderer = new WebGLRenderer({ canvas, antialias: true });
@@ -100,7 +100,7 @@ export class Stage {
     this.paint();
   }
 
-  /** Takes the colours of the theme. */
+  /** Applies the colours of the theme. */
   paint(): void {
     this.renderer.setClearColor(colour("scene"));
     this.sky.groundColor.copy(colour("ground-light"));
@@ -110,7 +110,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Light, shadow and grid go with the robot. */
+  /** Moves light, shadow and grid to the robot. */
   moveTo([x, y, z]: [number, number, number]): void {
     this.sun.target.position.set(x, y, z);
     this.sun.position.set(x + 1.1 * this.size, y - 1.4 * this.size, z + 2.6 * this.size);
@@ -119,7 +119,7 @@ export class Stage {
     this.grid.material.uniforms["middle"]!.value.set(x, y, 0);
   }
 
-  /** Fits the picture to the canvas. */
+  /** Adapts the picture to the size of the canvas. */
   resize(): void {
     const { clientWidth: width, clientHeight: height } = this.renderer.domElement;
     const { x, y } = this.renderer.getSize(new Vector2());
@@ -129,7 +129,7 @@ export class Stage {
     this.keepClear(...this.covered);
   }
 
-  /** Moves the middle of the picture to that of what is not covered: so much at the top and at the bottom is [pixels]. */
+  /** Moves the middle of the picture to the middle of the uncovered part; `top` and `bottom` are covered [pixels]. */
   keepClear(top: number, bottom: number): void {
     this.covered = [top, bottom];
     const { x: width, y: height } = this.renderer.getSize(new Vector2());
@@ -137,25 +137,25 @@ export class Stage {
     this.draw();
   }
 
-  /** The share of the picture's height that is not covered. */
+  /** The uncovered share of the picture's height. */
   get clear(): number {
     const { y: height } = this.renderer.getSize(new Vector2());
     return Math.max(1 - (this.covered[0] + this.covered[1]) / height, 0.3);
   }
 
-  /** Where a point of the room is on the screen [pixels]. */
+  /** The position of a point on the screen [pixels]. */
   onScreen(point: [number, number, number]): [number, number] {
     const { left, top, width, height } = this.renderer.domElement.getBoundingClientRect();
     const { x, y } = new Vector3(...point).project(this.camera);
     return [left + (0.5 + 0.5 * x) * width, top + (0.5 - 0.5 * y) * height];
   }
 
-  /** Draws at the next frame. */
+  /** Requests drawing in the next animation frame. */
   draw(): void {
-    if (this.asked) return;
-    this.asked = true;
+    if (this.isRequested) return;
+    this.isRequested = true;
     requestAnimationFrame(() => {
-      this.asked = false;
+      this.isRequested = false;
       this.renderer.render(this.scene, this.camera);
     });
   }

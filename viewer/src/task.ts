@@ -1,4 +1,4 @@
-/** The room of a task that was done: where its furniture stood, where it led and by which way, at each time. */
+/** The room of a recorded task: furniture, goal and path at each time. */
 
 import type { Scene, Stage, TaskData } from "./data";
 import type { Furnished, Spot } from "./room";
@@ -16,11 +16,11 @@ export class Task implements Furnished {
     return this.stage.goal;
   }
 
-  get told(): { furniture: { name: string; at: Spot }[]; way: [number, number][] } {
-    return { furniture: this.stage.pieces, way: this.stage.way };
+  get state(): { furniture: { name: string; at: Spot }[]; path: [number, number][] } {
+    return { furniture: this.stage.pieces, path: this.stage.path };
   }
 
-  /** Goes to a time [s]; whether the room is another one there. */
+  /** Sets the time [s]. Returns whether the room changed. */
   seek(time: number): boolean {
     const before = this.stage;
     this.stage = this.stages.filter(({ from }) => from <= time).at(-1) ?? this.stages[0]!;

@@ -1,16 +1,16 @@
-/** Where a time lies among samples, and what tracks say there. */
+/** Interpolation of tracks in time. */
 
 import type { Motion, Phase, Track } from "./data";
 import { between } from "./pose";
 
-/** A time as a sample and the share of the way to the next one; the share is zero at a sample. */
+/** A time as a sample and the fraction of the interval to the next one; the fraction is zero at a sample. */
 export interface Place {
   time: number;
   sample: number;
   share: number;
 }
 
-/** The place of a time, held between the first and the last sample. */
+/** The place of a time, clamped to the first and the last sample. */
 export function placeOf(times: Track, asked: number): Place {
   const last = times.length - 1;
   const time = Math.min(Math.max(Number.isFinite(asked) ? asked : 0, times[0]!), times[last]!);
@@ -26,13 +26,13 @@ export function placeOf(times: Track, asked: number): Place {
 /** The sample nearest to a place. */
 export const nearestSample = ({ sample, share }: Place): number => (share > 0.5 ? sample + 1 : sample);
 
-/** What a track says: its very number at a sample, on the line between two. */
+/** The value of a track: exact at a sample, linear between two. */
 export function at(track: Track, { sample, share }: Place): number {
   const value = track[sample]!;
   return share === 0 ? value : value + (track[sample + 1]! - value) * share;
 }
 
-/** The pose of seven tracks. */
+/** The interpolated pose of seven tracks. */
 export function poseAt(tracks: Track[], place: Place): number[] {
   const pose = tracks.map((track) => track[place.sample]!);
   return place.share === 0 ? pose : between(pose, tracks.map((track) => track[place.sample + 1]!), place.share);

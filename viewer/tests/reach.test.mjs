@@ -246,12 +246,12 @@ test("a phone shows the panel below the picture, in both themes", async () => {
 
 const BROKEN = [
   ["cut", (text) => text.replace(/"reached":"[^"]{16}/, '"reached":"'), /damaged/],
-  ["of another grid", (text) => text.replace(/("axes":\[\[-?[\d.]+,[\d.]+,)11/, "$112"), /damaged: a column of the reach has 990 of 1080 places/],
-  ["with an axis from right to left", (text) => text.replace(/"axes":\[\[-1(\.0)?,/, '"axes":[[2,'), /damaged: the reach has an axis that is none/],
-  ["at a link that is not there", (text) => text.replace(/("reach":\{"base":)\d+/, "$1777"), /damaged: the reach starts at a link that is not there/],
-  ["with more reached than asked", (text) => text.replace('"orientations":6', '"orientations":2'), /damaged: the reach counts what cannot be/],
-  ["with no orientations", (text) => text.replace('"orientations":6', '"orientations":0'), /damaged: the reach has no orientations/],
-  ["of too many places", (text) => text.replace(/"axes":\[\[.*?\]\]/, '"axes":[[0,1,1000],[0,1,1000],[0,1,1000]]'), /damaged: the reach has 1000000000 places/],
+  ["of another grid", (text) => text.replace(/("axes":\[\[-?[\d.]+,[\d.]+,)11/, "$112"), /damaged: a column of the reach map has 990 of 1080 places/],
+  ["with an axis from right to left", (text) => text.replace(/"axes":\[\[-1(\.0)?,/, '"axes":[[2,'), /damaged: the reach map has an invalid axis/],
+  ["at a link that is not there", (text) => text.replace(/("reach":\{"base":)\d+/, "$1777"), /damaged: the reach map starts at a link that does not exist/],
+  ["with more reached than asked", (text) => text.replace('"orientations":6', '"orientations":2'), /damaged: the reach map has invalid counts/],
+  ["with no orientations", (text) => text.replace('"orientations":6', '"orientations":0'), /damaged: the reach map has no orientations/],
+  ["of too many places", (text) => text.replace(/"axes":\[\[.*?\]\]/, '"axes":[[0,1,1000],[0,1,1000],[0,1,1000]]'), /damaged: the reach map has 1000000000 places/],
 ];
 
 test("a broken map is told", async () => {

@@ -30,14 +30,14 @@ test("goal, furniture and figures change, and the next step obeys", async () => 
   assert.deepEqual(Object.keys(told), NAMES);
   assert.deepEqual([told.Lp, told.Hp, told.Gcm.toFixed(9)], [0.16, 0.1, "15.000000000"]);
   for (let step = 0; step < 3; step++) assert.equal(await opened.evaluate(() => groebot.step()), "step");
-  const straight = await opened.evaluate(() => groebot.way());
+  const straight = await opened.evaluate(() => groebot.path());
   assert.ok(straight.every(([, y]) => Math.abs(y - 1.2) < 1e-9));
   const spent = await opened.evaluate(() => {
     groebot.furniture("box", [2, 1.2, 0.3]);
     return groebot.replan_ms;
   });
   console.log(`replanned in ${spent.toFixed(1)} ms`);
-  assert.ok((await opened.evaluate(() => groebot.way())).length > 2);
+  assert.ok((await opened.evaluate(() => groebot.path())).length > 2);
   await opened.evaluate(() => {
     groebot.set("Lp", 0.08);
     groebot.set("Hp", 0.05);
@@ -57,7 +57,7 @@ test("goal, furniture and figures change, and the next step obeys", async () => 
   const [x, y] = await middle(opened);
   assert.ok(steps > 8 && Math.hypot(x - 0.9, y - 2) < 0.02, `it stands at ${x}, ${y}`);
   assert.ok(longest < 0.15, `a step of ${longest} m`);
-  assert.match(await text(opened), /stands at the goal/);
+  assert.match(await text(opened), /has reached the goal/);
   const least = await opened.evaluate(() => Math.min(...[...Array(200).keys()].map((k) => (groebot.seek((k * groebot.time) / 200), groebot.margin()))));
   assert.ok(least >= 0);
   assert.deepEqual([opened.requests, opened.complaints], [[], []]);
@@ -65,13 +65,13 @@ test("goal, furniture and figures change, and the next step obeys", async () => 
 
 test("what cannot be is refused with its reason, and all stays as it was", async () => {
   const opened = await open(browser, file);
-  const before = await opened.evaluate(() => [groebot.parameters, groebot.way()]);
+  const before = await opened.evaluate(() => [groebot.parameters, groebot.path()]);
   await assert.rejects(opened.evaluate(() => groebot.set("Hcm", 0.9)), /out of reach/);
   await assert.rejects(opened.evaluate(() => groebot.set("Hq", 0.9)), /did you mean/);
   await assert.rejects(opened.evaluate(() => groebot.goal(3.6, 0.4)), /the nearest free place/);
   await assert.rejects(opened.evaluate(() => groebot.furniture("box", [0.6, 1.2, 0])), /would overlap the robot/);
   await assert.rejects(opened.evaluate(() => groebot.furniture("piano", null)), /no piece `piano`/);
-  assert.deepEqual(await opened.evaluate(() => [groebot.parameters, groebot.way()]), before);
+  assert.deepEqual(await opened.evaluate(() => [groebot.parameters, groebot.path()]), before);
   const field = opened.getByLabel(/^Hcm/);
   const own = await field.inputValue();
   await field.fill("0.9");
@@ -89,11 +89,11 @@ test("the panel steps, takes presets, and moves goal and furniture by keyboard a
   assert.deepEqual([Gcm, Ca], [10, 0.043]);
   await opened.getByLabel("Figures of the thesis").selectOption("5.5 whole task");
   assert.equal((await opened.evaluate(() => groebot.parameters)).Ca, 0.3429);
-  await opened.getByLabel("What is moved").selectOption("goal");
+  await opened.getByLabel("Goal or furniture").selectOption("goal");
   const x = opened.locator("#place input").first();
   await x.fill("2.5");
   await x.press("Enter");
-  assert.deepEqual((await opened.evaluate(() => groebot.way())).at(-1), [2.5, 1.2]);
+  assert.deepEqual((await opened.evaluate(() => groebot.path())).at(-1), [2.5, 1.2]);
   await opened.getByRole("button", { name: "Top" }).click();
   await picture(opened);
   const place = (at) => opened.evaluate((point) => groebot.screen(point), at);
@@ -102,7 +102,7 @@ test("the panel steps, takes presets, and moves goal and furniture by keyboard a
   await opened.mouse.down();
   await opened.mouse.move(...to, { steps: 4 });
   await opened.mouse.up();
-  const end = (await opened.evaluate(() => groebot.way())).at(-1);
+  const end = (await opened.evaluate(() => groebot.path())).at(-1);
   assert.ok(Math.hypot(end[0] - 2.4, end[1] - 0.8) < 0.02, `the goal is at ${end}`);
   assert.deepEqual(opened.complaints, []);
 });
@@ -152,7 +152,7 @@ test("walled in it says so and waits; a phone shows it", async () => {
   writeFileSync(inFolder("walled.toml"), walled);
   const opened = await open(browser, page("walled.html", "rh0", "--room", inFolder("walled.toml"), "--start", "0.6,1.2", "--goal", "3,1.2"), { viewport: { width: 390, height: 844 } });
   assert.match(await text(opened), /there is no path/);
-  assert.equal(await opened.evaluate(() => groebot.way()), null);
+  assert.equal(await opened.evaluate(() => groebot.path()), null);
   const seen = await picture(opened);
   await opened.evaluate(() => groebot.furniture("box", null));
   assert.equal(await opened.evaluate(() => groebot.step()), "step");

@@ -27,13 +27,13 @@ after(() => browser?.close());
 
 test("furniture, goal and way are those of each time", async () => {
   const opened = await open(browser, file);
-  const at = (time) => opened.evaluate((time) => (groebot.seek(time), { ...groebot.room(), way: groebot.way(), time: groebot.time }), time);
+  const at = (time) => opened.evaluate((time) => (groebot.seek(time), { ...groebot.room(), path: groebot.path(), time: groebot.time }), time);
   const first = await at(0);
   assert.deepEqual([first.furniture.ball, first.furniture.chair], [[2.8, 2.2, 0], [2.4, 1.2, 0]]);
   const shot = await picture(opened);
   const last = await at(1e9);
   assert.deepEqual([last.furniture.ball, last.goal.slice(0, 2)], [[1.5, 2.25, 0], [1.6, 0.6]]);
-  assert.notDeepEqual(first.way, last.way);
+  assert.notDeepEqual(first.path, last.path);
   const [, second, third] = await opened.evaluate(() => JSON.parse(document.getElementById("groebot-data").textContent).task.stages.map(({ from }) => from));
   const between = await at(0.5 * (second + third));
   assert.ok(between.furniture.ball[0] === 1.5 && between.goal[0] === first.goal[0], JSON.stringify(between));
@@ -43,7 +43,7 @@ test("furniture, goal and way are those of each time", async () => {
   await at(0);
   assert.deepEqual((await opened.evaluate(() => groebot.room())).furniture.ball, [2.8, 2.2, 0]);
   assert.ok(shot.length > 1000);
-  await assert.rejects(opened.evaluate(() => groebot.goal(1, 1)), /nobody walks/);
+  await assert.rejects(opened.evaluate(() => groebot.goal(1, 1)), /no simulator/);
   assert.deepEqual([opened.requests, opened.complaints], [[], []]);
 });
 

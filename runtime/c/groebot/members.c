@@ -3,23 +3,23 @@
 /* Stores a member, with the tangent unless that is null. */
 static void gb_remember(gb_answers *all, size_t branch, uint32_t free, const gb_real *q, const gb_real *tangent)
 {
-    const size_t place = all->trails_count++ % GB_MEMBERS;
-    all->trails_of[place].branch = branch;
-    all->trails_of[place].free = free;
-    gb_copy(all->trails[place], q, all->problem.mechanism->joints);
-    all->trails_have_tangent[place] = tangent != NULL;
+    const size_t place = all->members_count++ % GB_MEMBERS;
+    all->members_of[place].branch = branch;
+    all->members_of[place].free = free;
+    gb_copy(all->members[place], q, all->problem.mechanism->joints);
+    all->members_have_tangent[place] = tangent != NULL;
     if (tangent) {
-        gb_copy(all->trails_tangent[place], tangent, all->problem.mechanism->joints);
+        gb_copy(all->members_tangent[place], tangent, all->problem.mechanism->joints);
     }
 }
 
 /* The index of the k-th last stored member, from 1; false where there are not so many. */
 static bool gb_look_back(const gb_answers *all, size_t k, size_t *place)
 {
-    if (k > all->trails_count || k > GB_MEMBERS) {
+    if (k > all->members_count || k > GB_MEMBERS) {
         return false;
     }
-    *place = (all->trails_count - k) % GB_MEMBERS;
+    *place = (all->members_count - k) % GB_MEMBERS;
     return true;
 }
 
@@ -28,7 +28,7 @@ static bool gb_is_remembered(const gb_answers *all, const gb_real *q, uint32_t f
 {
     size_t place;
     for (size_t k = 1; gb_look_back(all, k, &place); k++) {
-        if (all->trails_of[place].free == free && gb_is_close(all->problem.mechanism, all->trails[place], q, 0, GB_MERGING_JOINTS)) {
+        if (all->members_of[place].free == free && gb_is_close(all->problem.mechanism, all->members[place], q, 0, GB_MERGING_JOINTS)) {
             return true;
         }
     }
@@ -36,10 +36,10 @@ static bool gb_is_remembered(const gb_answers *all, const gb_real *q, uint32_t f
 }
 
 /* The index of the last member of a branch with these free joints; if `free` is zero, with any single free joint. False where there is none. */
-static bool gb_find_trail(const gb_answers *all, size_t branch, uint32_t free, size_t *place)
+static bool gb_find_member(const gb_answers *all, size_t branch, uint32_t free, size_t *place)
 {
     for (size_t k = 1; gb_look_back(all, k, place); k++) {
-        const gb_found_1 *found = &all->trails_of[*place];
+        const gb_found_1 *found = &all->members_of[*place];
         if (found->branch == branch && (free == 0 ? gb_is_single(found->free) : found->free == free)) {
             return true;
         }
@@ -48,7 +48,7 @@ static bool gb_find_trail(const gb_answers *all, size_t branch, uint32_t free, s
 }
 
 /* Keeps a solution, and records a member. */
-static void gb_keep_on_trail(gb_answers *all, const gb_found_1 *found, const gb_end *end)
+static void gb_keep_remembered(gb_answers *all, const gb_found_1 *found, const gb_end *end)
 {
     if (found->free != 0) {
         gb_remember(all, found->branch, found->free, end->q, NULL);
@@ -57,14 +57,14 @@ static void gb_keep_on_trail(gb_answers *all, const gb_found_1 *found, const gb_
 }
 
 /* Whether joints are on a self-motion of one joint that recent candidates of this branch have led to. */
-static bool gb_is_on_trail(gb_answers *all, const gb_found_1 *found, const gb_real *q)
+static bool gb_is_on_remembered(gb_answers *all, const gb_found_1 *found, const gb_real *q)
 {
     size_t place;
-    if (!gb_find_trail(all, found->branch, 0, &place) || gb_regularity(&all->problem, q) > GB_PIVOTS_REGULAR
-        || !gb_leads_to(&all->problem, all->trails[place], q, all->trails_of[place].free)) {
+    if (!gb_find_member(all, found->branch, 0, &place) || gb_regularity(&all->problem, q) > GB_PIVOTS_REGULAR
+        || !gb_leads_to(&all->problem, all->members[place], q, all->members_of[place].free)) {
         return false;
     }
-    gb_remember(all, found->branch, all->trails_of[place].free, q, NULL);
+    gb_remember(all, found->branch, all->members_of[place].free, q, NULL);
     return true;
 }
 
@@ -73,7 +73,7 @@ static bool gb_keep_member(gb_answers *all, const gb_found_1 *found, const gb_en
 {
     const bool is_member = end->fit.accepted && gb_is_on_self_motion(&all->problem, end->q, found->free, end->fit.relative);
     if (is_member) {
-        gb_keep_on_trail(all, found, end);
+        gb_keep_remembered(all, found, end);
     }
     return is_member;
 }
@@ -99,12 +99,12 @@ static void gb_keep_alone(gb_answers *all, const gb_found_1 *found, const gb_end
     }
     gb_found_1 alone = *found;
     const bool is_listed = gb_is_listed(all, end->q);
-    if (!is_listed && gb_is_on_trail(all, found, end->q)) {
+    if (!is_listed && gb_is_on_remembered(all, found, end->q)) {
         return;
     }
     alone.free = is_listed ? 0 : gb_joint_on_self_motion(&all->problem, end->q, end->fit.relative);
     const size_t known = all->count;
-    gb_keep_on_trail(all, &alone, end);
+    gb_keep_remembered(all, &alone, end);
     if (alone.free == 0 && all->count > known && gb_is_between(missed, GB_ACCEPTANCE_ROUNDING, GB_STRATA_NEAR)) {
         gb_around(all, &alone, end, missed);
     }
@@ -136,12 +136,12 @@ static bool gb_is_known(const gb_answers *all, const gb_found_1 *found)
 static bool gb_keep_long_member(gb_answers *all, const gb_found_1 *found, const gb_end *end, bool is_known)
 {
     if (end->fit.relative <= GB_ACCEPTANCE_ROUNDING && gb_is_on_long_self_motion(&all->problem, end->q, found->free)) {
-        gb_keep_on_trail(all, found, end);
+        gb_keep_remembered(all, found, end);
         return true;
     }
-    gb_kind_of_stray *kind = is_known ? NULL : gb_kind(&all->strays, found);
+    gb_rejected_kind *kind = is_known ? NULL : gb_kind(&all->rejected, found);
     if (kind) {
-        kind->is_astray = true;
+        kind->is_rejected = true;
     }
     gb_miss(all, end->q, &end->fit);
     return true;
@@ -154,14 +154,14 @@ static bool gb_is_on_known(gb_answers *all, const gb_found_1 *found, const gb_en
     const gb_problem *problem = &all->problem;
     gb_real tangent[GB_MAX_JOINTS];
     size_t place = 0;
-    const bool has_last = gb_find_trail(all, found->branch, found->free, &place);
+    const bool has_last = gb_find_member(all, found->branch, found->free, &place);
     /* First, because it is the fastest test. */
-    if (end->fit.relative > GB_ACCEPTANCE_ROUNDING || (has_last && gb_leads_straight_to(problem, all->trails[place], end->q, found->free))) {
+    if (end->fit.relative > GB_ACCEPTANCE_ROUNDING || (has_last && gb_leads_straight_to(problem, all->members[place], end->q, found->free))) {
         gb_remember(all, found->branch, found->free, end->q, NULL);
         return true;
     }
     const bool is_on_curve = gb_find_tangent(problem, end->q, found->free, tangent);
-    const gb_member last = {all->trails[place], has_last && all->trails_have_tangent[place] ? all->trails_tangent[place] : NULL};
+    const gb_member last = {all->members[place], has_last && all->members_have_tangent[place] ? all->members_tangent[place] : NULL};
     const gb_member here = {end->q, tangent};
     bool joins = !is_on_curve || (has_last && gb_leads_round_to(problem, last, here, found->free));
     for (size_t i = all->count; i > 0 && !joins;) {
@@ -212,12 +212,12 @@ static void gb_refine_member(gb_answers *all, const gb_found_1 *found, const gb_
     gb_copy(end.q, q, all->problem.mechanism->joints);
     end.fit = gb_measure(&all->problem, q);
     const gb_real missed = end.fit.relative;
-    if (all->suffices && (missed > GB_ACCEPTANCE_UNSETTLED || gb_are_known(&all->strays, found, missed))) {
+    if (all->suffices && (missed > GB_ACCEPTANCE_UNSETTLED || gb_are_known(&all->rejected, found, missed))) {
         gb_miss(all, end.q, &end.fit);
         return;
     }
     /* Repeated to find a solution next to a self-motion's end, but not where that end is far. */
-    if (missed > GB_STRATA_NEAR && gb_are_astray(&all->strays, found)) {
+    if (missed > GB_STRATA_NEAR && gb_are_rejected(&all->rejected, found)) {
         gb_miss(all, end.q, &end.fit);
         return;
     }

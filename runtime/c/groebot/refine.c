@@ -88,12 +88,12 @@ static void gb_miss(gb_answers *all, const gb_real *q, const gb_fit *fit)
 }
 
 /* Whether an isolated solution is known to be on no self-motion of these joints. */
-static bool gb_is_loner(const gb_answers *all, const gb_real *q, uint32_t free)
+static bool gb_is_known_isolated(const gb_answers *all, const gb_real *q, uint32_t free)
 {
-    for (size_t i = 0; i < GB_LONERS && i < all->loners_count; i++) {
-        bool is_same = all->loners_of[i] == free;
+    for (size_t i = 0; i < GB_ISOLATED && i < all->known_isolated_count; i++) {
+        bool is_same = all->known_isolated_of[i] == free;
         for (size_t k = 0; k < all->problem.mechanism->joints; k++) {
-            is_same = is_same && all->loners[i][k] == q[k];
+            is_same = is_same && all->known_isolated[i][k] == q[k];
         }
         if (is_same) {
             return true;
@@ -106,13 +106,13 @@ static bool gb_is_loner(const gb_answers *all, const gb_real *q, uint32_t free)
  * larger. */
 static bool gb_is_on(gb_answers *all, const gb_real *member, uint32_t free, const gb_real *isolated)
 {
-    if (gb_is_loner(all, isolated, free)) {
+    if (gb_is_known_isolated(all, isolated, free)) {
         return false;
     }
     if (!gb_is_on_self_motion(&all->problem, isolated, free, GB_ACCEPTANCE_ROUNDING)) {
-        const size_t next = all->loners_count++ % GB_LONERS;
-        gb_copy(all->loners[next], isolated, all->problem.mechanism->joints);
-        all->loners_of[next] = free;
+        const size_t next = all->known_isolated_count++ % GB_ISOLATED;
+        gb_copy(all->known_isolated[next], isolated, all->problem.mechanism->joints);
+        all->known_isolated_of[next] = free;
         return false;
     }
     return !all->suffices || gb_leads_to(&all->problem, member, isolated, free);

@@ -197,20 +197,20 @@ struct gb_problem {
 /* Candidates for members of self-motions that turn out to be none, by branch and free joints: their number, the largest relative residual, and whether they
  * are known not to be members. */
 #define GB_KINDS 16
-#define GB_LONERS 8
+#define GB_ISOLATED 8
 #define GB_MEMBERS 32
 typedef struct {
     size_t branch;
     size_t count;
     gb_real missed;
     uint32_t free;
-    bool is_astray;
-} gb_kind_of_stray;
+    bool is_rejected;
+} gb_rejected_kind;
 typedef struct {
-    gb_kind_of_stray kinds[GB_KINDS];
+    gb_rejected_kind kinds[GB_KINDS];
     size_t count;
     bool are_too_many;
-} gb_strays;
+} gb_rejected_kinds;
 
 /* Starts of continuation along curves next to self-motions, up to a maximal number: how the candidates were found, and joints on the curves. */
 #define GB_STARTS 32
@@ -234,15 +234,15 @@ typedef struct {
     /* Whether, on each stratum so far, the cases before it have lost no solution. Always false with the formulas of a nearby mechanism. */
     bool suffices;
     /* Candidates for members of self-motions that were dropped for this reason. */
-    gb_strays strays;
+    gb_rejected_kinds rejected;
     /* Candidates known to be members of self-motions in the list. When their maximal number is exceeded, the first is removed. Strata repeat each other, and
      * the next candidate of a branch is usually near the last one. A tangent is present once it has been computed. `is_another` is whether the member that
      * is being kept is of another self-motion. */
-    gb_found_1 trails_of[GB_MEMBERS];
-    gb_real trails[GB_MEMBERS][GB_MAX_JOINTS];
-    gb_real trails_tangent[GB_MEMBERS][GB_MAX_JOINTS];
-    bool trails_have_tangent[GB_MEMBERS];
-    size_t trails_count;
+    gb_found_1 members_of[GB_MEMBERS];
+    gb_real members[GB_MEMBERS][GB_MAX_JOINTS];
+    gb_real members_tangent[GB_MEMBERS][GB_MAX_JOINTS];
+    bool members_have_tangent[GB_MEMBERS];
+    size_t members_count;
     bool is_another;
     /* Branches and free joints of members with several free joints that are on a self-motion in the list, up to a maximal number. */
     gb_found_1 merged[GB_KINDS];
@@ -250,9 +250,9 @@ typedef struct {
     /* Candidates next to which a curve is followed after all candidates are processed. */
     gb_starts starts;
     /* Isolated solutions known to be on no self-motion of these joints. When their maximal number is exceeded, the first is removed. */
-    gb_real loners[GB_LONERS][GB_MAX_JOINTS];
-    uint32_t loners_of[GB_LONERS];
-    size_t loners_count;
+    gb_real known_isolated[GB_ISOLATED][GB_MAX_JOINTS];
+    uint32_t known_isolated_of[GB_ISOLATED];
+    size_t known_isolated_count;
     /* Whether a stratum was met for which no derivation exists. */
     bool is_open;
     /* Whether there are joint values with the least relative residual that are no solution. */
@@ -290,7 +290,7 @@ GB_LINKAGE gb_fit gb_measure_at(const gb_problem *problem, const gb_real *at, co
 GB_LINKAGE void gb_keep(gb_answers *all, const gb_found_1 *found, const gb_real *q, const gb_fit *fit);
 GB_LINKAGE void gb_refine(gb_answers *all, size_t number, const gb_found_1 *found, const gb_real *q);
 GB_LINKAGE void gb_walk_curves(gb_answers *all);
-GB_LINKAGE bool gb_are_doubtful(const gb_strays *strays);
+GB_LINKAGE bool gb_are_doubtful(const gb_rejected_kinds *rejected);
 GB_LINKAGE bool gb_are_all(const gb_answers *all);
 GB_LINKAGE void gb_arrive(gb_answers *all, size_t number, const gb_found_1 *found, const gb_approach *approach);
 GB_LINKAGE gb_fit gb_fitted(const gb_problem *problem, gb_real *q, uint32_t held, gb_real most);

@@ -39,10 +39,10 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     c->all.candidates = c->all.unsound = c->all.doubted = c->waiting = 0;
     c->all.suffices = !gb_this.is_nearby;
     c->all.starts.count = 0;
-    c->all.strays.count = 0;
-    c->all.strays.are_too_many = false;
-    c->all.trails_count = 0;
-    c->all.merged_count = c->all.loners_count = 0;
+    c->all.rejected.count = 0;
+    c->all.rejected.are_too_many = false;
+    c->all.members_count = 0;
+    c->all.merged_count = c->all.known_isolated_count = 0;
     c->all.is_open = c->all.has_nearest = c->all.is_another = false;
     c->pairs = pairs;
     c->sought = sought;
@@ -52,7 +52,7 @@ static int gb_walk_through(gb_sink_1 *c, const gb_real *target, gb_real *p, gb_s
     if (gb_this.is_nearby && c->all.starts.count > 0) {
         gb_walk_curves(&c->all);
     }
-    if (gb_are_doubtful(&c->all.strays) && !gb_are_all(&c->all) && *steps > 0) {
+    if (gb_are_doubtful(&c->all.rejected) && !gb_are_all(&c->all) && *steps > 0) {
         c->all.suffices = false;
         gb_walk_1(p, c);
         gb_flush(c);

@@ -3,14 +3,14 @@
 //! The page allocates memory for a request by [`allocate`], writes it there, and calls [`call`], which returns the address of the response. [`length`] returns
 //! its length. Both are valid until the next call.
 
-mod desk;
+mod session;
 
 use std::cell::RefCell;
 
-use desk::Desk;
+use session::Session;
 
 thread_local! {
-    static DESK: RefCell<Desk> = RefCell::default();
+    static SESSION: RefCell<Session> = RefCell::default();
     static REQUEST: RefCell<Vec<u8>> = RefCell::default();
     static ANSWER: RefCell<String> = RefCell::default();
 }
@@ -28,7 +28,7 @@ pub extern "C" fn allocate(bytes: usize) -> *mut u8 {
 /// Processes the written request. Returns the address of the response.
 #[unsafe(no_mangle)]
 pub extern "C" fn call() -> *const u8 {
-    let answer = REQUEST.with_borrow(|request| DESK.with_borrow_mut(|desk| desk.answer(request)));
+    let answer = REQUEST.with_borrow(|request| SESSION.with_borrow_mut(|session| session.answer(request)));
     ANSWER.with_borrow_mut(|own| {
         *own = answer;
         own.as_ptr()

@@ -5,13 +5,13 @@ use std::borrow::Cow;
 use nalgebra::{Point2, Vector2};
 
 use super::biped::{Biped, Foot};
+use super::defaults::GaitDefaults;
 use super::footprint::Side;
 use super::legs::{LegSolver, Legs};
 use super::one_step::{Laws, OneStep};
 use super::plan::TICK;
 use super::polygon::Polygon;
 use super::request::Gait;
-use super::usual::Usual;
 use super::zmp::GRAVITY;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Target;
@@ -25,7 +25,7 @@ pub struct Walker {
     /// The solvers of its legs.
     pub legs: Legs,
     /// Its gaits.
-    pub gaits: Vec<(&'static str, Usual)>,
+    pub gaits: Vec<(&'static str, GaitDefaults)>,
 }
 
 /// Heights of the hip that are tried in order, as fractions of the leg's length above the ankle.
@@ -120,11 +120,11 @@ fn sole(biped: &Biped) -> (f64, f64) {
 
 /// One step goal by the generic laws of RH0 3.3: all parameters are fractions of the leg's length and of the sole's
 /// half width.
-fn one_step(biped: &Biped) -> Usual {
+fn one_step(biped: &Biped) -> GaitDefaults {
     let (length, (ahead, room)) = (leg(biped), sole(biped));
     let ankle_height = biped.feet[0].ankle_height;
     let height = |share: f64| share * length + ankle_height;
-    Usual {
+    GaitDefaults {
         gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.006 * length, pitch: 0.0, upright: None }),
         length: 0.16 * length,
         lift: 0.07 * length,
@@ -144,14 +144,14 @@ fn one_step(biped: &Biped) -> Usual {
 }
 
 /// Preview control, with a third of the step's duration.
-fn preview(biped: &Biped) -> Usual {
-    let usual = one_step(biped);
-    Usual {
+fn preview(biped: &Biped) -> GaitDefaults {
+    let defaults = one_step(biped);
+    GaitDefaults {
         gait: Gait::Preview,
         amplitude: biped.half_width(),
-        period: usual.period / 3.0,
+        period: defaults.period / 3.0,
         double_support: 0.3,
         rest: 1.5,
-        ..usual
+        ..defaults
     }
 }

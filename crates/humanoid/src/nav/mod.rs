@@ -3,7 +3,6 @@
 //!
 //! RH0 chapter 4. Metres, radians and seconds. This module does not depend on a robot.
 
-mod again;
 mod exact;
 mod field;
 mod front;
@@ -23,11 +22,11 @@ mod smooth;
 mod sweep;
 mod taut;
 mod traversal;
+mod update;
 mod waves;
 mod weighted;
 mod yaml;
 
-pub use again::Again;
 pub use exact::{Distances, Guide, Shortest};
 pub use field::{Field, Method};
 pub use grid::Window;
@@ -39,4 +38,5 @@ pub use room::{Piece, Room};
 pub use shape::Shape;
 pub(crate) use shape::signed_area;
 pub use smooth::{Part, Smooth};
+pub use update::UpdatedField;
 pub use weighted::Quickest;

@@ -1,6 +1,6 @@
 //! The nine parameters of a walk that may change during the walk, RH0 5.2.3. Main type: [`Figures`].
 
-use crate::gait::{Biped, Gait, Laws, Usual};
+use crate::gait::{Biped, Gait, GaitDefaults, Laws};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::document::{one_among, shown};
 
@@ -64,41 +64,42 @@ pub const PRESETS: [Preset; 5] = [
 
 impl Figures {
     /// The parameters of a gait by one step goal at a hip height \[m\].
-    pub fn of(biped: &Biped, usual: &Usual, hip_height: f64) -> Self {
-        let (dip, power) = match usual.gait {
+    pub fn of(biped: &Biped, defaults: &GaitDefaults, hip_height: f64) -> Self {
+        let (dip, power) = match defaults.gait {
             Gait::OneStep(own) => (own.dip, if let Laws::Rh0 { power } = own.laws { power } else { f64::NAN }),
             _ => (0.0, f64::NAN),
         };
-        let half_width = usual.half_width(biped);
+        let half_width = defaults.half_width(biped);
         Figures {
             values: [
-                usual.length,
-                usual.lift,
+                defaults.length,
+                defaults.lift,
                 half_width,
-                usual.most_turn.to_degrees(),
+                defaults.most_turn.to_degrees(),
                 hip_height + over_ankles(biped),
                 dip,
-                half_width - usual.amplitude,
+                half_width - defaults.amplitude,
                 power,
-                1.0 / usual.period,
+                1.0 / defaults.period,
             ],
         }
     }
 
     /// Sets these parameters in a gait. The fraction of double support in a step stays.
-    pub fn put(&self, biped: &Biped, usual: &Usual) -> Usual {
+    pub fn put(&self, biped: &Biped, defaults: &GaitDefaults) -> GaitDefaults {
         let [length, lift, half_width, turn, height, own_dip, radius, own_power, cadence] = self.values;
-        let mut usual = usual.clone();
-        (usual.length, usual.lift, usual.half_width) = (length, lift, Some(half_width));
-        (usual.most_turn, usual.amplitude, usual.period) = (turn.to_radians(), half_width - radius, 1.0 / cadence);
-        usual.hip_heights = vec![height - over_ankles(biped)].into();
-        if let Gait::OneStep(one_step) = &mut usual.gait {
+        let mut defaults = defaults.clone();
+        (defaults.length, defaults.lift, defaults.half_width) = (length, lift, Some(half_width));
+        (defaults.most_turn, defaults.amplitude, defaults.period) =
+            (turn.to_radians(), half_width - radius, 1.0 / cadence);
+        defaults.hip_heights = vec![height - over_ankles(biped)].into();
+        if let Gait::OneStep(one_step) = &mut defaults.gait {
             one_step.dip = own_dip;
             if let Laws::Rh0 { power } = &mut one_step.laws {
                 *power = own_power;
             }
         }
-        usual
+        defaults
     }
 
     /// Sets one of the values.

@@ -24,7 +24,7 @@ pub struct RecordedStage {
     /// Its goal: x, y \[m\], and the heading \[rad\] if one is requested.
     pub goal: Vec<f64>,
     /// Its corners \[m\].
-    #[serde(rename = "way")]
+    #[serde(alias = "way")]
     pub path: Vec<[f64; 2]>,
     /// The furniture at that time.
     pub pieces: Vec<Piece>,

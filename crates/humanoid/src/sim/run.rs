@@ -6,7 +6,7 @@ use nalgebra::Point2;
 
 use super::destination::Destination;
 use super::figures::Figures;
-use crate::gait::{Footprint, Side, Usual, Walk, Walker};
+use crate::gait::{Footprint, GaitDefaults, Side, Walk, Walker};
 use crate::nav::Room;
 use crate::task::{Blocked, Body, Course, Floor, Journey, Method, Pilot};
 use crate::walkers::{self, Outline};
@@ -48,7 +48,7 @@ pub enum Next {
 pub struct Run {
     start: Start,
     /// The gait before any parameter was changed.
-    usual: Usual,
+    defaults: GaitDefaults,
     figures: Figures,
     floor: Floor,
     course: std::result::Result<Course, Blocked>,
@@ -92,18 +92,18 @@ impl Run {
     /// [`Floor::new`], [`Destination::goal`], [`Course::find`] and [`Journey::new`].
     pub fn new<'w>(start: Start, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
         let watch = Watch::or_none(watch);
-        let usual = start.walker.gaits.iter().find(|(_, usual)| usual.gait.is_one_step());
-        let usual = usual.map(|(_, usual)| usual.clone()).ok_or_else(|| {
+        let defaults = start.walker.gaits.iter().find(|(_, defaults)| defaults.gait.is_one_step());
+        let defaults = defaults.map(|(_, defaults)| defaults.clone()).ok_or_else(|| {
             let text = format!("{} has no gait by one step goal", start.walker.biped.name);
             Error::new(ErrorKind::Unsupported, text)
         })?;
-        let pilot = Pilot::new(start.walker.clone(), usual.clone(), start.body.clone(), true, watch)?;
-        let pilot = pilot.at_most(usual.length, usual.most_turn);
-        let figures = Figures::of(&start.walker.biped, &usual, pilot.reach().hip_height);
+        let pilot = Pilot::new(start.walker.clone(), defaults.clone(), start.body.clone(), true, watch)?;
+        let pilot = pilot.at_most(defaults.length, defaults.most_turn);
+        let figures = Figures::of(&start.walker.biped, &defaults, pilot.reach().hip_height);
         let floor = Floor::new(&start.room.map()?, start.apart)?;
         let course = start.course(&pilot, &floor, &start.middle, watch)?;
         let journey = Journey::new(&pilot, &floor, start.middle.feet(pilot.half_width()), watch)?.into_owned();
-        Ok(Run { start, usual, figures, floor, course, journey })
+        Ok(Run { start, defaults, figures, floor, course, journey })
     }
 
     /// The parameters of the next step.
@@ -207,9 +207,9 @@ impl Run {
         let watch = Watch::or_none(watch);
         let figures = self.figures.with(name, value)?;
         let Start { walker, body, .. } = &self.start;
-        let usual = figures.put(&walker.biped, &self.usual);
-        let (length, turn) = (usual.length, usual.most_turn);
-        let pilot = Pilot::new(walker.clone(), usual, body.clone(), true, watch)?.within(length, turn, watch)?;
+        let defaults = figures.put(&walker.biped, &self.defaults);
+        let (length, turn) = (defaults.length, defaults.most_turn);
+        let pilot = Pilot::new(walker.clone(), defaults, body.clone(), true, watch)?.within(length, turn, watch)?;
         let (before, mut journey) = (self.walk().references.len(), self.journey.clone());
         journey.walk_as(pilot, watch)?;
         let course = self.start.course(journey.pilot(), &self.floor, &journey.middle(), watch)?;

@@ -5,7 +5,7 @@ use nalgebra::Point2;
 use super::body::Body;
 use super::reach::Reach;
 use crate::gait::{
-    Action, Footprint, Footstep, Gait, Polygon, Request, Route, Side, Usual, Walk, Walker, plan_actions,
+    Action, Footprint, Footstep, Gait, GaitDefaults, Polygon, Request, Route, Side, Walk, Walker, plan_actions,
 };
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -19,7 +19,7 @@ const EVERY: usize = 4;
 #[derive(Clone, Debug)]
 pub struct Pilot {
     walker: Walker,
-    usual: Usual,
+    defaults: GaitDefaults,
     body: Body,
     reach: Reach,
     /// The area that the body covers while it steps on the spot, in the frame of the middle of the feet.
@@ -42,23 +42,23 @@ impl Pilot {
     /// [`ErrorKind::Unsupported`] for another gait; as [`Reach::of`].
     pub fn new<'w>(
         walker: Walker,
-        usual: Usual,
+        defaults: GaitDefaults,
         body: Body,
         is_upright: bool,
         watch: impl Into<Option<&'w Watch>>,
     ) -> Result<Self> {
         let watch = Watch::or_none(watch);
-        if !usual.gait.is_one_step() {
+        if !defaults.gait.is_one_step() {
             let text = "steps are planned one by one, so that goal and obstacles may change between them: this needs a gait by one step goal";
             return Err(Error::new(ErrorKind::Unsupported, text));
         }
-        let crouched = crouched(&usual);
+        let crouched = crouched(&defaults);
         let reach = Reach::of(&walker, &crouched, watch)?;
-        let usual = if is_upright { usual.from_upright(&walker.biped) } else { crouched };
+        let defaults = if is_upright { defaults.from_upright(&walker.biped) } else { crouched };
         let soles = walker.biped.feet.each_ref().map(|foot| farthest(&foot.corners));
         let mut pilot = Pilot {
             walker,
-            usual,
+            defaults,
             body,
             reach,
             outline: Polygon::hull(&[Point2::origin()]),
@@ -88,7 +88,7 @@ impl Pilot {
     /// [`ErrorKind::BadValue`] where steps of these limits are infeasible, with the reason; [`Watch::check`].
     pub fn within<'w>(mut self, ahead: f64, turn: f64, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
         let watch = Watch::or_none(watch);
-        self.reach.bounded(&self.walker, &crouched(&self.usual), (ahead, turn), watch)?;
+        self.reach.bounded(&self.walker, &crouched(&self.defaults), (ahead, turn), watch)?;
         Ok(self)
     }
 
@@ -116,12 +116,12 @@ impl Pilot {
 
     /// Half of the lateral distance between the feet \[m\].
     pub fn half_width(&self) -> f64 {
-        self.usual.half_width(&self.walker.biped)
+        self.defaults.half_width(&self.walker.biped)
     }
 
     /// Whether it stands upright before the first and after the last step.
     pub fn is_upright(&self) -> bool {
-        matches!(self.usual.gait, Gait::OneStep(one_step) if one_step.upright.is_some())
+        matches!(self.defaults.gait, Gait::OneStep(one_step) if one_step.upright.is_some())
     }
 
     /// The area that the body covers while it steps on the spot, with the middle of its feet at a place.
@@ -221,18 +221,18 @@ impl Pilot {
     }
 
     fn request(&self, route: Route) -> Request {
-        let request = self.usual.request(&self.walker.biped, route, self.reach.hip_height);
+        let request = self.defaults.request(&self.walker.biped, route, self.reach.hip_height);
         Request { slowest: SLOWEST, ..request }
     }
 }
 
 /// The parameters without lowering and rising.
-fn crouched(usual: &Usual) -> Usual {
-    let mut usual = usual.clone();
-    if let Gait::OneStep(one_step) = &mut usual.gait {
+fn crouched(defaults: &GaitDefaults) -> GaitDefaults {
+    let mut defaults = defaults.clone();
+    if let Gait::OneStep(one_step) = &mut defaults.gait {
         one_step.upright = None;
     }
-    usual
+    defaults
 }
 
 /// The convex hull of polygons.

@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 
-use crate::gait::{Action, Footprint, Footstep, Route, Side, Usual, Walk, Walker, plan_actions};
+use crate::gait::{Action, Footprint, Footstep, GaitDefaults, Route, Side, Walk, Walker, plan_actions};
 use crate::{Error, ErrorKind, Result, Watch};
 
 /// The number of bisections that find the greatest step.
@@ -37,13 +37,13 @@ impl Reach {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] where no step is feasible; [`Watch::check`].
-    pub fn of<'w>(walker: &Walker, usual: &Usual, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+    pub fn of<'w>(walker: &Walker, defaults: &GaitDefaults, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
         let watch = Watch::or_none(watch);
         let mut last = None;
         for share in [1.0, 0.5, 0.25] {
-            for &hip_height in usual.hip_heights.iter() {
-                let trials = Trials { walker, usual, hip_height, watch };
-                match trials.steps(usual.length * share, 0.0, 0.0) {
+            for &hip_height in defaults.hip_heights.iter() {
+                let trials = Trials { walker, defaults, hip_height, watch };
+                match trials.steps(defaults.length * share, 0.0, 0.0) {
                     Ok(()) => return trials.reach(),
                     Err(error) if error.kind() == ErrorKind::BadValue => last = last.or(Some(error)),
                     Err(error) => return Err(error),
@@ -63,11 +63,11 @@ impl Reach {
     pub(super) fn bounded(
         &mut self,
         walker: &Walker,
-        usual: &Usual,
+        defaults: &GaitDefaults,
         (ahead, turn): (f64, f64),
         watch: &Watch,
     ) -> Result<()> {
-        let trials = Trials { walker, usual, hip_height: self.hip_height, watch };
+        let trials = Trials { walker, defaults, hip_height: self.hip_height, watch };
         trials.steps(ahead, 0.0, 0.0)?;
         trials.steps(0.0, 0.0, turn)?;
         self.at_most(ahead, turn);
@@ -83,7 +83,7 @@ impl Reach {
 /// Trial walks at a hip height.
 struct Trials<'a> {
     walker: &'a Walker,
-    usual: &'a Usual,
+    defaults: &'a GaitDefaults,
     hip_height: f64,
     watch: &'a Watch,
 }
@@ -91,7 +91,7 @@ struct Trials<'a> {
 impl Trials<'_> {
     fn reach(&self) -> Result<Reach> {
         let most = self.hip_height;
-        let width = self.usual.half_width(&self.walker.biped);
+        let width = self.defaults.half_width(&self.walker.biped);
         Ok(Reach {
             ahead: self.farthest(most, |length| (length, 0.0, 0.0))?,
             back: self.farthest(most, |length| (-length, 0.0, 0.0))?,
@@ -119,7 +119,7 @@ impl Trials<'_> {
     /// Tries three steps of these dimensions, the last two of them from the rear, and one that closes the feet. In
     /// lateral walks the other foot closes each time.
     fn steps(&self, ahead: f64, aside: f64, turn: f64) -> Result<()> {
-        let half = self.usual.half_width(&self.walker.biped);
+        let half = self.defaults.half_width(&self.walker.biped);
         let mut lead = Footprint::default();
         let start = lead.feet(half);
         let mut steps = Vec::new();
@@ -136,8 +136,8 @@ impl Trials<'_> {
 
     fn walk(&self, route: Route) -> Result<Walk> {
         let Walker { biped, legs, .. } = self.walker;
-        let actions: Vec<Action> = self.usual.gait.actions(route.steps.len());
-        let mut request = self.usual.request(biped, route, self.hip_height);
+        let actions: Vec<Action> = self.defaults.gait.actions(route.steps.len());
+        let mut request = self.defaults.request(biped, route, self.hip_height);
         request.tick *= TICK_FACTOR;
         request.slowest = 1.0;
         plan_actions(biped, legs, &request, &actions, self.watch)

@@ -8,7 +8,7 @@ use nalgebra::{Point2, Vector2};
 use super::printed::{NAO_LEFT_LEG, NAO_RIGHT_LEG};
 use super::{Outline, posture};
 use crate::Result;
-use crate::gait::{Biped, Gait, Laws, Legs, OneStep, Side, TICK, Usual, Walker};
+use crate::gait::{Biped, Gait, GaitDefaults, Laws, Legs, OneStep, Side, TICK, Walker};
 use groebot_robot::model::Meshes;
 use groebot_robot::robots::nao_v5;
 
@@ -57,7 +57,7 @@ pub fn nao_walker(outline: Outline) -> Result<Walker> {
 const HIP_HEIGHTS: [f64; 6] = [0.228, 0.225, 0.232, 0.222, 0.215, 0.205];
 
 /// The sine gait of NAO (6.8.1).
-pub const NAO_SINE: Usual = Usual {
+pub const NAO_SINE: GaitDefaults = GaitDefaults {
     gait: Gait::Sine,
     length: 0.04,
     lift: 0.02,
@@ -78,7 +78,7 @@ pub const NAO_SINE: Usual = Usual {
 };
 
 /// One step goal by the generic laws of RH0 3.3, on a circle of 10 mm about the ankle.
-pub const NAO_ONE_STEP: Usual = Usual {
+pub const NAO_ONE_STEP: GaitDefaults = GaitDefaults {
     gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.001, pitch: 0.0, upright: None }),
     amplitude: 0.04,
     period: 2.4,
@@ -87,5 +87,12 @@ pub const NAO_ONE_STEP: Usual = Usual {
 };
 
 /// Preview control.
-pub const NAO_PREVIEW: Usual =
-    Usual { gait: Gait::Preview, length: 0.05, lift: 0.03, period: 0.8, double_support: 0.3, rest: 1.5, ..NAO_SINE };
+pub const NAO_PREVIEW: GaitDefaults = GaitDefaults {
+    gait: Gait::Preview,
+    length: 0.05,
+    lift: 0.03,
+    period: 0.8,
+    double_support: 0.3,
+    rest: 1.5,
+    ..NAO_SINE
+};

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::posture;
 use super::printed::{FromTheFoot, Printed, RH0_LEFT_LEG, RH0_RIGHT_LEG};
 use crate::Result;
-use crate::gait::{Biped, Gait, Laws, Legs, OneStep, Usual, Walker};
+use crate::gait::{Biped, Gait, GaitDefaults, Laws, Legs, OneStep, Walker};
 use groebot_robot::model::Meshes;
 use groebot_robot::robots::rh0;
 
@@ -69,7 +69,7 @@ const TICKS: [f64; 2] = [0.036, 0.072];
 const SAMPLES: [f64; 2] = [81.0, 323.0];
 
 /// RH0 5.3: simulated walks.
-pub const RH0_SIMULATION: Usual = Usual {
+pub const RH0_SIMULATION: GaitDefaults = GaitDefaults {
     gait: Gait::OneStep(OneStep { laws: Laws::Rh0 { power: 4.0 }, dip: 0.004, pitch: PI / 9.0, upright: None }),
     length: 0.16,
     lift: 0.1,
@@ -91,7 +91,7 @@ pub const RH0_SIMULATION: Usual = Usual {
 };
 
 /// RH0 by the generic laws of RH0 3.3.
-pub const RH0_GENERIC: Usual = Usual {
+pub const RH0_GENERIC: GaitDefaults = GaitDefaults {
     gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.004, pitch: PI / 9.0, upright: None }),
     hip_heights: Cow::Borrowed(&LOWER_HIP_HEIGHTS),
     double_support: 0.5,
@@ -102,7 +102,7 @@ pub const RH0_GENERIC: Usual = Usual {
 const LOWER_HIP_HEIGHTS: [f64; 5] = [0.6435, 0.635, 0.625, 0.615, 0.6];
 
 /// RH0 6.2: walks of the physical robot.
-pub const RH0_EXPERIMENT: Usual = Usual {
+pub const RH0_EXPERIMENT: GaitDefaults = GaitDefaults {
     amplitude: HALF_WIDTH - 0.03,
     period: SAMPLES[1] * TICKS[1],
     most_turn: PI / 18.0,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::posture;
 use super::printed::{Mirrored, TEO_LEFT_LEG};
 use crate::Result;
-use crate::gait::{Biped, Gait, Laws, Legs, OneStep, Usual, Walker};
+use crate::gait::{Biped, Gait, GaitDefaults, Laws, Legs, OneStep, Walker};
 use groebot_robot::model::Meshes;
 use groebot_robot::robots::teo;
 
@@ -30,7 +30,7 @@ pub fn teo_walker() -> Result<Walker> {
 
 /// One step goal by the generic laws of RH0 3.3, on a circle of 30 mm about the point below the ankle. All parameters
 /// are our own.
-pub const TEO_ONE_STEP: Usual = Usual {
+pub const TEO_ONE_STEP: GaitDefaults = GaitDefaults {
     gait: Gait::OneStep(OneStep { laws: Laws::Generic, dip: 0.004, pitch: 0.0, upright: None }),
     length: 0.1,
     lift: 0.04,

@@ -1,6 +1,6 @@
 //! Arbitrary requests: the result is a walk that fulfils all conditions, or an error with the time and the reason.
 
-use groebot_humanoid::gait::{Durations, Gait, Laws, Measures, Regular, Route, Side, Style, Usual, plan};
+use groebot_humanoid::gait::{Durations, Gait, GaitDefaults, Laws, Measures, Regular, Route, Side, Style, plan};
 use groebot_humanoid::walkers::{NAO_ONE_STEP, RH0_GENERIC, TEO_ONE_STEP};
 use groebot_humanoid::{ErrorKind, Watch};
 use nalgebra::Point2;
@@ -77,19 +77,20 @@ fn one_step_goal_keeps_its_promises_or_is_refused() {
     for ((robot, rh0_laws, power, dip), (x, y, length, lift), (share, lower, period, crouched)) in
         ONCE_FAILED.into_iter().chain(values((laws, steps, style), 12))
     {
-        let (walker, usual) = [("nao", NAO_ONE_STEP), ("rh0", RH0_GENERIC), ("teo", TEO_ONE_STEP)][robot].clone();
+        let (walker, defaults) = [("nao", NAO_ONE_STEP), ("rh0", RH0_GENERIC), ("teo", TEO_ONE_STEP)][robot].clone();
         let (humanoid, legs) = super::built(walker);
-        let Gait::OneStep(mut one_step) = usual.gait else { unreachable!("one step goal") };
+        let Gait::OneStep(mut one_step) = defaults.gait else { unreachable!("one step goal") };
         one_step.dip = dip;
         if rh0_laws {
             one_step.laws = Laws::Rh0 { power };
         }
-        let amplitude = share * usual.amplitude;
-        let requested = Usual { gait: Gait::OneStep(one_step), length, lift, amplitude, period, ..usual.clone() };
+        let amplitude = share * defaults.amplitude;
+        let requested =
+            GaitDefaults { gait: Gait::OneStep(one_step), length, lift, amplitude, period, ..defaults.clone() };
         let requested = if crouched { requested } else { requested.from_upright(&humanoid) };
-        let measures = Measures { length, half_width: humanoid.half_width(), most_turn: usual.most_turn };
+        let measures = Measures { length, half_width: humanoid.half_width(), most_turn: defaults.most_turn };
         let route = Route::towards(&Point2::new(x, y), None, Side::Right, &measures).unwrap();
-        let request = requested.request(&humanoid, route, usual.hip_heights[0] - lower);
+        let request = requested.request(&humanoid, route, defaults.hip_heights[0] - lower);
         match plan(&humanoid, &legs, &request, &Watch::none()) {
             Err(error) => {
                 assert_eq!(error.kind(), ErrorKind::BadValue);
@@ -99,12 +100,12 @@ fn one_step_goal_keeps_its_promises_or_is_refused() {
                 walked += 1;
                 super::one_step::feet_are_on_their_prints(&humanoid, &walk);
                 for (sample, balance) in walk.balances.iter().enumerate() {
-                    assert!(balance.margin >= usual.margin);
+                    assert!(balance.margin >= defaults.margin);
                     let (q, before) =
                         (&walk.motion.postures[sample].q, &walk.motion.postures[sample.saturating_sub(1)].q);
                     for (joint, range) in humanoid.joints.iter().enumerate() {
                         assert!(range.limits.0 <= q[joint] && q[joint] <= range.limits.1);
-                        let most = range.speed * usual.speed_share * usual.tick;
+                        let most = range.speed * defaults.speed_share * defaults.tick;
                         assert!((q[joint] - before[joint]).abs() <= most + 1e-12);
                     }
                 }

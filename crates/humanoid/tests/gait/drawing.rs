@@ -95,11 +95,11 @@ fn on_the_spot(turn: f64) -> Walk {
 
 fn by_goal(walker: &str, goal: (f64, f64)) -> (Biped, Walk) {
     let (humanoid, legs) = super::built(walker);
-    let usual = &groebot_humanoid::walkers::walker(walker, Outline::Measured).unwrap().unwrap().gaits[0].1;
+    let defaults = &groebot_humanoid::walkers::walker(walker, Outline::Measured).unwrap().unwrap().gaits[0].1;
     let measures =
-        Measures { length: usual.length, half_width: usual.half_width(&humanoid), most_turn: usual.most_turn };
+        Measures { length: defaults.length, half_width: defaults.half_width(&humanoid), most_turn: defaults.most_turn };
     let route = Route::towards(&Point2::new(goal.0, goal.1), None, Side::Left, &measures).unwrap();
-    let request = usual.request(&humanoid, route, usual.hip_heights[0]);
+    let request = defaults.request(&humanoid, route, defaults.hip_heights[0]);
     let walk = plan(&humanoid, &legs, &request, &Watch::none()).unwrap();
     (humanoid, walk)
 }

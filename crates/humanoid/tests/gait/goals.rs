@@ -24,15 +24,15 @@ impl Iterator for Goals {
 
 fn walk(walker: &Walker, (x, y, heading): (f64, f64, f64)) -> groebot_humanoid::Result<Walk> {
     let Walker { biped, legs, gaits } = walker;
-    let usual = &gaits[0].1;
+    let defaults = &gaits[0].1;
     let request = |height, ease| {
-        let usual = usual.clone().eased(ease);
-        let half_width = usual.half_width(biped);
-        let measures = Measures { length: usual.length, half_width, most_turn: usual.most_turn };
+        let defaults = defaults.clone().eased(ease);
+        let half_width = defaults.half_width(biped);
+        let measures = Measures { length: defaults.length, half_width, most_turn: defaults.most_turn };
         let route = Route::towards(&Point2::new(x, y), Some(heading), Side::Left, &measures)?;
-        Ok(usual.from_upright(biped).request(biped, route, height))
+        Ok(defaults.from_upright(biped).request(biped, route, height))
     };
-    plan_at((biped, legs), None, &usual.hip_heights, request, &Watch::none())
+    plan_at((biped, legs), None, &defaults.hip_heights, request, &Watch::none())
 }
 
 fn arrives(name: &str, count: usize) {

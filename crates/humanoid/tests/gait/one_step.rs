@@ -1,6 +1,8 @@
 //! One step goal for any humanoid, RH0 3.3; walks given in words and walks to a goal.
 
-use groebot_humanoid::gait::{Action, Measures, Route, Side, Summary, Usual, Walk, Word, plan_at, words};
+use groebot_humanoid::gait::{
+    Action, GaitDefaults, Measures, Route, Side, StepCommand, Summary, Walk, plan_at, step_commands,
+};
 use groebot_humanoid::walkers::{NAO_ONE_STEP, RH0_GENERIC, TEO_ONE_STEP};
 use groebot_humanoid::{ErrorKind, Watch};
 use nalgebra::Point2;
@@ -8,17 +10,17 @@ use proptest::prelude::*;
 
 const MEASURES: Measures = Measures { length: 0.16, half_width: 0.112, most_turn: 0.2 };
 
-fn walk(walker: &str, usual: &Usual, goal: (f64, f64)) -> Walk {
+fn walk(walker: &str, defaults: &GaitDefaults, goal: (f64, f64)) -> Walk {
     let (robot, legs) = super::built(walker);
-    let measures = Measures { length: usual.length, half_width: robot.half_width(), most_turn: usual.most_turn };
+    let measures = Measures { length: defaults.length, half_width: robot.half_width(), most_turn: defaults.most_turn };
     let route = Route::towards(&Point2::new(goal.0, goal.1), None, Side::Left, &measures).unwrap();
-    let usual = usual.clone().from_upright(&robot);
-    let request = |height, _| Ok(usual.request(&robot, route.clone(), height));
-    let walk = plan_at((&robot, &legs), None, &usual.hip_heights, request, &Watch::none()).unwrap();
+    let defaults = defaults.clone().from_upright(&robot);
+    let request = |height, _| Ok(defaults.request(&robot, route.clone(), height));
+    let walk = plan_at((&robot, &legs), None, &defaults.hip_heights, request, &Watch::none()).unwrap();
     let arrived = walk.schedule.route.rests.last().unwrap().point();
     assert!((arrived - Point2::new(goal.0, goal.1)).norm() < 1e-3, "{arrived}");
     for balance in &walk.balances {
-        assert!(balance.support.signed_distance(&balance.zmp) >= usual.margin);
+        assert!(balance.support.signed_distance(&balance.zmp) >= defaults.margin);
     }
     feet_are_on_their_prints(&robot, &walk);
     walk
@@ -39,17 +41,17 @@ pub fn feet_are_on_their_prints(robot: &groebot_humanoid::gait::Biped, walk: &Wa
 
 #[test]
 fn three_robots_step_towards_a_goal() {
-    for (walker, usual, goal) in [
+    for (walker, defaults, goal) in [
         ("nao", NAO_ONE_STEP, (0.2, 0.1)),
         ("rh0", RH0_GENERIC, (0.6, -0.3)),
         ("teo", TEO_ONE_STEP, (0.5, 0.2)),
         ("teo", TEO_ONE_STEP, (0.3, 0.0)),
     ] {
-        let walk = walk(walker, &usual, goal);
+        let walk = walk(walker, &defaults, goal);
         let (robot, _) = super::built(walker);
         let summary = Summary::of(&robot, &walk);
         assert_eq!(summary.is_point_mass, walker == "rh0", "{summary}");
-        assert!(summary.margin.value >= usual.margin && summary.fastest.1.value <= usual.speed_share);
+        assert!(summary.margin.value >= defaults.margin && summary.fastest.1.value <= defaults.speed_share);
     }
 }
 
@@ -85,31 +87,31 @@ fn the_centre_of_mass_keeps_to_the_circle() {
 
 #[test]
 fn words_are_read_and_refused() {
-    let read = words("out right, stride  left,in right, turn left 90,turn right 7.5").unwrap();
-    assert_eq!(read[0], Word::Out(Side::Right));
-    assert_eq!((read[3], read[4]), (Word::Turn(90_f64.to_radians()), Word::Turn(-7.5_f64.to_radians())));
+    let read = step_commands("out right, stride  left,in right, turn left 90,turn right 7.5").unwrap();
+    assert_eq!(read[0], StepCommand::Out(Side::Right));
+    assert_eq!((read[3], read[4]), (StepCommand::Turn(90_f64.to_radians()), StepCommand::Turn(-7.5_f64.to_radians())));
     for wrong in ["", "out", "out up", "hop left", "turn left", "turn left -3", "turn left nan", "out left,,in right"] {
-        assert_eq!(words(wrong).unwrap_err().kind(), ErrorKind::Syntax, "{wrong}");
+        assert_eq!(step_commands(wrong).unwrap_err().kind(), ErrorKind::Syntax, "{wrong}");
     }
     for (wrong, word) in [
-        ("stride left", "word 1"),
-        ("out right, in right", "word 2"),
-        ("out right, out left", "word 2"),
-        ("out right, turn left 10", "word 2"),
-        ("turn left 1e9", "word 1"),
+        ("stride left", "command 1"),
+        ("out right, in right", "command 2"),
+        ("out right, out left", "command 2"),
+        ("out right, turn left 10", "command 2"),
+        ("turn left 1e9", "command 1"),
     ] {
-        let error = Route::of_words(&words(wrong).unwrap(), &MEASURES).unwrap_err();
+        let error = Route::of_commands(&step_commands(wrong).unwrap(), &MEASURES).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::BadValue, "{wrong}");
         assert!(error.to_string().contains(word), "{error}");
     }
-    assert!(Route::of_words(&words("out left").unwrap(), &Measures { length: 0.0, ..MEASURES }).is_err());
+    assert!(Route::of_commands(&step_commands("out left").unwrap(), &Measures { length: 0.0, ..MEASURES }).is_err());
     assert!(Route::towards(&Point2::new(f64::NAN, 0.0), None, Side::Left, &MEASURES).is_err());
     assert!(Route::towards(&Point2::new(1e5, 0.0), None, Side::Left, &MEASURES).is_err());
 }
 
 #[test]
 fn half_a_walk_ends_with_one_foot_ahead() {
-    let route = Route::of_words(&words("out left, stride right").unwrap(), &MEASURES).unwrap();
+    let route = Route::of_commands(&step_commands("out left, stride right").unwrap(), &MEASURES).unwrap();
     let [left, right] = route.stands().pop().unwrap();
     assert!((left.x - 0.16).abs() < 1e-12 && (right.x - 0.32).abs() < 1e-12);
     assert!((route.rests[2].x - 0.24).abs() < 1e-12);

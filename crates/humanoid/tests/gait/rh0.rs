@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use groebot_humanoid::Watch;
 use groebot_humanoid::gait::{
-    Action, Biped, Legs, Measures, Request, Route, Side, Summary, Usual, Walk, plan, plan_at, words,
+    Action, Biped, GaitDefaults, Legs, Measures, Request, Route, Side, Summary, Walk, plan, plan_at, step_commands,
 };
 use groebot_humanoid::walkers::{Manipulator, RH0_EXPERIMENT, RH0_SIMULATION, coordinated_arm};
 use groebot_robot::kinematics::Target;
@@ -23,18 +23,18 @@ pub fn walker() -> &'static (Biped, Legs) {
     ROBOT.get_or_init(|| super::built("rh0"))
 }
 
-pub fn request(usual: &Usual, text: &str, hip_height: f64, from_upright: bool) -> Request {
+pub fn request(defaults: &GaitDefaults, text: &str, hip_height: f64, from_upright: bool) -> Request {
     let (robot, _) = walker();
-    let measures = Measures { length: usual.length, half_width: robot.half_width(), most_turn: usual.most_turn };
-    let route = Route::of_words(&words(text).unwrap(), &measures).unwrap();
-    let usual = if from_upright { usual.clone().from_upright(robot) } else { usual.clone() };
-    usual.request(robot, route, hip_height)
+    let measures = Measures { length: defaults.length, half_width: robot.half_width(), most_turn: defaults.most_turn };
+    let route = Route::of_commands(&step_commands(text).unwrap(), &measures).unwrap();
+    let defaults = if from_upright { defaults.clone().from_upright(robot) } else { defaults.clone() };
+    defaults.request(robot, route, hip_height)
 }
 
-fn walk(usual: &Usual, text: &str, from_upright: bool) -> Walk {
+fn walk(defaults: &GaitDefaults, text: &str, from_upright: bool) -> Walk {
     let (robot, legs) = walker();
-    let at = |height, _| Ok(request(usual, text, height, from_upright));
-    plan_at((robot, legs), None, &usual.hip_heights, at, &Watch::none()).unwrap()
+    let at = |height, _| Ok(request(defaults, text, height, from_upright));
+    plan_at((robot, legs), None, &defaults.hip_heights, at, &Watch::none()).unwrap()
 }
 
 /// All joints are within their limits and slower than 25 rpm, the zero moment point (ZMP) is inside the support polygon, and no phase is slowed down.

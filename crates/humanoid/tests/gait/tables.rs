@@ -3,7 +3,7 @@
 //! Two parameters are fitted. The trunk descends by a constant length per sample, so that 1 - cos q2 grows at a constant rate. The rate and the start of the
 //! descent are computed from two rows each. All other values follow from the walk itself.
 
-use groebot_humanoid::gait::{Usual, Walk};
+use groebot_humanoid::gait::{GaitDefaults, Walk};
 use groebot_humanoid::walkers::{RH0_EXPERIMENT, RH0_SIMULATION};
 
 use super::rh0::{LINE, request, walker};
@@ -33,9 +33,9 @@ fn depth(q2: f64) -> f64 {
 }
 
 /// A walk with the words `text` whose trunk descends from straight legs: 1 - cos q2 grows by `rate` per sample, in `samples` samples.
-fn lowered(usual: &Usual, text: &str, rate: f64, samples: usize) -> Walk {
-    let crouch = usual.upright_hip - 2.0 * SEGMENT * rate * (samples - 1) as f64;
-    let mut request = request(usual, text, crouch, true);
+fn lowered(defaults: &GaitDefaults, text: &str, rate: f64, samples: usize) -> Walk {
+    let crouch = defaults.upright_hip - 2.0 * SEGMENT * rate * (samples - 1) as f64;
+    let mut request = request(defaults, text, crouch, true);
     request.durations.lower = Some(request.tick * samples as f64);
     let (robot, legs) = walker();
     let lower = groebot_humanoid::gait::plan(robot, legs, &request, &groebot_humanoid::Watch::none()).unwrap();

@@ -1,6 +1,5 @@
 //! Navigation: readers of maps, distances compared with brute force, fields and paths checked against their equations.
 
-mod again;
 mod exact;
 mod fields;
 mod maps;
@@ -8,6 +7,7 @@ mod octile;
 mod rooms;
 mod smooth;
 mod thesis;
+mod update;
 mod weighted;
 
 use groebot_humanoid::nav::{Cell, Map};

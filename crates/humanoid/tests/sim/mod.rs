@@ -167,11 +167,12 @@ fn figures_have_their_units() {
     }
     for robot in ["nao", "teo"] {
         let mut run = run(robot, (0.8, 1.2), (1.4, 1.3));
-        let usual = run.pilot().walker().gaits.iter().find(|(_, usual)| usual.gait.is_one_step()).unwrap().1.clone();
-        let put = run.figures().put(&run.pilot().walker().biped, &usual);
-        assert!((put.period - usual.period).abs() < 1e-12 && (put.amplitude - usual.amplitude).abs() < 1e-12);
-        assert!((put.most_turn - usual.most_turn).abs() < TAU * 1e-12);
-        assert!(usual.hip_heights.iter().any(|height| (put.hip_heights[0] - height).abs() < 1e-12));
+        let defaults =
+            run.pilot().walker().gaits.iter().find(|(_, defaults)| defaults.gait.is_one_step()).unwrap().1.clone();
+        let put = run.figures().put(&run.pilot().walker().biped, &defaults);
+        assert!((put.period - defaults.period).abs() < 1e-12 && (put.amplitude - defaults.amplitude).abs() < 1e-12);
+        assert!((put.most_turn - defaults.most_turn).abs() < TAU * 1e-12);
+        assert!(defaults.hip_heights.iter().any(|height| (put.hip_heights[0] - height).abs() < 1e-12));
         assert!(arrive(&mut run) > 3);
         is_one_motion(&run);
     }

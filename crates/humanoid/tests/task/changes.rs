@@ -53,12 +53,12 @@ fn the_next_step_obeys_other_figures_of_the_gait() {
     let floor = Floor::new(&map, APART).unwrap();
     let end = goal(1.9, 1.0, None);
     let start = Footprint { x: 0.6, y: 1.0, yaw: 0.0 };
-    let mut usual = own.walker().gaits.iter().find(|(_, usual)| usual.gait.is_one_step()).unwrap().1.clone();
+    let mut defaults = own.walker().gaits.iter().find(|(_, defaults)| defaults.gait.is_one_step()).unwrap().1.clone();
     let height = own.reach().hip_height - 0.02;
-    (usual.length, usual.lift, usual.hip_heights) = (0.06, 0.05, vec![height].into());
+    (defaults.length, defaults.lift, defaults.hip_heights) = (0.06, 0.05, vec![height].into());
     let walker = own.walker().clone();
     let body = own.body().clone();
-    let other = Pilot::new(walker, usual, body, own.is_upright(), &watch).unwrap();
+    let other = Pilot::new(walker, defaults, body, own.is_upright(), &watch).unwrap();
     let mut journey = Journey::new(&own, &floor, start.feet(own.half_width()), &watch).unwrap();
     let course = Course::find(&own, &floor, &journey.middle(), end, &watch).unwrap().unwrap();
     for _ in 0..3 {

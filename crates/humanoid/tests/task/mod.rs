@@ -35,9 +35,9 @@ fn room(text: &str) -> Map {
 fn pilot(name: &str) -> (Robot, Pilot) {
     let robot = robots::robot(name).unwrap();
     let walker = walkers::walker(name, Outline::Measured).unwrap().unwrap();
-    let usual = walker.gaits.iter().find(|(_, usual)| usual.gait.is_one_step()).unwrap().1.clone();
+    let defaults = walker.gaits.iter().find(|(_, defaults)| defaults.gait.is_one_step()).unwrap().1.clone();
     let body = Body::new(&robot, &walker.biped, &Meshes::default()).unwrap();
-    (robot, Pilot::new(walker, usual, body, true, &Watch::none()).unwrap())
+    (robot, Pilot::new(walker, defaults, body, true, &Watch::none()).unwrap())
 }
 
 fn goal(x: f64, y: f64, heading: Option<f64>) -> Goal {

@@ -71,9 +71,9 @@ fn bad_input_is_refused() {
 fn a_body_wider_than_every_passage_has_no_path() {
     let walker =
         groebot_humanoid::walkers::walker("rh0", groebot_humanoid::walkers::Outline::Measured).unwrap().unwrap();
-    let usual = walker.gaits[0].1.clone();
+    let defaults = walker.gaits[0].1.clone();
     let wide = Body::of_size(1.0, 1.1).unwrap();
-    let pilot = Pilot::new(walker, usual, wide, false, &Watch::none()).unwrap();
+    let pilot = Pilot::new(walker, defaults, wide, false, &Watch::none()).unwrap();
     let floor = Floor::new(&room(ROOM), APART).unwrap();
     let start = Footprint { x: 0.75, y: 1.2, yaw: 0.0 };
     let feet = start.feet(pilot.half_width());

@@ -149,7 +149,7 @@ impl Derivation {
     ///
     /// # Errors
     /// As [`Problem::of`] and [`Derivation::prove`]. [`ErrorKind::Certificate`] for a proof with one given joint if each joint is requested, and the converse.
-    pub fn again(source: &Source, text: &str) -> Result<Self> {
+    pub fn prove_source(source: &Source, text: &str) -> Result<Self> {
         let proved = Derivation::prove(Problem::of(source)?, text)?;
         match (source.ends.redundant, proved.redundancy.is_some()) {
             (true, false) => Err(refused("the proofs with the other joints given are missing".to_owned())),

@@ -6,8 +6,8 @@ use super::finding::{Finding, Verdict};
 use super::measured::{page_differs, table_differs};
 use super::names::{CERTIFICATE, CHECKS, OUTPUTS, is_printed_solver};
 use super::outputs::Hashes;
+use super::proof_text::proof_text;
 use super::stored::{Stored, has_mark};
-use super::words::proof_words;
 use super::written::{Written, derived};
 use super::{motion, names};
 use crate::codegen::{c99::Pair, ikfast, rust, single_file};
@@ -63,7 +63,7 @@ pub fn check_by<'w>(
             Ok(proved) => {
                 let checked = measure(&proved)?;
                 let written = derived(source, &proved, &checked)?;
-                findings.extend(compare(stored, &written, &proof_words(&proved), &checked));
+                findings.extend(compare(stored, &written, &proof_text(&proved), &checked));
                 derivation = Some((proved, checked));
             }
             Err(error) => findings.push(Finding { what: CERTIFICATE.to_owned(), verdict: Verdict::Fails(error) }),
@@ -71,18 +71,18 @@ pub fn check_by<'w>(
     }
     findings.extend(moving);
     known.extend(findings.iter().map(|finding| finding.what.clone()));
-    findings.extend(strays(stored, &known, derivation.as_ref().map(|(proved, _)| proved.program())));
+    findings.extend(unknown_files(stored, &known, derivation.as_ref().map(|(proved, _)| proved.program())));
     Ok(Checked { findings, derivation })
 }
 
 /// The derivation that the stored certificate proves. It must claim as much as that of the input.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if there is no certificate. Otherwise those of [`Derivation::again`] and [`Recount::check`], with the name of the file.
+/// [`ErrorKind::Io`] if there is no certificate. Otherwise those of [`Derivation::prove_source`] and [`Recount::check`], with the name of the file.
 pub fn prove(source: &Source, stored: &Stored, recount: &mut Recount) -> Result<Derivation> {
     let at_file = |error: Error| error.in_file(&stored.folder.join(CERTIFICATE));
     let missing = || {
-        let text = "there is no certificate, so nothing proves the other files; `groebot derive` writes it";
+        let text = "the certificate is missing, so the other files are unproved; `groebot derive` writes it";
         Error::new(ErrorKind::Io, text)
     };
     let bytes = stored.get(CERTIFICATE).ok_or_else(missing).map_err(at_file)?;
@@ -92,9 +92,9 @@ pub fn prove(source: &Source, stored: &Stored, recount: &mut Recount) -> Result<
 /// The derivation that the text of a certificate proves. It must claim as much as that of the input.
 ///
 /// # Errors
-/// Same as [`Derivation::again`] and [`Recount::check`].
+/// Same as [`Derivation::prove_source`] and [`Recount::check`].
 pub fn prove_text(source: &Source, certificate: &str, recount: &mut Recount) -> Result<Derivation> {
-    let proved = Derivation::again(source, certificate)?;
+    let proved = Derivation::prove_source(source, certificate)?;
     recount.check(&proved)?;
     Ok(proved.about(source))
 }
@@ -111,7 +111,7 @@ pub fn compare(stored: &Stored, written: &[Written], proof: &str, checked: &Repo
     let mut findings: Vec<Finding> = files
         .map(|file| match (hashes.refusal(&file.name), stored.get(&file.name)) {
             (Some(refusal), _) => Finding::refused(&stored.folder, &file.name, refusal),
-            (None, None) if hashes.has(&file.name) => Finding::holds(&file.name, hashed_words(&file.name, checked)),
+            (None, None) if hashes.has(&file.name) => Finding::holds(&file.name, hashed_text(&file.name, checked)),
             _ => compared(stored, file, proof, checked),
         })
         .collect();
@@ -120,9 +120,9 @@ pub fn compare(stored: &Stored, written: &[Written], proof: &str, checked: &Repo
 }
 
 /// The finding for a file that was printed again and has the stored hash.
-fn hashed_words(name: &str, checked: &Report) -> String {
+fn hashed_text(name: &str, checked: &Report) -> String {
     match name {
-        CHECKS => check_words(checked) + "; its words and counts have the stored hash",
+        CHECKS => check_text(checked) + "; its words and counts have the stored hash",
         _ => "printed again, and has the stored hash".to_owned(),
     }
 }
@@ -151,7 +151,7 @@ fn compared(stored: &Stored, file: &Written, proof: &str, checked: &Report) -> F
             Finding::fails(&stored.folder, name, error)
         }
         None if name == CERTIFICATE => Finding::holds(name, proof),
-        None if name == CHECKS => Finding::holds(name, check_words(checked) + equal),
+        None if name == CHECKS => Finding::holds(name, check_text(checked) + equal),
         None => Finding::holds(name, format!("follows from the proof{equal}")),
     }
 }
@@ -182,12 +182,12 @@ fn is_by_hand(stored: &[u8], ours: &[u8]) -> bool {
 
 /// Findings for files that are not `known`. Files with names that groebot gives fail. Printed solvers with other names must follow from the program. All others
 /// are not checked.
-fn strays(stored: &Stored, known: &BTreeSet<String>, program: Option<&Program>) -> Vec<Finding> {
+fn unknown_files(stored: &Stored, known: &BTreeSet<String>, program: Option<&Program>) -> Vec<Finding> {
     let ours: BTreeSet<&str> = stored.written().collect();
     let names = stored.files.keys().chain(&stored.others).filter(|name| !known.contains(*name));
     let finding = |name: &String| {
         if !ours.contains(name.as_str()) {
-            return Finding::not_checked(name, "no file of groebot's");
+            return Finding::not_checked(name, "not a file of groebot");
         }
         let bytes = stored.get(name).unwrap_or_default();
         match program {
@@ -195,10 +195,10 @@ fn strays(stored: &Stored, known: &BTreeSet<String>, program: Option<&Program>) 
                 Finding::holds(name, "follows from the proof")
             }
             Some(_) => {
-                let text = "nothing proves this file: this derivation does not write it; move it away";
+                let text = "this file is unproved: this derivation does not write it; move it to another folder";
                 Finding::refused(&stored.folder, name, text)
             }
-            None => Finding::refused(&stored.folder, name, "nothing proves this file: no certificate does"),
+            None => Finding::refused(&stored.folder, name, "this file is unproved: no certificate holds"),
         }
     };
     names.map(finding).collect()
@@ -237,12 +237,12 @@ fn described(source: &Source) -> String {
     }
 }
 
-fn check_words(checked: &Report) -> String {
+fn check_text(checked: &Report) -> String {
     let summary = checked.summary();
     match summary.failed {
-        0 => format!("{} targets solved again and right", summary.rows),
+        0 => format!("{} targets solved again, all correct", summary.rows),
         lost => format!(
-            "{} targets solved again; at {lost} of them, singular or next to such, answers are lost",
+            "{} targets solved again; {lost} of them, at or near singular poses, have missing solutions",
             summary.rows
         ),
     }

@@ -29,10 +29,10 @@ pub fn program(folder: &Path) -> Result<Program> {
 /// The derivation of `source` that the certificate in `folder` proves.
 ///
 /// # Errors
-/// Same as [`Derivation::again`], and [`ErrorKind::Io`] if the certificate cannot be read.
+/// Same as [`Derivation::prove_source`], and [`ErrorKind::Io`] if the certificate cannot be read.
 pub fn reprove(folder: &Path, source: &Source) -> Result<Derivation> {
     let path = folder.join(CERTIFICATE);
     let text = read_text(&path, limits::STAGE_BYTES)?;
-    let derivation = Derivation::again(source, &text).map_err(|error| error.in_file(&path))?;
+    let derivation = Derivation::prove_source(source, &text).map_err(|error| error.in_file(&path))?;
     Ok(derivation.about(source))
 }

@@ -9,8 +9,8 @@ mod measured;
 pub mod motion;
 mod names;
 mod outputs;
+mod proof_text;
 mod stored;
-mod words;
 mod written;
 
 pub use check::{Checked, check, check_by, compare, prove, prove_text};

@@ -40,7 +40,7 @@ impl Moving {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a chain without masses. Otherwise those of [`masses`].
     pub fn numbers(&self) -> Result<Vec<[BigRational; 10]>> {
-        let text = "this chain's description has no masses; leave --numbers out";
+        let text = "this chain's description has no masses; omit --numbers";
         let robot = self.robot.as_ref().ok_or_else(|| Error::new(ErrorKind::BadValue, text))?;
         let path = robot.path(self.ends.base.as_deref(), self.ends.tip.as_deref())?;
         masses(robot, &path, &self.chain)
@@ -71,7 +71,7 @@ pub fn check(source: &Source, stored: &Stored) -> Vec<Finding> {
         vec![Finding::refused(
             folder,
             name,
-            format!("nothing proves this file: `{other}`, which belongs to it, is missing"),
+            format!("this file is unproved: `{other}`, which belongs to it, is missing"),
         )]
     };
     match MOTION.map(|name| stored.get(name)) {
@@ -90,7 +90,7 @@ fn checked(source: &Source, stored: &Stored, text: &str, json: &str) -> Vec<Find
     match read(source, json) {
         Err(error) => {
             let unproved =
-                Error::new(ErrorKind::Certificate, format!("nothing proves this file: `{DYNAMICS}` does not hold"));
+                Error::new(ErrorKind::Certificate, format!("this file is unproved: `{DYNAMICS}` does not hold"));
             vec![fails(DYNAMICS, error), fails(DYNAMICS_TEXT, unproved)]
         }
         Ok((certificate, moving)) => match certificate.prove(&moving.chain, text) {
@@ -112,7 +112,7 @@ fn read(source: &Source, json: &str) -> Result<(Certificate, Moving)> {
         return refused("its mass parameters differ from those of the description");
     }
     if certificate.to_json() != json {
-        return refused("it is not written as `groebot dynamics --symbolic` writes it, which writes it anew");
+        return refused("it differs from the output of `groebot dynamics --symbolic`, which writes the correct one");
     }
     Ok((certificate, moving))
 }

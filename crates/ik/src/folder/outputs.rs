@@ -145,7 +145,7 @@ impl Hashes {
         match stored {
             Some(stored) if stored == proved => None,
             Some(_) => Some(format!(
-                "its hash in `{OUTPUTS}` is not that of the file that the certificate proves; `groebot derive` writes the right one"
+                "its hash in `{OUTPUTS}` is not that of the file that the certificate proves; `groebot derive` writes the correct one"
             )),
             None => Some(format!("`{OUTPUTS}` has no hash of it; `groebot derive` writes it")),
         }
@@ -159,7 +159,7 @@ impl Hashes {
         };
         if let Some(name) = own.names().find(|name| !self.has(name)) {
             let text =
-                format!("the derivation does not write `{}`; `groebot derive` writes the right hashes", shown(name));
+                format!("the derivation does not write `{}`; `groebot derive` writes the correct hashes", shown(name));
             return Finding::refused(&stored.folder, OUTPUTS, text);
         }
         let wrong = self.proved.names().filter(|name| self.refusal(name).is_some()).count();
@@ -179,7 +179,7 @@ impl Hashes {
             );
         }
         let line = expected.lines().zip(self.text.lines()).take_while(|(a, b)| a == b).count() + 1;
-        let text = "the hashes are right, this line is not; `groebot derive` writes the right one";
+        let text = "the hashes are correct, this line is not; `groebot derive` writes the correct one";
         Finding::fails(&stored.folder, OUTPUTS, Error::new(ErrorKind::Certificate, text).at_line(line))
     }
 }

@@ -71,7 +71,7 @@ fn weak_spots(checked: &Report) -> String {
         return rows;
     }
     format!(
-        "\n## Weak spots\n\nAt these targets of `6_check.csv`, singular or next to such, the answers are not all right:\n\n{rows}"
+        "\n## Weak spots\n\nAt these targets of `6_check.csv`, at or near singular poses, solutions are missing or wrong:\n\n{rows}"
     )
 }
 

@@ -31,7 +31,7 @@ impl Axis {
                 format!("an axis with one place cannot extend from {from} to {to}; give 2 or more places, or one end")
             }
             _ if from > to || (from == to && count > 1) => {
-                format!("{count} places from {from} to {to}: the first end is to be the lesser one")
+                format!("{count} places from {from} to {to}: give the lower end first")
             }
             _ => return Ok(Axis { from, to, count }),
         };

@@ -29,7 +29,7 @@ impl Measure {
         let found = Measure::NAMES.iter().find(|(own, _)| *own == name);
         found.map(|(_, measure)| *measure).ok_or_else(|| {
             let text = format!(
-                "`{}` is no measure; count, limits and manipulability are",
+                "`{}` is not a measure; give count, limits or manipulability",
                 groebot_robot::document::shown(name)
             );
             Error::new(ErrorKind::UnknownName, text)

@@ -238,7 +238,7 @@ impl<'a> Survey<'a> {
     }
 }
 
-/// Checks that there is a pair of limits for each joint, the lesser one first.
+/// Checks that there is a pair of limits for each joint, the lower one first.
 fn check(limits: &[[f64; 2]], program: &Program) -> Result<()> {
     let joints = &program.joints;
     let text = match limits.iter().position(|[low, high]| low.is_nan() || high.is_nan() || low > high) {
@@ -247,7 +247,7 @@ fn check(limits: &[[f64; 2]], program: &Program) -> Result<()> {
         }
         Some(joint) => {
             let [low, high] = limits[joint];
-            format!("limits of `{}`: from {low} to {high}; the lesser one comes first", joints[joint].name)
+            format!("limits of `{}`: from {low} to {high}; give the lower one first", joints[joint].name)
         }
         None => return Ok(()),
     };

@@ -312,17 +312,17 @@ impl Fault {
     /// The fault as text.
     pub fn sentence(self) -> &'static str {
         match self {
-            Fault::Missing => "the joint values that made the target are not among them",
-            Fault::Residual => "one does not reach the target",
-            Fault::Range => "one is not finite, or has an angle outside (-pi, pi]",
-            Fault::Duplicate => "two are the same",
-            Fault::Bound => "there are more than the certified number of complex solutions",
-            Fault::Free => "a joint is called free that cannot move there",
-            Fault::SelfMotion => "the target has a self-motion, and none has a free joint that represents it",
-            Fault::Count => "there are not as many as exact real roots",
-            Fault::Screw => "the screw solver (Paden-Kahan) has others",
-            Fault::Oracle => "damped least squares from many seeds has others",
-            Fault::Moved => "the target moved by 1e-7 has others",
+            Fault::Missing => "the joint values from which the target was computed are missing",
+            Fault::Residual => "a solution does not reach the target",
+            Fault::Range => "a solution is not finite, or has an angle outside (-pi, pi]",
+            Fault::Duplicate => "two solutions are equal",
+            Fault::Bound => "there are more solutions than the certified number of complex ones",
+            Fault::Free => "a joint is reported free but cannot move there",
+            Fault::SelfMotion => "the target has a self-motion, and no solution with a free joint represents it",
+            Fault::Count => "the number of solutions differs from the exact count of real roots",
+            Fault::Screw => "the screw solver (Paden-Kahan) has other solutions",
+            Fault::Oracle => "damped least squares from many seeds has other solutions",
+            Fault::Moved => "the target moved by 1e-7 has other solutions",
         }
     }
 }

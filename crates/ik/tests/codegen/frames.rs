@@ -169,8 +169,8 @@ use solver::{CAPACITY, EMPTY, Solve, Solver};
 
 fn main() {
     let text = std::io::read_to_string(std::io::stdin()).unwrap();
-    let numbers: Vec<f64> = text.split_whitespace().map(|word| word.parse().unwrap()).collect();
-    for case in numbers.chunks(36) {
+    let values: Vec<f64> = text.split_whitespace().map(|word| word.parse().unwrap()).collect();
+    for case in values.chunks(36) {
         let [base, tool, pose] = [0, 12, 24].map(|start| case[start..start + 12].try_into().unwrap());
         groebot_runtime::target_of(&base, &tool, &pose).iter().for_each(|value| print!("{value:e} "));
         let mut list = [EMPTY; CAPACITY];

@@ -198,7 +198,7 @@ fn compare(described: &Chain, exact: &Chain, count: usize) -> Seen {
                 continue;
             }
             let others = screws.solve(&target).unwrap();
-            // A target out of reach by less than the tolerance has one additional solution, at the edge of the workspace.
+            // A target out of reach by less than the tolerance has one additional solution, at the boundary of the workspace.
             let at_edge = |answer: &&Solution| sigma(exact.task_jacobian(&answer.q, &[])) <= 4.0 * bound.sqrt();
             let edges = answers.iter().filter(at_edge).count();
             assert!((wanted.len()..=wanted.len() + edges).contains(&answers.len()), "{q:?}: {wanted:?} {answers:?}");

@@ -1,4 +1,4 @@
-//! Singular poses of robots described with rounded angles. They must have the self-motions and the solutions at the edge of the workspace that the exactly
+//! Singular poses of robots described with rounded angles. They must have the self-motions and the solutions at the boundary of the workspace that the exactly
 //! described robots have.
 
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -61,11 +61,11 @@ fn every_joint_has_its_step_and_every_relation_is_shown() {
 fn only_joints_of_its_own_side_leave_a_thing_in_place() {
     let text = report(&derived(&robots::puma())).to_markdown();
     assert!(
-        text.contains("* The point `(0, 0.66, 0)`: joints 1 and 2 leave it in place, for it is on their axes."),
+        text.contains("* The point `(0, 0.66, 0)`: joints 1 and 2 leave it in place, because it is on their axes."),
         "{text}"
     );
     assert!(
-        text.contains("* The point `(0, 1.524, 0)`: joints 4, 5 and 6 leave it in place, for it is on their axes."),
+        text.contains("* The point `(0, 1.524, 0)`: joints 4, 5 and 6 leave it in place, because it is on their axes."),
         "{text}"
     );
 }

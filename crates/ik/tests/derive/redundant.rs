@@ -95,7 +95,7 @@ fn each_solver_finds_the_joint_values_that_made_the_pose() {
 fn the_certificate_proves_every_part_again() {
     let (source, derivation) = derived();
     let text = derivation.certificate().unwrap();
-    let again = Derivation::again(source, &text).unwrap();
+    let again = Derivation::prove_source(source, &text).unwrap();
     assert_eq!(&again, derivation);
     assert_eq!(again.certificate().unwrap(), text);
 }
@@ -105,7 +105,7 @@ fn refusal(change: impl FnOnce(&mut Vec<Value>)) -> String {
     let (source, derivation) = derived();
     let mut certificate: Value = serde_json::from_str(&derivation.certificate().unwrap()).unwrap();
     change(certificate["claims"]["given"].as_array_mut().unwrap());
-    let error = Derivation::again(source, &certificate.to_string()).unwrap_err();
+    let error = Derivation::prove_source(source, &certificate.to_string()).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Certificate, "{error}");
     error.to_string()
 }
@@ -137,11 +137,11 @@ fn a_proof_for_one_given_joint_does_not_replace_that_for_all() {
     let (source, derivation) = derived();
     let Problem::Chain(problem) = Problem::of(source).unwrap() else { panic!("a chain") };
     let alone = Derivation::of_problem(*problem, &Watch::none()).unwrap();
-    let text = Derivation::again(source, &alone.certificate().unwrap()).unwrap_err().to_string();
+    let text = Derivation::prove_source(source, &alone.certificate().unwrap()).unwrap_err().to_string();
     assert!(text.contains("missing"), "{text}");
     let mut only = source.clone();
     only.ends.redundant = false;
-    let text = Derivation::again(&only, &derivation.certificate().unwrap()).unwrap_err().to_string();
+    let text = Derivation::prove_source(&only, &derivation.certificate().unwrap()).unwrap_err().to_string();
     assert!(text.contains("superfluous"), "{text}");
 }
 

@@ -28,7 +28,7 @@ fn these_chains_have_so_many_solutions_by_eigenvalues() {
     for (name, dimension) in FOLDERS {
         let source = Source::read(&folder(name)).unwrap();
         let text = std::fs::read_to_string(folder(name).join("certificate.json")).unwrap();
-        let derived = Derivation::again(&source, &text).unwrap();
+        let derived = Derivation::prove_source(&source, &text).unwrap();
         assert!(derived.eigenvalue().is_some(), "{name} is solved by another method");
         assert_eq!(derived.dimension(), Some(dimension), "{name}");
     }

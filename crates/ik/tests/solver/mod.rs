@@ -79,7 +79,7 @@ fn a_straight_wrist_is_one_self_motion() {
     }
 }
 
-/// Next to the pole, the sample `pan = 0` is a solution by chance. It is isolated, not a member of a self-motion.
+/// Next to the pole, the sample `pan = 0` happens to be a solution. It is isolated, not a member of a self-motion.
 #[test]
 fn an_isolated_answer_at_a_sample_is_no_self_motion() {
     for small in [1e-4, 1e-8, 1e-10] {

@@ -6,17 +6,17 @@
 
 mod closed_loop;
 mod joint_space;
+mod operational_space;
 mod picture;
 mod reference;
 mod two_chains;
-mod work_space;
 
 pub use closed_loop::{ClosedLoop, Disturbance, Sample};
 pub use joint_space::{ComputedTorque, Gains, GravityCompensation, OpenLoop};
+pub use operational_space::{Effective, Inversion, OperationalSpace, Target};
 pub use picture::{errors_and_torques, greatest_errors};
 pub use reference::Desired;
 pub use two_chains::TwoChains;
-pub use work_space::{Effective, Inversion, Target, WorkSpace};
 
 use crate::Result;
 use crate::dynamics::{Equations, State};

@@ -4,7 +4,7 @@ mod two_chains;
 
 use groebot_robot::control::{
     ClosedLoop, ComputedTorque, Desired, Disturbance, Gains, GravityCompensation, Inversion, Law, Limited, OpenLoop,
-    Sample, WorkSpace,
+    OperationalSpace, Sample,
 };
 use groebot_robot::dynamics::{Base, Equations, State};
 use groebot_robot::model::Robot;
@@ -151,7 +151,7 @@ fn work_space_is_that_of_the_thesis() {
     let robot = Robot::from_urdf(include_str!("../../../../tests/corpus/dynamics/ur5.urdf")).unwrap();
     let (plant, link) = (ur5(), robot.link("wrist_3_link").unwrap());
     let mut random = Random(31);
-    let mut law = WorkSpace::new(&plant, link, [400.0, 40.0], Inversion::Exact(1e-3)).unwrap();
+    let mut law = OperationalSpace::new(&plant, link, [400.0, 40.0], Inversion::Exact(1e-3)).unwrap();
     let q = [0.3, -1.2, 1.4, 0.5, 0.9, -0.4];
     let velocity = random.numbers(6, 1.0);
     let state = State::new(&q, &velocity);
@@ -195,10 +195,10 @@ fn singular_and_other_jacobians_are_refused_or_damped() {
     let desired = Desired { q: &stretched, velocity: &stretched, acceleration: &stretched };
     let target = desired.target(&plant, &mut room, link).unwrap();
     let state = State::new(&stretched, &stretched);
-    let mut exact = WorkSpace::new(&plant, link, [400.0, 40.0], Inversion::Exact(1e-3)).unwrap();
+    let mut exact = OperationalSpace::new(&plant, link, [400.0, 40.0], Inversion::Exact(1e-3)).unwrap();
     let error = exact.torques(&target, state).unwrap_err();
     assert!(error.kind() == ErrorKind::BadValue && error.message().contains("singular"), "{error}");
-    let mut damped = WorkSpace::new(&plant, link, [400.0, 40.0], Inversion::Damped(0.01)).unwrap();
+    let mut damped = OperationalSpace::new(&plant, link, [400.0, 40.0], Inversion::Damped(0.01)).unwrap();
     let torques = damped.torques(&target, state).unwrap().to_vec();
     near(&torques, plant.gravity(&mut room, &stretched).unwrap().as_slice(), 1e-9, "at rest");
     assert_eq!(damped.damped(), 0.01);
@@ -209,11 +209,11 @@ fn singular_and_other_jacobians_are_refused_or_damped() {
     let mut room = plant.workspace();
     let desired = Desired { q: &q, velocity: &[0.0; 9], acceleration: &[0.0; 9] };
     let target = desired.target(&plant, &mut room, link).unwrap();
-    let mut exact = WorkSpace::new(&plant, link, [400.0, 40.0], Inversion::Exact(1e-3)).unwrap();
+    let mut exact = OperationalSpace::new(&plant, link, [400.0, 40.0], Inversion::Exact(1e-3)).unwrap();
     let error = exact.torques(&target, State::new(&q, &[0.0; 9])).unwrap_err();
     assert!(error.kind() == ErrorKind::Unsupported && error.message().contains("9 joints"), "{error}");
     assert!(
-        WorkSpace::new(&plant, link, [400.0, 40.0], Inversion::Damped(0.02))
+        OperationalSpace::new(&plant, link, [400.0, 40.0], Inversion::Damped(0.02))
             .unwrap()
             .torques(&target, State::new(&q, &[0.0; 9]))
             .is_ok()

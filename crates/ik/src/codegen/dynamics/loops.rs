@@ -12,7 +12,7 @@ use crate::solver::Demand;
 use groebot_robot::dynamics::Freedom;
 use groebot_robot::dynamics::recursions::Six;
 
-/// Lines of loops, as they are written.
+/// Prints the lines of loops.
 pub(super) struct Loops<'a> {
     language: &'a dyn Language,
     /// The motions of the robot's joints: rotation, translation, or both kinds.

@@ -218,7 +218,7 @@ impl Printed<'_> {
             Function::Derivatives => formal.derivatives(&state, &list(1)).concat(),
         };
         if results.iter().any(|result| !result.is_finite()) {
-            let text = "a number beyond doubles comes up; are there bodies without mass that would have to move?";
+            let text = "a number exceeds the range of double precision; check that each moving body has mass";
             return Err(Error::new(ErrorKind::BadValue, text));
         }
         let (code, results) = tape.code(&results);

@@ -63,7 +63,7 @@ impl Coupled {
             _ => Err(refused("its certificate is missing or not in its place".to_owned())),
         };
         let simultaneous = match (coupling(coupled)?, &claims.simultaneous) {
-            (Some((sides, shared)), Some(stored)) => Some(Simultaneous::again(sides, shared, stored)?),
+            (Some((sides, shared)), Some(stored)) => Some(Simultaneous::reprove(sides, shared, stored)?),
             // If no relations of shared joints fit, the chains are solved one after the other. A recount checks that none fit.
             (_, None) => None,
             _ => return Err(refused("the proof of the shared joints is missing or superfluous".to_owned())),

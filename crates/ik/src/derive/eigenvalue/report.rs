@@ -19,19 +19,19 @@ const EQUATIONS: [&str; 7] = [
      linear in x.",
     "Each of the fourteen is multiplied by cos(r/2) and sin(r/2), r the angle of one joint next to h: 28 equations in 12 products of \
      cos(r/2)^3, ..., sin(r/2)^3 with 1, c, s of the other joint, and 16 of the far joints. No angle is lost at half a turn.",
-    "The twelve equations without x are solved for twelve products. What is left is (A - x B) v = 0 with sixteen rows and columns: one \
+    "The twelve equations without x are solved for twelve products. The remaining problem is (A - x B) v = 0 with sixteen rows and columns: one \
      eigenvalue for each complex solution.",
     "The real eigenvalues are the angles of joint h, their eigenvectors give four more, forward kinematics the last. Newton's method \
-     polishes each, and the equations of the loop measure it.",
+     polishes each solution, and the equations of the loop give its residual.",
 ];
 
 /// The differences for prismatic joints.
 const SLIDING: [&str; 3] = [
-    "Of a joint that slides by d the functions are polynomials of degree two in d: 1, d^2, d take the places of 1, c, s, and with \
+    "For a prismatic joint with displacement d the functions are polynomials of degree two in d: 1, d^2, d replace 1, c, s, and with \
      d = sin(r/2) / cos(r/2) the equations are multiplied by cos(r/2)^2.",
-    "A hidden joint that slides by 2 x w moves the fourteen functions by exp(2 x N) with N^3 = 0: b - a = x N (a + b), of which six \
+    "A hidden prismatic joint with displacement 2 x w moves the fourteen functions by exp(2 x N) with N^3 = 0: b - a = x N (a + b), of which six \
      equations are free of x.",
-    "If joint h+3 slides, it leaves directions alone and lines along its own, l: with a across it, a, l, p x l, l x a, p.a and p.(l x a) are \
+    "A prismatic joint h+3 does not change directions, nor lines along its own direction l: with a normal to it, a, l, p x l, l x a, p.a and p.(l x a) are \
      the fourteen functions.",
 ];
 
@@ -57,12 +57,12 @@ impl EigenvalueView<'_> {
         let (first, last) = (unknown.first()?, unknown.last()?);
         let count = given.iter().filter(|joint| (first..last).contains(joint)).count();
         let text = if count == 0 {
-            format!("{motion} {are} taken off the target, and what is left is the target of the six others.")
+            format!("{motion} {are} removed from the target, and the remaining motion is the target of the six others.")
         } else if count == given.len() {
             format!("{motion} {are} applied to the axes of the joints after it and to the tip, at run time.")
         } else {
             format!(
-                "{motion} {are} taken off the target at the ends of the chain; between the six others they are applied to the axes of the joints after them and to the tip, at run time."
+                "{motion} {are} removed from the target at the ends of the chain; between the six others they are applied to the axes of the joints after them and to the tip, at run time."
             )
         };
         Some(text)

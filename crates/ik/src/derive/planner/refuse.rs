@@ -125,7 +125,7 @@ fn lacking(mechanism: &Mechanism) -> String {
     let list = |triples: &[usize]| triples.iter().map(names).collect::<Vec<_>>().join(", ");
     let (good, bad): (Vec<usize>, Vec<usize>) = triples.into_iter().partition(|&first| is_special(mechanism, first));
     match (good.as_slice(), bad.as_slice()) {
-        ([], []) => "no three axes follow one another".to_owned(),
+        ([], []) => "no three axes are neighbours".to_owned(),
         ([], bad) => format!(
             "three neighbouring axes would have to meet in one point or be parallel (joints {}); none do",
             list(bad)

@@ -41,7 +41,7 @@ pub struct PlanStep {
     /// The index of the joint.
     pub joint: usize,
     /// The relations that determine it.
-    #[serde(rename = "way")]
+    #[serde(alias = "way")]
     pub method: StepMethod,
     /// The number of solutions, given the earlier joints.
     pub degree: usize,

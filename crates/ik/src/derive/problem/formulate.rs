@@ -29,8 +29,8 @@ pub fn formulate(chain: &Chain) -> Result<System> {
     let task = chain.task();
     if task.plane().is_none() && task != Task::Position {
         let text = format!(
-            "the `{}` task is read and checked but not derived yet: its orientation parameters are related and need \
-             blocks of joints; give `position`, `planar_position` or `planar_pose`",
+            "the `{}` task has related orientation parameters, which one system of equations does not represent; give `position`, \
+             `planar_position` or `planar_pose`",
             task.name()
         );
         return Err(Error::new(ErrorKind::Unsupported, text));

@@ -83,14 +83,14 @@ pub(in crate::derive) fn prove_claims(problem: &ChainProblem, claims: Claims) ->
     let mechanism = Mechanism::new(&problem.chain)?;
     let mut stored = claims.eliminations.iter();
     let mut eliminate = |step: &PlanStep, away: &[usize]| match stored.next() {
-        Some(stored) => Elimination::again(&mechanism, step, away, stored),
+        Some(stored) => Elimination::reprove(&mechanism, step, away, stored),
         None => Err(refused("its elimination is missing".to_owned())),
     };
     let steps = prove_plan(&mechanism, &claims.plan, &mut eliminate)?;
     if stored.next().is_some() {
         return Err(refused("an elimination is superfluous".to_owned()));
     }
-    let forms = Forms::again(&steps, &claims.forms)?;
+    let forms = Forms::reprove(&steps, &claims.forms)?;
     Sequential { plan: claims.plan, steps, forms }.compiled(problem, &mechanism)
 }
 

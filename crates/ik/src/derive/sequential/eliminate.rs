@@ -168,7 +168,7 @@ impl Elimination {
     ///
     /// # Errors
     /// [`ErrorKind::Certificate`] if it is false.
-    pub(super) fn again(mechanism: &Mechanism, step: &PlanStep, away: &[usize], stored: &Stored) -> Result<Self> {
+    pub(super) fn reprove(mechanism: &Mechanism, step: &PlanStep, away: &[usize], stored: &Stored) -> Result<Self> {
         Setting::of_step(mechanism, step, away)?.finish()?.replayed(stored)
     }
 
@@ -195,7 +195,7 @@ impl Elimination {
     ///
     /// # Errors
     /// [`ErrorKind::Certificate`] if it is false.
-    pub(super) fn of_two_again(
+    pub(super) fn reprove_two(
         sides: &[(&Mechanism, &Relation); 2],
         [away, own]: [usize; 2],
         stored: &Stored,

@@ -69,7 +69,7 @@ impl Forms {
         for form in needed {
             let hash = match form {
                 Form::Quartic => {
-                    forms.half_angles = Some(HalfAngles::again(&stored.half_angles)?);
+                    forms.half_angles = Some(HalfAngles::reprove(&stored.half_angles)?);
                     hash(&stored.half_angles)
                 }
                 _ => {
@@ -93,7 +93,7 @@ impl Forms {
     ///
     /// # Errors
     /// [`ErrorKind::Certificate`] if they are not those of the steps.
-    pub(super) fn again(steps: &[ProvedStep], named: &[NamedForm]) -> Result<Self> {
+    pub(super) fn reprove(steps: &[ProvedStep], named: &[NamedForm]) -> Result<Self> {
         let forms = Forms::of(steps)?;
         if let Some((own, _)) = forms.named.iter().zip(named).find(|(own, other)| own != other) {
             return Err(refused(format!("form `{}`: the certificate names another form or proof", own.form.name())));

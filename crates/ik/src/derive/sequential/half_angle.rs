@@ -78,7 +78,7 @@ impl HalfAngles {
     ///
     /// # Errors
     /// [`ErrorKind::Certificate`] for a false claim.
-    pub(super) fn again(stored: &[Stored]) -> Result<Self> {
+    pub(super) fn reprove(stored: &[Stored]) -> Result<Self> {
         if stored.len() != DIRECTIONS.len() {
             return Err(Error::new(ErrorKind::Certificate, "half angles: five directions are needed"));
         }

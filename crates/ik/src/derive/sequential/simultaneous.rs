@@ -110,7 +110,7 @@ impl Simultaneous {
     ///
     /// # Errors
     /// [`ErrorKind::Certificate`] for a false claim.
-    pub(in crate::derive) fn again(sides: [Side<'_>; 2], shared: usize, stored: &Stored) -> Result<Self> {
+    pub(in crate::derive) fn reprove(sides: [Side<'_>; 2], shared: usize, stored: &Stored) -> Result<Self> {
         let common = Common::new(sides, shared)?;
         let mut joints = stored.joints.clone();
         joints.sort_unstable();
@@ -120,13 +120,13 @@ impl Simultaneous {
         let elimination = match (&stored.joints[..], &stored.elimination) {
             (&[first, second], Some(stored_elimination)) => {
                 let sides = common.sides(&stored.relations);
-                Some(Elimination::of_two_again(&sides, [second, first], stored_elimination)?)
+                Some(Elimination::reprove_two(&sides, [second, first], stored_elimination)?)
             }
             (&[_], None) => None,
             _ => return Err(refused("the elimination of a shared joint is missing or superfluous".to_owned())),
         };
         let steps = common.steps(&stored.joints, stored.relations.clone(), elimination)?;
-        let forms = Forms::again(&steps, &stored.forms)?;
+        let forms = Forms::reprove(&steps, &stored.forms)?;
         common.assemble(steps, forms)
     }
 

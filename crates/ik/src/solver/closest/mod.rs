@@ -110,7 +110,7 @@ impl Solver {
         self.closest_numbers(&self.numbers_of(&target.into(), &options.given)?, options)
     }
 
-    /// Same as [`Solver::closest_by`], but for a target in numbers, one per input, which include the values of given joints.
+    /// Same as [`Solver::closest_by`], but for a target as numbers, one per input, which include the values of given joints.
     ///
     /// # Errors
     /// As [`Solver::closest_by`] and [`Solver::solve_numbers`].

@@ -108,7 +108,7 @@ impl Solver {
         shaped!(self, shaped => shaped.target.numbers(target, given))
     }
 
-    /// Same as [`Solver::solve`], but for a target in numbers: one per input, in order and unit of [`Program::inputs`].
+    /// Same as [`Solver::solve`], but for a target as numbers: one per input, in order and unit of [`Program::inputs`].
     /// It is for programs of equations, which have parameters instead of a tip, and for targets from files.
     ///
     /// # Errors

@@ -150,7 +150,7 @@ fn two_full_poses_are_solved_when_they_agree_on_the_hip() {
 }
 
 /// Each foot is reachable, but not with a common value of the hip's actuator: the left leg's value is 0.01 rad off. The reported values differ by that amount,
-/// unless two other solutions of the legs are nearer by chance.
+/// unless two other solutions of the legs happen to be nearer.
 #[test]
 fn two_poses_that_disagree_are_refused_by_the_actuator_and_by_how_much() {
     let mut random = Random(13);

@@ -26,6 +26,15 @@ fn it_proves_the_same_derivation_again() {
     }
 }
 
+/// Earlier certificates name the method of a step `way`.
+#[test]
+fn the_former_key_of_a_method_is_read() {
+    let (chain, text) = puma();
+    let former = text.replace("\"method\":", "\"way\":");
+    assert_ne!(former, text);
+    assert_eq!(Derivation::prove(&chain, &former), Derivation::prove(&chain, &text));
+}
+
 fn refused(change: impl Fn(&mut Value)) -> String {
     let (chain, text) = puma();
     let mut value: Value = serde_json::from_str(&text).unwrap();
@@ -50,8 +59,8 @@ fn a_forged_plan_fails_at_its_step() {
 #[test]
 fn a_forged_relation_or_form_is_refused() {
     let text = refused(|value| {
-        let way = &mut value["plan"]["steps"][1]["way"];
-        let relation = if way["single"].is_null() { &mut way["pair"][0] } else { &mut way["single"] };
+        let method = &mut value["plan"]["steps"][1]["method"];
+        let relation = if method["single"].is_null() { &mut method["pair"][0] } else { &mut method["single"] };
         let object = relation["moved"].as_object_mut().unwrap().values_mut().next().unwrap();
         object[0] = "7/3".into();
     });
@@ -71,7 +80,7 @@ fn an_equation_without_its_joint_is_refused() {
     let whole: Value = serde_json::from_str(&derive(&chain).certificate().unwrap()).unwrap();
     for step in 0..3 {
         let mut value = whole.clone();
-        let direction = &mut value["claims"]["plan"]["steps"][step]["way"]["single"]["fixed"]["direction"];
+        let direction = &mut value["claims"]["plan"]["steps"][step]["method"]["single"]["fixed"]["direction"];
         assert!(direction.is_array(), "{direction}");
         *direction = serde_json::json!(["0", "0", "0"]);
         let error = Derivation::prove(&chain, &value.to_string()).unwrap_err();
@@ -85,7 +94,7 @@ fn an_equation_without_its_joint_is_refused() {
 fn an_equation_about_what_the_task_does_not_see_is_refused() {
     let chain = Chain::from_toml(include_str!("../../../../../derivations/polar/0_chain.toml")).unwrap();
     let mut value: Value = serde_json::from_str(&derive(&chain).certificate().unwrap()).unwrap();
-    let point = &mut value["claims"]["plan"]["steps"][0]["way"]["single"]["moved"]["point"];
+    let point = &mut value["claims"]["plan"]["steps"][0]["method"]["single"]["moved"]["point"];
     assert!(point.as_array().is_some_and(|point| point.len() == 3), "{point}");
     point.as_array_mut().unwrap().swap(0, 1);
     let error = Derivation::prove(&chain, &value.to_string()).unwrap_err();

@@ -30,7 +30,7 @@ pub fn rotate_to_point(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, reach: Rea
 /// the direction of rotation.
 pub fn rotate_to_distance(axis: &Axis, p: &Point3<f64>, k: &Point3<f64>, delta: f64, reach: Reach) -> Values {
     match Circle::new(axis, p, k) {
-        Some(circle) if delta >= 0.0 => circle.swing(delta / circle.unit).angles(reach),
+        Some(circle) if delta >= 0.0 => circle.half_angle(delta / circle.unit).angles(reach),
         _ => Values::None,
     }
 }
@@ -58,7 +58,7 @@ pub fn rotate_to_plane(
     let amplitude = u_flat.norm() * n_flat.norm();
     let target = height - w.dot(&u) * w.dot(normal);
     let bearing = w.dot(&u_flat.cross(&n_flat)).atan2(u_flat.dot(&n_flat));
-    Swing {
+    HalfAngle {
         above: amplitude - target,
         below: amplitude + target,
         weights: (1.0, 1.0),
@@ -170,7 +170,7 @@ pub fn translate_to_plane(
 }
 
 /// A quantity that varies between two extreme values during one turn of a joint, with its target value.
-struct Swing {
+struct HalfAngle {
     /// Distance of the target from the extreme value at `bearing`; negative beyond it.
     above: f64,
     /// Distance of the target from the other extreme value.
@@ -185,7 +185,7 @@ struct Swing {
     bearing: f64,
 }
 
-impl Swing {
+impl HalfAngle {
     fn angles(&self, reach: Reach) -> Values {
         let slack = reach.slack(self.size);
         if !(self.above >= -slack && self.below >= -slack) {
@@ -249,8 +249,8 @@ impl Circle {
 
     /// The law of cosines RH0 (2-33) for half the angle, at `distance` in this circle's unit. Its squared tangent is
     /// (distance^2 - nearest^2) / (farthest^2 - distance^2).
-    fn swing(&self, distance: f64) -> Swing {
-        Swing {
+    fn half_angle(&self, distance: f64) -> HalfAngle {
+        HalfAngle {
             above: distance - self.nearest,
             below: self.farthest - distance,
             weights: (distance + self.nearest, distance + self.farthest),

@@ -14,7 +14,7 @@ const STEPS: usize = 6;
 
 /// Residual of the product of exponentials.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Miss {
+pub(super) struct Residual {
     /// Distance of the point, or of the origin moved by the pose.
     pub position: f64,
     /// Angle \[rad\].
@@ -23,21 +23,21 @@ pub(super) struct Miss {
     twist: SVector<f64, 6>,
 }
 
-impl Miss {
+impl Residual {
     /// The larger of the angle and the distance in units of `reach`.
     pub fn size(&self, reach: f64) -> f64 {
         (self.position / reach).max(self.rotation)
     }
 
     /// The residual when the joints move by `motions`. `tip` is the point whose distance is measured.
-    pub fn of(motions: &[Pose], goal: &Goal, tip: &Vector3<f64>) -> Miss {
+    pub fn of(motions: &[Pose], goal: &Goal, tip: &Vector3<f64>) -> Residual {
         let product = motions.iter().copied().reduce(|pose, motion| pose * motion).unwrap_or_else(Pose::identity);
         let mut twist = SVector::<f64, 6>::zeros();
         match goal {
             Goal::Point { from, to } => {
                 let v = to - product * from;
                 twist.fixed_rows_mut::<3>(0).copy_from(&v);
-                Miss { position: v.norm(), rotation: 0.0, twist }
+                Residual { position: v.norm(), rotation: 0.0, twist }
             }
             Goal::Pose(pose) => {
                 let turn = pose.rotation * product.rotation.inverse();
@@ -47,37 +47,37 @@ impl Miss {
                 twist.fixed_rows_mut::<3>(3).copy_from(&w);
                 // The angle is twice the arc sine of w / 2; for small angles it is w itself.
                 let rotation = if w.norm() < 1e-5 && turn.scalar() != 0.0 { w.norm() } else { turn.angle() };
-                Miss { position: v.norm(), rotation, twist }
+                Residual { position: v.norm(), rotation, twist }
             }
         }
     }
 }
 
-/// Improves `q`, whose residual is `miss`, until the residual is at most `enough`. Returns it with its residual. The
+/// Improves `q`, whose residual is `residual`, until the residual is at most `enough`. Returns it with its residual. The
 /// joints of `fixed` do not move.
 pub(super) fn refine(
     screws: &[Screw],
     goal: &Goal,
     tip: &Vector3<f64>,
     reach: f64,
-    (mut q, mut miss, fixed): ([f64; MOST_JOINTS], Miss, &[bool; MOST_JOINTS]),
+    (mut q, mut residual, fixed): ([f64; MOST_JOINTS], Residual, &[bool; MOST_JOINTS]),
     enough: f64,
-) -> ([f64; MOST_JOINTS], Miss) {
+) -> ([f64; MOST_JOINTS], Residual) {
     for _ in 0..STEPS {
-        if miss.size(reach) <= enough || miss.size(reach) > 1e-2 {
+        if residual.size(reach) <= enough || residual.size(reach) > 1e-2 {
             break;
         }
-        let Some(step) = newton(screws, &q, goal, tip, reach, (&miss, fixed)) else { break };
+        let Some(step) = newton(screws, &q, goal, tip, reach, (&residual, fixed)) else { break };
         let mut next = q;
         next.iter_mut().zip(step.iter()).for_each(|(q, d)| *q += d);
         let motions: SmallVec<[Pose; MOST_JOINTS]> = screws.iter().zip(next).map(|(screw, q)| screw.exp(q)).collect();
-        let better = Miss::of(&motions, goal, tip);
-        if better.size(reach) >= miss.size(reach) {
+        let better = Residual::of(&motions, goal, tip);
+        if better.size(reach) >= residual.size(reach) {
             break;
         }
-        (q, miss) = (next, better);
+        (q, residual) = (next, better);
     }
-    (q, miss)
+    (q, residual)
 }
 
 /// Whether some joint of `free` can move near `q` with a fixed tip, by first derivatives. The other joints, except
@@ -142,10 +142,10 @@ fn newton(
     goal: &Goal,
     tip: &Vector3<f64>,
     reach: f64,
-    (miss, fixed): (&Miss, &[bool; MOST_JOINTS]),
+    (residual, fixed): (&Residual, &[bool; MOST_JOINTS]),
 ) -> Option<SVector<f64, MOST_JOINTS>> {
     let jacobian = jacobian(screws, q, goal, tip, reach, fixed);
-    let mut missing = miss.twist;
+    let mut missing = residual.twist;
     missing.fixed_rows_mut::<3>(0).scale_mut(1.0 / reach);
     let normal = jacobian.transpose() * jacobian;
     let damping = 1e-14 * normal.trace().max(f64::MIN_POSITIVE);

@@ -9,7 +9,7 @@ use super::model::Model;
 use super::order::{Order, Orders, samples};
 use super::plan::Plan;
 use super::reduced::{Goal, LOOSE, Reduced};
-use super::refine::{MOST_JOINTS, Miss, moves_freely, refine};
+use super::refine::{MOST_JOINTS, Residual, moves_freely, refine};
 use super::search::scale_of;
 use super::values::Reach;
 use super::{ACCEPT, MERGE, upright};
@@ -201,7 +201,7 @@ impl ScrewSolver {
                 motions[*joints] = ray.exp(values[*joints]);
             }
             let fixed = std::array::from_fn(|i| answer.free.contains(&i) || self.model.given.contains(&i));
-            let start = (values, Miss::of(&motions, &goal, tip), &fixed);
+            let start = (values, Residual::of(&motions, &goal, tip), &fixed);
             let (values, _) = refine(screws, &goal, tip, self.reach, start, ENOUGH);
             let wrapped = |(q, screw): (f64, &Screw)| if screw.axis().is_some() { angle::wrap(q) } else { q };
             let q: Vec<f64> = values.into_iter().zip(screws).take(*joints).map(wrapped).collect();
@@ -286,10 +286,10 @@ impl ScrewSolver {
                 .zip(&partial.q)
                 .for_each(|((motion, screw), q)| *motion = screw.exp_half(*q));
         }
-        let miss = Miss::of(&motions[..screws.len()], goal, tip);
+        let residual = Residual::of(&motions[..screws.len()], goal, tip);
         let fixed = std::array::from_fn(|i| partial.free[i] || given.contains(&i));
-        let (mut q, miss) = refine(screws, goal, tip, self.reach, (values, miss, &fixed), ENOUGH);
-        let reaches = miss.size(self.reach) <= visit.accept;
+        let (mut q, residual) = refine(screws, goal, tip, self.reach, (values, residual, &fixed), ENOUGH);
+        let reaches = residual.size(self.reach) <= visit.accept;
         let free =
             partial.freeing != 0 && reaches && moves_freely(screws, &q, goal, tip, self.reach, (&partial.free, given));
         if !free {
@@ -308,7 +308,7 @@ impl ScrewSolver {
             visit.found.push(Solution {
                 q: q[..*joints].to_vec(),
                 free: (0..*joints).filter(|&i| free && partial.free[i]).collect(),
-                residual: miss.position.max(miss.rotation),
+                residual: residual.position.max(residual.rotation),
                 branch: visit.order.first_branch + partial.branch,
                 ..Solution::default()
             });

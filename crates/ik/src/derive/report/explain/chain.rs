@@ -71,13 +71,13 @@ fn task(task: Task) -> &'static str {
         Task::PlanarPose { .. } => {
             "the position of the tip in a plane and its angle, counted from the zero configuration"
         }
-        Task::Ray => "the position of the tip and a direction for it to point in",
-        Task::Direction => "a direction for the tip to point in",
+        Task::Ray => "the position and the direction of the tip",
+        Task::Direction => "the direction of the tip",
         Task::Rotation => "the rotation of the tip, by rows",
         Task::PositionYaw { .. } => {
-            "the position of the tip and the angle about an axis of the base at which a direction of it points; the relations have the turn since the zero configuration"
+            "the position of the tip and the angle of one of its directions about an axis of the base; the relations contain the rotation from the zero configuration"
         }
-        Task::PositionPitchRoll => "the position of the tip, its pitch and its roll, whatever its yaw",
+        Task::PositionPitchRoll => "the position of the tip, its pitch and its roll, with any yaw",
     }
 }
 
@@ -89,65 +89,65 @@ fn chain(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism
         rows.push(vec![
             Line::of(&(index + 1).to_string()),
             Line::default().name(&joint.name),
-            Line::of(if joint.is_revolute() { "turns" } else { "slides" }),
+            Line::of(if joint.is_revolute() { "revolute" } else { "prismatic" }),
             Line::default().formula(&joint_unknowns(mechanism, index)),
             Line::default().formula(&show(&joint.axis)),
             Line::default().formula(&show(&joint.point)),
         ]);
     }
     page.table(rows);
-    page.say(
-        "Axes and points are given in the base frame at zero. Of a joint that turns the unknowns are the cosine and the sine of its \
-         angle, $c^2 + s^2 = 1$, so that its motion is polynomial. Where no vector of length one along an axis has rational \
-         coordinates the sine is divided by the length of the vector, which keeps all numbers rational.",
+    page.text(
+        "Axes and points are given in the base frame at zero. The unknowns of a revolute joint are the cosine and the sine of its \
+         angle, $c^2 + s^2 = 1$, so that its motion is polynomial. Where no unit vector along an axis has rational \
+         coordinates, the sine is divided by the length of the vector, which keeps all numbers rational.",
     );
     let common = geometry::common(mechanism);
     match common.is_empty() {
-        true => page.say("No two neighbouring axes meet or are parallel."),
+        true => page.text("No two neighbouring axes meet or are parallel."),
         false => page.items(common),
     }
     if mechanism.upright_loop().is_some() {
-        page.say(YAW_OPEN);
+        page.text(YAW_OPEN);
     } else if let Some(hidden) = mechanism.hidden() {
-        page.say(&format!(
-            "A ray does not say how the tip is turned about it. Any turn is chosen, two directions across the ray, which makes the target a \
-             pose. Joint {} is none of the chain's: it turns the tip about the ray from where the chain brings it to there. Its angle is found \
-             with the others and is no part of an answer.",
+        page.text(&format!(
+            "A ray does not specify the rotation of the tip about it. Two arbitrary directions normal to the ray make the target a pose. Joint {} \
+             is not a joint of the chain: it rotates the tip about the ray to that pose. Its angle is found with the others and is not \
+             part of a solution.",
             hidden + 1
         ));
     }
     if !derived.method.plan.given.is_empty() && mechanism.upright_loop().is_none() {
         let given = geometry::numbers(derived.method.plan.given.iter().copied());
-        page.say(&format!("The user gives the value of {given}."));
+        page.text(&format!("The user gives the value of {given}."));
     }
 }
 
 fn closure(page: &mut Document) {
-    page.section(Line::of("The loop, and what cancels in it"));
-    page.say(
-        "Let $Ei$ be the motion of joint $i$ and $G$ the motion that takes the tip from its place at zero to the target ($G = T*M^-1$ with the \
-         target $T$ and the tip's place $M$ at zero). The chain reaches the target when",
+    page.section(Line::of("The loop equation and its invariants"));
+    page.text(
+        "Let $Ei$ be the motion of joint $i$ and $G$ the motion that takes the tip from its pose at zero to the target ($G = T*M^-1$ with the \
+         target $T$ and the tip's pose $M$ at zero). The chain reaches the target when",
     );
     page.equation("0.1", "E1 ... En = G");
-    page.say(
-        "Cut this loop twice. If the joints of one piece leave something in place (a point on their axes, a direction along \
-         them), and the joints of another piece leave something else in place, then both pieces drop out of whatever rigid \
-         motions keep between the two things: the scalar product $a . x$ of two directions, the coordinate of a point along a \
+    page.text(
+        "Cut this loop twice. The joints of one piece leave an object in place (a point on their axes, a direction along them), and \
+         the joints of another piece leave another object in place. Then both pieces cancel in each rigid-motion invariant of the two \
+         objects: the scalar product $a . x$ of two directions, the coordinate of a point along a \
          direction, the distance $|a - x|$ of two points, the mutual moment of two lines. Each is one polynomial equation in the \
-         joints that are left.",
+         remaining joints.",
     );
-    page.say(
-        "Every such equation follows from the loop, and this has been computed, not assumed: with $G$ replaced by $E1 ... En$ \
-         and each $c^2$ by $1 - s^2$ it becomes zero identically. Because the equations of the loop and the circles have coprime \
-         leading terms, they are a Groebner basis, and this remainder zero means membership in their ideal.",
+    page.text(
+        "Every such equation follows from the loop. This has been computed, not assumed: with $G$ replaced by $E1 ... En$ \
+         and each $c^2$ by $1 - s^2$ it becomes identically zero. The equations of the loop and the circles have coprime \
+         leading terms, so they are a Groebner basis, and a zero remainder means membership in their ideal.",
     );
 }
 
 fn plan(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism) {
     page.section(Line::of("The order of the joints"));
-    page.say(&format!(
-        "A generic target has {} complex solutions, and no more than that many real ones. That was counted modulo primes at random targets \
-         which the chain reaches, as the dimension of the quotient by all equations, from a Groebner basis of them:",
+    page.text(&format!(
+        "A generic target has {} complex solutions, and at most as many real ones. They were counted modulo primes at random reachable \
+         targets, as the dimension of the quotient by all equations, from a Groebner basis of them:",
         derived.method.plan.dimension
     ));
     page.items(derived.method.plan.evidence.iter().map(|evidence| Line::of(&evidence.to_string())).collect());
@@ -163,16 +163,16 @@ fn plan(page: &mut Document, derived: SequentialView<'_>, mechanism: &Mechanism)
     }
     page.table(rows);
     let degrees: Vec<String> = derived.method.plan.steps.iter().map(|step| step.degree.to_string()).collect();
-    page.say(&format!("Together: $({}) = {}$ solutions.", degrees.join(")("), derived.method.plan.product()));
+    page.text(&format!("Together: $({}) = {}$ solutions.", degrees.join(")("), derived.method.plan.product()));
 }
 
 /// Adds how the branch number of a solution follows from the choices of the steps.
 fn branches(page: &mut Document, derived: SequentialView<'_>) {
-    page.section(Line::of("Which branch is which"));
-    page.say(
+    page.section(Line::of("Branch numbers"));
+    page.text(
         "Each step that has several roots makes a choice, such as the left or the right shoulder, the elbow up or down, the wrist \
-         turned or not: here they are simply the first and the second root. An answer's branch number is made of these choices, \
-         those of the first step first, as a number is of its digits; each step has a base of its own:",
+         flipped or not: here they are the first and the second root. These choices are the digits of a solution's branch number, \
+         the first step first; each step has its own base:",
     );
     let mut rows = vec![["choice", "joint", "base", "values"].map(Line::of).to_vec()];
     for block in derived.program.blocks.iter().filter(|block| block.branches() > 1) {
@@ -193,7 +193,7 @@ fn branches(page: &mut Document, derived: SequentialView<'_>) {
         });
         page.display(format!("branch = {sum}"));
     } else {
-        page.say("No step of this chain has more than one root: there is one branch.");
+        page.text("No step of this chain has more than one root: there is one branch.");
     }
 }
 
@@ -217,15 +217,15 @@ fn digits(block: &Block) -> String {
 
 fn singularities(page: &mut Document) {
     page.section(Line::of("At singularities"));
-    page.say(
-        "The formulas of a step divide by something; where that vanishes the step has formulas of its own, a stratum (below, with \
-         its proof). The program never asks whether a rounded number is zero. It runs every stratum that may apply, near a \
-         boundary both sides of it, polishes each candidate on forward kinematics by Newton's method, measures it, and merges \
-         equal ones.",
+    page.text(
+        "The formulas of a step have denominators. Where one vanishes the step has other formulas: a stratum (below, with \
+         its proof). The program never tests whether a rounded number is zero. It runs every stratum that may apply, near a \
+         boundary those on both sides of it. It polishes each candidate on forward kinematics by Newton's method, computes its \
+         residual, and merges equal ones.",
     );
-    page.say(
-        "Where a joint is free there is a self-motion. The program puts an angle at eight places, a length at five, \
-         goes on with the later steps, and returns the best member that it finds; the answer names the joints that are free, \
+    page.text(
+        "Where a joint is free there is a self-motion. The program samples an angle at 8 or 16 values, a length at 5 or more. \
+         It continues with the later steps and returns the best member that it finds. The solution names the joints that are free, \
          and all members share one branch number.",
     );
 }
@@ -233,26 +233,26 @@ fn singularities(page: &mut Document) {
 fn proof(page: &mut Document, derived: SequentialView<'_>) {
     page.section(Line::of("Why no solution is lost and none is added"));
     let relations: usize = derived.method.steps.iter().map(|step| step.relations.len()).sum();
-    page.say(&format!(
+    page.text(&format!(
         "None is lost: all {relations} equations of the steps are members of the ideal of the loop, by exact computation, and \
          every form is proved on all its strata."
     ));
     let tight = derived.method.plan.product() == derived.method.plan.dimension;
-    page.say(&format!(
+    page.text(&format!(
         "None is added: a random target modulo a prime has {} complex solutions, and the degrees of the steps multiply to {}, {}. Besides, \
-         each answer of the program is measured by forward kinematics before it is returned.",
+         the program checks each solution by forward kinematics before it returns it.",
         derived.method.plan.dimension,
         derived.method.plan.product(),
         match tight {
-            true => "just this number, so that a branch of the steps is a solution",
-            false => "more than that: the task asks for more than the joints can do, and the equations that are left over are measured when the program runs",
+            true => "the same number, so that each branch of the steps is a solution",
+            false => "more than that: the task requires more than the joints can do, and the program checks the remaining equations when it runs",
         }
     ));
     page.paragraph(
-        Line::of("What is counted modulo a prime at random targets is evidence, not proof; the rest is proved, and ")
+        Line::of("The count modulo a prime at random targets is evidence, not proof; the rest is proved, and ")
             .name("groebot check")
             .and(" proves it again from ")
             .name("certificate.json")
-            .and(" without search and without the engine."),
+            .and(" without search and without the Groebner engine."),
     );
 }

@@ -21,11 +21,11 @@ pub fn document(derived: CoupledView<'_>, stage: Option<Stage>) -> Result<Docume
             page.paragraph(Line::plain(text));
         }
         actuators(&mut page, derived);
-        page.say(&format!(
+        page.text(&format!(
             "The chains are solved one after the other. A joint whose actuator a chain has found is given for the chains after it. Every \
              solution of all chains is one of the first chain, continued by one of the next with the shared joints held, and so on: none \
-             is lost. A generic target that the chains can reach has {} complex solutions. Each answer is polished and measured on the \
-             equations of all chains together.",
+             is lost. A generic target that the chains can reach has {} complex solutions. Each solution is polished on the \
+             equations of all chains together, which also give its residual.",
             derived.method.dimension()
         ));
     }
@@ -44,9 +44,9 @@ fn shared(page: &mut Document, derived: CoupledView<'_>, stage: Option<Stage>) -
     let Some(simultaneous) = &derived.method.simultaneous else { return Ok(()) };
     page.section(Line::default().name(&derived.simultaneous_names().join(", ")).and(": from both chains at once"));
     if Stage::Equations.is_in(stage) {
-        page.say(
-            "Of each chain an equation is taken that holds no unknown joint but shared ones. What is measured stays the same on the arc whose \
-             joints drop out, which has been computed; so the equation follows from the chain's loop.",
+        page.text(
+            "One equation of each chain contains no unknown joints except shared ones. The cancelled joints do not change its \
+             invariant; this has been computed. So the equation follows from the chain's loop.",
         );
         for (index, (member, relation)) in derived.problem.chains().iter().zip(simultaneous.relations()?).enumerate() {
             let meaning = relation.meaning(&Mechanism::new(&member.chain)?);
@@ -55,7 +55,7 @@ fn shared(page: &mut Document, derived: CoupledView<'_>, stage: Option<Stage>) -
         }
     }
     if Stage::Plan.is_in(stage) {
-        page.say(shared_order(simultaneous));
+        page.text(shared_order(simultaneous));
     }
     let mechanism = Mechanism::new(&derived.problem.chains()[0].chain)?;
     for step in simultaneous.steps.iter().filter(|_| Stage::Triangular.is_in(stage)) {
@@ -66,7 +66,7 @@ fn shared(page: &mut Document, derived: CoupledView<'_>, stage: Option<Stage>) -
         if let Some(elimination) = &step.elimination {
             page.items(step::symbol_lines(&mechanism, elimination, (0, FIRST)));
             let unknowns = joint_unknowns(&mechanism, step.joint);
-            page.paragraph(Line::of("What is left, with $x2, x3$ for ").formula(&unknowns).and(":"));
+            page.paragraph(Line::of("The remaining equation, with $x2, x3$ for ").formula(&unknowns).and(":"));
             page.display(format!("{} = 0", elimination.ring.format(&elimination.member, Style::Decimal)));
         }
     }

@@ -161,7 +161,7 @@ impl Document {
     }
 
     /// Adds a paragraph of report text, as in [`Line::of`].
-    pub(crate) fn say(&mut self, prose: &str) {
+    pub(crate) fn text(&mut self, prose: &str) {
         self.paragraph(Line::of(prose));
     }
 

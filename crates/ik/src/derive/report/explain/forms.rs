@@ -24,7 +24,7 @@ pub fn equations(form: Form) -> &'static [&'static str] {
 pub fn why(form: Form) -> &'static str {
     match form {
         Form::Angle => "one linear equation in cosine and sine, a chord of the circle with two ends",
-        Form::Rotation => "two equations that turn a known vector to a known place, one angle",
+        Form::Rotation => "two equations that rotate a known vector to a known vector, one angle",
         Form::Pair => "two independent linear equations in cosine and sine, one angle",
         Form::Quartic => {
             "an equation of degree two in cosine and sine, by the tangent of half the angle up to four angles"
@@ -79,7 +79,7 @@ pub fn roots(form: Form) -> &'static str {
         }
         Form::Rotation | Form::Pair => {
             "Both polynomials are linear, so there is one angle, $atan2(s, c)$, and no branch. Whether $c^2 + s^2 = 1$ holds is \
-             measured in the end, as all answers are."
+             checked at the end, as for all solutions."
         }
         Form::Linear => "This polynomial is linear: there is one length and no branch.",
         Form::Quartic => {
@@ -101,18 +101,18 @@ pub fn roots(form: Form) -> &'static str {
 pub fn singular(form: Form) -> &'static str {
     match form {
         Form::Angle => {
-            "where $A^2 + B^2 = C^2$ the line touches the circle and the two branches meet. Where $A = B = 0$ the angle has dropped \
-             out: with $C = 0$ too it is free, and a self-motion is returned; otherwise there is none."
+            "where $A^2 + B^2 = C^2$ the line touches the circle and the two branches meet. Where $A = B = 0$ the equation does not contain \
+             the angle: with $C = 0$ too it is free, and a self-motion is returned; otherwise there is no solution."
         }
         Form::Rotation => {
-            "where $A = B = 0$ the vector that is turned lies on the axis: with $X = Y = 0$ the angle is free, otherwise nothing \
-             solves the equations."
+            "where $A = B = 0$ the rotated vector is on the axis: with $X = Y = 0$ the angle is free, otherwise there is no \
+             solution."
         }
         Form::Pair => {
             "where $A*F = B*E$ the two lines are parallel. Each equation is then solved alone, as in the form angle, and forward \
-             kinematics keeps what solves both."
+             kinematics selects the angles that solve both."
         }
-        Form::Linear => "where $A = 0$ the length has dropped out.",
+        Form::Linear => "where $A = 0$ the equation does not contain the length.",
         Form::Quartic => {
             "where two roots of the quartic meet, two branches do. Where all five symbols vanish the angle is free, and a self-motion \
              is returned."
@@ -127,12 +127,12 @@ pub fn singular(form: Form) -> &'static str {
 /// # Errors
 /// If a field cannot be built. This does not occur for a derivation that this crate made.
 pub fn explain(page: &mut Document, derived: SequentialView<'_>) -> Result<()> {
-    page.section(Line::of("Why each basis is right"));
-    page.say(
-        "The steps above use only a few forms. In a form the coefficients are free symbols, so what is proved of it holds for all \
-         targets and all joints before. A polynomial that is a combination of the equations vanishes wherever they do: that is \
-         what the cofactors show. That nothing is missing is Buchberger's criterion: the S-polynomial of every two members, the \
-         simplest combination in which their leading terms cancel, leaves the remainder zero.",
+    page.section(Line::of("Proof of each basis"));
+    page.text(
+        "The steps above use only a few forms. In a form the coefficients are free symbols, so its proof holds for all \
+         targets and all values of earlier joints. A polynomial that is a combination of the equations vanishes wherever they do: the \
+         cofactors show this. By Buchberger's criterion no polynomial is missing: the S-polynomial of every two members, the \
+         simplest combination in which their leading terms cancel, has the remainder zero.",
     );
     for form_basis in &derived.method.forms.bases {
         form(page, form_basis)?;
@@ -170,7 +170,7 @@ fn half_angles(page: &mut Document, halves: &HalfAngles) {
         page.display(format!("f{} = {} = 0", index + 1, half.ring.format(f, Style::Text)));
     }
     let count: usize = halves.0.iter().map(|half| half.basis.len()).sum();
-    page.say(&format!(
+    page.text(&format!(
         "Eliminating $c$ and $s$ leaves the quartic. The {} directions have {count} polynomials in their bases; each was multiplied \
          out from its cofactors, and all S-polynomials were reduced to zero, over the rational numbers.",
         halves.0.len()

@@ -42,13 +42,13 @@ pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
         let what = Line::of("The ").and(noun(object, relation.measure)).and(" ").formula(&vector(object));
         if idle.is_empty() {
             return what.and(match seen {
-                true => " is all that the task sees of the tip there.",
-                false => " was chosen freely: no joint is where the loop is cut.",
+                true => " is the only part of the tip's pose that the task specifies there.",
+                false => " was chosen arbitrarily: the loop is cut where no joint is.",
             });
         }
         let verb = if idle.len() == 1 { " leaves" } else { " leave" };
         let who = numbers(idle.iter().copied());
-        what.and(&format!(": {who}{verb} it in place, for {}.", reason(mechanism, idle, object, relation.measure)))
+        what.and(&format!(": {who}{verb} it in place, because {}.", reason(mechanism, idle, object, relation.measure)))
     };
     let [run, tail] = relation.cancelled(mechanism);
     // Coordinates of the tip that the task does not use are not constrained after the last joint.
@@ -61,16 +61,12 @@ pub fn cancelled(mechanism: &Mechanism, relation: &Relation) -> Vec<Line> {
 pub fn conserved(measure: Measure) -> &'static str {
     match measure {
         Measure::Angle => {
-            "the angle between the two, hence their scalar product, is the same in both directions round the loop"
+            "the angle between the two, hence their scalar product, is equal along both paths round the loop"
         }
-        Measure::Offset => {
-            "the distance along the normal between the two is the same in both directions round the loop"
-        }
-        Measure::Distance => {
-            "the distance between the two, hence its square, is the same in both directions round the loop"
-        }
-        Measure::Moment => "the mutual moment of the two is the same in both directions round the loop",
-        Measure::Follow => "the one joint is where the other brings it",
+        Measure::Offset => "the distance along the normal between the two is equal along both paths round the loop",
+        Measure::Distance => "the distance between the two, hence its square, is equal along both paths round the loop",
+        Measure::Moment => "the mutual moment of the two is equal along both paths round the loop",
+        Measure::Follow => "the position of one joint determines that of the other",
     }
 }
 
@@ -86,8 +82,8 @@ pub fn degenerate(measure: Measure) -> &'static str {
         Measure::Distance => {
             "one of the two points is on the joint's axis, so that a rotation about it changes no distance"
         }
-        Measure::Moment => "turning about the axis does not change the moment of the two lines",
-        Measure::Follow => "nothing can: the law determines the joint everywhere",
+        Measure::Moment => "a rotation about the axis does not change the moment of the two lines",
+        Measure::Follow => "this case does not occur: the law determines the joint everywhere",
     }
 }
 
@@ -120,9 +116,9 @@ fn reason(mechanism: &Mechanism, idle: &[usize], object: &Object, measure: Measu
     };
     let sliding = match measure {
         _ if slides.is_empty() => None,
-        Measure::Angle => Some("sliding turns nothing".to_owned()),
-        Measure::Offset => Some("sliding goes along the plane".to_owned()),
-        _ => Some("sliding goes along it".to_owned()),
+        Measure::Angle => Some("a translation does not rotate it".to_owned()),
+        Measure::Offset => Some("the translation is along the plane".to_owned()),
+        _ => Some("the translation is along it".to_owned()),
     };
     turning.into_iter().chain(sliding).collect::<Vec<_>>().join(", and ")
 }

@@ -66,7 +66,7 @@ fn chain(problem: &ChainProblem, program: &Program) -> Document {
     let texts = [&parts.description, &parts.source].map(|text| text.as_deref().unwrap_or_default());
     let mut page = opened(&parts.name, texts, parts.length_unit, program);
     if let Some((_, report)) = &problem.truth {
-        page.say(&report.sentence());
+        page.text(&report.sentence());
         page.items(report.lines().iter().map(|line| Line::plain(line)).collect());
     }
     page
@@ -75,16 +75,16 @@ fn chain(problem: &ChainProblem, program: &Program) -> Document {
 fn sequential(view: SequentialView<'_>) -> Result<Document> {
     let mut page = chain(view.problem, view.program);
     if Mechanism::new(&view.problem.chain)?.upright_loop().is_some() {
-        page.say(YAW_OPEN);
+        page.text(YAW_OPEN);
     }
     steps(&mut page, view)?;
     page.paragraph(
         Line::of("Each equation is a rigid-motion invariant of the loop ")
             .formula("E1 ... En = G")
-            .and(", where $G$ moves the tip from its place at zero to the target: ")
+            .and(", where $G$ moves the tip from its pose at zero to the target: ")
             .name("1_equations.txt")
             .and(
-                ". No solution is lost, for each equation follows from the loop; none is added, for each answer is measured by forward \
+                ". No solution is lost: each equation follows from the loop. None is added: each solution is checked by forward \
                  kinematics.",
             ),
     );
@@ -94,14 +94,14 @@ fn sequential(view: SequentialView<'_>) -> Result<Document> {
 /// Adds the steps of a chain as a list.
 fn steps(page: &mut Document, view: SequentialView<'_>) -> Result<()> {
     let mechanism = Mechanism::new(&view.problem.chain)?;
-    page.say(&format!("Up to {} solutions. The joints are found one at a time:", view.method.plan.dimension));
+    page.text(&format!("Up to {} solutions. The joints are found one at a time:", view.method.plan.dimension));
     let items = view.method.steps.iter().map(|step| {
         let line = Line::of("Joint ").name(&mechanism.joints()[step.joint].name);
         let line = line.and(", form ").name(step.shape.form.name()).and(&format!(": {}.", forms::why(step.shape.form)));
         step.relations.iter().fold(line, |line, relation| meaning(line.and(" "), &mechanism, relation))
     });
     page.items(items.collect());
-    page.say("Singular:");
+    page.text("Singular:");
     let mut forms: Vec<Form> = view.method.steps.iter().map(|step| step.shape.form).collect();
     forms.sort_unstable();
     forms.dedup();
@@ -123,7 +123,7 @@ fn eigenvalue(view: EigenvalueView<'_>) -> Document {
             view.method.dimension()
         ))
         .name("1_equations.txt")
-        .and(" explains how they become one eigenvalue problem. Answers that rounding loses are rare and counted: ")
+        .and(" derives one eigenvalue problem from the equations. The number of solutions lost by rounding is in ")
         .name("6_check.csv")
         .and("."),
     );
@@ -135,22 +135,22 @@ fn coupled(view: CoupledView<'_>) -> Result<Document> {
     let parts = view.problem.parts();
     let texts = [&parts.description, &parts.source].map(|text| text.as_deref().unwrap_or_default());
     let mut page = opened(&parts.name, texts, view.problem.chains()[0].chain.length_unit(), view.program);
-    page.say(&format!(
+    page.text(&format!(
         "Up to {} solutions. The chains are solved one after the other; a joint that is already found is given for the chains after it. Each \
-         solution of one chain is continued by all solutions of the next, so none is lost; the answers are polished on the equations of all \
-         chains together and measured by them.",
+         solution of one chain is continued by all solutions of the next, so none is lost. The solutions are polished on the equations of all \
+         chains together, which also give their residuals.",
         view.method.dimension()
     ));
     if let Some(simultaneous) = &view.method.simultaneous {
         page.section(Line::of("Shared joints: ").words(&view.simultaneous_names().join(", ")));
-        page.say("They are found first, from one equation of each chain that contains no other unknown joint:");
+        page.text("They are found first, from one equation of each chain that contains no other unknown joint:");
         let mut items = Vec::new();
         for (member, relation) in view.problem.chains().iter().zip(simultaneous.relations()?) {
             let line = Line::of("Chain ").name(&member.name).and(": ");
             items.push(meaning(line, &Mechanism::new(&member.chain)?, relation));
         }
         page.items(items);
-        page.say(super::coupled::shared_order(simultaneous));
+        page.text(super::coupled::shared_order(simultaneous));
     }
     for stage in &view.method.stages {
         let parts = stage.problem.chain.parts();

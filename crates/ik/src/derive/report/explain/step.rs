@@ -71,10 +71,10 @@ impl Writer<'_> {
     /// Adds the law of a joint that follows another one.
     fn follows(&mut self) {
         for relation in &self.step.relations {
-            self.page.say(&format!("Here {}:", relation.meaning(self.mechanism)));
+            self.page.text(&format!("Here {}:", relation.meaning(self.mechanism)));
             self.page.display(relation.law(self.mechanism).unwrap_or_default());
         }
-        self.page.say("Nothing is to be solved, and no solution is added or lost.");
+        self.page.text("This step solves no equation, and no solution is added or lost.");
     }
 
     fn joint(&self) -> &ScrewJoint {
@@ -90,10 +90,11 @@ impl Writer<'_> {
             .filter(|joint| self.step.relations.iter().any(|relation| relation.joints().contains(joint)))
             .collect();
         match used.as_slice() {
-            [] => self.page.say("This step needs the target only."),
+            [] => self.page.text("This step needs the target only."),
             list => {
-                let text = format!("From the steps before it uses {}.", geometry::numbers(list.iter().copied()));
-                self.page.say(&text);
+                let text =
+                    format!("It uses the values of {} from earlier steps.", geometry::numbers(list.iter().copied()));
+                self.page.text(&text);
             }
         }
     }
@@ -101,12 +102,12 @@ impl Writer<'_> {
     fn relation(&mut self, number: usize) {
         let relation = &self.step.relations[number];
         self.page.items(geometry::cancelled(self.mechanism, relation));
-        self.page.say(&format!(
-            "What stays in place on either side of the cut drops out of the loop, and {}:",
+        self.page.text(&format!(
+            "These objects are not moved by the cancelled joints, and {}:",
             geometry::conserved(relation.measure)
         ));
         self.page.equation(&format!("{}.{}", self.index + 1, number + 1), relation.to_string());
-        self.page.say("Multiplied out, by the unknowns of this joint:");
+        self.page.text("Multiplied out, by the unknowns of this joint:");
         let text = self.sorted[number].equation(self.mechanism);
         self.page.display(text);
     }
@@ -122,9 +123,9 @@ impl Writer<'_> {
     /// Adds the equation in the joint, and the definitions of its symbols.
     fn symbols(&mut self) {
         let form = self.step.shape.form;
-        self.page.say(match form {
+        self.page.text(match form {
             Form::Angle => "The equation is linear in the cosine and the sine of one angle:",
-            Form::Rotation => "The two equations turn a vector that is known before to a place that is known after:",
+            Form::Rotation => "The two equations rotate a known vector to a known vector:",
             Form::Pair => "The two equations are linear in the cosine and the sine of one angle:",
             Form::Linear => "The equation is linear in the length:",
             Form::Quadratic => "The equation is quadratic in the length:",
@@ -137,7 +138,7 @@ impl Writer<'_> {
         }
         let values = self.values();
         if !values.is_empty() {
-            self.page.say("with");
+            self.page.text("with");
         }
         values.into_iter().for_each(|value| self.page.display(value));
     }
@@ -204,29 +205,30 @@ impl Writer<'_> {
             StepMethod::Eliminated { away, .. } => geometry::numbers(away.iter().copied()),
             _ => String::new(),
         };
-        self.page.say(&format!(
-            "Still unknown in these equations is {away} as well; it is eliminated by a Groebner basis with its unknowns first or, where \
-             the equations turn a vector by it, by the sum of their squares. What is known is written as symbols:"
+        self.page.text(&format!(
+            "These equations also contain the unknown {away}. It is eliminated by a Groebner basis with its unknowns first or, where \
+             the equations rotate a vector by it, by the sum of their squares. Symbols denote the known quantities:"
         ));
         self.page.items(symbol_lines(self.mechanism, elimination, (self.index + 1, 1)));
-        self.page.say("The generators, the circles after the relations:");
+        self.page.text("The generators: the relations, then the circles:");
         let text = |f| renamed(&elimination.ring.format(f, Style::Decimal), &names);
         for (number, f) in elimination.generators.iter().enumerate() {
             self.page.display(format!("f{} = {} = 0", number + 1, text(f)));
         }
-        self.page.say("The element of their ideal that contains only this joint:");
+        self.page.text("The element of their ideal that contains only this joint:");
         let number = self.equation(format!("{} = 0", text(&elimination.member)));
-        self.page
-            .say("It is this combination of them, multiplied out exactly, so every solution of the loop fulfils it:");
+        self.page.text(
+            "It is this combination of them, multiplied out exactly, so every solution of the loop satisfies it:",
+        );
         let terms = elimination.cofactors.iter().enumerate().filter(|(_, f)| !f.is_zero());
         let sum = signs(terms.map(|(number, f)| format!("{}*f{}", strata::factor(&text(f)), number + 1)));
         match sum.len() {
             0..=LONGEST => self.page.display(sum),
-            _ => self.page.say("The cofactors are long; they are in certificate.json."),
+            _ => self.page.text("The cofactors are long; they are in certificate.json."),
         }
         let form = self.step.shape.form;
         let own = self.own_names();
-        self.page.say(&format!("Sorted by the unknowns of this joint, ({number}) is"));
+        self.page.text(&format!("Sorted by the unknowns of this joint, ({number}) is"));
         for equation in forms::equations(form) {
             self.equation(renamed(equation, &own));
         }
@@ -255,13 +257,13 @@ impl Writer<'_> {
             self.equation(renamed(&stair, &own));
         }
         match self.first_use() {
-            Some(before) => self.page.say(&format!(
-                "Its roots, and what happens where two of them meet or symbols vanish, are those given in step {}.",
+            Some(before) => self.page.text(&format!(
+                "Its roots, and the cases where two of them meet or symbols vanish, are those given in step {}.",
                 before + 1
             )),
             None => {
-                self.page.say(&renamed_prose(forms::roots(form), &own));
-                self.page.say(&format!("Singular: {}", renamed_prose(forms::singular(form), &own)));
+                self.page.text(&renamed_prose(forms::roots(form), &own));
+                self.page.text(&format!("Singular: {}", renamed_prose(forms::singular(form), &own)));
             }
         }
         Ok(())
@@ -284,11 +286,11 @@ impl Writer<'_> {
                 let text = format!(
                     "Here ${value}$ is a number, so this step is never singular for this reason: the joint is never free."
                 );
-                self.page.say(&text);
+                self.page.text(&text);
             }
             None => {
                 let meaning = geometry::degenerate(self.step.relations[0].measure);
-                self.page.say(&format!("In the mechanism $A = B = 0$ means that {meaning}."));
+                self.page.text(&format!("In the mechanism $A = B = 0$ means that {meaning}."));
             }
         }
     }

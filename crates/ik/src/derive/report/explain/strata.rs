@@ -23,7 +23,7 @@ pub fn stairs(solved: &Solved) -> Vec<String> {
 pub fn proof(page: &mut Document, setting: &Setting, certified: &Certified) -> Result<()> {
     let ring = certified.ring(setting)?;
     let mut left_out = 0;
-    page.say("Made monic, the polynomials of the basis are these combinations of the equations:");
+    page.text("Made monic, the polynomials of the basis are these combinations of the equations:");
     for (index, (g, row)) in certified.basis.iter().zip(&certified.cofactors).enumerate() {
         let with = row.iter().enumerate().filter(|(_, cofactor)| !cofactor.is_zero());
         let terms = with.map(|(number, cofactor)| match ring.format(cofactor, Style::Decimal).as_str() {
@@ -35,11 +35,11 @@ pub fn proof(page: &mut Document, setting: &Setting, certified: &Certified) -> R
         if text.len() > LONGEST { left_out += 1 } else { page.display(text) }
     }
     if left_out > 0 {
-        page.say(&format!("{left_out} more have long cofactors; they are in certificate.json."));
+        page.text(&format!("{left_out} more have long cofactors; they are in certificate.json."));
     }
     let proof = certified.proof;
-    page.say(&format!(
-        "So all of them lie in the ideal of the equations ({} combinations were multiplied out), and the equations lie in theirs \
+    page.text(&format!(
+        "So all of them are in the ideal of the equations ({} combinations were multiplied out), and the equations are in theirs \
          ({} remainders are zero). They are a Groebner basis by Buchberger's criterion: every S-polynomial reduces to zero (pairs: {}).",
         proof.cofactor_rows, proof.generators, proof.pairs
     ));
@@ -82,7 +82,7 @@ pub fn degenerate(page: &mut Document, tree: &Node, free: &dyn Fn(&Node) -> Stri
         items.push(Line::of("Where ").formula(&node.label).and(&format!(": {}.", outcome(node, free))));
     }
     if !items.is_empty() {
-        page.say("A basis with symbols as coefficients divides by some of them. Where such a denominator vanishes the equations are taken anew:");
+        page.text("A basis whose coefficients are symbols has denominators. Where such a denominator vanishes, the equations have another basis:");
     }
     page.items(items);
     for node in tree.walk().into_iter().skip(1) {
@@ -106,7 +106,7 @@ pub fn degenerate(page: &mut Document, tree: &Node, free: &dyn Fn(&Node) -> Stri
 fn outcome(node: &Node, free: &dyn Fn(&Node) -> String) -> String {
     match &node.outcome {
         Outcome::SelfMotion(_) => format!("every value solves the equations, {} free", free(node)),
-        Outcome::Inconsistent(_) => "no solution, for 1 is a combination of the equations".to_owned(),
+        Outcome::Inconsistent(_) => "no solution: 1 is a combination of the equations".to_owned(),
         Outcome::Seen(_) => "the same equations as at a stratum above".to_owned(),
         _ => describe(node),
     }

@@ -50,8 +50,8 @@ fn introduce(page: &mut Document, system: &System) {
         page.paragraph(Line::plain(text));
     }
     let inputs: Vec<&str> = system.inputs.iter().map(|input| input.name.as_str()).collect();
-    page.paragraph(Line::of("Given is ").formula(&inputs.join(", ")).and(&format!(
-        ", lengths in {}. Wanted are all values of the joints that solve the equations below. They are solved together: a Groebner \
+    page.paragraph(Line::of("Given: ").formula(&inputs.join(", ")).and(&format!(
+        ", lengths in {}. The result is all values of the joints that solve the equations below. They are solved together: a Groebner \
          basis in a lexicographic order is triangular, one unknown after the other.",
         system.length_unit.symbol()
     )));
@@ -104,7 +104,7 @@ fn equations(page: &mut Document, system: &System) {
     }
     if let Some(choice) = &system.choice {
         let root = if choice.root == Root::Minus { "minus" } else { "plus" };
-        page.say(&format!("The published solution has the {root} root of ${}$.", choice.unknown));
+        page.text(&format!("The published solution has the {root} root of ${}$.", choice.unknown));
     }
 }
 
@@ -121,7 +121,7 @@ fn multiplied_out(system: &System) -> Result<Vec<String>> {
 /// The orders of the unknowns, by the denominators of their formulas that may vanish.
 fn plan(page: &mut Document, derivation: EquationsView<'_>) -> Result<()> {
     page.section(Line::of("The order of the unknowns"));
-    page.say("All unknowns are solved together, the smallest first. A denominator that may vanish costs a stratum; the codimension is its zero set's.");
+    page.text("All unknowns are solved together, the smallest first. Each denominator that may vanish requires a stratum; its codimension is that of the denominator's zero set.");
     let head = [
         "order",
         "greatest first",
@@ -164,8 +164,8 @@ fn tree(
     }
     page.section(Line::of(if index == 0 { "The basis" } else { "The basis that the program uses" }));
     if index > 0 {
-        page.say(
-            "Each order of the unknowns gives a basis of the same ideal, but they divide by different things. The program uses \
+        page.text(
+            "Each order of the unknowns gives a basis of the same ideal, but with different denominators. The program uses \
              the order whose denominators vanish most rarely.",
         );
     }
@@ -206,7 +206,7 @@ fn values(solved: &Solved) -> Vec<Line> {
     let degrees = degrees.map(|(stair, degree)| {
         let unknown = &solved.triangular.ring.variables()[stair.unknown];
         let count = if degree == 1 {
-            "one value, for its polynomial is linear".to_owned()
+            "one value: its polynomial is linear".to_owned()
         } else {
             format!("up to {degree} real values, the roots of a polynomial of degree {degree}")
         };
@@ -216,10 +216,10 @@ fn values(solved: &Solved) -> Vec<Line> {
 }
 
 fn branches(page: &mut Document, derivation: EquationsView<'_>) {
-    page.section(Line::of("Which branch is which"));
-    page.say(
-        "A polynomial with several roots makes several branches: an answer's branch number counts the roots in ascending order, \
-         smallest unknown first, and those of a stratum go on where the stratum before ends.",
+    page.section(Line::of("Branch numbers"));
+    page.text(
+        "A polynomial with several roots makes several branches. The branch number of a solution counts the roots in ascending order, \
+         smallest unknown first. The numbers of a stratum follow those of the stratum before.",
     );
     let mut rows = vec![["branches", "stratum"].map(Line::of).to_vec()];
     for case in derivation.program.cases().filter(|case| !case.open) {
@@ -233,16 +233,16 @@ fn branches(page: &mut Document, derivation: EquationsView<'_>) {
 
 fn closing(page: &mut Document) {
     page.section(Line::of("At singularities"));
-    page.say(
-        "The program never asks whether a rounded number is zero. It runs every stratum that may apply, near a boundary both \
-         sides of it; each candidate is polished on the equations by Newton's method, measured in them, and merged with equal \
-         ones. Where a joint is free the answer says so, and has it at zero.",
+    page.text(
+        "The program never tests whether a rounded number is zero. It runs every stratum that may apply, near a boundary those on both \
+         sides of it. It polishes each candidate on the equations by Newton's method, computes its residual, and merges equal \
+         ones. Where a joint is free the solution names it, and its value is zero.",
     );
     page.paragraph(
         Line::of("All bases are proved; ")
             .name("groebot check")
             .and(" proves them again from ")
             .name("certificate.json")
-            .and(" without the engine."),
+            .and(" without the Groebner engine."),
     );
 }

@@ -1,9 +1,9 @@
-/** What is read and pressed: title, buttons, keys, timeline, messages, and the same in words for those who do not see. */
+/** The user interface: title, buttons, keys, timeline, messages, and texts for screen readers. */
 
 import type { App } from "./app";
-import { VIEW_NAMES, type View } from "./eye";
+import { VIEW_NAMES, type View } from "./camera";
 import { moves } from "./kinematics";
-import { Lanes } from "./lanes";
+import { Plots } from "./plots";
 import type { Picture } from "./picture";
 import { Player } from "./player";
 import type { Run } from "./run";
@@ -11,39 +11,39 @@ import { Simulator } from "./simulator";
 import { Sliders } from "./sliders";
 import type { Solutions } from "./solutions";
 import { nearestSample, phaseAt } from "./time";
-import { named, number, phaseName, quantity } from "./words";
+import { displayName, number, phaseName, quantity } from "./format";
 
 const KEYS: [string, string][] = [
   ["Space", "play, pause"],
-  ["\u2190 \u2192", "a sample back, on; with Shift ten"],
+  ["\u2190 \u2192", "previous, next sample; with Shift ten samples"],
   ["Home End", "first, last sample"],
   ["1 \u2013 5", "front, side, top, iso, follow"],
   ["J", "joints"],
-  ["S, M, R", "solutions, map of the reach, simulator, where the page has them"],
+  ["S, M, R", "solutions, reach map, simulator, if the page has them"],
   ["T", "dark, light"],
-  ["?", "these keys"],
+  ["?", "this help"],
 ];
 const PLAY = '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M4.500 2.8v10.4L13 8z" fill="currentColor"/></svg>';
 const PAUSE = '<svg viewBox="0 0 16 16" aria-hidden="true"><path d="M4 3h3v10H4zM9 3h3v10H9z" fill="currentColor"/></svg>';
 const PANELS = ["joints", "reach", "solutions", "run"] as const;
 type Panel = (typeof PANELS)[number];
-/** So often at most words are read out [ms]. */
-const SAY_EVERY = 700;
+/** Minimum interval between announcements of the screen reader [ms]. */
+const ANNOUNCE_EVERY = 700;
 
 export function element<E extends HTMLElement>(id: string): E {
   return document.getElementById(id) as E;
 }
 
-/** A message over the stage. */
+/** Shows a message over the picture. */
 export function message(head: string, text: string): void {
   const box = element("message");
-  box.replaceChildren(worded("strong", head), text);
+  box.replaceChildren(textElement("strong", head), text);
   box.hidden = false;
 }
 
-/** The theme follows the system until it is switched by hand. */
+/** The theme. It follows the system until the user switches it. */
 export class Theme {
-  /** Hear of every change. */
+  /** Functions called after every change. */
   readonly watchers: (() => void)[] = [];
   private readonly system = matchMedia("(prefers-color-scheme: dark)");
   private chosen: boolean | undefined;
@@ -68,12 +68,12 @@ export class Theme {
   }
 }
 
-export class Desk {
+export class UserInterface {
   private readonly player: Player;
-  private lanes: Lanes | undefined;
+  private plots: Plots | undefined;
   private readonly sliders: Sliders;
-  private saying: number | undefined;
-  /** The run of the simulator; undefined where the page has none. */
+  private announcement: number | undefined;
+  /** The simulator; undefined if the page has none. */
   readonly simulator: Simulator | undefined;
 
   constructor(
@@ -86,12 +86,12 @@ export class Desk {
     const { motion, robot } = app.data;
     this.player = new Player(app, () => this.showPlaying());
     element("dock").hidden = !motion;
-    this.lanes = this.plots();
+    this.plots = this.makePlots();
     if (run) this.simulator = this.simulate(run);
     this.sliders = new Sliders(element("joints"), robot, motion ? undefined : (joint, value) => this.move(joint, value));
     theme.watchers.push(() => {
       picture?.paint();
-      this.lanes?.paint();
+      this.plots?.paint();
     });
     this.writeTitle();
     this.addButtons();
@@ -112,10 +112,10 @@ export class Desk {
     return motion?.base && !run && !task ? "follow" : "iso";
   }
 
-  /** The plots of the motion as it is now. */
-  private plots(): Lanes | undefined {
+  /** Creates the plots of the current motion. */
+  private makePlots(): Plots | undefined {
     const { motion } = this.app.data;
-    return motion && new Lanes(element("lanes"), motion, (time) => this.go(() => this.app.seek(time)));
+    return motion && new Plots(element("lanes"), motion, (time) => this.go(() => this.app.seek(time)));
   }
 
   private simulate(run: Run): Simulator {
@@ -126,11 +126,11 @@ export class Desk {
 
   /** Shows a motion that has become longer. */
   private grow(run: Run): void {
-    this.lanes?.remove();
+    this.plots?.remove();
     this.picture?.grow(run.motion);
     this.app.data.motion = run.motion;
-    this.lanes = this.plots();
-    this.lanes?.paint();
+    this.plots = this.makePlots();
+    this.plots?.paint();
     element<HTMLInputElement>("scrub").max = String(run.motion.times.length - 1);
     this.app.grow(run.motion);
   }
@@ -150,7 +150,7 @@ export class Desk {
     const notes = element("notes");
     notes.hidden = robot.notes.length === 0;
     notes.querySelector("summary")!.textContent = robot.notes.length === 1 ? "1 note" : `${robot.notes.length} notes`;
-    notes.querySelector("ul")!.replaceChildren(...robot.notes.map((note) => worded("li", note)));
+    notes.querySelector("ul")!.replaceChildren(...robot.notes.map((note) => textElement("li", note)));
   }
 
   private addButtons(): void {
@@ -182,7 +182,7 @@ export class Desk {
     };
     element("theme-button").onclick = () => this.theme.toggle();
     element("help-button").onclick = () => this.help();
-    element("keys").append(...KEYS.flatMap(([key, what]) => [worded("dt", key), worded("dd", what)]));
+    element("keys").append(...KEYS.flatMap(([key, what]) => [textElement("dt", key), textElement("dd", what)]));
   }
 
   private addTimeline(): void {
@@ -196,7 +196,7 @@ export class Desk {
     speed.onchange = () => (this.player.speed = Number(speed.value));
   }
 
-  /** Goes to another time by hand, which ends playing. */
+  /** Changes the time and pauses playback. */
   private go(move: () => void): void {
     this.player.pause();
     move();
@@ -205,14 +205,14 @@ export class Desk {
   private look(view: View): void {
     this.picture?.look(view);
     this.mark(view);
-    this.say(`Camera: ${view}`);
+    this.announce(`Camera: ${view}`);
   }
 
   private mark(view: View): void {
     for (const other of element("views").children) other.ariaPressed = String((other as HTMLElement).dataset["view"] === view);
   }
 
-  /** Title and buttons cover a picture at its top where they do not stand beside one another, the layers any at its bottom. */
+  /** Keeps the picture clear of the title and buttons at the top, if they are stacked, and of the layers at the bottom. */
   private keepClear(): void {
     const [header, layers] = [document.querySelector("header")!, element("layers")];
     const [name, views] = [header.querySelector<HTMLElement>(".name")!, header.querySelector("nav")!];
@@ -280,7 +280,7 @@ export class Desk {
     const play = element("play");
     play.innerHTML = this.player.isPlaying ? PAUSE : PLAY;
     play.ariaLabel = this.player.isPlaying ? "Pause" : "Play";
-    if (!this.player.isPlaying) this.say(this.words());
+    if (!this.player.isPlaying) this.announce(this.status());
   }
 
   private show(): void {
@@ -288,50 +288,50 @@ export class Desk {
     this.sliders.show(this.app.values);
     this.picture?.show();
     if (!place || !data.motion) return;
-    this.lanes?.show(place);
+    this.plots?.show(place);
     const { times } = data.motion;
     const scrub = element<HTMLInputElement>("scrub");
     const sample = nearestSample(place);
     scrub.value = String(sample);
     scrub.style.setProperty("--share", `${(100 * (place.time - times[0]!)) / (times.at(-1)! - times[0]! || 1)}%`);
     scrub.setAttribute("aria-valuetext", `${number(place.time, 2)} seconds`);
-    element("clock").replaceChildren(number(place.time, 2), worded("small", ` / ${number(times.at(-1)!, 2)} s`));
+    element("clock").replaceChildren(number(place.time, 2), textElement("small", ` / ${number(times.at(-1)!, 2)} s`));
     const phase = phaseAt(data.motion, place.time);
     element("phase").textContent = phase ? phaseName(phase) : `sample ${sample + 1} of ${times.length}`;
-    if (!this.player.isPlaying) this.say(this.words());
+    if (!this.player.isPlaying) this.announce(this.status());
   }
 
-  /** The state of the motion in words. */
-  private words(): string {
+  /** The current state of the motion as text. */
+  private status(): string {
     const { place, data, base } = this.app;
     if (!place || !data.motion) return "";
     const phase = phaseAt(data.motion, place.time);
-    const standing = data.motion.contacts.filter(({ stands }) => stands[place.sample] === "1").map(({ name }) => named(name).toLowerCase());
+    const standing = data.motion.contacts.filter(({ stands }) => stands[place.sample] === "1").map(({ name }) => displayName(name).toLowerCase());
     const margin = this.app.figure("margin");
-    const words = [`${number(place.time, 2)} seconds`];
-    if (phase) words.push(phaseName(phase));
-    if (data.motion.contacts.length > 0) words.push(standing.length > 0 ? `standing on ${standing.join(" and ")}` : "nothing stands");
-    if (data.motion.base) words.push(`root at ${base.slice(0, 3).map((value) => number(value, 3)).join(", ")} metres`);
-    if (margin !== null) words.push(`margin ${quantity(margin, "m")}`);
-    return words.join("; ");
+    const parts = [`${number(place.time, 2)} seconds`];
+    if (phase) parts.push(phaseName(phase));
+    if (data.motion.contacts.length > 0) parts.push(standing.length > 0 ? `standing on ${standing.join(" and ")}` : "no contact");
+    if (data.motion.base) parts.push(`root at ${base.slice(0, 3).map((value) => number(value, 3)).join(", ")} metres`);
+    if (margin !== null) parts.push(`margin ${quantity(margin, "m")}`);
+    return parts.join("; ");
   }
 
-  /** Has a text read out, the last one of those that come quickly. */
-  private say(text: string): void {
-    clearTimeout(this.saying);
-    this.saying = setTimeout(() => (element("live").textContent = text), SAY_EVERY);
+  /** Announces a text to screen readers; of texts in quick succession only the last. */
+  private announce(text: string): void {
+    clearTimeout(this.announcement);
+    this.announcement = setTimeout(() => (element("live").textContent = text), ANNOUNCE_EVERY);
   }
 }
 
-/** A new element that holds a text. */
-export function worded<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, text: string): HTMLElementTagNameMap[Tag] {
+/** Creates an element with a text. */
+export function textElement<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, text: string): HTMLElementTagNameMap[Tag] {
   const made = document.createElement(tag);
   made.textContent = text;
   return made;
 }
 
 function button(text: string, press: () => void): HTMLButtonElement {
-  const made = worded("button", text);
+  const made = textElement("button", text);
   made.type = "button";
   made.addEventListener("click", press);
   return made;

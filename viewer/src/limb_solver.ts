@@ -1,4 +1,4 @@
-/** The solutions of a limb for a target: all of them, each with its frames. */
+/** All solutions of a limb for a target, with the frames of the links. */
 
 import type { App } from "./app";
 import type { Joint, Limb } from "./data";
@@ -7,18 +7,18 @@ import { complete, forward } from "./kinematics";
 import { inverse, multiply, type Frame } from "./pose";
 import { selfMotion } from "./selfmotion";
 
-/** What `groebot.solutions()` tells. */
+/** A solution, as `groebot.solutions()` returns it. */
 export interface Solution {
   /** Joint values in the solver's order [rad or m]. */
   q: number[];
-  /** The number of its branch, the same from target to target. */
+  /** The branch number, which is continuous from target to target. */
   branch: number;
-  /** The largest miss of the equations, in their own unit. */
+  /** The largest residual of the equations, in their own unit. */
   residual: number;
   /** Whether all joints are within their limits, and which are not. */
   within: boolean;
   outside: string[];
-  /** Joints that are free at this singular pose: every value of theirs does it, others changing along. */
+  /** Joints that are free at this singular pose: each of their values has a solution with other values of the remaining joints. */
   free: string[];
 }
 
@@ -26,40 +26,40 @@ interface Answer {
   solutions: { q: number[]; branch: number; residual: number; free: number[] }[];
 }
 
-/** How far beyond a limit counts as at it [rad or m]. */
+/** Tolerance of joint limits [rad or m]. */
 const ROUNDING = 1e-9;
-/** From value to value of a free joint [rad or m]. */
+/** Step of a free joint [rad or m]. */
 const FREE = { turns: Math.PI / 6, slides: 0.05 };
 
 export class LimbSolver {
   readonly solutions: Solution[] = [];
-  /** Of each solution the frames of all links. */
+  /** For each solution, the frames of all links. */
   readonly frames: Frame[][] = [];
   /** The target: the frame of the tip in that of the base [m]. */
   target: Frame;
-  /** How long the last update took, without drawing [ms]. */
+  /** Duration of the last update, without drawing [ms]. */
   updateMs = 0;
   private readonly solver: number;
 
   constructor(private readonly engine: Engine, private readonly app: App, readonly limb: Limb) {
-    const opened = engine.ask<{ solver: number; inputs: string[] }>({ open: limb.program });
+    const opened = engine.request<{ solver: number; inputs: string[] }>({ open: limb.program });
     if (opened.inputs.length !== 12) throw new Error(`${limb.name} is not solved for a pose of its tip`);
     this.solver = opened.solver;
     this.target = this.reached();
   }
 
-  /** Where the tip is now. */
+  /** The frame of the tip in that of the base. */
   reached(frames = this.app.frames): Frame {
     return multiply(inverse(frames[this.limb.base]!), frames[this.limb.tip]!);
   }
 
-  /** Solves for another target: position by columns of a frame; the robot takes the solution nearest to where it is. */
+  /** Solves for a target frame. */
   solve(target: Frame): void {
     const started = performance.now();
     this.target = target;
     const at = (place: number) => target[place]! / this.limb.metres;
     const numbers = [at(3), at(7), at(11), ...[0, 1, 2, 4, 5, 6, 8, 9, 10].map((place) => target[place]!)];
-    const { solutions } = this.engine.ask<Answer>({ solve: { solver: this.solver, target: numbers } });
+    const { solutions } = this.engine.request<Answer>({ solve: { solver: this.solver, target: numbers } });
     const { joints } = this;
     this.solutions.length = this.frames.length = 0;
     for (const { q, branch, residual, free } of solutions) {
@@ -71,7 +71,7 @@ export class LimbSolver {
     this.updateMs = performance.now() - started;
   }
 
-  /** The place of the solution nearest to the robot's joints, first of those within limits; -1 without any. */
+  /** The index of the solution nearest to the robot's joint values, preferably within limits; -1 without solutions. */
   nearest(): number {
     const away = ({ q, within }: Solution) => {
       const turns = q.map((value, place) => Math.abs(Math.sin((value - this.app.values[this.limb.joints[place]!]!) / 2)));
@@ -84,7 +84,7 @@ export class LimbSolver {
     return best;
   }
 
-  /** Joint values along the self-motion about the first free joint of a solution, within limits; none where it has no free joint. */
+  /** Joint values along the self-motion of the first free joint of a solution, within limits; empty if no joint is free. */
   selfMotion(place: number): number[][] {
     const solution = this.solutions[place];
     const free = this.joints.findIndex(({ name }) => name === solution?.free[0]);

@@ -1,4 +1,4 @@
-//! Requests and responses. Main type: [`Desk`].
+//! Requests and responses. Main type: [`Session`].
 
 use groebot::gait::{Footprint, Side, Walk};
 use groebot::kinematics::Solution;
@@ -24,7 +24,7 @@ enum Request {
         /// One number for each input.
         target: Vec<f64>,
     },
-    /// Place a robot of groebot in a room. The response is that of [`Desk::told`], with the samples in which the robot
+    /// Place a robot of groebot in a room. The response is the state (the function `state`), with the samples in which the robot
     /// lowers its body.
     Run {
         /// `nao`, `rh0` or `teo`.
@@ -60,14 +60,14 @@ enum Request {
 
 /// The loaded solvers, and the run.
 #[derive(Default)]
-pub struct Desk {
+pub struct Session {
     solvers: Vec<Solver>,
     run: Option<Run>,
     /// The initial furniture of the room. Removed pieces can be restored.
     furniture: Vec<Piece>,
 }
 
-impl Desk {
+impl Session {
     /// Returns the response to a request; `{"error": TEXT}` if it fails.
     pub fn answer(&mut self, request: &[u8]) -> String {
         let request = serde_json::from_slice(request).map_err(|error| Error::new(ErrorKind::Syntax, error.to_string()));
@@ -90,7 +90,7 @@ impl Desk {
                 self.furniture.clone_from(&start.room.pieces);
                 let run = self.run.insert(Run::new(start, &watch)?);
                 let samples = run.walk().references.len();
-                Ok(told(run, 0..samples))
+                Ok(state(run, 0..samples))
             }
             Request::Step => {
                 let run = self.running()?;
@@ -102,7 +102,7 @@ impl Desk {
             Request::Goal(goal) => {
                 let run = self.running()?;
                 run.go_to(Goal::of(&goal)?.into(), &watch)?;
-                Ok(told(run, 0..0))
+                Ok(state(run, 0..0))
             }
             Request::Furniture { name, at } => {
                 let away = self.furniture.iter().find(|piece| piece.name == name).cloned();
@@ -116,12 +116,12 @@ impl Desk {
                     None => room.without(&name)?,
                 };
                 run.refurnish(room, &watch)?;
-                Ok(told(run, 0..0))
+                Ok(state(run, 0..0))
             }
             Request::Set { name, value } => {
                 let run = self.running()?;
                 let samples = run.set(&name, value, &watch)?;
-                Ok(told(run, samples))
+                Ok(state(run, samples))
             }
         }
     }
@@ -137,41 +137,41 @@ impl Desk {
     }
 
     fn running(&mut self) -> Result<&mut Run> {
-        self.run.as_mut().ok_or_else(|| Error::new(ErrorKind::MissingKey, "nothing runs yet; ask for a run first"))
+        self.run.as_mut().ok_or_else(|| Error::new(ErrorKind::MissingKey, "there is no run; send the request `run` first"))
     }
 }
 
 /// Joints and soles, parameters with their presets, path, furniture, and samples.
-fn told(run: &Run, samples: std::ops::Range<usize>) -> Value {
-    let mut told = samples_of(run, samples);
+fn state(run: &Run, samples: std::ops::Range<usize>) -> Value {
+    let mut state = samples_of(run, samples);
     let biped = &run.pilot().walker().biped;
-    told["joints"] = biped.joints.iter().map(|joint| joint.name.as_str()).collect();
+    state["joints"] = biped.joints.iter().map(|joint| joint.name.as_str()).collect();
     let corners = |side: Side| -> Value {
         biped.feet[side as usize].corners.iter().map(|corner| json!([corner.x, corner.y])).collect()
     };
-    told["outlines"] = json!([corners(Side::Left), corners(Side::Right)]);
+    state["outlines"] = json!([corners(Side::Left), corners(Side::Right)]);
     let figure = |(figure, value): (&groebot::sim::Figure, &f64)| json!({ "name": figure.name, "what": figure.what, "unit": figure.unit, "value": value });
-    told["figures"] = FIGURES.iter().zip(&run.figures().values).map(figure).collect();
-    told["presets"] =
+    state["figures"] = FIGURES.iter().zip(&run.figures().values).map(figure).collect();
+    state["presets"] =
         PRESETS.iter().map(|preset| json!({ "name": preset.name, "values": preset.figures.values })).collect();
     match run.course() {
         Ok(course) => {
-            told["way"] = course.path.points.iter().map(|at| json!([at.x, at.y])).collect();
-            told["wide"] = course.is_wide.into();
+            state["path"] = course.path.points.iter().map(|at| json!([at.x, at.y])).collect();
+            state["wide"] = course.is_wide.into();
         }
         Err(blocked) => {
             let middle = |cell: &usize| {
                 let at = blocked.map.centre(*cell);
                 json!([at.x, at.y])
             };
-            told["way"] = Value::Null;
-            told["blocked"] = blocked.to_string().into();
-            told["enclosure"] = blocked.enclosure.cells.iter().map(middle).collect();
+            state["path"] = Value::Null;
+            state["blocked"] = blocked.to_string().into();
+            state["enclosure"] = blocked.enclosure.cells.iter().map(middle).collect();
         }
     }
     let piece = |piece: &Piece| json!({ "name": piece.name, "at": [piece.place.x, piece.place.y, piece.yaw] });
-    told["furniture"] = run.room().pieces.iter().map(piece).collect();
-    told
+    state["furniture"] = run.room().pieces.iter().map(piece).collect();
+    state
 }
 
 /// All footsteps, and samples of the walk: times, joints, torso and soles (position and quaternion xyzw), soles in contact, centre of mass, zero moment point,

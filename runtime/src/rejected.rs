@@ -1,4 +1,4 @@
-//! Candidates for members of self-motions that turn out to be none ([`Strays`]), and solutions that are not members ([`Loners`]).
+//! Kinds of candidates that are not members of self-motions ([`RejectedKinds`]), known members ([`KnownMembers`]), and isolated solutions ([`IsolatedSolutions`]).
 
 use crate::mechanism::{Facts, Found, Joints, Mechanism};
 use crate::tolerances::ACCEPTANCE;
@@ -16,19 +16,19 @@ struct Kind {
     count: usize,
     /// The largest relative residual of such a candidate.
     missed: f64,
-    is_astray: bool,
+    is_rejected: bool,
 }
 
-/// Records about candidates by kind.
-pub(crate) struct Strays {
+/// Counts of candidates by kind, and the kinds that are known not to be members of a self-motion.
+pub(crate) struct RejectedKinds {
     kinds: [Kind; KINDS],
     count: usize,
     are_too_many: bool,
 }
 
-impl Strays {
-    pub const NONE: Self = Strays {
-        kinds: [Kind { branch: 0, free: 0, count: 0, missed: 0.0, is_astray: false }; KINDS],
+impl RejectedKinds {
+    pub const NONE: Self = RejectedKinds {
+        kinds: [Kind { branch: 0, free: 0, count: 0, missed: 0.0, is_rejected: false }; KINDS],
         count: 0,
         are_too_many: false,
     };
@@ -38,19 +38,19 @@ impl Strays {
         let Some(kind) = self.kind(found) else { return false };
         kind.count += 1;
         kind.missed = f64::max(kind.missed, missed);
-        kind.is_astray
+        kind.is_rejected
     }
 
     /// Whether candidates of this kind are known not to be members.
-    pub fn are_astray(&self, found: &Found) -> bool {
+    pub fn are_rejected(&self, found: &Found) -> bool {
         let is_it = |kind: &&Kind| (kind.branch, kind.free) == (found.branch, found.free);
-        self.kinds[..self.count].iter().find(is_it).is_some_and(|kind| kind.is_astray)
+        self.kinds[..self.count].iter().find(is_it).is_some_and(|kind| kind.is_rejected)
     }
 
     /// Records that candidates of this kind are not members.
     pub fn mark(&mut self, found: &Found) {
         if let Some(kind) = self.kind(found) {
-            kind.is_astray = true;
+            kind.is_rejected = true;
         }
     }
 
@@ -58,7 +58,7 @@ impl Strays {
     /// rounding may have hidden a solution at the end of that part.
     pub fn are_doubtful(&self) -> bool {
         let is_doubtful =
-            |kind: &Kind| kind.is_astray && kind.missed <= ACCEPTANCE.unsettled && !kind.count.is_multiple_of(PLACES);
+            |kind: &Kind| kind.is_rejected && kind.missed <= ACCEPTANCE.unsettled && !kind.count.is_multiple_of(PLACES);
         self.are_too_many || self.kinds[..self.count].iter().any(is_doubtful)
     }
 
@@ -110,13 +110,13 @@ pub(crate) struct Known<M: Mechanism> {
 }
 
 /// Candidates known to be members of self-motions in the list. Strata repeat each other, and the next candidate of a branch is usually near the last one.
-pub(crate) struct Trails<M: Mechanism> {
+pub(crate) struct KnownMembers<M: Mechanism> {
     list: [Option<Known<M>>; MEMBERS],
     count: usize,
 }
 
-impl<M: Mechanism> Trails<M> {
-    pub const NONE: Self = Trails { list: [const { None }; MEMBERS], count: 0 };
+impl<M: Mechanism> KnownMembers<M> {
+    pub const NONE: Self = KnownMembers { list: [const { None }; MEMBERS], count: 0 };
 
     pub fn remember(&mut self, found: &Found, q: &Joints<M>, tangent: Option<Joints<M>>) {
         let Found { branch, free, .. } = *found;
@@ -141,19 +141,19 @@ impl<M: Mechanism> Trails<M> {
 }
 
 /// Maximal number of stored isolated solutions; when it is exceeded, the first is removed.
-const LONERS: usize = 8;
+const ISOLATED: usize = 8;
 
 /// Isolated solutions known not to be on a self-motion of these joints.
-pub(crate) struct Loners<M: Mechanism> {
-    list: [Option<(Joints<M>, u32)>; LONERS],
+pub(crate) struct IsolatedSolutions<M: Mechanism> {
+    list: [Option<(Joints<M>, u32)>; ISOLATED],
     next: usize,
 }
 
-impl<M: Mechanism> Loners<M> {
-    pub const NONE: Self = Loners { list: [const { None }; LONERS], next: 0 };
+impl<M: Mechanism> IsolatedSolutions<M> {
+    pub const NONE: Self = IsolatedSolutions { list: [const { None }; ISOLATED], next: 0 };
 
     pub fn remember(&mut self, q: &Joints<M>, free: u32) {
-        self.list[self.next % LONERS] = Some((q.clone(), free));
+        self.list[self.next % ISOLATED] = Some((q.clone(), free));
         self.next += 1;
     }
 

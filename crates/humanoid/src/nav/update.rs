@@ -1,5 +1,5 @@
 //! Incremental updates of arrival-time fields: in a window around the robot, and after the map has changed. Main type:
-//! [`Again`].
+//! [`UpdatedField`].
 //!
 //! Cells are raised and lowered as in A. Stentz, The focussed D* algorithm for real-time replanning (1995). Here a cell
 //! counts as raised as soon as its equation does not hold.
@@ -17,7 +17,7 @@ const ROUNDING: f64 = 1e-14;
 
 /// A field after the map has changed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Again {
+pub struct UpdatedField {
     /// The field of the changed map.
     pub field: Field,
     /// The number of cells that were computed again; a cell that was computed twice counts twice.
@@ -31,17 +31,17 @@ impl Field {
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a map of another size, or a goal that is no longer free; [`Watch::check`].
-    pub fn after<'w>(self, map: &Map, watch: impl Into<Option<&'w Watch>>) -> Result<Again> {
+    pub fn after<'w>(self, map: &Map, watch: impl Into<Option<&'w Watch>>) -> Result<UpdatedField> {
         let watch = Watch::or_none(watch);
         self.check(map)?;
         match self.method {
-            Method::M3r => self.mended(map, &Along, watch),
-            Method::FastMarching(1) => self.mended(map, &Eikonal, watch),
+            Method::M3r => self.updated(map, &Along, watch),
+            Method::FastMarching(1) => self.updated(map, &Eikonal, watch),
             Method::FastMarching(_) => {
                 let goals: Vec<_> = self.goals.iter().map(|goal| map.centre(*goal)).collect();
                 let field = Field::new(map, &goals, self.method, watch)?;
                 let marched = field.times.iter().filter(|time| time.is_finite()).count();
-                Ok(Again { field, marched })
+                Ok(UpdatedField { field, marched })
             }
         }
     }
@@ -92,7 +92,7 @@ impl Field {
         Ok(self)
     }
 
-    fn mended(mut self, map: &Map, rule: &impl Rule, watch: &Watch) -> Result<Again> {
+    fn updated(mut self, map: &Map, rule: &impl Rule, watch: &Watch) -> Result<UpdatedField> {
         let grid = Grid::new(map, Window::of(map));
         let mut times = grid.untouched(map);
         grid.fill(&mut times, &self.times);
@@ -107,7 +107,7 @@ impl Field {
         from.dedup();
         let marched = march(&grid, rule, &mut times, &from, watch)?;
         self.times = grid.without_border(times);
-        Ok(Again { field: self, marched })
+        Ok(UpdatedField { field: self, marched })
     }
 }
 

@@ -1,4 +1,4 @@
-//! Computed torque in workspace (operational space), RH0 (2-48) to (2-50). Main type: [`WorkSpace`].
+//! Computed torque in operational space, RH0 (2-48) to (2-50). Main type: [`OperationalSpace`].
 
 use nalgebra::{DMatrix, DVector, Isometry3, Vector6};
 
@@ -33,7 +33,7 @@ pub struct Target {
 /// A law with which a link follows a target, RH0 (2-50). With the effective parameters (2-49), the torques are `J' (M~
 /// (x_d'' - Kv e' - Kp e) + C~ x' + N~)`.
 #[derive(Clone, Debug)]
-pub struct WorkSpace {
+pub struct OperationalSpace {
     equations: Equations,
     workspace: Workspace,
     link: usize,
@@ -57,7 +57,7 @@ pub struct Effective {
     pub gravity: DVector<f64>,
 }
 
-impl WorkSpace {
+impl OperationalSpace {
     /// Builds the law for the link with the index `link` in a robot. The gains `Kp` \[1/s^2\] and `Kv` \[1/s\] are
     /// those of all directions.
     ///
@@ -71,7 +71,7 @@ impl WorkSpace {
             return Err(Error::new(ErrorKind::BadValue, "give gains and a fraction that are finite and nonnegative"));
         }
         let [proportional, derivative] = gains;
-        Ok(WorkSpace {
+        Ok(OperationalSpace {
             workspace: equations.workspace(),
             equations: equations.clone(),
             link,
@@ -117,7 +117,7 @@ impl WorkSpace {
     /// Computes the effective parameters if the Jacobian has an inverse.
     ///
     /// # Errors
-    /// Those of [`WorkSpace::torques`], and an error unless the robot has six joints.
+    /// Those of [`OperationalSpace::torques`], and an error unless the robot has six joints.
     pub fn effective(&mut self, state: State<'_>) -> Result<Effective> {
         let [jacobian, rate] = self.equations.jacobian(&mut self.workspace, state, self.link)?;
         let [jacobian, rate] =

@@ -1,4 +1,4 @@
-//! The default parameters of a robot's gait. Main type: [`Usual`].
+//! The default parameters of a robot's gait. Main type: [`GaitDefaults`].
 
 use std::borrow::Cow;
 
@@ -13,7 +13,7 @@ use crate::{ErrorKind, Result, Watch};
 
 /// The default parameters of a gait. Metres, seconds, radians.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Usual {
+pub struct GaitDefaults {
     /// The law of motion of the centre of mass.
     pub gait: Gait,
     /// The distance from the supporting foot forward to the landing foot: `x_d` of NAO 6.8, `L_p` of RH0 3.5.
@@ -77,7 +77,7 @@ pub fn plan_at<'w>(
     first.unwrap_or_else(|| Err(crate::Error::new(ErrorKind::BadValue, "give the height of the hip")))
 }
 
-impl Usual {
+impl GaitDefaults {
     /// Half of the lateral distance between the feet \[m\].
     pub fn half_width(&self, biped: &Biped) -> f64 {
         self.half_width.unwrap_or(biped.half_width())
@@ -107,7 +107,7 @@ impl Usual {
     /// Same as `self`, but with turns multiplied by `ease`, and steps by a factor between it and 1.
     #[must_use]
     pub fn eased(self, ease: f64) -> Self {
-        Usual { most_turn: self.most_turn * ease, length: self.length * (1.0 + ease) / 2.0, ..self }
+        GaitDefaults { most_turn: self.most_turn * ease, length: self.length * (1.0 + ease) / 2.0, ..self }
     }
 
     /// Adds a lowering before the first step and a rise after the last one, for one step goal.

@@ -1,11 +1,11 @@
-/** The camera: dragged by hand, put to presets, and going with the robot. */
+/** Camera control: dragging, preset views, and following the robot. */
 
 import { Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Vector } from "./pose";
 import type { Stage } from "./stage";
 
-/** Where the eye is, seen from the robot; x is ahead, y to its left. */
+/** Direction of the camera from the robot; x is forward, y to the left. */
 const VIEWS = {
   front: [1, 0, 0.12],
   side: [0, -1, 0.12],
@@ -14,19 +14,19 @@ const VIEWS = {
   follow: [0.85, -1.1, 0.55],
 } as const;
 
-/** How much more is seen than the robot. */
+/** Ratio of the visible extent to that of the robot. */
 const ROOM = 1.06;
 
 export type View = keyof typeof VIEWS;
 export const VIEW_NAMES = Object.keys(VIEWS) as View[];
 
-export class Eye {
+export class CameraControl {
   private readonly controls: OrbitControls;
   private followed: Vector | undefined;
 
   /**
-   * `middle` is what is looked at, from the robot's root; `[radius, height]` are those of an upright cylinder about the robot [m]. In a room all of it is
-   * seen, but where the eye follows the robot.
+   * `middle` is the target of the camera, from the robot's root; `extent` is radius and height of an upright cylinder round the robot [m]. In a room all views
+   * except `follow` show the whole room.
    */
   constructor(
     private readonly stage: Stage,
@@ -42,7 +42,7 @@ export class Eye {
     this.controls.addEventListener("change", () => stage.draw());
   }
 
-  /** Looks at the robot, whose root is at `root`, from one side; from then on it follows, or not. */
+  /** Selects a preset view of the robot, whose root is at `root`; `follow` then moves with it. */
   look(view: View, root: Vector): void {
     this.followed = view === "follow" ? root : undefined;
     const { camera } = this.stage;
@@ -56,7 +56,7 @@ export class Eye {
     this.stage.draw();
   }
 
-  /** How far away the cylinder is seen as a whole, from so far above as the sine says. */
+  /** The distance at which the whole cylinder is visible; `sine` is that of the camera's elevation. */
   private distance(sine: number, [radius, height]: [number, number]): number {
     const { fov, aspect } = this.stage.camera;
     const tangent = Math.tan((fov / 360) * Math.PI);
@@ -64,12 +64,12 @@ export class Eye {
     return ROOM * Math.max(upright / (tangent * this.stage.clear), radius / (tangent * aspect)) + radius;
   }
 
-  /** Lets go of the picture while something else is dragged. */
+  /** Disables camera dragging while something else is dragged. */
   hold(isHeld: boolean): void {
     this.controls.enabled = !isHeld;
   }
 
-  /** Goes with the root, where it follows. */
+  /** Moves with the root in the view `follow`. */
   go(root: Vector): void {
     if (!this.followed) return;
     const step = new Vector3(root[0] - this.followed[0], root[1] - this.followed[1], 0);

@@ -1,8 +1,8 @@
-/** How numbers and names are said. */
+/** Formats of numbers and names. */
 
 import type { Phase } from "./data";
 
-/** A minus sign that is as wide as a plus, and digits after the point. */
+/** A number with a fixed number of decimals and a typographic minus sign. */
 export function number(value: number, digits: number): string {
   const text = value.toFixed(digits);
   return /^-0\.?0*$/.test(text) ? text.slice(1) : text.replace("-", "\u2212");
@@ -16,8 +16,8 @@ export function quantity(value: number, unit: string, most = Math.abs(value)): s
 
 const NAMES: Record<string, string> = { com: "Centre of mass", zmp: "ZMP", pendulum: "Pendulum ZMP" };
 
-/** The name of a point or figure as a person says it. */
-export function named(name: string): string {
+/** The displayed name of a point or quantity. */
+export function displayName(name: string): string {
   return NAMES[name] ?? (name.charAt(0).toUpperCase() + name.slice(1)).replaceAll("_", " ");
 }
 

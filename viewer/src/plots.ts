@@ -1,11 +1,11 @@
-/** The lanes under the timeline: phases, which contacts stand, and figures as plots; all of them scrub. */
+/** The plots under the timeline: phases, contacts, and quantities. Dragging in any of them sets the time. */
 
 import type { Motion } from "./data";
 import { at, nearestSample, phaseAt, placeOf, type Place } from "./time";
-import { named, quantity } from "./words";
+import { displayName, quantity } from "./format";
 
-/** So many figures of one unit are told one by one beside their plot. */
-const MOST_TOLD = 3;
+/** Maximum number of quantities of one unit whose values are listed beside their plot. */
+const MAX_LISTED = 3;
 
 interface Figure {
   name: string;
@@ -13,15 +13,15 @@ interface Figure {
   values: Float64Array;
 }
 
-interface Lane {
+interface Plot {
   canvas: HTMLCanvasElement;
   draw(pen: CanvasRenderingContext2D, width: number, height: number): void;
-  /** Writes what holds at a place beside the lane. */
-  tell?(place: Place): void;
+  /** Writes the current values beside the plot. */
+  update?(place: Place): void;
 }
 
-export class Lanes {
-  private readonly lanes: Lane[] = [];
+export class Plots {
+  private readonly plots: Plot[] = [];
   private readonly playhead = document.createElement("div");
   private readonly from: number;
   private readonly span: number;
@@ -43,24 +43,24 @@ export class Lanes {
     this.observer.observe(root);
   }
 
-  /** Takes the lanes away. */
+  /** Removes the plots. */
   remove(): void {
     this.observer.disconnect();
     this.playhead.remove();
-    for (const { canvas } of this.lanes) canvas.parentElement!.remove();
+    for (const { canvas } of this.plots) canvas.parentElement!.remove();
   }
 
   show(place: Place): void {
     this.shown = place;
     const share = (place.time - this.from) / this.span;
-    this.playhead.style.transform = `translateX(${share * (this.lanes[0]?.canvas.clientWidth ?? 0)}px)`;
-    this.playhead.hidden = this.lanes.length === 0;
-    for (const lane of this.lanes) lane.tell?.(place);
+    this.playhead.style.transform = `translateX(${share * (this.plots[0]?.canvas.clientWidth ?? 0)}px)`;
+    this.playhead.hidden = this.plots.length === 0;
+    for (const plot of this.plots) plot.update?.(place);
   }
 
-  /** Draws all lanes in the colours of the theme. */
+  /** Draws all plots in the colours of the theme. */
   paint(): void {
-    for (const { canvas, draw } of this.lanes) {
+    for (const { canvas, draw } of this.plots) {
       const { clientWidth: width, clientHeight: height } = canvas;
       const ratio = devicePixelRatio;
       [canvas.width, canvas.height] = [Math.round(width * ratio), Math.round(height * ratio)];
@@ -71,23 +71,23 @@ export class Lanes {
     }
   }
 
-  /** A row: what it is, its picture, what it says now. */
-  private add(label: string, height: number, text: string, draw: Lane["draw"]): [Lane, HTMLElement] {
+  /** Adds a row: label, plot, current value. */
+  private add(label: string, height: number, text: string, draw: Plot["draw"]): [Plot, HTMLElement] {
     const row = document.createElement("div");
     row.className = "lane";
-    const [name, said] = [document.createElement("span"), document.createElement("span")];
+    const [name, valueText] = [document.createElement("span"), document.createElement("span")];
     name.textContent = label;
     name.title = label;
     const canvas = document.createElement("canvas");
     canvas.style.setProperty("--height", `${height}px`);
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", text);
-    row.append(name, canvas, said);
+    row.append(name, canvas, valueText);
     this.root.append(row);
     this.scrubs(canvas);
-    const lane: Lane = { canvas, draw };
-    this.lanes.push(lane);
-    return [lane, said];
+    const plot: Plot = { canvas, draw };
+    this.plots.push(plot);
+    return [plot, valueText];
   }
 
   private scrubs(canvas: HTMLCanvasElement): void {
@@ -111,21 +111,21 @@ export class Lanes {
 
   private addPhases(): void {
     const { phases } = this.motion;
-    const [lane, said] = this.add("Phase", 16, `${phases.length} phases`, (pen, width, height) => {
+    const [plot, valueText] = this.add("Phase", 16, `${phases.length} phases`, (pen, width, height) => {
       for (const { action, from, to } of phases) {
         pen.fillStyle = tone(action === "swing" ? "accent" : "muted");
         pen.globalAlpha = action === "swing" ? 0.75 : 0.25;
         pen.fillRect(this.x(from, width) + 0.5, 4, Math.max(this.x(to, width) - this.x(from, width) - 1, 0.5), height - 8);
       }
     });
-    lane.tell = ({ time }) => write(said, [phaseAt(this.motion, time)?.action ?? ""]);
+    plot.update = ({ time }) => write(valueText, [phaseAt(this.motion, time)?.action ?? ""]);
   }
 
   private addContact(name: string, stands: string): void {
     const { times } = this.motion;
     const share = [...stands].filter((letter) => letter === "1").length / stands.length;
-    const text = `${named(name)} is in contact in ${Math.round(100 * share)} % of the samples`;
-    const [lane, said] = this.add(named(name), 16, text, (pen, width, height) => {
+    const text = `${displayName(name)} is in contact in ${Math.round(100 * share)} % of the samples`;
+    const [plot, valueText] = this.add(displayName(name), 16, text, (pen, width, height) => {
       pen.fillStyle = tone("ink");
       pen.globalAlpha = 0.7;
       for (let sample = 0; sample < times.length; sample++) {
@@ -136,10 +136,10 @@ export class Lanes {
         pen.fillRect(this.x(times[first]!, width), 6, Math.max(this.x(end, width) - this.x(times[first]!, width), 1), height - 12);
       }
     });
-    lane.tell = ({ sample }) => write(said, [stands[sample] === "1" ? "stands" : "swings"]);
+    plot.update = ({ sample }) => write(valueText, [stands[sample] === "1" ? "stands" : "swings"]);
   }
 
-  /** The plot of figures of one unit, the margin in the accent's colour; zero as a line where it is near. */
+  /** Adds the plot of the quantities of one unit, the margin in the accent colour, with a line at zero if it is in range. */
   private addPlot(figures: Figure[]): void {
     const { times } = this.motion;
     const first = figures.find(({ name }) => name === "margin") ?? figures[0]!;
@@ -150,37 +150,37 @@ export class Lanes {
     const room = 0.08 * (high - low) || 1;
     const [bottom, top] = [low - room, high + room];
     const text = ordered
-      .map(({ name, unit, values }) => `${named(name)} from ${extremes(values).map((value) => quantity(value, unit)).join(" to ")}`)
+      .map(({ name, unit, values }) => `${displayName(name)} from ${extremes(values).map((value) => quantity(value, unit)).join(" to ")}`)
       .join("; ");
-    const [lane, said] = this.add(ordered.map(({ name }) => named(name)).join(", "), ordered.length > MOST_TOLD ? 56 : 64, text, (pen, width, height) => {
+    const [plot, valueText] = this.add(ordered.map(({ name }) => displayName(name)).join(", "), ordered.length > MAX_LISTED ? 56 : 64, text, (pen, width, height) => {
       const y = (value: number) => height - 4 - ((value - bottom) / (top - bottom)) * (height - 8);
       pen.strokeStyle = tone("line");
       for (const level of bottom <= 0 && top >= 0 ? [0] : []) line(pen, [[0, y(level)], [width, y(level)]]);
       for (const { values } of [...ordered].reverse()) {
-        pen.strokeStyle = tone(values === first.values && ordered.length <= MOST_TOLD ? "accent" : "trace");
+        pen.strokeStyle = tone(values === first.values && ordered.length <= MAX_LISTED ? "accent" : "trace");
         pen.lineWidth = values === first.values ? 1.75 : 1.25;
         pen.lineJoin = "round";
         line(pen, Array.from(values, (value, sample) => [this.x(times[sample]!, width), y(value)]));
       }
     });
-    const label = lane.canvas.parentElement!.firstElementChild!;
-    if (ordered.length > MOST_TOLD) {
-      // Of many values the largest one is shown.
+    const label = plot.canvas.parentElement!.firstElementChild!;
+    if (ordered.length > MAX_LISTED) {
+      // The largest of many values is shown.
       label.replaceChildren(item(`${ordered.length} in ${first.unit}`, false));
-      lane.tell = (place) => {
+      plot.update = (place) => {
         const size = (figure: Figure) => Math.abs(at(figure.values, place));
         const greatest = ordered.reduce((a, b) => (size(b) > size(a) ? b : a));
-        write(said, [quantity(at(greatest.values, place), first.unit), greatest.name]);
+        write(valueText, [quantity(at(greatest.values, place), first.unit), greatest.name]);
       };
       return;
     }
-    label.replaceChildren(...ordered.map(({ name }, place) => item(named(name), place === 0)));
+    label.replaceChildren(...ordered.map(({ name }, place) => item(displayName(name), place === 0)));
     const most = Math.max(Math.abs(low), Math.abs(high));
-    lane.tell = (place) => {
+    plot.update = (place) => {
       const values = ordered.map(({ values }) => at(values, place));
-      write(said, values.map((value) => quantity(value, first.unit, most)));
-      said.firstElementChild?.classList.add("first");
-      said.firstElementChild?.classList.toggle("fault", first.name === "margin" && values[0]! < 0);
+      write(valueText, values.map((value) => quantity(value, first.unit, most)));
+      valueText.firstElementChild?.classList.add("first");
+      valueText.firstElementChild?.classList.toggle("fault", first.name === "margin" && values[0]! < 0);
     };
   }
 }

@@ -1,5 +1,5 @@
-//! Walks as lists of words, RH0 3.5.1: `out right, stride left, stride right, in left`, `turn left 90`. Main type:
-//! [`Word`].
+//! Walks as lists of step commands, RH0 3.5.1: `out right, stride left, stride right, in left`, `turn left 90`. Main type:
+//! [`StepCommand`].
 
 use nalgebra::Point2;
 
@@ -12,7 +12,7 @@ const ARRIVED: f64 = 1e-3;
 
 /// A part of a walk: one of the four kinds of steps of RH0 3.5.1, or a turn in as many steps as needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Word {
+pub enum StepCommand {
     /// From parallel feet, the foot of this side moves one length forward.
     Out(Side),
     /// From the rear, the foot of this side moves to one length forward of the other one.
@@ -23,12 +23,12 @@ pub enum Word {
     Turn(f64),
 }
 
-/// Reads the words of a walk, separated by commas.
+/// Reads the step commands of a walk, separated by commas.
 ///
 /// # Errors
-/// [`ErrorKind::Syntax`] for an unknown word.
-pub fn words(text: &str) -> Result<Vec<Word>> {
-    let word = |part: &str| {
+/// [`ErrorKind::Syntax`] for an unknown command.
+pub fn step_commands(text: &str) -> Result<Vec<StepCommand>> {
+    let command = |part: &str| {
         let wrong = || {
             let text = format!(
                 "`{}`: give `out`, `stride` or `in` with `left` or `right`, or `turn left` or `turn right` with degrees, separated by commas",
@@ -42,20 +42,20 @@ pub fn words(text: &str) -> Result<Vec<Word>> {
             _ => Err(wrong()),
         };
         match part.split_whitespace().collect::<Vec<_>>()[..] {
-            ["out", name] => Ok(Word::Out(side(name)?)),
-            ["stride", name] => Ok(Word::Stride(side(name)?)),
-            ["in", name] => Ok(Word::In(side(name)?)),
+            ["out", name] => Ok(StepCommand::Out(side(name)?)),
+            ["stride", name] => Ok(StepCommand::Stride(side(name)?)),
+            ["in", name] => Ok(StepCommand::In(side(name)?)),
             ["turn", name, degrees] => {
                 let angle = degrees.parse::<f64>().ok().filter(|angle| angle.is_finite() && *angle > 0.0);
-                Ok(Word::Turn(side(name)?.sign() * angle.ok_or_else(wrong)?.to_radians()))
+                Ok(StepCommand::Turn(side(name)?.sign() * angle.ok_or_else(wrong)?.to_radians()))
             }
             _ => Err(wrong()),
         }
     };
-    text.split(',').map(word).collect()
+    text.split(',').map(command).collect()
 }
 
-/// The dimensions of the steps of a walk given in words. Metres, radians.
+/// The dimensions of the steps of a walk given as step commands. Metres, radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measures {
     /// `L_p`: the distance from the supporting foot forward to the landing foot.
@@ -78,16 +78,16 @@ struct RouteBuilder {
 }
 
 impl Route {
-    /// Makes the route of a walk given in words, from parallel feet about the origin.
+    /// Makes the route of a walk given as step commands, from parallel feet about the origin.
     ///
     /// # Errors
-    /// [`ErrorKind::BadValue`] when a word does not fit the current footprints, there are no words or too many steps,
+    /// [`ErrorKind::BadValue`] when a command does not fit the current footprints, there are no commands or too many steps,
     /// or a dimension is not finite and positive.
-    pub fn of_words(words: &[Word], measures: &Measures) -> Result<Self> {
+    pub fn of_commands(commands: &[StepCommand], measures: &Measures) -> Result<Self> {
         let mut builder = RouteBuilder::new(measures)?;
         let start = builder.level();
-        for (place, word) in words.iter().enumerate() {
-            builder.go(word).map_err(|error| error.with_context(format!("word {}", place + 1)))?;
+        for (place, command) in commands.iter().enumerate() {
+            builder.go(command).map_err(|error| error.with_context(format!("command {}", place + 1)))?;
         }
         builder.route(start)
     }
@@ -167,19 +167,21 @@ impl RouteBuilder {
         Ok(route)
     }
 
-    fn go(&mut self, word: &Word) -> Result<()> {
+    fn go(&mut self, command: &StepCommand) -> Result<()> {
         let half = self.measures.length / 2.0;
         let level = self.ahead == [0.0; 2];
         let is_rear = |side: Side| self.ahead[side as usize] < 0.0;
-        match *word {
-            Word::Out(_) | Word::Turn(_) if !level => Err(bad("the feet are not side by side; give `in` first")),
-            Word::Stride(side) | Word::In(side) if !is_rear(side) => {
+        match *command {
+            StepCommand::Out(_) | StepCommand::Turn(_) if !level => {
+                Err(bad("the feet are not side by side; give `in` first"))
+            }
+            StepCommand::Stride(side) | StepCommand::In(side) if !is_rear(side) => {
                 Err(bad(&format!("the {} foot is not at the rear; give `out` or the other foot first", side.name())))
             }
-            Word::Out(side) => self.step(side, half, [half, -half]),
-            Word::Stride(side) => self.step(side, 2.0 * half, [half, -half]),
-            Word::In(side) => self.step(side, half, [0.0, 0.0]),
-            Word::Turn(angle) => self.turn(angle),
+            StepCommand::Out(side) => self.step(side, half, [half, -half]),
+            StepCommand::Stride(side) => self.step(side, 2.0 * half, [half, -half]),
+            StepCommand::In(side) => self.step(side, half, [0.0, 0.0]),
+            StepCommand::Turn(angle) => self.turn(angle),
         }
     }
 
