@@ -7,7 +7,7 @@ use crate::derive::{AnyView, Derivation};
 /// Adds the section about the given joints to `page`.
 pub(in crate::derive) fn section(page: &mut Document, derivation: &Derivation, redundancy: &Redundancy) {
     page.section(Line::of("All solutions within limits"));
-    page.say(
+    page.text(
         "The chain has one joint more than its task determines, so the solutions of a target are curves. A curve enters or leaves the joint \
          limits only where a joint is at a limit. These end points are the solutions with that joint given at that limit. The curves are \
          followed from end point to end point: the result is all arcs of solutions within limits. Curves that touch no limit are searched \

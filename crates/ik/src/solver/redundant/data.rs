@@ -6,9 +6,7 @@ use crate::solver::eigenvalue::Line;
 use crate::solver::{Program, Unit};
 use crate::{Error, ErrorKind, Result};
 use groebot_runtime::redundant::MOST_JOINTS;
-
-/// The greatest deviation of a direction from length one, and of a rotation from its inverse's transpose.
-const UNIT: f64 = 1e-9;
+use groebot_runtime::tolerances::ACCEPTANCE;
 
 /// The programs of a chain with one joint more than its task determines, one for each joint as the given one, and its axes as described.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -60,11 +58,11 @@ impl Redundancy {
         let numbers = self.lines.iter().flat_map(|line| line.direction.iter().chain(&line.point));
         let numbers = numbers.chain(&self.position).chain(self.rotation.as_flattened());
         ensure(numbers.clone().all(|number| number.is_finite()), "only finite numbers are allowed")?;
-        let is_unit = |row: &[f64; 3]| (dot(row, row) - 1.0).abs() <= UNIT;
+        let is_unit = |row: &[f64; 3]| (dot(row, row) - 1.0).abs() <= ACCEPTANCE.input;
         ensure(self.lines.iter().all(|line| is_unit(&line.direction)), "a direction is not of length one")?;
         let [x, y, z] = &self.rotation;
-        let is_rotation =
-            [x, y, z].into_iter().all(is_unit) && [(x, y), (y, z), (z, x)].iter().all(|(a, b)| dot(a, b).abs() <= UNIT);
+        let is_rotation = [x, y, z].into_iter().all(is_unit)
+            && [(x, y), (y, z), (z, x)].iter().all(|(a, b)| dot(a, b).abs() <= ACCEPTANCE.input);
         ensure(is_rotation, "the rotation of the tip is not a rotation")?;
         let are_ordered = self.limits.iter().flatten().all(|[low, high]| low <= high);
         ensure(are_ordered, "limits: the least, then the greatest value")?;

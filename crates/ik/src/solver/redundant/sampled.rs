@@ -1,6 +1,6 @@
 //! Sampled arcs, and their points nearest to given joint values: [`SampledArc`].
 
-use groebot_runtime::redundant::{Members, Redundant};
+use groebot_runtime::redundant::{Given, Members, Redundant};
 
 use super::{Arc, ArmTarget, JointLimits, RedundantSolver};
 use crate::solver::Unit;
@@ -87,7 +87,7 @@ pub(super) fn nearest(
 impl RedundantSolver {
     /// The solution nearest to `q` whose joint that moves most along `step`, of those with a solver, has the value of `q`.
     fn corrected(&self, target: &ArmTarget, q: &[f64], step: &[f64]) -> Result<Option<Vec<f64>>> {
-        let solved = (0..q.len()).filter(|joint| self.is_solved(*joint));
+        let solved = (0..q.len()).filter(|joint| self.arm.given[*joint] == Given::Solved);
         let Some(joint) = solved.max_by(|a, b| step[*a].abs().total_cmp(&step[*b].abs())) else { return Ok(None) };
         let mut members = Members::NONE;
         self.solve_given(&target.row, joint, q[joint], &mut members).map_err(|error| self.refused(target, error))?;
