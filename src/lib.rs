@@ -64,12 +64,12 @@ pub mod poly {
     };
 }
 
-/// Groebner bases: Buchberger, F4, FGLM, modular, parametric.
+/// Groebner bases: F4, FGLM, modular, parametric.
 pub mod groebner {
     pub use groebot_algebra::groebner::{
         Basis, Division, HilbertSeries, Options, Quotient, Settings, Strategy, System, UnivariateRepresentation, basis,
-        basis_modulo_prime, buchberger, change_order, cover, dehomogenise, divide, f4_with, hilbert_driven, homogenise,
-        ideal, modular, normal_form, parametric, reduced_basis, s_polynomial, univariate_representation, verify,
+        basis_modulo_prime, change_order, cover, dehomogenise, divide, f4_with, homogenise, ideal, modular,
+        normal_form, parametric, reduced_basis, s_polynomial, univariate_representation, verify,
     };
 }
 

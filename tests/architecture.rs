@@ -6,6 +6,7 @@ mod cycles;
 mod lexer;
 mod licences;
 mod links;
+mod open_structs;
 mod phrases;
 mod scan;
 mod scanner;

@@ -110,7 +110,7 @@ fn names(bytes: &[u8]) {
 
 /// Code of a program in C and Rust.
 fn code(program: &Program) -> [String; 3] {
-    let c99::Pair { header, source } = c99::Pair::new(program, "5_solver");
+    let c99::Pair { header, source, .. } = c99::Pair::new(program, "5_solver");
     [header, source, rust::emit(program)]
 }
 

@@ -116,7 +116,7 @@ fn folder(bytes: &[u8]) {
     let mut stored = HONEST.2.clone();
     let old = stored.files.insert(name.clone(), content.to_vec());
     let is_forged = old.is_some_and(|old| old != content);
-    for Finding { what, verdict } in findings(&stored) {
+    for Finding { what, verdict, .. } in findings(&stored) {
         match verdict {
             Verdict::Holds(words) => {
                 assert!(!(what == name && is_forged) || words.contains("rounding"), "{name}: {words}");

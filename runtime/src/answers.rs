@@ -11,7 +11,6 @@ use crate::problem::{End, Fit, Problem};
 use crate::rejected::{IsolatedSolutions, KnownMembers, Merged, RejectedKinds};
 use crate::solution::{Error, Pairs, Solution};
 use crate::starts::Starts;
-use crate::steps::settle;
 use crate::storage::Array;
 use crate::tolerances::{ACCEPTANCE, MERGING};
 
@@ -80,7 +79,7 @@ impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
             let suffices = self.suffice_since(before);
             self.suffices &= suffices;
             // The error of a double root is the square root of the rounding error: the stratum may be nearer than that.
-            guard.beside || !suffices || self.doubted > before
+            !suffices || self.doubted > before
         }
     }
 
@@ -166,21 +165,6 @@ impl<'a, M: Mechanism> Answers<'a, M> {
             self.flush();
         }
         self.open.map_or(Ok(()), |number| Err(Error::OpenStratum(number)))
-    }
-
-    /// Whether the target has its maximal number of isolated solutions.
-    fn are_all(&self) -> bool {
-        let count = self.out[..self.count].iter().filter(|answer| answer.is_isolated()).count();
-        self.problem.facts().isolated.is_some_and(|most| count >= most)
-    }
-
-    /// Brings all solutions into their final form and returns their number.
-    #[inline(always)]
-    pub fn conclude(&mut self) -> Result<usize, Error> {
-        self.unite();
-        self.sort();
-        self.mark_choice();
-        settle(self.problem.steps, &mut self.out[..self.count])
     }
 
     /// Whether all candidates could be written as pairs.

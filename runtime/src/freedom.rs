@@ -3,10 +3,10 @@
 use crate::effort::LEAPS;
 use crate::joints::{is_in, shifted, stepped};
 use crate::mechanism::{Equations, Joints, Mechanism};
-use crate::newton::Triangle;
 use crate::problem::Problem;
 use crate::storage::Array;
 use crate::tolerances::{PIVOTS, POLISHING};
+use crate::triangle::Triangle;
 
 impl<M: Mechanism> Problem<'_, M> {
     /// Joint values next to `q` at which the first of the joints `free` can move, to first order, while the others keep the equations' values. Among these,

@@ -1,10 +1,10 @@
 //! Candidates for members of self-motions.
 
 use crate::answers::Answers;
+use crate::connection::Member;
 use crate::counters::Phase;
 use crate::mechanism::{Found, Joints, Mechanism};
 use crate::problem::End;
-use crate::self_motion::Member;
 use crate::solution::Solution;
 use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS, SELF_MOTIONS, STRATA};
 

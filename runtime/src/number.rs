@@ -143,14 +143,13 @@ pub trait Number:
     /// Where a factor is so close to zero that the case of a stratum runs.
     #[inline(always)]
     fn near(self, scale: Self) -> Guard<Self> {
-        Guard { here: self.abs().at_most(scale * STRATA.near), beside: self.abs().at_most(scale * STRATA.beside) }
+        Guard { here: self.abs().at_most(scale * STRATA.near) }
     }
 
     /// Where a factor is not zero.
     #[inline(always)]
     fn away(self, scale: Self) -> Guard<Self> {
-        let here = self.is_away(scale);
-        Guard { here, beside: here }
+        Guard { here: self.is_away(scale) }
     }
 
     /// Whether a factor is not zero.
@@ -160,10 +159,8 @@ pub trait Number:
 /// The truth values of a case's guards.
 #[derive(Clone, Copy, Debug)]
 pub struct Guard<N: Number> {
-    /// Near the stratum.
+    /// Where the guards hold.
     pub here: N::Truth,
-    /// Within rounding of the stratum, which suffices where the cases before have lost nothing.
-    pub beside: N::Truth,
 }
 
 impl<N: Number> Guard<N> {
@@ -178,7 +175,7 @@ impl<N: Number> BitAnd for Guard<N> {
     type Output = Self;
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
-        Guard { here: self.here & other.here, beside: self.beside & other.beside }
+        Guard { here: self.here & other.here }
     }
 }
 

@@ -1,15 +1,17 @@
 //! Source text of the run time, from which single-file solvers are assembled.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 38] = [
+pub const RUST: [(&str, &str); 44] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
     ("arithmetic", include_str!("arithmetic.rs")),
     ("batch", include_str!("batch.rs")),
     ("conditions", include_str!("conditions.rs")),
+    ("connection", include_str!("connection.rs")),
     ("counters", include_str!("counters.rs")),
     ("curve", include_str!("curve.rs")),
+    ("curve_steps", include_str!("curve_steps.rs")),
     ("derivatives", include_str!("derivatives.rs")),
     ("described", include_str!("described.rs")),
     ("double", include_str!("double.rs")),
@@ -17,13 +19,16 @@ pub const RUST: [(&str, &str); 38] = [
     ("exactly", include_str!("exactly.rs")),
     ("freedom", include_str!("freedom.rs")),
     ("joints", include_str!("joints.rs")),
+    ("keep", include_str!("keep.rs")),
     ("lanes", include_str!("lanes.rs")),
     ("limits", include_str!("limits.rs")),
     ("measure", include_str!("measure.rs")),
     ("mechanism", include_str!("mechanism.rs")),
     ("members", include_str!("members.rs")),
+    ("nearest", include_str!("nearest.rs")),
     ("newton", include_str!("newton.rs")),
     ("number", include_str!("number.rs")),
+    ("order", include_str!("order.rs")),
     ("placement", include_str!("placement.rs")),
     ("problem", include_str!("problem.rs")),
     ("quartic", include_str!("quartic.rs")),
@@ -39,6 +44,7 @@ pub const RUST: [(&str, &str); 38] = [
     ("storage", include_str!("storage.rs")),
     ("rejected", include_str!("rejected.rs")),
     ("tolerances", include_str!("tolerances.rs")),
+    ("triangle", include_str!("triangle.rs")),
     ("trigonometry", include_str!("trigonometry.rs")),
 ];
 
@@ -80,23 +86,28 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// The files that the C sources include, each by its path.
-pub const C_PARTS: [(&str, &str); 50] = [
+pub const C_PARTS: [(&str, &str); 56] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
     ("groebot/batch.h", include_str!("../c/groebot/batch.h")),
     ("groebot/candidates.h", include_str!("../c/groebot/candidates.h")),
     ("groebot/conditions.h", include_str!("../c/groebot/conditions.h")),
+    ("groebot/connection.c", include_str!("../c/groebot/connection.c")),
     ("groebot/curve.c", include_str!("../c/groebot/curve.c")),
+    ("groebot/curve_steps.c", include_str!("../c/groebot/curve_steps.c")),
     ("groebot/described.h", include_str!("../c/groebot/described.h")),
     ("groebot/freedom.c", include_str!("../c/groebot/freedom.c")),
     ("groebot/joints.c", include_str!("../c/groebot/joints.c")),
+    ("groebot/keep.c", include_str!("../c/groebot/keep.c")),
     ("groebot/limits.c", include_str!("../c/groebot/limits.c")),
+    ("groebot/nearest.c", include_str!("../c/groebot/nearest.c")),
     ("groebot/measure.h", include_str!("../c/groebot/measure.h")),
     ("groebot/mechanism.h", include_str!("../c/groebot/mechanism.h")),
     ("groebot/members.c", include_str!("../c/groebot/members.c")),
     ("groebot/newton.c", include_str!("../c/groebot/newton.c")),
     ("groebot/number.h", include_str!("../c/groebot/number.h")),
+    ("groebot/order.c", include_str!("../c/groebot/order.c")),
     ("groebot/problem.c", include_str!("../c/groebot/problem.c")),
     ("groebot/program.h", include_str!("../c/groebot/program.h")),
     ("groebot/quartic.c", include_str!("../c/groebot/quartic.c")),
@@ -108,6 +119,7 @@ pub const C_PARTS: [(&str, &str); 50] = [
     ("groebot/solve.h", include_str!("../c/groebot/solve.h")),
     ("groebot/rejected.c", include_str!("../c/groebot/rejected.c")),
     ("groebot/tolerances.h", include_str!("../c/groebot/tolerances.h")),
+    ("groebot/triangle.c", include_str!("../c/groebot/triangle.c")),
     ("groebot/trigonometry.c", include_str!("../c/groebot/trigonometry.c")),
     ("groebot/approaches.h", include_str!("../c/groebot/approaches.h")),
     ("groebot/width.h", include_str!("../c/groebot/width.h")),

@@ -32,10 +32,6 @@ pub struct Strata {
     /// a solution next to it.
     /// Test: `strata_near`.
     pub near: f64,
-    /// A case for a stratum runs only below this share when all candidates of the cases before were solutions without polishing. A stratum on which they would
-    /// have lost a solution is then within rounding.
-    /// Test: none known.
-    pub beside: f64,
     /// A case does not run where a denominator is below this share of its scale. A factor of degree two in the distance from its stratum may be as small as
     /// the square of that distance's rounding error. Wrong candidates are measured and dropped.
     /// Test: `strata_denominator`.
@@ -163,32 +159,10 @@ pub struct Eigenvalues {
     pub aside: [f64; 10],
 }
 
-/// Arcs of solutions of redundant arms (rad, or relative to the characteristic length).
-pub struct Arcs {
-    /// Equations are singular where the least pivot is at most this share of the largest: two curves may cross.
-    /// Test: `arcs_singular`.
-    pub singular: f64,
-    /// Rounding error of joint values on a curve, where Newton's method stops.
-    /// Test: none known.
-    pub rounding: f64,
-    /// Solutions of problems with different joints at limits are one within this distance; a joint is at its limit within it.
-    /// Test: `arcs_same`.
-    pub same: f64,
-    /// A known end point is the one that a curve reaches within this distance, which bounds the errors of solvers at singular configurations.
-    /// Test: `arcs_found`.
-    pub found: f64,
-    /// A joint whose rate and curvature are at most this remains at its limit along the curve.
-    /// Test: `arcs_tied`.
-    pub tied: f64,
-    /// Where a joint's rate at its limit is at most this and the curve bends outwards, the arc is one point.
-    /// Test: `arcs_rate`.
-    pub rate: f64,
-}
-
 /// Tolerances of real roots.
 pub const ROOTS: Roots = Roots { tangent: 1e-10, close: 1e-5, pivot: 1e-9, zero: 1e-290, distinct: 2e-3 };
 /// Tolerances of strata.
-pub const STRATA: Strata = Strata { near: 1e-3, beside: 1e-7, denominator: 1e-30 };
+pub const STRATA: Strata = Strata { near: 1e-3, denominator: 1e-30 };
 /// Tolerances of acceptance.
 pub const ACCEPTANCE: Acceptance = Acceptance { residual: 1e-12, rounding: 1e-14, unsettled: 1e-6, input: 1e-9 };
 /// Tolerances of polishing.
@@ -215,5 +189,3 @@ pub const EIGENVALUES: Eigenvalues = Eigenvalues {
     blurred: 1e-2,
     aside: [0.0, 0.0, 0.0, 0.0, 1e-4, 1e-4, 1e-3, 1e-3, 1e-2, 1e-2],
 };
-/// Tolerances of arcs.
-pub const ARCS: Arcs = Arcs { singular: 1e-9, rounding: 1e-11, same: 1e-7, found: 1e-6, tied: 1e-8, rate: 1e-6 };

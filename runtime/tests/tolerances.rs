@@ -28,6 +28,9 @@ mod irb4600;
 #[path = "../../derivations/spherical_wrist/5_solver.rs"]
 mod spherical;
 #[rustfmt::skip]
+#[path = "../../derivations/stanford/5_solver.rs"]
+mod stanford;
+#[rustfmt::skip]
 #[path = "../../derivations/ur5/5_solver.rs"]
 mod ur5;
 
@@ -97,6 +100,11 @@ targets! {
     roots_zero: crx, ORDINARY, 4, 0;
     /// 0: 8 solutions.
     strata_near: crx, NEAR_A_CURVE, 16, 0;
+    /// 0: no solution. The axes of joints 1, 4 and 6 coincide: two surfaces of solutions, with the arm upwards and downwards.
+    derived_strata_close: stanford, [0.0, 0.0, 0.1, FRAC_PI_2, FRAC_PI_2, FRAC_PI_2], 2, 2;
+    /// 4e-12: 4 solutions with free joints, and none at these joint values.
+    derived_strata_lost: stanford,
+        [0.0, -3.1315926535897933, 0.1, -FRAC_PI_2, -1.5707963267947966, -1.258015725934114], 8, 0;
     /// Infinity: no solution.
     strata_denominator: iiwa,
         [0.16173555615872015, 2.105824803791804, 1.9651190922675807, -2.455255332926444, 0.3469638808778166, -2.9217282671524805,

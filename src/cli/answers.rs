@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::cells::{csv_line, exact, table};
+use super::cells::{csv_line, exact, fixed, table};
 use super::closest::{self, Search};
 use super::columns::heading;
 use super::following::{followers, leaders};
@@ -90,8 +90,8 @@ impl Answer<'_> {
     /// The joint values with both units of each angle.
     pub fn joint_cells(&self, solution: &Solution) -> Vec<String> {
         let cell = |(joint, value): (&Joint, &f64)| match joint.unit {
-            Unit::Radian => format!("{:.6} deg ({value:.9} rad)", value.to_degrees()),
-            unit => format!("{value:.9} {}", self.angles.symbol(unit)).trim_end().to_owned(),
+            Unit::Radian => format!("{} deg ({} rad)", fixed(value.to_degrees(), 6), fixed(*value, 9)),
+            unit => format!("{} {}", fixed(*value, 9), self.angles.symbol(unit)).trim_end().to_owned(),
         };
         self.program.joints.iter().zip(&solution.q).map(cell).collect()
     }

@@ -6,6 +6,13 @@ pub fn exact(value: f64) -> String {
     if plain.len() <= 24 { plain } else { format!("{value:e}") }
 }
 
+/// `value` with this number of decimals. A value that rounds to zero has no sign.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'.' | b'0'));
+    if is_zero { text.trim_start_matches('-').to_owned() } else { text }
+}
+
 /// Rows with right-aligned columns; the last column is unchanged.
 pub fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.first().map_or(0, Vec::len);

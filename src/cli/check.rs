@@ -34,7 +34,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let folder = arguments.derivation.as_path();
     let source = Source::read_between(folder, &arguments.ends.ends()?)?;
     let stored = Stored::read(folder)?;
-    let Checked { mut findings, derivation } = folder::check(&source, &stored, &Watch::none())?;
+    let Checked { mut findings, derivation, .. } = folder::check(&source, &stored, &Watch::none())?;
     if let Some((derivation, checked)) = &derivation
         && let Err(error) = refuse_failures(&source, derivation, checked, false)
     {
@@ -55,7 +55,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 /// All findings as JSON; files that groebot did not write have `null` for the result.
 fn findings_json(findings: &[Finding], notes: &[String]) -> serde_json::Value {
-    let one = |Finding { what, verdict }: &Finding| {
+    let one = |Finding { what, verdict, .. }: &Finding| {
         let (holds, text) = match verdict {
             Verdict::Holds(text) => (Some(true), text.clone()),
             Verdict::Fails(error) => (Some(false), error.to_string()),
@@ -70,7 +70,7 @@ fn findings_json(findings: &[Finding], notes: &[String]) -> serde_json::Value {
 
 fn page(findings: &[Finding], paint: Paint) -> String {
     let width = findings.iter().map(|finding| finding.what.chars().count()).max().unwrap_or(0);
-    let line = |Finding { what, verdict }: &Finding| match verdict {
+    let line = |Finding { what, verdict, .. }: &Finding| match verdict {
         Verdict::Holds(text) => format!("{} {what:<width$}  {text}\n", paint.green("\u{2713}")),
         Verdict::NotChecked(text) => format!("- {:<width$}  not checked: {text}\n", shown(what)),
         Verdict::Fails(error) => {

@@ -79,7 +79,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     match header {
         None => output.write(path, Kind::Plain, arguments.text()?),
         Some(header) => {
-            let Pair { header, source } = arguments.pair(&header)?;
+            let Pair { header, source, .. } = arguments.pair(&header)?;
             Ok(write_pair(&output, path, [header, source])?)
         }
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use super::cells::fixed;
 use super::columns::{self, Columns};
 use super::ends::{EndArguments, TipLink};
 use super::json::FORMAT;
@@ -243,10 +244,10 @@ fn text(edge: &Edge<'_>, answer: &Answer) -> String {
     let width = edge.names().iter().map(|name| name.chars().count()).max().unwrap_or(0);
     for (joint, value) in edge.chain.joints().iter().zip(&answer.q) {
         let shown = match joint.kind {
-            JointKind::Prismatic => format!("{value:>14.9} {unit}"),
+            JointKind::Prismatic => format!("{:>14} {unit}", fixed(*value, 9)),
             JointKind::Revolute => {
                 let radians = if edge.degrees { value.to_radians() } else { *value };
-                format!("{radians:>14.9} rad {:>14.6} deg", radians.to_degrees())
+                format!("{:>14} rad {:>14} deg", fixed(radians, 9), fixed(radians.to_degrees(), 6))
             }
         };
         let outside = if answer.outside.contains(&joint.name) { limits(joint, unit) } else { String::new() };
@@ -270,7 +271,7 @@ fn text(edge: &Edge<'_>, answer: &Answer) -> String {
 fn limits(joint: &Joint, unit: &str) -> String {
     match (joint.limits, joint.kind) {
         (Some((low, high)), JointKind::Revolute) => {
-            format!("   outside {:.2}..{:.2} deg", low.to_degrees(), high.to_degrees())
+            format!("   outside {}..{} deg", fixed(low.to_degrees(), 2), fixed(high.to_degrees(), 2))
         }
         (Some((low, high)), JointKind::Prismatic) => format!("   outside {low}..{high} {unit}"),
         (None, _) => String::new(),
@@ -279,12 +280,7 @@ fn limits(joint: &Joint, unit: &str) -> String {
 
 /// Numbers in columns, nine decimals; values that round to zero have no sign.
 fn numbers(values: &[f64]) -> String {
-    let number = |value: &f64| {
-        let text = format!("{value:.9}");
-        let is_zero = text.bytes().all(|b| matches!(b, b'-' | b'.' | b'0'));
-        format!("{:>14}", if is_zero { text.trim_start_matches('-') } else { &text })
-    };
-    values.iter().map(number).collect()
+    values.iter().map(|value| format!("{:>14}", fixed(*value, 9))).collect()
 }
 
 #[derive(Serialize)]

@@ -5,6 +5,7 @@ mod robot;
 
 use std::path::PathBuf;
 
+use super::cells::fixed;
 use super::console::{self, Paint};
 use super::ends::{IdealEndArguments, TipLink};
 use super::{Halt, Outcome, json};
@@ -160,7 +161,7 @@ fn joint_row(index: usize, joint: &Joint, unit: &str) -> Vec<String> {
     let limits = match (joint.kind, joint.limits) {
         (_, None) => "no limits".to_owned(),
         (JointKind::Revolute, Some((low, high))) => {
-            format!("{:.2}..{:.2} deg", low.to_degrees() + 0.0, high.to_degrees() + 0.0)
+            format!("{}..{} deg", fixed(low.to_degrees(), 2), fixed(high.to_degrees(), 2))
         }
         (JointKind::Prismatic, Some((low, high))) => format!("{low}..{high} {unit}"),
     };

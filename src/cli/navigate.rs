@@ -169,7 +169,7 @@ impl Arguments {
         let biped = &pilot.walker().biped;
         let mut json_report =
             json!({ "format": FORMAT, "robot": biped.name, "method": method, "milliseconds": milliseconds });
-        let step = |Footstep { side, print }: &Footstep| json!({ "foot": side.name(), "x": print.x, "y": print.y, "yaw": print.yaw });
+        let step = |Footstep { side, print, .. }: &Footstep| json!({ "foot": side.name(), "x": print.x, "y": print.y, "yaw": print.yaw });
         match found {
             Ok(plan) => {
                 let summary = Summary::of(biped, &plan.walk);

@@ -7,6 +7,7 @@ use clap::ValueEnum;
 use nalgebra::Point2;
 use serde_json::{Value, json};
 
+use super::cells::fixed;
 use super::floor::{self, FloorArguments};
 use super::json::FORMAT;
 use super::output::{Force, Kind};
@@ -204,8 +205,11 @@ impl Found {
                     (None, Some(time)) => format!(", {time:.4} s"),
                     (None, None) => String::new(),
                 };
-                let rows: String =
-                    path.points.iter().map(|point| format!("  {:.4} {:.4}\n", point.x, point.y)).collect();
+                let rows: String = path
+                    .points
+                    .iter()
+                    .map(|point| format!("  {} {}\n", fixed(point.x, 4), fixed(point.y, 4)))
+                    .collect();
                 format!(
                     "path of {:.4} m{proved}, {} points, {milliseconds:.2} ms\n{rows}",
                     path.length(),

@@ -16,7 +16,7 @@ const MOST_OF_SOLUTION: usize = 40;
 /// The largest number of tolerances of checks, maps and closest joint values.
 const MOST_OF_CHECK: usize = 18;
 /// The largest number of tolerances of solutions without a known test that fails without them.
-const MOST_WITHOUT_TEST: usize = 8;
+const MOST_WITHOUT_TEST: usize = 5;
 /// The tests that fail without one tolerance.
 const TESTS: &str = "runtime/tests/tolerances.rs";
 /// The structs that solutions do not depend on.

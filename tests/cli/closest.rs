@@ -53,6 +53,8 @@ fn text_names_the_error_and_the_joints() {
         "{text}"
     );
     assert!(lines[2].contains("Shoulder") && lines[3].contains(" deg ("), "{text}");
+    // A number that rounds to zero has no sign: the elbow is straight.
+    assert!(lines[3].ends_with("  0.000000 deg (0.000000000 rad)"), "{text}");
 }
 
 #[test]
@@ -72,6 +74,14 @@ fn csv_has_the_joints_and_the_error_in_the_row_without_solutions() {
     // The command reads its own output.
     let again = run_on(&["solve", &arm(), "--closest"], text.as_bytes());
     assert_eq!(again.code, 0, "{}", again.err);
+}
+
+/// Equations do not compare the numbers of a target with those of a tip.
+#[test]
+fn equations_are_refused_with_the_command_that_helps() {
+    let equations = root("derivations/nao_arm_planar");
+    let refused = refused(&["solve", equations.to_str().unwrap(), "--target", "3,4", "--closest"]);
+    assert!(refused.contains("`groebot derive CHAIN`"), "{refused}");
 }
 
 #[test]

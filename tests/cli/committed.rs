@@ -82,7 +82,7 @@ fn fault(folder: &Path, is_checked: bool) -> Option<String> {
     };
     let program = proved.program();
     let mut files = proved.stage_files().unwrap();
-    let Pair { header, source } = Pair::new(program, "5_solver");
+    let Pair { header, source, .. } = Pair::new(program, "5_solver");
     let printed = [("5_solver.rs", rust::emit(program)), ("5_solver.c", source), ("5_solver.h", header)];
     let plugin =
         ikfast::emit_beside(program, &ikfast::Options::default(), "5_solver").ok().map(|text| ("5_ikfast.cpp", text));

@@ -127,6 +127,7 @@ impl Watch {
 
     /// Sets a countdown for tests. Each [`Watch::check`] subtracts one from `left`; at zero, work stops with
     /// [`ErrorKind::Cancelled`]. This counts the calls without a clock.
+    #[doc(hidden)]
     #[must_use]
     pub fn with_patience(mut self, left: Arc<AtomicUsize>) -> Self {
         self.patience = Some(left);

@@ -5,7 +5,7 @@ use super::arm::{Arm, Limits, Q, Target};
 use super::model::{Model, dot, norm, plus};
 use super::step::{Piece, Point, Walk};
 use crate::solution::Error;
-use crate::tolerances::ARCS;
+use crate::tolerances::ACCEPTANCE;
 
 /// Newton steps from the cubic of a piece to the curve.
 const CORRECTIONS: usize = 8;
@@ -47,12 +47,17 @@ impl Journey {
 
     /// The scaled joint values of the curve at a share of the present piece.
     pub fn at(&self, model: &Model<'_>, share: f64) -> Q {
-        let mut x = self.piece.at(share);
+        Journey::on(model, &self.piece, share)
+    }
+
+    /// The scaled joint values of the curve at a share of a piece.
+    pub fn on(model: &Model<'_>, piece: &Piece, share: f64) -> Q {
+        let mut x = piece.at(share);
         for _ in 0..CORRECTIONS {
             let place = model.place(&x);
             let step = place.linear.least(&place.values);
             x = plus(&x, -1.0, &step);
-            if norm(&step) <= ARCS.rounding || dot(&step, &step) > 1.0 {
+            if norm(&step) <= ACCEPTANCE.residual || dot(&step, &step) > 1.0 {
                 break;
             }
         }

@@ -7,7 +7,7 @@ use super::seeds::Seeds;
 use super::step::Point;
 use super::trace::{Start, Stop, trace};
 use crate::solution::Error;
-use crate::tolerances::ARCS;
+use crate::tolerances::PIVOTS;
 
 /// Where two traces lead to one end point, both are repeated with steps of a quarter of the length, at most so many times.
 const LEVELS: u32 = 3;
@@ -177,12 +177,12 @@ fn freeze(model: &mut Model<'_>, ends: &mut Ends, seeds: &Seeds) {
         }
     }
     for k in 0..ends.touches {
-        if model.place(&ends.touching[k].0).linear.pivot > ARCS.singular {
+        if model.place(&ends.touching[k].0).linear.pivot > PIVOTS.regular {
             return;
         }
     }
     for k in 0..seeds.count {
-        if model.place(&seeds.list[k]).linear.pivot > ARCS.singular {
+        if model.place(&seeds.list[k]).linear.pivot > PIVOTS.regular {
             return;
         }
     }
@@ -339,7 +339,10 @@ fn search_from(
         }
         Stop::End(_) => false,
         Stop::Lost(_) => {
-            output.push(Arc { is_unsure: true, length: 0.0, ..arc });
+            output.is_unsure = true;
+            if output.count == 0 {
+                output.push(Arc { is_unsure: true, length: 0.0, ..arc });
+            }
             false
         }
     }

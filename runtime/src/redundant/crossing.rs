@@ -4,12 +4,10 @@ use super::arm::Q;
 use super::model::{Model, norm, plus};
 use super::step::{Piece, Point};
 use crate::arithmetic::Arithmetic;
-use crate::tolerances::{ACCEPTANCE, ARCS};
+use crate::tolerances::{ACCEPTANCE, PIVOTS};
 
 /// Iterations for a root of a cubic.
 const ROOT_STEPS: usize = 40;
-/// A root is known when its bracket is this narrow, relative to the piece.
-const NARROW: f64 = 1e-12;
 /// Maximal length of the correction of a predicted crossing, relative to its piece.
 const CORRECTION: f64 = 0.1;
 
@@ -58,7 +56,7 @@ impl Crossing {
         let step = place.linear.with(&place.values, self.joint, x[self.joint] - limit)?;
         let size = norm(&step);
         let is_short = size <= longest;
-        if !is_short || place.linear.pivot <= ARCS.singular {
+        if !is_short || place.linear.pivot <= PIVOTS.regular {
             return None;
         }
         place.x = plus(x, -1.0, &step);
@@ -117,7 +115,7 @@ fn root([d, c, b, a]: [f64; 4], mut low: f64, mut high: f64) -> f64 {
         let slope = c + u * (2.0 * b + u * 3.0 * a);
         let newton = if slope == 0.0 { low } else { u - value / slope };
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        if (next - u).abs() <= NARROW || high - low <= NARROW {
+        if (next - u).abs() <= ACCEPTANCE.residual || high - low <= ACCEPTANCE.residual {
             return next;
         }
         u = next;

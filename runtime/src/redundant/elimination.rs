@@ -14,8 +14,12 @@ pub(super) type Rows = [f64; MOST_ROWS];
 pub(super) struct Elimination {
     /// The number of pivots; there is one more unknown.
     rank: usize,
-    /// Column `j` is that of unknown `order[j]`: `U` down to the diagonal, multipliers of `L` below it.
+    /// `U`. Column `j` is that of unknown `order[j]`. Entries below the diagonal are 0, so that loops run over all rows.
     columns: [Rows; MOST_JOINTS],
+    /// `L` without its diagonal, by columns.
+    lower: [Rows; MOST_ROWS],
+    /// The reciprocals of the pivots; 0 for a pivot of 0.
+    inverses: Rows,
     order: [usize; MOST_JOINTS],
     /// Row `k` is that of equation `rows[k]`.
     rows: [usize; MOST_ROWS],
@@ -73,6 +77,9 @@ impl Elimination {
                 for column in &mut done.columns {
                     column.swap(k, best[1]);
                 }
+                for column in &mut done.lower {
+                    column.swap(k, best[1]);
+                }
                 sign = -sign;
             }
             done.eliminate(k, rank + 1);
@@ -85,6 +92,8 @@ impl Elimination {
         Elimination {
             rank,
             columns,
+            lower: [[0.0; MOST_ROWS]; MOST_ROWS],
+            inverses: [0.0; MOST_ROWS],
             order: [0, 1, 2, 3, 4, 5, 6],
             rows: [0, 1, 2, 3, 4, 5],
             tangent: [0.0; MOST_JOINTS],
@@ -102,16 +111,31 @@ impl Elimination {
     fn eliminate(&mut self, k: usize, rows: usize) {
         let pivot = self.columns[k][k];
         let inverse = if pivot == 0.0 { 0.0 } else { 1.0 / pivot };
+        let mut multipliers = [0.0; MOST_ROWS];
         for r in k + 1..rows {
-            self.columns[k][r] *= inverse;
+            multipliers[r] = self.columns[k][r] * inverse;
+            self.columns[k][r] = 0.0;
         }
-        let multipliers = self.columns[k];
         for j in k + 1..=self.rank {
             let upper = self.columns[j][k];
-            for r in k + 1..rows {
+            for r in 0..MOST_ROWS {
                 self.columns[j][r] -= multipliers[r] * upper;
             }
         }
+        self.lower[k] = multipliers;
+        self.inverses[k] = inverse;
+    }
+
+    /// The solution of `U y = z` for the unknowns with pivots, in their order.
+    fn back(&self, mut z: Rows) -> Rows {
+        let mut y = [0.0; MOST_ROWS];
+        for k in (0..self.rank).rev() {
+            y[k] = z[k] * self.inverses[k];
+            for r in 0..MOST_ROWS {
+                z[r] -= self.columns[k][r] * y[k];
+            }
+        }
+        y
     }
 
     /// Computes the null vector.
@@ -124,23 +148,17 @@ impl Elimination {
             largest = f64::max(largest, pivot.abs());
         }
         self.pivot = if largest > 0.0 { least / largest } else { 0.0 };
-        let mut y = [0.0; MOST_JOINTS];
-        y[self.rank] = 1.0;
+        let y = self.back(self.columns[self.rank]);
         let mut square = 1.0;
-        for k in (0..self.rank).rev() {
-            let mut sum = 0.0;
-            for j in k + 1..=self.rank {
-                sum += self.columns[j][k] * y[j];
-            }
-            let pivot = self.columns[k][k];
-            y[k] = if pivot == 0.0 { 0.0 } else { -sum / pivot };
+        for k in 0..self.rank {
             square += y[k] * y[k];
         }
         let norm = Arithmetic::sqrt(square);
         let factor = if determinant < 0.0 { -1.0 / norm } else { 1.0 / norm };
-        for k in 0..=self.rank {
-            self.tangent[self.order[k]] = y[k] * factor;
+        for k in 0..self.rank {
+            self.tangent[self.order[k]] = -y[k] * factor;
         }
+        self.tangent[self.order[self.rank]] = factor;
         self.volume = determinant.abs() * norm;
     }
 
@@ -158,18 +176,15 @@ impl Elimination {
             z[k] = values[self.rows[k]];
         }
         for k in 0..self.rank {
-            for r in k + 1..self.rank {
-                z[r] -= self.columns[k][r] * z[k];
+            let value = z[k];
+            for r in 0..MOST_ROWS {
+                z[r] -= self.lower[k][r] * value;
             }
         }
+        let y = self.back(z);
         let mut x = [0.0; MOST_JOINTS];
-        for k in (0..self.rank).rev() {
-            let mut sum = z[k];
-            for j in k + 1..self.rank {
-                sum -= self.columns[j][k] * x[self.order[j]];
-            }
-            let pivot = self.columns[k][k];
-            x[self.order[k]] = if pivot == 0.0 { 0.0 } else { sum / pivot };
+        for k in 0..self.rank {
+            x[self.order[k]] = y[k];
         }
         x
     }

@@ -1,11 +1,12 @@
 //! End points of arcs: solutions where a joint is at a limit ([`Ends`]).
 
 use super::arm::{Given, MOST_JOINTS, Members, Q, Redundant, Target};
+use super::elimination::Rows;
 use super::model::Model;
 use super::step::{Piece, Point};
 use super::trace::is_on;
 use crate::solution::Error;
-use crate::tolerances::{ACCEPTANCE, ARCS};
+use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS};
 
 /// Maximal number of end points of a target.
 pub(super) const MOST_ENDS: usize = 256;
@@ -146,7 +147,7 @@ impl Ends {
         let mut sides = [0; 2];
         for i in 0..model.count {
             for side in 0..2 {
-                let is_at = !model.turns[i] && (x[i] - model.limits[i][side]).abs() <= ARCS.same;
+                let is_at = !model.turns[i] && (x[i] - model.limits[i][side]).abs() <= MERGING.joints;
                 if is_at && model.is_limited(i) {
                     sides[side] |= 1 << i;
                 }
@@ -154,7 +155,7 @@ impl Ends {
         }
         for k in 0..self.count {
             let end = &mut self.list[k];
-            if farthest(&model.difference(&end.at.x, x)) <= ARCS.same {
+            if farthest(&model.difference(&end.at.x, x)) <= MERGING.joints {
                 end.sides[0] |= sides[0];
                 end.sides[1] |= sides[1];
                 return Some(k);
@@ -172,7 +173,7 @@ impl Ends {
     /// Stores a solution with joints at limits from which the curve leads within limits in both directions.
     fn touch(&mut self, model: &Model<'_>, x: &Q, tied: u32) {
         for k in 0..self.touches {
-            if farthest(&model.difference(&self.touching[k].0, x)) <= ARCS.same {
+            if farthest(&model.difference(&self.touching[k].0, x)) <= MERGING.joints {
                 return;
             }
         }
@@ -203,10 +204,15 @@ impl Ends {
         for k in 0..self.count {
             let mut end = self.list[k];
             let place = model.place(&end.at.x);
+            let is_solution = largest(&place.values) <= 10.0 * MERGING.joints;
+            if !is_solution {
+                self.is_unsure = true;
+                continue;
+            }
             end.at = Point::of(&place, 1.0);
             let (forward, backward, tied) = open(model, &end);
             end.tied = tied;
-            end.is_singular = place.linear.pivot <= ARCS.singular;
+            end.is_singular = place.linear.pivot <= PIVOTS.regular;
             if forward && backward {
                 self.touch(model, &end.at.x, tied);
                 continue;
@@ -235,11 +241,11 @@ fn open(model: &Model<'_>, end: &End) -> (bool, bool, u32) {
             }
             let inward = if side == 0 { 1.0 } else { -1.0 };
             let (rate, bend) = (inward * end.at.t[i], inward * end.at.bend[i]);
-            if rate.abs() <= ARCS.tied && bend.abs() <= ARCS.tied {
+            if rate.abs() <= PIVOTS.regular && bend.abs() <= PIVOTS.regular {
                 tied |= 1 << i;
             } else if bend > 0.0 && rate * rate <= 2.0 * bend * ACCEPTANCE.input {
                 // Touches the limit from within, or exceeds it by less than the tolerance.
-            } else if bend < 0.0 && rate.abs() <= ARCS.rate {
+            } else if bend < 0.0 && rate.abs() <= PIVOTS.regular {
                 forward = false;
                 backward = false;
             } else {
@@ -257,7 +263,7 @@ pub(super) fn tied_at(model: &Model<'_>, x: &Q) -> u32 {
     for i in 0..model.count {
         let [low, high] = model.limits[i];
         let distance = f64::min((x[i] - low).abs(), (x[i] - high).abs());
-        if model.is_limited(i) && distance <= ARCS.same {
+        if model.is_limited(i) && distance <= MERGING.joints {
             at |= 1 << i;
         }
     }
@@ -267,11 +273,21 @@ pub(super) fn tied_at(model: &Model<'_>, x: &Q) -> u32 {
     let place = model.place(x);
     let mut tied = 0;
     for i in 0..model.count {
-        if at & 1 << i != 0 && place.linear.tangent[i].abs() <= ARCS.tied && place.bend[i].abs() <= ARCS.tied {
+        if at & 1 << i != 0 && place.linear.tangent[i].abs() <= PIVOTS.regular && place.bend[i].abs() <= PIVOTS.regular
+        {
             tied |= 1 << i;
         }
     }
     tied
+}
+
+/// The largest magnitude of an equation's value.
+fn largest(values: &Rows) -> f64 {
+    let mut largest = 0.0;
+    for value in values {
+        largest = f64::max(largest, value.abs());
+    }
+    largest
 }
 
 /// The largest magnitude of an entry.

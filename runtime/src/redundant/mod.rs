@@ -9,10 +9,14 @@
 mod along;
 mod arcs;
 mod arm;
+mod best;
+#[cfg(test)]
+mod checks;
 mod crossing;
 mod elimination;
 mod ends;
 mod goal;
+mod links;
 mod model;
 mod seeds;
 mod step;
@@ -22,4 +26,5 @@ mod within;
 pub use along::{at, sample};
 pub use arcs::{Arc, End, Outcome, arcs};
 pub use arm::{Arm, Given, Limits, MOST_JOINTS, Member, Members, Q, Redundant, Target, Task};
+pub use best::{Best, Criterion, best, optima};
 pub use within::{Within, any_within};

@@ -8,7 +8,7 @@ use super::model::Model;
 use super::step::Piece;
 use crate::arithmetic::Arithmetic;
 use crate::solution::Error;
-use crate::tolerances::{ACCEPTANCE, ARCS};
+use crate::tolerances::{ACCEPTANCE, MERGING};
 
 /// Maximal number of solutions that are waiting for a curve.
 pub(super) const MOST_SEEDS: usize = 256;
@@ -17,7 +17,7 @@ const LEVELS: usize = 16;
 /// Between two values, so many times the middle is added where the number of solutions changes, or where solutions are close to each other.
 const HALVINGS: usize = 2;
 /// Solutions for one value are close when no joint differs by more than this (rad, or relative to the characteristic length).
-const CLOSE: f64 = 0.3;
+const CLOSE: f64 = 0.1;
 /// A solution is on a piece when it is within this distance, relative to the piece's length.
 const ON: f64 = 0.02;
 /// Steps of Newton's method for a root of a cubic.
@@ -100,6 +100,9 @@ impl Seeds {
         ends: &mut Ends,
     ) -> Result<(), Error> {
         for _ in 0..HALVINGS {
+            if self.count + Members::ROOM > MOST_SEEDS {
+                return Ok(());
+            }
             let differ = low.solutions != high.solutions;
             if !differ && !(low.has_close && high.has_close) {
                 return Ok(());
@@ -204,6 +207,6 @@ impl Seeds {
             }
         }
         let x = piece.at(share);
-        farthest(&model.difference(&x, &self.list[k])) <= ON * piece.length + ARCS.same
+        farthest(&model.difference(&x, &self.list[k])) <= ON * piece.length + MERGING.joints
     }
 }

@@ -8,16 +8,16 @@
 use super::arm::{MOST_JOINTS, Q};
 use super::model::{Model, Place, dot, norm, plus};
 use crate::arithmetic::Arithmetic;
-use crate::tolerances::ARCS;
+use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS};
 
 /// The first and the longest step (rad, or relative to the characteristic length).
 pub(super) const PACE: [f64; 2] = [0.1, 0.5];
 /// The shortest step. Where a shorter one would be necessary, two curves cross.
-const SHORTEST: f64 = 1e-5;
+const SHORTEST: f64 = 0.1 * MERGING.apart;
 /// Lengths of the steps across such a crossing.
-const LEAPS: [f64; 4] = [1e-4, 1e-3, 1e-2, 5e-2];
+const LEAPS: [f64; 4] = [MERGING.apart, 1e-3, 1e-2, 5e-2];
 /// Maximal length of the first correction.
-const CORRECTION: f64 = 4e-3;
+const CORRECTION: f64 = 2e-3;
 /// Maximal ratio of the second correction to the first one.
 const CONTRACTION: f64 = 0.25;
 /// The least cosine of the angle between directions at both ends of a step.
@@ -137,7 +137,7 @@ impl Walk {
         while self.pace >= SHORTEST {
             if let Some((place, size)) = self.attempt(model, self.pace, self.side) {
                 let piece = Piece::new(&self.at, &Point::of(&place, self.side));
-                let grown = Arithmetic::sqrt(Arithmetic::sqrt(0.5 * CORRECTION / f64::max(size, 1e-12)));
+                let grown = Arithmetic::sqrt(Arithmetic::sqrt(0.5 * CORRECTION / f64::max(size, ACCEPTANCE.residual)));
                 self.pace = f64::min(self.longest, self.pace * f64::min(2.0, f64::max(0.5, grown)));
                 return Some(piece);
             }
@@ -173,7 +173,7 @@ impl Walk {
             // One of the equations is left out, so that the orientation is not continuous.
             place.linear.reverse();
         }
-        if place.linear.pivot <= ARCS.singular || side * dot(&place.linear.tangent, &self.at.t) < STRAIGHT {
+        if place.linear.pivot <= PIVOTS.regular || side * dot(&place.linear.tangent, &self.at.t) < STRAIGHT {
             return None;
         }
         let first = place.linear.least(&place.values);
@@ -185,7 +185,7 @@ impl Walk {
         place.x = plus(&place.x, -1.0, &first);
         let second = place.linear.least(&model.values(&place.x));
         place.x = plus(&place.x, -1.0, &second);
-        let is_contracting = norm(&second) <= CONTRACTION * size + ARCS.rounding;
+        let is_contracting = norm(&second) <= CONTRACTION * size + ACCEPTANCE.residual;
         if is_contracting { Some((place, size)) } else { None }
     }
 

@@ -6,12 +6,12 @@ use super::ends::{Ends, FREE, farthest};
 use super::model::{Model, dot, norm, plus};
 use super::seeds::Seeds;
 use super::step::{Piece, Point, Walk};
-use crate::tolerances::ARCS;
+use crate::tolerances::{ACCEPTANCE, MERGING};
 
 /// Maximal number of steps along a curve.
 const MOST_PIECES: usize = 5000;
 /// A crossing is not searched for with steps shorter than this.
-const SHORTEST: f64 = 2e-5;
+const SHORTEST: f64 = 0.2 * MERGING.apart;
 /// Newton steps to a crossing that is no known end point.
 const LOCATING: usize = 12;
 /// The least cosine of the angle between the directions of a curve and of an end point on it.
@@ -64,7 +64,7 @@ pub(super) fn trace(model: &Model<'_>, start: &Start, ends: &mut Ends, seeds: &m
         if let Some(crossing) = Crossing::first(model, &piece, start.tied) {
             let is_last = piece.length <= SHORTEST;
             if let Some(end) = arrive(model, &crossing, &piece, &walk, ends, is_last) {
-                piece = last_piece(model, &piece.from, &ends.list[end].at.x, &piece.to);
+                piece = last_piece(model, &piece.from, &ends.list[end].at, &piece.to);
                 seeds.pass(model, &piece);
                 ends.pass(model, &piece);
                 let is_unsure = walk.is_unsure || is_last && ends.list[end].is_unsure;
@@ -84,12 +84,15 @@ pub(super) fn trace(model: &Model<'_>, start: &Start, ends: &mut Ends, seeds: &m
     Trace { stop: Stop::Lost(walk.at.x), length, is_unsure: true }
 }
 
-/// The piece from a point to a known one near `to`.
-fn last_piece(model: &Model<'_>, from: &Point, x: &Q, to: &Point) -> Piece {
-    let place = model.place(x);
-    let side = if dot(&place.linear.tangent, &to.t) < 0.0 { -1.0 } else { 1.0 };
-    let mut last = Point::of(&place, side);
-    last.x = plus(&from.x, 1.0, &model.difference(x, &from.x));
+/// The piece from a point to a known one near `to`, in the direction of travel.
+fn last_piece(model: &Model<'_>, from: &Point, end: &Point, to: &Point) -> Piece {
+    let mut last = *end;
+    if dot(&end.t, &to.t) < 0.0 {
+        for value in &mut last.t {
+            *value = -*value;
+        }
+    }
+    last.x = plus(&from.x, 1.0, &model.difference(&end.x, &from.x));
     Piece::new(from, &last)
 }
 
@@ -113,7 +116,7 @@ pub(super) fn is_on(model: &Model<'_>, piece: &Piece, x: &Q) -> bool {
     if !(0.0..=1.0).contains(&share) {
         return false;
     }
-    farthest(&model.difference(&piece.at(share), x)) <= ON * piece.length + ARCS.same
+    farthest(&model.difference(&piece.at(share), x)) <= ON * piece.length + MERGING.joints
 }
 
 /// The end point at which a curve reaches a limit. `None` where a shorter step is necessary to decide. Where the joint has no solver, or with the shortest step,
@@ -137,7 +140,7 @@ fn arrive(
             }
         }
     }
-    if nearest.1 <= 0.25 * size + ARCS.found {
+    if nearest.1 <= 0.25 * size + 10.0 * MERGING.joints {
         let end = &ends.list[nearest.0];
         let is_outward = -end.inward * dot(&end.at.t, &point.t) >= ALIGNED;
         let is_certain =
@@ -161,11 +164,11 @@ fn locate(model: &Model<'_>, crossing: &Crossing, near: &Point, walk: &Walk, end
     let mut size = f64::INFINITY;
     for _ in 0..LOCATING {
         (point, size) = crossing.corrected(model, &point.x, walk.side, 0.1)?;
-        if size <= ARCS.rounding {
+        if size <= ACCEPTANCE.residual {
             break;
         }
     }
-    let is_located = size <= ARCS.same;
+    let is_located = size <= MERGING.joints;
     if !is_located {
         return None;
     }

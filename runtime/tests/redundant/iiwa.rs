@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use groebot_runtime::redundant::{Arc, Q, Redundant, arcs};
+use groebot_runtime::redundant::{Arc, Criterion, Q, Redundant, Within, any_within, arcs, at, best};
 
 use super::srs::{Circle, Srs, pose};
 use crate::random;
@@ -26,9 +26,10 @@ fn distance(a: &Q, b: &Q) -> f64 {
     (0..7).map(|i| turn(a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The least distance to a limit.
+/// The least distance to a limit. The elbow's angle is constant, and may be at its limit.
 fn margin(q: &Q, limits: &[[f64; 2]; 7]) -> f64 {
-    (0..7).map(|i| (q[i] - limits[i][0]).min(limits[i][1] - q[i])).fold(f64::INFINITY, f64::min) + 1e-9
+    let of = |i: usize| (q[i] - limits[i][0]).min(limits[i][1] - q[i]) + if i == 3 { 1e-9 } else { 0.0 };
+    (0..7).map(of).fold(f64::INFINITY, f64::min)
 }
 
 /// Points of a curve, dense where it moves fast or is near a limit.
@@ -45,7 +46,7 @@ impl Scan<'_> {
         let (ma, mb) = (margin(qa, self.limits), margin(qb, self.limits));
         let is_crossing = (ma > 0.0) != (mb > 0.0);
         let is_near = ma.abs().min(mb.abs()) < step;
-        let is_fine = step < 2e-3 && (!is_near || step < 2e-5) && (!is_crossing || step < 1e-7);
+        let is_fine = step < 5e-3 && (!is_near || step < 1e-4) && (!is_crossing || step < 1e-7);
         if is_fine || depth == 0 {
             self.points.push((b, *qb));
             return;
@@ -113,11 +114,18 @@ fn regularity(circle: &Circle) -> f64 {
     least
 }
 
+/// The number of vectors: `GROEBOT_VECTORS` for long runs.
+fn count(usual: usize) -> usize {
+    std::env::var("GROEBOT_VECTORS").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
+
 struct Counts {
     poses: usize,
+    /// Those whose curves are regular.
     compared: usize,
     unsure: usize,
     wrong: usize,
+    lost: usize,
     ends: usize,
     arcs: usize,
 }
@@ -126,7 +134,7 @@ struct Counts {
 fn compare(vectors: &[Q]) -> Counts {
     let robot = Srs::iiwa();
     let limits = robot.arm().limits;
-    let mut counts = Counts { poses: 0, compared: 0, unsure: 0, wrong: 0, ends: 0, arcs: 0 };
+    let mut counts = Counts { poses: 0, compared: 0, unsure: 0, wrong: 0, lost: 0, ends: 0, arcs: 0 };
     for q in vectors {
         let target = pose(q);
         let mut out = [Arc::NONE; 256];
@@ -136,6 +144,22 @@ fn compare(vectors: &[Q]) -> Counts {
         counts.unsure += usize::from(outcome.is_unsure);
         counts.ends += outcome.ends;
         counts.arcs += outcome.count;
+        // Joint values at a known solution differ from the nearest ones on an arc by less than 1e-6.
+        let nearest = Criterion::Nearest { q0: *q, weights: [1.0; 7] };
+        let nearest = best(&robot.arm, &target, &limits, found, &nearest).unwrap();
+        let is_held = nearest.is_some_and(|best| {
+            let again = at(&robot.arm, &target, &limits, &found[best.arc], best.s).unwrap();
+            best.value > -1e-6 && distance(&again, &best.q) < 1e-6
+        });
+        counts.lost += usize::from(!is_held);
+        match any_within(&robot, &target, &limits).unwrap() {
+            Within::Solution(found) => {
+                let reached = pose(&found);
+                assert!(margin(&found, &limits) > -1.1e-9);
+                assert!((0..12).all(|i| (reached[i] - target[i]).abs() < 1e-7), "{q:?}");
+            }
+            other => panic!("{other:?} at {q:?}"),
+        }
         let circle = Circle::new(&target);
         if regularity(&circle) < 3e-3 {
             continue;
@@ -164,10 +188,11 @@ fn compare(vectors: &[Q]) -> Counts {
 
 fn report(name: &str, c: &Counts) {
     println!(
-        "{name}: {} poses, {} compared, {} wrong, {} unsure, {:.1} ends, {:.1} arcs",
+        "{name}: {} poses, {} compared, {} wrong, {} lost, {} unsure, {:.1} ends, {:.1} arcs",
         c.poses,
         c.compared,
         c.wrong,
+        c.lost,
         c.unsure,
         c.ends as f64 / c.poses as f64,
         c.arcs as f64 / c.poses as f64
@@ -178,11 +203,14 @@ fn report(name: &str, c: &Counts) {
 fn random_vectors() {
     let limits = Srs::iiwa().arm.limits;
     let mut next = random();
-    let vectors: Vec<Q> =
-        (0..200).map(|_| std::array::from_fn(|i| limits[i][0] + next() * (limits[i][1] - limits[i][0]))).collect();
+    let vectors: Vec<Q> = (0..count(60))
+        .map(|_| std::array::from_fn(|i| limits[i][0] + next() * (limits[i][1] - limits[i][0])))
+        .collect();
     let counts = compare(&vectors);
     report("random", &counts);
-    assert_eq!(counts.wrong, 0);
+    assert_eq!(counts.wrong, 0, "arcs that differ from the scan");
+    assert_eq!(counts.lost, 0, "vectors on no arc");
+    assert_eq!(counts.unsure, 0, "unsure outcomes");
 }
 
 #[test]
@@ -190,7 +218,7 @@ fn round_vectors() {
     let limits = Srs::iiwa().arm.limits;
     let mut next = random();
     let step = 15.0_f64.to_radians();
-    let vectors: Vec<Q> = (0..200)
+    let vectors: Vec<Q> = (0..count(60))
         .map(|_| {
             std::array::from_fn(|i| {
                 let most = (limits[i][1] / step + 1e-9).floor();
@@ -200,7 +228,9 @@ fn round_vectors() {
         .collect();
     let counts = compare(&vectors);
     report("round", &counts);
-    assert_eq!(counts.wrong, 0);
+    assert_eq!(counts.wrong, 0, "arcs that differ from the scan");
+    // Vectors with a straight elbow and another singular joint, where the solutions are not regular curves.
+    assert!(50 * counts.lost <= counts.poses, "vectors on no arc");
 }
 
 #[test]
@@ -216,15 +246,21 @@ fn times() {
     let (mut all, mut solving) = (Vec::new(), Vec::new());
     let mut members = groebot_runtime::redundant::Members::NONE;
     for target in &targets {
-        let start = std::time::Instant::now();
-        let outcome = arcs(&robot, target, &limits, &mut out).unwrap();
-        all.push(start.elapsed().as_secs_f64() * 1e6);
-        assert!(outcome.count > 0);
-        let start = std::time::Instant::now();
-        for k in 0..28 {
-            robot.solve_given(target, [0, 1, 2, 4, 5, 6, 2][k % 7], limits[k % 7][k / 14], &mut members).unwrap();
+        // The machine may be busy: the least of some times.
+        let mut least = [f64::INFINITY; 2];
+        for _ in 0..20 {
+            let start = std::time::Instant::now();
+            let outcome = arcs(&robot, target, &limits, &mut out).unwrap();
+            least[0] = least[0].min(start.elapsed().as_secs_f64() * 1e6);
+            assert!(outcome.count > 0);
+            let start = std::time::Instant::now();
+            for k in 0..28 {
+                robot.solve_given(target, [0, 1, 2, 4, 5, 6, 2][k % 7], limits[k % 7][k / 14], &mut members).unwrap();
+            }
+            least[1] = least[1].min(start.elapsed().as_secs_f64() * 1e6);
         }
-        solving.push(start.elapsed().as_secs_f64() * 1e6);
+        all.push(least[0]);
+        solving.push(least[1]);
     }
     all.sort_by(f64::total_cmp);
     solving.sort_by(f64::total_cmp);

@@ -1,6 +1,7 @@
 //! Arcs of solutions of redundant arms.
 
 mod iiwa;
+mod planar;
 mod srs;
 
 /// Random numbers in `[0, 1)`, equal in every run (xorshift, G. Marsaglia 2003).

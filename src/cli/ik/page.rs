@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::NUMERIC;
-use crate::cli::cells::{csv_line, exact, table};
+use crate::cli::cells::{csv_line, exact, fixed, table};
 use crate::cli::columns::{Field, heading, of_joints};
 use crate::cli::ends::TipLink;
 use crate::cli::following::{followers, leaders};
@@ -75,8 +75,8 @@ impl Page<'_> {
         for (index, answer) in answers.iter().enumerate() {
             let mut row = vec![(index + 1).to_string()];
             row.extend(chain.joints().iter().zip(&answer.q).map(|(joint, value)| match joint.kind {
-                JointKind::Revolute => unsigned_zero(&format!("{:.6}", value.to_degrees())),
-                JointKind::Prismatic => unsigned_zero(&format!("{value:.9}")),
+                JointKind::Revolute => fixed(value.to_degrees(), 6),
+                JointKind::Prismatic => fixed(*value, 9),
             }));
             row.extend(self.target.missed(chain, &answer.q).map(|miss| format!("{miss:.1e}")));
             row.push(notes(chain, answer));
@@ -182,12 +182,6 @@ impl Question<'_> {
         cells.extend(["position_residual", "rotation_residual", "free", "outside_limits"].map(str::to_owned));
         csv_line(&cells)
     }
-}
-
-/// A number's text without a sign if it rounds to zero.
-fn unsigned_zero(text: &str) -> String {
-    let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'.' | b'0'));
-    (if is_zero { text.trim_start_matches('-') } else { text }).to_owned()
 }
 
 fn names(chain: &Chain) -> Vec<&str> {

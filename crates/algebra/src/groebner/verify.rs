@@ -20,6 +20,7 @@ pub struct Claim<'a, E> {
 
 /// Numbers of the statements that were proved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Proof {
     /// Basis elements whose cofactors multiply out.
     pub cofactor_rows: usize,

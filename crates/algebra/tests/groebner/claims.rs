@@ -129,8 +129,8 @@ fn every_forgery_is_refused<F: Field>(field: F) {
     let honest = Owned::honest(field);
     let count = honest.basis.len();
     assert!(count >= 4, "enough to forge");
-    let proof = Proof { cofactor_rows: count, generators: 3, pairs: count * (count - 1) / 2 };
-    assert_eq!(honest.verify().unwrap(), proof);
+    let proof = honest.verify().unwrap();
+    assert_eq!([proof.cofactor_rows, proof.generators, proof.pairs], [count, 3, count * (count - 1) / 2]);
     forge_cofactors(&honest);
     forge_basis(&honest);
     forge_generators(&honest);

@@ -14,6 +14,7 @@ const FLAT: f64 = 2e-3;
 
 /// A joint with the limits that a gait respects.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct JointRange {
     /// Its name in the robot's own documents.
     pub name: String,
@@ -29,6 +30,7 @@ pub struct JointRange {
 
 /// A foot: the frame of its sole and its contact points.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Foot {
     /// The index in the robot of the link that the sole is fixed to.
     pub link: usize,
@@ -48,6 +50,7 @@ pub struct Foot {
 /// A biped: its joints, masses and soles. The torso is the root link, with x forward, y left, z up; the feet are level
 /// at the zero configuration.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Biped {
     /// Its name.
     pub name: String,

@@ -128,6 +128,7 @@ impl Footprint {
 
 /// A footstep: the swing foot and its landing pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Footstep {
     /// The swing foot.
     pub side: Side,
@@ -137,6 +138,7 @@ pub struct Footstep {
 
 /// The initial footprints and the footsteps.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Route {
     /// The initial footprints, left and right.
     pub start: [Footprint; 2],

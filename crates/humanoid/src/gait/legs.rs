@@ -14,6 +14,7 @@ const STRAIGHT: f64 = 1e-6;
 
 /// A configuration of a whole biped.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Posture {
     /// The pose of the torso in the world.
     pub world_from_torso: Pose,

@@ -30,6 +30,7 @@ const FIRST_GAIN: f64 = 1.25;
 
 /// The postures of a walk, one per sample.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Motion {
     /// The postures.
     pub postures: Vec<Posture>,

@@ -27,6 +27,7 @@ const MOST_SAMPLES: usize = groebot_algebra::limits::WALK_SAMPLES;
 
 /// A checked walk.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Walk {
     /// The request.
     pub request: Request,

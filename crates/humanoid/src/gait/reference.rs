@@ -24,6 +24,7 @@ pub struct Style {
 
 /// The reference at a sample.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Reference {
     /// The index of the phase in the schedule.
     pub phase: usize,

@@ -26,6 +26,7 @@ pub enum Action {
 
 /// A phase of a walk.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Phase {
     /// Its kind.
     pub action: Action,
@@ -37,6 +38,7 @@ pub struct Phase {
 
 /// All phases of a walk in order, with the footprints in each.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Schedule {
     /// The footsteps.
     pub route: Route,

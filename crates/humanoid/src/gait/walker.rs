@@ -19,6 +19,7 @@ use groebot_robot::model::Robot;
 
 /// A walking robot with its gaits by name, the default first, each with its default parameters.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Walker {
     /// The robot.
     pub biped: Biped,

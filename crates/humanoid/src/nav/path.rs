@@ -30,6 +30,7 @@ impl Path {
 
 /// A set of cells that no path leaves: it contains all free neighbours of its cells.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Enclosure {
     /// The cells, in order.
     pub cells: Vec<usize>,

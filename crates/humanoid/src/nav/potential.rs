@@ -41,6 +41,7 @@ pub struct Potential {
 
 /// A descent that ended in a local minimum.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Stuck {
     /// The local minimum \[m\].
     pub place: Point2<f64>,

@@ -42,6 +42,7 @@ pub enum Part {
 
 /// A path of lines and arcs. The direction is continuous except at sharp corners.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Smooth {
     /// Its segments.
     pub parts: Vec<Part>,

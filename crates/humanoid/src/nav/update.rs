@@ -17,6 +17,7 @@ const ROUNDING: f64 = 1e-14;
 
 /// A field after the map has changed.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct UpdatedField {
     /// The field of the changed map.
     pub field: Field,

@@ -25,6 +25,7 @@ const GAINS: [f64; 2] = [1e-9, 1e-6];
 
 /// A path, its time, and a lower bound.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Quickest {
     /// The path: no small move of its points makes it quicker.
     pub path: Path,

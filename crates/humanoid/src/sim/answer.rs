@@ -18,6 +18,7 @@ pub const SIDES: [&str; 2] = ["left", "right"];
 /// A joint: the deviation of its simulated value from its reference \[rad or m\], and the torque or force of its motor
 /// \[N m or N\].
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct JointComparison {
     /// Its name.
     pub joint: String,
@@ -39,6 +40,7 @@ pub struct JointComparison {
 /// The displacement of a walk, in the initial frame of the middle of the feet: forward and to the left \[m\],
 /// anticlockwise \[rad\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Displacement {
     /// The displacement forward.
     pub ahead: f64,
@@ -50,6 +52,7 @@ pub struct Displacement {
 
 /// A simulated walk compared with its plan.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Comparison {
     /// The joints that move, in the order of the plan.
     pub joints: Vec<JointComparison>,

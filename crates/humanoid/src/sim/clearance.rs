@@ -15,6 +15,7 @@ use groebot_robot::spatial::Pose;
 
 /// The least distance between a link and an object.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Clearance {
     /// The name of the link.
     pub link: String,

@@ -6,6 +6,7 @@ use groebot_robot::document::{one_among, shown};
 
 /// A parameter by its name in the thesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Figure {
     /// Its name in the thesis.
     pub name: &'static str,
@@ -33,6 +34,7 @@ const SLOWEST: f64 = 0.01;
 
 /// Values of all parameters in their units.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Figures {
     /// In the order of [`FIGURES`]; the power is NaN for laws without one.
     pub values: [f64; 9],
@@ -40,6 +42,7 @@ pub struct Figures {
 
 /// Parameters of the thesis under the title of their section.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Preset {
     /// The section.
     pub name: &'static str,

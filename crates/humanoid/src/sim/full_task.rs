@@ -37,6 +37,7 @@ pub struct Change {
 
 /// A path that was found, and the conditions that it holds for.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Stage {
     /// The first sample of the walk on this path.
     pub first: usize,
@@ -52,6 +53,7 @@ pub struct Stage {
 
 /// A completed task.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Performed {
     /// The walk.
     pub walk: Walk,
@@ -148,6 +150,7 @@ impl Performed {
 
 /// The checks of a completed task.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Checks {
     /// The least distance of each link from each object, nearest first.
     pub clearances: Vec<Clearance>,

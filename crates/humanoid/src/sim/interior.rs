@@ -10,6 +10,7 @@ const SIDES: usize = 48;
 
 /// A room \[m, rad\].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Interior {
     /// Its dimensions along x and y.
     pub size: [f64; 2],
@@ -23,6 +24,7 @@ pub struct Interior {
 
 /// A piece of furniture \[m, rad\].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Piece {
     /// Its name.
     pub name: String,

@@ -7,6 +7,7 @@ use crate::{Error, ErrorKind, Result};
 
 /// The room of a task and the paths through it, as `groebot task` writes them under `task`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct TaskRecord {
     /// The initial room.
     pub scene: Interior,
@@ -16,6 +17,7 @@ pub struct TaskRecord {
 
 /// A path that was found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct RecordedStage {
     /// The time of the walk at which it was found \[s\].
     pub from: f64,

@@ -133,6 +133,7 @@ impl Course {
 
 /// The proof that no path exists.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Blocked {
     /// The cells that no path leaves.
     pub enclosure: Enclosure,

@@ -17,6 +17,7 @@ const USED_FRACTION: f64 = 0.9;
 /// The step limits of a walker with one step goal, from the joint limits of its legs at the gait's pace. Metres,
 /// radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Reach {
     /// The greatest distance forward from the supporting foot to the landing foot.
     pub ahead: f64,

@@ -31,6 +31,7 @@ pub enum Reason {
 
 /// A step that was planned and is not taken.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Refusal {
     /// The number of the planned step, from 1.
     pub step: usize,

@@ -23,7 +23,7 @@ impl Iterator for Goals {
 }
 
 fn walk(walker: &Walker, (x, y, heading): (f64, f64, f64)) -> groebot_humanoid::Result<Walk> {
-    let Walker { biped, legs, gaits } = walker;
+    let Walker { biped, legs, gaits, .. } = walker;
     let defaults = &gaits[0].1;
     let request = |height, ease| {
         let defaults = defaults.clone().eased(ease);

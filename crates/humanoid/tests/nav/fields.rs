@@ -1,6 +1,6 @@
 //! Arrival-time fields: M3R of the thesis compared with shortest paths, fast marching compared with distances and with its own equation.
 
-use groebot_humanoid::nav::{Enclosure, Field, Map, Method, Shape};
+use groebot_humanoid::nav::{Field, Map, Method, Shape};
 use groebot_humanoid::{ErrorKind, Watch};
 use nalgebra::Point2;
 
@@ -206,7 +206,8 @@ fn every_descent_ends_in_a_goal() {
                     assert!(enclosure.parts(&map, inside, outside));
                     // A set from which a cell is removed is no enclosure.
                     if enclosure.cells.len() > 1 {
-                        let less = Enclosure { cells: enclosure.cells[1..].to_vec() };
+                        let mut less = enclosure.clone();
+                        less.cells.remove(0);
                         assert!(!less.parts(&map, inside, outside) || !is_in || enclosure.cells[0] == start);
                     }
                 }

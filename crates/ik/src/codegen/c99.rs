@@ -18,6 +18,7 @@ const NUMBERS: Declaration = Declaration { head: "const T ", glue: ", " };
 
 /// A solver in two files: a header, and a translation unit that includes it. It is linked with `groebot.c` and `-lm`.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Pair {
     /// The text of the header, for C99 and C++.
     pub header: String,

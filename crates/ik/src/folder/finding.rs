@@ -6,6 +6,7 @@ use crate::{Error, ErrorKind};
 
 /// The result for one item: a file, or what it describes.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Finding {
     /// The name of the item.
     pub what: String,

@@ -6,6 +6,7 @@ use crate::solver::{Program, Unit};
 
 /// The counts at one place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Entry {
     /// Number of orientations with a solution that counts.
     pub reached: u32,
@@ -21,6 +22,7 @@ pub struct Entry {
 
 /// Reachability of all places.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ReachMap {
     /// The solver's name.
     pub solver: String,

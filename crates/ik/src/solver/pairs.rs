@@ -10,6 +10,7 @@ use groebot_robot::kinematics::Solution;
 
 /// A solution of a program, as cosines and sines.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Pairs {
     /// By joint, the cosine and the sine of an angle; for a length its value, in the program's unit, and zero.
     pub joints: Vec<[f64; 2]>,

@@ -81,6 +81,7 @@ pub enum Verdict {
 
 /// The checks at one target.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Row {
     /// The number of the row, from 1.
     pub number: usize,
@@ -136,6 +137,7 @@ impl Row {
 
 /// The checks of one program.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Report {
     /// The names of the inputs.
     pub inputs: Vec<String>,

@@ -132,6 +132,8 @@ fn other_files_are_named() {
         (b"[{\"name\": \"arm\"}]", "this is JSON"),
         (b"---\nname: arm\n", "this is YAML"),
         (b"\xef\xbb\xbf# an arm\nname: arm\njoints:\n  - a\n", "this is YAML"),
+        (b"# Arm\n\nAn arm with two joints.\n", "this is Markdown"),
+        (b"# Arm\n\n- one joint\n\n```toml\n[tip]\nname = \"a\"\n```\n", "this is Markdown"),
         (b"t,q0,q1\n0,1,2\n", "this is a table (CSV)"),
         (b"# groebot trajectory 1\n# robot: r\ntime [s],q:a [rad]\n0,1\n", "this is a table (CSV)"),
     ] {

@@ -243,13 +243,13 @@ fn constants_cannot_explode() {
 fn files_are_read_with_their_name() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("system.toml");
-    assert_eq!(System::read_toml(&path).unwrap_err().kind(), Io);
+    assert_eq!(InputFile::read(&path).unwrap_err().kind(), Io);
     std::fs::write(&path, ARM).unwrap();
-    assert_eq!(System::read_toml(&path).unwrap(), System::from_toml(ARM).unwrap());
+    assert_eq!(InputFile::read(&path).unwrap().description, Description::System(System::from_toml(ARM).unwrap()));
     std::fs::write(&path, ARM.replace("order", "ordre")).unwrap();
-    assert!(System::read_toml(&path).unwrap_err().to_string().contains("system.toml: line 5: "));
+    assert!(InputFile::read(&path).unwrap_err().to_string().contains("system.toml: line 5: "));
     std::fs::write(&path, "").unwrap();
-    assert_eq!(System::read_toml(&path).unwrap_err().kind(), Syntax);
+    assert_eq!(InputFile::read(&path).unwrap_err().kind(), Syntax);
 }
 
 proptest! {

@@ -48,6 +48,7 @@ pub struct OperationalSpace {
 /// The effective parameters of RH0 (2-49) at a state: `M~ x'' + C~ x' + N~` is the force at the link, and `M~' - 2 C~`
 /// is skew-symmetric.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Effective {
     /// `J^-T M J^-1`.
     pub inertia: DMatrix<f64>,

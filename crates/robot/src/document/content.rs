@@ -54,11 +54,14 @@ fn foreign(name: &str, advice: &str) -> Error {
     Error::new(ErrorKind::Unsupported, text)
 }
 
-/// JSON, YAML or CSV, if `text` is one of them and neither XML nor TOML with a typing error.
+/// JSON, YAML, CSV or Markdown, if `text` is one of them and neither XML nor TOML with a typing error.
 fn text_format(text: &str) -> Option<&'static str> {
     let text = text.trim_start_matches('\u{feff}').trim_start();
     if text.starts_with('{') || (text.starts_with('[') && serde_json::from_str::<IgnoredAny>(text).is_ok()) {
         return Some("JSON");
+    }
+    if has_fenced_block(text) {
+        return Some("Markdown");
     }
     if text.starts_with('<') || text.lines().any(|line| line.contains(" = ") || line.starts_with("[[")) {
         return None;
@@ -74,7 +77,24 @@ fn text_format(text: &str) -> Option<&'static str> {
         |separator: char| lines.iter().all(|line| line.matches(separator).count() == first.matches(separator).count());
     let is_table =
         |separator: &char| lines.len() > 1 && first.contains(*separator) && !first.contains('=') && cells(*separator);
-    [',', ';', '\t'].iter().any(is_table).then_some("a table (CSV)")
+    if [',', ';', '\t'].iter().any(is_table) {
+        return Some("a table (CSV)");
+    }
+    let is_toml = |line: &str| line.contains('=') || line.starts_with('[');
+    (text.starts_with("# ") && !text.lines().any(is_toml)).then_some("Markdown")
+}
+
+/// Whether `text` has a fenced block of code, and no line of TOML outside of such blocks.
+fn has_fenced_block(text: &str) -> bool {
+    let (mut is_inside, mut has_block) = (false, false);
+    for line in text.lines() {
+        if line.starts_with("```") {
+            (is_inside, has_block) = (!is_inside, true);
+        } else if !is_inside && (line.contains(" = ") || (line.starts_with('[') && line.ends_with(']'))) {
+            return false;
+        }
+    }
+    has_block
 }
 
 /// Whether `line` is `key: value`, or `key:` with the value on the next lines, or `- value`.

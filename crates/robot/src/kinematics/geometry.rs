@@ -38,6 +38,7 @@ pub struct Meeting {
 
 /// Relations between the axes of a chain.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Geometry {
     /// The names of the joints.
     pub names: Vec<String>,

@@ -41,6 +41,7 @@ pub enum Unknown {
 
 /// A solution of the oracle.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Solution {
     /// The joint values; each angle in (-pi, pi] \[rad\].
     pub q: Vec<f64>,

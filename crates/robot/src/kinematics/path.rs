@@ -22,6 +22,7 @@ const MAX_NAME: usize = 64;
 
 /// The path through a robot from one link to another.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct LinkPath {
     /// The name of the first link.
     pub base: String,

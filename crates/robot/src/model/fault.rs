@@ -16,6 +16,7 @@ pub enum Part {
 /// A fault of one part. A caller that uses the part gets this error. A chain elsewhere in the robot is usable and gets
 /// a note.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Fault {
     /// The part.
     pub part: Part,

@@ -14,6 +14,7 @@ const LISTS: [&str; 4] = ["q", "v", "a", "tau"];
 
 /// States of a robot, one for each row.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct StateTable {
     /// Length of a configuration.
     pub coordinates: usize,
@@ -27,6 +28,7 @@ pub struct StateTable {
 
 /// A state and other columns of the table: metres, seconds, radians, newtons.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct StateRow {
     /// The time, `t`.
     pub time: Option<f64>,

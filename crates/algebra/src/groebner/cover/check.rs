@@ -9,6 +9,7 @@ use crate::{Result, Watch};
 
 /// Numbers of the statements that [`check`] has proved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Checked {
     /// Strata whose bases are Groebner bases at each of their points.
     pub strata: usize,

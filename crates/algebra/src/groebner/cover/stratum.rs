@@ -25,6 +25,7 @@ pub struct Stratum<F: Field> {
 /// A basis element on a stratum. At every point some representative keeps its leading monomial. Each that does, divided
 /// by its leading coefficient, is the element there.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Element<F: Field> {
     /// The leading monomial, of the unknowns.
     pub leading: Monomial,

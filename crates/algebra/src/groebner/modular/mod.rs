@@ -40,6 +40,7 @@ pub enum Status {
 
 /// A reduced Groebner basis over Q, reconstructed from its images modulo primes.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Modular {
     /// The basis, with cofactors on request.
     pub basis: Basis<Rationals>,

@@ -101,6 +101,7 @@ impl Heading {
 
 /// One polynomial as written in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Given {
     /// The expression that is equal to zero.
     pub expression: Expression,
@@ -112,6 +113,7 @@ pub struct Given {
 
 /// A polynomial system as read from a file. All names in its polynomials are declared in the heading.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct PolynomialSystem {
     /// Field, names, order.
     pub heading: Heading,

@@ -38,6 +38,7 @@ const FIELD_FACTOR: f64 = 0.98;
 
 /// A path with a lower bound.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Shortest {
     /// The path: it turns only at corners of obstacles, around them.
     pub path: Path,

@@ -175,7 +175,7 @@ impl Assembler {
     /// Whether the form of `a` shows that it is not negative, such as a sum of squares.
     pub fn is_non_negative(&self, a: Operand) -> bool {
         match a {
-            Operand::Constant(x) => x > 0.0,
+            Operand::Constant(x) => x >= 0.0,
             Operand::Magnitude => true,
             Operand::Register(index) => match self.operations[index] {
                 Operation::Abs(_) | Operation::Sqrt(_) => true,

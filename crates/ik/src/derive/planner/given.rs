@@ -4,7 +4,7 @@
 use std::cmp::Reverse;
 use std::fmt;
 
-use super::plan;
+use super::attempt;
 use super::refuse::{self, driven};
 use super::types::Plan;
 use crate::derive::closure::Mechanism;
@@ -17,6 +17,7 @@ const AS_GOOD: f64 = 0.8;
 
 /// The joints whose values are given, and the alternatives.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Choice {
     /// The names of all given joints, from the base, including those that were given before.
     pub given: Vec<String>,
@@ -93,9 +94,10 @@ fn last_to_give(chain: &Chain, given: &[usize], watch: &Watch) -> Result<(usize,
     for &joint in &places {
         watch.report("choose the joint that is given", joint, places.len());
         let with: Vec<usize> = given.iter().copied().chain([joint]).collect();
-        match plan(&mechanism.clone().with_given(&with)?, watch) {
-            Ok(plan) => plans.push((joint, [hardest(&plan), plan.dimension])),
-            Err(error) if is_refusal(error.kind()) => refusals.push((joint, error)),
+        match attempt(&mechanism.clone().with_given(&with)?, watch) {
+            Ok(Ok(plan)) => plans.push((joint, [hardest(&plan), plan.dimension])),
+            Ok(Err(refusal)) => refusals.push((joint, refusal.result)),
+            Err(error) if is_refusal(error.kind()) => refusals.push((joint, error.message().to_owned())),
             Err(error) => return Err(error),
         }
     }

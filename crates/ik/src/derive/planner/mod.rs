@@ -20,6 +20,7 @@ pub use constant::{constant_relation, is_constant};
 pub use fitting::fitting_task;
 pub use given::{Candidate, Choice, joints_to_give};
 pub(super) use recount::{same_degrees, same_evidence};
+use refuse::Refusal;
 pub(super) use refuse::not_derived;
 pub use types::{Evidence, Plan, PlanStep, StepMethod};
 
@@ -45,21 +46,31 @@ const SEED: u64 = 5;
 /// [`ErrorKind::PositiveDimensional`] if joints are free, with those that may be given. [`ErrorKind::Unsupported`] if there is no such plan, with the number of
 /// solutions, the degrees of the joints and the missing geometric properties. The error of `watch` if it stops the search.
 pub fn plan<'w>(mechanism: &Mechanism, watch: impl Into<Option<&'w Watch>>) -> Result<Plan> {
-    let watch = Watch::or_none(watch);
+    attempt(mechanism, Watch::or_none(watch))?.map_err(|refusal| refusal.error)
+}
+
+/// Same as [`plan`], but a mechanism without a plan is a result.
+///
+/// # Errors
+/// The error of `watch` if it stops the search.
+fn attempt(mechanism: &Mechanism, watch: &Watch) -> Result<std::result::Result<Plan, Refusal>> {
     if mechanism.independent() > mechanism.seen().freedoms() {
-        return Err(refuse::free(mechanism, watch)?);
+        return Ok(Err(refuse::free(mechanism, watch)?));
     }
     let relations = mechanism.relations();
     let Some(evidence) = samples::evidence::gather(mechanism, &relations, watch)? else {
-        return Err(refuse::free(mechanism, watch)?);
+        return Ok(Err(refuse::free(mechanism, watch)?));
     };
     let dimension = evidence.iter().map(|evidence| evidence.dimension).min().unwrap_or(0);
-    let steps = search(mechanism, &relations, &evidence[0], dimension, watch)?;
+    let steps = match search(mechanism, &relations, &evidence[0], dimension, watch)? {
+        Ok(steps) => steps,
+        Err(refusal) => return Ok(Err(refusal)),
+    };
     for relation in steps.iter().flat_map(|step| step.method.relations()) {
         watch.check()?;
         prove(mechanism, relation)?;
     }
-    Ok(Plan { given: mechanism.given().to_vec(), dimension, evidence, steps })
+    Ok(Ok(Plan { given: mechanism.given().to_vec(), dimension, evidence, steps }))
 }
 
 /// The evidence of random reachable targets modulo three primes; `None` if they have infinitely many solutions.
@@ -86,7 +97,7 @@ fn search(
     evidence: &Evidence,
     dimension: usize,
     watch: &Watch,
-) -> Result<Vec<PlanStep>> {
+) -> Result<std::result::Result<Vec<PlanStep>, Refusal>> {
     let mut sampled = sampled_relations(mechanism, relations)?;
     let may_be_more = !mechanism.counts_exactly();
     let mut best: Option<(usize, Vec<PlanStep>)> = None;
@@ -94,14 +105,14 @@ fn search(
         let Some(steps) = Search::new(&mut sampled, reach, watch).steps()? else { continue };
         let product = steps.iter().map(|step| step.degree).product();
         if product == dimension {
-            return Ok(steps);
+            return Ok(Ok(steps));
         }
         if best.as_ref().is_none_or(|(least, _)| product < *least) {
             best = Some((product, steps));
         }
     }
     match best {
-        Some((_, steps)) if may_be_more => Ok(steps),
-        other => Err(refuse::no_plan(mechanism, evidence, other.map(|(product, _)| product))),
+        Some((_, steps)) if may_be_more => Ok(Ok(steps)),
+        other => Ok(Err(refuse::no_plan(mechanism, evidence, other.map(|(product, _)| product)))),
     }
 }

@@ -7,20 +7,25 @@ use crate::derive::samples::evidence::is_finite;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::ExactVector;
 
-/// The error for a mechanism with infinitely many solutions. It names the joints of which one may be given.
+/// A mechanism without a plan.
+pub struct Refusal {
+    pub error: Error,
+    /// The result of the search in one clause, without advice.
+    pub result: String,
+}
+
+/// The refusal of a mechanism with infinitely many solutions. It names the joints of which one may be given.
 ///
 /// # Errors
 /// The error of `watch` if it stops the search.
-pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
+pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Refusal> {
     let (constant, rest) = constant_among(mechanism)?;
     if !constant.is_empty() {
-        let error = free(&mechanism.clone().with_given(&rest)?, watch)?;
+        let refusal = free(&mechanism.clone().with_given(&rest)?, watch)?;
         let names = constant.join(", ");
-        let text = format!(
-            "the target alone determines {names}: constant on every self-motion, so not to be given; {}",
-            error.message()
-        );
-        return Ok(Error::new(ErrorKind::PositiveDimensional, text));
+        let result = format!("the target alone determines {names}: constant on every self-motion, so not to be given");
+        let text = format!("{result}; {}", refusal.error.message());
+        return Ok(Refusal { error: Error::new(ErrorKind::PositiveDimensional, text), result });
     }
     let (unknown, freedoms) = (driven(mechanism), mechanism.task().freedoms());
     let suits = if unknown.len() <= freedoms + 1 { suitable(mechanism, watch)? } else { Vec::new() };
@@ -31,9 +36,9 @@ pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Error> {
         [one] => format!("give the value of the joint {one}"),
         list => format!("give the value of one of the joints {}", list.join(", ")),
     };
-    let many =
+    let result =
         format!("the `{}` task leaves some of the {} unknown joints free", mechanism.task().name(), unknown.len());
-    Ok(Error::new(ErrorKind::PositiveDimensional, format!("{many}: {advice}")))
+    Ok(Refusal { error: Error::new(ErrorKind::PositiveDimensional, format!("{result}: {advice}")), result })
 }
 
 /// The names of given joints that are constant on every self-motion, and the indices of the other given joints.
@@ -56,18 +61,16 @@ pub(super) fn driven(mechanism: &Mechanism) -> Vec<usize> {
 }
 
 /// The error for a mechanism with one redundant joint if none can be given. It reports the result for each joint.
-pub fn none_to_give(mechanism: &Mechanism, refusals: &[(usize, Error)]) -> Error {
-    let result = |(joint, error): &(usize, Error)| {
-        let name = &mechanism.joints()[*joint].name;
-        let end = error.message().find(" (values").or(error.message().find(':')).unwrap_or(error.message().len());
-        format!("with `{name}` given, {}", &error.message()[..end])
-    };
-    let results: Vec<String> = refusals.iter().map(result).collect();
+pub fn none_to_give(mechanism: &Mechanism, results: &[(usize, String)]) -> Error {
+    let count = results.len();
+    let result =
+        |(joint, result): &(usize, String)| format!("with `{}` given, {result}", mechanism.joints()[*joint].name);
+    let results: Vec<String> = results.iter().map(result).collect();
     let text = format!(
         "the `{}` task leaves one of the {} joints free, and no joint that is given leaves others that can be found one at a time with \
          at most 4 values each (an eigenvalue problem is for a pose): {}",
         mechanism.task().name(),
-        refusals.len(),
+        count,
         results.join("; ")
     );
     Error::new(ErrorKind::Unsupported, text)
@@ -88,8 +91,8 @@ fn suitable(mechanism: &Mechanism, watch: &Watch) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// The error for a mechanism whose joints cannot be found one at a time with at most four solutions each.
-pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize>) -> Error {
+/// The refusal of a mechanism whose joints cannot be found one at a time with at most four solutions each.
+pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize>) -> Refusal {
     let found = match product {
         None => "no order of the joints determines one at a time with at most 4 values each".to_owned(),
         Some(product) => format!("the best order of the joints gives {product} instead"),
@@ -99,22 +102,21 @@ pub fn no_plan(mechanism: &Mechanism, evidence: &Evidence, product: Option<usize
 
 /// The error for a mechanism whose plan fails with `error` when its equations are derived.
 pub fn not_derived(mechanism: &Mechanism, evidence: &Evidence, error: &Error) -> Error {
-    solved_by_none(mechanism, evidence, error.message())
+    solved_by_none(mechanism, evidence, error.message()).error
 }
 
-/// The error for a mechanism without a solver because of `found`. It gives the number of solutions and the missing geometric properties.
-fn solved_by_none(mechanism: &Mechanism, evidence: &Evidence, found: &str) -> Error {
+/// The refusal of a mechanism without a solver because of `found`. It gives the number of solutions and the missing geometric properties.
+fn solved_by_none(mechanism: &Mechanism, evidence: &Evidence, found: &str) -> Refusal {
     let degree = |&joint: &usize| format!("`{}` {}", mechanism.joints()[joint].name, evidence.degrees[joint]);
     let degrees: Vec<String> = driven(mechanism).iter().map(degree).collect();
+    let result =
+        format!("a target of the `{}` task has {} complex solutions", mechanism.task().name(), evidence.dimension);
     let text = format!(
-        "a target of the `{}` task has {} complex solutions (values of the joints: {}); {found}; {}; a search \
-         (`groebot ik --numeric`) may find some of them",
-        mechanism.task().name(),
-        evidence.dimension,
+        "{result} (values of the joints: {}); {found}; {}; a search (`groebot ik --numeric`) may find some of them",
         degrees.join(", "),
         lacking(mechanism)
     );
-    Error::new(ErrorKind::Unsupported, text)
+    Refusal { error: Error::new(ErrorKind::Unsupported, text), result }
 }
 
 /// Text that lists neighbouring axes that meet or are parallel, and those that would have to.

@@ -169,6 +169,7 @@ fn from_toml(text: &str, file: &Path) -> Result<Description> {
 
 /// An input and its equations.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Source {
     /// The path of the input file.
     pub path: PathBuf,

@@ -56,7 +56,6 @@
 //!   They enter as two parameters, related by `sphi^2 = 1 - cphi^2`.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use crate::derive::problem::check::{Mistake, Part};
 use crate::derive::problem::constants::Constants;
@@ -66,7 +65,7 @@ use crate::derive::problem::system_parts::{
 };
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::poly::parse_equation;
-use groebot_robot::document::{Document, Node, TEXT_LIMIT, Table, read_text};
+use groebot_robot::document::{Document, Node, Table};
 use groebot_robot::kinematics::{Choice, LengthUnit, Root};
 
 const KEYS: [&str; 11] = [
@@ -103,14 +102,6 @@ impl System {
         reader.choice(&root)?;
         let lines = reader.lines;
         System::build(reader.parts).map_err(|Mistake { part, error }| error.at_line(*lines.get(&part).unwrap_or(&1)))
-    }
-
-    /// Reads the file `path`, a `system.toml` of at most one megabyte.
-    ///
-    /// # Errors
-    /// As [`System::from_toml`] and [`read_text`], with the file's name.
-    pub fn read_toml(path: &Path) -> Result<Self> {
-        System::from_toml(&read_text(path, TEXT_LIMIT)?).map_err(|error| error.in_file(path))
     }
 }
 

@@ -32,7 +32,8 @@ pub(super) struct Measure<'a> {
 }
 
 pub(super) fn unsupported() -> Error {
-    let text = "closest joint values need a solver of one tip whose equations compare each number of the target with the joints";
+    let text = "closest joint values need a solver of one tip whose equations compare each number of the target with the joints; \
+                derive one chain (`groebot derive CHAIN`) instead of equations or of several chains";
     Error::new(ErrorKind::Unsupported, text)
 }
 

@@ -48,6 +48,7 @@ pub struct Moved {
 
 /// Report of [`Chain::ideal`].
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Report {
     /// The tolerance: radians, and fractions of the reach.
     pub tolerance: f64,

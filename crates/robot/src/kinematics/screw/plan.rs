@@ -63,6 +63,7 @@ pub struct PlanStep {
 
 /// An order of subproblems that solves a chain.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Plan {
     /// The steps in their order.
     pub steps: Vec<PlanStep>,

@@ -21,6 +21,7 @@ pub struct TwoLink {
 
 /// One inverse-kinematics solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Solution {
     /// q1 and q2 in (-pi, pi] \[rad\]; `None` for a free joint.
     pub q: [Option<f64>; 2],
