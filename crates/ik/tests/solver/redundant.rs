@@ -206,6 +206,44 @@ fn bad_input_is_refused() {
     assert_refused(solver.path(&[target], &PathOptions::new().start(&[0.0; 6]), None), "6 joint values");
 }
 
+/// A reference from the definition: the Jacobian's columns are central differences of forward kinematics. Lengths are relative to the scale of the program.
+fn manipulability(chain: &Chain, scale: f64, q: &[f64]) -> f64 {
+    let column = |joint: usize| -> [f64; 6] {
+        let moved = |by: f64| {
+            let mut q = q.to_vec();
+            q[joint] += by;
+            chain.forward(&q).unwrap()
+        };
+        let [a, b] = [moved(-1e-5), moved(1e-5)];
+        let v = (b.translation.vector - a.translation.vector) / (2e-5 * scale);
+        let w = (b.rotation * a.rotation.inverse()).scaled_axis() / 2e-5;
+        [v.x, v.y, v.z, w.x, w.y, w.z]
+    };
+    let columns: Vec<[f64; 6]> = (0..7).map(column).collect();
+    let product = nalgebra::Matrix6::from_fn(|i, j| columns.iter().map(|column| column[i] * column[j]).sum());
+    product.determinant().sqrt()
+}
+
+#[test]
+fn the_largest_manipulability_is_found() {
+    let (arm, scale) = (panda(), derived_scale());
+    let (_, target) = arm.target(&READY);
+    let limits = arm.solver.limits();
+    let best = arm.solver.best(&target, &limits, &Criterion::Manipulability).unwrap().unwrap();
+    let own = manipulability(&arm.chain, scale, &best.q);
+    assert!((best.value - own).abs() < 1e-6 * own, "{best:?}, {own}");
+    for arc in &arm.solver.arcs(&target, &limits).unwrap().arcs {
+        for q in arm.solver.samples(&target, &limits, arc, 40).unwrap() {
+            assert!(manipulability(&arm.chain, scale, &q) <= best.value * (1.0 + 1e-6), "{q:?}");
+        }
+    }
+}
+
+/// The characteristic length of the panda.
+fn derived_scale() -> f64 {
+    panda().solver.arm_data().length
+}
+
 /// A joint of a panda changes least: with its value free to choose on an arc, the change is zero.
 #[test]
 fn the_least_change_of_one_joint_is_found() {

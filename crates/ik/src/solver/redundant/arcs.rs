@@ -92,6 +92,26 @@ impl RedundantSolver {
         }
     }
 
+    /// Joint values at a distance `s` from the start of an arc of this target and these limits. `s` is limited to the arc.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::BadValue`] for limits that are not in order.
+    pub fn at(&self, target: &ArmTarget, limits: &JointLimits, arc: &Arc, s: f64) -> Result<Vec<f64>> {
+        let q = runtime::at(&self.arm, &target.row, &limits.rows, &arc.traced, s);
+        Ok(self.values(&q.map_err(|error| self.refused(target, error))?))
+    }
+
+    /// Joint values at `count` equal distances along an arc of this target and these limits, the ends included.
+    ///
+    /// # Errors
+    /// As [`RedundantSolver::at`].
+    pub fn samples(&self, target: &ArmTarget, limits: &JointLimits, arc: &Arc, count: usize) -> Result<Vec<Vec<f64>>> {
+        let mut out = vec![[0.0; runtime::MOST_JOINTS]; count];
+        runtime::sample(&self.arm, &target.row, &limits.rows, &arc.traced, &mut out)
+            .map_err(|error| self.refused(target, error))?;
+        Ok(out.iter().map(|q| self.values(q)).collect())
+    }
+
     fn arc(&self, traced: &runtime::Arc) -> Arc {
         let end = |end: &runtime::End| ArcEnd { q: self.values(&end.q), joint: end.joint, is_upper: end.is_upper };
         Arc {
