@@ -92,8 +92,8 @@ impl<'a> Model<'a> {
         }
         let rows = self.goal.rows();
         let linear = match self.frozen {
-            None => Elimination::of(columns, rows),
-            Some(joint) => Elimination::without(columns, rows - 1, joint),
+            None => Elimination::of(&columns, rows),
+            Some(joint) => Elimination::without(&columns, rows - 1, joint),
         };
         let second = self.second(&axes, &images, &linear.tangent);
         let mut bend = linear.least(&second);
