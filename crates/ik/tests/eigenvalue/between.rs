@@ -129,7 +129,7 @@ fn the_elbow_of_a_spherical_arm_is_constant() {
 #[test]
 fn a_constant_joint_is_not_to_be_given() {
     let name = Chain::from_toml(IIWA).unwrap().joints()[3].name.clone();
-    let error = Derivation::of_problem(with_given(IIWA, &name), None).unwrap_err();
+    let error = Derivation::of_problem(&with_given(IIWA, &name), None).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::PositiveDimensional);
     let text = format!("the target alone determines `{name}`: constant on every self-motion");
     assert!(error.message().contains(&text), "{error}");

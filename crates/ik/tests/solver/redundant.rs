@@ -220,7 +220,7 @@ fn manipulability(chain: &Chain, scale: f64, q: &[f64]) -> f64 {
         [v.x, v.y, v.z, w.x, w.y, w.z]
     };
     let columns: Vec<[f64; 6]> = (0..7).map(column).collect();
-    let product = nalgebra::Matrix6::from_fn(|i, j| columns.iter().map(|column| column[i] * column[j]).sum());
+    let product = nalgebra::Matrix6::from_fn(|i, j| columns.iter().map(|column| column[i] * column[j]).sum::<f64>());
     product.determinant().sqrt()
 }
 
