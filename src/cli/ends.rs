@@ -155,6 +155,7 @@ impl EndArguments {
             direction: self.direction.as_ref().map(|direction| direction.0.clone()),
             given: self.given.iter().filter(|joint| *joint != Ends::AUTO).cloned().collect(),
             chooses: self.given.iter().any(|joint| joint == Ends::AUTO),
+            redundant: false,
             name: None,
             snap: None,
         })

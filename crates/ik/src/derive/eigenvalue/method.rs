@@ -36,7 +36,7 @@ pub type EigenvalueView<'a> = View<'a, ChainProblem, Eigenvalue>;
 /// The claims about six axes.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Claims {
+pub(in crate::derive) struct Claims {
     evidence: Vec<Evidence>,
     formulations: Vec<Entry>,
 }
@@ -68,7 +68,14 @@ impl Eigenvalue {
     /// # Errors
     /// [`ErrorKind::Syntax`] with the line for text that is not a certificate; [`ErrorKind::Certificate`] for a false claim.
     pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(Self, Program)> {
-        let claims: Claims = Certificate::read(text, Proves::EigenvalueProblem, problem.chain.name())?;
+        Eigenvalue::prove_claims(problem, Certificate::read(text, Proves::EigenvalueProblem, problem.chain.name())?)
+    }
+
+    /// Proves the solution of `problem` again from its claims.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Certificate`] for a false claim.
+    pub(in crate::derive) fn prove_claims(problem: &ChainProblem, claims: Claims) -> Result<(Self, Program)> {
         let six = Six::of(&problem.chain)?;
         let formulations: Result<Vec<Regular>> = claims.formulations.iter().map(|entry| entry.prove(&six)).collect();
         let formulations = formulations?;
@@ -113,11 +120,15 @@ impl EigenvalueView<'_> {
 
     /// The text of `certificate.json`.
     pub(in crate::derive) fn certificate(&self) -> String {
+        Certificate::new(Proves::EigenvalueProblem, self.problem.chain.name(), self.claims()).to_json()
+    }
+
+    /// The claims of the certificate.
+    pub(in crate::derive) fn claims(&self) -> Claims {
         let entry =
             |regular: &Regular| Entry { formulation: regular.formulation, determinants: regular.determinants.clone() };
         let formulations = self.method.formulations.iter().map(entry).collect();
-        let claims = Claims { evidence: self.method.evidence.clone(), formulations };
-        Certificate::new(Proves::EigenvalueProblem, self.problem.chain.name(), claims).to_json()
+        Claims { evidence: self.method.evidence.clone(), formulations }
     }
 }
 

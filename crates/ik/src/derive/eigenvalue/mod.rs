@@ -13,7 +13,7 @@ mod screw;
 mod survey;
 mod vector;
 
-pub(super) use method::is_certificate;
+pub(super) use method::{Claims, is_certificate};
 pub use method::{Eigenvalue, EigenvalueView};
 pub use rank::Determinant;
 pub use residue::Residue;
