@@ -36,7 +36,9 @@ poses.csv has the columns x, y, z, qx, qy, qz, qw (metres, quaternion), and opti
 Of all paths of solutions within the limits, the result has the fewest jumps between branches, and
 of those it is the shortest. A step is a jump if a joint exceeds its speed (velocity in the URDF) in
 the given time. Without times or speeds, the limit is half a radian or a tenth of the reach. Each
-jump is reported with its place and reason; with --strict it is an error.";
+jump is reported with its place and reason; with --strict it is an error. For a chain with one joint
+more than the pose determines, solutions are sampled along the arcs within the limits; the result is
+the best path through the samples. Give its description, not the folder of its derivation.";
 
 /// Computes a continuous joint trajectory along a sequence of poses
 #[derive(clap::Args)]

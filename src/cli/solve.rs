@@ -30,10 +30,13 @@ Targets are numbers in the order and units of the derivation's inputs. A rotatio
 quaternion x, y, z, w (of length one, within 1e-6) instead of its nine elements by rows: a pose is
 12 numbers or 7.
 
-A redundant solver was derived for a chain with one joint more than its task determines. A --target
-without the value of its given joint has all arcs of solutions within limits: the joint values at both
-ends of each arc with the joint that is at its limit, and the solution with the largest margin to the
-limits. Without a solution within limits, the reason is given, and the exit status is 0.
+A redundant solver was derived for a chain with one joint more than its task determines. The output
+for a --target without the value of its given joint is all arcs of solutions within limits: the joint
+values at both ends of each arc with the joint that is at its limit, and the solution with the largest
+margin to the limits. Lengths of arcs, margins and distances are in rad; lengths of prismatic joints are
+relative to the characteristic length, in distances in their unit. Without a solution within limits, the
+reason is printed, and the exit status is 0. Targets in CSV, and --closest, need the value of the given
+joint. \"unsure\" marks results that may be wrong or incomplete (docs/redundant.md).
 
 A CSV may start with a line of names, which gives the order of its columns. x_m or x_mm is px in
 that unit, and so are phi_deg and A1_deg. Other columns that `fk`, `ik` and `solve` write are
@@ -58,7 +61,7 @@ pub struct Arguments {
     /// Print JSON: one object per target
     #[arg(long)]
     json: bool,
-    /// Use degrees instead of radians in targets and in JSON and CSV output (text has both)
+    /// Use degrees instead of radians in targets, in JSON and CSV output and in tables of arcs (other text has both)
     #[arg(long)]
     degrees: bool,
     /// For a target out of reach, also compute the joint values whose target has the least error
@@ -72,6 +75,7 @@ pub struct Arguments {
     #[arg(long, value_name = "JOINT=LOW,HIGH", allow_hyphen_values = true)]
     limits: Vec<String>,
     /// Of a redundant solver: compute the solution nearest to these joint values, not the one with the largest margin
+    /// (in rad, in degrees with --degrees, or in the length unit)
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true, conflicts_with = "closest")]
     closest_to: Option<String>,
 }

@@ -1,7 +1,8 @@
 //! The solvers of a chain with one redundant joint, one for each joint as the given one. Main type: [`Redundancy`].
 //!
 //! The solutions of a target are curves. A curve leaves the joint limits only where a joint reaches a limit, and these points are the solutions with that joint
-//! given at that limit. So the given-solvers of all joints determine all arcs of solutions within limits.
+//! given at that limit. So the given-solvers of all joints determine the ends of all arcs of solutions within limits.
+//! Curves that reach no limit have no such ends.
 
 mod certificate;
 mod data;

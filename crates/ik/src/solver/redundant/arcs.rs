@@ -46,9 +46,9 @@ pub struct Arc {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Absence {
-    /// The target has no solution at all.
+    /// No solution was found, whatever the limits. A narrow curve of solutions may have been missed.
     Unreachable,
-    /// All solutions are beyond limits. These joints are beyond theirs in the solution that exceeds limits least.
+    /// All solutions that were found are beyond limits. In the one that exceeds limits least, the joints with these indices are beyond theirs.
     Beyond(Vec<usize>),
 }
 
@@ -60,16 +60,17 @@ pub struct Arcs {
     pub arcs: Vec<Arc>,
     /// The reason why there is no arc; `None` with arcs.
     pub absence: Option<Absence>,
-    /// Whether arcs may be missing, or an arc is unsure.
+    /// Whether arcs may be missing, or an arc is unsure. Closed curves that the grid misses are not detected.
     pub is_unsure: bool,
     /// Whether the solutions are a surface. The only arc is then one solution within limits, if one was found.
     pub is_surface: bool,
-    /// The number of closed curves. They were found by a grid of values of one joint: a curve that is narrower than the grid may be missing.
+    /// The number of closed curves. They are found by a grid of values of the given joint of the program: a narrower curve may be missing.
     pub closed: usize,
 }
 
 impl RedundantSolver {
     /// All maximal arcs of solutions of `target` within `limits`. Angles are within their limits; a revolute joint whose range is at least one turn ends no arc.
+    /// No solution within limits is not an error ([`Arcs::absence`]).
     ///
     /// # Errors
     /// [`crate::ErrorKind::Unsupported`] if the target is on a stratum that could not be derived; [`crate::ErrorKind::Budget`] if the solver's work was bounded.
@@ -92,7 +93,8 @@ impl RedundantSolver {
         }
     }
 
-    /// Joint values at a distance `s` from the start of an arc of this target and these limits. `s` is limited to the arc.
+    /// Joint values at a distance `s` from the start of an arc, in the unit of [`Arc::length`]. `s` is limited to the arc. The arc must be one of this target
+    /// and these limits. An angle whose range is at least one turn may differ by whole turns between neighbouring points.
     ///
     /// # Errors
     /// [`crate::ErrorKind::BadValue`] for limits that are not in order.
@@ -101,7 +103,7 @@ impl RedundantSolver {
         Ok(self.values(&q.map_err(|error| self.refused(target, error))?))
     }
 
-    /// Joint values at `count` equal distances along an arc of this target and these limits, the ends included.
+    /// Joint values at equal distances along an arc of this target and these limits, the ends included: `count` rows. One row is the start of the arc.
     ///
     /// # Errors
     /// As [`RedundantSolver::at`].

@@ -9,7 +9,7 @@ use super::{ArmTarget, JointLimits, RedundantSolver};
 use crate::solver::Unit;
 use crate::{Error, ErrorKind, Result};
 
-/// The number of local optima for which memory is taken first. More memory is taken when there are more.
+/// The maximum number of local optima. The worst ones of more are left out.
 const ROOM: usize = 128;
 
 /// A criterion that selects one solution.
@@ -19,9 +19,11 @@ pub enum Criterion {
     /// The greatest least distance of a joint to its limits, in rad. Lengths are relative to the scale of the program. Joints without limits, or with a range of
     /// at least one turn, do not count.
     Margin,
-    /// Same as the margin, but each distance is divided by half of the joint's range: 1 is the middle of all ranges.
+    /// Same as the margin, but each distance is divided by half of the joint's range: 1 is the middle of all ranges. The distance of a joint with only one
+    /// limit is not divided.
     RelativeMargin,
-    /// The least distance to joint values: the square root of the sum of weighted squares.
+    /// The least distance to joint values: the square root of the sum of weighted squares of differences, in rad or the length unit. Differences of angles
+    /// whose range is at least one turn are reduced by whole turns. Other values of `q0` should be within limits.
     Nearest {
         /// The joint values, in rad or the length unit of the program.
         q0: Vec<f64>,
@@ -31,7 +33,7 @@ pub enum Criterion {
     /// The greatest manipulability, sqrt(det(J J^T)) of the task's Jacobian, with lengths relative to the scale of the program (T. Yoshikawa, Int. J. Robotics
     /// Research 4 (1985) 3-9).
     Manipulability,
-    /// The least difference of one joint from a value.
+    /// The least difference of one joint from a value. It is reduced by whole turns for an angle whose range is at least one turn.
     Change {
         /// The index of the joint.
         joint: usize,
@@ -70,16 +72,16 @@ impl Criterion {
 pub struct Best {
     /// Joint values within limits.
     pub q: Vec<f64>,
-    /// The value of the criterion: a margin, a distance, a difference or the manipulability.
+    /// The value of the criterion: a margin, a distance, a difference or the manipulability. A margin is infinite if no joint is limited.
     pub value: f64,
     /// The index of its arc among those of [`RedundantSolver::arcs`].
     pub arc: usize,
-    /// Its distance from the start of the arc.
+    /// Its distance from the start of the arc, in the unit of [`super::Arc::length`].
     pub s: f64,
 }
 
 impl RedundantSolver {
-    /// The best solution of `target` within `limits`, over all arcs. `None` without a solution within limits.
+    /// The best of all local optima of `target` within `limits` ([`RedundantSolver::optima`]). `None` without a solution within limits.
     ///
     /// # Errors
     /// As [`RedundantSolver::arcs`]. [`ErrorKind::BadValue`] for a criterion with values that do not fit the joints.
@@ -87,7 +89,7 @@ impl RedundantSolver {
         Ok(self.optima(target, limits, criterion)?.into_iter().next())
     }
 
-    /// The solution of `target` within `limits` that is nearest to `q0`.
+    /// The solution of `target` within `limits` that is nearest to `q0`: one value for each joint, in rad or the length unit ([`Criterion::nearest`]).
     ///
     /// # Errors
     /// As [`RedundantSolver::best`].
@@ -95,7 +97,8 @@ impl RedundantSolver {
         self.best(target, limits, &Criterion::nearest(q0.to_vec()))
     }
 
-    /// All local optima on all arcs, the best ones first. Two optima that are closer than the samples of the search are found as one.
+    /// The local optima on all arcs, ends included, the best ones first, at most 128. Each arc is sampled at six points for each step of the tracer. Two optima
+    /// between neighbouring samples are found as one.
     ///
     /// # Errors
     /// As [`RedundantSolver::best`].

@@ -1,4 +1,7 @@
-//! All solutions within limits of a chain with one joint more than its task determines.
+//! All solutions within limits of a chain with one joint more than its task determines. Main types: [`RedundantSolver`], [`Arcs`].
+//!
+//! The solutions of a target are curves. [`RedundantSolver::arcs`] returns their parts within limits. The end points are computed by solvers with one joint
+//! given; curves between them are followed numerically ([`groebot_runtime::redundant`]).
 
 mod arcs;
 mod best;

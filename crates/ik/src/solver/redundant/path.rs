@@ -23,11 +23,12 @@ const AT_LIMIT: f64 = 0.05;
 pub struct PathOptions<'a> {
     /// The limits; by default the described ones.
     pub limits: Option<JointLimits>,
-    /// The time of each target in s, ascending. Without times velocities are unlimited, and a step of more than half a radian or a tenth of the scale is a jump.
+    /// The time of each target in s, ascending. Without times, a step of more than 0.5 rad or a tenth of the scale is a jump. The same holds for joints without
+    /// a maximum velocity, and for the step from the start.
     pub times: Option<&'a [f64]>,
-    /// By joint, its maximum velocity in rad/s or the length unit per second; may be shorter than the list of joints.
+    /// By joint, its maximum velocity in rad/s or the length unit per second, positive; may be shorter than the list of joints. Not used without times.
     pub speeds: &'a [Option<f64>],
-    /// The joint values before the first target.
+    /// The joint values before the first target, in rad or the length unit.
     pub start: Option<&'a [f64]>,
 }
 
@@ -63,7 +64,7 @@ impl<'a> PathOptions<'a> {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ArmPath {
-    /// By target, the joint values.
+    /// By target, the joint values in rad or the length unit, one for each joint.
     pub q: Vec<Vec<f64>>,
     /// By target, the index of the arc among those of [`RedundantSolver::arcs`].
     pub arcs: Vec<usize>,
@@ -83,7 +84,7 @@ pub struct ArmJump {
     pub joint: usize,
     /// Its step, in rad or the length unit.
     pub step: f64,
-    /// The reason.
+    /// The probable reason, as text.
     pub why: String,
 }
 
@@ -106,8 +107,9 @@ struct Steps<'a> {
 }
 
 impl RedundantSolver {
-    /// Joint values along `targets` within limits. The path has the fewest jumps and, of those, nearly the least sum of squared joint steps. A step is a jump if a
-    /// joint moves further than its maximum velocity permits in the time.
+    /// Joint values along `targets` within limits. A step is a jump if a joint moves further than its maximum velocity permits in the time. The path has the
+    /// fewest jumps and, of those, the least sum of squared joint steps, among the sampled states that the search keeps. A joint with a bounded range of at
+    /// least one turn does not pass its limit: it jumps by a whole turn.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for no targets, a wrong number of times or start values, times that do not ascend, and with its number for a target without a

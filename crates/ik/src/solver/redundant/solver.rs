@@ -46,7 +46,7 @@ impl RedundantSolver {
         }
     }
 
-    /// The arm: axes and limits as described.
+    /// The data of the arm: axes and limits as described, and which joints have a solver. Lengths are in the unit of the program.
     pub fn arm_data(&self) -> &Arm {
         &self.arm
     }

@@ -14,7 +14,7 @@ pub struct ArmTarget {
 }
 
 impl RedundantSolver {
-    /// The target of the task. Lengths are in the unit of the program.
+    /// Checks a target of the task, in the base frame. Lengths are in the unit of the program.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for a target of another task, for NaN and infinity, and for a rotation or a direction that is not one.
@@ -24,7 +24,8 @@ impl RedundantSolver {
         self.target_of_numbers(&numbers)
     }
 
-    /// The target with these numbers, in the order and the units of the inputs of the program. The value of the given joint is omitted.
+    /// Checks a target with these numbers, in the order and the units of the inputs of the program. The value of the given joint is omitted, so that
+    /// a pose has 12 numbers.
     ///
     /// # Errors
     /// [`ErrorKind::BadValue`] for another number of values, for NaN and infinity, and for a rotation or a direction that is not one.

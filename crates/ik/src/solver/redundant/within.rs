@@ -14,12 +14,12 @@ pub struct Within {
     pub q: Option<Vec<f64>>,
     /// The reason why there is no solution; `None` with a solution.
     pub absence: Option<Absence>,
-    /// Whether a solution may have been missed.
+    /// Whether a solution may have been missed, as far as it is known; false with a solution.
     pub is_unsure: bool,
 }
 
 impl RedundantSolver {
-    /// One solution of `target` within `limits`.
+    /// One solution of `target` within `limits`, by no criterion. Arcs are computed only if some values of one joint and the limits lead to no solution.
     ///
     /// # Errors
     /// As [`RedundantSolver::arcs`].
