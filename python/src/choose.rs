@@ -33,14 +33,49 @@ impl Choice<'_> {
         why: Status,
     ) {
         let found = sink.taken - begun;
+        let on_self_motion = (begun..sink.taken).any(|answer| sink.rows.free[answer] != 0);
+        if let Some(near) = self.near.filter(|_| on_self_motion) {
+            let near = reference(near, sink.joints, target);
+            keep_member(kernel, targets, sink, (target, begun), (near, self.limits));
+            sink.end(begun, if why == Status::Unsettled { why } else { Status::BeyondLimits });
+            return;
+        }
         if let Some(limits) = self.limits {
             keep_within(kernel, targets, sink, target, begun, limits);
         }
         if let Some(near) = self.near {
-            let start = if near.len() == sink.joints { 0 } else { target * sink.joints };
-            keep_nearest(&kernel.shape().turns, sink, begun, &near[start..start + sink.joints], self.limits);
+            let near = reference(near, sink.joints, target);
+            keep_nearest(&kernel.shape().turns, sink, begun, near, self.limits);
         }
         sink.end(begun, if found > 0 && why != Status::Unsettled { Status::BeyondLimits } else { why });
+    }
+}
+
+/// The reference of a target.
+fn reference(near: &[f64], joints: usize, target: usize) -> &[f64] {
+    let start = if near.len() == joints { 0 } else { target * joints };
+    &near[start..start + joints]
+}
+
+/// Keeps the solution that is nearest to a reference within limits, on the self-motions of a singular target too.
+fn keep_member(
+    kernel: &dyn Kernel,
+    targets: &Targets<'_>,
+    sink: &mut Sink<'_>,
+    (target, begun): (usize, usize),
+    (near, limits): (&[f64], Option<&[[f64; 2]]>),
+) {
+    let endless = vec![[f64::NEG_INFINITY, f64::INFINITY]; sink.joints];
+    let mut numbers = vec![0.0; targets.inputs];
+    targets.row(target, &mut numbers);
+    let nearest = kernel.nearest_to(&numbers, near, limits.unwrap_or(&endless)).ok().flatten();
+    sink.taken = begun;
+    if let Some(nearest) = nearest
+        && let Some(rows) = sink.more(1)
+    {
+        let Answer { q, residual, branch, free, .. } = (&nearest).into();
+        rows.q.copy_from_slice(q);
+        (rows.residual[0], rows.branch[0], rows.free[0]) = (residual, branch as i32, free);
     }
 }
 
@@ -105,7 +140,7 @@ fn keep_nearest(turns: &[bool], sink: &mut Sink<'_>, begun: usize, reference: &[
 }
 
 /// Writes `q` with each angle moved by whole turns into its limits, as near to `reference` as possible. Returns false when a joint cannot be within its limits.
-pub fn moved(turns: &[bool], q: &[f64], reference: &[f64], limits: Option<&[[f64; 2]]>, out: &mut [f64]) -> bool {
+fn moved(turns: &[bool], q: &[f64], reference: &[f64], limits: Option<&[[f64; 2]]>, out: &mut [f64]) -> bool {
     out.iter_mut().enumerate().all(|(joint, out)| {
         let [low, high] = limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| limits[joint]);
         let (low, high, value) = (low - SLACK, high + SLACK, q[joint]);

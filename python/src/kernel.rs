@@ -41,6 +41,9 @@ pub trait Kernel: Send + Sync {
     /// The solutions within limits, each moved by as few whole turns as possible.
     fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>>;
 
+    /// The solution nearest to `q0` after whole turns within limits, on self-motions too.
+    fn nearest_to(&self, target: &[f64], q0: &[f64], limits: &[[f64; 2]]) -> Result<Option<Solution>>;
+
     /// Forward kinematics of joint values; `None` if the equations do not determine it.
     fn forward(&self, q: &[f64]) -> Option<Vec<f64>>;
 
@@ -132,6 +135,14 @@ impl<M: Mechanism + Send + Sync> Kernel for Printed<M> {
         let mut room = vec![runtime::Solution::empty(&self.mechanism); self.shape.capacity];
         let count = self.mechanism.solve_within(&self.row(target), &limits, &mut room).map_err(refused)?;
         Ok(room[..count].iter().map(|answer| Answer::from(answer).into()).collect())
+    }
+
+    fn nearest_to(&self, target: &[f64], q0: &[f64], limits: &[[f64; 2]]) -> Result<Option<Solution>> {
+        let limits = Array::by(limits.len(), |i| limits[i]);
+        let [q0, weights] = [Array::by(q0.len(), |i| q0[i]), Array::by(q0.len(), |_| 1.0)];
+        let mut room = vec![runtime::Solution::empty(&self.mechanism); self.shape.capacity];
+        let found = self.mechanism.nearest_to(&self.row(target), &q0, &weights, &limits, &mut room).map_err(refused)?;
+        Ok(found.map(|(nearest, _)| Answer::from(&nearest).into()))
     }
 
     fn forward(&self, q: &[f64]) -> Option<Vec<f64>> {
@@ -274,6 +285,10 @@ impl Kernel for Interpreted {
 
     fn solve_within(&self, target: &[f64], limits: &[[f64; 2]]) -> Result<Vec<Solution>> {
         self.solver.solve_within(target, limits)
+    }
+
+    fn nearest_to(&self, target: &[f64], q0: &[f64], limits: &[[f64; 2]]) -> Result<Option<Solution>> {
+        self.solver.nearest_to(target, q0, None, Some(limits))
     }
 
     fn forward(&self, q: &[f64]) -> Option<Vec<f64>> {

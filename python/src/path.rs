@@ -30,6 +30,16 @@ impl InverseKinematics for ByKernel<'_> {
         out.clear();
         self.0.kernel.solve(&self.0.program.numbers(target, given)?, &mut |answer| out.push(answer.into()))
     }
+
+    fn nearest_to(
+        &self,
+        target: &Target,
+        given: &[f64],
+        q0: &[f64],
+        limits: &[[f64; 2]],
+    ) -> groebot::Result<Option<Solution>> {
+        self.0.kernel.nearest_to(&self.0.program.numbers(target, given)?, q0, limits)
+    }
 }
 
 /// Computes the joint values along poses, and the jumps between branches, as `groebot.Path`.

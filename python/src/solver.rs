@@ -11,7 +11,6 @@ use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
 use crate::arrays::{self, Numbers, joint_rows};
-use crate::choose::moved;
 use crate::closest;
 use crate::errors::{bad_value, raised, unsupported};
 use crate::kernel::Answer;
@@ -141,7 +140,7 @@ impl Solver {
     }
 
     /// Returns the solution of one target that is nearest to the joint values `q0` after whole turns, within `limits` if these are given. `None` if there is
-    /// none. Its angles are not wrapped.
+    /// none. Its angles are not wrapped. At a singular target the whole self-motion is searched, not only its listed member.
     #[pyo3(signature = (target, q0, *, given=None, limits=None))]
     pub fn nearest(
         &self,
@@ -157,19 +156,10 @@ impl Solver {
         }
         let q0 = q0.to_vec()?;
         arrays::finite(&q0, turns.len(), "q0")?;
-        let bounds = self.bounds(limits)?;
-        let mut best: Option<(f64, Solution)> = None;
-        for mut answer in self.found(target, given, bounds.as_deref())? {
-            let mut q = answer.q.clone();
-            if moved(turns, &answer.q, &q0, bounds.as_deref(), &mut q) {
-                let distance: f64 = q.iter().zip(&q0).map(|(a, b)| (a - b) * (a - b)).sum();
-                if best.as_ref().is_none_or(|(least, _)| distance < *least) {
-                    answer.q = q;
-                    best = Some((distance, answer));
-                }
-            }
-        }
-        Ok(best.map(|(_, answer)| answer))
+        let bounds = self.bounds(limits)?.unwrap_or_else(|| vec![[f64::NEG_INFINITY, f64::INFINITY]; turns.len()]);
+        let numbers = self.one_target(target, given, self.0.placement.as_ref())?;
+        let nearest = self.0.kernel.nearest_to(&numbers, &q0, &bounds).map_err(|error| raised(&error))?;
+        Ok(nearest.map(|nearest| Solution::from(Answer::from(&nearest))))
     }
 
     /// Returns all solutions of many targets, as arrays: see `groebot.Batch`.

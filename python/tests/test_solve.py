@@ -74,6 +74,29 @@ def test_nearest_and_limits(ur5, random):
         assert within and all((s.q >= limits[:, 0] - 1e-9).all() and (s.q <= limits[:, 1] + 1e-9).all() for s in within)
 
 
+def test_nearest_at_singular_poses_is_on_the_self_motion(ur5, random):
+    q = random.uniform(-3, 3, (100, 6))
+    q[:, 4] = 0.0
+    poses = dh_forward(UR5_DH, q)
+    for own, target in zip(q, poses):
+        solution = ur5.nearest(target, own)
+        assert np.allclose(solution.q, own, atol=1e-6) and np.abs(ur5.forward(solution.q) - target).max() < 1e-9
+        window = np.stack([own - 0.01, own + 0.01], 1)
+        assert np.allclose(ur5.nearest(target, own + 0.05, limits=window).q, own, atol=0.011)
+    batch = ur5.solve_batch(poses, near=q)
+    assert np.allclose(batch.q, q, atol=1e-6) and np.array_equal(batch.counts, np.ones(100))
+
+
+def test_a_path_through_a_singular_wrist_has_no_jump(ur5, random):
+    for start in random.uniform(-2, 2, (10, 6)):
+        route = start + np.linspace(0, 0.3, 21)[:, None] * random.uniform(-1, 1, 6)
+        route[:, 4] = np.linspace(-0.5, 0.5, 21)
+        poses = ur5.forward(route)
+        path = ur5.solve_path(poses, route[0])
+        assert not path.jumps and np.abs(ur5.forward(path.q) - poses).max() < 1e-9
+        assert np.abs(path.q - route).max() < 0.5
+
+
 @pytest.mark.parametrize("name", Solver.names())
 def test_named_solvers_find_what_made_the_target_and_travel(name, random):
     solver = Solver.named(name)

@@ -11,6 +11,7 @@
 /* Numbers and lengths of steps are those of groebot-runtime's effort.rs, where they are documented. */
 #define GB_POLISH_STEPS 32
 #define GB_FITTING_STEPS 16
+#define GB_DESCENTS 32
 #define GB_OVERSHOT R(100.0)
 #define GB_RETURNS 4
 #define GB_PATIENCE 3
@@ -74,5 +75,6 @@ static bool gb_is_between(gb_real x, gb_real low, gb_real high)
 #include "groebot/members.c"
 #include "groebot/order.c"
 #include "groebot/limits.c"
+#include "groebot/nearest.c"
 
 #endif

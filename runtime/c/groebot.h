@@ -95,7 +95,9 @@ typedef double gb_real;
  * NAME_solve_within: same as NAME_solve, with each solution moved into limits by as few turns as possible, and members of a self-motion along it. Other
  * solutions are omitted.
  * NAME_nearest: the index of the solution that is nearest to a reference after turns within limits, or -1 if there is none. Writes its turn to q. The
- * distance is the sum of the squared differences, each times its weight. */
+ * distance is the sum of the squared differences, each times its weight. A member of a self-motion is used as listed.
+ * NAME_nearest_to: writes the solution of a target that is nearest to a reference after turns within limits to out; its angles are not wrapped. Returns 1, 0
+ * if no solution is within limits, or a code below 0. At a singular target the self-motions are searched, too. */
 #define GB_DECLARE(name, inputs, joints_, capacity)                                                                                \
     typedef struct {                                                                                                               \
         gb_real q[joints_];                                                                                                        \
@@ -130,7 +132,9 @@ typedef double gb_real;
     GB_API void name##_turn(const gb_real *q, const gb_real *limits, size_t index, gb_real *out);                                  \
     GB_API int name##_solve_within(const gb_real *target, const gb_real *limits, name##_solution *out);                            \
     GB_API int name##_nearest(const name##_solution *list, int count, const gb_real *reference, const gb_real *weights,            \
-                              const gb_real *limits, gb_real *q)
+                              const gb_real *limits, gb_real *q);                                                              \
+    GB_API int name##_nearest_to(const gb_real *target, const gb_real *reference, const gb_real *weights, const gb_real *limits,   \
+                                 name##_solution *out)
 
 #endif
 

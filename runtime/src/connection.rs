@@ -174,7 +174,7 @@ impl<M: Mechanism> Problem<'_, M> {
     }
 
     /// Same as [`Problem::followed`], however far it is.
-    fn corrected(&mut self, ahead: Joints<M>, free: u32) -> Option<End<M>> {
+    pub fn corrected(&mut self, ahead: Joints<M>, free: u32) -> Option<End<M>> {
         let mut end = self.measured(ahead);
         for _ in 0..RETURNS {
             if end.1.relative <= SELF_MOTIONS.curve || self.steps.are_spent() {

@@ -9,10 +9,11 @@ use crate::conditions::conform;
 use crate::effort::{LEAPS, MOST_STEPS};
 use crate::exactly::solve_ideal;
 use crate::joints::place;
-use crate::limits::{strides_within, turned_within};
+use crate::limits::{Aim, strides_within, turned_within};
 use crate::mechanism::{
     Candidates, Equations, Facts, Found, Inputs, Joint, Joints, Mechanism, Parameters, Places, Reached, Sizes, elected,
 };
+use crate::nearest::{Best, Search};
 use crate::number::{Guard, Number, With};
 use crate::problem::{End, Fit, Problem};
 use crate::solution::{Error, Solution};
@@ -330,4 +331,36 @@ pub(crate) fn within_limits<M: Mechanism>(
     let described = Described(mechanism);
     let residual = Problem::new(&described, p, &mut steps).measure(&q).residual;
     Some((q, residual))
+}
+
+/// Same as [`crate::Solve::nearest_to`] along the self-motions of the ideal mechanism. The result is then moved to where the mechanism as described is nearest
+/// to the target.
+pub(crate) fn along_ideal<M: Mechanism>(
+    mechanism: &M,
+    p: &Parameters<M>,
+    list: &[Solution<M>],
+    (aim, listed): (&Aim<'_, M>, Option<Best<M>>),
+    steps: &mut Steps,
+) -> Option<Best<M>> {
+    let (facts, described, mut best) = (mechanism.facts(), Described(mechanism), listed);
+    let within = f64::max(facts.within?, ACCEPTANCE.residual);
+    for (number, answer) in list.iter().enumerate().filter(|(_, answer)| answer.free != 0) {
+        let mut own = Problem::new(mechanism, p, steps);
+        let Some(q) = onto_self_motion(&mut own, answer.q.clone(), answer.free, within) else { continue };
+        let Some(ideal) = ideal_parameters(mechanism, &q) else { continue };
+        let problem = Problem::new(mechanism, &ideal, own.steps);
+        let mut search = Search { problem, aim, best: best.take() };
+        search.follow(&Solution { q, ..answer.clone() }, number);
+        best = search.best;
+        if let Some(found) = best.as_mut().filter(|found| found.is_of(number)) {
+            let mut problem = Problem::new(&described, p, steps);
+            let q = Array::by(facts.joints.len(), |i| facts.wrapped(i, found.q().as_ref()[i]));
+            let (q, fit) = problem.fitted(q, answer.free, MERGING.blur);
+            let turned = aim.turned(&facts, &q);
+            if turned.excess == 0.0 {
+                found.move_to(turned, (fit.residual, fit.relative));
+            }
+        }
+    }
+    best
 }

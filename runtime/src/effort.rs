@@ -7,6 +7,8 @@ pub const MOST_STEPS: usize = 300_000;
 pub const POLISH_STEPS: usize = 32;
 /// Maximal number of least-squares steps that bring a described mechanism nearest to a target that only its ideal reaches.
 pub const FITTING_STEPS: usize = 16;
+/// Maximal number of Gauss-Newton steps to the solution nearest to a reference.
+pub const DESCENTS: usize = 32;
 /// Lengths of the leaps (rad, or relative to the length scale) that are tried where no step halves the residual; the first that helps is taken.
 pub const LEAPS: [f64; 3] = [0.5, 0.1, 0.02];
 /// A Newton step that multiplies the residual by no more than this may have passed one of two close roots.

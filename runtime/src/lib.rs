@@ -32,6 +32,7 @@ pub mod limits;
 mod measure;
 pub mod mechanism;
 mod members;
+mod nearest;
 mod newton;
 pub mod number;
 mod order;

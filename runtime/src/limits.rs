@@ -9,6 +9,7 @@ use crate::mechanism::{Facts, Joint, Joints, Mechanism};
 use crate::problem::Problem;
 use crate::solution::Solution;
 use crate::steps::Steps;
+use crate::storage::Array;
 use crate::tolerances::ACCEPTANCE;
 
 /// Maximal number of turns that are counted.
@@ -27,6 +28,11 @@ impl Joint {
             return (Arithmetic::ceil(low / TAU), Arithmetic::floor(high / TAU));
         }
         (0.0, if low <= 0.0 && 0.0 <= high { 0.0 } else { -1.0 })
+    }
+
+    /// A value that no turn brings within limits, at the turn nearest to their middle.
+    fn beside(self, value: f64, limit: [f64; 2]) -> f64 {
+        value + self.turn() * Arithmetic::round((0.5 * (limit[0] + limit[1]) - value) / TAU)
     }
 }
 
@@ -116,30 +122,110 @@ pub(crate) fn strides_within<M: Mechanism>(
     None
 }
 
+/// Reference joint values and limits for the choice of a solution.
+pub(crate) struct Aim<'a, M: Mechanism> {
+    pub reference: &'a Joints<M>,
+    /// By joint, the non-negative weight of its squared difference.
+    pub weights: &'a Joints<M>,
+    pub limits: &'a Joints<M, [f64; 2]>,
+}
+
+/// Joint values after the turns within limits that are nearest to a reference.
+pub(crate) struct Turned<M: Mechanism> {
+    pub q: Joints<M>,
+    /// The sum of the weighted squared differences from the reference.
+    pub distance: f64,
+    /// The sum of the distances from the limits of joints that no turn brings within them.
+    pub excess: f64,
+}
+
+impl<M: Mechanism> Clone for Turned<M> {
+    fn clone(&self) -> Self {
+        Turned { q: self.q.clone(), ..*self }
+    }
+}
+
+impl<M: Mechanism> Turned<M> {
+    /// Whether these joint values are nearer to the limits than others, or equally near and nearer to the reference.
+    pub fn is_better(&self, other: &Self) -> bool {
+        self.excess < other.excess || (self.excess == other.excess && self.distance < other.distance)
+    }
+
+    /// The joint values with angles in (-pi, pi].
+    pub fn wrapped(&self, facts: &Facts<'_>) -> Joints<M> {
+        Array::by(facts.joints.len(), |i| facts.wrapped(i, self.q.as_ref()[i]))
+    }
+}
+
+impl<M: Mechanism> Aim<'_, M> {
+    /// Whether the reference and the weights are finite.
+    pub fn is_finite(&self) -> bool {
+        self.reference.as_ref().iter().chain(self.weights.as_ref()).all(|number| number.is_finite())
+    }
+
+    /// The nearest turn of joint values.
+    pub fn turned(&self, facts: &Facts<'_>, q: &Joints<M>) -> Turned<M> {
+        let mut turned: Turned<M> = Turned { q: q.clone(), distance: 0.0, excess: 0.0 };
+        for (i, joint) in facts.joints.iter().enumerate() {
+            let (value, wanted, limit) = (q.as_ref()[i], self.reference.as_ref()[i], self.limits.as_ref()[i]);
+            let (first, last) = joint.turns_within(value, limit);
+            let is_within = first <= last;
+            let moved = if is_within {
+                let turn = if joint.is_angle() { Arithmetic::round((wanted - value) / TAU) } else { 0.0 };
+                value + joint.turn() * nearest_turn(turn, first, last)
+            } else {
+                joint.beside(value, limit)
+            };
+            if !is_within {
+                turned.excess += excess(moved, limit);
+            }
+            turned.q.as_mut()[i] = moved;
+            turned.distance += self.weights.as_ref()[i] * (moved - wanted) * (moved - wanted);
+        }
+        turned
+    }
+
+    /// Moves joints that no turn brings within their limits to the nearer limit. Returns these joints as a set.
+    pub fn stop_at_limits(&self, facts: &Facts<'_>, q: &mut Joints<M>) -> u32 {
+        let mut stopped = 0;
+        for (i, joint) in facts.joints.iter().enumerate() {
+            let (value, limit) = (q.as_ref()[i], self.limits.as_ref()[i]);
+            let (first, last) = joint.turns_within(value, limit);
+            let is_within = first <= last;
+            if !is_within {
+                let nearest = if joint.beside(value, limit) < limit[0] { limit[0] } else { limit[1] };
+                q.as_mut()[i] = facts.wrapped(i, nearest);
+                stopped |= 1 << i;
+            }
+        }
+        stopped
+    }
+}
+
+/// The distance of a value from its limits; infinite where these are not numbers.
+fn excess(value: f64, limit: [f64; 2]) -> f64 {
+    if value < limit[0] {
+        limit[0] - value
+    } else if value > limit[1] {
+        value - limit[1]
+    } else {
+        f64::INFINITY
+    }
+}
+
 /// Of a list of solutions, the one nearest to a reference after turns within limits.
 pub(crate) fn nearest<M: Mechanism>(
     facts: &Facts<'_>,
     list: &[Solution<M>],
-    reference: &Joints<M>,
-    weights: &Joints<M>,
-    limits: &Joints<M, [f64; 2]>,
-) -> Option<(usize, Joints<M>)> {
+    aim: &Aim<'_, M>,
+) -> Option<(usize, Turned<M>)> {
     let mut least = f64::INFINITY;
     let mut best = None;
     for (k, answer) in list.iter().enumerate() {
-        let (mut place, mut distance) = (answer.q.clone(), 0.0);
-        for (i, joint) in facts.joints.iter().enumerate() {
-            let (value, wanted) = (answer.q.as_ref()[i], reference.as_ref()[i]);
-            let (first, last) = joint.turns_within(value, limits.as_ref()[i]);
-            distance = if first <= last { distance } else { f64::INFINITY };
-            let turn = if joint.is_angle() { Arithmetic::round((wanted - value) / TAU) } else { 0.0 };
-            let moved = value + joint.turn() * nearest_turn(turn, first, last);
-            place.as_mut()[i] = moved;
-            distance += weights.as_ref()[i] * (moved - wanted) * (moved - wanted);
-        }
-        if distance < least {
-            least = distance;
-            best = Some((k, place));
+        let turned = aim.turned(facts, &answer.q);
+        if turned.excess == 0.0 && turned.distance < least {
+            least = turned.distance;
+            best = Some((k, turned));
         }
     }
     best

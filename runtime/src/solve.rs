@@ -6,8 +6,9 @@ use crate::conditions::conform;
 use crate::described::{reached, read_off, solve_described, within_limits};
 use crate::effort::MOST_STEPS;
 use crate::joints::place;
-use crate::limits::{self, strides_within, turned_within};
+use crate::limits::{self, Aim, strides_within, turned_within};
 use crate::mechanism::{Condition, Inputs, Joints, Mechanism};
+use crate::nearest::nearest_to;
 use crate::placement::Placement;
 use crate::problem::Problem;
 use crate::singly::{pairs_of, solve_one, solve_one_by_pairs};
@@ -203,6 +204,8 @@ pub trait Solve: Mechanism {
 
     /// The index of the solution that is nearest to `reference` after turns within `limits`, the first of equals, and its nearest turn. `None` when no solution
     /// is within `limits`. The distance is the sum of the joints' squared differences, each times its non-negative weight.
+    ///
+    /// A member of a self-motion is used as listed. [`Solve::nearest_to`] searches the whole self-motion.
     fn nearest(
         &self,
         list: &[Solution<Self>],
@@ -210,7 +213,28 @@ pub trait Solve: Mechanism {
         weights: &Joints<Self>,
         limits: &Joints<Self, [f64; 2]>,
     ) -> Option<(usize, Joints<Self>)> {
-        limits::nearest(&self.facts(), list, reference, weights, limits)
+        let (index, turned) = limits::nearest(&self.facts(), list, &Aim { reference, weights, limits })?;
+        Some((index, turned.q))
+    }
+
+    /// The solution of `target` that is nearest to `reference` after turns within `limits`, and its distance: the sum of the joints' squared differences, each
+    /// times its non-negative weight. Its angles are not wrapped. `None` when no solution is within `limits`. `out` has room for all solutions.
+    ///
+    /// At a singular target the self-motions are searched, too. Where one is a curve, its nearest place within limits is found; where it is a surface, a local
+    /// minimum of the distance. The steps along a curve are at most 0.2 rad. Where no solution has a free joint, this is [`Solve::solve`] and
+    /// [`Solve::nearest`].
+    ///
+    /// # Errors
+    /// Same as [`Solve::solve`].
+    fn nearest_to(
+        &self,
+        target: &Inputs<Self>,
+        reference: &Joints<Self>,
+        weights: &Joints<Self>,
+        limits: &Joints<Self, [f64; 2]>,
+        out: &mut [Solution<Self>],
+    ) -> Result<Option<(Solution<Self>, f64)>, Error> {
+        nearest_to(self, target, &Aim { reference, weights, limits }, out)
     }
 }
 

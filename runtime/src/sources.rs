@@ -1,7 +1,7 @@
 //! Source text of the run time, from which single-file solvers are assembled.
 
 /// The Rust modules in the order of [`crate`], each with its name.
-pub const RUST: [(&str, &str); 43] = [
+pub const RUST: [(&str, &str); 44] = [
     ("angles", include_str!("angles.rs")),
     ("answers", include_str!("answers.rs")),
     ("approach", include_str!("approach.rs")),
@@ -25,6 +25,7 @@ pub const RUST: [(&str, &str); 43] = [
     ("measure", include_str!("measure.rs")),
     ("mechanism", include_str!("mechanism.rs")),
     ("members", include_str!("members.rs")),
+    ("nearest", include_str!("nearest.rs")),
     ("newton", include_str!("newton.rs")),
     ("number", include_str!("number.rs")),
     ("order", include_str!("order.rs")),
@@ -84,7 +85,7 @@ pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
 
 /// The files that the C sources include, each by its path.
-pub const C_PARTS: [(&str, &str); 54] = [
+pub const C_PARTS: [(&str, &str); 55] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -99,6 +100,7 @@ pub const C_PARTS: [(&str, &str); 54] = [
     ("groebot/joints.c", include_str!("../c/groebot/joints.c")),
     ("groebot/keep.c", include_str!("../c/groebot/keep.c")),
     ("groebot/limits.c", include_str!("../c/groebot/limits.c")),
+    ("groebot/nearest.c", include_str!("../c/groebot/nearest.c")),
     ("groebot/measure.h", include_str!("../c/groebot/measure.h")),
     ("groebot/mechanism.h", include_str!("../c/groebot/mechanism.h")),
     ("groebot/members.c", include_str!("../c/groebot/members.c")),

@@ -2,6 +2,7 @@
 
 mod angles;
 mod arm;
+mod nearest;
 mod real_roots;
 mod singular;
 mod tolerances;

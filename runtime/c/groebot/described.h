@@ -223,4 +223,29 @@ static int gb_bring_all_within(const gb_real *p, const gb_real *limits, gb_solut
     }
     return kept;
 }
+
+/* Searches along the self-motions of the ideal mechanism for the solution nearest to a reference. The result is then moved to where the mechanism as described
+ * is nearest to the target. */
+static void gb_search_ideal(const gb_real *p, const gb_solution *list, int count, const gb_real *const *aim, gb_nearest_end *best)
+{
+    gb_real ideal[GB_PARAMETERS], q[GB_MAX_JOINTS];
+    const gb_mechanism mechanism = gb_as_described();
+    size_t steps = gb_steps_at_most(GB_MOST_STEPS);
+    const gb_problem described = {&mechanism, p, NULL, &steps}, own = {&gb_this, p, NULL, &steps}, problem = {&gb_this, ideal, NULL, &steps};
+    for (int k = 0; k < count; k++) {
+        memcpy(q, list[k].q, sizeof list[k].q);
+        if (list[k].free == 0 || !gb_onto_self_motion(&own, q, list[k].free) || !gb_ideal_parameters(q, ideal)) {
+            continue;
+        }
+        best->follows = k;
+        gb_search_along(&problem, q, list[k].free, aim, best);
+        if (best->is_found && best->member == k) {
+            for (int i = 0; i < GB_JOINTS; i++) {
+                q[i] = gb_joints[i].is_angle ? gb_wrap(best->q[i]) : best->q[i];
+            }
+            const gb_fit fit = gb_fitted(&described, q, list[k].free, GB_MERGING_BLUR);
+            gb_move_nearest(&gb_this, q, &fit, aim, best);
+        }
+    }
+}
 #endif

@@ -122,27 +122,90 @@ GB_LINKAGE size_t gb_keep_within(const gb_answers *all, const gb_real *limits)
     return kept;
 }
 
+/* Reference joint values, the non-negative weights of their squared differences, and limits, for the choice of a solution. */
+typedef struct {
+    const gb_real *reference;
+    const gb_real *weights;
+    const gb_real *limits;
+} gb_aim;
+
+/* Joint values after the turns within limits that are nearest to a reference. */
+typedef struct {
+    gb_real q[GB_MAX_JOINTS];
+    /* The sum of the weighted squared differences from the reference. */
+    gb_real distance;
+    /* The sum of the distances from the limits of joints that no turn brings within them. */
+    gb_real excess;
+} gb_turned_joints;
+
+/* A value that no turn brings within limits, at the turn nearest to their middle. */
+static gb_real gb_beside(const gb_joint *joint, gb_real value, const gb_real *limit)
+{
+    return value + gb_turn_of(joint) * gb_round((R(0.5) * (limit[0] + limit[1]) - value) / GB_TAU);
+}
+
+/* The distance of a value from its limits; infinite where these are not numbers. */
+static gb_real gb_excess(gb_real value, const gb_real *limit)
+{
+    return value < limit[0] ? limit[0] - value : value > limit[1] ? value - limit[1] : INFINITY;
+}
+
+/* The nearest turn of joint values. */
+static void gb_turn_to(const gb_mechanism *m, const gb_aim *aim, const gb_real *q, gb_turned_joints *turned)
+{
+    turned->distance = turned->excess = R(0.0);
+    for (size_t i = 0; i < m->joints; i++) {
+        const gb_real wanted = aim->reference[i], *limit = aim->limits + 2 * i;
+        gb_real first, last, moved;
+        gb_turns_within(&m->joint[i], q[i], limit, &first, &last);
+        if (first <= last) {
+            const gb_real turn = m->joint[i].is_angle ? gb_round((wanted - q[i]) / GB_TAU) : R(0.0);
+            moved = q[i] + gb_turn_of(&m->joint[i]) * gb_nearest_turn(turn, first, last);
+        } else {
+            moved = gb_beside(&m->joint[i], q[i], limit);
+            turned->excess += gb_excess(moved, limit);
+        }
+        turned->q[i] = moved;
+        turned->distance += aim->weights[i] * (moved - wanted) * (moved - wanted);
+    }
+}
+
+/* Whether joint values are nearer to the limits than others, or equally near and nearer to the reference. */
+static bool gb_is_better(const gb_turned_joints *a, const gb_turned_joints *b)
+{
+    return a->excess < b->excess || (a->excess == b->excess && a->distance < b->distance);
+}
+
+/* Moves joints that no turn brings within their limits to the nearer limit. Returns these joints as a set. */
+static uint32_t gb_stop_at_limits(const gb_mechanism *m, const gb_aim *aim, gb_real *q)
+{
+    uint32_t stopped = 0;
+    for (size_t i = 0; i < m->joints; i++) {
+        const gb_real *limit = aim->limits + 2 * i;
+        gb_real first, last;
+        gb_turns_within(&m->joint[i], q[i], limit, &first, &last);
+        if (!(first <= last)) {
+            q[i] = gb_wrapped(m, i, gb_beside(&m->joint[i], q[i], limit) < limit[0] ? limit[0] : limit[1]);
+            stopped |= (uint32_t)1 << i;
+        }
+    }
+    return stopped;
+}
+
 /* The index of the solution that is nearest to a reference after turns within limits, and that turn. -1 when no solution is within limits. */
 GB_LINKAGE int gb_nearest(const gb_answers *all, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_real *q)
 {
     const gb_mechanism *m = all->problem.mechanism;
-    gb_real least = INFINITY, place[GB_MAX_JOINTS];
+    const gb_aim aim = {reference, weights, limits};
+    gb_real least = INFINITY;
     int best = -1;
     for (size_t k = 0; k < all->count; k++) {
-        gb_real distance = R(0.0);
-        for (size_t i = 0; i < m->joints; i++) {
-            const gb_real value = gb_q_of(all, k)[i];
-            gb_real first, last;
-            gb_turns_within(&m->joint[i], value, limits + 2 * i, &first, &last);
-            distance = first <= last ? distance : INFINITY;
-            const gb_real turn = m->joint[i].is_angle ? gb_round((reference[i] - value) / GB_TAU) : R(0.0);
-            place[i] = value + gb_turn_of(&m->joint[i]) * gb_nearest_turn(turn, first, last);
-            distance += weights[i] * (place[i] - reference[i]) * (place[i] - reference[i]);
-        }
-        if (distance < least) {
-            least = distance;
+        gb_turned_joints turned;
+        gb_turn_to(m, &aim, gb_q_of(all, k), &turned);
+        if (turned.excess == R(0.0) && turned.distance < least) {
+            least = turned.distance;
             best = (int)k;
-            gb_copy(q, place, m->joints);
+            gb_copy(q, turned.q, m->joints);
         }
     }
     return best;

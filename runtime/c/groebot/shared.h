@@ -261,6 +261,19 @@ typedef struct {
     gb_fit nearest_fit;
 } gb_answers;
 
+/* The solution nearest to reference joint values so far: joints that are not wrapped, its distance and residuals. */
+typedef struct {
+    gb_real q[GB_MAX_JOINTS];
+    gb_real distance;
+    gb_fit fit;
+    bool is_found;
+    /* Whether reference and weights allow a search. */
+    bool can_search;
+    /* The index of the listed solution on the same self-motion, or -1; that of the self-motion being followed. */
+    int member;
+    int follows;
+} gb_nearest_end;
+
 /* A polynomial's coefficients, constant term first. */
 typedef struct {
     const gb_real *coefficients;
@@ -304,6 +317,10 @@ GB_LINKAGE size_t gb_count_turns(const gb_mechanism *mechanism, const gb_real *q
 GB_LINKAGE void gb_turn(const gb_mechanism *mechanism, const gb_real *q, const gb_real *limits, size_t index, gb_real *out);
 GB_LINKAGE size_t gb_keep_within(const gb_answers *all, const gb_real *limits);
 GB_LINKAGE int gb_nearest(const gb_answers *all, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_real *q);
+GB_LINKAGE void gb_begin_nearest(const gb_answers *all, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_nearest_end *best);
+GB_LINKAGE void gb_search_along(const gb_problem *problem, const gb_real *q, uint32_t free, const gb_real *const *aim, gb_nearest_end *best);
+GB_LINKAGE void gb_move_nearest(const gb_mechanism *m, const gb_real *q, const gb_fit *fit, const gb_real *const *aim, gb_nearest_end *best);
+GB_LINKAGE void gb_search_all(const gb_answers *all, const gb_real *const *aim, gb_nearest_end *best);
 GB_LINKAGE void gb_target_of(const gb_real *base, const gb_real *tool, const gb_real *pose, gb_real *target);
 
 /* At most `most` steps. They are used up with the next one, which shows that they did not suffice. */

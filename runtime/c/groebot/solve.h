@@ -356,3 +356,45 @@ int GB_PUBLIC(nearest)(const gb_solution *list, int count, const gb_real *refere
     all.count = count > 0 ? (size_t)count : 0;
     return gb_nearest(&all, reference, weights, limits, q);
 }
+
+int GB_PUBLIC(nearest_to)(const gb_real *target, const gb_real *reference, const gb_real *weights, const gb_real *limits, gb_solution *out)
+{
+    const gb_real *const aim[] = {reference, weights, limits};
+    gb_real conforming[GB_INPUTS] = {0}, p[GB_PARAMETERS];
+    gb_solution list[GB_CAPACITY];
+    gb_nearest_end best;
+    gb_answers all;
+    const int count = GB_PUBLIC(solve)(target, list);
+    if (count <= 0) {
+        return count;
+    }
+    memset(&all, 0, sizeof all);
+    all.problem.mechanism = &gb_this;
+    all.out = list;
+    all.count = (size_t)count;
+    gb_begin_nearest(&all, reference, weights, limits, &best);
+    int known = best.member < 0 ? 0 : best.member;
+    for (int k = count; k-- > 0;) {
+        known = list[k].free != 0 ? k : known;
+    }
+    if (best.can_search) {
+        gb_conform(target, conforming);
+        gb_parameters_1(conforming, p);
+#ifdef GB_WITHIN
+        gb_search_ideal(p, list, count, aim, &best);
+#else
+        size_t steps = gb_steps_at_most(GB_MOST_STEPS);
+        all.problem.p = p;
+        all.problem.steps = &steps;
+        gb_search_all(&all, aim, &best);
+#endif
+    }
+    if (!best.is_found) {
+        return 0;
+    }
+    *out = list[best.member < 0 ? known : best.member];
+    memcpy(out->q, best.q, sizeof out->q);
+    out->residual = best.fit.residual;
+    out->relative = best.fit.relative;
+    return 1;
+}

@@ -34,7 +34,13 @@ pub(super) struct Elimination {
 
 impl Elimination {
     /// Factors the matrix with `rank + 1` columns and as many rows as `rank`.
-    pub fn of(columns: [Rows; MOST_JOINTS], rank: usize) -> Elimination {
+    pub fn of(columns: &[Rows; MOST_JOINTS], rank: usize) -> Elimination {
+        // The compiler unrolls the loops of the most frequent case.
+        if rank == MOST_ROWS { Elimination::factors(columns, MOST_ROWS) } else { Elimination::factors(columns, rank) }
+    }
+
+    #[inline(always)]
+    fn factors(columns: &[Rows; MOST_JOINTS], rank: usize) -> Elimination {
         let mut done = Elimination::start(columns, rank);
         let mut sign = 1.0;
         for k in 0..rank {
@@ -48,14 +54,14 @@ impl Elimination {
                 done.exchange(k, best);
                 sign = -sign;
             }
-            done.eliminate(k, rank);
+            done.eliminate(k, rank, rank);
         }
-        done.orient(sign);
+        done.orient(sign, rank);
         done
     }
 
     /// Factors a matrix of `rank + 2` columns and `rank + 1` rows without one of its columns. The remaining rows are dependent, and one of them is left out.
-    pub fn without(columns: [Rows; MOST_JOINTS], rank: usize, left_out: usize) -> Elimination {
+    pub fn without(columns: &[Rows; MOST_JOINTS], rank: usize, left_out: usize) -> Elimination {
         let mut done = Elimination::start(columns, rank);
         done.exchange(left_out, rank + 1);
         let mut sign = 1.0;
@@ -82,16 +88,17 @@ impl Elimination {
                 }
                 sign = -sign;
             }
-            done.eliminate(k, rank + 1);
+            done.eliminate(k, rank + 1, rank);
         }
-        done.orient(sign);
+        done.orient(sign, rank);
         done
     }
 
-    fn start(columns: [Rows; MOST_JOINTS], rank: usize) -> Elimination {
+    #[inline(always)]
+    fn start(columns: &[Rows; MOST_JOINTS], rank: usize) -> Elimination {
         Elimination {
             rank,
-            columns,
+            columns: *columns,
             lower: [[0.0; MOST_ROWS]; MOST_ROWS],
             inverses: [0.0; MOST_ROWS],
             order: [0, 1, 2, 3, 4, 5, 6],
@@ -102,13 +109,15 @@ impl Elimination {
         }
     }
 
+    #[inline(always)]
     fn exchange(&mut self, k: usize, j: usize) {
         self.columns.swap(k, j);
         self.order.swap(k, j);
     }
 
     /// Subtracts row `k` from those below it.
-    fn eliminate(&mut self, k: usize, rows: usize) {
+    #[inline(always)]
+    fn eliminate(&mut self, k: usize, rows: usize, rank: usize) {
         let pivot = self.columns[k][k];
         let inverse = if pivot == 0.0 { 0.0 } else { 1.0 / pivot };
         let mut multipliers = [0.0; MOST_ROWS];
@@ -116,7 +125,7 @@ impl Elimination {
             multipliers[r] = self.columns[k][r] * inverse;
             self.columns[k][r] = 0.0;
         }
-        for j in k + 1..=self.rank {
+        for j in k + 1..=rank {
             let upper = self.columns[j][k];
             for r in 0..MOST_ROWS {
                 self.columns[j][r] -= multipliers[r] * upper;
@@ -127,9 +136,10 @@ impl Elimination {
     }
 
     /// The solution of `U y = z` for the unknowns with pivots, in their order.
-    fn back(&self, mut z: Rows) -> Rows {
+    #[inline(always)]
+    fn back(&self, mut z: Rows, rank: usize) -> Rows {
         let mut y = [0.0; MOST_ROWS];
-        for k in (0..self.rank).rev() {
+        for k in (0..rank).rev() {
             y[k] = z[k] * self.inverses[k];
             for r in 0..MOST_ROWS {
                 z[r] -= self.columns[k][r] * y[k];
@@ -139,26 +149,27 @@ impl Elimination {
     }
 
     /// Computes the null vector.
-    fn orient(&mut self, sign: f64) {
+    #[inline(always)]
+    fn orient(&mut self, sign: f64, rank: usize) {
         let (mut determinant, mut least, mut largest) = (sign, f64::INFINITY, 0.0);
-        for k in 0..self.rank {
+        for k in 0..rank {
             let pivot = self.columns[k][k];
             determinant *= pivot;
             least = f64::min(least, pivot.abs());
             largest = f64::max(largest, pivot.abs());
         }
         self.pivot = if largest > 0.0 { least / largest } else { 0.0 };
-        let y = self.back(self.columns[self.rank]);
+        let y = self.back(self.columns[rank], rank);
         let mut square = 1.0;
-        for k in 0..self.rank {
+        for k in 0..rank {
             square += y[k] * y[k];
         }
         let norm = Arithmetic::sqrt(square);
         let factor = if determinant < 0.0 { -1.0 / norm } else { 1.0 / norm };
-        for k in 0..self.rank {
+        for k in 0..rank {
             self.tangent[self.order[k]] = -y[k] * factor;
         }
-        self.tangent[self.order[self.rank]] = factor;
+        self.tangent[self.order[rank]] = factor;
         self.volume = determinant.abs() * norm;
     }
 
@@ -171,19 +182,24 @@ impl Elimination {
 
     /// A solution of `J x = values`, not the least one.
     pub fn some(&self, values: &Rows) -> Q {
+        if self.rank == MOST_ROWS { self.solved(values, MOST_ROWS) } else { self.solved(values, self.rank) }
+    }
+
+    #[inline(always)]
+    fn solved(&self, values: &Rows, rank: usize) -> Q {
         let mut z = [0.0; MOST_ROWS];
-        for k in 0..self.rank {
+        for k in 0..rank {
             z[k] = values[self.rows[k]];
         }
-        for k in 0..self.rank {
+        for k in 0..rank {
             let value = z[k];
             for r in 0..MOST_ROWS {
                 z[r] -= self.lower[k][r] * value;
             }
         }
-        let y = self.back(z);
+        let y = self.back(z, rank);
         let mut x = [0.0; MOST_JOINTS];
-        for k in 0..self.rank {
+        for k in 0..rank {
             x[self.order[k]] = y[k];
         }
         x

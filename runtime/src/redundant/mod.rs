@@ -10,10 +10,13 @@ mod along;
 mod arcs;
 mod arm;
 mod best;
+#[cfg(test)]
+mod checks;
 mod crossing;
 mod elimination;
 mod ends;
 mod goal;
+mod links;
 mod model;
 mod seeds;
 mod step;

@@ -4,20 +4,19 @@ use core::f64::consts::TAU;
 
 use super::arm::{Arm, Given, Limits, MOST_JOINTS, Q, Target};
 use super::elimination::{Elimination, MOST_ROWS, Rows};
-use super::goal::{Goal, across, carried};
+use super::goal::{Goal, carried};
+use super::links::{Axes, Links};
 use crate::arithmetic::Arithmetic;
 use crate::six_axes::vector::{add, cross, scale, sub};
 use crate::six_axes::{Rigid, Vector};
 use crate::solution::Error;
 use crate::tolerances::ACCEPTANCE;
-use crate::trigonometry::cosine_and_sine;
 
 /// An arm and a target. Joint values `x` are scaled: a length is relative to [`Arm::length`], which all lengths are.
 pub(super) struct Model<'a> {
     pub arm: &'a Arm,
     pub count: usize,
-    /// By joint: its frame at zero in the frame of the joint before, z along the axis. The last one is the tip's.
-    frames: [Rigid; MOST_JOINTS + 1],
+    links: Links,
     goal: Goal,
     /// Limits of the scaled values, as given.
     pub limits: Limits,
@@ -27,13 +26,6 @@ pub(super) struct Model<'a> {
     pub units: [f64; MOST_JOINTS],
     /// A joint that is constant along the curve, where the equations are singular along the whole curve with this joint, and regular without it.
     pub frozen: Option<usize>,
-}
-
-/// Axes, points on them, and the tip at joint values.
-struct Axes {
-    directions: [Vector; MOST_JOINTS],
-    points: [Vector; MOST_JOINTS],
-    tip: Rigid,
 }
 
 /// The equations at joint values.
@@ -46,13 +38,6 @@ pub(super) struct Place {
     pub bend: Q,
 }
 
-/// A frame whose z axis has a direction, and whose origin is a point.
-fn frame(direction: &Vector, point: &Vector) -> Rigid {
-    let [x, y] = across(direction);
-    let z = direction;
-    Rigid { rotation: [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]], translation: *point }
-}
-
 impl<'a> Model<'a> {
     /// # Errors
     ///
@@ -61,15 +46,13 @@ impl<'a> Model<'a> {
         let mut model = Model {
             arm,
             count: arm.count,
-            frames: [Rigid::NONE; MOST_JOINTS + 1],
+            links: Links::of(arm),
             goal: Goal::new(arm, target),
             limits: [[f64::NEG_INFINITY, f64::INFINITY]; MOST_JOINTS],
             turns: [false; MOST_JOINTS],
             units: [1.0; MOST_JOINTS],
             frozen: None,
         };
-        let shrink = 1.0 / arm.length;
-        let mut before = Rigid::NONE;
         for i in 0..arm.count {
             let [low, high] = limits[i];
             let is_ordered = low <= high;
@@ -79,42 +62,23 @@ impl<'a> Model<'a> {
             model.turns[i] = !arm.slides[i] && high - low >= TAU - ACCEPTANCE.input;
             model.units[i] = if arm.slides[i] { arm.length } else { 1.0 };
             model.limits[i] = [low / model.units[i], high / model.units[i]];
-            let point = if arm.slides[i] { arm.tip.translation } else { arm.points[i] };
-            let here = frame(&arm.directions[i], &scale(&point, shrink));
-            model.frames[i] = before.inverse().after(&here);
-            before = here;
         }
-        let tip = Rigid { translation: scale(&arm.tip.translation, shrink), ..arm.tip };
-        model.frames[arm.count] = before.inverse().after(&tip);
         Ok(model)
-    }
-
-    fn axes(&self, x: &Q) -> Axes {
-        let mut axes = Axes { directions: [[0.0; 3]; MOST_JOINTS], points: [[0.0; 3]; MOST_JOINTS], tip: Rigid::NONE };
-        let mut at = self.frames[0];
-        for i in 0..self.count {
-            axes.directions[i] = at.column(2);
-            axes.points[i] = at.translation;
-            at = if self.arm.slides[i] { at.then_slid(x[i]) } else { at.then_turned(cosine_and_sine(x[i])) };
-            at = at.after(&self.frames[i + 1]);
-        }
-        axes.tip = at;
-        axes
     }
 
     /// The values of the equations.
     pub fn values(&self, x: &Q) -> Rows {
-        let mut at = self.frames[0];
-        for i in 0..self.count {
-            at = if self.arm.slides[i] { at.then_slid(x[i]) } else { at.then_turned(cosine_and_sine(x[i])) };
-            at = at.after(&self.frames[i + 1]);
-        }
-        self.goal.values(&at)
+        self.goal.values(&self.tip(x))
+    }
+
+    /// The tip in the base frame.
+    pub fn tip(&self, x: &Q) -> Rigid {
+        self.links.tip(self.arm, x)
     }
 
     /// The equations, their derivatives, and the curve's direction and curvature.
     pub fn place(&self, x: &Q) -> Place {
-        let axes = self.axes(x);
+        let axes = self.links.axes(self.arm, x);
         let images = self.goal.images(&axes.tip);
         let mut columns = [[0.0; MOST_ROWS]; MOST_JOINTS];
         for i in 0..self.count {
@@ -128,8 +92,8 @@ impl<'a> Model<'a> {
         }
         let rows = self.goal.rows();
         let linear = match self.frozen {
-            None => Elimination::of(columns, rows),
-            Some(joint) => Elimination::without(columns, rows - 1, joint),
+            None => Elimination::of(&columns, rows),
+            Some(joint) => Elimination::without(&columns, rows - 1, joint),
         };
         let second = self.second(&axes, &images, &linear.tangent);
         let mut bend = linear.least(&second);

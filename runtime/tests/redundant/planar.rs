@@ -41,9 +41,10 @@ fn tip(q: &Q) -> [f64; 2] {
 fn two_links(p: [f64; 2], u: [f64; 2], v: f64) -> Vec<[f64; 2]> {
     let (square, first) = (p[0] * p[0] + p[1] * p[1], u[0].hypot(u[1]));
     let cosine = (square - first * first - v * v) / (2.0 * first * v);
-    if !(-1.0..=1.0).contains(&cosine) {
+    if cosine.abs() > 1.0 + 1e-13 {
         return Vec::new();
     }
+    let cosine = cosine.clamp(-1.0, 1.0);
     let solve = |bent: f64| {
         let b = bent + u[1].atan2(u[0]);
         let sum = [u[0] + v * b.cos(), u[1] + v * b.sin()];
@@ -65,11 +66,13 @@ impl Redundant for Planar {
         out.clear();
         let (p, (s, c)) = ([target[0], target[1]], value.sin_cos());
         let [l1, l2, l3] = LINKS;
+        // With the tip on the first axis, that joint is free.
+        let free = u32::from(joint == 1 && p[0].hypot(p[1]) < 1e-12);
         let mut push = |q: [f64; 3]| {
             let mut all = [0.0; 7];
             all[..3].copy_from_slice(&q.map(wrapped));
             all[joint] = value;
-            out.push(Member { q: all, free: 0, settled: true });
+            out.push(Member { q: all, free, settled: true });
         };
         match joint {
             0 => {
@@ -186,4 +189,100 @@ fn beyond_limits_and_reach() {
     assert_eq!(any_within(&robot, &target, &limits), Err(Error::Limits(2)));
     limits[2] = [f64::NAN, 1.0];
     assert_eq!(any_within(&robot, &target, &limits), Err(Error::Limits(2)));
+}
+
+/// The arcs at a position, with limits of the first two joints.
+fn arcs_at(x: f64, first: [f64; 2], second: [f64; 2]) -> (Vec<Arc>, bool) {
+    let mut limits = [[f64::NEG_INFINITY, f64::INFINITY]; 7];
+    (limits[0], limits[1]) = (first, second);
+    let robot = Planar::new(limits);
+    let mut target = [0.0; 12];
+    target[0] = x;
+    let mut out = [Arc::NONE; 16];
+    let outcome = arcs(&robot, &target, &limits, &mut out).unwrap();
+    (out[..outcome.count].to_vec(), outcome.is_unsure)
+}
+
+const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// The greatest angle of the second joint with the tip at a distance: the third link points outwards, so that the wrist is nearest.
+fn greatest(distance: f64) -> f64 {
+    let wrist = distance - LINKS[2];
+    ((wrist * wrist - 1.0 - 0.64) / 1.6).acos()
+}
+
+#[test]
+fn curve_that_touches_a_limit() {
+    let top = greatest(1.2);
+    let (all, is_unsure) = arcs_at(1.2, ANY, [0.0, top]);
+    assert!(all.len() == 1 && all[0].is_closed && !is_unsure, "{all:?}");
+    let (all, is_unsure) = arcs_at(1.2, ANY, [0.0, top + 1e-5]);
+    assert!(all.len() == 1 && all[0].is_closed && !is_unsure, "{all:?}");
+}
+
+#[test]
+fn curve_that_exceeds_a_limit_a_little() {
+    let (top, whole) = (greatest(1.2), arcs_at(1.2, ANY, [0.0, PI]).0);
+    for excess in [1e-2, 1e-4, 1e-6] {
+        let (all, is_unsure) = arcs_at(1.2, ANY, [0.0, top - excess]);
+        assert!(all.len() == 1 && !all[0].is_closed && !is_unsure, "{excess} {all:?}");
+        assert!(all[0].start.joint == Some(1) && all[0].start.is_upper && all[0].end.is_upper);
+        let gap = whole[0].length - all[0].length;
+        assert!(gap > 0.0 && gap < 20.0 * excess.sqrt(), "{excess} {gap}");
+        // What is beyond the limit is the other arc.
+        let (rest, is_unsure) = arcs_at(1.2, ANY, [top - excess, PI]);
+        assert!(rest.len() == 1 && !is_unsure, "{excess} {rest:?}");
+        assert!((rest[0].length - gap).abs() < 1e-4, "{excess} {gap} {rest:?}");
+    }
+}
+
+#[test]
+fn curve_that_is_one_point_within_limits() {
+    let (all, _) = arcs_at(1.2, ANY, [greatest(1.2), PI]);
+    assert_eq!(all.len(), 1);
+    assert!(all[0].length < 1e-6 && all[0].start.q == all[0].end.q);
+    assert!((all[0].start.q[1] - greatest(1.2)).abs() < 1e-9);
+}
+
+#[test]
+fn joint_that_remains_at_its_limit() {
+    // The tip is on the first axis: the second and the third joint are constant, the first one is free.
+    let bent = -((0.25_f64 - 1.0 - 0.64) / 1.6).acos();
+    for second in [[bent, 1.0], [-3.0, bent]] {
+        let (all, is_unsure) = arcs_at(0.0, [-1.0, 0.5], second);
+        assert!(all.len() == 1 && !is_unsure, "{all:?}");
+        assert!((all[0].length - 1.5).abs() < 1e-9);
+        assert_eq!([all[0].start.joint, all[0].end.joint], [Some(0), Some(0)]);
+        let (all, is_unsure) = arcs_at(0.0, ANY, second);
+        assert!(all.len() == 1 && all[0].is_closed && !is_unsure, "{all:?}");
+        assert!((all[0].length - TAU).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn two_joints_at_limits_at_once() {
+    // From a solution, one limit each way of the curve: the arc is on one side, on the other, or only the point.
+    let robot = Planar::new([ANY; 7]);
+    let mut members = Members::NONE;
+    let mut target = [0.0; 12];
+    target[0] = 1.2;
+    robot.solve_given(&target, 0, 0.9, &mut members).unwrap();
+    let q = members.as_slice()[0].q;
+    robot.solve_given(&target, 0, 0.9001, &mut members).unwrap();
+    let near = members.as_slice().iter().min_by(|a, b| distance(&a.q, &q).total_cmp(&distance(&b.q, &q))).unwrap().q;
+    let rises = near[1] > q[1];
+    let below = |i: usize| [q[i] - 2.0, q[i]];
+    let above = |i: usize| [q[i], q[i] + 2.0];
+    // Both joints move inwards along the same direction of the curve.
+    let (all, is_unsure) = arcs_at(1.2, above(0), if rises { above(1) } else { below(1) });
+    assert!(
+        !is_unsure
+            && all
+                .iter()
+                .any(|arc| arc.length > 0.05 && distance(&arc.start.q, &q).min(distance(&arc.end.q, &q)) < 1e-9),
+        "{q:?} {near:?} {all:?}"
+    );
+    // They move inwards along opposite directions.
+    let (all, is_unsure) = arcs_at(1.2, above(0), if rises { below(1) } else { above(1) });
+    assert!(!is_unsure && all.iter().any(|arc| arc.length == 0.0 && distance(&arc.start.q, &q) < 1e-9), "{all:?}");
 }

@@ -54,4 +54,8 @@ impl InverseKinematics for Program {
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
         self.solver().solve_given(target, given).map(|solutions| *out = solutions)
     }
+
+    fn nearest_to(&self, target: &Target, given: &[f64], q0: &[f64], limits: &[[f64; 2]]) -> Result<Option<Solution>> {
+        InverseKinematics::nearest_to(&self.solver(), target, given, q0, limits)
+    }
 }

@@ -272,6 +272,20 @@ impl<'a> PlacedSolver<'a> {
         self.solver.solve_within(&self.base_from_tip(target), limits)
     }
 
+    /// Same as [`Solver::nearest_to`], but for a target of the tool in the world frame.
+    ///
+    /// # Errors
+    /// As [`Solver::nearest_to`].
+    pub fn nearest_to(
+        &self,
+        target: &[f64],
+        q0: &[f64],
+        weights: Option<&[f64]>,
+        limits: Option<&[[f64; 2]]>,
+    ) -> Result<Option<Solution>> {
+        self.solver.nearest_to(&self.base_from_tip(target), q0, weights, limits)
+    }
+
     /// Same as [`Solver::solve_batch`], but for targets of the tool in the world frame.
     ///
     /// # Errors
@@ -304,5 +318,10 @@ impl InverseKinematics for PlacedSolver<'_> {
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
         *out = self.solve_given(target, given)?;
         Ok(())
+    }
+
+    fn nearest_to(&self, target: &Target, given: &[f64], q0: &[f64], limits: &[[f64; 2]]) -> Result<Option<Solution>> {
+        let numbers = self.base_from_tip(&self.solver.numbers_of(target, given)?);
+        self.solver.nearest_to(&numbers, q0, None, Some(limits))
     }
 }

@@ -112,7 +112,21 @@ fn check((program, solver): (&Program, &Solver), question: &Question, output: &m
             .collect();
         assert_close(&output.joints(), &expected, place);
     }
+    check_nearest_to(solver, question, output, place);
     check_nearest(program, question, &answers, output, place);
+}
+
+/// Equal to the last bit to the interpreted program.
+fn check_nearest_to(solver: &Solver, question: &Question, output: &mut Output<'_>, place: &str) {
+    let Question { target, limits, reference, weights } = question;
+    let found = solver.nearest_to(target, reference, Some(weights), Some(limits)).unwrap();
+    assert_eq!(output.next(), f64::from(u8::from(found.is_some())), "{place}: nearest on self-motions");
+    if let Some(found) = found {
+        let free = found.free.iter().fold(0, |bits, joint| bits | 1_u32 << joint);
+        let head = [found.branch as f64, found.residual, f64::from(free)];
+        assert_eq!([output.next(), output.next(), output.next()], head, "{place}: nearest on self-motions");
+        assert_eq!(output.joints(), found.q, "{place}: nearest on self-motions");
+    }
 }
 
 fn check_nearest(program: &Program, question: &Question, answers: &[Solution], output: &mut Output<'_>, place: &str) {
@@ -221,6 +235,62 @@ pub fn check_program(program: &Program) -> Option<()> {
     Some(())
 }
 
+/// Questions at poses with a singular wrist or next to it. Limits of the fourth joint exclude the values that made the pose, or there are none.
+fn singular_questions(program: &Program, q5: f64) -> Vec<Question> {
+    let mut between = random();
+    let made = (0..60).map(|index| {
+        let mut q: Vec<f64> = (0..6).map(|_| between(-3.0, 3.0)).collect();
+        q[4] = q5 + if index % 4 == 3 { 1e-8 } else { 0.0 };
+        let mut limits = vec![[-TAU, TAU]; 6];
+        if index % 5 == 2 {
+            limits[3] = [q[3] + 0.1, q[3] + 0.15];
+        }
+        let off = if index % 2 == 0 { 0.0 } else { 0.3 };
+        Question {
+            target: program.reached(&q).unwrap(),
+            limits,
+            reference: q.iter().map(|q| q + between(-off, off)).collect(),
+            weights: q.iter().map(|_| between(0.3, 2.0)).collect(),
+        }
+    });
+    made.collect()
+}
+
+/// Along self-motions the printed solvers are equal to the interpreted program to the last bit.
+#[test]
+fn nearest_members_of_self_motions_are_equal_in_all_languages() {
+    for (name, q5) in [("puma", PI / 2.0), ("ur5", 0.0), ("irb4600_rounded", 0.0)] {
+        let program = named(&[name]).remove(0).program;
+        let folder = tempfile::tempdir().unwrap();
+        let Some(executables) = executables(&program, folder.path()) else { return };
+        let (solver, questions) = (program.solver(), singular_questions(&program, q5));
+        for (language, executable) in executables {
+            let output = feed(&executable, text(&questions));
+            let numbers = Box::new(output.split_whitespace().map(|word| word.parse::<f64>().unwrap()));
+            let mut output = Output { numbers, joints: 6 };
+            for (index, question) in questions.iter().enumerate() {
+                let place = format!("{name} in {language}, question {index}");
+                skip_to_nearest(program.inputs.len(), &mut output);
+                check_nearest_to(&solver, question, &mut output, &place);
+                if output.next() >= 0.0 {
+                    output.joints();
+                }
+            }
+        }
+    }
+}
+
+/// Skips solutions, their turns, and those within limits.
+fn skip_to_nearest(inputs: usize, output: &mut Output<'_>) {
+    let answers = output.next() as usize;
+    for _ in 0..answers {
+        let turns = output.next() as usize;
+        (0..turns.min(100) * 6 + inputs).for_each(|_| _ = output.next());
+    }
+    let within = output.next() as usize;
+    (0..within).for_each(|_| _ = output.joints());
+}
+
 #[test]
 fn turns_limits_and_nearest_solutions_are_those_of_a_search() {
     for stored in named(&["ur5", "scara", "iiwa14", "planar_3r"]) {
@@ -263,7 +333,8 @@ fn self_motions_reach_into_limits() {
                     .lines()
                     .map(|line| line.split_whitespace().map(|word| word.parse().unwrap()).collect())
                     .collect();
-                let end = lines.iter().rposition(|line| line.len() == 1).unwrap();
+                // The nearest member of all, after a one, follows the rows.
+                let end = lines.iter().rposition(|line| line.len() == 9).unwrap() - 1;
                 let rows: Vec<&Vec<f64>> = lines[..end].iter().rev().take_while(|line| line.len() == 6).collect();
                 assert_eq!(lines[end - rows.len() - 1], [rows.len() as f64], "{place}");
                 assert!(!rows.is_empty(), "{place}: nothing within limits");

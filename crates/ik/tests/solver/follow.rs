@@ -157,3 +157,36 @@ fn a_path_begins_where_the_arm_stands_or_jumps_there() {
     is_along(&chain, &poses, &found);
     assert_eq!(from(&away[..5]).unwrap_err().kind(), ErrorKind::BadValue);
 }
+
+/// A path that passes a singular wrist, or begins, stays or ends there, continues along the self-motions.
+#[test]
+fn a_path_through_a_singular_wrist_has_no_jump() {
+    let starts: [[f64; 6]; 3] =
+        [[0.3, -1.2, 1.4, 0.4, 0.0, -2.2], [-2.0, -0.7, 1.1, 2.5, 0.0, 1.9], [1.0, -2.1, -1.3, -2.8, 0.0, 0.6]];
+    for limits in [None, Some((-PI, PI)), Some((-2.0 * PI, 2.0 * PI))] {
+        let chain = ur5(limits);
+        for start in starts {
+            for bend in [[-0.5, 0.5], [0.0, 0.5], [-0.5, 0.0], [0.0, 0.0]] {
+                let along = |share: f64| {
+                    let mut q: [f64; 6] =
+                        std::array::from_fn(|i| start[i] + 0.3 * share * [1.0, -0.5, 0.7, 0.4, 0.0, -0.9][i]);
+                    q[4] = bend[0] + (bend[1] - bend[0]) * share;
+                    q
+                };
+                let targets = poses(&chain, along, 11);
+                let found = followed(&chain, &targets, SOLVER.program()).unwrap();
+                assert!(found.jumps.is_empty(), "{limits:?} {start:?} {bend:?}: {:?}", found.jumps);
+                is_along(&chain, &targets, &found);
+                let (pace, first) = (Pace::Every(0.1), along(0.0));
+                let request = PathRequest::new(&targets, &pace).start(&first);
+                let found = follow(&chain, SOLVER.program(), &request, &Watch::none()).unwrap();
+                assert!(found.jumps.is_empty(), "{limits:?} {start:?} {bend:?} from its start: {:?}", found.jumps);
+                for (k, q) in found.trajectory.q.iter().enumerate() {
+                    let own = along(k as f64 / 10.0);
+                    let most = q.iter().zip(own).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                    assert!(most < 0.5, "{limits:?} {start:?} {bend:?} at {k}: {q:?} {own:?}");
+                }
+            }
+        }
+    }
+}

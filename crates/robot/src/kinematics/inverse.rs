@@ -44,4 +44,20 @@ pub trait InverseKinematics: fmt::Debug + Send + Sync {
     /// [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) for a target of another task than the solver's, with a
     /// number that is not finite or a matrix that is not a rotation, and unless each given joint has a finite value.
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()>;
+
+    /// The solution nearest to the joint values `q0` after whole turns within `limits`, where members of self-motions are moved along them. Its angles are not
+    /// wrapped. `None` when no solution is within `limits`, and from solvers that do not move along self-motions (the default).
+    ///
+    /// # Errors
+    /// As [`InverseKinematics::solve`]; [`ErrorKind::BadValue`](crate::ErrorKind::BadValue) unless `q0` has one finite value and `limits` one ordered pair for
+    /// each joint.
+    fn nearest_to(
+        &self,
+        _target: &Target,
+        _given: &[f64],
+        _q0: &[f64],
+        _limits: &[[f64; 2]],
+    ) -> Result<Option<Solution>> {
+        Ok(None)
+    }
 }

@@ -3,6 +3,7 @@
 
 use std::cmp::Ordering;
 
+use super::members::add_members;
 use super::path_request::{Pace, PathRequest};
 use super::{JointTrack, Trajectory};
 use crate::kinematics::{Chain, InverseKinematics, Joint, JointKind, Solution, Target, Task};
@@ -54,7 +55,8 @@ struct State {
 /// Computes joint values that move the tip of `chain` through the requested poses, with `solver`. The path has the fewest jumps
 /// between branches and, among those, the least sum of squared joint steps. Revolute joints are shifted by whole turns
 /// where their limits permit. A step is a jump if a joint moves further than its maximum velocity permits in the time.
-/// Without a maximum velocity the bound is half a radian or a tenth of the reach.
+/// Without a maximum velocity the bound is half a radian or a tenth of the reach. At singular poses the path continues along self-motions if `solver` has a
+/// search for their members ([`InverseKinematics::nearest_to`]).
 ///
 /// # Errors
 /// [`ErrorKind::BadValue`] for an empty list and for a wrong number of times; with the number of the pose, for one that
@@ -78,13 +80,17 @@ pub fn follow<'w>(
     let times = times(pace, poses.len())?;
     let path = Path { chain, speeds, times: &times, start };
     let mut layers: Vec<Vec<State>> = Vec::with_capacity(poses.len());
-    let mut found = Vec::new();
-    for (sample, pose) in poses.iter().enumerate() {
+    let mut found = vec![Vec::new(); poses.len()];
+    let named = |sample: usize| move |error: Error| error.with_context(format_args!("pose {}", sample + 1));
+    for (sample, (pose, found)) in poses.iter().zip(&mut found).enumerate() {
         watch.check()?;
         watch.report("poses of the path", sample, poses.len() - sample);
-        let named = |error: Error| error.with_context(format_args!("pose {}", sample + 1));
-        solver.solve(&Target::Pose(*pose), &[], &mut found).map_err(named)?;
-        let choices = path.choices(&found).map_err(named)?;
+        solver.solve(&Target::Pose(*pose), &[], found).map_err(named(sample))?;
+    }
+    add_members(chain, solver, request, &mut found, watch)?;
+    for (sample, found) in found.iter().enumerate() {
+        watch.check()?;
+        let choices = path.choices(found).map_err(named(sample))?;
         layers.push(path.reached(sample, &choices, layers.last()));
     }
     let best = path.best_path(&layers);

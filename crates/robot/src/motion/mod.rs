@@ -6,6 +6,7 @@
 mod check;
 mod follow;
 mod json;
+mod members;
 mod path_request;
 mod spline;
 mod states;

@@ -144,6 +144,25 @@ impl Solver {
         shaped!(self, shaped => shaped.solve_within(target, limits))
     }
 
+    /// The solution nearest to the joint values `q0` after whole turns within `limits`, by the sum of squared differences, each times its weight (1 without
+    /// `weights`). Its angles are not wrapped. `None` when no solution is within `limits`.
+    ///
+    /// At a singular target the self-motions are searched, too: where one is a curve, for its nearest place within limits; where it is a surface, for a local
+    /// minimum of the distance.
+    ///
+    /// # Errors
+    /// As [`Solver::solve_numbers`]; [`crate::ErrorKind::BadValue`] for a wrong number of values, a reference that is not finite, a negative weight, and limits
+    /// in the wrong order.
+    pub fn nearest_to(
+        &self,
+        target: &[f64],
+        q0: &[f64],
+        weights: Option<&[f64]>,
+        limits: Option<&[[f64; 2]]>,
+    ) -> Result<Option<Solution>> {
+        shaped!(self, shaped => shaped.nearest_to(target, q0, weights, limits))
+    }
+
     /// The target that joint values reach (radians, and the program's length unit), in the form for [`Solver::solve_numbers`].
     ///
     /// `None` for a wrong number of joint values, or for a program without forward kinematics: its equations do not compare each number of the target with an
@@ -213,5 +232,9 @@ impl InverseKinematics for Solver {
     fn solve(&self, target: &Target, given: &[f64], out: &mut Vec<Solution>) -> Result<()> {
         *out = self.solve_target(target, given)?;
         Ok(())
+    }
+
+    fn nearest_to(&self, target: &Target, given: &[f64], q0: &[f64], limits: &[[f64; 2]]) -> Result<Option<Solution>> {
+        Solver::nearest_to(self, &self.numbers_of(target, given)?, q0, None, Some(limits))
     }
 }

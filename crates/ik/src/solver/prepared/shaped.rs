@@ -146,6 +146,25 @@ impl<S: Storage + 'static> Shaped<S> {
         })
     }
 
+    /// Same as [`super::Solver::nearest_to`].
+    pub fn nearest_to(
+        &self,
+        target: &[f64],
+        q0: &[f64],
+        weights: Option<&[f64]>,
+        limits: Option<&[[f64; 2]]>,
+    ) -> Result<Option<Solution>> {
+        let (row, joints) = (self.row(target)?, self.facts.joints.len());
+        check_reference(joints, q0, weights, limits)?;
+        let reference = Array::by(joints, |i| q0[i]);
+        let weights = Array::by(joints, |i| weights.map_or(1.0, |weights| weights[i]));
+        let limits = Array::by(joints, |i| limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| limits[i]));
+        self.with_room(self.facts.capacity, |out| {
+            let found = Solve::nearest_to(self, &row, &reference, &weights, &limits, out);
+            Ok(found.map_err(|error| self.refused(target, error))?.map(|(nearest, _)| solution(&nearest)))
+        })
+    }
+
     /// Same as [`super::Solver::solve_pairs`].
     pub fn solve_pairs(&self, target: &[f64]) -> Result<Vec<Pairs>> {
         let mut out = vec![runtime::Pairs::empty(self); self.facts.capacity];
@@ -236,6 +255,29 @@ impl<S: Storage + 'static> Shaped<S> {
             None => conform(&self.conditions, &self.inputs, target).unwrap_or_else(|| error.to_string()),
         };
         Error::new(ErrorKind::BadValue, text)
+    }
+}
+
+/// Checks reference joint values, their weights and limits.
+fn check_reference(joints: usize, q0: &[f64], weights: Option<&[f64]>, limits: Option<&[[f64; 2]]>) -> Result<()> {
+    let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
+    let lengths = [
+        (q0.len(), "reference values"),
+        (weights.map_or(joints, <[f64]>::len), "weights"),
+        (limits.map_or(joints, <[_]>::len), "pairs of limits"),
+    ];
+    if let Some((length, what)) = lengths.into_iter().find(|(length, _)| *length != joints) {
+        return bad(format!("{length} {what} given; give one for each of {joints} joints"));
+    }
+    if let Some(value) = q0.iter().find(|value| !value.is_finite()) {
+        return bad(format!("a reference value is {value}; give finite numbers"));
+    }
+    if let Some(weight) = weights.unwrap_or(&[]).iter().find(|weight| !(weight.is_finite() && **weight >= 0.0)) {
+        return bad(format!("a weight is {weight}; give finite numbers that are not negative"));
+    }
+    match limits.unwrap_or(&[]).iter().find(|[low, high]| !(low <= high)) {
+        Some([low, high]) => bad(format!("limits are {low} and {high}; give the least value first")),
+        None => Ok(()),
     }
 }
 
