@@ -76,6 +76,7 @@ static const gb_real gb_arm_tried[GB_ARM_TRIED] = {R(0.5), R(0.375), R(0.625), R
 #include "groebot/redundant/lists.c"
 #include "groebot/redundant/elimination.c"
 #include "groebot/redundant/goal.c"
+#include "groebot/redundant/links.c"
 #include "groebot/redundant/model.c"
 #include "groebot/redundant/step.c"
 #include "groebot/redundant/crossing.c"

@@ -4,8 +4,7 @@
 typedef struct {
     const gb_arm *arm;
     size_t count;
-    /* By joint: its frame at zero in the frame of the joint before, z along the axis. The last one is the tip's. */
-    gb_rigid frames[GB_MOST_ARM_JOINTS + 1];
+    gb_arm_links links;
     gb_arm_goal goal;
     /* Limits of the scaled values, as given. */
     gb_real limits[GB_MOST_ARM_JOINTS][2];
@@ -17,13 +16,6 @@ typedef struct {
     int frozen;
 } gb_arm_model;
 
-/* Axes, points on them, and the tip at joint values. */
-typedef struct {
-    gb_real directions[GB_MOST_ARM_JOINTS][3];
-    gb_real points[GB_MOST_ARM_JOINTS][3];
-    gb_rigid tip;
-} gb_arm_axes;
-
 /* The equations at joint values. */
 typedef struct {
     gb_real x[GB_MOST_ARM_JOINTS];
@@ -33,33 +25,16 @@ typedef struct {
     gb_real bend[GB_MOST_ARM_JOINTS];
 } gb_arm_place;
 
-/* A frame whose z axis has a direction, and whose origin is a point. */
-static gb_rigid gb_arm_frame(const gb_real *z, const gb_real *point)
-{
-    gb_rigid frame;
-    gb_real across[2][3];
-    gb_arm_across(z, across);
-    for (int i = 0; i < 3; i++) {
-        frame.rotation[i][0] = across[0][i];
-        frame.rotation[i][1] = across[1][i];
-        frame.rotation[i][2] = z[i];
-        frame.translation[i] = point[i];
-    }
-    return frame;
-}
-
 /* Returns 0, or GB_NOT_LIMITS. */
 static int gb_arm_set_model(gb_arm_model *model, const gb_arm *arm, const gb_real *target, const gb_real *limits)
 {
-    const gb_real shrink = R(1.0) / arm->length;
-    gb_rigid before = gb_six_none, tip = arm->tip, back;
     model->arm = arm;
     model->count = arm->count;
     model->frozen = -1;
+    gb_arm_set_links(&model->links, arm);
     gb_arm_set_goal(&model->goal, arm, target);
     for (size_t i = 0; i < arm->count; i++) {
         const gb_real low = limits[2 * i], high = limits[2 * i + 1];
-        gb_real point[3];
         const bool is_ordered = low <= high;
         if (!is_ordered) {
             return GB_NOT_LIMITS;
@@ -68,52 +43,16 @@ static int gb_arm_set_model(gb_arm_model *model, const gb_arm *arm, const gb_rea
         model->units[i] = arm->slides[i] ? arm->length : R(1.0);
         model->limits[i][0] = low / model->units[i];
         model->limits[i][1] = high / model->units[i];
-        gb_arm_scale(arm->slides[i] ? arm->tip.translation : arm->points[i], shrink, point);
-        const gb_rigid here = gb_arm_frame(arm->directions[i], point);
-        back = gb_six_inverse(&before);
-        model->frames[i] = gb_six_after(&back, &here);
-        before = here;
     }
-    gb_arm_scale(arm->tip.translation, shrink, tip.translation);
-    back = gb_six_inverse(&before);
-    model->frames[arm->count] = gb_six_after(&back, &tip);
     return 0;
-}
-
-/* Moves by one joint to the next frame. */
-GB_INLINE void gb_arm_next_frame(const gb_arm_model *model, const gb_real *x, size_t joint, gb_rigid *at)
-{
-    if (model->arm->slides[joint]) {
-        gb_six_then_slide(at, x[joint]);
-    } else {
-        gb_real c, s;
-        gb_cosine_and_sine(x[joint], &c, &s);
-        gb_six_then_turn(at, c, s);
-    }
-    *at = gb_six_after(at, &model->frames[joint + 1]);
 }
 
 /* The values of the equations. */
 static void gb_arm_values(const gb_arm_model *model, const gb_real *x, gb_real *values)
 {
-    gb_rigid at = model->frames[0];
-    for (size_t i = 0; i < model->count; i++) {
-        gb_arm_next_frame(model, x, i, &at);
-    }
-    gb_arm_goal_values(&model->goal, &at, values);
-}
-
-static void gb_arm_set_axes(const gb_arm_model *model, const gb_real *x, gb_arm_axes *axes)
-{
-    gb_rigid at = model->frames[0];
-    for (size_t i = 0; i < model->count; i++) {
-        for (int k = 0; k < 3; k++) {
-            axes->directions[i][k] = at.rotation[k][2];
-            axes->points[i][k] = at.translation[k];
-        }
-        gb_arm_next_frame(model, x, i, &at);
-    }
-    axes->tip = at;
+    gb_rigid tip;
+    gb_arm_tip(&model->links, model->arm, x, &tip);
+    gb_arm_goal_values(&model->goal, &tip, values);
 }
 
 /* The second derivatives of the equations where the joints move with constant rates `t`. */
@@ -146,7 +85,7 @@ static void gb_arm_set_place(const gb_arm_model *model, const gb_real *x, gb_arm
     gb_arm_axes axes;
     gb_real images[2][3], second[GB_ARM_ROWS];
     gb_arm_elimination *linear = &place->linear;
-    gb_arm_set_axes(model, x, &axes);
+    gb_arm_set_axes(&model->links, model->arm, x, &axes);
     gb_arm_images(&model->goal, &axes.tip, images);
     memset(linear->columns, 0, sizeof linear->columns);
     for (size_t i = 0; i < model->count; i++) {
