@@ -23,14 +23,12 @@ typedef struct {
 } gb_arm_elimination;
 
 /* Starts with the columns, which are already written. */
-static void gb_arm_start(gb_arm_elimination *done, size_t rank)
+GB_INLINE void gb_arm_start(gb_arm_elimination *done, size_t rank)
 {
     done->rank = rank;
-    memset(done->lower, 0, sizeof done->lower);
-    memset(done->inverses, 0, sizeof done->inverses);
-    memset(done->tangent, 0, sizeof done->tangent);
     for (size_t k = 0; k < GB_MOST_ARM_JOINTS; k++) {
         done->order[k] = k;
+        done->tangent[k] = R(0.0);
     }
     for (size_t k = 0; k < GB_ARM_ROWS; k++) {
         done->rows[k] = k;
@@ -38,7 +36,7 @@ static void gb_arm_start(gb_arm_elimination *done, size_t rank)
 }
 
 /* Exchanges two columns. */
-static void gb_arm_exchange(gb_arm_elimination *done, size_t k, size_t j)
+GB_INLINE void gb_arm_exchange(gb_arm_elimination *done, size_t k, size_t j)
 {
     const size_t number = done->order[k];
     gb_real column[GB_ARM_ROWS];
@@ -57,22 +55,22 @@ static void gb_arm_swap(gb_real *list, size_t k, size_t j)
     list[j] = value;
 }
 
-/* Exchanges two rows. */
+/* Exchanges two rows, after `k` steps. */
 static void gb_arm_exchange_rows(gb_arm_elimination *done, size_t k, size_t r)
 {
     const size_t number = done->rows[k];
     done->rows[k] = done->rows[r];
     done->rows[r] = number;
-    for (size_t j = 0; j < GB_MOST_ARM_JOINTS; j++) {
+    for (size_t j = 0; j <= done->rank; j++) {
         gb_arm_swap(done->columns[j], k, r);
     }
-    for (size_t j = 0; j < GB_ARM_ROWS; j++) {
+    for (size_t j = 0; j < k; j++) {
         gb_arm_swap(done->lower[j], k, r);
     }
 }
 
 /* Subtracts row `k` from those below it. */
-static void gb_arm_eliminate(gb_arm_elimination *done, size_t k, size_t rows)
+GB_INLINE void gb_arm_eliminate(gb_arm_elimination *done, size_t k, size_t rows, size_t rank)
 {
     const gb_real pivot = done->columns[k][k], inverse = pivot == R(0.0) ? R(0.0) : R(1.0) / pivot;
     gb_real *multipliers = done->lower[k];
@@ -83,7 +81,7 @@ static void gb_arm_eliminate(gb_arm_elimination *done, size_t k, size_t rows)
         multipliers[r] = done->columns[k][r] * inverse;
         done->columns[k][r] = R(0.0);
     }
-    for (size_t j = k + 1; j <= done->rank; j++) {
+    for (size_t j = k + 1; j <= rank; j++) {
         const gb_real upper = done->columns[j][k];
         GB_UNROLL
         for (size_t r = 0; r < GB_ARM_ROWS; r++) {
@@ -94,9 +92,9 @@ static void gb_arm_eliminate(gb_arm_elimination *done, size_t k, size_t rows)
 }
 
 /* The solution of `U y = z` for the unknowns with pivots, in their order; z is used up. */
-static void gb_arm_back(const gb_arm_elimination *done, gb_real *z, gb_real *y)
+GB_INLINE void gb_arm_back(const gb_arm_elimination *done, gb_real *z, gb_real *y, size_t rank)
 {
-    for (size_t k = done->rank; k-- > 0;) {
+    for (size_t k = rank; k-- > 0;) {
         y[k] = z[k] * done->inverses[k];
         GB_UNROLL
         for (size_t r = 0; r < GB_ARM_ROWS; r++) {
@@ -106,10 +104,9 @@ static void gb_arm_back(const gb_arm_elimination *done, gb_real *z, gb_real *y)
 }
 
 /* Computes the null vector. */
-static void gb_arm_orient(gb_arm_elimination *done, gb_real sign)
+GB_INLINE void gb_arm_orient(gb_arm_elimination *done, gb_real sign, size_t rank)
 {
     gb_real determinant = sign, least = (gb_real)HUGE_VAL, largest = R(0.0), z[GB_ARM_ROWS], y[GB_ARM_ROWS], square = R(1.0);
-    const size_t rank = done->rank;
     for (size_t k = 0; k < rank; k++) {
         const gb_real pivot = done->columns[k][k];
         determinant *= pivot;
@@ -118,7 +115,7 @@ static void gb_arm_orient(gb_arm_elimination *done, gb_real sign)
     }
     done->pivot = largest > R(0.0) ? least / largest : R(0.0);
     memcpy(z, done->columns[rank], sizeof z);
-    gb_arm_back(done, z, y);
+    gb_arm_back(done, z, y, rank);
     for (size_t k = 0; k < rank; k++) {
         square += y[k] * y[k];
     }
@@ -130,8 +127,8 @@ static void gb_arm_orient(gb_arm_elimination *done, gb_real sign)
     done->volume = gb_magnitude(determinant) * norm;
 }
 
-/* Factors the matrix with `rank + 1` columns and as many rows as `rank`. The columns are already written. */
-static void gb_arm_factor(gb_arm_elimination *done, size_t rank)
+/* Factors with a rank that the compiler may know. */
+GB_INLINE void gb_arm_factor_of(gb_arm_elimination *done, size_t rank)
 {
     gb_real sign = R(1.0);
     gb_arm_start(done, rank);
@@ -146,9 +143,20 @@ static void gb_arm_factor(gb_arm_elimination *done, size_t rank)
             gb_arm_exchange(done, k, best);
             sign = -sign;
         }
-        gb_arm_eliminate(done, k, rank);
+        gb_arm_eliminate(done, k, rank, rank);
     }
-    gb_arm_orient(done, sign);
+    gb_arm_orient(done, sign, rank);
+}
+
+/* Factors the matrix with `rank + 1` columns and as many rows as `rank`. The columns are already written. */
+static void gb_arm_factor(gb_arm_elimination *done, size_t rank)
+{
+    /* The compiler unrolls the loops of the most frequent case. */
+    if (rank == GB_ARM_ROWS) {
+        gb_arm_factor_of(done, GB_ARM_ROWS);
+    } else {
+        gb_arm_factor_of(done, rank);
+    }
 }
 
 /* Exchanges columns and rows so that the largest entry from row and column `k` on is there. Returns the sign of the exchanges. */
@@ -183,30 +191,30 @@ static void gb_arm_factor_without(gb_arm_elimination *done, size_t rank, size_t 
     gb_arm_exchange(done, left_out, rank + 1);
     for (size_t k = 0; k < rank; k++) {
         sign *= gb_arm_bring(done, k);
-        gb_arm_eliminate(done, k, rank + 1);
+        gb_arm_eliminate(done, k, rank + 1, rank);
     }
-    gb_arm_orient(done, sign);
+    gb_arm_orient(done, sign, rank);
 }
 
-/* A solution of `J x = values`, not the least one. */
-static void gb_arm_some(const gb_arm_elimination *done, const gb_real *values, gb_real *x)
+/* A solution of `J x = values`, not the least one, with a rank that the compiler may know. */
+GB_INLINE void gb_arm_solved(const gb_arm_elimination *done, const gb_real *values, gb_real *x, size_t rank)
 {
     gb_real z[GB_ARM_ROWS] = {R(0.0)}, y[GB_ARM_ROWS];
-    for (size_t k = 0; k < done->rank; k++) {
+    for (size_t k = 0; k < rank; k++) {
         z[k] = values[done->rows[k]];
     }
-    for (size_t k = 0; k < done->rank; k++) {
+    for (size_t k = 0; k < rank; k++) {
         const gb_real value = z[k];
         GB_UNROLL
         for (size_t r = 0; r < GB_ARM_ROWS; r++) {
             z[r] -= done->lower[k][r] * value;
         }
     }
-    gb_arm_back(done, z, y);
+    gb_arm_back(done, z, y, rank);
     for (size_t k = 0; k < GB_MOST_ARM_JOINTS; k++) {
         x[k] = R(0.0);
     }
-    for (size_t k = 0; k < done->rank; k++) {
+    for (size_t k = 0; k < rank; k++) {
         x[done->order[k]] = y[k];
     }
 }
@@ -214,7 +222,11 @@ static void gb_arm_some(const gb_arm_elimination *done, const gb_real *values, g
 /* The least solution of `J x = values`: the one that is orthogonal to the null vector. */
 static void gb_arm_least(const gb_arm_elimination *done, const gb_real *values, gb_real *x)
 {
-    gb_arm_some(done, values, x);
+    if (done->rank == GB_ARM_ROWS) {
+        gb_arm_solved(done, values, x, GB_ARM_ROWS);
+    } else {
+        gb_arm_solved(done, values, x, done->rank);
+    }
     const gb_real along = gb_arm_dot(x, done->tangent);
     GB_UNROLL
     for (int k = 0; k < GB_MOST_ARM_JOINTS; k++) {

@@ -87,7 +87,6 @@ static void gb_arm_set_place(const gb_arm_model *model, const gb_real *x, gb_arm
     gb_arm_elimination *linear = &place->linear;
     gb_arm_set_axes(&model->links, model->arm, x, &axes);
     gb_arm_images(&model->goal, &axes.tip, images);
-    memset(linear->columns, 0, sizeof linear->columns);
     for (size_t i = 0; i < model->count; i++) {
         const gb_real *axis = axes.directions[i];
         if (model->arm->slides[i]) {
