@@ -84,9 +84,13 @@ pub const C: &str = include_str!("../c/groebot.c");
 pub const C_SIX_AXES_HEADER: &str = include_str!("../c/groebot_six_axes.h");
 /// The source that belongs to [`C_SIX_AXES_HEADER`].
 pub const C_SIX_AXES: &str = include_str!("../c/groebot_six_axes.c");
+/// The header of the run time in C for redundant arms. It needs [`C_SIX_AXES_HEADER`].
+pub const C_REDUNDANT_HEADER: &str = include_str!("../c/groebot_redundant.h");
+/// The source that belongs to [`C_REDUNDANT_HEADER`].
+pub const C_REDUNDANT: &str = include_str!("../c/groebot_redundant.c");
 
 /// The files that the C sources include, each by its path.
-pub const C_PARTS: [(&str, &str); 56] = [
+pub const C_PARTS: [(&str, &str); 71] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -123,6 +127,21 @@ pub const C_PARTS: [(&str, &str); 56] = [
     ("groebot/trigonometry.c", include_str!("../c/groebot/trigonometry.c")),
     ("groebot/approaches.h", include_str!("../c/groebot/approaches.h")),
     ("groebot/width.h", include_str!("../c/groebot/width.h")),
+    ("groebot/redundant/along.c", include_str!("../c/groebot/redundant/along.c")),
+    ("groebot/redundant/arcs.c", include_str!("../c/groebot/redundant/arcs.c")),
+    ("groebot/redundant/best.c", include_str!("../c/groebot/redundant/best.c")),
+    ("groebot/redundant/closed.c", include_str!("../c/groebot/redundant/closed.c")),
+    ("groebot/redundant/crossing.c", include_str!("../c/groebot/redundant/crossing.c")),
+    ("groebot/redundant/elimination.c", include_str!("../c/groebot/redundant/elimination.c")),
+    ("groebot/redundant/ends.c", include_str!("../c/groebot/redundant/ends.c")),
+    ("groebot/redundant/goal.c", include_str!("../c/groebot/redundant/goal.c")),
+    ("groebot/redundant/links.c", include_str!("../c/groebot/redundant/links.c")),
+    ("groebot/redundant/lists.c", include_str!("../c/groebot/redundant/lists.c")),
+    ("groebot/redundant/model.c", include_str!("../c/groebot/redundant/model.c")),
+    ("groebot/redundant/seeds.c", include_str!("../c/groebot/redundant/seeds.c")),
+    ("groebot/redundant/step.c", include_str!("../c/groebot/redundant/step.c")),
+    ("groebot/redundant/trace.c", include_str!("../c/groebot/redundant/trace.c")),
+    ("groebot/redundant/within.c", include_str!("../c/groebot/redundant/within.c")),
     ("groebot/six_axes/answers.c", include_str!("../c/groebot/six_axes/answers.c")),
     ("groebot/six_axes/candidates.c", include_str!("../c/groebot/six_axes/candidates.c")),
     ("groebot/six_axes/chain.c", include_str!("../c/groebot/six_axes/chain.c")),

@@ -292,6 +292,8 @@ GB_LINKAGE gb_real gb_sine(gb_real angle);
 GB_LINKAGE void gb_cosine_and_sine(gb_real angle, gb_real *cosine, gb_real *sine);
 GB_LINKAGE gb_real gb_wrap(gb_real angle);
 GB_LINKAGE gb_real gb_round(gb_real x);
+GB_LINKAGE gb_real gb_floor(gb_real x);
+GB_LINKAGE gb_real gb_ceiling(gb_real x);
 GB_LINKAGE gb_real gb_angle(gb_real cosine, gb_real sine);
 #ifdef GROEBOT_SIX_AXES_H
 GB_LINKAGE size_t gb_six_axes(const gb_chain *chain, const gb_real *target, gb_six_answer *out);

@@ -13,14 +13,14 @@ GB_LINKAGE gb_real gb_round(gb_real x)
 }
 
 /* The greatest integer that is not greater than the number. */
-static gb_real gb_floor(gb_real x)
+GB_LINKAGE gb_real gb_floor(gb_real x)
 {
     const gb_real whole = gb_whole(x);
     return whole > x ? whole - R(1.0) : whole;
 }
 
 /* The least integer that is not less than the number. */
-static gb_real gb_ceiling(gb_real x)
+GB_LINKAGE gb_real gb_ceiling(gb_real x)
 {
     return -gb_floor(-x);
 }

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Compiles and runs the tests of the C run time with every installed compiler, also with sanitizers. Compares PUMA's solutions bitwise with those of the
-# Rust run time, and runs clang-tidy. A missing tool is skipped; with GROEBOT_REQUIRE_TOOLS=1 it is an error.
+# Compiles and runs the tests of the C run time with every installed compiler, also with sanitizers. Compares PUMA's solutions, and arcs of redundant arms,
+# bitwise with those of the Rust run time, and runs clang-tidy. A missing tool is skipped; with GROEBOT_REQUIRE_TOOLS=1 it is an error.
 #
 # CC      compilers to use; default: gcc and clang
 # PUMA    PUMA's derivation, whose printed files are compiled; default: the one in derivations/
@@ -34,13 +34,13 @@ has_sanitizers() {
     return 1
 }
 
-# The checks of .clang-tidy, for all three files. The last command also checks the header's functions. There clang-tidy cannot know that one of two
+# The checks of .clang-tidy, for all four files. The last command also checks the header's functions. There clang-tidy cannot know that one of two
 # pointers is not null.
 tidy() {
     options="-std=c99 -I. -I$here/.."
     null=clang-analyzer-core.NullDereference,-clang-analyzer-core.NonNullParamChecker
     ask="clang-tidy --quiet --config-file=$here/../.clang-tidy"
-    $ask "$here/../groebot.c" "$here/../groebot_six_axes.c" -- $options
+    $ask "$here/../groebot.c" "$here/../groebot_six_axes.c" "$here/../groebot_redundant.c" -- $options
     $ask --checks=-$null puma.c -- $options -Xclang -analyzer-opt-analyze-headers
     echo "clang-tidy reports nothing"
 }
@@ -59,11 +59,21 @@ if has cargo; then
 name = "reference"
 version = "0.0.0"
 edition = "2024"
+[[bin]]
+name = "reference"
+path = "src/main.rs"
+[[bin]]
+name = "redundant"
+path = "$here/redundant.rs"
 [dependencies]
 groebot-runtime = { path = "$runtime" }
 [workspace]
 END
-    CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$work/target} cargo run --quiet --release --manifest-path reference/Cargo.toml -- "$work/answers"
+    for name in reference redundant; do
+        CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$work/target} \
+            cargo run --quiet --release --manifest-path reference/Cargo.toml --bin "$name" -- "$work/$name.answers"
+    done
+    mv reference.answers answers
     echo "the Rust run time has written its solutions"
 fi
 
@@ -85,6 +95,22 @@ join() {
 }
 join >single.c
 
+# Prints run time and tests of redundant arms in one file.
+join_redundant() {
+    printf '#define GB_LINKAGE static GB_UNUSED\n#define GB_RUNTIME\n'
+    { whole groebot.h && whole groebot_six_axes.h && whole groebot_redundant.h && whole groebot.c && whole groebot_redundant.c && cat "$here/redundant.c"; } \
+        | sed '/^#include "groebot[a-z_]*.h"$/d'
+}
+join_redundant >single_redundant.c
+
+# Runs the tests of redundant arms, then compares the results, with one compiler and its flags.
+try_redundant() {
+    "$@" $strict -I"$here" -lm -o redundant
+    ./redundant >redundant.own || { tail -n 1 redundant.own && return 1; }
+    [ ! -f redundant.answers ] || cmp redundant.own redundant.answers
+    echo "$(grep -c '^target' redundant.own) targets of redundant arms have the same arcs"
+}
+
 # Runs the tests, then compares the solutions, with one compiler and its flags.
 try() {
     echo "$*"
@@ -95,6 +121,7 @@ try() {
         "$@" $strict "$here/compare.c" puma.c "$here/../groebot.c" -lm -o compare
         ./compare answers
     fi
+    try_redundant "$@" "$here/redundant.c" "$here/../groebot.c" "$here/../groebot_redundant.c"
 }
 
 if has clang-tidy; then
@@ -115,7 +142,8 @@ for cc in ${CC:-gcc clang}; do
     fi
     "$cc" -std=c99 -O2 $strict "$here/compare.c" single.c -lm -o compare
     [ ! -f answers ] || ./compare answers
-    for file in puma.c "$here/../groebot.c" single.c; do
+    try_redundant "$cc" -std=c99 -O2 single_redundant.c
+    for file in puma.c "$here/../groebot.c" "$here/../groebot_redundant.c" single.c; do
         "$cc" -x c++ -std=c++11 -O2 $strict -c "$file" -o object
     done
 done

@@ -1,4 +1,6 @@
 /* Vectors and rigid motions: see vector.rs, rigid.rs */
+#ifndef GB_SIX_RIGID
+#define GB_SIX_RIGID
 
 GB_INLINE gb_real gb_six_dot(const gb_real *a, const gb_real *b)
 {
@@ -116,21 +118,4 @@ GB_INLINE void gb_six_then_slide(gb_rigid *motion, gb_real distance)
     }
 }
 
-/* A small motion by `size` (rad, and relative to the length scale), different for each attempt. */
-static gb_rigid gb_six_aside(gb_real size, size_t attempt)
-{
-    const gb_real sign = attempt % 2 == 0 ? size : -size, c = gb_cosine(sign), s = gb_sine(sign), *w = gb_six_direction;
-    gb_rigid motion = gb_six_none;
-    for (int j = 0; j < 3; j++) {
-        const gb_real *v = gb_six_none.rotation[j], along = gb_six_dot(w, v) * (R(1.0) - c);
-        gb_real third[3];
-        gb_six_cross(w, v, third);
-        for (int i = 0; i < 3; i++) {
-            motion.rotation[i][j] = c * v[i] + s * third[i] + along * w[i];
-        }
-    }
-    motion.translation[0] = R(-0.7) * sign;
-    motion.translation[1] = R(0.5) * sign;
-    motion.translation[2] = R(0.3) * sign;
-    return motion;
-}
+#endif

@@ -1,0 +1,126 @@
+/* Joint values along an arc: see along.rs */
+
+/* A walk along an arc, from its start to its end. */
+typedef struct {
+    gb_arm_walk walk;
+    /* The present piece, and the length of the arc before it. */
+    gb_arm_piece piece;
+    gb_real before;
+    bool is_over;
+} gb_arm_journey;
+
+/* A walk from the start of an arc. */
+static void gb_arm_set_out(gb_arm_journey *journey, gb_arm_model *model, const gb_arc *arc)
+{
+    gb_real x[GB_MOST_ARM_JOINTS];
+    gb_arm_place place;
+    model->frozen = arc->is_frozen ? gb_arm_constant(model->arm) : -1;
+    gb_arm_scaled(model, arc->start.q, x);
+    gb_arm_set_place(model, x, &place);
+    const gb_arm_point at = gb_arm_point_of(&place, arc->side);
+    journey->walk = gb_arm_walk_from(&at, arc->side, arc->level);
+    journey->piece = gb_arm_piece_of(&at, &at);
+    journey->before = R(0.0);
+    journey->is_over = arc->length == R(0.0);
+}
+
+/* Goes on to the next piece. Returns whether there is one. */
+static bool gb_arm_travel(gb_arm_journey *journey, const gb_arm_model *model, const gb_arc *arc)
+{
+    gb_arm_piece piece;
+    if (journey->is_over) {
+        return false;
+    }
+    journey->before += journey->piece.length;
+    if (!gb_arm_next_piece(&journey->walk, model, &piece)) {
+        journey->is_over = true;
+        return false;
+    }
+    gb_arm_go(&journey->walk, &piece);
+    journey->piece = piece;
+    journey->is_over = journey->before + piece.length >= arc->length;
+    return true;
+}
+
+/* The scaled joint values of the curve at a share of a piece. */
+static void gb_arm_curve_at(const gb_arm_model *model, const gb_arm_piece *piece, gb_real share, gb_real *x)
+{
+    gb_arm_piece_at(piece, share, x);
+    for (int k = 0; k < GB_ARM_CORRECTIONS; k++) {
+        gb_arm_place place;
+        gb_real step[GB_MOST_ARM_JOINTS];
+        gb_arm_set_place(model, x, &place);
+        gb_arm_least(&place.linear, place.values, step);
+        gb_arm_plus(x, R(-1.0), step, x);
+        if (gb_arm_norm(step) <= GB_ACCEPTANCE_RESIDUAL || gb_arm_dot(step, step) > R(1.0)) {
+            break;
+        }
+    }
+}
+
+/* The share of the present piece at a length of the arc. */
+static gb_real gb_arm_share_at(const gb_arm_journey *journey, gb_real s)
+{
+    return gb_arm_share((s - journey->before) / journey->piece.length);
+}
+
+/* Joint values at a length of the arc on the present piece. */
+static void gb_arm_journey_at(const gb_arm_journey *journey, const gb_arm_model *model, gb_real s, gb_real *q)
+{
+    gb_real x[GB_MOST_ARM_JOINTS];
+    gb_arm_curve_at(model, &journey->piece, gb_arm_share_at(journey, s), x);
+    gb_arm_unscaled(model, x, q);
+}
+
+GB_LINKAGE int gb_arc_at(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arc, gb_real s, gb_real *q)
+{
+    gb_arm_model model;
+    gb_arm_journey journey;
+    const int code = gb_arm_set_model(&model, arm, target, limits);
+    if (code < 0) {
+        return code;
+    }
+    if (s <= R(0.0) || s >= arc->length) {
+        gb_arm_copy(s <= R(0.0) ? arc->start.q : arc->end.q, q);
+        return 0;
+    }
+    gb_arm_set_out(&journey, &model, arc);
+    while (gb_arm_travel(&journey, &model, arc)) {
+        if (s <= journey.before + journey.piece.length) {
+            gb_arm_journey_at(&journey, &model, s, q);
+            return 0;
+        }
+    }
+    gb_arm_copy(arc->end.q, q);
+    return 0;
+}
+
+GB_LINKAGE int gb_arc_sample(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arc, gb_real (*out)[GB_MOST_ARM_JOINTS],
+                             size_t count)
+{
+    gb_arm_model model;
+    gb_arm_journey journey;
+    const int code = gb_arm_set_model(&model, arm, target, limits);
+    size_t k = 0;
+    if (code < 0) {
+        return code;
+    }
+    gb_arm_set_out(&journey, &model, arc);
+    while (k + 1 < count && gb_arm_travel(&journey, &model, arc)) {
+        for (; k + 1 < count; k++) {
+            const gb_real s = arc->length * (gb_real)k / (gb_real)(count - 1);
+            if (s > journey.before + journey.piece.length) {
+                break;
+            }
+            if (k == 0) {
+                gb_arm_copy(arc->start.q, out[k]);
+            } else {
+                gb_arm_journey_at(&journey, &model, s, out[k]);
+            }
+        }
+    }
+    for (; k < count; k++) {
+        gb_arm_copy(k == 0 ? arc->start.q : arc->end.q, out[k]);
+    }
+    return 0;
+}
