@@ -197,7 +197,7 @@ fn follow_uses_arcs() {
     }
 }
 
-/// With a given joint, the solver of a redundant folder has no arcs: a pose lacks the value of this joint.
+/// With `--given`, only the solver with this joint given is requested. A pose lacks the value of the joint.
 #[test]
 fn follow_with_a_given_joint_is_refused() {
     let (table, _) = slow_poses();
@@ -205,5 +205,5 @@ fn follow_with_a_given_joint_is_refused() {
     let input = folder.path().join("poses.csv");
     fs::write(&input, table).unwrap();
     let error = refused(&["follow", text(arm().folder.path()), "--given", "A3", "--poses", text(&input)]);
-    assert!(error.contains("A3"), "{error}");
+    assert!(error.contains("without given joints"), "{error}");
 }
