@@ -341,165 +341,152 @@ GB_INLINE void GB_(block_1)(const T *p, GB_(sink) *c)
     const T r80 = GB_(abs)(r77);
     T claim0;
     {
-        const T r88 = r37 - r49, r92 = R(1000000000000.0) * (r80 + (r79 + (r78 + R(0.8708447868943496))));
-        claim0 = GB_(claim)(GB_(away)(r88, r92), r88);
+        claim0 = GB_(abs)(r37 - r49);
     }
     T claim1;
     {
-        const T r89 = r49 + (-R(0.6526507473737795) - r41);
-        const T r93 = R(1000000000000.0) * (r80 + (r79 + (r78 + R(0.8708447868943496))));
-        claim1 = GB_(claim)(GB_(away)(r89, r93), r89);
+        claim1 = GB_(abs)(r49 + (-R(0.6526507473737795) - r41));
     }
     T claim2;
     {
-        const T r87 = r37 + r49, r91 = R(1000000000000.0) * (r80 + (r79 + (r78 + R(0.8708447868943496))));
-        claim2 = GB_(claim)(GB_(away)(r87, r91), r87);
+        claim2 = GB_(abs)(r37 + r49);
     }
     T claim3;
     {
-        const T r89 = r49 + (r41 - R(0.6526507473737795));
-        const T r93 = R(1000000000000.0) * (r80 + (r79 + (r78 + R(0.8708447868943496))));
-        claim3 = GB_(claim)(GB_(away)(r89, r93), r89);
+        claim3 = GB_(abs)(r49 + (r41 - R(0.6526507473737795)));
     }
     T claim4;
     {
         const T r96 = -R(1.0883950360189427) - R(1.25) * r37 - R(1.6666666666666667) * r41;
-        const T r97 = R(2.0833333333333335) * r49 + r96;
-        const T r101 = R(1000000000000.0) * (r80 + (r79 + (r78 + R(0.8708447868943496))));
-        claim4 = GB_(claim)(GB_(away)(r97, r101), r97);
+        claim4 = GB_(abs)(R(2.0833333333333335) * r49 + r96);
     }
     const T claims0[] = {claim0, claim1, claim2, claim3, claim4};
     switch (GB_(elect)(c, claims0, 5)) {
     case 0: {
-        /* Case 1: half angle, where leading coefficient is not zero. */
-        const T r83 = R(2.0) * r41, r88 = r37 - r49;
-        const T r92 = R(1000000000000.0) * (r80 + (r79 + (r78 + R(0.8708447868943496)))), f3 = GB_(of)(R(1.0));
+        /* Case 1: half angle. */
+        const T r83 = R(2.0) * r41, f3 = GB_(of)(R(1.0));
         const T choice1_0[] = {
             R(0.0019437631439575074) - r36 - r49, R(0.43638807904114024) - r83,
-            R(2.610602989495118) - R(2.0) * r49, -R(0.43638807904114024) - r83, r88,
+            R(2.610602989495118) - R(2.0) * r49, -R(0.43638807904114024) - r83, r37 - r49,
         };
         const GB_(polynomial) choices1[] = {{choice1_0, 5}};
         const GB_(roots) roots1 = GB_(polynomial_roots)(choices1, 1, GB_(of)(R(1.0)));
         for (size_t i1 = 0; i1 < roots1.count; i1++) {
-            const T w3 = roots1.values[i1], r93 = R(0.5) * r37, r94 = R(0.5) * r49;
-            const T r98 = w3 * (r93 - r94) + (-R(0.21819403952057012) - r41);
-            const T r102 = w3 * r98 - (r94 + (r93 - R(1.305301494747559)));
-            const T r108 = w3 * (r94 - r93) + (r41 + R(0.21819403952057012));
-            const T r110 = R(0.0) - R(0.6526507473737795) * r102 - R(0.21819403952057012) * r108;
-            const T r114 = R(0.21819403952057012) * (r93 + r94) - w3 * r110;
-            const T r115 = r114 / R(0.47356163692985703), r117 = R(1.0) - w3 * r115;
-            const T r122 = R(1.0) / GB_(root)(r117 * r117 + r115 * r115), c3 = r117 * r122, s3 = r115 * r122;
+            const T w3 = roots1.values[i1], r89 = R(0.5) * r37, r90 = R(0.5) * r49;
+            const T r94 = w3 * (r89 - r90) + (-R(0.21819403952057012) - r41);
+            const T r98 = w3 * r94 - (r90 + (r89 - R(1.305301494747559)));
+            const T r104 = w3 * (r90 - r89) + (r41 + R(0.21819403952057012));
+            const T r106 = R(0.0) - R(0.6526507473737795) * r98 - R(0.21819403952057012) * r104;
+            const T r110 = R(0.21819403952057012) * (r89 + r90) - w3 * r106;
+            const T r111 = r110 / R(0.47356163692985703), r113 = R(1.0) - w3 * r111;
+            const T r118 = R(1.0) / GB_(root)(r113 * r113 + r111 * r111), c3 = r113 * r118, s3 = r111 * r118;
             const GB_(found) found1 = GB_(by_root)(GB_(first)(i1, 4), &roots1, i1);
             GB_(block_2)(p, found1, c3, s3, f3, c);
         }
         break;
     }
     case 1: {
-        /* Case 2: half angle, where leading coefficient is not zero. */
-        const T r83 = R(2.0) * r37, r89 = r49 + (-R(0.6526507473737795) - r41);
-        const T r93 = R(1000000000000.0) * (r80 + (r79 + (r78 + R(0.8708447868943496)))), f3 = GB_(of)(R(1.0));
+        /* Case 2: half angle. */
+        const T r83 = R(2.0) * r37, f3 = GB_(of)(R(1.0));
         const T choice2_0[] = {
             r49 + (r41 - R(0.6526507473737795)), R(0.43638807904114024) - r83,
-            R(2.0) * r49 + R(1.305301494747559), -R(0.43638807904114024) - r83, r89,
+            R(2.0) * r49 + R(1.305301494747559), -R(0.43638807904114024) - r83,
+            r49 + (-R(0.6526507473737795) - r41),
         };
         const GB_(polynomial) choices2[] = {{choice2_0, 5}};
         const GB_(roots) roots2 = GB_(polynomial_roots)(choices2, 1, GB_(of)(R(1.0)));
         for (size_t i2 = 0; i2 < roots2.count; i2++) {
-            const T w3 = roots2.values[i2], r94 = R(0.5) * r41, r96 = R(0.5) * r49;
-            const T r97 = -R(0.32632537368688974) - r94 + r96;
-            const T r101 = R(0.21819403952057012) * (w3 * r97 + (-R(0.21819403952057012) - r37));
-            const T r105 = w3 * (R(0.0) - r101 - R(0.6526507473737795) * r97);
-            const T r107 = r96 + (r94 + R(0.32632537368688974));
-            const T r110 = R(0.6526507473737795) * r37 - R(0.21819403952057012) * r107;
-            const T r115 = R(0.0) - R(0.6526507473737795) * r107 - R(0.04760863888230411);
-            const T r117 = (w3 * (r105 + r110) + r115) / R(0.47356163692985703), r119 = w3 * (R(1.0) - r117);
-            const T r124 = R(1.0) / GB_(root)(r119 * r119 + r117 * r117), c3 = R(0.0) - r119 * r124;
-            const T s3 = R(0.0) - r117 * r124;
+            const T w3 = roots2.values[i2], r90 = R(0.5) * r41, r92 = R(0.5) * r49;
+            const T r93 = -R(0.32632537368688974) - r90 + r92;
+            const T r97 = R(0.21819403952057012) * (w3 * r93 + (-R(0.21819403952057012) - r37));
+            const T r101 = w3 * (R(0.0) - r97 - R(0.6526507473737795) * r93);
+            const T r103 = r92 + (r90 + R(0.32632537368688974));
+            const T r106 = R(0.6526507473737795) * r37 - R(0.21819403952057012) * r103;
+            const T r111 = R(0.0) - R(0.6526507473737795) * r103 - R(0.04760863888230411);
+            const T r113 = (w3 * (r101 + r106) + r111) / R(0.47356163692985703), r115 = w3 * (R(1.0) - r113);
+            const T r120 = R(1.0) / GB_(root)(r115 * r115 + r113 * r113), c3 = R(0.0) - r115 * r120;
+            const T s3 = R(0.0) - r113 * r120;
             const GB_(found) found1 = GB_(by_root)(GB_(first)(i2, 4), &roots2, i2);
             GB_(block_2)(p, found1, c3, s3, f3, c);
         }
         break;
     }
     case 2: {
-        /* Case 3: half angle, where leading coefficient is not zero. */
-        const T r82 = R(2.0) * r41, r87 = r37 + r49;
-        const T r91 = R(1000000000000.0) * (r80 + (r79 + (r78 + R(0.8708447868943496)))), f3 = GB_(of)(R(1.0));
+        /* Case 3: half angle. */
+        const T r82 = R(2.0) * r41, f3 = GB_(of)(R(1.0));
         const T choice3_0[] = {
             r49 - r37, -R(0.43638807904114024) - r82, R(2.0) * r49 - R(2.610602989495118),
-            R(0.43638807904114024) - r82, r87,
+            R(0.43638807904114024) - r82, r37 + r49,
         };
         const GB_(polynomial) choices3[] = {{choice3_0, 5}};
         const GB_(roots) roots3 = GB_(polynomial_roots)(choices3, 1, GB_(of)(R(1.0)));
         for (size_t i3 = 0; i3 < roots3.count; i3++) {
-            const T w3 = roots3.values[i3], r92 = R(0.5) * r37, r93 = R(0.5) * r49;
-            const T r96 = r41 - R(0.21819403952057012);
-            const T r101 = w3 * (w3 * (r92 + r93) - r96) + (r93 + (-R(1.305301494747559) - r92));
-            const T r108 = R(0.21819403952057012) * (r96 + w3 * (R(0.0) - r92 - r93));
-            const T r110 = w3 * (R(0.0) - R(0.6526507473737795) * r101 - r108);
-            const T r114 = (R(0.21819403952057012) * (r92 - r93) - r110) / R(0.47356163692985703);
-            const T r116 = w3 * r114 + R(1.0), r121 = R(1.0) / GB_(root)(r116 * r116 + r114 * r114);
-            const T c3 = R(0.0) - r116 * r121, s3 = r114 * r121;
+            const T w3 = roots3.values[i3], r88 = R(0.5) * r37, r89 = R(0.5) * r49;
+            const T r92 = r41 - R(0.21819403952057012);
+            const T r97 = w3 * (w3 * (r88 + r89) - r92) + (r89 + (-R(1.305301494747559) - r88));
+            const T r104 = R(0.21819403952057012) * (r92 + w3 * (R(0.0) - r88 - r89));
+            const T r106 = w3 * (R(0.0) - R(0.6526507473737795) * r97 - r104);
+            const T r110 = (R(0.21819403952057012) * (r88 - r89) - r106) / R(0.47356163692985703);
+            const T r112 = w3 * r110 + R(1.0), r117 = R(1.0) / GB_(root)(r112 * r112 + r110 * r110);
+            const T c3 = R(0.0) - r112 * r117, s3 = r110 * r117;
             const GB_(found) found1 = GB_(by_root)(GB_(first)(i3, 4), &roots3, i3);
             GB_(block_2)(p, found1, c3, s3, f3, c);
         }
         break;
     }
     case 3: {
-        /* Case 4: half angle, where leading coefficient is not zero. */
-        const T r83 = R(2.0) * r37, r89 = r49 + (r41 - R(0.6526507473737795));
-        const T r93 = R(1000000000000.0) * (r80 + (r79 + (r78 + R(0.8708447868943496)))), f3 = GB_(of)(R(1.0));
+        /* Case 4: half angle. */
+        const T r83 = R(2.0) * r37, f3 = GB_(of)(R(1.0));
         const T choice4_0[] = {
             r49 + (-R(0.6526507473737795) - r41), r83 + R(0.43638807904114024),
-            R(2.0) * r49 + R(1.305301494747559), r83 - R(0.43638807904114024), r89,
+            R(2.0) * r49 + R(1.305301494747559), r83 - R(0.43638807904114024),
+            r49 + (r41 - R(0.6526507473737795)),
         };
         const GB_(polynomial) choices4[] = {{choice4_0, 5}};
         const GB_(roots) roots4 = GB_(polynomial_roots)(choices4, 1, GB_(of)(R(1.0)));
         for (size_t i4 = 0; i4 < roots4.count; i4++) {
-            const T w3 = roots4.values[i4], r94 = R(0.5) * r41, r96 = R(0.5) * r49;
-            const T r100 = w3 * (R(0.32632537368688974) - r94 - r96) - (r37 - R(0.21819403952057012));
-            const T r102 = r94 - R(0.32632537368688974);
-            const T r105 = R(0.6526507473737795) * (r96 + r102) - R(0.21819403952057012) * r100;
-            const T r107 = r102 - r96, r110 = R(0.6526507473737795) * r37 - R(0.21819403952057012) * r107;
-            const T r114 = R(0.04760863888230411) - R(0.6526507473737795) * r107;
-            const T r116 = (w3 * (w3 * r105 + r110) + r114) / R(0.47356163692985703);
-            const T r119 = w3 * (R(0.0) - r116 - R(1.0)), r124 = R(1.0) / GB_(root)(r119 * r119 + r116 * r116);
-            const T c3 = R(0.0) - r119 * r124, s3 = R(0.0) - r116 * r124;
+            const T w3 = roots4.values[i4], r90 = R(0.5) * r41, r92 = R(0.5) * r49;
+            const T r96 = w3 * (R(0.32632537368688974) - r90 - r92) - (r37 - R(0.21819403952057012));
+            const T r98 = r90 - R(0.32632537368688974);
+            const T r101 = R(0.6526507473737795) * (r92 + r98) - R(0.21819403952057012) * r96;
+            const T r103 = r98 - r92, r106 = R(0.6526507473737795) * r37 - R(0.21819403952057012) * r103;
+            const T r110 = R(0.04760863888230411) - R(0.6526507473737795) * r103;
+            const T r112 = (w3 * (w3 * r101 + r106) + r110) / R(0.47356163692985703);
+            const T r115 = w3 * (R(0.0) - r112 - R(1.0)), r120 = R(1.0) / GB_(root)(r115 * r115 + r112 * r112);
+            const T c3 = R(0.0) - r115 * r120, s3 = R(0.0) - r112 * r120;
             const GB_(found) found1 = GB_(by_root)(GB_(first)(i4, 4), &roots4, i4);
             GB_(block_2)(p, found1, c3, s3, f3, c);
         }
         break;
     }
     case 4: {
-        /* Case 5: half angle, where leading coefficient is not zero. */
+        /* Case 5: half angle. */
         const T r81 = R(1.25) * r37, r83 = R(1.6666666666666667) * r41, r85 = R(2.0833333333333335) * r49;
         const T r87 = R(3.3333333333333335) * r37, r89 = R(2.5) * r41;
-        const T r92 = R(4.166666666666667) * r49 + R(1.0916139879988276);
-        const T r97 = r85 + (-R(1.0883950360189427) - r81 - r83);
-        const T r101 = R(1000000000000.0) * (r80 + (r79 + (r78 + R(0.8708447868943496))));
-        const T f3 = GB_(of)(R(1.0));
+        const T r92 = R(4.166666666666667) * r49 + R(1.0916139879988276), f3 = GB_(of)(R(1.0));
         const T choice5_0[] = {
             r81 - R(1.0883950360189427) + r83 + r85, -R(2.3560432767211195) - r87 + r89, r92,
-            r89 + (R(2.3560432767211195) - r87), r97,
+            r89 + (R(2.3560432767211195) - r87), r85 + (-R(1.0883950360189427) - r81 - r83),
         };
         const GB_(polynomial) choices5[] = {{choice5_0, 5}};
         const GB_(roots) roots5 = GB_(polynomial_roots)(choices5, 1, GB_(of)(R(1.0)));
         for (size_t i5 = 0; i5 < roots5.count; i5++) {
-            const T w3 = roots5.values[i5], r102 = R(0.24) * r37, r104 = R(0.32) * r41, r106 = R(0.4) * r49;
-            const T r108 = w3 * (-R(0.11499013929381277) - r102 - r104 + r106), r109 = R(0.82) * r37;
-            const T r111 = R(0.24) * r41, r113 = R(0.3) * r49;
-            const T r115 = r108 + (R(0.27996780600675647) - r109 + r111 + r113), r118 = R(0.18) * r37;
-            const T r121 = r111 + (r118 + R(0.12530894349576566)) - r113, r124 = R(0.68) * r41;
-            const T r127 = w3 * r121 + (r106 + (r102 - R(0.5430054218149845) - r124));
-            const T r129 = R(0.0) - R(0.21819403952057012) * r115 - R(0.6526507473737795) * r127;
-            const T r133 = r106 + (r124 + (-R(0.04623375630524329) - r102));
-            const T r139 = R(0.6526507473737795) * (r111 + R(0.4072540663612384) - r109 - r113);
-            const T r140 = R(0.0) - R(0.21819403952057012) * r133 - r139;
-            const T r145 = r113 + (r111 + (r118 - R(0.1074825970660373)));
-            const T r150 = r106 + (r104 + (r102 + R(0.35504200657133606)));
-            const T r152 = R(0.0) - R(0.21819403952057012) * r145 - R(0.6526507473737795) * r150;
-            const T r154 = (w3 * (w3 * r129 + r140) + r152) / R(0.47356163692985703);
-            const T r157 = R(0.6) - w3 * (R(0.8) - r154), r162 = R(1.0) / GB_(root)(r157 * r157 + r154 * r154);
-            const T c3 = r157 * r162, s3 = R(0.0) - r154 * r162;
+            const T w3 = roots5.values[i5], r98 = R(0.24) * r37, r100 = R(0.32) * r41, r102 = R(0.4) * r49;
+            const T r104 = w3 * (-R(0.11499013929381277) - r98 - r100 + r102), r105 = R(0.82) * r37;
+            const T r107 = R(0.24) * r41, r109 = R(0.3) * r49;
+            const T r111 = r104 + (R(0.27996780600675647) - r105 + r107 + r109), r114 = R(0.18) * r37;
+            const T r117 = r107 + (r114 + R(0.12530894349576566)) - r109, r120 = R(0.68) * r41;
+            const T r123 = w3 * r117 + (r102 + (r98 - R(0.5430054218149845) - r120));
+            const T r125 = R(0.0) - R(0.21819403952057012) * r111 - R(0.6526507473737795) * r123;
+            const T r129 = r102 + (r120 + (-R(0.04623375630524329) - r98));
+            const T r135 = R(0.6526507473737795) * (r107 + R(0.4072540663612384) - r105 - r109);
+            const T r136 = R(0.0) - R(0.21819403952057012) * r129 - r135;
+            const T r141 = r109 + (r107 + (r114 - R(0.1074825970660373)));
+            const T r146 = r102 + (r100 + (r98 + R(0.35504200657133606)));
+            const T r148 = R(0.0) - R(0.21819403952057012) * r141 - R(0.6526507473737795) * r146;
+            const T r150 = (w3 * (w3 * r125 + r136) + r148) / R(0.47356163692985703);
+            const T r153 = R(0.6) - w3 * (R(0.8) - r150), r158 = R(1.0) / GB_(root)(r153 * r153 + r150 * r150);
+            const T c3 = r153 * r158, s3 = R(0.0) - r150 * r158;
             const GB_(found) found1 = GB_(by_root)(GB_(first)(i5, 4), &roots5, i5);
             GB_(block_2)(p, found1, c3, s3, f3, c);
         }
