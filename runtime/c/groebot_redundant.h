@@ -105,17 +105,17 @@ typedef struct {
     uint32_t free;
     /* False where the solver's work was bounded: other solutions may be missing. */
     bool settled;
-} gb_member;
+} gb_arm_member;
 
 /* A list of solutions with fixed room, and whether solutions were dropped because there was no room. */
 typedef struct {
-    gb_member list[GB_MOST_MEMBERS];
+    gb_arm_member list[GB_MOST_MEMBERS];
     size_t count;
     bool is_short;
-} gb_members;
+} gb_arm_members;
 
 /* Adds a solution to the list, or drops it if there is no room. */
-static inline void gb_add_member(gb_members *members, const gb_member *member)
+static inline void gb_add_arm_member(gb_arm_members *members, const gb_arm_member *member)
 {
     if (members->count == GB_MOST_MEMBERS) {
         members->is_short = true;
@@ -131,7 +131,7 @@ typedef struct {
     void *context;
     /* Adds all solutions of the target with `joint` given at `value` to the list, which is empty, whatever the limits of the other joints. Returns 0, or for
      * a target that is not valid GB_NOT_FINITE, GB_NOT_ROTATION, GB_NOT_UNIT. Only called for joints that are GB_GIVEN_SOLVED. */
-    int (*solve_given)(void *context, const gb_real *target, size_t joint, gb_real value, gb_members *members);
+    int (*solve_given)(void *context, const gb_real *target, size_t joint, gb_real value, gb_arm_members *members);
 } gb_redundant;
 
 /* An end of an arc. */

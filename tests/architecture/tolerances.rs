@@ -99,7 +99,8 @@ fn small_literals_are_tolerances_with_a_name() {
     let folders = ["runtime/src", "runtime/c/groebot", "crates/ik/src", "crates/algebra/src/roots"];
     let mut files: Vec<(String, String)> =
         folders.iter().flat_map(|folder| texts_below(folder, &["rs", "c", "h"])).collect();
-    let names = ["groebot", "groebot_six_axes", "groebot_redundant"].map(|name| [format!("{name}.c"), format!("{name}.h")]);
+    let names =
+        ["groebot", "groebot_six_axes", "groebot_redundant"].map(|name| [format!("{name}.c"), format!("{name}.h")]);
     files.extend(names.into_iter().flatten().chain(["groebot_dynamics.h".to_owned()]).map(|name| {
         let file = format!("runtime/c/{name}");
         (file.clone(), read(&file))

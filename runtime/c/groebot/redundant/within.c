@@ -4,7 +4,7 @@
 static int gb_arm_first_within(const gb_arm_scan *scan, size_t joint, gb_real value, gb_real *q)
 {
     const gb_arm_model *model = scan->model;
-    gb_members members;
+    gb_arm_members members;
     const int code = gb_arm_solve(scan->robot, scan->target, joint, value * model->units[joint], &members);
     if (code < 0) {
         return code;
