@@ -114,5 +114,6 @@ static const gb_real gb_six_direction[3] = {R(0.48), R(0.6), R(0.64)};
 #include "groebot/six_axes/section.c"
 #include "groebot/six_axes/curve.c"
 #include "groebot/six_axes/solve.c"
+#include "groebot/six_axes/given.c"
 
 #endif

@@ -51,6 +51,18 @@ typedef struct {
     gb_real within;
 } gb_chain;
 
+/* The axis of a joint with a given value between the six of a chain. */
+typedef struct {
+    /* The number of joints of the six before it, 1 to 5. */
+    size_t before;
+    /* Direction of its axis at zero, of length one. */
+    gb_real direction[3];
+    /* A point on its axis at zero, divided by the chain's `length`. */
+    gb_real point[3];
+    /* Whether it is prismatic. */
+    bool slides;
+} gb_given;
+
 /* Joint values that reach the target, or a start near a solution that was lost. */
 typedef struct {
     /* The joint values: angles in (-pi, pi] (rad), displacements in the unit of the target. */
@@ -62,6 +74,9 @@ typedef struct {
 } gb_six_answer;
 
 /* gb_six_axes(chain, target, out) writes all joint values that reach a target, a position and a rotation matrix by rows, to the front of out, which has room
- * for GB_SIX_ROOM. Solutions are first, ascending by joint values, then the lost ones. Returns their number. */
+ * for GB_SIX_ROOM. Solutions are first, ascending by joint values, then the lost ones. Returns their number.
+ *
+ * gb_six_axes_given(chain, given, count, numbers, out) does the same when `count` joints between the six, from base to tip, have given values. After the
+ * twelve numbers of the target, `numbers` contains for each of them the cosine and sine of its angle, or its displacement and an unused number. */
 
 #endif

@@ -32,8 +32,6 @@ const SECTIONS: usize = 48;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Between two places on a self-motion the joints move by at most this multiple of their distance.
 const LONGER: f64 = 2.0;
-/// The least weight of a joint in the Gauss-Newton steps, relative to the greatest.
-const LEAST_WEIGHT: f64 = 1e-6;
 
 /// The nearest solution so far.
 pub(crate) struct Best<M: Mechanism> {
@@ -324,7 +322,7 @@ impl<M: Mechanism> Search<'_, '_, M> {
         }
         let greatest = self.aim.weights.as_ref().iter().fold(0.0, |greatest, weight| f64::max(greatest, *weight));
         let scale: Joints<M> = Array::by(self.problem.joints(), |i| {
-            let weight = f64::max(LEAST_WEIGHT * greatest, self.aim.weights.as_ref()[i]);
+            let weight = f64::max(PIVOTS.regular * greatest, self.aim.weights.as_ref()[i]);
             if greatest > 0.0 { Arithmetic::sqrt(greatest / weight) } else { 1.0 }
         });
         let (mut derivatives, mut values) = self.problem.slopes(q);

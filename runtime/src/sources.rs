@@ -52,13 +52,14 @@ pub const RUST: [(&str, &str); 44] = [
 pub const ROOT: &str = include_str!("lib.rs");
 
 /// The modules of [`crate::six_axes`], each with its name, its root first.
-pub const SIX_AXES: [(&str, &str); 20] = [
+pub const SIX_AXES: [(&str, &str); 21] = [
     ("mod", include_str!("six_axes/mod.rs")),
     ("answers", include_str!("six_axes/answers.rs")),
     ("candidates", include_str!("six_axes/candidates.rs")),
     ("chain", include_str!("six_axes/chain.rs")),
     ("cluster", include_str!("six_axes/cluster.rs")),
     ("curve", include_str!("six_axes/curve.rs")),
+    ("given", include_str!("six_axes/given.rs")),
     ("hessenberg", include_str!("six_axes/hessenberg.rs")),
     ("inverse_iteration", include_str!("six_axes/inverse_iteration.rs")),
     ("linear", include_str!("six_axes/linear.rs")),
@@ -89,7 +90,7 @@ pub const C_REDUNDANT_HEADER: &str = include_str!("../c/groebot_redundant.h");
 pub const C_REDUNDANT: &str = include_str!("../c/groebot_redundant.c");
 
 /// The files that the C sources include, each by its path.
-pub const C_PARTS: [(&str, &str); 70] = [
+pub const C_PARTS: [(&str, &str); 71] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -146,6 +147,7 @@ pub const C_PARTS: [(&str, &str); 70] = [
     ("groebot/six_axes/chain.c", include_str!("../c/groebot/six_axes/chain.c")),
     ("groebot/six_axes/cluster.c", include_str!("../c/groebot/six_axes/cluster.c")),
     ("groebot/six_axes/curve.c", include_str!("../c/groebot/six_axes/curve.c")),
+    ("groebot/six_axes/given.c", include_str!("../c/groebot/six_axes/given.c")),
     ("groebot/six_axes/hessenberg.c", include_str!("../c/groebot/six_axes/hessenberg.c")),
     ("groebot/six_axes/inverse_iteration.c", include_str!("../c/groebot/six_axes/inverse_iteration.c")),
     ("groebot/six_axes/lanes.c", include_str!("../c/groebot/six_axes/lanes.c")),

@@ -1,5 +1,6 @@
-//! Numerical tolerances, by phase of the solution. Each field bounds one error. Its last line names the test in `runtime/tests/tolerances.rs` that
-//! fails without it. The run time in C has equal values in `groebot/tolerances.h`, with others for single precision.
+//! Numerical tolerances, by phase of the solution. Each field bounds one error. Its last line names the test that fails
+//! without it, in `runtime/tests/tolerances.rs` or `crates/ik/tests/tolerances.rs`. The run time in C has equal values in `groebot/tolerances.h`, with others
+//! for single precision.
 //!
 //! Numbers and lengths of steps, which bound work and no error, are in `effort.rs`.
 
@@ -74,10 +75,10 @@ pub struct Polishing {
     pub dampings: [f64; 6],
     /// Weights of the residual in the successive steps towards a configuration where a joint moves freely. The error of that configuration is at most the
     /// product of the weights times the residual, which is within rounding in the end.
-    /// Test: none known.
+    /// Test: `polishing_freeing_of_self_motions`.
     pub freeing: [f64; 5],
     /// Displacement of the joints (rad, or relative to the length scale) for finite differences of the Jacobian. Their error is its square.
-    /// Test: none known.
+    /// Test: `polishing_freeing_of_self_motions`.
     pub difference: f64,
 }
 

@@ -38,14 +38,16 @@ impl Angles {
         target.iter().enumerate().map(value).collect()
     }
 
-    fn symbol(self, unit: Unit) -> &'static str {
+    /// The symbol of `unit` in the unit of angles.
+    pub fn symbol(self, unit: Unit) -> &'static str {
         match unit {
             Unit::Radian if self == Angles::Degrees => "deg",
             unit => unit.symbol(),
         }
     }
 
-    fn shown(self, joint: &Joint, value: f64) -> f64 {
+    /// A value of `joint` in the unit of angles.
+    pub fn shown(self, joint: &Joint, value: f64) -> f64 {
         if joint.unit == Unit::Radian && self == Angles::Degrees { value.to_degrees() } else { value }
     }
 }

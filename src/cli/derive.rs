@@ -137,7 +137,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let text = report(&content, Paint::of(&std::io::stdout()))?;
     let tip = TipLink::line(TipLink::of_source(&source).as_ref());
-    console::print(&(chosen.as_ref().map(choice_text).unwrap_or_default() + &tip + &text))?;
+    let choice = match derivation.redundancy() {
+        Some(_) => redundancy_text(&derivation),
+        None => chosen.as_ref().map(choice_text).unwrap_or_default(),
+    };
+    console::print(&(choice + &tip + &text))?;
     weak(&checked)
 }
 
@@ -150,6 +154,15 @@ pub fn choice_text(choice: &Choice) -> String {
     let candidates: String = choice.candidates.iter().map(|candidate| format!("  {candidate}\n")).collect();
     format!(
         "Given with each target: the value of {joints}. The planner chose; `--given JOINT` chooses another of\n{candidates}\n"
+    )
+}
+
+/// The solvers of a redundant chain as text, one line for each given joint.
+fn redundancy_text(derivation: &Derivation) -> String {
+    let lines: String = derivation.redundancy_lines().iter().map(|line| format!("  {line}\n")).collect();
+    format!(
+        "The chain has one joint more than its task determines. `groebot solve` computes all solutions within limits, \
+         from the solvers with each joint given\n(`--given JOINT` derives only one of them):\n{lines}\n"
     )
 }
 

@@ -45,7 +45,8 @@ pub struct EndArguments {
     #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
     direction: Option<Direction>,
     /// A joint whose value is given with each target (repeatable); `auto`: the planner chooses all redundant joints
-    /// (default: as described, else the planner chooses one redundant joint)
+    /// (default: as described, else the planner chooses one redundant joint; `derive` then also makes the solvers with
+    /// each other joint given, which find all arcs of solutions)
     #[arg(long, value_name = "JOINT", alias = "free")]
     given: Vec<String>,
 }
@@ -155,6 +156,7 @@ impl EndArguments {
             direction: self.direction.as_ref().map(|direction| direction.0.clone()),
             given: self.given.iter().filter(|joint| *joint != Ends::AUTO).cloned().collect(),
             chooses: self.given.iter().any(|joint| joint == Ends::AUTO),
+            redundant: false,
             name: None,
             snap: None,
         })

@@ -12,12 +12,13 @@ use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 use groebot_ik::derive::{Description, InputFile, Options};
+use groebot_ik::solver::redundant::{PathOptions, RedundantSolver};
 use groebot_robot::document::{is_stdin, open};
 use groebot_robot::dynamics::{Clearance, Model};
-use groebot_robot::kinematics::{Chain, LengthUnit, Quantity};
+use groebot_robot::kinematics::{Chain, Joint, JointKind, LengthUnit, Quantity};
 use groebot_robot::model::Robot;
 use groebot_robot::motion::table::pose_of;
-use groebot_robot::motion::{Followed, Pace, PathRequest, follow};
+use groebot_robot::motion::{Followed, JointTrack, Jump, Pace, PathRequest, Trajectory, follow};
 use groebot_robot::spatial::Pose;
 
 /// The tolerance for the length of a quaternion, for example one with 0.707.
@@ -35,7 +36,9 @@ poses.csv has the columns x, y, z, qx, qy, qz, qw (metres, quaternion), and opti
 Of all paths of solutions within the limits, the result has the fewest jumps between branches, and
 of those it is the shortest. A step is a jump if a joint exceeds its speed (velocity in the URDF) in
 the given time. Without times or speeds, the limit is half a radian or a tenth of the reach. Each
-jump is reported with its place and reason; with --strict it is an error.";
+jump is reported with its place and reason; with --strict it is an error. For a chain with one joint
+more than the pose determines, solutions are sampled along the arcs within the limits; the result is
+the best path through the samples. Give its description, not the folder of its derivation.";
 
 /// Computes a continuous joint trajectory along a sequence of poses
 #[derive(clap::Args)]
@@ -89,8 +92,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (None, every) => Pace::Every(every.unwrap_or(1.0)),
     };
     let request = PathRequest::new(&poses, &pace).speeds(&description);
-    let followed = follow(&chain, &solver.program().solver(), &request, &session.watch)
-        .map_err(|error| error.in_file(&arguments.poses))?;
+    let followed = match solver.program().redundant_solver() {
+        Some(arm) => along_arcs(&chain, &arm, &request, &session.watch),
+        None => follow(&chain, &solver.program().solver(), &request, &session.watch),
+    };
+    let followed = followed.map_err(|error| error.in_file(&arguments.poses))?;
     drop(session);
     if let Some(jump) = followed.jumps.first().filter(|_| arguments.strict) {
         let text = format!("the path must jump at pose {}: {}", jump.sample + 1, jump.why);
@@ -112,6 +118,34 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let tip = input.path(&ends)?.as_ref().map(TipLink::of_path);
     console::print(&(TipLink::line(tip.as_ref()) + &summary(&chain, &followed) + &touches))
+}
+
+/// The path of a chain with one joint more than its task determines: along arcs of solutions within limits.
+fn along_arcs(
+    chain: &Chain,
+    arm: &RedundantSolver,
+    request: &PathRequest<'_>,
+    watch: &crate::Watch,
+) -> Result<Followed> {
+    let times = request.pace.times(request.poses.len())?;
+    let targets: Vec<_> = request.poses.iter().map(|pose| arm.target(*pose)).collect::<Result<_>>()?;
+    let path = arm.path(&targets, &PathOptions::new().speeds(&times, request.speeds), watch)?;
+    let track = |(place, joint): (usize, &Joint)| JointTrack {
+        name: joint.name.clone(),
+        slides: joint.kind == JointKind::Prismatic,
+        limits: joint.limits,
+        speed: request.speeds.get(place).copied().flatten(),
+    };
+    let trajectory = Trajectory {
+        robot: chain.name().to_owned(),
+        joints: chain.joints().iter().enumerate().map(track).collect(),
+        times,
+        q: path.q,
+        ..Trajectory::default()
+    };
+    trajectory.check()?;
+    let jumps = path.jumps.into_iter().map(|jump| Jump::new(jump.sample, jump.joint, jump.step, jump.why));
+    Ok(Followed::new(trajectory, jumps.collect()))
 }
 
 /// The maximum velocities of the chain's joints, if the description has them.

@@ -7,6 +7,7 @@
 
 mod algebra;
 mod answers;
+mod arcs;
 mod basis;
 mod basis_answer;
 mod basis_certificate;

@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use super::answers::{Angles, Answer, csv_header, csv_rows, json, text, turned};
+use super::arcs::{ArcOptions, ArcQuestion};
 use super::closest::Search;
 use super::files::is_derived;
 use super::forms::Forms;
@@ -21,12 +22,21 @@ const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal --target 60,150
   groebot solve derivations/nao_leg_sagittal --target -60,-150 --json
   groebot solve derivations/planar_2r --target 3,4 --closest
+  groebot solve derivations/panda --target 0.3,0,0.5,1,0,0,0 --limits panda_joint4=-2.5,-1
   groebot solve derivations/nao_leg_sagittal < targets.csv > answers.csv
   groebot fk derivations/ur5 < joints.csv | groebot solve derivations/ur5 | groebot fk derivations/ur5
 
 Targets are numbers in the order and units of the derivation's inputs. A rotation may be a
 quaternion x, y, z, w (of length one, within 1e-6) instead of its nine elements by rows: a pose is
 12 numbers or 7.
+
+A redundant solver was derived for a chain with one joint more than its task determines. The output
+for a --target without the value of its given joint is all arcs of solutions within limits: the joint
+values at both ends of each arc with the joint that is at its limit, and the solution with the largest
+margin to the limits. Lengths of arcs, margins and distances are in rad; lengths of prismatic joints are
+relative to the characteristic length, in distances in their unit. Without a solution within limits, the
+reason is printed, and the exit status is 0. Targets in CSV, and --closest, need the value of the given
+joint. \"unsure\" marks results that may be wrong or incomplete (docs/redundant.md).
 
 A CSV may start with a line of names, which gives the order of its columns. x_m or x_mm is px in
 that unit, and so are phi_deg and A1_deg. Other columns that `fk`, `ik` and `solve` write are
@@ -51,7 +61,7 @@ pub struct Arguments {
     /// Print JSON: one object per target
     #[arg(long)]
     json: bool,
-    /// Use degrees instead of radians in targets and in JSON and CSV output (text has both)
+    /// Use degrees instead of radians in targets, in JSON and CSV output and in tables of arcs (other text has both)
     #[arg(long)]
     degrees: bool,
     /// For a target out of reach, also compute the joint values whose target has the least error
@@ -60,6 +70,14 @@ pub struct Arguments {
     /// The distance that counts as an angle of 1 rad in this error [unit of the inputs; default: the reach]
     #[arg(long, value_name = "LENGTH", requires = "closest")]
     length: Option<f64>,
+    /// Of a redundant solver: narrower limits of a joint, in rad, in degrees with --degrees, or in the length unit
+    /// (repeatable)
+    #[arg(long, value_name = "JOINT=LOW,HIGH", allow_hyphen_values = true)]
+    limits: Vec<String>,
+    /// Of a redundant solver: compute the solution nearest to these joint values, not the one with the largest margin
+    /// (in rad, in degrees with --degrees, or in the length unit)
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true, conflicts_with = "closest")]
+    closest_to: Option<String>,
 }
 
 /// Solves the targets.
@@ -80,7 +98,23 @@ pub fn run(arguments: &Arguments) -> Outcome {
 impl Arguments {
     fn stream(&self, program: &Program, angles: Angles) -> Outcome {
         targets::is_free(&self.derivation, "--target")?;
+        self.refuse_arc_options()?;
         stream(&Question::new(program, angles, self), self.json)
+    }
+
+    /// The options for redundant solvers.
+    fn arc_options(&self) -> ArcOptions<'_> {
+        ArcOptions { limits: &self.limits, closest_to: self.closest_to.as_deref() }
+    }
+
+    /// Checks that no option is set that only a target without the value of a given joint has.
+    fn refuse_arc_options(&self) -> Result<()> {
+        if !self.arc_options().are_set() {
+            return Ok(());
+        }
+        let text =
+            "--limits and --closest-to are for a --target of a redundant solver without the value of its given joint";
+        Err(Error::new(ErrorKind::BadValue, text))
     }
 
     /// The options of the closest joint values, if they are requested.
@@ -159,8 +193,18 @@ fn reason(folder: &Path, target: &[f64]) -> Result<Option<String>> {
 fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Arguments) -> Outcome {
     let mut page = String::new();
     let question = Question::new(program, angles, arguments);
+    let redundant = ArcQuestion::new(program, angles, &arguments.arc_options())?;
     for (index, target) in given.iter().enumerate() {
         let count = target.split(',').count();
+        if let Some((arcs, names)) = redundant.as_ref().and_then(|arcs| Some((arcs, arcs.names(count)?))) {
+            let answer = targets::parse(&names, target)
+                .and_then(|numbers| arcs.answer(numbers))
+                .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;
+            page += if index > 0 && !arguments.json { "\n" } else { "" };
+            page += &if arguments.json { answer.json(given.len() == 1) } else { answer.text() };
+            continue;
+        }
+        arguments.refuse_arc_options()?;
         let lists = question.forms.names();
         let names = lists.iter().find(|names| names.len() == count).unwrap_or(&lists[0]);
         let mut answer = targets::parse(names, target)

@@ -25,6 +25,7 @@ mod output;
 mod pipes;
 mod plan;
 mod reach;
+mod redundant;
 mod refused;
 mod shown;
 mod simulate;

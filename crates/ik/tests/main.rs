@@ -14,6 +14,7 @@ mod reach;
 #[allow(dead_code)]
 mod sixteen;
 mod solver;
+mod tolerances;
 mod witness;
 
 use proptest::test_runner::{Config, FileFailurePersistence};

@@ -97,6 +97,21 @@ GB_INLINE size_t GB_(six_axes)(const gb_chain *chain, const T *target, gb_six_an
 #endif
 }
 
+/* As above, with the values of given joints between the six after the target. */
+GB_INLINE size_t GB_(six_axes_given)(const gb_chain *chain, const gb_given *given, size_t count, const T *numbers, gb_six_answer *out)
+{
+#if GB_WIDTH == 1
+    return gb_six_axes_given(chain, given, count, numbers, out);
+#else
+    (void)chain;
+    (void)given;
+    (void)count;
+    (void)numbers;
+    (void)out;
+    return 0;
+#endif
+}
+
 /* The branch of a solution for six axes: its free joints are free, and it is doubtful where it is only near a solution. */
 GB_INLINE GB_(found) GB_(by_answer)(GB_(found) found, const gb_six_answer *answer, uint32_t a, uint32_t b, uint32_t c, uint32_t d,
                                     uint32_t e, uint32_t f)

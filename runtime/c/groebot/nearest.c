@@ -10,7 +10,6 @@
 #define GB_NEAREST_SECTIONS 48
 #define GB_NEAREST_GOLDEN R(0.6180339887498949)
 #define GB_NEAREST_LONGER R(2.0)
-#define GB_NEAREST_LEAST_WEIGHT R(1e-6)
 static const gb_real gb_nearest_pace[] = {R(1.5e-3), R(2.5e-2), R(0.2)};
 
 /* The search along self-motions. */
@@ -85,7 +84,7 @@ static bool gb_project(const gb_search *search, const gb_real *q, const gb_real 
         greatest = gb_larger(greatest, weights[i]);
     }
     for (size_t i = 0; i < m->joints; i++) {
-        const gb_real weight = gb_larger(GB_NEAREST_LEAST_WEIGHT * greatest, weights[i]);
+        const gb_real weight = gb_larger(GB_PIVOTS_REGULAR_STEPS * greatest, weights[i]);
         scale[i] = greatest > R(0.0) ? gb_square_root(greatest / weight) : R(1.0);
     }
     gb_find_slopes(search->problem, q, &slopes);

@@ -297,6 +297,7 @@ GB_LINKAGE gb_real gb_ceiling(gb_real x);
 GB_LINKAGE gb_real gb_angle(gb_real cosine, gb_real sine);
 #ifdef GROEBOT_SIX_AXES_H
 GB_LINKAGE size_t gb_six_axes(const gb_chain *chain, const gb_real *target, gb_six_answer *out);
+GB_LINKAGE size_t gb_six_axes_given(const gb_chain *chain, const gb_given *given, size_t count, const gb_real *numbers, gb_six_answer *out);
 #endif
 GB_LINKAGE size_t gb_real_roots(const gb_polynomial_1 *list, size_t count, gb_scale scale, gb_real *values, size_t room, bool *close);
 GB_LINKAGE void gb_place(const gb_problem *problem, const gb_real *q, gb_real *at);

@@ -99,8 +99,8 @@ impl Output<'_> {
 
 /// All maximal arcs of solutions within limits. Angles are moved into their limits by whole turns. A revolute joint whose range is at least one turn ends no arc.
 ///
-/// Arcs with end points are complete: the end points are all solutions with a joint at a limit, and each belongs to one arc. Closed curves that reach no limit
-/// are found by a grid.
+/// The end points are all solutions with a joint at a limit, as far as the joints have solvers ([`Given`]), at most 256. Curves join them in pairs,
+/// numerically: where two curves lead to one end point, the arcs are unsure. Closed curves that reach no limit are found by a grid.
 ///
 /// # Errors
 ///

@@ -104,8 +104,8 @@ pub struct Arm {
     pub limits: Limits,
     /// By joint: which solver exists with this joint given.
     pub given: [Given; MOST_JOINTS],
-    /// The joint whose values are scanned for first solutions and for curves that touch no limit: the one with the fastest solver that has solutions for most
-    /// values. Its [`Arm::given`] is [`Given::Solved`].
+    /// The joint whose values are scanned for first solutions and for curves that touch no limit. Its [`Arm::given`] is [`Given::Solved`]. Best is a joint with
+    /// a fast solver that has solutions for most values.
     pub scanned: usize,
 }
 
@@ -193,6 +193,7 @@ pub trait Redundant {
     ///
     /// # Errors
     ///
-    /// Those of a target that is not valid: [`Error::NotFinite`], [`Error::NotRotation`], [`Error::NotUnit`].
+    /// Those of a target that is not valid: [`Error::NotFinite`], [`Error::NotRotation`], [`Error::NotUnit`]. [`Error::OpenStratum`] and [`Error::Unsettled`]
+    /// for a target that the solver could not decide.
     fn solve_given(&self, target: &Target, joint: usize, value: f64, out: &mut Members) -> Result<(), Error>;
 }

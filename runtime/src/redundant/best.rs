@@ -22,7 +22,8 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 #[non_exhaustive]
 pub enum Criterion {
     /// The least distance of a joint to its limits (rad, where lengths are relative to [`Arm::length`]). If it is relative, each distance is divided by half of
-    /// the joint's range, so that 1 is in the middle. Joints without limits, or with a range of at least one turn, do not count.
+    /// the joint's range, so that 1 is in the middle; not
+    /// that of a joint with only one limit. Joints without limits, or with a range of at least one turn, do not count.
     Margin {
         /// Whether distances are divided by half of the range.
         is_relative: bool,

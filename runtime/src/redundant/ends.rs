@@ -2,9 +2,8 @@
 
 use super::arm::{Given, MOST_JOINTS, Members, Q, Redundant, Target};
 use super::elimination::Rows;
-use super::model::Model;
-use super::step::{Piece, Point};
-use super::trace::is_on;
+use super::model::{Model, farthest};
+use super::step::{Piece, Point, is_on};
 use crate::solution::Error;
 use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS};
 
@@ -285,15 +284,6 @@ pub(super) fn tied_at(model: &Model<'_>, x: &Q) -> u32 {
 fn largest(values: &Rows) -> f64 {
     let mut largest = 0.0;
     for value in values {
-        largest = f64::max(largest, value.abs());
-    }
-    largest
-}
-
-/// The largest magnitude of an entry.
-pub(super) fn farthest(d: &Q) -> f64 {
-    let mut largest = 0.0;
-    for value in d {
         largest = f64::max(largest, value.abs());
     }
     largest

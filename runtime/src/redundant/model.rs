@@ -210,3 +210,12 @@ pub(super) fn plus(a: &Q, factor: f64, b: &Q) -> Q {
     }
     sum
 }
+
+/// The largest magnitude of an entry.
+pub(super) fn farthest(d: &Q) -> f64 {
+    let mut largest = 0.0;
+    for value in d {
+        largest = f64::max(largest, value.abs());
+    }
+    largest
+}

@@ -3,9 +3,9 @@
 use core::f64::consts::{PI, TAU};
 
 use super::arm::{MOST_JOINTS, Members, Q, Redundant, Target};
-use super::ends::{Ends, farthest};
-use super::model::Model;
-use super::step::Piece;
+use super::ends::Ends;
+use super::model::{Model, farthest};
+use super::step::{ON, Piece};
 use crate::arithmetic::Arithmetic;
 use crate::solution::Error;
 use crate::tolerances::{ACCEPTANCE, MERGING};
@@ -18,8 +18,6 @@ const LEVELS: usize = 16;
 const HALVINGS: usize = 2;
 /// Solutions for one value are close when no joint differs by more than this (rad, or relative to the characteristic length).
 const CLOSE: f64 = 0.1;
-/// A solution is on a piece when it is within this distance, relative to the piece's length.
-const ON: f64 = 0.02;
 /// Steps of Newton's method for a root of a cubic.
 const ROOT_STEPS: usize = 3;
 

@@ -6,7 +6,7 @@
 //! for another one that nearly crosses it.
 
 use super::arm::{MOST_JOINTS, Q};
-use super::model::{Model, Place, dot, norm, plus};
+use super::model::{Model, Place, dot, farthest, norm, plus};
 use crate::arithmetic::Arithmetic;
 use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS};
 
@@ -20,6 +20,8 @@ const LEAPS: [f64; 4] = [MERGING.apart, 1e-3, 1e-2, 5e-2];
 const CORRECTION: f64 = 2e-3;
 /// Maximal ratio of the second correction to the first one.
 const CONTRACTION: f64 = 0.25;
+/// A point is on a piece when it is within this distance, relative to the piece's length.
+pub(super) const ON: f64 = 0.02;
 /// The least cosine of the angle between directions at both ends of a step.
 const STRAIGHT: f64 = 0.8;
 
@@ -199,4 +201,18 @@ impl Walk {
         }
         self.at = piece.to;
     }
+}
+
+/// Whether a point is on a piece.
+pub(super) fn is_on(model: &Model<'_>, piece: &Piece, x: &Q) -> bool {
+    let away = model.difference(x, &piece.from.x);
+    if norm(&away) > 1.1 * piece.length {
+        return false;
+    }
+    let chord = plus(&piece.to.x, -1.0, &piece.from.x);
+    let share = dot(&away, &chord) / dot(&chord, &chord);
+    if !(0.0..=1.0).contains(&share) {
+        return false;
+    }
+    farthest(&model.difference(&piece.at(share), x)) <= ON * piece.length + MERGING.joints
 }

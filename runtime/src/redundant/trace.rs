@@ -2,10 +2,10 @@
 
 use super::arm::{Given, Q};
 use super::crossing::Crossing;
-use super::ends::{Ends, FREE, farthest};
-use super::model::{Model, dot, norm, plus};
+use super::ends::{Ends, FREE};
+use super::model::{Model, dot, farthest, plus};
 use super::seeds::Seeds;
-use super::step::{Piece, Point, Walk};
+use super::step::{Piece, Point, Walk, is_on};
 use crate::tolerances::{ACCEPTANCE, MERGING};
 
 /// Maximal number of steps along a curve.
@@ -16,8 +16,6 @@ const SHORTEST: f64 = 0.2 * MERGING.apart;
 const LOCATING: usize = 12;
 /// The least cosine of the angle between the directions of a curve and of an end point on it.
 const ALIGNED: f64 = 0.7;
-/// A point is on a piece when it is within this distance, relative to the piece's length.
-const ON: f64 = 0.02;
 
 /// Where a curve ends.
 pub(super) enum Stop {
@@ -103,20 +101,6 @@ fn closing(model: &Model<'_>, piece: &Piece, home: &Point) -> Option<Piece> {
     }
     let x = plus(&piece.from.x, 1.0, &model.difference(&home.x, &piece.from.x));
     Some(Piece::new(&piece.from, &Point { x, ..*home }))
-}
-
-/// Whether a point is on a piece.
-pub(super) fn is_on(model: &Model<'_>, piece: &Piece, x: &Q) -> bool {
-    let away = model.difference(x, &piece.from.x);
-    if norm(&away) > 1.1 * piece.length {
-        return false;
-    }
-    let chord = plus(&piece.to.x, -1.0, &piece.from.x);
-    let share = dot(&away, &chord) / dot(&chord, &chord);
-    if !(0.0..=1.0).contains(&share) {
-        return false;
-    }
-    farthest(&model.difference(&piece.at(share), x)) <= ON * piece.length + MERGING.joints
 }
 
 /// The end point at which a curve reaches a limit. `None` where a shorter step is necessary to decide. Where the joint has no solver, or with the shortest step,

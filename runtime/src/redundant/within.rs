@@ -27,7 +27,7 @@ pub enum Within {
         /// Whether a solution within limits may have been missed.
         is_unsure: bool,
     },
-    /// No solution was found, whatever the limits.
+    /// No solution was found, whatever the limits: neither with a joint at a limit, nor for a grid of values of the scanned joint.
     Unreachable {
         /// Whether a solution may have been missed.
         is_unsure: bool,

@@ -11,6 +11,7 @@ mod candidates;
 mod chain;
 mod cluster;
 mod curve;
+mod given;
 mod hessenberg;
 mod inverse_iteration;
 mod linear;
@@ -28,6 +29,7 @@ pub(crate) mod vector;
 
 pub use answers::{Answer, Answers, ROOM};
 pub use chain::{Chain, Formulation, Formulations};
+pub use given::Given;
 pub use hessenberg::Hessenberg;
 pub use pencil::{Matrix, SIZE};
 pub use rigid::Rigid;

@@ -50,7 +50,7 @@ impl Figure {
 
 impl Axis {
     #[inline(always)]
-    fn turned(&self, v: &Vector, [c, s]: [f64; 2]) -> Vector {
+    pub fn turned(&self, v: &Vector, [c, s]: [f64; 2]) -> Vector {
         let along = scale(&self.direction, dot(&self.direction, v));
         let across = sub(v, &along);
         add(&along, &add(&scale(&across, c), &scale(&cross(&self.direction, v), s)))

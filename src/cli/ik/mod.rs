@@ -31,9 +31,9 @@ Ry(pitch) Rx(roll), as in a URDF.
 
 Other tasks have fewer numbers: x,y,z for a position, and then a direction for a ray; a direction
 alone, or angles or a quaternion alone; two coordinates in a plane, or those and the angle about its
-normal. Values of given joints come last. If a task leaves joints too many and none is given, the
-planner chooses, as in `derive`. Angles of solutions are moved into their joint's limits by whole
-turns where possible.
+normal. Values of given joints come last. If a task leaves one joint too many and none is given, the
+planner chooses it; `derive` and `solve` find the solutions for all of its values. Angles of solutions
+are moved into their joint's limits by whole turns where possible.
 
 A CSV may start with a line of names: px, py, pz (or x_m, x_mm), then qx to qw, r11 to r33, or roll,
 pitch, yaw (or roll_deg); dx, dy, dz, phi, and given joints. Other columns that `fk`, `ik` and

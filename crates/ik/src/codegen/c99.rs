@@ -1,6 +1,6 @@
 //! C99: a header and a source file of a robot that need the run time `groebot.h` and `groebot.c`. Main type: [`Pair`].
 
-use groebot_runtime::six_axes::{Chain, Rigid};
+use groebot_runtime::six_axes::{Chain, Given, Rigid};
 
 use super::dialect::{Applies, Dialect, GuardText, How};
 use super::joined::Declaration;
@@ -168,11 +168,14 @@ impl Dialect for C {
         [head].into_iter().chain(names.iter().enumerate().filter_map(value)).collect()
     }
 
-    fn open_six_axes(&self, number: usize, chain: usize, target: &[String]) -> Vec<String> {
+    fn open_six_axes(&self, number: usize, chain: usize, target: &[String], given: usize) -> Vec<String> {
         let mut lines = spread(&format!("const T six{number}[] = {{"), target, "};");
         lines.push(format!("gb_six_answer answers{number}[GB_SIX_ROOM];"));
-        lines
-            .push(format!("const size_t count{number} = GB_(six_axes)(&chain_{chain}, six{number}, answers{number});"));
+        let call = match given {
+            0 => format!("GB_(six_axes)(&chain_{chain}"),
+            _ => format!("GB_(six_axes_given)(&chain_{chain}, given_{chain}, {given}"),
+        };
+        lines.push(format!("const size_t count{number} = {call}, six{number}, answers{number});"));
         lines.push(format!("for (size_t i{number} = 0; i{number} < count{number}; i{number}++) {{"));
         lines
     }
@@ -198,6 +201,14 @@ impl Dialect for C {
             list.len(),
             self.literal(within)
         )
+    }
+
+    fn given_axes(&self, six: &SixAxes) -> String {
+        let axis = |Given { before, direction, point, slides }: &Given| {
+            format!("{{{before}, {}, {}, {slides}}}", braces(direction), braces(point))
+        };
+        let axes: Vec<String> = six.given().iter().map(axis).collect();
+        format!("{{{}}}", axes.join(", "))
     }
 
     fn six_axes_joint(&self, number: usize, joint: usize) -> String {

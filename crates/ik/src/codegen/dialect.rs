@@ -23,10 +23,12 @@ pub(super) trait Dialect: Expressions {
     fn open_roots(&self, number: usize, name: Option<&str>, is_pair: bool) -> Vec<String>;
     /// The loop over the `rows` rows of a table of samples.
     fn open_samples(&self, number: usize, names: &[Option<&str>], table: usize, rows: usize) -> Vec<String>;
-    /// The loop over the solutions of a six-axes chain at a target.
-    fn open_six_axes(&self, number: usize, chain: usize, target: &[String]) -> Vec<String>;
+    /// The loop over the solutions of a six-axes chain at a target, which is followed by the values of `given` joints between the six.
+    fn open_six_axes(&self, number: usize, chain: usize, target: &[String], given: usize) -> Vec<String>;
     /// The tables of a chain, as a constant.
     fn chain(&self, six: &SixAxes) -> String;
+    /// The given joints between the six of a chain, as a constant.
+    fn given_axes(&self, six: &SixAxes) -> String;
     /// The value of a joint in that loop, typed.
     fn six_axes_joint(&self, number: usize, joint: usize) -> String;
     /// The condition that all guards hold.

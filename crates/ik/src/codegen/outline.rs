@@ -11,6 +11,7 @@ use super::reserved::prefix;
 use super::samples::Table;
 use super::six_axes;
 use super::walk::{self, Function, reads};
+use crate::solver::eigenvalue::SixAxes;
 use crate::solver::{
     Case, Demand, Described, Facts, JointValue, Layout, Operand, ParameterDemand, Program, Rule, Short, Unit,
 };
@@ -33,7 +34,9 @@ pub(super) struct Outline {
     samples: Vec<TableText>,
     degree: usize,
     scale: String,
-    chains: Vec<String>,
+    chains: Vec<ChainText>,
+    /// Whether a chain has given joints between the six.
+    has_given: bool,
     /// The names of the parameters.
     parameters: Vec<String>,
     target_lines: Vec<String>,
@@ -74,6 +77,20 @@ impl TableText {
     fn new(dialect: &dyn Dialect, table: &Table) -> Self {
         let rows: Vec<String> = table.rows().iter().map(|row| dialect.row(row)).collect();
         TableText { width: table.rows().first().map_or(1, Vec::len), length: rows.len(), rows }
+    }
+}
+
+/// The constants of six axes.
+#[derive(Serialize)]
+struct ChainText {
+    six: String,
+    /// The given joints between the six, if there are any.
+    given: Option<String>,
+}
+
+impl ChainText {
+    fn new(dialect: &dyn Dialect, six: &SixAxes) -> Self {
+        ChainText { six: dialect.chain(six), given: (!six.parts().given.is_empty()).then(|| dialect.given_axes(six)) }
     }
 }
 
@@ -136,6 +153,7 @@ impl Outline {
             is_inlined: function.is_inlined,
             is_led_to_rarely: function.is_led_to_rarely,
         };
+        let sixes = six_axes::steps(program);
         Outline {
             name: prefix(&program.name),
             stem: prefix(&program.name),
@@ -149,7 +167,8 @@ impl Outline {
             open: program.cases().filter(|case| case.open).map(|case: &Case| dialect.quote(&case.label)).collect(),
             values: facts.compared.is_empty().then(|| text(dialect, &[&checks.residuals])),
             samples: scene.tables.iter().map(|table| TableText::new(dialect, table)).collect(),
-            chains: six_axes::steps(program).into_iter().map(|six| dialect.chain(six)).collect(),
+            chains: sixes.iter().map(|six| ChainText::new(dialect, six)).collect(),
+            has_given: sixes.iter().any(|six| !six.parts().given.is_empty()),
             target_lines,
             functions: walk::functions(&scene, dialect).into_iter().map(function).collect(),
             tip,

@@ -113,12 +113,12 @@ impl Dialect for Rust {
         vec![format!("for [{}] in SAMPLES_{table}.map(|row| row.map(N::of)) {{", names.join(", "))]
     }
 
-    fn open_six_axes(&self, number: usize, chain: usize, target: &[String]) -> Vec<String> {
-        let mut lines = spread(
-            &format!("let six{number} = N::alone(&["),
-            target,
-            &format!("], |target| CHAIN_{chain}.solve(target));"),
-        );
+    fn open_six_axes(&self, number: usize, chain: usize, target: &[String], given: usize) -> Vec<String> {
+        let solve = match given {
+            0 => format!("], |target| CHAIN_{chain}.solve(target));"),
+            _ => format!("], |numbers| CHAIN_{chain}.solve_given(&GIVEN_{chain}, numbers));"),
+        };
+        let mut lines = spread(&format!("let six{number} = N::alone(&["), target, &solve);
         lines.push(format!(
             "for (i{number}, answer{number}) in six{number}.iter().flat_map(|six| six.as_slice()).enumerate() {{"
         ));
@@ -134,6 +134,10 @@ impl Dialect for Rust {
              formulations: Formulations::new(&[{}]),\n    within: {within:?},\n}}",
             formulations.join(", ")
         )
+    }
+
+    fn given_axes(&self, six: &SixAxes) -> String {
+        format!("[Given; {}] = {:?}", six.given().len(), six.given())
     }
 
     fn six_axes_joint(&self, number: usize, joint: usize) -> String {

@@ -331,11 +331,13 @@ impl<'a> Walk<'a> {
         let (scene, dialect) = (self.scene, self.dialect);
         self.loops += 1;
         let number = self.loops;
-        let target: Vec<String> = six.parts().target.iter().map(|&operand| printer.operand(operand)).collect();
+        let target: Vec<String> = six.operands().into_iter().map(|operand| printer.operand(operand)).collect();
+        let given = six.parts().given.len();
         let lines = printer.settle();
         self.push(lines);
         let chain = six_axes::steps(scene.program).iter().position(|other| std::ptr::eq(*other, six));
-        self.open(dialect.open_six_axes(number, 1 + chain.expect("the step is one of the program's"), &target));
+        let chain = 1 + chain.expect("the step is one of the program's");
+        self.open(dialect.open_six_axes(number, chain, &target, given));
         let mut joints = Vec::new();
         for (place, joint) in six.parts().joints.iter().enumerate() {
             let value = dialect.six_axes_joint(number, place);

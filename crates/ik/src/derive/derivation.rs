@@ -3,9 +3,10 @@
 use crate::derive::Source;
 use crate::derive::coupled::{Coupled, CoupledView};
 use crate::derive::eigenvalue::{self, Eigenvalue, EigenvalueView, fits};
-use crate::derive::equations::certificate;
+use crate::derive::equations::certificate::{self, refused};
 use crate::derive::equations::{Equations, EquationsView};
 use crate::derive::problem::{ChainProblem, Problem};
+use crate::derive::redundant::{self, Redundancy};
 use crate::derive::sequential::{self, Sequential, SequentialView};
 use crate::derive::view::View;
 use crate::solver::{About, Program, Solver};
@@ -18,6 +19,7 @@ pub struct Derivation {
     problem: Problem,
     method: Method,
     program: Program,
+    redundancy: Option<Box<Redundancy>>,
 }
 
 /// The method that solves a problem.
@@ -54,7 +56,11 @@ impl Derivation {
     pub fn of<'w>(source: &Source, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
         let watch = Watch::or_none(watch);
         source.check_base()?;
-        Derivation::of_problem(Problem::of(source)?, watch).map_err(|error| match error.kind() {
+        let derived = match Problem::of(source)? {
+            Problem::Chain(problem) if source.ends.redundant => Derivation::redundant(*problem, watch),
+            problem => Derivation::of_problem(problem, watch),
+        };
+        derived.map_err(|error| match error.kind() {
             ErrorKind::Unsupported | ErrorKind::PositiveDimensional => source.advised(error),
             _ => error,
         })
@@ -91,8 +97,27 @@ impl Derivation {
                     _ => error,
                 })
             }
-            solved => Ok(Derivation::assemble(problem.into(), solved?, Method::Sequential)),
+            solved => Ok(Derivation::sequential_of(problem, solved?)),
         }
+    }
+
+    /// Derives and proves the solvers of a chain with one joint more than its task determines: with the given joint of `problem`, and with each other joint given
+    /// instead.
+    ///
+    /// # Errors
+    /// As [`Derivation::of_problem`] for the given joint of `problem`. [`ErrorKind::Unsupported`] for another chain. Other joints without a solver are not errors.
+    pub fn redundant<'w>(problem: impl Into<ChainProblem>, watch: impl Into<Option<&'w Watch>>) -> Result<Self> {
+        let (watch, problem) = (Watch::or_none(watch), problem.into());
+        redundant::check(&problem.chain)?;
+        let main = Derivation::of_either(problem.clone(), watch)?;
+        let redundancy = Redundancy::derive(&problem, watch)?;
+        Ok(main.with_redundancy(&problem, redundancy))
+    }
+
+    fn with_redundancy(mut self, problem: &ChainProblem, redundancy: Redundancy) -> Self {
+        self.program.redundancy = Some(Box::new(redundant::data(problem, &redundancy)));
+        self.redundancy = Some(Box::new(redundancy));
+        self
     }
 
     /// Derives and proves a solver that finds one joint at a time.
@@ -104,7 +129,7 @@ impl Derivation {
         let watch = Watch::or_none(watch);
         let problem = problem.into();
         let solved = Sequential::derive(&problem, watch)?;
-        Ok(Derivation::assemble(problem.into(), solved, Method::Sequential))
+        Ok(Derivation::sequential_of(problem, solved))
     }
 
     /// Derives and proves a solver that finds six joints together.
@@ -117,15 +142,20 @@ impl Derivation {
         let watch = Watch::or_none(watch);
         let problem = problem.into();
         let solved = Eigenvalue::derive(&problem, watch)?;
-        Ok(Derivation::assemble(problem.into(), solved, Method::Eigenvalue))
+        Ok(Derivation::eigenvalue_of(problem, solved))
     }
 
     /// Proves the derivation of `source` again from the text of its certificate, without the Groebner engine.
     ///
     /// # Errors
-    /// As [`Problem::of`] and [`Derivation::prove`].
+    /// As [`Problem::of`] and [`Derivation::prove`]. [`ErrorKind::Certificate`] for a proof with one given joint if each joint is requested, and the converse.
     pub fn prove_source(source: &Source, text: &str) -> Result<Self> {
-        Derivation::prove(Problem::of(source)?, text)
+        let proved = Derivation::prove(Problem::of(source)?, text)?;
+        match (source.ends.redundant, proved.redundancy.is_some()) {
+            (true, false) => Err(refused("the proofs with the other joints given are missing".to_owned())),
+            (false, true) => Err(refused("the proofs with the other joints given are superfluous".to_owned())),
+            _ => Ok(proved),
+        }
     }
 
     /// Proves the derivation of `problem` again from the text of its certificate, without searches and without the Groebner engine.
@@ -139,6 +169,10 @@ impl Derivation {
             Problem::System(system) => {
                 let solved = certificate::prove(system, text)?;
                 Derivation::assemble(problem, solved, Method::Equations)
+            }
+            Problem::Chain(chain) if redundant::is_certificate(text) => {
+                let (main, redundancy) = redundant::prove(chain, text)?;
+                main.with_redundancy(chain, redundancy)
             }
             Problem::Chain(chain) if eigenvalue::is_certificate(text) => {
                 let solved = Eigenvalue::prove(chain, text)?;
@@ -156,7 +190,15 @@ impl Derivation {
     }
 
     fn assemble<M>(problem: Problem, (method, program): (M, Program), of: impl Fn(Box<M>) -> Method) -> Self {
-        Derivation { problem, method: of(Box::new(method)), program }
+        Derivation { problem, method: of(Box::new(method)), program, redundancy: None }
+    }
+
+    pub(in crate::derive) fn sequential_of(problem: ChainProblem, solved: (Sequential, Program)) -> Self {
+        Derivation::assemble(problem.into(), solved, Method::Sequential)
+    }
+
+    pub(in crate::derive) fn eigenvalue_of(problem: ChainProblem, solved: (Eigenvalue, Program)) -> Self {
+        Derivation::assemble(problem.into(), solved, Method::Eigenvalue)
     }
 
     /// The problem that is solved.
@@ -168,6 +210,11 @@ impl Derivation {
     /// The method that solves the problem.
     pub fn method(&self) -> &Method {
         &self.method
+    }
+
+    /// The solvers with other joints given, of a chain with one joint more than its task determines.
+    pub fn redundancy(&self) -> Option<&Redundancy> {
+        self.redundancy.as_deref()
     }
 
     /// The solver as data, which is stored and printed as source code.
@@ -239,6 +286,9 @@ impl Derivation {
     /// # Errors
     /// If a field cannot be built. This does not occur for a derivation that this crate made.
     pub fn certificate(&self) -> Result<String> {
+        if let Some(redundancy) = &self.redundancy {
+            return redundant::certificate(self, redundancy);
+        }
         match self.view() {
             AnyView::Equations(view) => certificate::write(view),
             AnyView::Sequential(view) => sequential::certificate::write(view),

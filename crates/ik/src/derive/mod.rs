@@ -9,6 +9,7 @@ mod options;
 pub mod planner;
 pub mod problem;
 mod recount;
+pub mod redundant;
 pub mod report;
 mod samples;
 pub mod sequential;

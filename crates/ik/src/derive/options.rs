@@ -1,5 +1,7 @@
 //! The derivation of a chain's solver in one call: [`derive`](fn@derive), with [`Options`].
 
+use crate::derive::planner::joints_to_give;
+use crate::derive::redundant::is_redundant;
 use crate::derive::{ChainProblem, Derivation};
 use crate::{Result, Watch};
 use groebot_robot::kinematics::Chain;
@@ -75,16 +77,25 @@ impl Options {
         self.tolerance(0.0)
     }
 
-    /// Derives and proves the solver of `chain`.
+    /// Derives and proves the solver of `chain`. For a chain without given joints and with one joint more than its task determines, it has one solver for each
+    /// joint as the given one ([`Derivation::redundant`]).
     ///
     /// # Errors
-    /// As [`Derivation::of_problem`]; as [`Chain::with_task`] for given joints; as [`Chain::ideal_within`] for the tolerance.
+    /// As [`Derivation::of_problem`] and [`joints_to_give`]; as [`Chain::with_task`] for given joints; as [`Chain::ideal_within`] for the tolerance.
     pub fn derive(&self, chain: &Chain) -> Result<Derivation> {
         if let Some(given) = &self.given {
             let chain = chain.with_task(chain.task(), chain.direction().clone(), given.clone())?;
             return Options { given: None, ..self.clone() }.derive(&chain);
         }
         let ideal = chain.ideal_within(self.tolerance.unwrap_or(TOLERANCE))?;
+        if chain.given().is_empty()
+            && is_redundant(chain)
+            && let Some(choice) = joints_to_give(&ideal.0, &self.watch)?
+        {
+            let [ideal_chain, chain] = [&ideal.0, chain]
+                .map(|chain| chain.with_task(chain.task(), chain.direction().clone(), choice.given.clone()));
+            return Derivation::redundant(ChainProblem::ideal((ideal_chain?, ideal.1), &chain?), &self.watch);
+        }
         Derivation::of_problem(ChainProblem::ideal(ideal, chain), &self.watch)
     }
 }

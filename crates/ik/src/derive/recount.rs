@@ -5,6 +5,7 @@ use crate::derive::coupled::CoupledView;
 use crate::derive::eigenvalue::{EigenvalueView, Regular, ranked};
 use crate::derive::equations::certificate::refused;
 use crate::derive::planner::{Evidence, evidence, same_degrees, same_evidence};
+use crate::derive::redundant::Redundancy;
 use crate::derive::sequential::SequentialView;
 use crate::derive::{AnyView, Derivation};
 use crate::{Result, Watch};
@@ -32,6 +33,14 @@ impl Recount {
     /// # Errors
     /// [`crate::ErrorKind::Certificate`] with the claimed and the actual values. The error of the watch if it stops the count.
     pub fn check(&mut self, derivation: &Derivation) -> Result<()> {
+        self.main(derivation)?;
+        derivation.redundancy().into_iter().flat_map(Redundancy::derivations).try_for_each(|(joint, other)| {
+            let name = &derivation.program().joints[joint].name;
+            self.main(other).map_err(|error| error.with_context(format_args!("{name} given")))
+        })
+    }
+
+    fn main(&mut self, derivation: &Derivation) -> Result<()> {
         match derivation.view() {
             AnyView::Equations(_) => Ok(()),
             AnyView::Sequential(derived) => self.chain(derived),
@@ -54,7 +63,7 @@ impl Recount {
             &derived.method.evidence,
             derived.method.dimension(),
         )?;
-        if *self.formulations(&derived.method.six)? == derived.method.formulations {
+        if *self.formulations(&derived.problem.chain)? == derived.method.formulations {
             return Ok(());
         }
         Err(refused("the formulations are not the regular and most accurate ones, ordered by accuracy".to_owned()))
@@ -83,12 +92,12 @@ impl Recount {
         Ok(self.evidence[place].1.as_deref())
     }
 
-    /// The formulations of the eigenvalue problem that a derivation of these six joints uses.
-    fn formulations(&mut self, six: &Chain) -> Result<&Vec<Regular>> {
-        let place = match self.formulations.iter().position(|(known, _)| known == six) {
+    /// The formulations of the eigenvalue problem that a derivation of `chain` uses.
+    fn formulations(&mut self, chain: &Chain) -> Result<&Vec<Regular>> {
+        let place = match self.formulations.iter().position(|(known, _)| known == chain) {
             Some(place) => place,
             None => {
-                self.formulations.push((six.clone(), ranked(six)?));
+                self.formulations.push((chain.clone(), ranked(chain)?));
                 self.formulations.len() - 1
             }
         };

@@ -7,6 +7,15 @@ use crate::derive::{AnyView, Derivation};
 
 /// The number of steps, bases or eigenvalue problems that were proved again, as text.
 pub fn proof_text(derivation: &Derivation) -> String {
+    let own = method_text(derivation);
+    let Some(redundancy) = derivation.redundancy() else { return own };
+    let joints = &derivation.program().joints;
+    let other =
+        |(joint, other): (usize, &Derivation)| format!("; {} given: {}", joints[joint].name, method_text(other));
+    own + &redundancy.derivations().map(other).collect::<String>()
+}
+
+fn method_text(derivation: &Derivation) -> String {
     match derivation.view() {
         AnyView::Equations(equations) => proved_equations(equations.method),
         AnyView::Sequential(chain) => proved_chain(chain.method),

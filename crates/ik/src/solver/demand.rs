@@ -90,7 +90,7 @@ impl Demand {
                 typical.iter().for_each(|&operand| self.read(operand));
                 self.magnitude += usize::from(typical.is_none() && program.is_plain(*unknown));
             }
-            Step::SixAxes(six) => six.parts().target.iter().for_each(|&operand| self.read(operand)),
+            Step::SixAxes(six) => six.operands().into_iter().for_each(|operand| self.read(operand)),
             Step::Sample { .. } => {}
         }
     }

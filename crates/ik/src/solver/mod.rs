@@ -21,6 +21,7 @@ mod placed;
 mod prepared;
 mod program;
 mod prune;
+pub mod redundant;
 mod rule;
 mod target;
 mod tips;
@@ -40,6 +41,7 @@ pub use placed::{PlacedSolver, Placement, TaskPlacement};
 pub use prepared::{Batch, Nearest, Solved, Solver};
 pub(crate) use program::square;
 pub use program::{Block, Case, Checks, Condition, Described, Guard, Input, Pivot, Preference, Program, Short, Step};
+pub use redundant::{Redundancy, RedundantPart};
 pub use rule::{Following, ParameterRule, Rule};
 pub use tips::{GivenJoint, TipTask};
 

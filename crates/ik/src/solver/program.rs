@@ -8,6 +8,7 @@ use super::about::About;
 use super::eigenvalue::SixAxes;
 use super::instruction::{Instruction, Operand};
 use super::joint::{Joint, JointValue, Unit};
+use super::redundant::Redundancy;
 use super::rule::ParameterRule;
 use super::tips::{GivenJoint, TipTask};
 use groebot_robot::kinematics::Mimic;
@@ -221,6 +222,9 @@ pub struct Program {
     /// than the joints can reach.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub described: Option<Described>,
+    /// For a chain with one joint more than its task determines: the programs with another joint given, and the axes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub redundancy: Option<Box<Redundancy>>,
 }
 
 /// The equations of the mechanism as described. The ideal mechanism decides which solutions a target has.

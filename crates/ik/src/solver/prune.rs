@@ -65,7 +65,7 @@ impl Live {
                 Step::Roots { polynomials, typical, .. } => {
                     polynomials.iter().flatten().chain(typical).for_each(|operand| self.read(*operand));
                 }
-                Step::SixAxes(six) => six.parts().target.iter().for_each(|operand| self.read(*operand)),
+                Step::SixAxes(six) => six.operands().into_iter().for_each(|operand| self.read(operand)),
                 Step::Sample { .. } => {}
             }
         }

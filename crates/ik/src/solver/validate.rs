@@ -39,6 +39,7 @@ impl Program {
         self.described.as_ref().map_or(Ok(()), |described| context.described(described))?;
         let branches = self.blocks.iter().map(Block::branches).try_fold(1usize, usize::checked_mul);
         ensure(branches.is_some_and(|branches| branches <= MOST_BRANCHES), "too many branches")?;
+        self.redundancy.as_ref().map_or(Ok(()), |redundancy| redundancy.validate(self))?;
         let least = usize::from(self.cases().any(|case| !case.open));
         ensure(self.isolated != Some(0), "isolated: at least 1 is allowed")?;
         ensure((least..=MOST_ANSWERS).contains(&self.capacity), "capacity: 1 to 4096 is allowed")
@@ -238,7 +239,7 @@ impl Context<'_> {
                 self.set(*unknown, place)
             }
             Step::SixAxes(six) => {
-                six.parts().target.iter().try_for_each(|&operand| self.operand(operand, place))?;
+                six.operands().into_iter().try_for_each(|operand| self.operand(operand, place))?;
                 let unknowns = six.parts().joints.iter().flat_map(|joint| joint.unknowns());
                 unknowns.into_iter().try_for_each(|unknown| self.set(unknown, place))
             }

@@ -10,7 +10,7 @@ mod forward;
 mod frames;
 mod freestanding;
 pub mod harness;
-mod ikfast;
+pub mod ikfast;
 mod names;
 mod pairs;
 pub mod samples;

@@ -62,6 +62,7 @@ fn named(names: &[String]) -> Program {
         isolated: None,
         nearby: false,
         described: None,
+        redundancy: None,
     }
 }
 

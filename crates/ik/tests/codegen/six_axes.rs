@@ -1,5 +1,8 @@
 //! Printed solvers for six axes by one eigenvalue problem: compiled, run, and compared with the evaluator.
 
+use groebot_ik::derive::Derivation;
+use groebot_robot::kinematics::{Chain, Task, along_z};
+
 use super::derivations::targets_of;
 use super::harness::{SANITIZERS, compare, compile_solver, feed, has_sanitizers, write_c};
 use super::single;
@@ -31,6 +34,18 @@ fn printed_eigenvalue_problems_answer_like_the_program() {
             assert!(report.answers > 150 && report.refused > 10, "{report:?}");
             assert_eq!(report.unequal, 0, "{}: {report:?}", stored.name);
         }
+    }
+}
+
+/// A joint between the six is given: the axes after it are moved at run time.
+#[test]
+fn printed_given_joints_between_the_six_answer_like_the_program() {
+    let text = include_str!("../../../../derivations/gen3_like/0_chain.toml");
+    let chain = Chain::from_toml(text).unwrap().with_task(Task::Pose, along_z(), vec!["Joint4".to_owned()]).unwrap();
+    let derived = Derivation::by_eigenvalues(&chain, None).unwrap();
+    if let Some(report) = compare(derived.program(), &targets_of(derived.program(), 120)) {
+        assert!(report.answers > 150 && report.refused > 10, "{report:?}");
+        assert_eq!(report.unequal, 0, "{report:?}");
     }
 }
 

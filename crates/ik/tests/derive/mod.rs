@@ -17,6 +17,7 @@ mod options;
 mod planner;
 mod position_yaw;
 mod random_chains;
+pub mod redundant;
 mod renamed;
 mod robots;
 mod seed;

@@ -1,24 +1,23 @@
 //! Seven joints of which the first or the last is given, revolute or prismatic. The six others are found together for every given value.
 
+use groebot_ik::Watch;
 use groebot_ik::derive::Derivation;
-use groebot_ik::derive::eigenvalue::fits;
 use groebot_ik::derive::planner::joints_to_give;
 use groebot_ik::witness::Options;
 use groebot_ik::witness::chain::check_chain;
-use groebot_ik::{ErrorKind, Watch};
 use groebot_robot::kinematics::{Chain, ChainParts, Joint, Mimic, Task, along_z};
 
 use super::rational;
 
 /// A vertical arm of seven joints whose axes miss each other by millimetres.
-const ARM: &str = include_str!("../../../../derivations/gen3_like/0_chain.toml");
+pub const ARM: &str = include_str!("../../../../derivations/gen3_like/0_chain.toml");
 
-fn with_given(text: &str, joint: &str) -> Chain {
+pub fn with_given(text: &str, joint: &str) -> Chain {
     Chain::from_toml(text).unwrap().with_task(Task::Pose, along_z(), vec![joint.to_owned()]).unwrap()
 }
 
 /// Same arm, but on a rail, or with a prismatic joint at its end.
-fn slid(joint: &str) -> String {
+pub fn slid(joint: &str) -> String {
     let (head, tail) = ARM.split_at(ARM.find(&format!("name = \"{joint}\"")).unwrap());
     let mut slid = head.to_owned() + &tail.replacen("type = \"revolute\"", "type = \"prismatic\"", 1);
     let at = head.len();
@@ -65,11 +64,4 @@ fn joints_at_the_ends_are_chosen_where_no_others_will_do() {
     parts.given.clear();
     let choice = joints_to_give(&Chain::new(parts).unwrap(), &Watch::none()).unwrap().unwrap();
     assert_eq!(choice.given, ["Joint7", "knuckle"]);
-}
-
-#[test]
-fn a_joint_between_others_is_not_for_it() {
-    let error = fits(&with_given(ARM, "Joint3")).unwrap_err();
-    assert_eq!(error.kind(), ErrorKind::Unsupported);
-    assert!(error.message().contains("all joints before and after them must be given"), "{error}");
 }

@@ -1,5 +1,6 @@
 //! Any six joints by one eigenvalue problem: `groebot_runtime::six_axes`, `solver::eigenvalue`, `derive::eigenvalue`.
 
+mod between;
 mod counts;
 mod curve;
 mod derivations;

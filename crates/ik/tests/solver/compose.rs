@@ -59,6 +59,7 @@ fn slide() -> Program {
         isolated: None,
         nearby: false,
         described: None,
+        redundancy: None,
     }
 }
 

@@ -8,6 +8,7 @@ mod derivatives;
 mod follow;
 mod formats;
 mod placed;
+mod redundant;
 mod refused;
 mod task;
 
@@ -147,6 +148,7 @@ fn choice(claims: [f64; 2], by_roots: bool) -> Vec<f64> {
         isolated: None,
         nearby: false,
         described: None,
+        redundancy: None,
     };
     program.validate().unwrap();
     program.solve_numbers(&claims).unwrap().iter().map(|answer| answer.q[0]).collect()

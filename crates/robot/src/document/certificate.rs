@@ -28,6 +28,8 @@ pub enum Proves {
     EigenvalueProblem,
     /// Chains that share joints.
     CoupledChains,
+    /// A chain with one redundant joint, with each joint as the given one.
+    RedundantChain,
     /// Equations of motion.
     Dynamics,
 }
@@ -39,6 +41,7 @@ impl fmt::Display for Proves {
             Proves::Chain => "the chain",
             Proves::EigenvalueProblem => "the eigenvalue problem",
             Proves::CoupledChains => "the coupled chains",
+            Proves::RedundantChain => "the redundant chain",
             Proves::Dynamics => "the equations of motion",
         })
     }

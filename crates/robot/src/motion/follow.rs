@@ -4,7 +4,7 @@
 use std::cmp::Ordering;
 
 use super::members::add_members;
-use super::path_request::{Pace, PathRequest};
+use super::path_request::PathRequest;
 use super::{JointTrack, Trajectory};
 use crate::kinematics::{Chain, InverseKinematics, Joint, JointKind, Solution, Target, Task};
 use crate::spatial::angle;
@@ -42,6 +42,20 @@ pub struct Followed {
     pub jumps: Vec<Jump>,
 }
 
+impl Jump {
+    /// The jump to the pose `sample`, in which `joint` moves by `step`.
+    pub fn new(sample: usize, joint: usize, step: f64, why: String) -> Self {
+        Jump { sample, joint, step, why }
+    }
+}
+
+impl Followed {
+    /// A path with its jumps.
+    pub fn new(trajectory: Trajectory, jumps: Vec<Jump>) -> Self {
+        Followed { trajectory, jumps }
+    }
+}
+
 /// A state of the arm at a pose, with the best path to it.
 struct State {
     q: Vec<f64>,
@@ -77,7 +91,7 @@ pub fn follow<'w>(
             format!("the task is `{}`; a path of poses is followed by `pose` without given joints", chain.task_text());
         return Err(Error::new(ErrorKind::Unsupported, text));
     }
-    let times = times(pace, poses.len())?;
+    let times = pace.times(poses.len())?;
     let path = Path { chain, speeds, times: &times, start };
     let mut layers: Vec<Vec<State>> = Vec::with_capacity(poses.len());
     let mut found = vec![Vec::new(); poses.len()];
@@ -99,22 +113,6 @@ pub fn follow<'w>(
     let trajectory = path.trajectory(&layers, &best);
     trajectory.check()?;
     Ok(Followed { trajectory, jumps })
-}
-
-/// The times of `count` poses.
-fn times(pace: &Pace, count: usize) -> Result<Vec<f64>> {
-    let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
-    match pace {
-        _ if count == 0 => bad("there is no pose; give at least one".to_owned()),
-        Pace::Every(time) if !(time.is_finite() && *time > 0.0) => {
-            bad(format!("the time between two poses is {time}; give a positive number"))
-        }
-        Pace::Every(time) => Ok((0..count).map(|sample| sample as f64 * time).collect()),
-        Pace::At(times) if times.len() != count => {
-            bad(format!("{} times for {count} poses; give one each", times.len()))
-        }
-        Pace::At(times) => Ok(times.clone()),
-    }
 }
 
 /// Compares costs: fewer jumps first, then the smaller sum of squares.

@@ -1,6 +1,7 @@
 //! The poses and the timing of a path. Main type: [`PathRequest`].
 
 use crate::spatial::Pose;
+use crate::{Error, ErrorKind, Result};
 
 /// Timing of a path.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +10,27 @@ pub enum Pace {
     Every(f64),
     /// At these times \[s\], ascending.
     At(Vec<f64>),
+}
+
+impl Pace {
+    /// The times of `count` poses \[s\].
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for no pose, a time between poses that is not positive, and a number of times other than `count`.
+    pub fn times(&self, count: usize) -> Result<Vec<f64>> {
+        let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
+        match self {
+            _ if count == 0 => bad("there is no pose; give at least one".to_owned()),
+            Pace::Every(time) if !(time.is_finite() && *time > 0.0) => {
+                bad(format!("the time between two poses is {time}; give a positive number"))
+            }
+            Pace::Every(time) => Ok((0..count).map(|sample| sample as f64 * time).collect()),
+            Pace::At(times) if times.len() != count => {
+                bad(format!("{} times for {count} poses; give one each", times.len()))
+            }
+            Pace::At(times) => Ok(times.clone()),
+        }
+    }
 }
 
 /// Poses that an arm moves through.

@@ -1,12 +1,17 @@
-//! Six joints with given joints before or after them: the motions of the given joints are removed from the target.
+//! Six joints with given joints before, after and between them.
 //!
-//! `E1 E2 .. E7 M = T` with known E1 is `E2 .. E7 M = E1^-1 T`. With known E7 it is `E1 .. E6 M = T (M^-1 E7^-1 M)`. So one eigenvalue problem solves the six
-//! joints in between, for all given values.
+//! The motions of given joints at the ends are removed from the target. `E1 E2 .. E7 M = T` with known E1 is `E2 .. E7 M = E1^-1 T`. With known E7 it is
+//! `E1 .. E6 M = T (M^-1 E7^-1 M)`. A given joint between the others moves the axes after it at run time ([`groebot_runtime::six_axes::Given`]). So one
+//! eigenvalue problem solves the six joints, for all given values.
 
+use groebot_runtime::six_axes;
+
+use super::line;
 use crate::derive::equations::assemble::Assembler;
 use crate::solver::Operand;
+use crate::solver::eigenvalue::GivenLine;
 use crate::{Error, ErrorKind, Result};
-use groebot_robot::kinematics::{Chain, Task};
+use groebot_robot::kinematics::{Chain, JointKind, Task};
 use groebot_robot::spatial::{Axis, Screw};
 use nalgebra::{Matrix3, Vector3};
 
@@ -14,34 +19,47 @@ use nalgebra::{Matrix3, Vector3};
 pub(super) struct Six {
     /// The chain of the six joints, with the given joints at zero.
     pub chain: Chain,
-    /// The number of given joints before the six.
-    before: usize,
-    /// The indices of the given joints, ascending.
-    given: Vec<usize>,
+    /// The index of each of the six joints in the whole chain.
+    pub places: [usize; 6],
+    /// The given joints between the six, from base to tip.
+    pub between: Vec<Between>,
+    /// The indices of the given joints before the six, and of those after them, ascending.
+    ends: [Vec<usize>; 2],
+}
+
+/// A given joint between the six.
+pub(super) struct Between {
+    /// Its index in the whole chain.
+    pub place: usize,
+    /// Its exact axis.
+    pub joint: groebot_robot::kinematics::Joint,
+    /// Its axis.
+    pub line: GivenLine,
 }
 
 impl Six {
     /// The six joints of `chain`.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] for a task other than a pose, another number of joints, or a given joint between others.
+    /// [`ErrorKind::Unsupported`] for a task other than a pose, another number of joints that are not given, or more than eight given ones between them.
     pub fn of(chain: &Chain) -> Result<Six> {
         let given = chain.given();
         let unknown: Vec<usize> = (0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect();
-        let is_row = unknown.windows(2).all(|pair| pair[1] == pair[0] + 1);
-        if chain.task() != Task::Pose || unknown.len() != 6 || !is_row {
-            let text = "the eigenvalue problem needs a pose and six consecutive joints; all joints before and after them must be given";
-            return Err(Error::new(ErrorKind::Unsupported, text));
+        let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
+        let six: std::result::Result<[usize; 6], _> = unknown.try_into();
+        let Some(places) = six.ok().filter(|_| chain.task() == Task::Pose) else {
+            return Err(unsupported("the eigenvalue problem needs a pose and six joints; all others must be given"));
+        };
+        let (before, rest): (Vec<usize>, Vec<usize>) = given.into_iter().partition(|&joint| joint < places[0]);
+        let (between, after): (Vec<usize>, Vec<usize>) = rest.into_iter().partition(|&joint| joint < places[5]);
+        if between.len() > six_axes::Given::ROOM {
+            return Err(unsupported("the eigenvalue problem allows at most 8 given joints between the six others"));
         }
+        let between = between.into_iter().map(|place| Between::new(chain, place, &places)).collect();
         let mut parts = chain.parts().clone();
-        parts.joints = unknown.iter().map(|&joint| parts.joints[joint].clone()).collect();
+        parts.joints = places.iter().map(|&joint| parts.joints[joint].clone()).collect();
         parts.given.clear();
-        Ok(Six { chain: Chain::new(parts)?, before: unknown[0], given })
-    }
-
-    /// The index of each of the six joints in the whole chain.
-    pub fn places(&self) -> [usize; 6] {
-        std::array::from_fn(|place| self.before + place)
+        Ok(Six { chain: Chain::new(parts)?, places, between, ends: [before, after] })
     }
 
     /// The target of the six joints: position, then rotation by rows.
@@ -61,7 +79,7 @@ impl Six {
             rotation: [0, 1, 2].map(|i| [0, 1, 2].map(|j| target[3 + 3 * i + j])),
             translation: [target[0], target[1], target[2]],
         };
-        let (before, after) = self.given.split_at(self.before);
+        let [before, after] = &self.ends;
         for (&joint, is_before) in
             before.iter().map(|joint| (joint, true)).chain(after.iter().rev().map(|joint| (joint, false)))
         {
@@ -75,6 +93,27 @@ impl Six {
         }
         let rows = six.rotation.concat();
         Ok(std::array::from_fn(|i| if i < 3 { six.translation[i] } else { rows[i - 3] }))
+    }
+}
+
+impl Between {
+    fn new(chain: &Chain, place: usize, places: &[usize; 6]) -> Self {
+        let joint = chain.joints()[place].clone();
+        let before = places.iter().filter(|&&other| other < place).count();
+        let line = GivenLine { before, line: line(chain, place), slides: joint.kind == JointKind::Prismatic };
+        Between { place, joint, line }
+    }
+
+    /// The operands of its value: cosine and sine, or its displacement and zero.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a value of another type.
+    pub fn value(&self, value: &[Operand]) -> Result<[Operand; 2]> {
+        match (value, self.line.slides) {
+            ([cosine, sine], false) => Ok([*cosine, *sine]),
+            ([length], true) => Ok([*length, Operand::Constant(0.0)]),
+            _ => Err(Error::new(ErrorKind::Unsupported, "the value of a given joint has another type")),
+        }
     }
 }
 

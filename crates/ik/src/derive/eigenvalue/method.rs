@@ -18,7 +18,7 @@ use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{Certificate, Proves, head_of};
 use groebot_robot::kinematics::Chain;
 
-/// The solution by eigenvalue problems of a chain of six joints with arbitrary axes. Further joints at its ends may be given.
+/// The solution by eigenvalue problems of a chain of six joints with arbitrary axes. Further joints anywhere in the chain may be given.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Eigenvalue {
@@ -36,7 +36,7 @@ pub type EigenvalueView<'a> = View<'a, ChainProblem, Eigenvalue>;
 /// The claims about six axes.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Claims {
+pub(in crate::derive) struct Claims {
     evidence: Vec<Evidence>,
     formulations: Vec<Entry>,
 }
@@ -59,7 +59,7 @@ impl Eigenvalue {
         let unsupported = |text: &str| Error::new(ErrorKind::Unsupported, text);
         let evidence = planner::evidence(&Mechanism::new(&problem.chain)?, watch)?;
         let evidence = evidence.ok_or_else(|| unsupported("joints are free at every target"))?;
-        let formulations = ranked(&six.chain)?;
+        let formulations = ranked(&problem.chain)?;
         Eigenvalue { six: six.chain, evidence, formulations }.compiled(problem)
     }
 
@@ -68,15 +68,22 @@ impl Eigenvalue {
     /// # Errors
     /// [`ErrorKind::Syntax`] with the line for text that is not a certificate; [`ErrorKind::Certificate`] for a false claim.
     pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(Self, Program)> {
-        let claims: Claims = Certificate::read(text, Proves::EigenvalueProblem, problem.chain.name())?;
-        let six = Six::of(&problem.chain)?.chain;
+        Eigenvalue::prove_claims(problem, Certificate::read(text, Proves::EigenvalueProblem, problem.chain.name())?)
+    }
+
+    /// Proves the solution of `problem` again from its claims.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Certificate`] for a false claim.
+    pub(in crate::derive) fn prove_claims(problem: &ChainProblem, claims: Claims) -> Result<(Self, Program)> {
+        let six = Six::of(&problem.chain)?;
         let formulations: Result<Vec<Regular>> = claims.formulations.iter().map(|entry| entry.prove(&six)).collect();
         let formulations = formulations?;
         let claimed = claims.evidence.iter().map(|evidence| evidence.dimension).max().unwrap_or(0);
         if formulations.is_empty() || claimed == 0 || claimed > SIZE {
             return Err(refused(format!("{} formulations, {claimed} solutions", formulations.len())));
         }
-        Eigenvalue { six, evidence: claims.evidence, formulations }.compiled(problem)
+        Eigenvalue { six: six.chain, evidence: claims.evidence, formulations }.compiled(problem)
     }
 
     /// The least of the counted numbers of complex solutions.
@@ -113,11 +120,15 @@ impl EigenvalueView<'_> {
 
     /// The text of `certificate.json`.
     pub(in crate::derive) fn certificate(&self) -> String {
+        Certificate::new(Proves::EigenvalueProblem, self.problem.chain.name(), self.claims()).to_json()
+    }
+
+    /// The claims of the certificate.
+    pub(in crate::derive) fn claims(&self) -> Claims {
         let entry =
             |regular: &Regular| Entry { formulation: regular.formulation, determinants: regular.determinants.clone() };
         let formulations = self.method.formulations.iter().map(entry).collect();
-        let claims = Claims { evidence: self.method.evidence.clone(), formulations };
-        Certificate::new(Proves::EigenvalueProblem, self.problem.chain.name(), claims).to_json()
+        Claims { evidence: self.method.evidence.clone(), formulations }
     }
 }
 
@@ -127,14 +138,14 @@ pub(in crate::derive) fn is_certificate(text: &str) -> bool {
 }
 
 impl Entry {
-    fn prove(&self, chain: &Chain) -> Result<Regular> {
+    fn prove(&self, six: &Six) -> Result<Regular> {
         let formulation = self.formulation;
         let name = format!("the formulation that hides joint {}", formulation.hidden + 1);
         if !formulation.is_valid() || self.determinants.iter().all(|determinant| determinant.value == 0) {
             return Err(refused(format!("{name} is not shown to be regular")));
         }
         for determinant in &self.determinants {
-            let again = Determinant::evaluate(chain, formulation, determinant.prime, determinant.seed)?;
+            let again = Determinant::of_six(six, formulation, determinant.prime, determinant.seed)?;
             if again != *determinant {
                 return Err(refused(format!("{name}: the determinant modulo {} differs", determinant.prime)));
             }

@@ -13,7 +13,7 @@ mod screw;
 mod survey;
 mod vector;
 
-pub(super) use method::is_certificate;
+pub(super) use method::{Claims, is_certificate};
 pub use method::{Eigenvalue, EigenvalueView};
 pub use rank::Determinant;
 pub use residue::Residue;
@@ -46,11 +46,11 @@ pub struct Regular {
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a chain that does not fit the eigenvalue problem ([`fits`]).
 pub fn formulations(chain: &Chain) -> Result<Vec<Regular>> {
-    let chain = &Six::of(chain)?.chain;
+    let six = Six::of(chain)?;
     let mut regular = Vec::new();
     for formulation in all() {
         let primes = primes_below(1 << 31).enumerate();
-        let found = primes.map(|(seed, prime)| Determinant::evaluate(chain, formulation, prime, seed as u64));
+        let found = primes.map(|(seed, prime)| Determinant::of_six(&six, formulation, prime, seed as u64));
         let determinants: Vec<Determinant> = found.filter_map(Result::ok).take(PRIMES).collect();
         if determinants.iter().any(|determinant| determinant.value != 0) {
             regular.push(Regular { formulation, determinants });
@@ -64,7 +64,7 @@ pub fn all() -> impl Iterator<Item = Formulation> {
     (0..6).flat_map(|hidden| [false, true].map(|second| Formulation { hidden, second }))
 }
 
-/// Checks that the eigenvalue problem fits `chain`: a pose with six consecutive unknown joints, and all others given.
+/// Checks that the eigenvalue problem fits `chain`: a pose with six unknown joints, and all others given, anywhere in the chain.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] with the supported chains.
@@ -79,7 +79,13 @@ fn slides(chain: &Chain) -> [bool; 6] {
 
 /// The axes of the joints of a chain of six. Directions have length one; points are in the chain's length unit.
 pub(crate) fn layout(chain: &Chain) -> Layout {
-    let line = |joint: usize| match &chain.screws()[joint] {
+    let lines = std::array::from_fn(|joint| line(chain, joint));
+    Layout { lines, slides: slides(chain), length: typical_length(&lines) }
+}
+
+/// The axis of a joint at zero.
+fn line(chain: &Chain, joint: usize) -> Line {
+    match &chain.screws()[joint] {
         Screw::Revolute(axis) => {
             Line { direction: axis.direction().into_inner().into(), point: axis.point().coords.into() }
         }
@@ -87,28 +93,27 @@ pub(crate) fn layout(chain: &Chain) -> Layout {
             let point = chain.joints()[joint].point.each_ref().map(|entry| entry.to_f64().unwrap_or(0.0));
             Line { direction: direction.into_inner().into(), point }
         }
-    };
-    let lines = std::array::from_fn(line);
-    Layout { lines, slides: slides(chain), length: typical_length(&lines) }
+    }
 }
 
-/// The solver of `chain`, with its best regular formulations in order.
+/// The solver of `chain`, with its best regular formulations in order. Given joints are at zero.
 ///
 /// # Errors
 /// As [`formulations`]; [`ErrorKind::Unsupported`] if no formulation is regular and accurate.
 pub fn solver(chain: &Chain) -> Result<six_axes::Chain> {
     let best: Vec<Formulation> = ranked(chain)?.into_iter().map(|regular| regular.formulation).collect();
-    Ok(layout(chain).chain(&program::tip(chain), &best))
+    Ok(layout(&Six::of(chain)?.chain).chain(&program::tip(chain), &best))
 }
 
-/// The regular formulations that are accurate, the most accurate first. There is at least one.
+/// The regular formulations of `chain` that are accurate, the most accurate first. There is at least one.
 ///
 /// # Errors
 /// As [`formulations`]; [`ErrorKind::Unsupported`] if no formulation is regular and accurate.
 pub(super) fn ranked(chain: &Chain) -> Result<Vec<Regular>> {
     let regular = formulations(chain)?;
     let known: Vec<Formulation> = regular.iter().map(|regular| regular.formulation).collect();
-    let best = survey(&layout(chain), &known);
+    let six = Six::of(chain)?;
+    let best = survey::with_given(&layout(&six.chain), &six.between, &known);
     if best.is_empty() {
         let text = "no formulation of the eigenvalue problem is regular and accurate for this chain";
         return Err(Error::new(ErrorKind::Unsupported, text));

@@ -2,12 +2,12 @@
 
 use groebot_runtime::six_axes::{ROOM, Rigid};
 
-use super::given::Six;
+use super::given::{Between, Six};
 use super::layout;
 use crate::derive::closure::Mechanism;
 use crate::derive::equations::assemble::Assembler;
 use crate::derive::sequential::frame_of;
-use crate::solver::eigenvalue::{Formulation, Layout, SixAxes, SixAxesParts};
+use crate::solver::eigenvalue::{Formulation, GivenAxis, Layout, SixAxes, SixAxesParts};
 use crate::solver::{Block, Case, Operand, Program, Step};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Chain;
@@ -27,7 +27,9 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
         block.map_or_else(Vec::new, |block| set_to(&frame.blocks[block]))
     };
     let mut assembler = Assembler::default();
-    let target = six.target(chain, std::array::from_fn(Operand::Parameter), value, &mut assembler)?;
+    let axis = |between: &Between| Ok(GivenAxis { axis: between.line, value: between.value(&value(between.place))? });
+    let given = six.between.iter().map(axis).collect::<Result<_>>()?;
+    let target = six.target(chain, std::array::from_fn(Operand::Parameter), &value, &mut assembler)?;
     let step = SixAxes::new(SixAxesParts {
         length,
         lines,
@@ -35,8 +37,9 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
         tip: tip(chain),
         formulations,
         within: 0.0,
-        joints: six.places().map(|place| frame.joints[place].value),
+        joints: six.places.map(|place| frame.joints[place].value),
         target,
+        given,
     })?;
     let case = Case { label: "six axes".to_owned(), steps: vec![Step::SixAxes(Box::new(step))], ..Case::default() };
     let mut blocks = frame.blocks.clone();

@@ -6,6 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::given::Six;
 use super::profile::{Frame, STILL};
 use super::residue::Residue;
 use super::rows::{Doubled, FAR, MOVING, Row, Rows};
@@ -15,7 +16,7 @@ use crate::solver::eigenvalue::Formulation;
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::number::Zp;
 use groebot_algebra::random::SplitMix64;
-use groebot_robot::kinematics::{Chain, JointKind};
+use groebot_robot::kinematics::{Chain, Joint, JointKind};
 
 /// The number of rows and columns of a pencil before elimination.
 const ALL: usize = 2 * (STILL + MOVING);
@@ -35,25 +36,36 @@ pub struct Determinant {
 }
 
 impl Determinant {
-    /// Evaluates the determinant of `formulation` for `chain`, which has six joints. The formulation must be valid.
+    /// Evaluates the determinant of `formulation` for `chain`, which has six joints that are not given. The formulation must be valid. Given joints between
+    /// them have random values.
     ///
     /// # Errors
-    /// [`ErrorKind::Unsupported`] if the prime divides a denominator of the chain, or if a random number is zero.
+    /// [`ErrorKind::Unsupported`] if the prime divides a denominator of the chain, or if a random number is zero; as [`fits`](super::fits).
     pub fn evaluate(chain: &Chain, formulation: Formulation, prime: u64, seed: u64) -> Result<Self> {
+        Determinant::of_six(&Six::of(chain)?, formulation, prime, seed)
+    }
+
+    pub(super) fn of_six(six: &Six, formulation: Formulation, prime: u64, seed: u64) -> Result<Self> {
         let field = Zp::new(prime)?;
         let unlucky = || Error::new(ErrorKind::Unsupported, format!("{prime} is unlucky for the chain's constants"));
-        let value = determinant(chain, formulation, field, seed).ok_or_else(unlucky)?;
+        let value = determinant(six, formulation, field, seed).ok_or_else(unlucky)?;
         Ok(Determinant { prime, seed, value })
     }
 }
 
-fn determinant(chain: &Chain, formulation: Formulation, field: Zp, seed: u64) -> Option<u64> {
+fn determinant(six: &Six, formulation: Formulation, field: Zp, seed: u64) -> Option<u64> {
     let mut random = SplitMix64::new(seed);
     let mut draw = || Residue::new(random.unit(field.modulus()), field);
-    let axes = axes(chain, field)?;
+    let axes: Option<Vec<Axis>> = six.chain.joints().iter().map(|joint| axis(joint, field)).collect();
+    let mut axes: [Axis; 6] = axes?.try_into().ok()?;
     let mut turns = [[draw(); 2]; 6];
     for (turn, axis) in turns.iter_mut().zip(&axes) {
         *turn = point_of_circle(axis, draw())?;
+    }
+    for given in six.between.iter().rev() {
+        let axis = axis(&given.joint, field)?;
+        let by = point_of_circle(&axis, draw())?;
+        axes[given.line.before..].iter_mut().for_each(|other| *other = other.moved(&axis, by));
     }
     let zero = Residue::new(0, field);
     let figures = axes.map(|axis| Figure::of(&axis, Frame::on(&axis).across[0]));
@@ -67,25 +79,21 @@ fn determinant(chain: &Chain, formulation: Formulation, field: Zp, seed: u64) ->
     Some(matrix_determinant(matrix(&rows, &doubled, [zero, draw()]), field))
 }
 
-/// The axes of the chain modulo a prime.
-fn axes(chain: &Chain, field: Zp) -> Option<[Axis; 6]> {
+/// The axis of a joint modulo a prime.
+fn axis(joint: &Joint, field: Zp) -> Option<Axis> {
     let one = Residue::new(1, field);
     let half = (one + one).inverse()?;
-    let axis = |joint: &groebot_robot::kinematics::Joint| {
-        let direction = Residue::vector(&joint.axis, field)?;
-        let square = dot(&direction, &direction);
-        Some(Axis {
-            direction,
-            point: Residue::vector(&joint.point, field)?,
-            slides: joint.kind == JointKind::Prismatic,
-            square,
-            inverse_square: square.inverse()?,
-            sample: (one + square).inverse()?,
-            units: [Residue::new(0, field), one, half],
-        })
-    };
-    let axes: Option<Vec<_>> = chain.joints().iter().map(axis).collect();
-    axes?.try_into().ok()
+    let direction = Residue::vector(&joint.axis, field)?;
+    let square = dot(&direction, &direction);
+    Some(Axis {
+        direction,
+        point: Residue::vector(&joint.point, field)?,
+        slides: joint.kind == JointKind::Prismatic,
+        square,
+        inverse_square: square.inverse()?,
+        sample: (one + square).inverse()?,
+        units: [Residue::new(0, field), one, half],
+    })
 }
 
 /// `c` and `s'` of the rotation about `axis` whose half angle has the tangent `t sqrt n`. For a prismatic joint, the square of the displacement `t` and `t`.

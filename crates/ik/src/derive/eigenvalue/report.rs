@@ -46,14 +46,25 @@ impl EigenvalueView<'_> {
     pub fn given(&self) -> Option<String> {
         let given = self.problem.chain.given();
         let names: Vec<&str> = given.iter().map(|&joint| self.problem.chain.joints()[joint].name.as_str()).collect();
-        let text = match names.as_slice() {
+        let (text, motion, are) = match names.as_slice() {
             [] => return None,
-            [one] => format!("{one} is given: its motion is removed from the target"),
-            [many @ .., last] => {
-                format!("{} and {last} are given: their motions are removed from the target", many.join(", "))
-            }
+            [one] => (format!("{one} is given"), "its motion", "is"),
+            [many @ .., last] => (format!("{} and {last} are given", many.join(", ")), "their motions", "are"),
         };
-        Some(format!("{text}, and the remaining motion is the target of the six others."))
+        let six = |place: usize| self.method.six.joints()[place].name.as_str();
+        let place = |name: &str| self.problem.chain.joints().iter().position(|joint| joint.name == name);
+        let ends = (place(six(0))?, place(six(5))?);
+        let count = given.iter().filter(|joint| (ends.0..ends.1).contains(joint)).count();
+        let removed =
+            format!("{motion} {are} removed from the target, and the remaining motion is the target of the six others");
+        let applied = "the axes of the joints after it, and the tip, are moved at run time";
+        Some(match count {
+            0 => format!("{text}: {removed}."),
+            _ if count == given.len() => format!("{text} between the six others: by each motion {applied}."),
+            _ => {
+                format!("{text}. At the ends of the chain {removed}. By each motion between the six others {applied}.")
+            }
+        })
     }
 
     /// The counts of random targets modulo primes, as text.

@@ -54,6 +54,12 @@ impl Figure {
 }
 
 impl Axis {
+    /// The axis moved by the joint of `other` with the coordinates `c` and `s'`, or `d'^2` and `d'`.
+    pub fn moved(&self, other: &Axis, by: [Residue; 2]) -> Axis {
+        let figure = Figure { direction: self.direction, point: self.point, side: None }.moved(other, by);
+        Axis { direction: figure.direction, point: figure.point, ..*self }
+    }
+
     /// A vector rotated about the direction of the axis.
     fn turned(&self, v: &Vector, [c, s]: [Residue; 2]) -> Vector {
         let along = scale(&self.direction, dot(&self.direction, v) * self.inverse_square);

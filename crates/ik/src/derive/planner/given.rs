@@ -41,7 +41,7 @@ pub struct Candidate {
 ///
 /// The last joint must have solutions for nearly the greatest share of its range. Of such joints it is the one with the simplest plan for the others: least
 /// polynomial degree, then fewest solutions, then last in the chain. If no joint gives such a plan, the last joint is given if the other six can be solved
-/// together. Joints before the last are chosen by their shares alone: the first from the base whose share is nearly the greatest.
+/// together, else joints at the ends of the chain, else any joint. Joints before the last are chosen by their shares alone: the first from the base whose share is nearly the greatest.
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] if there is no such joint, with the number of solutions for each. The error of `watch` if it stops the search.
@@ -61,10 +61,12 @@ pub fn joints_to_give<'w>(chain: &Chain, watch: impl Into<Option<&'w Watch>>) ->
         given.sort_unstable();
     }
     let (joint, candidates) = match last_to_give(chain, &given, watch) {
-        Err(error) if is_refusal(error.kind()) => match ends_to_give(chain, &requested, excess) {
-            Some(given) => return Ok(Some(Choice { given: names(&given), candidates: Vec::new() })),
-            None => return Err(error),
-        },
+        Err(error) if is_refusal(error.kind()) => {
+            match ends_to_give(chain, &requested, excess).or_else(|| one_to_give(chain, &given)) {
+                Some(given) => return Ok(Some(Choice { given: names(&given), candidates: Vec::new() })),
+                None => return Err(error),
+            }
+        }
         last => last?,
     };
     given.push(joint);
@@ -124,21 +126,42 @@ fn ends_to_give(chain: &Chain, given: &[usize], count: usize) -> Option<Vec<usiz
         let ends = leading[..front].iter().chain(&leading[leading.len() - (count - front)..]);
         let mut all: Vec<usize> = given.iter().chain(ends).copied().collect();
         all.sort_unstable();
-        leaves_six(chain, &all).then_some(all)
+        leaves_six(chain, &all).filter(|six| is_row(six)).map(|_| all)
     })
 }
 
-/// Whether the other joints are six that can be solved together. Others are joints that are not given and follow no given joint.
-fn leaves_six(chain: &Chain, given: &[usize]) -> bool {
+/// Selects one joint anywhere in the chain, in addition to those of `given`, such that the other six can be solved together: the last one that suits.
+fn one_to_give(chain: &Chain, given: &[usize]) -> Option<Vec<usize>> {
+    let with = |place: usize| {
+        let mut all: Vec<usize> = given.iter().copied().chain([place]).collect();
+        all.sort_unstable();
+        all
+    };
+    let leading = chain.independent().into_iter().filter(|joint| !given.contains(joint)).rev();
+    leading.map(with).find(|all| leaves_six(chain, all).is_some())
+}
+
+/// The other joints, if they are six that can be solved together. Others are joints that are not given and follow no given joint.
+fn leaves_six(chain: &Chain, given: &[usize]) -> Option<Vec<usize>> {
     let leads = |joint: &&usize| chain.leader(**joint).is_none();
     let given = given.iter().filter(leads).map(|&joint| chain.joints()[joint].name.clone()).collect();
-    let with_given = chain.with_task(chain.task(), chain.direction().clone(), given);
-    with_given.is_ok_and(|chain| fits(&chain).is_ok())
+    let chain = chain.with_task(chain.task(), chain.direction().clone(), given).ok()?;
+    fits(&chain).ok()?;
+    let given = chain.given();
+    Some((0..chain.joints().len()).filter(|joint| !given.contains(joint)).collect())
+}
+
+/// Whether joints follow one another.
+fn is_row(joints: &[usize]) -> bool {
+    joints.windows(2).all(|pair| pair[1] == pair[0] + 1)
 }
 
 /// The joint that leaves six joints which can be solved together: the last, else the first. A follower is replaced by its leader.
 fn together(chain: &Chain, given: &[usize]) -> Option<usize> {
-    let fits_with = |place: &usize| leaves_six(chain, &given.iter().copied().chain([*place]).collect::<Vec<_>>());
+    let fits_with = |place: &usize| {
+        let all: Vec<usize> = given.iter().copied().chain([*place]).collect();
+        leaves_six(chain, &all).is_some_and(|six| is_row(&six))
+    };
     let ends = [chain.joints().len() - 1, 0].map(|place| led_by(chain, place).unwrap_or(place));
     ends.into_iter().filter(|place| !given.contains(place)).find(fits_with)
 }

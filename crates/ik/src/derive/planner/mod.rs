@@ -6,6 +6,7 @@
 //! D. L. Pieper, *The kinematics of manipulators under computer control* (1968), for steps by quartics. D. Manocha and J. F. Canny, "Efficient inverse
 //! kinematics for general 6R manipulators", IEEE Trans. Robotics and Automation 10 (1994), for chains without a plan.
 
+mod constant;
 mod eliminated;
 mod fitting;
 mod given;
@@ -15,6 +16,7 @@ mod refuse;
 mod search;
 mod types;
 
+pub use constant::{constant_relation, is_constant};
 pub use fitting::fitting_task;
 pub use given::{Candidate, Choice, joints_to_give};
 pub(super) use recount::{same_degrees, same_evidence};

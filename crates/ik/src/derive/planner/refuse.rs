@@ -1,5 +1,6 @@
 //! Error messages for chains without a plan: which joints are free, or which geometric properties are missing.
 
+use super::constant::is_constant;
 use super::types::Evidence;
 use crate::derive::closure::Mechanism;
 use crate::derive::samples::evidence::is_finite;
@@ -18,6 +19,13 @@ pub struct Refusal {
 /// # Errors
 /// The error of `watch` if it stops the search.
 pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Refusal> {
+    let (constant, rest) = constant_among(mechanism)?;
+    if !constant.is_empty() {
+        let others = free(&mechanism.clone().with_given(&rest)?, watch)?;
+        let result = format!("the target alone determines {}", constant.join(", "));
+        let text = format!("{result}: constant on every self-motion, so not to be given; {}", others.error.message());
+        return Ok(Refusal { error: Error::new(ErrorKind::PositiveDimensional, text), result });
+    }
     let (unknown, freedoms) = (driven(mechanism), mechanism.task().freedoms());
     let suits = if unknown.len() <= freedoms + 1 { suitable(mechanism, watch)? } else { Vec::new() };
     let advice = match suits.as_slice() {
@@ -30,6 +38,19 @@ pub fn free(mechanism: &Mechanism, watch: &Watch) -> Result<Refusal> {
     let result =
         format!("the `{}` task leaves some of the {} unknown joints free", mechanism.task().name(), unknown.len());
     Ok(Refusal { error: Error::new(ErrorKind::PositiveDimensional, format!("{result}: {advice}")), result })
+}
+
+/// The names of given joints that are constant on every self-motion, and the indices of the other given joints.
+fn constant_among(mechanism: &Mechanism) -> Result<(Vec<String>, Vec<usize>)> {
+    let (mut constant, mut rest) = (Vec::new(), Vec::new());
+    let leads = |joint: &&usize| mechanism.joints()[**joint].follows.is_none();
+    for &joint in mechanism.given().iter().filter(leads) {
+        match mechanism.upright_loop().is_none() && is_constant(mechanism, joint)? {
+            true => constant.push(format!("`{}`", mechanism.joints()[joint].name)),
+            false => rest.push(joint),
+        }
+    }
+    Ok((constant, rest))
 }
 
 /// The indices of the chain's own joints that are not given and follow no other.

@@ -13,7 +13,7 @@
 //! ```
 //!
 //! Every key is optional. `task` and `given` are as in [`chain.toml`](mod@groebot_robot::kinematics::chain_toml). `snap = 1e-5` sets the tolerance of the
-//! search for the ideal robot. `snap = 0` uses every digit. See [`Chain::ideal_within`].
+//! search for the ideal robot. `redundant = true` with one given joint derives the solvers with each joint given. `snap = 0` uses every digit. See [`Chain::ideal_within`].
 
 use std::path::Path;
 
@@ -45,6 +45,9 @@ pub struct Ends {
     pub given: Vec<String>,
     /// Whether the planner chooses any number of joints to give: [`Ends::AUTO`].
     pub chooses: bool,
+    /// Whether the solver finds all solutions within limits of a chain with one redundant joint: one solver for each joint as the given one. The joint in `given`
+    /// is that of the main solver.
+    pub redundant: bool,
     /// The name of the solver and of its files. By default the name of the description, and the files are numbered stages.
     pub name: Option<String>,
     /// The tolerance for the ideal robot: in radians, and as a fraction of the reach. By default [`TOLERANCE`].
@@ -70,13 +73,14 @@ impl Ends {
     pub fn from_toml(text: &str) -> Result<Ends> {
         let document = Document::parse(text)?;
         let root = document.root();
-        root.deny_unknown(&["base", "tip", "given", "name", "snap", "task"])?;
+        root.deny_unknown(&["base", "tip", "given", "name", "snap", "redundant", "task"])?;
         let name = |key| root.optional(key).map(|node| node.text().map(str::to_owned)).transpose();
         let mut ends = Ends { base: name("base")?, tip: name("tip")?, given: read_given(root)?, ..Ends::default() };
         ends.name = root
             .optional("name")
             .map(|node| solver_name(node.text()?).map_err(|error| node.place(error)))
             .transpose()?;
+        ends.redundant = root.optional("redundant").map(|node| node.boolean()).transpose()?.unwrap_or(false);
         ends.snap = root.optional("snap").map(|node| node.exact()).transpose()?;
         if let Some(node) = root.optional("task") {
             let table = node.table()?;
@@ -97,6 +101,7 @@ impl Ends {
             let names: Vec<String> = self.given.iter().map(|name| quoted(name)).collect();
             page += &format!("given = [{}]\n", names.join(", "));
         }
+        page += if self.redundant { "redundant = true\n" } else { "" };
         page += &self.snap.as_ref().map(|snap| format!("snap = {}\n", quoted(&snap.to_string()))).unwrap_or_default();
         if let Some(task) = self.task {
             let plane = task.plane().map(Plane::name).map(|plane| format!("plane = {}\n", quoted(plane)));
@@ -124,6 +129,7 @@ impl Ends {
             direction: direction.filter(|_| self.direction.is_some() || task.is_none_or(Task::aims)),
             given: if self.given.is_empty() { other.given.clone() } else { self.given.clone() },
             chooses: self.chooses || other.chooses,
+            redundant: self.redundant || self.given.is_empty() && !self.chooses && other.redundant,
             name: first(&self.name, &other.name),
             snap: self.snap.clone().or_else(|| other.snap.clone()),
         }

@@ -7,6 +7,7 @@ use crate::derive::coupled::CoupledChains;
 use crate::derive::planner::{Choice, joints_to_give};
 use crate::derive::problem::ends::{Ends, TASK_NAME};
 use crate::derive::problem::formulate::formulate;
+use crate::derive::redundant::is_redundant;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{
     Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_bytes, refuse_binary, text_of,
@@ -297,12 +298,14 @@ impl Source {
     fn give(&mut self, watch: &Watch) -> Result<Option<Choice>> {
         let led = self.give_leaders()?;
         let (Some(chain), Some((ideal, _))) = (self.chain_by_steps(), &self.ideal) else { return Ok(None) };
+        let is_redundant = !self.ends.chooses && chain.given().is_empty() && is_redundant(chain);
         let Some(choice) = joints_to_give(ideal, watch)? else { return Ok(led) };
         if choice.given.len() > chain.given_inputs().len() + 1 && !self.ends.chooses {
             return Err(proposed(chain, &choice));
         }
         let chain = chain.with_task(chain.task(), chain.direction().clone(), choice.given.clone())?;
         self.ends.given.clone_from(&choice.given);
+        self.ends.redundant = is_redundant;
         self.take(chain)?;
         Ok(Some(choice))
     }

@@ -184,10 +184,6 @@ impl<'a> Builder<'a> {
         let unknown = self.place.unknown("w")?;
         let quartic = self.coefficients(ring, half.stair(2)?, 2, Operand::Constant(0.0));
         let lead = quartic.last().copied().unwrap_or(Operand::Constant(0.0));
-        let sizes: Vec<Operand> = self.place.symbols.iter().map(|symbol| symbol.size).collect();
-        let size = sizes.into_iter().fold(Operand::Constant(0.0), |sum, size| self.assembler.add(sum, size));
-        let scale = self.assembler.mul(Operand::Constant(DERIVED_STRATA.faint / STRATA.denominator), size);
-        self.guards.push(Guard { text: "leading coefficient".to_owned(), value: lead, scale, near: false });
         let typical = Some(self.spread(Operand::Constant(1.0), quartic.len() - 1));
         let guard_code = self.assembler.take();
         let half_angle = self.place.slack != Slack::NONE;

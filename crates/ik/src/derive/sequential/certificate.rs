@@ -45,7 +45,15 @@ pub(in crate::derive) fn write(derived: SequentialView<'_>) -> Result<String> {
 /// # Errors
 /// As [`write`].
 pub(in crate::derive) fn certificate(derived: SequentialView<'_>) -> Result<Certificate<Claims>> {
-    let claims = Claims {
+    Ok(Certificate::new(Proves::Chain, derived.problem.chain.name(), claims(derived)?))
+}
+
+/// The claims of the certificate.
+///
+/// # Errors
+/// As [`write`].
+pub(in crate::derive) fn claims(derived: SequentialView<'_>) -> Result<Claims> {
+    Ok(Claims {
         plan: derived.method.plan.clone(),
         forms: derived.method.forms.named(),
         eliminations: derived
@@ -55,8 +63,7 @@ pub(in crate::derive) fn certificate(derived: SequentialView<'_>) -> Result<Cert
             .filter_map(|step| step.elimination.as_ref())
             .map(Elimination::stored)
             .collect(),
-    };
-    Ok(Certificate::new(Proves::Chain, derived.problem.chain.name(), claims))
+    })
 }
 
 /// Proves the solution of `problem` again from the text of its certificate, and compiles its solver. It uses no search and no Groebner engine.

@@ -1,6 +1,7 @@
 //! The axes of six joints ([`Layout`]), and their frames.
 
-use groebot_runtime::six_axes::{Chain, Formulations, Rigid};
+use groebot_runtime::six_axes::{Chain, Formulations, Given, Rigid};
+use groebot_runtime::tolerances::ACCEPTANCE;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +14,39 @@ pub struct Line {
     pub direction: [f64; 3],
     /// Any point of the line.
     pub point: [f64; 3],
+}
+
+impl Line {
+    /// Whether the direction has length one and the point is finite.
+    pub(super) fn is_valid(&self) -> bool {
+        let length: f64 = self.direction.iter().map(|x| x * x).sum();
+        (length - 1.0).abs() <= ACCEPTANCE.input && self.point.iter().all(|entry| entry.is_finite())
+    }
+}
+
+/// The axis of a joint with a given value between the six, at zero joint values.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GivenLine {
+    /// The number of joints of the six before it, 1 to 5.
+    pub before: usize,
+    /// Its axis. The point of a prismatic joint is arbitrary.
+    pub line: Line,
+    /// Whether it is prismatic.
+    pub slides: bool,
+}
+
+impl GivenLine {
+    /// The axis in the types of the run time, for a chain with this typical length.
+    pub fn scaled(&self, length: f64) -> Given {
+        let share = 1.0 / length;
+        let GivenLine { before, line: Line { direction, point }, slides } = *self;
+        Given { before, direction, point: point.map(|entry| entry * share), slides }
+    }
+
+    /// Whether it is between the six, and its line is one.
+    pub(super) fn is_valid(&self) -> bool {
+        (1..6).contains(&self.before) && self.line.is_valid()
+    }
 }
 
 /// The axes of six joints at zero joint values, from base to tip.

@@ -6,5 +6,5 @@ mod layout;
 mod six_axes;
 
 pub use formulation::Formulation;
-pub use layout::{Layout, Line};
-pub use six_axes::{SixAxes, SixAxesParts};
+pub use layout::{GivenLine, Layout, Line};
+pub use six_axes::{GivenAxis, SixAxes, SixAxesParts};

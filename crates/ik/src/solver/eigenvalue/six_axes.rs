@@ -1,11 +1,10 @@
 //! The solver of six axes as a step of a program ([`SixAxes`]).
 
-use groebot_runtime::six_axes::{Chain, Formulations, Rigid};
-use groebot_runtime::tolerances::ACCEPTANCE;
+use groebot_runtime::six_axes::{Chain, Formulations, Given, Rigid};
 use serde::{Deserialize, Serialize};
 
 use super::formulation::Formulation;
-use super::layout::{Layout, Line};
+use super::layout::{GivenLine, Layout, Line};
 use crate::solver::{JointValue, Operand};
 use crate::{Error, ErrorKind, Result};
 
@@ -39,6 +38,19 @@ pub struct SixAxesParts {
     pub joints: [JointValue; 6],
     /// The target: the position of the tip, then its rotation matrix by rows.
     pub target: [Operand; 12],
+    /// The joints with given values between the six, from base to tip.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub given: Vec<GivenAxis>,
+}
+
+/// A joint with a given value between six joints that are found together.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GivenAxis {
+    /// Its axis, at zero joint values.
+    pub axis: GivenLine,
+    /// Its value: the cosine and sine of its angle, or its displacement in the unit of the target and the constant 0.
+    pub value: [Operand; 2],
 }
 
 /// The serialised form of a [`Rigid`].
@@ -56,9 +68,7 @@ impl SixAxes {
     /// [`ErrorKind::BadValue`] for a direction that is not of length one, a length that is not positive, or a joint value of the wrong type.
     /// [`ErrorKind::BadValue`] also for no formulation, or a formulation that does not exist for these joints.
     pub fn new(parts: SixAxesParts) -> Result<Self> {
-        let is_unit = |line: &Line| (line.direction.iter().map(|x| x * x).sum::<f64>() - 1.0).abs() <= ACCEPTANCE.input;
-        let is_finite = parts.lines.iter().all(|line| line.point.iter().all(|entry| entry.is_finite()));
-        ensure(is_finite && parts.lines.iter().all(is_unit), "six axes: directions of length one are allowed")?;
+        ensure(parts.lines.iter().all(Line::is_valid), "six axes: directions of length one are allowed")?;
         ensure(parts.length.is_finite() && parts.length > 0.0, "six axes: a positive length is allowed")?;
         ensure((0.0..=1.0).contains(&parts.within), "six axes: a tolerance from 0 to 1 is allowed")?;
         let suits = |(joint, slides): (&JointValue, &bool)| matches!(joint, JointValue::Plain(_)) == *slides;
@@ -66,6 +76,9 @@ impl SixAxes {
         ensure(suit, "six axes: angles, and plain values of prismatic joints, are allowed")?;
         let count = parts.formulations.len();
         let known = (1..=Formulations::ROOM).contains(&count) && parts.formulations.iter().all(Formulation::is_valid);
+        let suits = parts.given.len() <= Given::ROOM && parts.given.iter().all(|given| given.axis.is_valid());
+        let text = "six axes: at most 8 given axes, each with a direction of length one after one of the first five joints, are allowed";
+        ensure(suits, text)?;
         ensure(known, "six axes: 1 to 12 formulations, each of which hides one of joints 0 to 5, is allowed")?;
         let layout = Layout { lines: parts.lines, slides: parts.slides, length: parts.length };
         let chain = Chain { within: parts.within, ..layout.chain(&parts.tip, &parts.formulations) };
@@ -82,6 +95,17 @@ impl SixAxes {
         self.chain
     }
 
+    /// The given joints between the six, in the types of the run time.
+    pub(crate) fn given(&self) -> Vec<Given> {
+        self.parts.given.iter().map(|given| given.axis.scaled(self.parts.length)).collect()
+    }
+
+    /// The numbers that the run time needs: those of the target, then two for each given joint between the six.
+    pub(crate) fn operands(&self) -> Vec<Operand> {
+        let given = self.parts.given.iter().flat_map(|given| given.value);
+        self.parts.target.into_iter().chain(given).collect()
+    }
+
     /// Same step, for a robot at this distance, on which solutions are polished.
     ///
     /// # Errors
@@ -96,8 +120,10 @@ impl SixAxes {
         joint: impl Fn(JointValue) -> JointValue,
         operand: impl Fn(Operand) -> Operand,
     ) -> Self {
-        let SixAxesParts { joints, target, .. } = self.parts.clone();
-        let parts = SixAxesParts { joints: joints.map(joint), target: target.map(operand), ..self.parts.clone() };
+        let SixAxesParts { joints, target, given, .. } = self.parts.clone();
+        let target = target.map(&operand);
+        let given = given.into_iter().map(|given| GivenAxis { value: given.value.map(&operand), ..given }).collect();
+        let parts = SixAxesParts { joints: joints.map(joint), target, given, ..self.parts.clone() };
         SixAxes { parts, ..self.clone() }
     }
 }

@@ -1,6 +1,6 @@
 //! Blocks, cases and steps with their operands as memory addresses. Main type: [`Blocks`].
 
-use groebot_runtime::six_axes::Chain;
+use groebot_runtime::six_axes::{Chain, Given};
 
 use super::code::{Assembler, Code, Memory};
 use crate::solver::{Block, Case, Demand, JointValue, Layout, Operand, Program, Step, square};
@@ -80,7 +80,10 @@ pub(super) enum PreparedStep {
 #[derive(Clone, Debug)]
 pub(super) struct Six {
     pub chain: Chain,
-    pub target: [u32; 12],
+    /// The joints with given values between the six.
+    pub given: Vec<Given>,
+    /// The target, then the values of the given joints; unused numbers are zero.
+    pub numbers: [u32; 12 + 2 * Given::ROOM],
     pub joints: [JointPlace; 6],
     /// By joint, its bit among the free ones.
     pub bits: [u32; 6],
@@ -228,7 +231,7 @@ impl Preparing<'_> {
         let joints = &self.layout.program.joints;
         let bit =
             |joint: JointValue| joints.iter().position(|other| other.value == joint).map_or(0, |index| 1 << index);
-        let parts = six.parts();
+        let (parts, operands, zero) = (six.parts(), six.operands(), Operand::Constant(0.0));
         let place = |joint: JointValue, assembler: &mut Assembler| match joint {
             JointValue::Angle { cosine, sine } => {
                 JointPlace::Angle([cosine, sine].map(|unknown| assembler.place(Operand::Unknown(unknown))))
@@ -237,7 +240,8 @@ impl Preparing<'_> {
         };
         PreparedStep::SixAxes(Box::new(Six {
             chain: six.chain(),
-            target: parts.target.map(|operand| self.assembler.place(operand)),
+            given: six.given(),
+            numbers: std::array::from_fn(|k| self.assembler.place(operands.get(k).copied().unwrap_or(zero))),
             joints: parts.joints.map(|joint| place(joint, self.assembler)),
             bits: parts.joints.map(bit),
             stride,

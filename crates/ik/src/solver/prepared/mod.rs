@@ -8,6 +8,7 @@ mod blocks;
 mod code;
 mod equations;
 mod mechanism;
+mod members;
 mod outline;
 mod parameters;
 mod reached_numbers;
@@ -16,6 +17,8 @@ mod shaped;
 mod spare;
 mod storage;
 
+use groebot_runtime as runtime;
+use groebot_runtime::redundant::Members;
 use serde::Serialize;
 
 pub use self::batch::{Batch, Solved};
@@ -25,7 +28,7 @@ use self::shaped::Shaped;
 use self::storage::{Dynamic, SixJoints};
 use super::program::Program;
 use super::{Facts, Layout, Pairs};
-use crate::Result;
+use crate::{Error, Result};
 use groebot_robot::kinematics::{InverseKinematics, Solution, Target};
 
 /// A [`Program`] prepared for evaluation. It is made once and solves any number of targets, also from several threads
@@ -123,6 +126,16 @@ impl Solver {
     /// As [`Solver::solve_numbers`].
     pub fn solve_pairs(&self, target: &[f64]) -> Result<Vec<Pairs>> {
         shaped!(self, shaped => shaped.solve_pairs(target))
+    }
+
+    /// Same as [`Solver::solve_numbers`], but with the solutions of a redundant arm added to `out`, without memory of its own.
+    pub(super) fn add_members(&self, target: &[f64], out: &mut Members) -> std::result::Result<(), runtime::Error> {
+        shaped!(self, shaped => shaped.add_members(target, out))
+    }
+
+    /// The error for a target of the right length that the run time refuses.
+    pub(super) fn refused(&self, target: &[f64], error: runtime::Error) -> Error {
+        shaped!(self, shaped => shaped.refused(target, error))
     }
 
     /// For a `target` without solution, the candidate with the least residual relative to the equations' size, after

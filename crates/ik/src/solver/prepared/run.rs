@@ -166,8 +166,8 @@ where
         found: Found<N>,
         number: usize,
     ) {
-        let target = six.target.map(|place| self.at(place));
-        let Some(answers) = N::alone(&target, |target| six.chain.solve(target)) else { return };
+        let numbers = six.numbers.map(|place| self.at(place));
+        let Some(answers) = N::alone(&numbers, |numbers| six.chain.solve_given(&six.given, numbers)) else { return };
         for (choice, answer) in answers.as_slice().iter().enumerate() {
             for (joint, &value) in six.joints.iter().zip(&answer.q) {
                 match *joint {

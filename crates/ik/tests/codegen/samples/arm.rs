@@ -49,6 +49,7 @@ pub fn program() -> Program {
         isolated: None,
         nearby: false,
         described: None,
+        redundancy: None,
     }
 }
 

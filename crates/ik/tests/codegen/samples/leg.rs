@@ -36,6 +36,7 @@ pub fn program() -> Program {
         isolated: None,
         nearby: false,
         described: None,
+        redundancy: None,
     }
 }
 

@@ -87,6 +87,7 @@ pub fn program(gap: bool) -> Program {
         isolated: None,
         nearby: false,
         described: None,
+        redundancy: None,
     }
 }
 

@@ -114,6 +114,16 @@ impl Line {
     }
 }
 
+impl Line {
+    /// The text without marks of names and formulas.
+    pub(in crate::derive) fn to_plain(&self) -> String {
+        let text = |span: &Span| match span {
+            Span::Words(text) | Span::Name(text) | Span::Formula(text) => text.clone(),
+        };
+        self.0.iter().map(text).collect()
+    }
+}
+
 impl Part {
     /// Whether the part is a formula on a separate line.
     fn is_equation(&self) -> bool {

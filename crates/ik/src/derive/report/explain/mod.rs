@@ -22,7 +22,7 @@ pub(super) use page::page;
 pub(in crate::derive) use system::equations_page;
 
 use crate::Result;
-use crate::derive::{AnyView, Derivation};
+use crate::derive::{AnyView, Derivation, redundant};
 
 /// The report of a derivation.
 ///
@@ -37,10 +37,14 @@ pub fn explain(derivation: &Derivation) -> Result<Document> {
 /// # Errors
 /// As [`explain`].
 pub(super) fn document(derivation: &Derivation, stage: Option<Stage>) -> Result<Document> {
-    match derivation.view() {
-        AnyView::Equations(equations) => system::document(equations, stage),
-        AnyView::Sequential(derived) => chain::document(derived, stage),
-        AnyView::Eigenvalue(derived) => Ok(derived.document(stage)),
-        AnyView::Coupled(derived) => coupled::document(derived, stage),
+    let mut document = match derivation.view() {
+        AnyView::Equations(equations) => system::document(equations, stage)?,
+        AnyView::Sequential(derived) => chain::document(derived, stage)?,
+        AnyView::Eigenvalue(derived) => derived.document(stage),
+        AnyView::Coupled(derived) => coupled::document(derived, stage)?,
+    };
+    if let Some(redundancy) = derivation.redundancy().filter(|_| Stage::Plan.is_in(stage)) {
+        redundant::section(&mut document, derivation, redundancy);
     }
+    Ok(document)
 }

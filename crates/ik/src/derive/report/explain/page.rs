@@ -10,7 +10,7 @@ use crate::derive::eigenvalue::EigenvalueView;
 use crate::derive::equations::EquationsView;
 use crate::derive::problem::ChainProblem;
 use crate::derive::sequential::{Form, SequentialView};
-use crate::derive::{AnyView, Derivation};
+use crate::derive::{AnyView, Derivation, redundant};
 use crate::solver::Program;
 use groebot_robot::document::word;
 use groebot_robot::kinematics::LengthUnit;
@@ -26,9 +26,14 @@ pub fn page(derivation: &Derivation) -> Result<Document> {
         AnyView::Eigenvalue(view) => eigenvalue(view),
         AnyView::Coupled(view) => coupled(view)?,
     };
+    let redundancy = derivation.redundancy();
+    if let Some(redundancy) = redundancy {
+        redundant::section(&mut page, derivation, redundancy);
+    }
     let checked = Line::of("Written by ").name("groebot derive").and("; ").name("groebot check");
     page.paragraph(checked.and(" proves it again from ").name("certificate.json").and(". Solve with"));
-    let target = vec!["..."; derivation.program().inputs.len()].join(",");
+    let numbers = derivation.program().inputs.len() - usize::from(redundancy.is_some());
+    let target = vec!["..."; numbers].join(",");
     page.display(format!("groebot solve derivations/{} --target {target}", word(&page.title)));
     Ok(page)
 }

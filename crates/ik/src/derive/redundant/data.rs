@@ -1,0 +1,43 @@
+//! The data of a redundant solver: axes, limits, and the other programs.
+
+use num_traits::ToPrimitive;
+
+use super::{Part, Redundancy};
+use crate::derive::ChainProblem;
+use crate::solver::eigenvalue::Line;
+use crate::solver::{Redundancy as Data, RedundantPart};
+use groebot_robot::kinematics::Chain;
+use groebot_robot::spatial::Screw;
+
+/// The data of `redundancy`, for the chain of `problem` as described.
+pub(in crate::derive) fn data(problem: &ChainProblem, redundancy: &Redundancy) -> Data {
+    let chain = problem.measured();
+    let pose = chain.base_from_tip();
+    let rotation = pose.rotation.to_rotation_matrix();
+    let part = |part: &Part| match part {
+        Part::Main => RedundantPart::Main,
+        Part::Derived(derivation) => RedundantPart::Program(Box::new(derivation.program().clone())),
+        Part::Constant => RedundantPart::Constant,
+        Part::Unsolved(reason) => RedundantPart::Unsolved(reason.clone()),
+    };
+    Data {
+        lines: (0..chain.joints().len()).map(|joint| line(chain, joint)).collect(),
+        position: pose.translation.vector.into(),
+        rotation: std::array::from_fn(|i| std::array::from_fn(|j| rotation[(i, j)])),
+        limits: chain.joints().iter().map(|joint| joint.limits.map(|(low, high)| [low, high])).collect(),
+        parts: redundancy.parts.iter().map(part).collect(),
+    }
+}
+
+/// The axis of a joint at zero joint values. The point of a prismatic joint is that of its description.
+fn line(chain: &Chain, joint: usize) -> Line {
+    match &chain.screws()[joint] {
+        Screw::Revolute(axis) => {
+            Line { direction: axis.direction().into_inner().into(), point: axis.point().coords.into() }
+        }
+        Screw::Prismatic(direction) => {
+            let point = chain.joints()[joint].point.each_ref().map(|entry| entry.to_f64().unwrap_or(0.0));
+            Line { direction: direction.into_inner().into(), point }
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! The data of a redundant solver in its program: [`Redundancy`].
+
+use serde::{Deserialize, Serialize};
+
+use crate::solver::eigenvalue::Line;
+use crate::solver::{Program, Unit};
+use crate::{Error, ErrorKind, Result};
+use groebot_runtime::redundant::MOST_JOINTS;
+use groebot_runtime::tolerances::ACCEPTANCE;
+
+/// The programs of a chain with one joint more than its task determines, one for each joint as the given one, and its axes as described.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Redundancy {
+    /// By joint, its axis at zero joint values, in the base frame and in the unit of the target. The point of a prismatic joint is arbitrary.
+    pub lines: Vec<Line>,
+    /// The position of the tip at zero joint values, in the base frame and in the unit of the target.
+    pub position: [f64; 3],
+    /// The rotation of the tip at zero joint values, by rows, in the base frame.
+    pub rotation: [[f64; 3]; 3],
+    /// By joint, the least and the greatest value in the joint's unit, if it has limits.
+    pub limits: Vec<Option<[f64; 2]>>,
+    /// By joint, the program with this joint given.
+    pub parts: Vec<RedundantPart>,
+}
+
+/// The program of a redundant chain with one joint given.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RedundantPart {
+    /// The program that has the redundancy.
+    Main,
+    /// Another program.
+    Program(Box<Program>),
+    /// The target determines the joint: it is constant on every self-motion and is only compared with its limits.
+    Constant,
+    /// There is no program, for this reason.
+    Unsolved(String),
+}
+
+impl Redundancy {
+    /// By joint, the least and the greatest value; infinite without limits.
+    pub fn limit_pairs(&self) -> Vec<[f64; 2]> {
+        self.limits.iter().map(|limits| limits.unwrap_or([f64::NEG_INFINITY, f64::INFINITY])).collect()
+    }
+
+    /// Checks the redundancy of `main`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] with the wrong part.
+    pub(in crate::solver) fn validate(&self, main: &Program) -> Result<()> {
+        let count = main.joints.len();
+        let determines = main.tip().is_some_and(|tip| count == tip.task.freedoms() + 1);
+        ensure(determines, "one tip is allowed, whose task determines all joints but one")?;
+        ensure(count <= MOST_JOINTS, "at most 7 joints are allowed")?;
+        let sizes = [self.lines.len(), self.limits.len(), self.parts.len()];
+        ensure(sizes == [count; 3], "one line, one pair of limits and one part per joint")?;
+        let numbers = self.lines.iter().flat_map(|line| line.direction.iter().chain(&line.point));
+        let numbers = numbers.chain(&self.position).chain(self.rotation.as_flattened());
+        ensure(numbers.clone().all(|number| number.is_finite()), "only finite numbers are allowed")?;
+        let is_unit = |row: &[f64; 3]| (dot(row, row) - 1.0).abs() <= ACCEPTANCE.input;
+        ensure(self.lines.iter().all(|line| is_unit(&line.direction)), "a direction is not of length one")?;
+        let [x, y, z] = &self.rotation;
+        let is_rotation = [x, y, z].into_iter().all(is_unit)
+            && [(x, y), (y, z), (z, x)].iter().all(|(a, b)| dot(a, b).abs() <= ACCEPTANCE.input);
+        ensure(is_rotation, "the rotation of the tip is not a rotation")?;
+        let are_ordered = self.limits.iter().flatten().all(|[low, high]| low <= high);
+        ensure(are_ordered, "limits: the least, then the greatest value")?;
+        self.parts.iter().enumerate().try_for_each(|(joint, part)| match part {
+            RedundantPart::Main => ensure(gives(main, joint), "the main part is not that of the given joint"),
+            RedundantPart::Program(other) => {
+                ensure(!gives(main, joint) && gives(other, joint), "a part is not that of its joint")?;
+                ensure(is_alike(main, other), "a part has another task, other joints or its own redundancy")?;
+                other.validate().map_err(|error| error.with_context(format!("{} given", main.joints[joint].name)))
+            }
+            RedundantPart::Constant | RedundantPart::Unsolved(_) => {
+                ensure(!gives(main, joint), "the given joint has no program")
+            }
+        })
+    }
+}
+
+fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Whether `joint` is the only given joint, its value the last input.
+fn gives(program: &Program, joint: usize) -> bool {
+    matches!(program.given_joints[..], [given] if given.joint == joint && given.input + 1 == program.inputs.len())
+}
+
+/// Whether two programs have the same joints, the same numbers of the target and the same length unit.
+fn is_alike(main: &Program, other: &Program) -> bool {
+    let target = |program: &Program| -> Vec<Unit> {
+        program.inputs.iter().take(program.inputs.len().saturating_sub(1)).map(|input| input.unit).collect()
+    };
+    let joints = |program: &Program| -> Vec<(String, Unit)> {
+        program.joints.iter().map(|joint| (joint.name.clone(), joint.unit)).collect()
+    };
+    other.redundancy.is_none()
+        && main.tasks == other.tasks
+        && target(main) == target(other)
+        && joints(main) == joints(other)
+}
+
+fn ensure(condition: bool, text: &str) -> Result<()> {
+    let error = || Error::new(ErrorKind::BadValue, format!("malformed program: redundancy: {text}"));
+    if condition { Ok(()) } else { Err(error()) }
+}

@@ -1,0 +1,23 @@
+//! All solutions within limits of a chain with one joint more than its task determines. Main types: [`RedundantSolver`], [`Arcs`].
+//!
+//! The solutions of a target are curves. [`RedundantSolver::arcs`] returns their parts within limits. The end points are computed by solvers with one joint
+//! given; curves between them are followed numerically ([`groebot_runtime::redundant`]).
+
+mod arcs;
+mod best;
+mod data;
+mod limits;
+mod path;
+mod sampled;
+mod solver;
+mod target;
+mod within;
+
+pub use arcs::{Absence, Arc, ArcEnd, Arcs};
+pub use best::{Best, Criterion};
+pub use data::{Redundancy, RedundantPart};
+pub use limits::JointLimits;
+pub use path::{ArmJump, ArmPath, PathOptions};
+pub use solver::RedundantSolver;
+pub use target::ArmTarget;
+pub use within::Within;
