@@ -305,7 +305,7 @@ static void set_planar(gb_arm *arm)
     arm->points[2][0] = 1.8;
     arm->tip.translation[0] = 2.3;
     for (int i = 0; i < 3; i++) {
-        arm->given[i] = GB_GIVEN_SOLVED;
+        arm->given[i] = GB_ARM_SOLVED;
     }
 }
 
@@ -317,7 +317,7 @@ static void set_rail(gb_arm *arm)
     arm->directions[0][2] = 0.0;
     arm->points[2][0] = 1.0;
     arm->tip.translation[0] = 1.8;
-    arm->given[0] = GB_GIVEN_SOLVED;
+    arm->given[0] = GB_ARM_SOLVED;
 }
 
 static void set_srs(gb_arm *arm)
@@ -333,6 +333,6 @@ static void set_srs(gb_arm *arm)
         arm->points[i][2] = heights[i];
         arm->limits[2 * i] = -limits[i];
         arm->limits[2 * i + 1] = limits[i];
-        arm->given[i] = i == 3 ? GB_GIVEN_CONSTANT : GB_GIVEN_SOLVED;
+        arm->given[i] = i == 3 ? GB_ARM_CONSTANT : GB_ARM_SOLVED;
     }
 }

@@ -260,7 +260,7 @@ static int gb_arm_find_ends(gb_arm_ends *ends, const gb_redundant *robot, const 
     gb_arm_members members;
     for (size_t joint = 0; joint < model->count; joint++) {
         for (int side = 0; side < 2; side++) {
-            if (model->turns[joint] || model->arm->given[joint] != GB_GIVEN_SOLVED || !gb_arm_is_tried(model, joint, side)) {
+            if (model->turns[joint] || model->arm->given[joint] != GB_ARM_SOLVED || !gb_arm_is_tried(model, joint, side)) {
                 continue;
             }
             const gb_real limit = model->limits[joint][side];
