@@ -5,8 +5,8 @@
  * of problems in which one joint is given at a limit (solve_given of gb_redundant). Curves are traced from end point to end point, and each end point belongs
  * to one arc. Curves that touch no limit are found by a search over the values of one joint.
  *
- * No function allocates, and none has a state. gb_arcs and gb_any_within need about 150 kB of stack. Equal targets have bitwise equal results with every
- * compiler, also equal to those of groebot-runtime's `redundant` (see groebot.h for the options of the compiler). Numbers are in double precision only.
+ * No function allocates, and none has a state. gb_arcs and gb_any_within need about 100 kB of stack besides that of solve_given. Equal targets have bitwise
+ * equal results with every compiler, also equal to those of groebot-runtime's `redundant` (see groebot.h for the options of the compiler). Numbers are in double precision only.
  *
  * Joint values are in rad, or in the unit of lengths. Lists of joint values have GB_MOST_ARM_JOINTS entries; those from the number of joints on are 0. Limits
  * are the least and the greatest value of each joint in turn, infinite where there is none; they hold within 1e-9. Vectors are in the base frame. */

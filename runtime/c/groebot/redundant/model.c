@@ -1,4 +1,4 @@
-/* Kinematics of an arm on the way to a target: see model.rs */
+/* Kinematics of an arm, and the equations of a target: see model.rs */
 
 /* An arm and a target. Joint values `x` are scaled: a length is relative to the arm's length, which all lengths are. */
 typedef struct {
