@@ -141,6 +141,13 @@ pub mod solver {
         ParameterRule, Pivot, PlacedSolver, Placement, Preference, Program, Reached, Rule, Short, Solved, Solver, Step,
         TaskPlacement, TipTask, Unit,
     };
+    /// All solutions within limits of a chain with one joint more than its task determines.
+    pub mod redundant {
+        pub use groebot_ik::solver::redundant::{
+            Absence, Arc, ArcEnd, Arcs, ArmJump, ArmPath, ArmTarget, Best, Criterion, JointLimits, PathOptions,
+            Redundancy, RedundantPart, RedundantSolver, Within,
+        };
+    }
 }
 
 /// From a description to a proved solver.
@@ -153,6 +160,10 @@ pub mod derive {
     /// Chains whose joints share actuators.
     pub mod coupled {
         pub use groebot_ik::derive::coupled::{Actuator, CoupledChain, CoupledChains, CoupledParts, JointPlace};
+    }
+    /// The solvers of a chain with one joint more than its task determines, one for each joint as the given one.
+    pub mod redundant {
+        pub use groebot_ik::derive::redundant::{Part, RedundantChain, is_redundant};
     }
     /// Reports of derivations.
     pub mod report {

@@ -77,7 +77,7 @@ impl ArcQuestion {
         let given = self.forms.inputs(numbers)?;
         let target = self.solver.target_of_numbers(&self.angles.to_radians(&self.bare, &given))?;
         let arcs = self.solver.arcs(&target, &self.limits)?;
-        let best = self.solver.best(&target, &self.limits, &self.criterion)?;
+        let best = self.solver.best_on(&target, &self.limits, &arcs.arcs, &self.criterion)?;
         Ok(ArcAnswer { question: self, target: given, arcs, best })
     }
 }
@@ -248,7 +248,7 @@ impl ArcAnswer<'_> {
                 q: self.shown(&best.q),
                 criterion: self.question.criterion.name(),
                 value: best.value,
-                arc: best.arc,
+                arc: best.arc + 1,
             }),
             surface: self.arcs.is_surface,
             unsure: self.arcs.is_unsure,
@@ -309,6 +309,6 @@ struct BestEntry {
     q: Vec<f64>,
     criterion: &'static str,
     value: f64,
-    /// The index of its arc.
+    /// The number of its arc, counted from 1.
     arc: usize,
 }

@@ -11,7 +11,8 @@ use super::targets::Reader;
 use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
-use groebot_ik::derive::{Description, InputFile, Options};
+use groebot_ik::derive::redundant::is_redundant;
+use groebot_ik::derive::{ChainProblem, Derivation, Description, Ends, InputFile, Options};
 use groebot_ik::solver::redundant::{PathOptions, RedundantSolver};
 use groebot_robot::document::{is_stdin, open};
 use groebot_robot::dynamics::{Clearance, Model};
@@ -26,6 +27,9 @@ const ROUNDED: f64 = 1e-3;
 /// The names of a pose's numbers: of the position, and of the quaternion.
 const POSE: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
+/// The line for a path whose arcs are unsure.
+const UNSURE: &str = "  Unsure: other solutions within limits may exist at some poses.\n";
+
 const EXAMPLES: &str = "Examples:
   groebot follow robot.urdf --poses poses.csv -o path.csv
   groebot follow robot.urdf --base base_link --tip tool0 --poses poses.csv --every 0.01 --json path.json
@@ -38,7 +42,8 @@ of those it is the shortest. A step is a jump if a joint exceeds its speed (velo
 the given time. Without times or speeds, the limit is half a radian or a tenth of the reach. Each
 jump is reported with its place and reason; with --strict it is an error. For a chain with one joint
 more than the pose determines, solutions are sampled along the arcs within the limits; the result is
-the best path through the samples. Give its description, not the folder of its derivation.";
+the best path through the samples. The result may then be unsure, which is reported: other solutions
+within the limits may exist (docs/redundant.md).";
 
 /// Computes a continuous joint trajectory along a sequence of poses
 #[derive(clap::Args)]
@@ -84,7 +89,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     let (poses, times) = read_poses(&arguments.poses, &chain)?;
     let session = Session::start(Limits { quiet: arguments.quiet, ..Limits::default() })?;
-    let solver = Options::new().watch(session.watch.clone()).derive(&chain)?;
+    let solver = derived(&ends, &chain, &session.watch)?;
     let description =
         if times.is_some() || arguments.every.is_some() { speeds(&input.description, &chain) } else { Vec::new() };
     let pace = match (times, arguments.every) {
@@ -92,11 +97,11 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (None, every) => Pace::Every(every.unwrap_or(1.0)),
     };
     let request = PathRequest::new(&poses, &pace).speeds(&description);
-    let followed = match solver.program().redundant_solver() {
+    let found = match solver.program().redundant_solver() {
         Some(arm) => along_arcs(&chain, &arm, &request, &session.watch),
-        None => follow(&chain, &solver.program().solver(), &request, &session.watch),
+        None => follow(&chain, &solver.program().solver(), &request, &session.watch).map(|followed| (followed, false)),
     };
-    let followed = followed.map_err(|error| error.in_file(&arguments.poses))?;
+    let (followed, is_unsure) = found.map_err(|error| error.in_file(&arguments.poses))?;
     drop(session);
     if let Some(jump) = followed.jumps.first().filter(|_| arguments.strict) {
         let text = format!("the path must jump at pose {}: {}", jump.sample + 1, jump.why);
@@ -116,17 +121,26 @@ pub fn run(arguments: &Arguments) -> Outcome {
         Description::Robot(_) => "  collisions of links were not checked: parts of the robot have faults\n".to_owned(),
         _ => String::new(),
     };
+    let doubt = if is_unsure { UNSURE } else { "" };
     let tip = input.path(&ends)?.as_ref().map(TipLink::of_path);
-    console::print(&(TipLink::line(tip.as_ref()) + &summary(&chain, &followed) + &touches))
+    console::print(&(TipLink::line(tip.as_ref()) + &summary(&chain, &followed) + doubt + &touches))
 }
 
-/// The path of a chain with one joint more than its task determines: along arcs of solutions within limits.
+/// The solver of `chain`. If its folder has the solvers with each joint given, these are derived again: the given joint is only that of the main solver.
+fn derived(ends: &Ends, chain: &Chain, watch: &crate::Watch) -> Result<Derivation> {
+    if ends.redundant && is_redundant(chain) && !chain.given().is_empty() {
+        return Derivation::redundant(ChainProblem::ideal(ends.ideal(chain)?, chain), watch);
+    }
+    Options::new().watch(watch.clone()).tolerance(ends.tolerance()).derive(chain)
+}
+
+/// The path of a chain with one joint more than its task determines, along arcs of solutions within limits, and whether it is unsure.
 fn along_arcs(
     chain: &Chain,
     arm: &RedundantSolver,
     request: &PathRequest<'_>,
     watch: &crate::Watch,
-) -> Result<Followed> {
+) -> Result<(Followed, bool)> {
     let times = request.pace.times(request.poses.len())?;
     let targets: Vec<_> = request.poses.iter().map(|pose| arm.target(*pose)).collect::<Result<_>>()?;
     let path = arm.path(&targets, &PathOptions::new().speeds(&times, request.speeds), watch)?;
@@ -145,7 +159,7 @@ fn along_arcs(
     };
     trajectory.check()?;
     let jumps = path.jumps.into_iter().map(|jump| Jump::new(jump.sample, jump.joint, jump.step, jump.why));
-    Ok(Followed::new(trajectory, jumps.collect()))
+    Ok((Followed::new(trajectory, jumps.collect()), path.is_unsure))
 }
 
 /// The maximum velocities of the chain's joints, if the description has them.

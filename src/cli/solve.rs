@@ -22,9 +22,12 @@ const EXAMPLES: &str = "Examples:
   groebot solve derivations/nao_leg_sagittal --target 60,150
   groebot solve derivations/nao_leg_sagittal --target -60,-150 --json
   groebot solve derivations/planar_2r --target 3,4 --closest
-  groebot solve derivations/panda --target 0.3,0,0.5,1,0,0,0 --limits panda_joint4=-2.5,-1
   groebot solve derivations/nao_leg_sagittal < targets.csv > answers.csv
   groebot fk derivations/ur5 < joints.csv | groebot solve derivations/ur5 | groebot fk derivations/ur5
+
+A redundant arm, from a clone of the repository:
+  groebot derive tests/corpus/redundant/arms/panda.urdf --out panda
+  groebot solve panda --target 0.306891,0,0.486882,1,0,0,0
 
 Targets are numbers in the order and units of the derivation's inputs. A rotation may be a
 quaternion x, y, z, w (of length one, within 1e-6) instead of its nine elements by rows: a pose is
@@ -36,7 +39,8 @@ values at both ends of each arc with the joint that is at its limit, and the sol
 margin to the limits. Lengths of arcs, margins and distances are in rad; lengths of prismatic joints are
 relative to the characteristic length, in distances in their unit. Without a solution within limits, the
 reason is printed, and the exit status is 0. Targets in CSV, and --closest, need the value of the given
-joint. \"unsure\" marks results that may be wrong or incomplete (docs/redundant.md).
+joint; --closest-to finds the solution nearest to joint values. \"unsure\" marks results that may be
+wrong or incomplete (docs/redundant.md).
 
 A CSV may start with a line of names, which gives the order of its columns. x_m or x_mm is px in
 that unit, and so are phi_deg and A1_deg. Other columns that `fk`, `ik` and `solve` write are
@@ -114,6 +118,15 @@ impl Arguments {
         }
         let text =
             "--limits and --closest-to are for a --target of a redundant solver without the value of its given joint";
+        Err(Error::new(ErrorKind::BadValue, text))
+    }
+
+    /// Checks that --closest is not set, for a target without the value of a given joint.
+    fn refuse_closest(&self) -> Result<()> {
+        if !self.closest {
+            return Ok(());
+        }
+        let text = "--closest needs the value of the given joint in the target; use --closest-to for the solution nearest to joint values";
         Err(Error::new(ErrorKind::BadValue, text))
     }
 
@@ -197,6 +210,7 @@ fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Argum
     for (index, target) in given.iter().enumerate() {
         let count = target.split(',').count();
         if let Some((arcs, names)) = redundant.as_ref().and_then(|arcs| Some((arcs, arcs.names(count)?))) {
+            arguments.refuse_closest()?;
             let answer = targets::parse(&names, target)
                 .and_then(|numbers| arcs.answer(numbers))
                 .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;

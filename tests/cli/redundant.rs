@@ -96,7 +96,11 @@ fn json_has_the_arcs() {
         }
     }
     assert_eq!(page["best"]["criterion"], "margin");
-    assert!(page["best"]["arc"].as_u64().unwrap() < arcs.len() as u64);
+    // Arcs are counted from 1, as in text.
+    let number = page["best"]["arc"].as_u64().unwrap();
+    assert!((1..=arcs.len() as u64).contains(&number), "{number}");
+    let text = solve(&[]);
+    assert!(text.contains(&format!("largest margin to the limits on arc {number}: ")), "{text}");
 }
 
 /// The elbow is at 1.1 rad or at -1.1.
@@ -136,30 +140,70 @@ fn wrong_options_are_refused() {
     assert!(error(&["--limits", "A4"]).contains("JOINT=LOW,HIGH"));
     assert!(error(&["--limits", "A4=nan,1"]).contains("NaN"));
     assert!(error(&["--closest-to", "1,2,3"]).contains("3 values"));
+    assert!(error(&["--closest"]).contains("--closest-to"));
     let planar = text(&root("derivations/planar_2r")).to_owned();
     assert!(refused(&["solve", &planar, "--target", "0.6,0.3", "--limits", "Shoulder=0,1"]).contains("redundant"));
 }
 
-/// Poses of joint values that move slowly have a path without a jump.
+/// The input files in the examples of the help exist in a clone.
+#[test]
+fn the_example_of_the_help_derives_an_arm_first() {
+    let help = succeed(&["solve", "--help"]);
+    let words: Vec<&str> = help.split_whitespace().collect();
+    let derive = words.windows(2).find(|pair| pair[0] == "derive" && pair[1].starts_with("tests/corpus/redundant/"));
+    assert!(root(derive.expect("an example that derives a redundant arm")[1]).is_file(), "{help}");
+}
+
+/// A table of poses of joint values that move slowly, and the poses.
+fn slow_poses() -> (String, Vec<groebot::spatial::Pose>) {
+    let text = fs::read_to_string(root("derivations/iiwa14/0_chain.toml")).unwrap();
+    let chain = groebot::kinematics::Chain::from_toml(&text.replace("given = [\"A3\"]\n", "")).unwrap();
+    let pose = |k: u32| {
+        let step = 0.05 * f64::from(k);
+        chain.forward(&[0.3 + step, -0.6, 0.4 - step, 1.1, -0.2, 0.7 + step, 0.5]).unwrap()
+    };
+    let poses: Vec<_> = (0..10).map(pose).collect();
+    let row = |pose: &groebot::spatial::Pose| {
+        let (p, q) = (pose.translation.vector, pose.rotation.coords);
+        format!("{},{},{},{},{},{},{}\n", p.x, p.y, p.z, q.x, q.y, q.z, q.w)
+    };
+    ("x,y,z,qx,qy,qz,qw\n".to_owned() + &poses.iter().map(row).collect::<String>(), poses)
+}
+
+/// Poses of joint values that move slowly have a path without a jump, from the folder of the derivation and from the description alone.
+/// A path is unsure if the arcs of one of its poses are unsure.
 #[test]
 fn follow_uses_arcs() {
-    let chain = groebot::kinematics::Chain::from_toml(
-        &fs::read_to_string(root("derivations/iiwa14/0_chain.toml")).unwrap().replace("given = [\"A3\"]\n", ""),
-    );
-    let chain = chain.unwrap();
-    let mut table = "x,y,z,qx,qy,qz,qw\n".to_owned();
-    for k in 0..10 {
-        let step = 0.05 * f64::from(k);
-        let pose = chain.forward(&[0.3 + step, -0.6, 0.4 - step, 1.1, -0.2, 0.7 + step, 0.5]).unwrap();
-        let (p, q) = (pose.translation.vector, pose.rotation.coords);
-        table += &format!("{},{},{},{},{},{},{}\n", p.x, p.y, p.z, q.x, q.y, q.z, q.w);
-    }
+    let (table, poses) = slow_poses();
+    let solver = groebot::folder::program(arm().folder.path()).unwrap().redundant_solver().unwrap();
+    let is_unsure = |pose: &groebot::spatial::Pose| {
+        let target = solver.target(*pose).unwrap();
+        solver.arcs(&target, &solver.limits()).unwrap().is_unsure
+    };
+    let doubt = if poses.iter().any(is_unsure) {
+        "  Unsure: other solutions within limits may exist at some poses.\n"
+    } else {
+        ""
+    };
     let folder = tempdir().unwrap();
-    let [input, csv, arm] = ["poses.csv", "path.csv", "iiwa14.toml"].map(|name| folder.path().join(name));
+    let [input, csv, alone] = ["poses.csv", "path.csv", "iiwa14.toml"].map(|name| folder.path().join(name));
     fs::write(&input, table).unwrap();
-    fs::write(&arm, fs::read_to_string(super::redundant::arm().folder.path().join("0_chain.toml")).unwrap()).unwrap();
-    let reported = succeed(&["follow", text(&arm), "--poses", text(&input), "-o", text(&csv)]);
-    assert_eq!(reported, "iiwa14: 10 poses, without a jump\n");
-    let path = groebot::motion::Trajectory::read_csv(&csv).unwrap();
-    assert_eq!(path.q.len(), 10);
+    fs::copy(arm().folder.path().join("0_chain.toml"), &alone).unwrap();
+    for source in [arm().folder.path(), &alone] {
+        let reported = succeed(&["follow", text(source), "--poses", text(&input), "--force", "-o", text(&csv)]);
+        assert_eq!(reported, format!("iiwa14: 10 poses, without a jump\n{doubt}"));
+        let path = groebot::motion::Trajectory::read_csv(&csv).unwrap();
+        assert_eq!(path.q.len(), 10);
+    }
+}
+
+/// With `--given`, only the solver with this joint given is requested. A pose lacks the value of the joint.
+#[test]
+fn follow_with_a_given_joint_is_refused() {
+    let (table, _) = slow_poses();
+    let folder = tempdir().unwrap();
+    let input = folder.path().join("poses.csv");
+    fs::write(&input, table).unwrap();
+    let error = refused(&["follow", text(arm().folder.path()), "--given", "A3", "--poses", text(&input)]);
+    assert!(error.contains("without given joints"), "{error}");
 }

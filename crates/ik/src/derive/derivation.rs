@@ -6,7 +6,7 @@ use crate::derive::eigenvalue::{self, Eigenvalue, EigenvalueView, fits};
 use crate::derive::equations::certificate::{self, refused};
 use crate::derive::equations::{Equations, EquationsView};
 use crate::derive::problem::{ChainProblem, Problem};
-use crate::derive::redundant::{self, Redundancy};
+use crate::derive::redundant::{self, RedundantChain};
 use crate::derive::sequential::{self, Sequential, SequentialView};
 use crate::derive::view::View;
 use crate::solver::{About, Program, Solver};
@@ -19,7 +19,7 @@ pub struct Derivation {
     problem: Problem,
     method: Method,
     program: Program,
-    redundancy: Option<Box<Redundancy>>,
+    redundancy: Option<Box<RedundantChain>>,
 }
 
 /// The method that solves a problem.
@@ -110,11 +110,11 @@ impl Derivation {
         let (watch, problem) = (Watch::or_none(watch), problem.into());
         redundant::check(&problem.chain)?;
         let main = Derivation::of_either(problem.clone(), watch)?;
-        let redundancy = Redundancy::derive(&problem, watch)?;
+        let redundancy = RedundantChain::derive(&problem, watch)?;
         Ok(main.with_redundancy(&problem, redundancy))
     }
 
-    fn with_redundancy(mut self, problem: &ChainProblem, redundancy: Redundancy) -> Self {
+    fn with_redundancy(mut self, problem: &ChainProblem, redundancy: RedundantChain) -> Self {
         self.program.redundancy = Some(Box::new(redundant::data(problem, &redundancy)));
         self.redundancy = Some(Box::new(redundancy));
         self
@@ -213,7 +213,7 @@ impl Derivation {
     }
 
     /// The solvers with other joints given, of a chain with one joint more than its task determines.
-    pub fn redundancy(&self) -> Option<&Redundancy> {
+    pub fn redundancy(&self) -> Option<&RedundantChain> {
         self.redundancy.as_deref()
     }
 

@@ -5,7 +5,7 @@ use crate::derive::coupled::CoupledView;
 use crate::derive::eigenvalue::{EigenvalueView, Regular, ranked};
 use crate::derive::equations::certificate::refused;
 use crate::derive::planner::{Evidence, evidence, same_degrees, same_evidence};
-use crate::derive::redundant::Redundancy;
+use crate::derive::redundant::RedundantChain;
 use crate::derive::sequential::SequentialView;
 use crate::derive::{AnyView, Derivation};
 use crate::{Result, Watch};
@@ -34,7 +34,7 @@ impl Recount {
     /// [`crate::ErrorKind::Certificate`] with the claimed and the actual values. The error of the watch if it stops the count.
     pub fn check(&mut self, derivation: &Derivation) -> Result<()> {
         self.main(derivation)?;
-        derivation.redundancy().into_iter().flat_map(Redundancy::derivations).try_for_each(|(joint, other)| {
+        derivation.redundancy().into_iter().flat_map(RedundantChain::derivations).try_for_each(|(joint, other)| {
             let name = &derivation.program().joints[joint].name;
             self.main(other).map_err(|error| error.with_context(format_args!("{name} given")))
         })

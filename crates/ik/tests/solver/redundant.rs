@@ -1,5 +1,6 @@
 //! All solutions within limits of arms with one joint more than their task determines.
 
+use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
 use groebot_ik::solver::redundant::{Absence, Arc, ArmTarget, Criterion, PathOptions, RedundantSolver};
@@ -157,6 +158,71 @@ fn the_reason_for_no_solution_is_named() {
     let none = arm.solver.any_within(&far, &arm.solver.limits()).unwrap();
     assert_eq!((none.q, none.absence), (None, Some(Absence::Unreachable)));
     assert_eq!(arm.solver.arcs(&far, &arm.solver.limits()).unwrap().absence, Some(Absence::Unreachable));
+}
+
+/// Three links of 0.5, 0.4 and 0.15 m in a plane reach (0.95, 0) only with joint angles of at most 0.464, 0.959 and 1.404 rad, by the cosine rule. With all
+/// limits above, no problem with a joint at a limit has a solution.
+#[test]
+fn arcs_and_one_solution_have_the_same_reason() {
+    let text = include_str!("../../../../derivations/planar_3r/0_chain.toml").replace("planar_pose", "planar_position");
+    let solver = groebot_ik::derive(&Chain::from_toml(&text).unwrap()).unwrap().program().redundant_solver().unwrap();
+    let limits = solver.limits_within(&[[1.5, 1.6]; 3]).unwrap();
+    for (x, absence) in [(0.95, Absence::Beyond(vec![0, 1, 2])), (1.2, Absence::Unreachable)] {
+        let target = solver.target_of_numbers(&[x, 0.0]).unwrap();
+        assert_eq!(solver.any_within(&target, &limits).unwrap().absence, Some(absence.clone()));
+        let arcs = solver.arcs(&target, &limits).unwrap();
+        assert_eq!((arcs.arcs.len(), arcs.absence), (0, Some(absence)));
+    }
+}
+
+/// The last joint has a range of more than one turn. Its value is the turn within limits that is nearest to the reference.
+#[test]
+fn the_nearest_solution_has_the_nearest_turn() {
+    let q = [0.3, -0.6, 0.4, 1.1, -0.2, 0.7, 0.5];
+    let mut program = derived::derived().1.program().clone();
+    let [low, high] = [-7.0, 3.0];
+    program.redundancy.as_mut().unwrap().limits[6] = Some([low, high]);
+    let solver = program.redundant_solver().unwrap();
+    let target = solver.target(iiwa().chain.forward(&q).unwrap()).unwrap();
+    for turn in [-1.0, 0.0, 1.0] {
+        let mut q0 = q.to_vec();
+        q0[6] += turn * TAU;
+        let best = solver.nearest(&target, &solver.limits(), &q0).unwrap().unwrap();
+        let distance = best.q.iter().zip(&q0).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        assert!((best.value - distance).abs() < 1e-9, "{best:?}");
+        assert!((low..=high).contains(&best.q[6]), "{best:?}");
+        for other in [-2.0, -1.0, 1.0, 2.0].map(|turns| best.q[6] + turns * TAU) {
+            assert!(!(low..=high).contains(&other) || (other - q0[6]).abs() >= (best.q[6] - q0[6]).abs(), "{best:?}");
+        }
+        // The reference itself is a solution within limits, or one turn away from one.
+        assert!(best.value < if turn > 0.0 { TAU + 1e-7 } else { 1e-7 }, "{best:?}");
+    }
+}
+
+#[test]
+fn limits_and_targets_have_their_numbers() {
+    let arm = iiwa();
+    let described = arm.chain.joints().iter().map(|joint| joint.limits.map(|(low, high)| [low, high]).unwrap());
+    assert_eq!(arm.solver.limits().pairs(), described.collect::<Vec<_>>());
+    let narrow = arm.solver.narrowed(arm.solver.limits(), 3, [0.0, 1.0]).unwrap();
+    assert_eq!(narrow.pairs()[3], [0.0, 1.0]);
+    let pose = Pose::translation(0.1, 0.2, 0.9);
+    let numbers = [0.1, 0.2, 0.9, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    assert_eq!(arm.solver.target(pose).unwrap().numbers(), numbers);
+}
+
+/// Optima on arcs that are known already are those of the target.
+#[test]
+fn known_arcs_are_not_computed_again() {
+    let arm = panda();
+    let (_, target) = arm.target(&READY);
+    let limits = arm.solver.limits();
+    let arcs = arm.solver.arcs(&target, &limits).unwrap().arcs;
+    let all = arm.solver.optima(&target, &limits, &Criterion::Margin).unwrap();
+    assert_eq!(arm.solver.optima_on(&target, &limits, &arcs, &Criterion::Margin).unwrap(), all);
+    let one = arm.solver.best_on(&target, &limits, &arcs[1..2], &Criterion::Margin).unwrap().unwrap();
+    assert_eq!(one.arc, 0);
+    assert!(all.iter().any(|best| best.arc == 1 && best.q == one.q));
 }
 
 /// Narrower limits cut arcs: every arc within them is within the described limits, too.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Part, Redundancy, check, given, is_determined};
+use super::{Part, RedundantChain, check, given, is_determined};
 use crate::Result;
 use crate::derive::equations::certificate::refused;
 use crate::derive::{AnyView, ChainProblem, Derivation, eigenvalue, sequential};
@@ -41,7 +41,7 @@ enum Claim {
 ///
 /// # Errors
 /// As [`sequential::certificate::claims`].
-pub(in crate::derive) fn certificate(derivation: &Derivation, redundancy: &Redundancy) -> Result<String> {
+pub(in crate::derive) fn certificate(derivation: &Derivation, redundancy: &RedundantChain) -> Result<String> {
     let problem = chain_of(derivation)?;
     let proof = |(joint, part): (usize, &Part)| {
         let claims = match part {
@@ -81,7 +81,7 @@ pub(in crate::derive) fn is_certificate(text: &str) -> bool {
 ///
 /// # Errors
 /// [`crate::ErrorKind::Syntax`] with the line for text that is not a certificate; [`crate::ErrorKind::Certificate`] with the given joint for a false claim.
-pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(Derivation, Redundancy)> {
+pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(Derivation, RedundantChain)> {
     let claims: Claims = Certificate::read(text, Proves::RedundantChain, problem.chain.name())?;
     let joint = check(&problem.chain)?;
     let names: Vec<&str> = problem.chain.joints().iter().map(|joint| joint.name.as_str()).collect();
@@ -101,7 +101,7 @@ pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(De
         });
     }
     let main = main.ok_or_else(|| refused(format!("there is no proof for the given joint {}", names[joint])))?;
-    Ok((main, Redundancy { parts }))
+    Ok((main, RedundantChain { parts }))
 }
 
 /// The part that the claims about `problem` prove.

@@ -2,15 +2,15 @@
 
 use num_traits::ToPrimitive;
 
-use super::{Part, Redundancy};
+use super::{Part, RedundantChain};
 use crate::derive::ChainProblem;
 use crate::solver::eigenvalue::Line;
-use crate::solver::{Redundancy as Data, RedundantPart};
+use crate::solver::{Redundancy, RedundantPart};
 use groebot_robot::kinematics::Chain;
 use groebot_robot::spatial::Screw;
 
 /// The data of `redundancy`, for the chain of `problem` as described.
-pub(in crate::derive) fn data(problem: &ChainProblem, redundancy: &Redundancy) -> Data {
+pub(in crate::derive) fn data(problem: &ChainProblem, redundancy: &RedundantChain) -> Redundancy {
     let chain = problem.measured();
     let pose = chain.base_from_tip();
     let rotation = pose.rotation.to_rotation_matrix();
@@ -20,7 +20,7 @@ pub(in crate::derive) fn data(problem: &ChainProblem, redundancy: &Redundancy) -
         Part::Constant => RedundantPart::Constant,
         Part::Unsolved(reason) => RedundantPart::Unsolved(reason.clone()),
     };
-    Data {
+    Redundancy {
         lines: (0..chain.joints().len()).map(|joint| line(chain, joint)).collect(),
         position: pose.translation.vector.into(),
         rotation: std::array::from_fn(|i| std::array::from_fn(|j| rotation[(i, j)])),

@@ -1,4 +1,4 @@
-//! The solvers of a chain with one redundant joint, one for each joint as the given one. Main type: [`Redundancy`].
+//! The solvers of a chain with one redundant joint, one for each joint as the given one. Main type: [`RedundantChain`].
 //!
 //! The solutions of a target are curves. A curve leaves the joint limits only where a joint reaches a limit, and these points are the solutions with that joint
 //! given at that limit. So the given-solvers of all joints determine the ends of all arcs of solutions within limits.
@@ -23,7 +23,7 @@ use groebot_robot::kinematics::Chain;
 
 /// The solvers of a redundant chain, one for each joint as the given one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Redundancy {
+pub struct RedundantChain {
     parts: Vec<Part>,
 }
 
@@ -41,7 +41,7 @@ pub enum Part {
     Unsolved(String),
 }
 
-impl Redundancy {
+impl RedundantChain {
     /// By joint of the chain, its part.
     pub fn parts(&self) -> &[Part] {
         &self.parts
@@ -67,7 +67,7 @@ impl Redundancy {
             if joint == main { Ok(Part::Main) } else { part(&given(problem, joint)?, watch) }
         };
         let parts = (0..count).into_par_iter().map(part).collect::<Result<_>>()?;
-        Ok(Redundancy { parts })
+        Ok(RedundantChain { parts })
     }
 }
 

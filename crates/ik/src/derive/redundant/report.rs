@@ -1,11 +1,11 @@
 //! The part of reports on the redundancy of a chain.
 
-use super::{Part, Redundancy};
+use super::{Part, RedundantChain};
 use crate::derive::report::explain::{Document, Line};
 use crate::derive::{AnyView, Derivation};
 
 /// Adds the section about the given joints to `page`.
-pub(in crate::derive) fn section(page: &mut Document, derivation: &Derivation, redundancy: &Redundancy) {
+pub(in crate::derive) fn section(page: &mut Document, derivation: &Derivation, redundancy: &RedundantChain) {
     page.section(Line::of("All solutions within limits"));
     page.text(
         "The chain has one joint more than its task determines, so the solutions of a target are curves. A curve enters or leaves the joint \
@@ -17,7 +17,7 @@ pub(in crate::derive) fn section(page: &mut Document, derivation: &Derivation, r
 }
 
 /// By joint, the solver with this joint given.
-fn items(derivation: &Derivation, redundancy: &Redundancy) -> Vec<Line> {
+fn items(derivation: &Derivation, redundancy: &RedundantChain) -> Vec<Line> {
     let joints = &derivation.program().joints;
     let line = |(joint, part): (usize, &Part)| {
         let line = Line::default().name(&joints[joint].name).words(": ");

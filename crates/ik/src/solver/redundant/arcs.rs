@@ -70,7 +70,8 @@ pub struct Arcs {
 
 impl RedundantSolver {
     /// All maximal arcs of solutions of `target` within `limits`. Angles are within their limits; a revolute joint whose range is at least one turn ends no arc.
-    /// No solution within limits is not an error ([`Arcs::absence`]).
+    /// No solution within limits is not an error ([`Arcs::absence`]): the reason is that of [`RedundantSolver::any_within`]. A solution that only this search
+    /// finds is an arc of length zero, and unsure.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Unsupported`] if the target is on a stratum that could not be derived; [`crate::ErrorKind::Budget`] if the solver's work was bounded.
@@ -79,11 +80,14 @@ impl RedundantSolver {
         loop {
             let outcome = runtime::arcs(self, &target.row, &limits.rows, &mut room)
                 .map_err(|error| self.refused(target, error))?;
+            if outcome.count == 0 {
+                return self.without_arcs(target, limits, &outcome);
+            }
             if outcome.count <= room.len() {
                 room.truncate(outcome.count);
                 return Ok(Arcs {
-                    absence: room.is_empty().then(|| self.absence(outcome.is_reachable, outcome.beyond)),
                     arcs: room.iter().map(|arc| self.arc(arc)).collect(),
+                    absence: None,
                     is_unsure: outcome.is_unsure,
                     is_surface: outcome.is_surface,
                     closed: outcome.closed,
@@ -91,6 +95,25 @@ impl RedundantSolver {
             }
             room.resize(outcome.count, runtime::Arc::NONE);
         }
+    }
+
+    /// The result where no arc was found: the decision of [`RedundantSolver::any_within`]. If that finds a solution, this is an arc of length zero, and unsure.
+    fn without_arcs(&self, target: &ArmTarget, limits: &JointLimits, outcome: &runtime::Outcome) -> Result<Arcs> {
+        let found = self.any_found(target, limits)?;
+        let mut arc = runtime::Arc::NONE;
+        if let runtime::Within::Solution(q) = found {
+            arc.start = runtime::End { q, joint: None, is_upper: false };
+            (arc.end, arc.is_unsure) = (arc.start, true);
+        }
+        let within = self.within(&found);
+        let arcs: Vec<Arc> = within.q.iter().map(|_| self.arc(&arc)).collect();
+        Ok(Arcs {
+            is_unsure: outcome.is_unsure || within.is_unsure || !arcs.is_empty(),
+            arcs,
+            absence: within.absence,
+            is_surface: outcome.is_surface,
+            closed: outcome.closed,
+        })
     }
 
     /// Joint values at a distance `s` from the start of an arc, in the unit of [`Arc::length`]. `s` is limited to the arc. The arc must be one of this target
@@ -131,10 +154,9 @@ impl RedundantSolver {
         q[..self.joints.len()].to_vec()
     }
 
-    /// The reason for no solution within limits.
-    pub(super) fn absence(&self, is_reachable: bool, beyond: u32) -> Absence {
-        let joints = (0..self.joints.len()).filter(|joint| beyond >> joint & 1 == 1);
-        if is_reachable { Absence::Beyond(joints.collect()) } else { Absence::Unreachable }
+    /// The reason with the joints that are beyond limits, given as bits.
+    pub(super) fn beyond(&self, joints: u32) -> Absence {
+        Absence::Beyond((0..self.joints.len()).filter(|joint| joints >> joint & 1 == 1).collect())
     }
 }
 

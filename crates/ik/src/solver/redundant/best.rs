@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 use groebot_runtime::redundant as runtime;
 use serde::Serialize;
 
-use super::{ArmTarget, JointLimits, RedundantSolver};
+use super::{Arc, ArmTarget, JointLimits, RedundantSolver};
 use crate::solver::Unit;
 use crate::{Error, ErrorKind, Result};
 
-/// The maximum number of local optima. The worst ones of more are left out.
+/// The maximum number of local optima. Of more, the run time leaves out the worst ones.
 const ROOM: usize = 128;
 
 /// A criterion that selects one solution.
@@ -22,8 +22,9 @@ pub enum Criterion {
     /// Same as the margin, but each distance is divided by half of the joint's range: 1 is the middle of all ranges. The distance of a joint with only one
     /// limit is not divided.
     RelativeMargin,
-    /// The least distance to joint values: the square root of the sum of weighted squares of differences, in rad or the length unit. Differences of angles
-    /// whose range is at least one turn are reduced by whole turns. Other values of `q0` should be within limits.
+    /// The least distance to joint values: the square root of the sum of weighted squares of differences, in rad or the length unit. Along arcs, differences of
+    /// angles whose range is at least one turn are compared modulo 2 pi. Each local optimum is then turned to the values within limits that are nearest to `q0`,
+    /// and its distance is that of these values. Other values of `q0` should be within limits.
     Nearest {
         /// The joint values, in rad or the length unit of the program.
         q0: Vec<f64>,
@@ -33,7 +34,8 @@ pub enum Criterion {
     /// The greatest manipulability, sqrt(det(J J^T)) of the task's Jacobian, with lengths relative to the scale of the program (T. Yoshikawa, Int. J. Robotics
     /// Research 4 (1985) 3-9).
     Manipulability,
-    /// The least difference of one joint from a value. It is reduced by whole turns for an angle whose range is at least one turn.
+    /// The least difference of one joint from a value. An angle whose range is at least one turn is compared modulo 2 pi and turned as for
+    /// [`Criterion::Nearest`].
     Change {
         /// The index of the joint.
         joint: usize,
@@ -86,7 +88,21 @@ impl RedundantSolver {
     /// # Errors
     /// As [`RedundantSolver::arcs`]. [`ErrorKind::BadValue`] for a criterion with values that do not fit the joints.
     pub fn best(&self, target: &ArmTarget, limits: &JointLimits, criterion: &Criterion) -> Result<Option<Best>> {
-        Ok(self.optima(target, limits, criterion)?.into_iter().next())
+        self.best_on(target, limits, &self.arcs(target, limits)?.arcs, criterion)
+    }
+
+    /// Same as [`RedundantSolver::best`], on arcs of this target and these limits that are computed already.
+    ///
+    /// # Errors
+    /// As [`RedundantSolver::optima_on`].
+    pub fn best_on(
+        &self,
+        target: &ArmTarget,
+        limits: &JointLimits,
+        arcs: &[Arc],
+        criterion: &Criterion,
+    ) -> Result<Option<Best>> {
+        Ok(self.optima_on(target, limits, arcs, criterion)?.into_iter().next())
     }
 
     /// The solution of `target` within `limits` that is nearest to `q0`: one value for each joint, in rad or the length unit ([`Criterion::nearest`]).
@@ -97,37 +113,57 @@ impl RedundantSolver {
         self.best(target, limits, &Criterion::nearest(q0.to_vec()))
     }
 
-    /// The local optima on all arcs, ends included, the best ones first, at most 128. Each arc is sampled at six points for each step of the tracer. Two optima
-    /// between neighbouring samples are found as one.
+    /// The local optima on all arcs, ends included, the best ones first. There are at most 128: of more, the worst ones are left out without notice. Each arc is
+    /// sampled at six points for each step of the tracer. Two optima between neighbouring samples are found as one.
     ///
     /// # Errors
     /// As [`RedundantSolver::best`].
     pub fn optima(&self, target: &ArmTarget, limits: &JointLimits, criterion: &Criterion) -> Result<Vec<Best>> {
-        let own = self.run_time_criterion(criterion)?;
-        let arcs: Vec<runtime::Arc> = self.arcs(target, limits)?.arcs.iter().map(|arc| arc.traced).collect();
-        let mut room = vec![runtime::Best::NONE; ROOM];
-        loop {
-            let count = runtime::optima(&self.arm, &target.row, &limits.rows, (&arcs, &own), &mut room)
-                .map_err(|error| self.refused(target, error))?;
-            if count <= room.len() {
-                return Ok(room[..count].iter().map(|best| self.found(limits, criterion, best)).collect());
-            }
-            room.resize(count, runtime::Best::NONE);
-        }
+        self.optima_on(target, limits, &self.arcs(target, limits)?.arcs, criterion)
     }
 
+    /// Same as [`RedundantSolver::optima`], on arcs of this target and these limits that are computed already. [`Best::arc`] is an index of `arcs`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] for a criterion with values that do not fit the joints.
+    pub fn optima_on(
+        &self,
+        target: &ArmTarget,
+        limits: &JointLimits,
+        arcs: &[Arc],
+        criterion: &Criterion,
+    ) -> Result<Vec<Best>> {
+        let own = self.run_time_criterion(criterion)?;
+        let traced: Vec<runtime::Arc> = arcs.iter().map(|arc| arc.traced).collect();
+        let mut room = vec![runtime::Best::NONE; ROOM];
+        let count = runtime::optima(&self.arm, &target.row, &limits.rows, (&traced, &own), &mut room)
+            .map_err(|error| self.refused(target, error))?;
+        let mut optima: Vec<Best> = room[..count].iter().map(|best| self.found(limits, criterion, best)).collect();
+        if criterion.is_least_best() {
+            optima.sort_by(|a, b| a.value.total_cmp(&b.value));
+        }
+        Ok(optima)
+    }
+
+    /// An optimum with its angles turned to the reference of the criterion. A distance is that of these joint values.
     fn found(&self, limits: &JointLimits, criterion: &Criterion, best: &runtime::Best) -> Best {
         let q = self.values(&best.q);
-        let q = match criterion {
-            Criterion::Nearest { q0, .. } => self.turned(limits, &q, q0),
+        let (q, value) = match criterion {
+            Criterion::Nearest { q0, weights } => {
+                let q = self.turned(limits, &q, q0);
+                let squares = q.iter().zip(q0).zip(weights).map(|((q, q0), weight)| weight * (q - q0).powi(2));
+                let value = squares.sum::<f64>().sqrt();
+                (q, value)
+            }
             Criterion::Change { joint, value } => {
                 let mut near = q.clone();
                 near[*joint] = *value;
-                self.turned(limits, &q, &near)
+                let q = self.turned(limits, &q, &near);
+                let change = (q[*joint] - value).abs();
+                (q, change)
             }
-            _ => q,
+            _ => (q, best.value),
         };
-        let value = if criterion.is_least_best() { best.value.abs() } else { best.value };
         Best { q, value, arc: best.arc, s: best.s }
     }
 

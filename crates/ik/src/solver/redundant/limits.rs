@@ -1,22 +1,37 @@
 //! Joint limits of a request: [`JointLimits`].
 
 use groebot_runtime::redundant::Limits as Rows;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::RedundantSolver;
 use crate::{Error, ErrorKind, Result};
 
 /// The least and the greatest value of each joint of a redundant arm, in rad or the length unit of the program: the described ones, or narrower ones.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(transparent)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointLimits {
     pub(super) rows: Rows,
+    /// The number of joints.
+    count: usize,
+}
+
+impl JointLimits {
+    /// By joint, the least and the greatest value in rad or the length unit of the program; infinite without a limit.
+    pub fn pairs(&self) -> &[[f64; 2]] {
+        &self.rows[..self.count]
+    }
+}
+
+/// The list of pairs.
+impl Serialize for JointLimits {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        self.pairs().serialize(serializer)
+    }
 }
 
 impl RedundantSolver {
     /// The described limits.
     pub fn limits(&self) -> JointLimits {
-        JointLimits { rows: self.arm.limits }
+        JointLimits { rows: self.arm.limits, count: self.joints.len() }
     }
 
     /// The described limits, narrowed to `limits`: one pair per joint, in the order of the joints. Infinite values change nothing.

@@ -46,7 +46,8 @@ impl RedundantSolver {
         }
     }
 
-    /// The data of the arm: axes and limits as described, and which joints have a solver. Lengths are in the unit of the program.
+    /// The data of the arm: axes and limits as described, and which joints have a solver. Lengths are in the unit of the program. The scanned joint is the given
+    /// joint of the program, which the planner chose; it is not selected by speed or by the share of values that have solutions.
     pub fn arm_data(&self) -> &Arm {
         &self.arm
     }

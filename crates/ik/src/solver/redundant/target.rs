@@ -11,6 +11,15 @@ use groebot_robot::kinematics::Target;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmTarget {
     pub(super) row: Row,
+    /// The number of its numbers.
+    count: usize,
+}
+
+impl ArmTarget {
+    /// Its numbers in the order and the units of the inputs of the program, without the value of the given joint.
+    pub fn numbers(&self) -> &[f64] {
+        &self.row[..self.count]
+    }
 }
 
 impl RedundantSolver {
@@ -36,7 +45,7 @@ impl RedundantSolver {
         }
         let mut row = [0.0; 12];
         row[..numbers.len()].copy_from_slice(numbers);
-        let target = ArmTarget { row };
+        let target = ArmTarget { row, count: numbers.len() };
         let mut members = Members::NONE;
         match self.solve_given(&row, self.arm.scanned, 0.0, &mut members) {
             Err(error @ (Refusal::NotFinite | Refusal::NotRotation | Refusal::NotUnit)) => {

@@ -24,14 +24,22 @@ impl RedundantSolver {
     /// # Errors
     /// As [`RedundantSolver::arcs`].
     pub fn any_within(&self, target: &ArmTarget, limits: &JointLimits) -> Result<Within> {
-        let found =
-            runtime::any_within(self, &target.row, &limits.rows).map_err(|error| self.refused(target, error))?;
+        Ok(self.within(&self.any_found(target, limits)?))
+    }
+
+    /// The result of the run time's search for one solution.
+    pub(super) fn any_found(&self, target: &ArmTarget, limits: &JointLimits) -> Result<runtime::Within> {
+        runtime::any_within(self, &target.row, &limits.rows).map_err(|error| self.refused(target, error))
+    }
+
+    /// The result with the joints that the arm has.
+    pub(super) fn within(&self, found: &runtime::Within) -> Within {
         let none = |absence, is_unsure| Within { q: None, absence: Some(absence), is_unsure };
-        Ok(match found {
+        match *found {
             runtime::Within::Solution(q) => Within { q: Some(self.values(&q)), absence: None, is_unsure: false },
-            runtime::Within::Beyond { joints, is_unsure } => none(self.absence(true, joints), is_unsure),
+            runtime::Within::Beyond { joints, is_unsure } => none(self.beyond(joints), is_unsure),
             runtime::Within::Unreachable { is_unsure } => none(Absence::Unreachable, is_unsure),
             _ => none(Absence::Unreachable, true),
-        })
+        }
     }
 }
