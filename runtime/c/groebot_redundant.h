@@ -6,7 +6,8 @@
  * to one arc. Curves that touch no limit are found by a search over the values of one joint.
  *
  * No function allocates, and none has a state. gb_arcs and gb_any_within need about 100 kB of stack besides that of solve_given. Equal targets have bitwise
- * equal results with every compiler, also equal to those of groebot-runtime's `redundant` (see groebot.h for the options of the compiler). Numbers are in double precision only.
+ * equal results with every compiler, also equal to those of groebot-runtime's `redundant` (see groebot.h for the options of the compiler). Numbers are in
+ * double precision only.
  *
  * Joint values are in rad, or in the unit of lengths. Lists of joint values have GB_MOST_ARM_JOINTS entries; those from the number of joints on are 0. Limits
  * are the least and the greatest value of each joint in turn, infinite where there is none; they hold within 1e-9. Vectors are in the base frame. */
