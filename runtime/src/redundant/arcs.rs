@@ -317,8 +317,8 @@ fn search_from(
     seeds: &mut Seeds,
     output: &mut Output<'_>,
 ) -> bool {
-    let place = model.place(x);
-    let start = Start { at: Point::of(&place, 1.0), side: 1.0, tied, level: 0, is_inside: true };
+    let (place, bend) = model.bent(x);
+    let start = Start { at: Point::of(&place, 1.0, &bend), side: 1.0, tied, level: 0, is_inside: true };
     let count = ends.count;
     let traced = trace(model, &start, ends, seeds);
     let point = End { q: model.unscaled(x), joint: None, is_upper: false };

@@ -1,6 +1,6 @@
 //! Where a piece of a curve reaches a limit ([`Crossing`]).
 
-use super::arm::Q;
+use super::arm::{MOST_JOINTS, Q};
 use super::model::{Model, norm, plus};
 use super::step::{Piece, Point};
 use crate::arithmetic::Arithmetic;
@@ -60,7 +60,7 @@ impl Crossing {
             return None;
         }
         place.x = plus(x, -1.0, &step);
-        Some((Point::of(&place, side), size))
+        Some((Point::of(&place, side, &[0.0; MOST_JOINTS]), size))
     }
 }
 

@@ -132,17 +132,6 @@ impl Links {
         tip
     }
 
-    /// The tip at joint values.
-    pub fn tip(&self, arm: &Arm, x: &Q) -> Rigid {
-        let [cosines, sines] = self.turned(x);
-        let mut at = self.base;
-        for i in 0..arm.count {
-            let slide = if arm.slides[i] { Some(x[i]) } else { None };
-            at = self.after(at, i, [cosines[i], sines[i]], slide);
-        }
-        self.last(at)
-    }
-
     /// Axes and tip at joint values.
     pub fn axes(&self, arm: &Arm, x: &Q) -> Axes {
         let mut axes = Axes { directions: [[0.0; 3]; MOST_JOINTS], points: [[0.0; 3]; MOST_JOINTS], tip: Rigid::NONE };
