@@ -5,8 +5,9 @@
  * of problems in which one joint is given at a limit (solve_given of gb_redundant). Curves are traced from end point to end point, and each end point belongs
  * to one arc. Curves that touch no limit are found by a search over the values of one joint.
  *
- * No function allocates, and none has a state. gb_arcs and gb_any_within need about 150 kB of stack. Equal targets have bitwise equal results with every
- * compiler, also equal to those of groebot-runtime's `redundant` (see groebot.h for the options of the compiler). Numbers are in double precision only.
+ * No function allocates, and none has a state. gb_arcs and gb_any_within need about 100 kB of stack besides that of solve_given. Equal targets have bitwise
+ * equal results with every compiler, also equal to those of groebot-runtime's `redundant` (see groebot.h for the options of the compiler). Numbers are in
+ * double precision only.
  *
  * Joint values are in rad, or in the unit of lengths. Lists of joint values have GB_MOST_ARM_JOINTS entries; those from the number of joints on are 0. Limits
  * are the least and the greatest value of each joint in turn, infinite where there is none; they hold within 1e-9. Vectors are in the base frame. */
@@ -66,12 +67,12 @@ typedef struct {
 /* Which solver exists for the problem with a certain joint given. */
 typedef enum {
     /* There is none. Limits of this joint are found along the curves only, so that completeness depends on a grid. */
-    GB_GIVEN_UNSOLVED,
+    GB_ARM_UNSOLVED,
     /* solve_given finds all solutions for any value of the joint. */
-    GB_GIVEN_SOLVED,
+    GB_ARM_SOLVED,
     /* The joint is constant on every curve of solutions, which is proved. Its value is only compared with the limits. */
-    GB_GIVEN_CONSTANT
-} gb_given;
+    GB_ARM_CONSTANT
+} gb_arm_given;
 
 /* The data of an arm: axes at zero in the base frame, and limits. The numbers are those of the robot as described, not of its idealisation. */
 typedef struct {
@@ -91,9 +92,9 @@ typedef struct {
     /* The described limits. */
     gb_real limits[2 * GB_MOST_ARM_JOINTS];
     /* By joint: which solver exists with this joint given. */
-    gb_given given[GB_MOST_ARM_JOINTS];
-    /* The joint whose values are scanned for first solutions and for curves that touch no limit: the one with the fastest solver that has solutions for most
-     * values. It is GB_GIVEN_SOLVED. */
+    gb_arm_given given[GB_MOST_ARM_JOINTS];
+    /* The joint whose values are scanned for first solutions and for curves that touch no limit. It is GB_ARM_SOLVED. Best is a joint with a fast solver that
+     * has solutions for most values. */
     size_t scanned;
 } gb_arm;
 
@@ -105,17 +106,17 @@ typedef struct {
     uint32_t free;
     /* False where the solver's work was bounded: other solutions may be missing. */
     bool settled;
-} gb_member;
+} gb_arm_member;
 
 /* A list of solutions with fixed room, and whether solutions were dropped because there was no room. */
 typedef struct {
-    gb_member list[GB_MOST_MEMBERS];
+    gb_arm_member list[GB_MOST_MEMBERS];
     size_t count;
     bool is_short;
-} gb_members;
+} gb_arm_members;
 
 /* Adds a solution to the list, or drops it if there is no room. */
-static inline void gb_add_member(gb_members *members, const gb_member *member)
+static inline void gb_add_arm_member(gb_arm_members *members, const gb_arm_member *member)
 {
     if (members->count == GB_MOST_MEMBERS) {
         members->is_short = true;
@@ -130,8 +131,9 @@ typedef struct {
     /* Passed to solve_given. */
     void *context;
     /* Adds all solutions of the target with `joint` given at `value` to the list, which is empty, whatever the limits of the other joints. Returns 0, or for
-     * a target that is not valid GB_NOT_FINITE, GB_NOT_ROTATION, GB_NOT_UNIT. Only called for joints that are GB_GIVEN_SOLVED. */
-    int (*solve_given)(void *context, const gb_real *target, size_t joint, gb_real value, gb_members *members);
+     * a target that is not valid GB_NOT_FINITE, GB_NOT_ROTATION, GB_NOT_UNIT, or GB_OPEN_STRATUM and GB_UNSETTLED for a target that the solver could not
+     * decide. Only called for joints that are GB_ARM_SOLVED. */
+    int (*solve_given)(void *context, const gb_real *target, size_t joint, gb_real value, gb_arm_members *members);
 } gb_redundant;
 
 /* An end of an arc. */
@@ -184,7 +186,8 @@ typedef struct {
     /* Whether there is a solution within limits, and its joint values. */
     bool is_found;
     gb_real q[GB_MOST_ARM_JOINTS];
-    /* If there is none: whether there are solutions at all, and the joints that are beyond their limits in the one that exceeds limits least, as bits. */
+    /* If there is none: whether any solution was found, whatever the limits: with a joint at a limit, or for a grid of values of the scanned joint. The joints
+     * that are beyond their limits in the one that exceeds limits least, as bits. */
     bool is_reachable;
     uint32_t beyond;
     /* If there is none: whether a solution may have been missed. */
@@ -194,7 +197,7 @@ typedef struct {
 /* What is to be large along arcs. */
 typedef enum {
     /* The least distance of a joint to its limits (rad, where lengths are relative to the arm's `length`), or that distance divided by half of the joint's
-     * range. Joints without limits, or with a range of at least one turn, do not count. */
+     * range; not that of a joint with only one limit. Joints without limits, or with a range of at least one turn, do not count. */
     GB_CRITERION_MARGIN,
     /* The distance to a reference, negative: -sqrt(sum w (q - q0)^2). Angles whose range is at least one turn are compared up to whole turns. */
     GB_CRITERION_NEAREST,
@@ -235,8 +238,9 @@ typedef struct {
  * gb_any_within: one solution within limits: first from a few values of the scanned joint, then from the end points of arcs, then from the search for closed
  * curves. Returns 1 if there is one, else 0.
  * gb_arcs: writes all maximal arcs of solutions within limits to out, which has this room. Angles are moved into their limits by whole turns. A revolute joint
- * whose range is at least one turn ends no arc. Arcs with end points are complete: the end points are all solutions with a joint at a limit, and each belongs
- * to one arc. Returns 0.
+ * whose range is at least one turn ends no arc. The end points are all solutions with a joint at a limit, as far as the joints have solvers, at most 256.
+ * Curves join them in pairs, numerically: where two curves lead to one end point, the arcs are unsure. Closed curves that reach no limit are found by a grid.
+ * Returns 0.
  * gb_arc_at: writes the joint values at a length s from the start of an arc. s is limited to the arc. Returns 0.
  * gb_arc_sample: writes joint values at equal distances along an arc to out, as many as count, from its start to its end. If count is 1, the start. Returns 0.
  * gb_best: writes the best solution by a criterion over arcs. Curves are sampled at six points for each step, and each sample that is better than its

@@ -29,9 +29,9 @@ static double length_of(double x, double y)
 }
 
 /* Adds a solution with angles in (-pi, pi], if all numbers are finite. */
-static void push(gb_members *members, const double *q, size_t count, size_t given, double value, uint32_t free)
+static void push(gb_arm_members *members, const double *q, size_t count, size_t given, double value, uint32_t free)
 {
-    gb_member member;
+    gb_arm_member member;
     memset(&member, 0, sizeof member);
     member.free = free;
     member.settled = true;
@@ -41,7 +41,7 @@ static void push(gb_members *members, const double *q, size_t count, size_t give
             return;
         }
     }
-    gb_add_member(members, &member);
+    gb_add_arm_member(members, &member);
 }
 
 /* The square root of a number that may be slightly negative; -1 if it is more. */
@@ -75,7 +75,7 @@ static const double srs_links[2] = {0.42, 0.4};
 #define SHOULDER 0.36
 #define FLANGE 0.126
 
-static int solve_planar(void *context, const double *target, size_t joint, double value, gb_members *members)
+static int solve_planar(void *context, const double *target, size_t joint, double value, gb_arm_members *members)
 {
     const double *l = planar_links, c = gb_cosine(value), s = gb_sine(value);
     double list[2][2];
@@ -104,7 +104,7 @@ static int solve_planar(void *context, const double *target, size_t joint, doubl
     return 0;
 }
 
-static int solve_rail(void *context, const double *target, size_t joint, double value, gb_members *members)
+static int solve_rail(void *context, const double *target, size_t joint, double value, gb_arm_members *members)
 {
     const double p[2] = {target[0] - value, target[1]};
     double list[2][2];
@@ -187,7 +187,7 @@ static void srs_pose(const double *q, double *target)
 }
 
 /* Adds the solutions after the first four joints, both angles of the wrist. With `is_back` the arm is seen from its wrist. */
-static void push_wrist(double (*turn)[3], const double *q, size_t given, double value, bool is_back, gb_members *members)
+static void push_wrist(double (*turn)[3], const double *q, size_t given, double value, bool is_back, gb_arm_members *members)
 {
     double rest[3][3], before[3][3];
     srs_rotation(q, 4, rest);
@@ -252,7 +252,7 @@ static bool shoulder(const double *p, double x, double z, int given, double valu
     return true;
 }
 
-static int solve_srs(void *context, const double *target, size_t joint, double value, gb_members *members)
+static int solve_srs(void *context, const double *target, size_t joint, double value, gb_arm_members *members)
 {
     const bool is_back = joint > 3;
     double turn[3][3], back[3][3], p[3], moved[3], flange[3], q[4];
@@ -305,7 +305,7 @@ static void set_planar(gb_arm *arm)
     arm->points[2][0] = 1.8;
     arm->tip.translation[0] = 2.3;
     for (int i = 0; i < 3; i++) {
-        arm->given[i] = GB_GIVEN_SOLVED;
+        arm->given[i] = GB_ARM_SOLVED;
     }
 }
 
@@ -317,7 +317,7 @@ static void set_rail(gb_arm *arm)
     arm->directions[0][2] = 0.0;
     arm->points[2][0] = 1.0;
     arm->tip.translation[0] = 1.8;
-    arm->given[0] = GB_GIVEN_SOLVED;
+    arm->given[0] = GB_ARM_SOLVED;
 }
 
 static void set_srs(gb_arm *arm)
@@ -333,6 +333,6 @@ static void set_srs(gb_arm *arm)
         arm->points[i][2] = heights[i];
         arm->limits[2 * i] = -limits[i];
         arm->limits[2 * i + 1] = limits[i];
-        arm->given[i] = i == 3 ? GB_GIVEN_CONSTANT : GB_GIVEN_SOLVED;
+        arm->given[i] = i == 3 ? GB_ARM_CONSTANT : GB_ARM_SOLVED;
     }
 }

@@ -1,4 +1,4 @@
-//! Kinematics of an arm on the way to a target ([`Model`]): the equations, their derivatives, the direction and the curvature of the curve of solutions.
+//! Kinematics of an arm, and the equations of a target ([`Model`]): their derivatives, the direction and the curvature of the curve of solutions.
 
 use core::f64::consts::TAU;
 

@@ -33,7 +33,7 @@ static gb_arc gb_arm_arc_at(const gb_arm_model *model, const gb_real *x)
 static int gb_arm_constant(const gb_arm *arm)
 {
     for (size_t joint = 0; joint < arm->count; joint++) {
-        if (arm->given[joint] == GB_GIVEN_CONSTANT) {
+        if (arm->given[joint] == GB_ARM_CONSTANT) {
             return (int)joint;
         }
     }

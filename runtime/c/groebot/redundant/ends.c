@@ -219,11 +219,11 @@ static void gb_arm_classify(gb_arm_ends *ends, const gb_arm_model *model)
 }
 
 /* Adds the solutions with a joint at a limit. */
-static void gb_arm_add_all(gb_arm_ends *ends, const gb_arm_model *model, const gb_members *members, size_t joint, gb_real limit)
+static void gb_arm_add_all(gb_arm_ends *ends, const gb_arm_model *model, const gb_arm_members *members, size_t joint, gb_real limit)
 {
     ends->is_unsure = ends->is_unsure || members->is_short;
     for (size_t k = 0; k < members->count; k++) {
-        const gb_member *member = &members->list[k];
+        const gb_arm_member *member = &members->list[k];
         gb_real x[GB_MOST_ARM_JOINTS];
         ends->is_unsure = ends->is_unsure || !member->settled;
         gb_arm_scaled(model, member->q, x);
@@ -240,7 +240,7 @@ static void gb_arm_add_all(gb_arm_ends *ends, const gb_arm_model *model, const g
 }
 
 /* The solutions with a joint given, by the robot's solver. Returns its code. */
-static int gb_arm_solve(const gb_redundant *robot, const gb_real *target, size_t joint, gb_real value, gb_members *members)
+static int gb_arm_solve(const gb_redundant *robot, const gb_real *target, size_t joint, gb_real value, gb_arm_members *members)
 {
     members->count = 0;
     members->is_short = false;
@@ -257,10 +257,10 @@ static bool gb_arm_is_tried(const gb_arm_model *model, size_t joint, int side)
 /* Solves all problems with a joint at a limit. Returns 0 or a code below 0. */
 static int gb_arm_find_ends(gb_arm_ends *ends, const gb_redundant *robot, const gb_arm_model *model, const gb_real *target)
 {
-    gb_members members;
+    gb_arm_members members;
     for (size_t joint = 0; joint < model->count; joint++) {
         for (int side = 0; side < 2; side++) {
-            if (model->turns[joint] || model->arm->given[joint] != GB_GIVEN_SOLVED || !gb_arm_is_tried(model, joint, side)) {
+            if (model->turns[joint] || model->arm->given[joint] != GB_ARM_SOLVED || !gb_arm_is_tried(model, joint, side)) {
                 continue;
             }
             const gb_real limit = model->limits[joint][side];

@@ -1,4 +1,4 @@
-/* Lists of joint values: see model.rs, ends.rs. Vectors: see six_axes/vector.rs */
+/* Lists of joint values: see model.rs. Vectors: see six_axes/vector.rs */
 
 /* The lesser and the greater of two numbers; the other one where one is NaN. */
 GB_INLINE gb_real gb_arm_min(gb_real a, gb_real b)

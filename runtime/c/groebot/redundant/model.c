@@ -1,4 +1,4 @@
-/* Kinematics of an arm on the way to a target: see model.rs */
+/* Kinematics of an arm, and the equations of a target: see model.rs */
 
 /* An arm and a target. Joint values `x` are scaled: a length is relative to the arm's length, which all lengths are. */
 typedef struct {
@@ -149,7 +149,7 @@ static void gb_arm_unscaled(const gb_arm_model *model, const gb_real *x, gb_real
 /* Whether limits of the joint are reached along curves. */
 static bool gb_arm_is_limited(const gb_arm_model *model, size_t joint)
 {
-    return !model->turns[joint] && model->arm->given[joint] != GB_GIVEN_CONSTANT;
+    return !model->turns[joint] && model->arm->given[joint] != GB_ARM_CONSTANT;
 }
 
 /* Moves angles by whole turns within limits, or next to them. Returns the joints that are beyond their limits by more than the tolerance, as bits. */

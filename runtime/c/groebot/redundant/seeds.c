@@ -12,7 +12,7 @@ typedef struct {
     size_t surfaces;
     bool has_surface;
     gb_real surface[GB_MOST_ARM_JOINTS];
-    gb_members members;
+    gb_arm_members members;
 } gb_arm_seeds;
 
 /* What is compared between neighbouring values. */
@@ -72,7 +72,7 @@ static void gb_arm_add_seed(gb_arm_seeds *seeds, gb_real value, const gb_real *x
 static int gb_arm_add_level(gb_arm_seeds *seeds, const gb_arm_scan *scan, gb_real value, gb_arm_level *level)
 {
     const gb_arm_model *model = scan->model;
-    const gb_members *members = &seeds->members;
+    const gb_arm_members *members = &seeds->members;
     const size_t first = seeds->count;
     bool is_surface = false;
     const int code = gb_arm_solve(scan->robot, scan->target, seeds->joint, value * model->units[seeds->joint], &seeds->members);
@@ -81,7 +81,7 @@ static int gb_arm_add_level(gb_arm_seeds *seeds, const gb_arm_scan *scan, gb_rea
     }
     seeds->is_unsure = seeds->is_unsure || members->is_short;
     for (size_t k = 0; k < members->count; k++) {
-        const gb_member *member = &members->list[k];
+        const gb_arm_member *member = &members->list[k];
         gb_real x[GB_MOST_ARM_JOINTS];
         seeds->is_unsure = seeds->is_unsure || !member->settled;
         gb_arm_scaled(model, member->q, x);

@@ -200,7 +200,7 @@ static void gb_arm_go(gb_arm_walk *walk, const gb_arm_piece *piece)
     walk->at = piece->to;
 }
 
-/* Whether a point is on a piece: see trace.rs. */
+/* Whether a point is on a piece. */
 static bool gb_arm_is_on(const gb_arm_model *model, const gb_arm_piece *piece, const gb_real *x)
 {
     gb_real away[GB_MOST_ARM_JOINTS], chord[GB_MOST_ARM_JOINTS], near[GB_MOST_ARM_JOINTS];

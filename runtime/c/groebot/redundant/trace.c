@@ -82,7 +82,7 @@ GB_COLD static size_t gb_arm_locate(const gb_arm_model *model, const gb_arm_cros
         end->at = gb_arm_point_of(&place, R(1.0));
         end->inward = -side;
         end->sides[crossing->side] |= gb_arm_bit(crossing->joint);
-        end->is_unsure = model->arm->given[crossing->joint] == GB_GIVEN_SOLVED;
+        end->is_unsure = model->arm->given[crossing->joint] == GB_ARM_SOLVED;
     }
     return number;
 }
@@ -127,7 +127,7 @@ static size_t gb_arm_arrive(const gb_arm_model *model, const gb_arm_crossing *cr
         }
         return GB_ARM_FREE;
     }
-    if (is_last || model->arm->given[crossing->joint] != GB_GIVEN_SOLVED) {
+    if (is_last || model->arm->given[crossing->joint] != GB_ARM_SOLVED) {
         return gb_arm_locate(model, crossing, &point, walk->side, ends);
     }
     return GB_ARM_FREE;

@@ -4,7 +4,7 @@
 static int gb_arm_first_within(const gb_arm_scan *scan, size_t joint, gb_real value, gb_real *q)
 {
     const gb_arm_model *model = scan->model;
-    gb_members members;
+    gb_arm_members members;
     const int code = gb_arm_solve(scan->robot, scan->target, joint, value * model->units[joint], &members);
     if (code < 0) {
         return code;
@@ -35,7 +35,7 @@ static int gb_arm_try(const gb_arm_scan *scan, const gb_real *range, gb_real *q)
     for (size_t joint = 0; joint < model->count; joint++) {
         for (int side = 0; side < 2 && found == 0; side++) {
             const gb_real limit = model->limits[joint][side];
-            if (!model->turns[joint] && arm->given[joint] == GB_GIVEN_SOLVED && gb_magnitude(limit) <= GB_GREATEST) {
+            if (!model->turns[joint] && arm->given[joint] == GB_ARM_SOLVED && gb_magnitude(limit) <= GB_GREATEST) {
                 found = gb_arm_first_within(scan, joint, limit, q);
             }
         }
