@@ -12,18 +12,22 @@
 
 /* Maximal number of equations. */
 #define GB_ARM_ROWS (GB_MOST_ARM_JOINTS - 1)
+/* An entry for each joint, rounded up to whole registers. */
+#define GB_ARM_ANGLES (GB_MOST_ARM_JOINTS + 1)
 
 /* The first and the longest step (rad, or relative to the characteristic length). */
-#define GB_ARM_FIRST_PACE R(0.1)
-#define GB_ARM_LONGEST_PACE R(0.5)
+#define GB_ARM_FIRST_PACE R(0.2)
+#define GB_ARM_LONGEST_PACE R(0.7)
 /* The shortest step. Where a shorter one would be necessary, two curves cross. Number and lengths of the steps across such a crossing. */
 #define GB_ARM_SHORTEST_PACE (R(0.1) * GB_MERGING_APART)
 #define GB_ARM_LEAPS 4
 static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(1e-2), R(5e-2)};
 /* Maximal length of the first correction; maximal ratio of the second one to it; the least cosine of the angle between directions at both ends of a step. */
-#define GB_ARM_CORRECTION R(2e-3)
+#define GB_ARM_CORRECTION R(4e-3)
 #define GB_ARM_CONTRACTION R(0.25)
 #define GB_ARM_STRAIGHT R(0.8)
+/* Maximal change of a piece's length, relative to it, by the term of degree four. */
+#define GB_ARM_FOURTH R(1e-3)
 
 /* Iterations for a root of a cubic. Maximal length of the correction of a predicted crossing, relative to its piece. */
 #define GB_ARM_ROOT_STEPS 40
@@ -49,6 +53,8 @@ static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(
 #define GB_ARM_SEEDS 256
 #define GB_ARM_SCANNED 16
 #define GB_ARM_HALVINGS 2
+/* Maximal number of values of the scanned joint. */
+#define GB_ARM_GROUPS (GB_ARM_SCANNED + (GB_ARM_SCANNED - 1) * GB_ARM_HALVINGS)
 /* Solutions for one value are close when no joint differs by more than this. Steps of Newton's method for a root of a cubic. Values of a prismatic joint
  * without limits, relative to the characteristic length. */
 #define GB_ARM_CLOSE R(0.1)
@@ -72,6 +78,8 @@ static const gb_real gb_arm_tried[GB_ARM_TRIED] = {R(0.5), R(0.375), R(0.625), R
 #define GB_ARM_SECTIONS 44
 #define GB_ARM_GOLDEN R(0.6180339887498949)
 
+#include "groebot/six_axes/lanes.c"
+#include "groebot/six_axes/vector.c"
 #include "groebot/six_axes/rigid.c"
 #include "groebot/redundant/lists.c"
 #include "groebot/redundant/elimination.c"

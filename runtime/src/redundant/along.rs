@@ -23,8 +23,8 @@ impl Journey {
     /// A walk from the start of an arc.
     pub fn new(model: &mut Model<'_>, arc: &Arc) -> Journey {
         model.frozen = if arc.is_frozen { constant(model.arm) } else { None };
-        let place = model.place(&model.scaled(&arc.start.q));
-        let at = Point::of(&place, arc.side);
+        let (place, bend) = model.bent(&model.scaled(&arc.start.q));
+        let at = Point::of(&place, arc.side, &bend);
         let walk = Walk::new(&at, arc.side, arc.level);
         Journey { walk, piece: Piece::new(&at, &at), before: 0.0, is_over: arc.length == 0.0 }
     }

@@ -138,8 +138,8 @@ pub fn arcs(robot: &dyn Redundant, target: &Target, limits: &Limits, out: &mut [
 #[cold]
 fn surface(model: &Model<'_>, seeds: &Seeds, ends: &Ends, output: &mut Output<'_>) -> Outcome {
     let mut member = seeds.surface;
-    if member.is_none() && seeds.count > 0 {
-        member = Some(seeds.list[0]);
+    if member.is_none() {
+        member = seeds.all().next().copied();
     }
     if member.is_none() && ends.count > 0 {
         member = Some(ends.list[0].at.x);
@@ -167,8 +167,7 @@ pub(super) fn constant(arm: &Arm) -> Option<usize> {
 /// Where the equations are singular at all solutions, the joint that is constant is left out, as with a straight elbow.
 fn freeze(model: &mut Model<'_>, ends: &mut Ends, seeds: &Seeds) {
     let Some(joint) = constant(model.arm) else { return };
-    let total = ends.count + ends.touches + seeds.count;
-    if total == 0 {
+    if ends.count + ends.touches + seeds.all().count() == 0 {
         return;
     }
     for k in 0..ends.count {
@@ -181,8 +180,8 @@ fn freeze(model: &mut Model<'_>, ends: &mut Ends, seeds: &Seeds) {
             return;
         }
     }
-    for k in 0..seeds.count {
-        if model.place(&seeds.list[k]).linear.pivot > PIVOTS.regular {
+    for x in seeds.all() {
+        if model.place(x).linear.pivot > PIVOTS.regular {
             return;
         }
     }
@@ -300,9 +299,7 @@ fn search_closed(model: &Model<'_>, ends: &mut Ends, seeds: &mut Seeds, output: 
         let (x, tied) = ends.touching[ends.touches];
         closed += usize::from(search_from(model, &x, tied, ends, seeds, output));
     }
-    while seeds.count > 0 {
-        let x = seeds.list[seeds.count - 1];
-        seeds.remove(seeds.count - 1);
+    while let Some(x) = seeds.take() {
         closed += usize::from(search_from(model, &x, tied_at(model, &x), ends, seeds, output));
     }
     closed
@@ -317,8 +314,8 @@ fn search_from(
     seeds: &mut Seeds,
     output: &mut Output<'_>,
 ) -> bool {
-    let place = model.place(x);
-    let start = Start { at: Point::of(&place, 1.0), side: 1.0, tied, level: 0, is_inside: true };
+    let (place, bend) = model.bent(x);
+    let start = Start { at: Point::of(&place, 1.0, &bend), side: 1.0, tied, level: 0, is_inside: true };
     let count = ends.count;
     let traced = trace(model, &start, ends, seeds);
     let point = End { q: model.unscaled(x), joint: None, is_upper: false };

@@ -1,6 +1,6 @@
 //! Where a piece of a curve reaches a limit ([`Crossing`]).
 
-use super::arm::Q;
+use super::arm::{MOST_JOINTS, Q};
 use super::model::{Model, norm, plus};
 use super::step::{Piece, Point};
 use crate::arithmetic::Arithmetic;
@@ -24,9 +24,10 @@ pub(super) struct Crossing {
 impl Crossing {
     /// The first joint that exceeds a limit on the piece. Joints of `tied` remain at their limits.
     pub fn first(model: &Model<'_>, piece: &Piece, tied: u32) -> Option<Crossing> {
+        let exceeds = exceeding(model, piece);
         let mut first: Option<Crossing> = None;
         for joint in 0..model.count {
-            if !model.is_limited(joint) || tied & 1 << joint != 0 {
+            if exceeds[joint] <= ACCEPTANCE.input || !model.is_limited(joint) || tied & 1 << joint != 0 {
                 continue;
             }
             for side in 0..2 {
@@ -60,8 +61,22 @@ impl Crossing {
             return None;
         }
         place.x = plus(x, -1.0, &step);
-        Some((Point::of(&place, side), size))
+        Some((Point::of(&place, side, &[0.0; MOST_JOINTS]), size))
     }
+}
+
+/// By how much the control points of the joints' cubics, between which their values are, exceed limits.
+#[inline(always)]
+fn exceeding(model: &Model<'_>, piece: &Piece) -> Q {
+    let mut exceeds = [0.0; MOST_JOINTS];
+    let third = piece.length / 3.0;
+    for i in 0..MOST_JOINTS {
+        let (first, last) = (piece.from.x[i], piece.to.x[i]);
+        let (second, third) = (first + third * piece.from.t[i], last - third * piece.to.t[i]);
+        let (low, high) = (f64::min(f64::min(second, third), last), f64::max(f64::max(second, third), last));
+        exceeds[i] = f64::max(model.limits[i][0] - low, high - model.limits[i][1]);
+    }
+    exceeds
 }
 
 /// The first share of the piece at which the joint exceeds the limit. That at the beginning of the piece does not count where the joint moves inwards.

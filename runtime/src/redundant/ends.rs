@@ -202,13 +202,13 @@ impl Ends {
         let mut kept = 0;
         for k in 0..self.count {
             let mut end = self.list[k];
-            let place = model.place(&end.at.x);
+            let (place, bend) = model.bent(&end.at.x);
             let is_solution = largest(&place.values) <= 10.0 * MERGING.joints;
             if !is_solution {
                 self.is_unsure = true;
                 continue;
             }
-            end.at = Point::of(&place, 1.0);
+            end.at = Point::of(&place, 1.0, &bend);
             let (forward, backward, tied) = open(model, &end);
             end.tied = tied;
             end.is_singular = place.linear.pivot <= PIVOTS.regular;
@@ -269,10 +269,10 @@ pub(super) fn tied_at(model: &Model<'_>, x: &Q) -> u32 {
     if at == 0 {
         return 0;
     }
-    let place = model.place(x);
+    let (place, bend) = model.bent(x);
     let mut tied = 0;
     for i in 0..model.count {
-        if at & 1 << i != 0 && place.linear.tangent[i].abs() <= PIVOTS.regular && place.bend[i].abs() <= PIVOTS.regular
+        if at & 1 << i != 0 && place.linear.tangent[i].abs() <= PIVOTS.regular && bend[i].abs() <= PIVOTS.regular
         {
             tied |= 1 << i;
         }

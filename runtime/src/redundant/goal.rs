@@ -18,6 +18,8 @@ pub(super) struct Goal {
     /// The columns of the rotation.
     columns: [Vector; 3],
     has_rotation: bool,
+    /// The most frequent case: the equations are three coordinates and a rotation.
+    is_pose: bool,
     fixed: [Vector; 2],
     moving: [Vector; 2],
     products: usize,
@@ -29,6 +31,7 @@ const NONE: Goal = Goal {
     positions: 0,
     columns: [[0.0; 3]; 3],
     has_rotation: false,
+    is_pose: false,
     fixed: [[0.0; 3]; 2],
     moving: [[0.0; 3]; 2],
     products: 0,
@@ -59,6 +62,7 @@ impl Goal {
             Task::Pose => {
                 goal.place(point, 3);
                 goal.rotate(&target[3..]);
+                goal.is_pose = true;
             }
             Task::Position => goal.place(point, 3),
             Task::Rotation => goal.rotate(target),
@@ -159,6 +163,9 @@ impl Goal {
     /// The rates of the equations for a linear velocity of the tip's origin and an angular velocity.
     #[inline(always)]
     pub fn rates(&self, images: &[Vector; 2], linear: &Vector, angular: &Vector) -> Rows {
+        if self.is_pose {
+            return [linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]];
+        }
         let mut rates = [0.0; 6];
         for k in 0..self.positions {
             rates[k] = linear[self.coordinates[k]];

@@ -4,17 +4,16 @@ use super::arm::{Arm, MOST_JOINTS, Q};
 use super::goal::across;
 use crate::angles::angle;
 use crate::arithmetic::Arithmetic;
-use crate::six_axes::vector::{add, cross, dot, scale, sub};
+use crate::six_axes::vector::{add, cosines_and_sines, cross, dot, scale, sub};
 use crate::six_axes::{Rigid, Vector};
-use crate::trigonometry::cosine_and_sine;
+
+/// An entry for each joint. With an even number of them, the processor computes all entries with pairs.
+type Angles = [f64; MOST_JOINTS + 1];
 
 /// From one joint to the next. The frame of a joint has z along its axis and x orthogonal to the next axis, too. The frame is turned about z by the joint's
 /// angle, moved, and then turned about x, so that z is along the next axis.
 #[derive(Clone, Copy)]
 struct Link {
-    /// The angle at zero \[rad\], with its cosine and sine.
-    offset: f64,
-    turn: [f64; 2],
     /// The next point in the turned frame.
     shift: Vector,
     /// The cosine and the sine of the angle about x.
@@ -26,6 +25,9 @@ pub(super) struct Links {
     /// The first joint's frame at zero: x, y, z, and the origin.
     base: [Vector; 4],
     list: [Link; MOST_JOINTS],
+    /// The angles at zero \[rad\], and 1 for a joint that turns, 0 for a prismatic one.
+    offsets: Angles,
+    turns: Angles,
     /// The columns of the tip's rotation in the last frame.
     tip: [Vector; 3],
 }
@@ -53,8 +55,14 @@ fn normal(first: &Vector, second: &Vector) -> Vector {
 impl Links {
     pub fn of(arm: &Arm) -> Links {
         let shrink = 1.0 / arm.length;
-        let none = Link { offset: 0.0, turn: [1.0, 0.0], shift: [0.0; 3], twist: [1.0, 0.0] };
-        let mut links = Links { base: [[0.0; 3]; 4], list: [none; MOST_JOINTS], tip: [[0.0; 3]; 3] };
+        let none = Link { shift: [0.0; 3], twist: [1.0, 0.0] };
+        let mut links = Links {
+            base: [[0.0; 3]; 4],
+            list: [none; MOST_JOINTS],
+            offsets: [0.0; MOST_JOINTS + 1],
+            turns: [0.0; MOST_JOINTS + 1],
+            tip: [[0.0; 3]; 3],
+        };
         let end = scale(&arm.tip.translation, shrink);
         let point = |i: usize| if arm.slides[i] { end } else { scale(&arm.points[i], shrink) };
         let mut before = [0.0; 3];
@@ -69,10 +77,9 @@ impl Links {
                 before = x;
             }
             let r = sub(&if is_last { end } else { point(i + 1) }, &point(i));
-            let turn = [dot(&before, &x), dot(&z, &cross(&before, &x))];
+            links.offsets[i] = angle(dot(&before, &x), dot(&z, &cross(&before, &x)));
+            links.turns[i] = if arm.slides[i] { 0.0 } else { 1.0 };
             links.list[i] = Link {
-                offset: angle(turn[0], turn[1]),
-                turn,
                 shift: [dot(&x, &r), dot(&y, &r), dot(&z, &r)],
                 twist: [dot(&z, &next), dot(&x, &cross(&z, &next))],
             };
@@ -87,12 +94,21 @@ impl Links {
         links
     }
 
-    /// The frame after a joint.
+    /// The cosines and the sines of the angles between the frames.
     #[inline(always)]
-    fn after(&self, [x, y, z, mut p]: [Vector; 4], slides: bool, i: usize, value: f64) -> [Vector; 4] {
+    fn turned(&self, x: &Q) -> [Angles; 2] {
+        let mut angles = self.offsets;
+        for i in 0..MOST_JOINTS {
+            angles[i] += self.turns[i] * x[i];
+        }
+        cosines_and_sines(&angles)
+    }
+
+    /// The frame after a joint whose angle has this cosine and sine. A prismatic joint moves by `slide`.
+    #[inline(always)]
+    fn after(&self, [x, y, z, mut p]: [Vector; 4], i: usize, [c, s]: [f64; 2], slide: Option<f64>) -> [Vector; 4] {
         let link = &self.list[i];
-        let [c, s] = if slides { link.turn } else { cosine_and_sine(value + link.offset) };
-        if slides {
+        if let Some(value) = slide {
             p = add(&p, &scale(&z, value));
         }
         let (x, y) = (mixed(c, &x, s, &y), mixed(c, &y, -s, &x));
@@ -116,23 +132,16 @@ impl Links {
         tip
     }
 
-    /// The tip at joint values.
-    pub fn tip(&self, arm: &Arm, x: &Q) -> Rigid {
-        let mut at = self.base;
-        for i in 0..arm.count {
-            at = self.after(at, arm.slides[i], i, x[i]);
-        }
-        self.last(at)
-    }
-
     /// Axes and tip at joint values.
     pub fn axes(&self, arm: &Arm, x: &Q) -> Axes {
         let mut axes = Axes { directions: [[0.0; 3]; MOST_JOINTS], points: [[0.0; 3]; MOST_JOINTS], tip: Rigid::NONE };
+        let [cosines, sines] = self.turned(x);
         let mut at = self.base;
         for i in 0..arm.count {
             axes.directions[i] = at[2];
             axes.points[i] = at[3];
-            at = self.after(at, arm.slides[i], i, x[i]);
+            let slide = if arm.slides[i] { Some(x[i]) } else { None };
+            at = self.after(at, i, [cosines[i], sines[i]], slide);
         }
         axes.tip = self.last(at);
         axes

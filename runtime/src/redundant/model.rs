@@ -8,7 +8,9 @@ use super::goal::{Goal, carried};
 use super::links::{Axes, Links};
 use crate::arithmetic::Arithmetic;
 use crate::six_axes::vector::{add, cross, scale, sub};
-use crate::six_axes::{Rigid, Vector};
+#[cfg(test)]
+use crate::six_axes::Rigid;
+use crate::six_axes::Vector;
 use crate::solution::Error;
 use crate::tolerances::ACCEPTANCE;
 
@@ -34,8 +36,6 @@ pub(super) struct Place {
     pub x: Q,
     pub values: Rows,
     pub linear: Elimination,
-    /// The second derivative of the curve by its length.
-    pub bend: Q,
 }
 
 impl<'a> Model<'a> {
@@ -67,40 +67,71 @@ impl<'a> Model<'a> {
     }
 
     /// The values of the equations.
+    #[cfg(test)]
     pub fn values(&self, x: &Q) -> Rows {
         self.goal.values(&self.tip(x))
     }
 
     /// The tip in the base frame.
+    #[cfg(test)]
     pub fn tip(&self, x: &Q) -> Rigid {
-        self.links.tip(self.arm, x)
+        self.links.axes(self.arm, x).tip
     }
 
-    /// The equations, their derivatives, and the curve's direction and curvature.
+    /// The equations, their derivatives, and the curve's direction.
     pub fn place(&self, x: &Q) -> Place {
         let axes = self.links.axes(self.arm, x);
+        let linear = self.factors(&axes);
+        Place { x: *x, values: self.goal.values(&axes.tip), linear }
+    }
+
+    /// A place, and the second derivative of the curve by its length.
+    pub fn bent(&self, x: &Q) -> (Place, Q) {
+        let axes = self.links.axes(self.arm, x);
+        let linear = self.factors(&axes);
+        let images = self.goal.images(&axes.tip);
+        let mut bend = linear.least(&self.second(&axes, &images, &linear.tangent));
+        for value in &mut bend {
+            *value = -*value;
+        }
+        (Place { x: *x, values: self.goal.values(&axes.tip), linear }, bend)
+    }
+
+    /// The factors of the equations' derivatives.
+    #[inline(always)]
+    fn factors(&self, axes: &Axes) -> Elimination {
         let images = self.goal.images(&axes.tip);
         let mut columns = [[0.0; MOST_ROWS]; MOST_JOINTS];
         for i in 0..self.count {
             let axis = &axes.directions[i];
-            columns[i] = if self.arm.slides[i] {
-                self.goal.rates(&images, axis, &[0.0; 3])
+            let [linear, angular] = if self.arm.slides[i] {
+                [axis, &[0.0; 3]]
             } else {
-                let arm = sub(&axes.tip.translation, &axes.points[i]);
-                self.goal.rates(&images, &cross(axis, &arm), axis)
+                [&cross(axis, &sub(&axes.tip.translation, &axes.points[i])), axis]
             };
+            columns[i] = self.goal.rates(&images, linear, angular);
         }
         let rows = self.goal.rows();
-        let linear = match self.frozen {
+        match self.frozen {
             None => Elimination::of(&columns, rows),
             Some(joint) => Elimination::without(&columns, rows - 1, joint),
-        };
-        let second = self.second(&axes, &images, &linear.tangent);
-        let mut bend = linear.least(&second);
-        for value in &mut bend {
-            *value = -*value;
         }
-        Place { x: *x, values: self.goal.values(&axes.tip), linear, bend }
+    }
+
+    /// The values of the equations, and their rates where the joints move with rates `t`.
+    pub fn moving(&self, x: &Q, t: &Q) -> [Rows; 2] {
+        let axes = self.links.axes(self.arm, x);
+        let [mut linear, mut angular] = [[0.0; 3]; 2];
+        for i in 0..self.count {
+            let motion = scale(&axes.directions[i], t[i]);
+            if self.arm.slides[i] {
+                linear = add(&linear, &motion);
+            } else {
+                linear = add(&linear, &cross(&motion, &sub(&axes.tip.translation, &axes.points[i])));
+                angular = add(&angular, &motion);
+            }
+        }
+        [self.goal.values(&axes.tip), self.goal.rates(&self.goal.images(&axes.tip), &linear, &angular)]
     }
 
     /// The second derivatives of the equations where the joints move with constant rates `t`.

@@ -16,17 +16,28 @@ pub(super) const MOST_SEEDS: usize = 256;
 const LEVELS: usize = 16;
 /// Between two values, so many times the middle is added where the number of solutions changes, or where solutions are close to each other.
 const HALVINGS: usize = 2;
+/// Maximal number of values of the scanned joint.
+const MOST_GROUPS: usize = LEVELS + (LEVELS - 1) * HALVINGS;
 /// Solutions for one value are close when no joint differs by more than this (rad, or relative to the characteristic length).
 const CLOSE: f64 = 0.1;
 /// Steps of Newton's method for a root of a cubic.
 const ROOT_STEPS: usize = 3;
 
+/// Solutions of the list that have one value of the scanned joint: from `first` on, so many.
+#[derive(Clone, Copy)]
+struct Group {
+    value: f64,
+    first: usize,
+    count: usize,
+}
+
 /// Solutions within limits that are on no known curve.
 pub(super) struct Seeds {
-    /// The values of the scanned joint.
-    values: [f64; MOST_SEEDS],
-    pub list: [Q; MOST_SEEDS],
-    pub count: usize,
+    list: [Q; MOST_SEEDS],
+    /// The number of solutions that were added; some of them are on known curves by now.
+    added: usize,
+    groups: [Group; MOST_GROUPS],
+    values: usize,
     joint: usize,
     pub is_unsure: bool,
     /// The number of values for which the problem itself has a self-motion, and one of their solutions within limits.
@@ -56,9 +67,10 @@ pub(super) fn range(model: &Model<'_>) -> [f64; 2] {
 
 impl Seeds {
     pub const NONE: Seeds = Seeds {
-        values: [0.0; MOST_SEEDS],
         list: [[0.0; MOST_JOINTS]; MOST_SEEDS],
-        count: 0,
+        added: 0,
+        groups: [Group { value: 0.0, first: 0, count: 0 }; MOST_GROUPS],
+        values: 0,
         joint: 0,
         is_unsure: false,
         surfaces: 0,
@@ -98,7 +110,7 @@ impl Seeds {
         ends: &mut Ends,
     ) -> Result<(), Error> {
         for _ in 0..HALVINGS {
-            if self.count + Members::ROOM > MOST_SEEDS {
+            if self.added + Members::ROOM > MOST_SEEDS {
                 return Ok(());
             }
             let differ = low.solutions != high.solutions;
@@ -126,7 +138,7 @@ impl Seeds {
         self.members.clear();
         robot.solve_given(target, self.joint, value * model.units[self.joint], &mut self.members)?;
         self.is_unsure |= self.members.is_short();
-        let first = self.count;
+        let first = self.added;
         let (mut is_surface, mut solutions) = (false, 0);
         for k in 0..self.members.as_slice().len() {
             let member = self.members.as_slice()[k];
@@ -143,21 +155,22 @@ impl Seeds {
             if member.free != 0 {
                 is_surface = true;
                 self.surface = Some(x);
-            } else if self.count < MOST_SEEDS {
-                self.values[self.count] = value;
-                self.list[self.count] = x;
-                self.count += 1;
+            } else if self.added < MOST_SEEDS {
+                self.list[self.added] = x;
+                self.added += 1;
             } else {
                 self.is_unsure = true;
             }
         }
+        self.groups[self.values] = Group { value, first, count: self.added - first };
+        self.values += 1;
         self.surfaces += usize::from(is_surface);
         Ok(Level { value, solutions, has_close: self.has_close(model, first) })
     }
 
     /// Whether two of the solutions from this one on are close to each other.
     fn has_close(&self, model: &Model<'_>, first: usize) -> bool {
-        for i in first..self.count {
+        for i in first..self.added {
             for j in first..i {
                 if farthest(&model.difference(&self.list[i], &self.list[j])) <= CLOSE {
                     return true;
@@ -171,29 +184,56 @@ impl Seeds {
     pub fn pass(&mut self, model: &Model<'_>, piece: &Piece) {
         let (from, to) = (piece.from.x[self.joint], piece.to.x[self.joint]);
         let (least, greatest) = (f64::min(from, to) - ACCEPTANCE.input, f64::max(from, to) + ACCEPTANCE.input);
-        let mut k = 0;
-        while k < self.count {
-            let mut value = self.values[k];
+        for number in 0..self.values {
+            let mut value = self.groups[number].value;
             if model.turns[self.joint] {
                 value += TAU * Arithmetic::ceil((least - value) / TAU);
             }
-            if value >= least && value <= greatest && self.is_on(model, piece, value, k) {
-                self.remove(k);
-            } else {
-                k += 1;
+            if value >= least && value <= greatest {
+                self.pass_group(model, piece, value, number);
             }
         }
     }
 
-    /// Removes a solution.
-    pub fn remove(&mut self, k: usize) {
-        self.count -= 1;
-        self.list[k] = self.list[self.count];
-        self.values[k] = self.values[self.count];
+    /// Removes the solutions of a group on a piece of a curve.
+    fn pass_group(&mut self, model: &Model<'_>, piece: &Piece, value: f64, number: usize) {
+        let Group { first, mut count, .. } = self.groups[number];
+        if count == 0 {
+            return;
+        }
+        let x = self.on(piece, value);
+        let mut k = first;
+        while k < first + count {
+            if farthest(&model.difference(&x, &self.list[k])) <= ON * piece.length + MERGING.joints {
+                count -= 1;
+                self.list[k] = self.list[first + count];
+            } else {
+                k += 1;
+            }
+        }
+        self.groups[number].count = count;
     }
 
-    /// Whether a solution is on the piece, where the scanned joint has a certain value.
-    fn is_on(&self, model: &Model<'_>, piece: &Piece, value: f64, k: usize) -> bool {
+    /// Takes a solution that is on no known curve from the list.
+    pub fn take(&mut self) -> Option<Q> {
+        while self.values > 0 {
+            let group = &mut self.groups[self.values - 1];
+            if group.count > 0 {
+                group.count -= 1;
+                return Some(self.list[group.first + group.count]);
+            }
+            self.values -= 1;
+        }
+        None
+    }
+
+    /// The solutions that are on no known curve.
+    pub fn all(&self) -> impl Iterator<Item = &Q> {
+        self.groups[..self.values].iter().flat_map(|group| &self.list[group.first..group.first + group.count])
+    }
+
+    /// The point of the piece where the scanned joint has a certain value.
+    fn on(&self, piece: &Piece, value: f64) -> Q {
         let (from, to) = (piece.from.x[self.joint], piece.to.x[self.joint]);
         let mut share = if from == to { 0.5 } else { (value - from) / (to - from) };
         let [c, b, a] = piece.cubic(self.joint);
@@ -204,7 +244,6 @@ impl Seeds {
                 share = f64::min(f64::max(share - miss / slope, 0.0), 1.0);
             }
         }
-        let x = piece.at(share);
-        farthest(&model.difference(&x, &self.list[k])) <= ON * piece.length + MERGING.joints
+        piece.at(share)
     }
 }

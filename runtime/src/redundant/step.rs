@@ -1,6 +1,6 @@
 //! Steps along a curve of solutions: predictor, corrector and their acceptance ([`Walk`]).
 //!
-//! The predictor is a cubic with the curve's direction, curvature and the curvature's last change. The corrector is the simplified Newton method. A step is
+//! The predictor continues the polynomial of degree four through the last piece. The corrector is the simplified Newton method. A step is
 //! accepted by an affine-invariant estimate of the Newton-Kantorovich condition (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, sections 2.1 and
 //! 5.2): the second correction must be at most a quarter of the first one. The oriented direction must not turn back. Where it does, the step has left the curve
 //! for another one that nearly crosses it.
@@ -11,19 +11,22 @@ use crate::arithmetic::Arithmetic;
 use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS};
 
 /// The first and the longest step (rad, or relative to the characteristic length).
-pub(super) const PACE: [f64; 2] = [0.1, 0.5];
+pub(super) const PACE: [f64; 2] = [0.2, 0.7];
 /// The shortest step. Where a shorter one would be necessary, two curves cross.
 const SHORTEST: f64 = 0.1 * MERGING.apart;
 /// Lengths of the steps across such a crossing.
 const LEAPS: [f64; 4] = [MERGING.apart, 1e-3, 1e-2, 5e-2];
 /// Maximal length of the first correction.
-const CORRECTION: f64 = 2e-3;
+const CORRECTION: f64 = 4e-3;
 /// Maximal ratio of the second correction to the first one.
 const CONTRACTION: f64 = 0.25;
 /// A point is on a piece when it is within this distance, relative to the piece's length.
 pub(super) const ON: f64 = 0.02;
 /// The least cosine of the angle between directions at both ends of a step.
 const STRAIGHT: f64 = 0.8;
+
+/// Maximal change of a piece's length, relative to it, by the term of degree four.
+const FOURTH: f64 = 1e-3;
 
 /// A point on a curve.
 #[derive(Clone, Copy)]
@@ -40,12 +43,12 @@ impl Point {
     pub const NONE: Point = Point { x: [0.0; MOST_JOINTS], t: [0.0; MOST_JOINTS], bend: [0.0; MOST_JOINTS] };
 
     /// The point of a place whose direction of travel is the oriented one times `side`.
-    pub fn of(place: &Place, side: f64) -> Point {
+    pub fn of(place: &Place, side: f64, bend: &Q) -> Point {
         let mut t = place.linear.tangent;
         for value in &mut t {
             *value *= side;
         }
-        Point { x: place.x, t, bend: place.bend }
+        Point { x: place.x, t, bend: *bend }
     }
 }
 
@@ -100,7 +103,15 @@ fn length(from: &Point, to: &Point) -> f64 {
     // Squares of sines, made squares of angles.
     let mean = 0.5 * (a + b);
     let slopes = (2.0 * a + 2.0 * b - both) * (1.0 + mean / 3.0);
-    distance * (1.0 + slopes / 30.0 + 7.0 / 360.0 * mean * mean)
+    let length = distance * (1.0 + slopes / 30.0 + 7.0 / 360.0 * mean * mean);
+    // The polynomial of degree four with the curvature at the beginning differs from the cubic by `fourth u^2 (1 - u)^2`.
+    let mut change = 0.0;
+    for i in 0..MOST_JOINTS {
+        let (first, last) = (length * from.t[i], length * to.t[i]);
+        let fourth = 0.5 * length * length * from.bend[i] - (3.0 * chord[i] - 2.0 * first - last);
+        change += (last - first) * fourth;
+    }
+    length - f64::min(f64::max(change / (30.0 * length), -FOURTH * length), FOURTH * length)
 }
 
 /// A walk along a curve.
@@ -111,8 +122,9 @@ pub(super) struct Walk {
     /// The next step.
     pub pace: f64,
     longest: f64,
-    /// The change of the curvature by the length.
+    /// The third and the fourth derivative by the length.
     third: Q,
+    fourth: Q,
     /// Whether the walk has crossed a singular point, where curves meet.
     pub is_unsure: bool,
 }
@@ -130,6 +142,7 @@ impl Walk {
             pace: PACE[0] * share,
             longest: PACE[1] * share,
             third: [0.0; MOST_JOINTS],
+            fourth: [0.0; MOST_JOINTS],
             is_unsure: false,
         }
     }
@@ -137,8 +150,7 @@ impl Walk {
     /// The next piece of the curve. The walk remains where it is until [`Walk::go`]. `None` where the curve cannot be followed.
     pub fn piece(&mut self, model: &Model<'_>) -> Option<Piece> {
         while self.pace >= SHORTEST {
-            if let Some((place, size)) = self.attempt(model, self.pace, self.side) {
-                let piece = Piece::new(&self.at, &Point::of(&place, self.side));
+            if let Some((piece, size)) = self.attempt(model, self.pace, self.side) {
                 let grown = Arithmetic::sqrt(Arithmetic::sqrt(0.5 * CORRECTION / f64::max(size, ACCEPTANCE.residual)));
                 self.pace = f64::min(self.longest, self.pace * f64::min(2.0, f64::max(0.5, grown)));
                 return Some(piece);
@@ -153,22 +165,22 @@ impl Walk {
     fn leap(&mut self, model: &Model<'_>) -> Option<Piece> {
         for leap in LEAPS {
             for side in [-self.side, self.side] {
-                if let Some((place, _)) = self.attempt(model, leap, side) {
+                if let Some((piece, _)) = self.attempt(model, leap, side) {
                     self.side = side;
                     self.is_unsure = true;
                     self.pace = leap;
-                    return Some(Piece::new(&self.at, &Point::of(&place, side)));
+                    return Some(piece);
                 }
             }
         }
         None
     }
 
-    /// A step of a certain length: the place where it ends, and the length of its correction. `None` if it is not accepted.
-    fn attempt(&self, model: &Model<'_>, pace: f64, side: f64) -> Option<(Place, f64)> {
+    /// A step of a certain length: the piece, and the length of the correction. `None` if it is not accepted.
+    fn attempt(&self, model: &Model<'_>, pace: f64, side: f64) -> Option<(Piece, f64)> {
         let mut x = self.at.x;
-        for i in 0..model.count {
-            x[i] += pace * (self.at.t[i] + pace * (0.5 * self.at.bend[i] + pace / 6.0 * self.third[i]));
+        for i in 0..MOST_JOINTS {
+            x[i] += pace * (self.at.t[i] + pace * (0.5 * self.at.bend[i] + pace * (self.third[i] / 6.0 + pace / 24.0 * self.fourth[i])));
         }
         let mut place = model.place(&x);
         if model.frozen.is_some() && side * dot(&place.linear.tangent, &self.at.t) < 0.0 {
@@ -184,22 +196,39 @@ impl Walk {
         if !is_short {
             return None;
         }
-        place.x = plus(&place.x, -1.0, &first);
-        let second = place.linear.least(&model.values(&place.x));
-        place.x = plus(&place.x, -1.0, &second);
+        x = plus(&x, -1.0, &first);
+        let [values, rates] = model.moving(&x, &place.linear.tangent);
+        let second = place.linear.least(&values);
         let is_contracting = norm(&second) <= CONTRACTION * size + ACCEPTANCE.residual;
-        if is_contracting { Some((place, size)) } else { None }
+        if !is_contracting {
+            return None;
+        }
+        // The null vector of the derivatives at the corrected point, by one step of the same method.
+        let turn = place.linear.least(&rates);
+        let shrink = side / Arithmetic::sqrt(1.0 + dot(&turn, &turn));
+        let mut to = Point { x: plus(&x, -1.0, &second), ..Point::NONE };
+        for i in 0..MOST_JOINTS {
+            to.t[i] = shrink * (place.linear.tangent[i] - turn[i]);
+        }
+        Some((Piece::new(&self.at, &to), size))
     }
 
-    /// Moves the walk to the end of a piece.
+    /// Moves the walk to the end of a piece. The next prediction continues the polynomial of degree four with the positions and directions of both ends and the
+    /// curvature at the beginning.
     pub fn go(&mut self, piece: &Piece) {
+        let bend = self.at.bend;
+        self.at = piece.to;
         if piece.length > 0.0 {
-            self.third = [0.0; MOST_JOINTS];
+            let inverse = 1.0 / piece.length;
+            let square = piece.length * piece.length;
             for i in 0..MOST_JOINTS {
-                self.third[i] = (piece.to.bend[i] - piece.from.bend[i]) / piece.length;
+                let [_, b, a] = piece.cubic(i);
+                let fourth = 0.5 * square * bend[i] - b;
+                self.at.bend[i] = bend[i] + 6.0 * a * inverse * inverse;
+                self.third[i] = (6.0 * a + 12.0 * fourth) * inverse * inverse * inverse;
+                self.fourth[i] = 24.0 * fourth * inverse * inverse * inverse * inverse;
             }
         }
-        self.at = piece.to;
     }
 }
 

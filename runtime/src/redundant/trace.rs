@@ -159,8 +159,8 @@ fn locate(model: &Model<'_>, crossing: &Crossing, near: &Point, walk: &Walk, end
     let number = ends.add(model, &point.x)?;
     let end = &mut ends.list[number];
     if end.partner == FREE && end.inward == 0.0 {
-        let place = model.place(&point.x);
-        end.at = Point::of(&place, 1.0);
+        let (place, bend) = model.bent(&point.x);
+        end.at = Point::of(&place, 1.0, &bend);
         end.inward = -walk.side;
         end.sides[crossing.side] |= 1 << crossing.joint;
         end.is_unsure = model.arm.given[crossing.joint] == Given::Solved;

@@ -138,6 +138,8 @@ struct Counts {
     unsure: usize,
     wrong: usize,
     lost: usize,
+    /// Those lost although the outcome is not unsure.
+    silent: usize,
     ends: usize,
     arcs: usize,
 }
@@ -146,7 +148,7 @@ struct Counts {
 fn compare(vectors: &[Q]) -> Counts {
     let robot = Srs::iiwa();
     let limits = robot.arm().limits;
-    let mut counts = Counts { poses: 0, compared: 0, unsure: 0, wrong: 0, lost: 0, ends: 0, arcs: 0 };
+    let mut counts = Counts { poses: 0, compared: 0, unsure: 0, wrong: 0, lost: 0, silent: 0, ends: 0, arcs: 0 };
     for q in vectors {
         let target = pose(q);
         let mut out = [Arc::NONE; 256];
@@ -164,6 +166,14 @@ fn compare(vectors: &[Q]) -> Counts {
             best.value > -1e-6 && distance(&again, &best.q) < 1e-6
         });
         counts.lost += usize::from(!is_held);
+        counts.silent += usize::from(!is_held && !outcome.is_unsure);
+        if !is_held && std::env::var("GROEBOT_VECTORS").is_ok() {
+            println!(
+                "lost {:?} unsure {} surface {} arcs {} ends {} nearest {:?}",
+                q.map(|x| x.to_degrees().round()), outcome.is_unsure, outcome.is_surface, outcome.count, outcome.ends,
+                nearest.map(|best| best.value)
+            );
+        }
         match any_within(&robot, &target, &limits).unwrap() {
             Within::Solution(found) => {
                 let reached = pose(&found);
@@ -204,11 +214,12 @@ fn compare(vectors: &[Q]) -> Counts {
 
 fn report(name: &str, c: &Counts) {
     println!(
-        "{name}: {} poses, {} compared, {} wrong, {} lost, {} unsure, {:.1} ends, {:.1} arcs",
+        "{name}: {} poses, {} compared, {} wrong, {} lost, {} of them silent, {} unsure, {:.1} ends, {:.1} arcs",
         c.poses,
         c.compared,
         c.wrong,
         c.lost,
+        c.silent,
         c.unsure,
         c.ends as f64 / c.poses as f64,
         c.arcs as f64 / c.poses as f64

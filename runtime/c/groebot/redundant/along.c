@@ -12,12 +12,12 @@ typedef struct {
 /* A walk from the start of an arc. */
 static void gb_arm_set_out(gb_arm_journey *journey, gb_arm_model *model, const gb_arc *arc)
 {
-    gb_real x[GB_MOST_ARM_JOINTS];
+    gb_real x[GB_MOST_ARM_JOINTS], bend[GB_MOST_ARM_JOINTS];
     gb_arm_place place;
     model->frozen = arc->is_frozen ? gb_arm_constant(model->arm) : -1;
     gb_arm_scaled(model, arc->start.q, x);
-    gb_arm_set_place(model, x, &place);
-    const gb_arm_point at = gb_arm_point_of(&place, arc->side);
+    gb_arm_set_bent(model, x, &place, bend);
+    const gb_arm_point at = gb_arm_point_of(&place, arc->side, bend);
     journey->walk = gb_arm_walk_from(&at, arc->side, arc->level);
     journey->piece = gb_arm_piece_of(&at, &at);
     journey->before = R(0.0);

@@ -61,12 +61,15 @@ static bool gb_arm_is_singular(const gb_arm_model *model, const gb_arm_ends *end
             return false;
         }
     }
-    for (size_t k = 0; k < seeds->count; k++) {
-        if (gb_arm_is_regular(model, seeds->list[k])) {
-            return false;
+    for (size_t number = 0; number < seeds->values; number++) {
+        const gb_arm_group *group = &seeds->groups[number];
+        for (size_t k = group->first; k < group->first + group->count; k++) {
+            if (gb_arm_is_regular(model, seeds->list[k])) {
+                return false;
+            }
         }
     }
-    return ends->count + ends->touches + seeds->count > 0;
+    return ends->count + ends->touches > 0 || gb_arm_first_seed(seeds);
 }
 
 /* Where the equations are singular at all solutions, the joint that is constant is left out, as with a straight elbow. */

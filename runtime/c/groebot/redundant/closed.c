@@ -5,7 +5,10 @@ GB_COLD static void gb_arm_surface(const gb_arm_search *search, gb_arm_output *o
 {
     const gb_arm_seeds *seeds = search->seeds;
     const gb_arm_ends *ends = search->ends;
-    const gb_real *x = seeds->has_surface ? seeds->surface : seeds->count > 0 ? seeds->list[0] : ends->count > 0 ? ends->list[0].at.x : NULL;
+    const gb_real *x = seeds->has_surface ? seeds->surface : gb_arm_first_seed(seeds);
+    if (!x && ends->count > 0) {
+        x = ends->list[0].at.x;
+    }
     if (x) {
         gb_arc arc = gb_arm_arc_at(search->model, x);
         arc.is_unsure = true;
@@ -27,8 +30,9 @@ static bool gb_arm_search_from(const gb_arm_search *search, const gb_real *x, ui
     const gb_arm_ends *ends = search->ends;
     const size_t count = ends->count;
     gb_arm_place place;
-    gb_arm_set_place(model, x, &place);
-    const gb_arm_trace_start start = {gb_arm_point_of(&place, R(1.0)), R(1.0), tied, 0, true};
+    gb_real bend[GB_MOST_ARM_JOINTS];
+    gb_arm_set_bent(model, x, &place, bend);
+    const gb_arm_trace_start start = {gb_arm_point_of(&place, R(1.0), bend), R(1.0), tied, 0, true};
     const gb_arm_trace traced = gb_arm_follow(search, &start);
     gb_arc arc = gb_arm_arc_at(model, x);
     arc.tied = tied;
@@ -62,16 +66,13 @@ static bool gb_arm_search_from(const gb_arm_search *search, const gb_real *x, ui
 static size_t gb_arm_search_closed(const gb_arm_search *search, gb_arm_output *output)
 {
     gb_arm_ends *ends = search->ends;
-    gb_arm_seeds *seeds = search->seeds;
+    gb_real x[GB_MOST_ARM_JOINTS];
     size_t closed = 0;
     while (ends->touches > 0) {
         const gb_arm_touch touch = ends->touching[--ends->touches];
         closed += gb_arm_search_from(search, touch.x, touch.tied, output) ? 1 : 0;
     }
-    while (seeds->count > 0) {
-        gb_real x[GB_MOST_ARM_JOINTS];
-        seeds->count--;
-        gb_arm_copy(seeds->list[seeds->count], x);
+    while (gb_arm_take_seed(search->seeds, x)) {
         closed += gb_arm_search_from(search, x, gb_arm_tied_at(search->model, x), output) ? 1 : 0;
     }
     return closed;
@@ -85,7 +86,7 @@ static int gb_arm_find_arcs(const gb_redundant *robot, const gb_real *target, gb
     ends.count = ends.touches = 0;
     ends.is_unsure = false;
     ends.beyond = gb_arm_no_beyond;
-    seeds.count = seeds.surfaces = 0;
+    seeds.added = seeds.values = seeds.surfaces = 0;
     seeds.is_unsure = seeds.has_surface = false;
     const gb_arm_scan scan = {robot, model, target, &ends.beyond};
     const gb_arm_search search = {model, &ends, &seeds};

@@ -86,12 +86,25 @@ static gb_real gb_arm_crossed(const gb_arm_piece *piece, size_t joint, int side,
     return R(-1.0);
 }
 
+/* By how much the control points of the joints' cubics, between which their values are, exceed limits. */
+GB_INLINE void gb_arm_exceeding(const gb_arm_model *model, const gb_arm_piece *piece, gb_real *exceeds)
+{
+    const gb_real share = piece->length / R(3.0);
+    for (size_t i = 0; i < model->count; i++) {
+        const gb_real last = piece->to.x[i], second = piece->from.x[i] + share * piece->from.t[i], third = last - share * piece->to.t[i];
+        const gb_real low = gb_arm_min(gb_arm_min(second, third), last), high = gb_arm_max(gb_arm_max(second, third), last);
+        exceeds[i] = gb_arm_max(model->limits[i][0] - low, high - model->limits[i][1]);
+    }
+}
+
 /* The first joint that exceeds a limit on the piece. Joints of `tied` remain at their limits. False if there is none. */
 static bool gb_arm_first_crossing(const gb_arm_model *model, const gb_arm_piece *piece, uint32_t tied, gb_arm_crossing *first)
 {
+    gb_real exceeds[GB_MOST_ARM_JOINTS];
     bool is_known = false;
+    gb_arm_exceeding(model, piece, exceeds);
     for (size_t joint = 0; joint < model->count; joint++) {
-        if (!gb_arm_is_limited(model, joint) || (tied & gb_arm_bit(joint)) != 0) {
+        if (exceeds[joint] <= GB_ACCEPTANCE_INPUT || !gb_arm_is_limited(model, joint) || (tied & gb_arm_bit(joint)) != 0) {
             continue;
         }
         for (int side = 0; side < 2; side++) {
@@ -124,7 +137,7 @@ static gb_real gb_arm_corrected(const gb_arm_model *model, const gb_arm_crossing
         return R(-1.0);
     }
     gb_arm_plus(place.x, R(-1.0), step, place.x);
-    *out = gb_arm_point_of(&place, side);
+    *out = gb_arm_point_of(&place, side, gb_arm_still);
     return size;
 }
 

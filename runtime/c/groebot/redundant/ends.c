@@ -143,9 +143,10 @@ static uint32_t gb_arm_tied_at(const gb_arm_model *model, const gb_real *x)
         return 0;
     }
     gb_arm_place place;
-    gb_arm_set_place(model, x, &place);
+    gb_real bend[GB_MOST_ARM_JOINTS];
+    gb_arm_set_bent(model, x, &place, bend);
     for (size_t i = 0; i < model->count; i++) {
-        if ((at & gb_arm_bit(i)) != 0 && gb_magnitude(place.linear.tangent[i]) <= GB_PIVOTS_REGULAR && gb_magnitude(place.bend[i]) <= GB_PIVOTS_REGULAR) {
+        if ((at & gb_arm_bit(i)) != 0 && gb_magnitude(place.linear.tangent[i]) <= GB_PIVOTS_REGULAR && gb_magnitude(bend[i]) <= GB_PIVOTS_REGULAR) {
             tied |= gb_arm_bit(i);
         }
     }
@@ -198,13 +199,14 @@ static void gb_arm_classify(gb_arm_ends *ends, const gb_arm_model *model)
     for (size_t k = 0; k < ends->count; k++) {
         gb_arm_end end = ends->list[k];
         gb_arm_place place;
-        gb_arm_set_place(model, end.at.x, &place);
+        gb_real bend[GB_MOST_ARM_JOINTS];
+        gb_arm_set_bent(model, end.at.x, &place, bend);
         const bool is_solution = gb_arm_largest(place.values, GB_ARM_ROWS) <= R(10.0) * GB_MERGING_JOINTS;
         if (!is_solution) {
             ends->is_unsure = true;
             continue;
         }
-        end.at = gb_arm_point_of(&place, R(1.0));
+        end.at = gb_arm_point_of(&place, R(1.0), bend);
         const gb_arm_openings open = gb_arm_openings_of(model, &end);
         end.tied = open.tied;
         end.is_singular = place.linear.pivot <= GB_PIVOTS_REGULAR;

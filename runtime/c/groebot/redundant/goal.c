@@ -10,6 +10,8 @@ typedef struct {
     /* The columns of the rotation. */
     gb_real columns[3][3];
     bool has_rotation;
+    /* The most frequent case: the equations are three coordinates and a rotation. */
+    bool is_pose;
     gb_real fixed[2][3];
     gb_real moving[2][3];
     size_t products;
@@ -102,6 +104,7 @@ static void gb_arm_set_goal(gb_arm_goal *goal, const gb_arm *arm, const gb_real 
     switch (task->kind) {
     case GB_TASK_POSE:
         gb_arm_rotate(goal, target + 3);
+        goal->is_pose = true;
         break;
     case GB_TASK_POSITION:
         break;
@@ -173,6 +176,11 @@ static void gb_arm_images(const gb_arm_goal *goal, const gb_rigid *tip, gb_real 
 GB_INLINE void gb_arm_rates(const gb_arm_goal *goal, gb_real (*images)[3], const gb_real *linear, const gb_real *angular, gb_real *rates)
 {
     gb_real turned[3];
+    if (goal->is_pose) {
+        memcpy(rates, linear, sizeof turned);
+        memcpy(rates + 3, angular, sizeof turned);
+        return;
+    }
     for (int k = 0; k < GB_ARM_ROWS; k++) {
         rates[k] = R(0.0);
     }

@@ -3,9 +3,6 @@
 /* From one joint to the next. The frame of a joint has z along its axis and x orthogonal to the next axis, too. The frame is turned about z by the joint's
  * angle, moved, and then turned about x, so that z is along the next axis. */
 typedef struct {
-    /* The angle at zero (rad), with its cosine and sine. */
-    gb_real offset;
-    gb_real turn[2];
     /* The next point in the turned frame. */
     gb_real shift[3];
     /* The cosine and the sine of the angle about x. */
@@ -25,6 +22,9 @@ typedef struct {
     /* The first joint's frame at zero. */
     gb_arm_frame base;
     gb_arm_link list[GB_MOST_ARM_JOINTS];
+    /* The angles at zero (rad), and 1 for a joint that turns, 0 for a prismatic one. */
+    gb_real offsets[GB_ARM_ANGLES];
+    gb_real turns[GB_ARM_ANGLES];
     /* The columns of the tip's rotation in the last frame. */
     gb_real tip[3][3];
 } gb_arm_links;
@@ -92,10 +92,9 @@ static void gb_arm_set_links(gb_arm_links *links, const gb_arm *arm)
         }
         gb_arm_point_on(arm, i + 1, next_point);
         gb_arm_sub(next_point, frame.p, r);
-        link->turn[0] = gb_six_dot(before, frame.x);
         gb_six_cross(before, frame.x, product);
-        link->turn[1] = gb_six_dot(frame.z, product);
-        link->offset = gb_angle(link->turn[0], link->turn[1]);
+        links->offsets[i] = gb_angle(gb_six_dot(before, frame.x), gb_six_dot(frame.z, product));
+        links->turns[i] = arm->slides[i] ? R(0.0) : R(1.0);
         gb_arm_components(&frame, r, link->shift);
         link->twist[0] = gb_six_dot(frame.z, next);
         gb_six_cross(frame.z, next, product);
@@ -108,16 +107,30 @@ static void gb_arm_set_links(gb_arm_links *links, const gb_arm *arm)
     }
 }
 
-/* Moves by one joint to the next frame. */
-GB_INLINE void gb_arm_next_frame(gb_arm_frame *at, const gb_arm_link *link, bool slides, gb_real value)
+/* The cosines and the sines of the angles between the frames. */
+GB_INLINE void gb_arm_turned(const gb_arm_links *links, const gb_real *x, gb_real *cosines, gb_real *sines)
 {
-    gb_real c = link->turn[0], s = link->turn[1], x[3], y[3], moved[3];
-    if (slides) {
-        gb_arm_scale(at->z, value, moved);
-        gb_arm_add(at->p, moved, at->p);
-    } else {
-        gb_cosine_and_sine(value + link->offset, &c, &s);
+    gb_real angles[GB_ARM_ANGLES];
+    memcpy(angles, links->offsets, sizeof angles);
+    GB_UNROLL
+    for (int i = 0; i < GB_MOST_ARM_JOINTS; i++) {
+        angles[i] += links->turns[i] * x[i];
     }
+    gb_six_turns(angles, GB_ARM_ANGLES, cosines, sines);
+}
+
+/* Moves a frame along its z axis. */
+GB_INLINE void gb_arm_slide(gb_arm_frame *at, gb_real value)
+{
+    gb_real moved[3];
+    gb_arm_scale(at->z, value, moved);
+    gb_arm_add(at->p, moved, at->p);
+}
+
+/* Moves by one joint, whose angle has this cosine and sine, to the next frame. */
+GB_INLINE void gb_arm_next_frame(gb_arm_frame *at, const gb_arm_link *link, gb_real c, gb_real s)
+{
+    gb_real x[3], y[3], moved[3];
     gb_arm_mix(c, at->x, s, at->y, x);
     gb_arm_mix(c, at->y, -s, at->x, y);
     gb_arm_scale(at->z, link->shift[2], moved);
@@ -144,24 +157,19 @@ GB_INLINE void gb_arm_set_tip(const gb_arm_links *links, const gb_arm_frame *at,
     }
 }
 
-/* The tip at joint values. */
-static void gb_arm_tip(const gb_arm_links *links, const gb_arm *arm, const gb_real *x, gb_rigid *tip)
-{
-    gb_arm_frame at = links->base;
-    for (size_t i = 0; i < arm->count; i++) {
-        gb_arm_next_frame(&at, &links->list[i], arm->slides[i], x[i]);
-    }
-    gb_arm_set_tip(links, &at, tip);
-}
-
 /* Axes and tip at joint values. */
 static void gb_arm_set_axes(const gb_arm_links *links, const gb_arm *arm, const gb_real *x, gb_arm_axes *axes)
 {
     gb_arm_frame at = links->base;
+    gb_real cosines[GB_ARM_ANGLES], sines[GB_ARM_ANGLES];
+    gb_arm_turned(links, x, cosines, sines);
     for (size_t i = 0; i < arm->count; i++) {
         memcpy(axes->directions[i], at.z, sizeof at.z);
         memcpy(axes->points[i], at.p, sizeof at.p);
-        gb_arm_next_frame(&at, &links->list[i], arm->slides[i], x[i]);
+        if (arm->slides[i]) {
+            gb_arm_slide(&at, x[i]);
+        }
+        gb_arm_next_frame(&at, &links->list[i], cosines[i], sines[i]);
     }
     gb_arm_set_tip(links, &at, &axes->tip);
 }

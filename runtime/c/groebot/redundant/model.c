@@ -21,8 +21,6 @@ typedef struct {
     gb_real x[GB_MOST_ARM_JOINTS];
     gb_real values[GB_ARM_ROWS];
     gb_arm_elimination linear;
-    /* The second derivative of the curve by its length. */
-    gb_real bend[GB_MOST_ARM_JOINTS];
 } gb_arm_place;
 
 /* Returns 0, or GB_NOT_LIMITS. */
@@ -45,14 +43,6 @@ static int gb_arm_set_model(gb_arm_model *model, const gb_arm *arm, const gb_rea
         model->limits[i][1] = high / model->units[i];
     }
     return 0;
-}
-
-/* The values of the equations. */
-static void gb_arm_values(const gb_arm_model *model, const gb_real *x, gb_real *values)
-{
-    gb_rigid tip;
-    gb_arm_tip(&model->links, model->arm, x, &tip);
-    gb_arm_goal_values(&model->goal, &tip, values);
 }
 
 /* The second derivatives of the equations where the joints move with constant rates `t`. */
@@ -78,22 +68,17 @@ static void gb_arm_second(const gb_arm_model *model, const gb_arm_axes *axes, gb
     gb_arm_add_centripetal(&model->goal, images, velocity, second);
 }
 
-/* The equations, their derivatives, and the curve's direction and curvature. `x` may be that of the place. */
-static void gb_arm_set_place(const gb_arm_model *model, const gb_real *x, gb_arm_place *place)
+/* The factors of the equations' derivatives. */
+GB_INLINE void gb_arm_set_factors(const gb_arm_model *model, const gb_arm_axes *axes, gb_real (*images)[3], gb_arm_elimination *linear)
 {
     static const gb_real still[3] = {R(0.0), R(0.0), R(0.0)};
-    gb_arm_axes axes;
-    gb_real images[2][3], second[GB_ARM_ROWS];
-    gb_arm_elimination *linear = &place->linear;
-    gb_arm_set_axes(&model->links, model->arm, x, &axes);
-    gb_arm_images(&model->goal, &axes.tip, images);
     for (size_t i = 0; i < model->count; i++) {
-        const gb_real *axis = axes.directions[i];
+        const gb_real *axis = axes->directions[i];
         if (model->arm->slides[i]) {
             gb_arm_rates(&model->goal, images, axis, still, linear->columns[i]);
         } else {
             gb_real lever[3], moved[3];
-            gb_arm_sub(axes.tip.translation, axes.points[i], lever);
+            gb_arm_sub(axes->tip.translation, axes->points[i], lever);
             gb_six_cross(axis, lever, moved);
             gb_arm_rates(&model->goal, images, moved, axis, linear->columns[i]);
         }
@@ -104,13 +89,54 @@ static void gb_arm_set_place(const gb_arm_model *model, const gb_real *x, gb_arm
     } else {
         gb_arm_factor_without(linear, rows - 1, (size_t)model->frozen);
     }
-    gb_arm_second(model, &axes, images, linear->tangent, second);
-    gb_arm_least(linear, second, place->bend);
-    gb_arm_reverse(place->bend);
-    if (place->x != x) {
-        gb_arm_copy(x, place->x);
-    }
+}
+
+/* The equations, their derivatives, and the curve's direction. */
+static void gb_arm_set_place(const gb_arm_model *model, const gb_real *x, gb_arm_place *place)
+{
+    gb_arm_axes axes;
+    gb_real images[2][3];
+    gb_arm_set_axes(&model->links, model->arm, x, &axes);
+    gb_arm_images(&model->goal, &axes.tip, images);
+    gb_arm_set_factors(model, &axes, images, &place->linear);
+    gb_arm_copy(x, place->x);
     gb_arm_goal_values(&model->goal, &axes.tip, place->values);
+}
+
+/* A place, and the second derivative of the curve by its length. */
+static void gb_arm_set_bent(const gb_arm_model *model, const gb_real *x, gb_arm_place *place, gb_real *bend)
+{
+    gb_arm_axes axes;
+    gb_real images[2][3], second[GB_ARM_ROWS];
+    gb_arm_set_place(model, x, place);
+    gb_arm_set_axes(&model->links, model->arm, x, &axes);
+    gb_arm_images(&model->goal, &axes.tip, images);
+    gb_arm_second(model, &axes, images, place->linear.tangent, second);
+    gb_arm_least(&place->linear, second, bend);
+    gb_arm_reverse(bend);
+}
+
+/* The values of the equations, and their rates where the joints move with rates `t`. */
+static void gb_arm_moving(const gb_arm_model *model, const gb_real *x, const gb_real *t, gb_real *values, gb_real *rates)
+{
+    gb_arm_axes axes;
+    gb_real images[2][3], linear[3] = {R(0.0), R(0.0), R(0.0)}, angular[3] = {R(0.0), R(0.0), R(0.0)};
+    gb_arm_set_axes(&model->links, model->arm, x, &axes);
+    for (size_t i = 0; i < model->count; i++) {
+        gb_real motion[3], lever[3], moved[3];
+        gb_arm_scale(axes.directions[i], t[i], motion);
+        if (model->arm->slides[i]) {
+            gb_arm_add(linear, motion, linear);
+        } else {
+            gb_arm_sub(axes.tip.translation, axes.points[i], lever);
+            gb_six_cross(motion, lever, moved);
+            gb_arm_add(linear, moved, linear);
+            gb_arm_add(angular, motion, angular);
+        }
+    }
+    gb_arm_images(&model->goal, &axes.tip, images);
+    gb_arm_goal_values(&model->goal, &axes.tip, values);
+    gb_arm_rates(&model->goal, images, linear, angular, rates);
 }
 
 /* The angle moved by as few turns as possible within limits. Where that is impossible, it is moved to where it exceeds them least. */

@@ -1,11 +1,19 @@
 /* Solutions for a grid of values of the scanned joint. Those that are on no traced curve lead to closed curves: see seeds.rs */
 
+/* Solutions of the list that have one value of the scanned joint: from `first` on, so many. */
+typedef struct {
+    gb_real value;
+    size_t first;
+    size_t count;
+} gb_arm_group;
+
 /* Solutions within limits that are on no known curve. */
 typedef struct {
-    /* The values of the scanned joint. */
-    gb_real values[GB_ARM_SEEDS];
     gb_real list[GB_ARM_SEEDS][GB_MOST_ARM_JOINTS];
-    size_t count;
+    /* The number of solutions that were added; some of them are on known curves by now. */
+    size_t added;
+    gb_arm_group groups[GB_ARM_GROUPS];
+    size_t values;
     size_t joint;
     bool is_unsure;
     /* The number of values for which the problem itself has a self-motion, and one of their solutions within limits. */
@@ -47,7 +55,7 @@ static void gb_arm_range(const gb_arm_model *model, gb_real *range)
 /* Whether two of the solutions from this one on are close to each other. */
 static bool gb_arm_has_close(const gb_arm_seeds *seeds, const gb_arm_model *model, size_t first)
 {
-    for (size_t i = first; i < seeds->count; i++) {
+    for (size_t i = first; i < seeds->added; i++) {
         for (size_t j = first; j < i; j++) {
             if (gb_arm_distance(model, seeds->list[i], seeds->list[j]) <= GB_ARM_CLOSE) {
                 return true;
@@ -58,11 +66,10 @@ static bool gb_arm_has_close(const gb_arm_seeds *seeds, const gb_arm_model *mode
 }
 
 /* Adds a solution within limits. */
-static void gb_arm_add_seed(gb_arm_seeds *seeds, gb_real value, const gb_real *x)
+static void gb_arm_add_seed(gb_arm_seeds *seeds, const gb_real *x)
 {
-    if (seeds->count < GB_ARM_SEEDS) {
-        seeds->values[seeds->count] = value;
-        gb_arm_copy(x, seeds->list[seeds->count++]);
+    if (seeds->added < GB_ARM_SEEDS) {
+        gb_arm_copy(x, seeds->list[seeds->added++]);
     } else {
         seeds->is_unsure = true;
     }
@@ -73,7 +80,7 @@ static int gb_arm_add_level(gb_arm_seeds *seeds, const gb_arm_scan *scan, gb_rea
 {
     const gb_arm_model *model = scan->model;
     const gb_arm_members *members = &seeds->members;
-    const size_t first = seeds->count;
+    const size_t first = seeds->added;
     bool is_surface = false;
     const int code = gb_arm_solve(scan->robot, scan->target, seeds->joint, value * model->units[seeds->joint], &seeds->members);
     if (code < 0) {
@@ -93,9 +100,13 @@ static int gb_arm_add_level(gb_arm_seeds *seeds, const gb_arm_scan *scan, gb_rea
             seeds->has_surface = true;
             gb_arm_copy(x, seeds->surface);
         } else if (beyond == 0) {
-            gb_arm_add_seed(seeds, value, x);
+            gb_arm_add_seed(seeds, x);
         }
     }
+    gb_arm_group *group = &seeds->groups[seeds->values++];
+    group->value = value;
+    group->first = first;
+    group->count = seeds->added - first;
     seeds->surfaces += is_surface ? 1 : 0;
     level->value = value;
     level->solutions = members->count;
@@ -109,7 +120,7 @@ static int gb_arm_between(gb_arm_seeds *seeds, const gb_arm_scan *scan, gb_arm_l
     for (int k = 0; k < GB_ARM_HALVINGS; k++) {
         gb_arm_level middle;
         const bool differ = low.solutions != high.solutions;
-        if (seeds->count + GB_MOST_MEMBERS > GB_ARM_SEEDS || !(differ || (low.has_close && high.has_close))) {
+        if (seeds->added + GB_MOST_MEMBERS > GB_ARM_SEEDS || !(differ || (low.has_close && high.has_close))) {
             return 0;
         }
         const int code = gb_arm_add_level(seeds, scan, R(0.5) * (low.value + high.value), &middle);
@@ -146,19 +157,11 @@ static int gb_arm_find_seeds(gb_arm_seeds *seeds, const gb_arm_scan *scan)
     return 0;
 }
 
-/* Removes a solution. */
-static void gb_arm_remove_seed(gb_arm_seeds *seeds, size_t k)
-{
-    seeds->count--;
-    memmove(seeds->list[k], seeds->list[seeds->count], sizeof seeds->list[k]);
-    seeds->values[k] = seeds->values[seeds->count];
-}
-
-/* Whether a solution is on the piece, where the scanned joint has a certain value. */
-static bool gb_arm_is_seed_on(const gb_arm_seeds *seeds, const gb_arm_model *model, const gb_arm_piece *piece, gb_real value, size_t number)
+/* The point of the piece where the scanned joint has a certain value. */
+static void gb_arm_seed_on(const gb_arm_seeds *seeds, const gb_arm_piece *piece, gb_real value, gb_real *x)
 {
     const gb_real from = piece->from.x[seeds->joint], to = piece->to.x[seeds->joint];
-    gb_real share = from == to ? R(0.5) : (value - from) / (to - from), c[3], x[GB_MOST_ARM_JOINTS];
+    gb_real share = from == to ? R(0.5) : (value - from) / (to - from), c[3];
     gb_arm_cubic(piece, seeds->joint, c);
     for (int k = 0; k < GB_ARM_SEED_STEPS; k++) {
         const gb_real slope = c[0] + share * (R(2.0) * c[1] + share * R(3.0) * c[2]);
@@ -168,7 +171,25 @@ static bool gb_arm_is_seed_on(const gb_arm_seeds *seeds, const gb_arm_model *mod
         }
     }
     gb_arm_piece_at(piece, share, x);
-    return gb_arm_distance(model, x, seeds->list[number]) <= GB_ARM_ON * piece->length + GB_MERGING_JOINTS;
+}
+
+/* Removes the solutions of a group on a piece of a curve. */
+static void gb_arm_pass_group(gb_arm_seeds *seeds, const gb_arm_model *model, const gb_arm_piece *piece, gb_real value, gb_arm_group *group)
+{
+    gb_real x[GB_MOST_ARM_JOINTS];
+    size_t k = group->first;
+    if (group->count == 0) {
+        return;
+    }
+    gb_arm_seed_on(seeds, piece, value, x);
+    while (k < group->first + group->count) {
+        if (gb_arm_distance(model, x, seeds->list[k]) <= GB_ARM_ON * piece->length + GB_MERGING_JOINTS) {
+            group->count--;
+            memmove(seeds->list[k], seeds->list[group->first + group->count], sizeof seeds->list[k]);
+        } else {
+            k++;
+        }
+    }
 }
 
 /* Removes the solutions on a piece of a curve. */
@@ -176,16 +197,40 @@ static void gb_arm_pass_seeds(gb_arm_seeds *seeds, const gb_arm_model *model, co
 {
     const gb_real from = piece->from.x[seeds->joint], to = piece->to.x[seeds->joint];
     const gb_real least = gb_arm_min(from, to) - GB_ACCEPTANCE_INPUT, greatest = gb_arm_max(from, to) + GB_ACCEPTANCE_INPUT;
-    size_t k = 0;
-    while (k < seeds->count) {
-        gb_real value = seeds->values[k];
+    for (size_t number = 0; number < seeds->values; number++) {
+        gb_real value = seeds->groups[number].value;
         if (model->turns[seeds->joint]) {
             value += GB_TAU * gb_ceiling((least - value) / GB_TAU);
         }
-        if (value >= least && value <= greatest && gb_arm_is_seed_on(seeds, model, piece, value, k)) {
-            gb_arm_remove_seed(seeds, k);
-        } else {
-            k++;
+        if (value >= least && value <= greatest) {
+            gb_arm_pass_group(seeds, model, piece, value, &seeds->groups[number]);
         }
     }
+}
+
+/* Takes a solution that is on no known curve from the list. False if there is none. */
+static bool gb_arm_take_seed(gb_arm_seeds *seeds, gb_real *x)
+{
+    while (seeds->values > 0) {
+        gb_arm_group *group = &seeds->groups[seeds->values - 1];
+        if (group->count > 0) {
+            group->count--;
+            gb_arm_copy(seeds->list[group->first + group->count], x);
+            return true;
+        }
+        seeds->values--;
+    }
+    return false;
+}
+
+/* The first of the solutions that are on no known curve; NULL if there is none. */
+static const gb_real *gb_arm_first_seed(const gb_arm_seeds *seeds)
+{
+    for (size_t number = 0; number < seeds->values; number++) {
+        const gb_arm_group *group = &seeds->groups[number];
+        if (group->count > 0) {
+            return seeds->list[group->first];
+        }
+    }
+    return NULL;
 }

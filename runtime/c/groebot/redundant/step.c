@@ -1,6 +1,6 @@
 /* Steps along a curve of solutions: predictor, corrector and their acceptance: see step.rs
  *
- * The predictor is a cubic with the curve's direction, curvature and the curvature's last change. The corrector is the simplified Newton method. A step is
+ * The predictor continues the polynomial of degree four through the last piece. The corrector is the simplified Newton method. A step is
  * accepted by an affine-invariant estimate of the Newton-Kantorovich condition (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, sections 2.1 and
  * 5.2): the second correction must be at most a quarter of the first one. The oriented direction must not turn back. Where it does, the step has left the curve
  * for another one that nearly crosses it. */
@@ -30,18 +30,21 @@ typedef struct {
     /* The next step, and the longest one. */
     gb_real pace;
     gb_real longest;
-    /* The change of the curvature by the length. */
+    /* The third and the fourth derivative by the length. */
     gb_real third[GB_MOST_ARM_JOINTS];
+    gb_real fourth[GB_MOST_ARM_JOINTS];
     /* Whether the walk has crossed a singular point, where curves meet. */
     bool is_unsure;
 } gb_arm_walk;
 
+static const gb_real gb_arm_still[GB_MOST_ARM_JOINTS] = {R(0.0)};
+
 /* The point of a place whose direction of travel is the oriented one times `side`. */
-static gb_arm_point gb_arm_point_of(const gb_arm_place *place, gb_real side)
+static gb_arm_point gb_arm_point_of(const gb_arm_place *place, gb_real side, const gb_real *bend)
 {
     gb_arm_point point;
     gb_arm_copy(place->x, point.x);
-    gb_arm_copy(place->bend, point.bend);
+    gb_arm_copy(bend, point.bend);
     for (int i = 0; i < GB_MOST_ARM_JOINTS; i++) {
         point.t[i] = place->linear.tangent[i] * side;
     }
@@ -65,7 +68,15 @@ static gb_real gb_arm_length(const gb_arm_point *from, const gb_arm_point *to)
     /* Squares of sines, made squares of angles. */
     const gb_real mean = R(0.5) * (a + b);
     const gb_real slopes = (R(2.0) * a + R(2.0) * b - both) * (R(1.0) + mean / R(3.0));
-    return distance * (R(1.0) + slopes / R(30.0) + R(7.0) / R(360.0) * mean * mean);
+    const gb_real length = distance * (R(1.0) + slopes / R(30.0) + R(7.0) / R(360.0) * mean * mean);
+    /* The polynomial of degree four with the curvature at the beginning differs from the cubic by `fourth u^2 (1 - u)^2`. */
+    gb_real change = R(0.0);
+    for (int i = 0; i < GB_MOST_ARM_JOINTS; i++) {
+        const gb_real start = length * from->t[i], end = length * to->t[i];
+        const gb_real fourth = R(0.5) * length * length * from->bend[i] - (R(3.0) * chord[i] - R(2.0) * start - end);
+        change += (end - start) * fourth;
+    }
+    return length - gb_arm_min(gb_arm_max(change / (R(30.0) * length), -GB_ARM_FOURTH * length), GB_ARM_FOURTH * length);
 }
 
 static gb_arm_piece gb_arm_piece_of(const gb_arm_point *from, const gb_arm_point *to)
@@ -110,45 +121,63 @@ static gb_arm_walk gb_arm_walk_from(const gb_arm_point *at, gb_real side, uint32
     walk.pace = GB_ARM_FIRST_PACE * share;
     walk.longest = GB_ARM_LONGEST_PACE * share;
     memset(walk.third, 0, sizeof walk.third);
+    memset(walk.fourth, 0, sizeof walk.fourth);
     walk.is_unsure = false;
     return walk;
 }
 
-/* Corrects the place that a step predicts. Returns the length of the first correction, or -1 if the step is not accepted. */
-static gb_real gb_arm_correct(const gb_arm_model *model, gb_arm_place *place)
+/* Corrects the place that a step predicts: writes the point of the curve. Returns the length of the first correction, or -1 if the step is not accepted. */
+static gb_real gb_arm_correct(const gb_arm_model *model, const gb_arm_place *place, gb_real side, gb_arm_point *to)
 {
-    gb_real step[GB_MOST_ARM_JOINTS], values[GB_ARM_ROWS];
+    gb_real step[GB_MOST_ARM_JOINTS], turn[GB_MOST_ARM_JOINTS], values[GB_ARM_ROWS], rates[GB_ARM_ROWS];
     gb_arm_least(&place->linear, place->values, step);
     const gb_real size = gb_arm_norm(step);
     const bool is_short = size <= GB_ARM_CORRECTION;
     if (!is_short) {
         return R(-1.0);
     }
-    gb_arm_plus(place->x, R(-1.0), step, place->x);
-    gb_arm_values(model, place->x, values);
+    gb_arm_plus(place->x, R(-1.0), step, to->x);
+    gb_arm_moving(model, to->x, place->linear.tangent, values, rates);
     gb_arm_least(&place->linear, values, step);
-    gb_arm_plus(place->x, R(-1.0), step, place->x);
     const bool is_contracting = gb_arm_norm(step) <= GB_ARM_CONTRACTION * size + GB_ACCEPTANCE_RESIDUAL;
-    return is_contracting ? size : R(-1.0);
-}
-
-/* A step of a certain length: writes the place where it ends. Returns the length of its correction, or -1 if it is not accepted. */
-static gb_real gb_arm_attempt(const gb_arm_walk *walk, const gb_arm_model *model, gb_real pace, gb_real side, gb_arm_place *place)
-{
-    const gb_arm_point *at = &walk->at;
-    gb_arm_copy(at->x, place->x);
-    for (size_t i = 0; i < model->count; i++) {
-        place->x[i] += pace * (at->t[i] + pace * (R(0.5) * at->bend[i] + pace / R(6.0) * walk->third[i]));
-    }
-    gb_arm_set_place(model, place->x, place);
-    if (model->frozen >= 0 && side * gb_arm_dot(place->linear.tangent, at->t) < R(0.0)) {
-        /* One of the equations is left out, so that the orientation is not continuous. */
-        gb_arm_reverse(place->linear.tangent);
-    }
-    if (place->linear.pivot <= GB_PIVOTS_REGULAR || side * gb_arm_dot(place->linear.tangent, at->t) < GB_ARM_STRAIGHT) {
+    if (!is_contracting) {
         return R(-1.0);
     }
-    return gb_arm_correct(model, place);
+    /* The null vector of the derivatives at the corrected point, by one step of the same method. */
+    gb_arm_least(&place->linear, rates, turn);
+    const gb_real shrink = side / gb_square_root(R(1.0) + gb_arm_dot(turn, turn));
+    gb_arm_plus(to->x, R(-1.0), step, to->x);
+    gb_arm_copy(gb_arm_still, to->bend);
+    for (int i = 0; i < GB_MOST_ARM_JOINTS; i++) {
+        to->t[i] = shrink * (place->linear.tangent[i] - turn[i]);
+    }
+    return size;
+}
+
+/* A step of a certain length: writes the piece. Returns the length of its correction, or -1 if it is not accepted. */
+static gb_real gb_arm_attempt(const gb_arm_walk *walk, const gb_arm_model *model, gb_real pace, gb_real side, gb_arm_piece *piece)
+{
+    const gb_arm_point *at = &walk->at;
+    gb_arm_place place;
+    gb_arm_point to;
+    gb_real x[GB_MOST_ARM_JOINTS];
+    for (int i = 0; i < GB_MOST_ARM_JOINTS; i++) {
+        const gb_real third = walk->third[i] / R(6.0) + pace / R(24.0) * walk->fourth[i];
+        x[i] = at->x[i] + pace * (at->t[i] + pace * (R(0.5) * at->bend[i] + pace * third));
+    }
+    gb_arm_set_place(model, x, &place);
+    if (model->frozen >= 0 && side * gb_arm_dot(place.linear.tangent, at->t) < R(0.0)) {
+        /* One of the equations is left out, so that the orientation is not continuous. */
+        gb_arm_reverse(place.linear.tangent);
+    }
+    if (place.linear.pivot <= GB_PIVOTS_REGULAR || side * gb_arm_dot(place.linear.tangent, at->t) < GB_ARM_STRAIGHT) {
+        return R(-1.0);
+    }
+    const gb_real size = gb_arm_correct(model, &place, side, &to);
+    if (size >= R(0.0)) {
+        *piece = gb_arm_piece_of(at, &to);
+    }
+    return size;
 }
 
 /* A step across a singular point. Beyond it the oriented direction is opposite to the direction of travel. */
@@ -157,13 +186,10 @@ GB_COLD static bool gb_arm_leap(gb_arm_walk *walk, const gb_arm_model *model, gb
     const gb_real sides[2] = {-walk->side, walk->side};
     for (int k = 0; k < 2 * GB_ARM_LEAPS; k++) {
         const gb_real leap = gb_arm_leaps[k / 2], side = sides[k % 2];
-        gb_arm_place place;
-        if (gb_arm_attempt(walk, model, leap, side, &place) >= R(0.0)) {
-            const gb_arm_point to = gb_arm_point_of(&place, side);
+        if (gb_arm_attempt(walk, model, leap, side, piece) >= R(0.0)) {
             walk->side = side;
             walk->is_unsure = true;
             walk->pace = leap;
-            *piece = gb_arm_piece_of(&walk->at, &to);
             return true;
         }
     }
@@ -174,13 +200,10 @@ GB_COLD static bool gb_arm_leap(gb_arm_walk *walk, const gb_arm_model *model, gb
 static bool gb_arm_next_piece(gb_arm_walk *walk, const gb_arm_model *model, gb_arm_piece *piece)
 {
     while (walk->pace >= GB_ARM_SHORTEST_PACE) {
-        gb_arm_place place;
-        const gb_real size = gb_arm_attempt(walk, model, walk->pace, walk->side, &place);
+        const gb_real size = gb_arm_attempt(walk, model, walk->pace, walk->side, piece);
         if (size >= R(0.0)) {
-            const gb_arm_point to = gb_arm_point_of(&place, walk->side);
             const gb_real ratio = R(0.5) * GB_ARM_CORRECTION / gb_arm_max(size, GB_ACCEPTANCE_RESIDUAL);
             const gb_real grown = gb_square_root(gb_square_root(ratio));
-            *piece = gb_arm_piece_of(&walk->at, &to);
             walk->pace = gb_arm_min(walk->longest, walk->pace * gb_arm_min(R(2.0), gb_arm_max(R(0.5), grown)));
             return true;
         }
@@ -189,15 +212,24 @@ static bool gb_arm_next_piece(gb_arm_walk *walk, const gb_arm_model *model, gb_a
     return gb_arm_leap(walk, model, piece);
 }
 
-/* Moves the walk to the end of a piece. */
+/* Moves the walk to the end of a piece. The next prediction continues the polynomial of degree four with the positions and directions of both ends and the
+ * curvature at the beginning. */
 static void gb_arm_go(gb_arm_walk *walk, const gb_arm_piece *piece)
 {
+    gb_real bend[GB_MOST_ARM_JOINTS];
+    gb_arm_copy(walk->at.bend, bend);
+    walk->at = piece->to;
     if (piece->length > R(0.0)) {
-        for (int i = 0; i < GB_MOST_ARM_JOINTS; i++) {
-            walk->third[i] = (piece->to.bend[i] - piece->from.bend[i]) / piece->length;
+        const gb_real inverse = R(1.0) / piece->length, square = piece->length * piece->length;
+        for (size_t i = 0; i < GB_MOST_ARM_JOINTS; i++) {
+            gb_real c[3];
+            gb_arm_cubic(piece, i, c);
+            const gb_real fourth = R(0.5) * square * bend[i] - c[1];
+            walk->at.bend[i] = bend[i] + R(6.0) * c[2] * inverse * inverse;
+            walk->third[i] = (R(6.0) * c[2] + R(12.0) * fourth) * inverse * inverse * inverse;
+            walk->fourth[i] = R(24.0) * fourth * inverse * inverse * inverse * inverse;
         }
     }
-    walk->at = piece->to;
 }
 
 /* Whether a point is on a piece. */

@@ -78,8 +78,9 @@ GB_COLD static size_t gb_arm_locate(const gb_arm_model *model, const gb_arm_cros
     gb_arm_end *end = &ends->list[number];
     if (end->partner == GB_ARM_FREE && end->inward == R(0.0)) {
         gb_arm_place place;
-        gb_arm_set_place(model, point.x, &place);
-        end->at = gb_arm_point_of(&place, R(1.0));
+        gb_real bend[GB_MOST_ARM_JOINTS];
+        gb_arm_set_bent(model, point.x, &place, bend);
+        end->at = gb_arm_point_of(&place, R(1.0), bend);
         end->inward = -side;
         end->sides[crossing->side] |= gb_arm_bit(crossing->joint);
         end->is_unsure = model->arm->given[crossing->joint] == GB_ARM_SOLVED;

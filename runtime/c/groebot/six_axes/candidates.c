@@ -1,5 +1,11 @@
 /* From the matrix pencil to joint angles: eigenvalues, eigenvectors, back-substitution: see candidates.rs */
 
+/* The angle of a cosine and a sine; zero where both are zero. */
+static gb_real gb_six_turn(gb_real cosine, gb_real sine)
+{
+    return cosine == R(0.0) && sine == R(0.0) ? R(0.0) : gb_angle(cosine, sine);
+}
+
 /* The joint values of a candidate. That of the joint whose line was used is not computed yet, and a displacement may be infinite. */
 typedef struct {
     gb_real q[6];

@@ -1,4 +1,6 @@
 /* Several numbers at once, each bitwise equal to what it would be alone */
+#ifndef GB_SIX_LANES_OF
+#define GB_SIX_LANES_OF
 
 #if GB_LANES >= 4
 #define GB_SIX_LANES 4
@@ -119,3 +121,5 @@ GB_INLINE gb_real gb_six_largest(gb_real least, const gb_real *numbers, size_t c
     }
     return largest;
 }
+
+#endif

@@ -1,4 +1,6 @@
 /* Cosines and sines of several angles: see vector.rs */
+#ifndef GB_SIX_VECTOR
+#define GB_SIX_VECTOR
 
 /* Adding this number to another one rounds that one to an integer, which is then in the last bits. */
 #define GB_SIX_WHOLE GB_EITHER(6755399441055744.0, 12582912.0)
@@ -38,8 +40,4 @@ GB_INLINE void gb_six_turns(const gb_real *angles, size_t count, gb_real *cosine
     }
 }
 
-/* The angle of a cosine and a sine; zero where both are zero. */
-static gb_real gb_six_turn(gb_real cosine, gb_real sine)
-{
-    return cosine == R(0.0) && sine == R(0.0) ? R(0.0) : gb_angle(cosine, sine);
-}
+#endif
