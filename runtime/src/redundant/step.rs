@@ -180,7 +180,9 @@ impl Walk {
     fn attempt(&self, model: &Model<'_>, pace: f64, side: f64) -> Option<(Piece, f64)> {
         let mut x = self.at.x;
         for i in 0..MOST_JOINTS {
-            x[i] += pace * (self.at.t[i] + pace * (0.5 * self.at.bend[i] + pace * (self.third[i] / 6.0 + pace / 24.0 * self.fourth[i])));
+            x[i] += pace
+                * (self.at.t[i]
+                    + pace * (0.5 * self.at.bend[i] + pace * (self.third[i] / 6.0 + pace / 24.0 * self.fourth[i])));
         }
         let mut place = model.place(&x);
         if model.frozen.is_some() && side * dot(&place.linear.tangent, &self.at.t) < 0.0 {

@@ -170,7 +170,11 @@ fn compare(vectors: &[Q]) -> Counts {
         if !is_held && std::env::var("GROEBOT_VECTORS").is_ok() {
             println!(
                 "lost {:?} unsure {} surface {} arcs {} ends {} nearest {:?}",
-                q.map(|x| x.to_degrees().round()), outcome.is_unsure, outcome.is_surface, outcome.count, outcome.ends,
+                q.map(|x| x.to_degrees().round()),
+                outcome.is_unsure,
+                outcome.is_surface,
+                outcome.count,
+                outcome.ends,
                 nearest.map(|best| best.value)
             );
         }
