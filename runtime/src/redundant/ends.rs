@@ -273,8 +273,7 @@ pub(super) fn tied_at(model: &Model<'_>, x: &Q) -> u32 {
     let (place, bend) = model.bent(x);
     let mut tied = 0;
     for i in 0..model.count {
-        if at & 1 << i != 0 && place.linear.tangent[i].abs() <= PIVOTS.regular && bend[i].abs() <= PIVOTS.regular
-        {
+        if at & 1 << i != 0 && place.linear.tangent[i].abs() <= PIVOTS.regular && bend[i].abs() <= PIVOTS.regular {
             tied |= 1 << i;
         }
     }

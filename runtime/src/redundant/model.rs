@@ -7,10 +7,10 @@ use super::elimination::{Elimination, MOST_ROWS, Rows};
 use super::goal::{Goal, carried};
 use super::links::{Axes, Links};
 use crate::arithmetic::Arithmetic;
-use crate::six_axes::vector::{add, cross, scale, sub};
 #[cfg(test)]
 use crate::six_axes::Rigid;
 use crate::six_axes::Vector;
+use crate::six_axes::vector::{add, cross, scale, sub};
 use crate::solution::Error;
 use crate::tolerances::ACCEPTANCE;
 
