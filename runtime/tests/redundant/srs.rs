@@ -182,8 +182,8 @@ impl Redundant for Srs {
                 q[given] = value;
                 let mut free = free;
                 // With a straight elbow, the axes of three joints may be one line.
-                for first in [0, 2] {
-                    if q[first + 1].sin().abs() < 1e-7 && q[3].sin().abs() < 1e-7 {
+                for (first, middle) in [(0, 1), (2, 5)] {
+                    if q[middle].sin().abs() < 1e-7 && q[3].sin().abs() < 1e-7 {
                         free |= (0b1_0101 << first) & !(1 << given);
                     }
                 }
