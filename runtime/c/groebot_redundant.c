@@ -17,13 +17,13 @@
 
 /* The first and the longest step (rad, or relative to the characteristic length). */
 #define GB_ARM_FIRST_PACE R(0.2)
-#define GB_ARM_LONGEST_PACE R(0.7)
+#define GB_ARM_LONGEST_PACE R(0.5)
 /* The shortest step. Where a shorter one would be necessary, two curves cross. Number and lengths of the steps across such a crossing. */
 #define GB_ARM_SHORTEST_PACE (R(0.1) * GB_MERGING_APART)
 #define GB_ARM_LEAPS 4
 static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(1e-2), R(5e-2)};
 /* Maximal length of the first correction; maximal ratio of the second one to it; the least cosine of the angle between directions at both ends of a step. */
-#define GB_ARM_CORRECTION R(4e-3)
+#define GB_ARM_CORRECTION R(2e-3)
 #define GB_ARM_CONTRACTION R(0.25)
 #define GB_ARM_STRAIGHT R(0.8)
 /* Maximal change of a piece's length, relative to it, by the term of degree four. */

@@ -164,29 +164,27 @@ pub(super) fn constant(arm: &Arm) -> Option<usize> {
     (0..arm.count).find(|&joint| arm.given[joint] == Given::Constant)
 }
 
-/// Where the equations are singular at all solutions, the joint that is constant is left out, as with a straight elbow.
+/// Where the equations are singular at all solutions, the joint that is constant is left out, as with a straight elbow. Rounding of the target bends a straight
+/// elbow, so that all equations whose solutions are not isolated count as singular.
 fn freeze(model: &mut Model<'_>, ends: &mut Ends, seeds: &Seeds) {
     let Some(joint) = constant(model.arm) else { return };
     if ends.count + ends.touches + seeds.all().count() == 0 {
         return;
     }
-    for k in 0..ends.count {
-        if !ends.list[k].is_singular {
-            return;
-        }
-    }
-    for k in 0..ends.touches {
-        if model.place(&ends.touching[k].0).linear.pivot > PIVOTS.regular {
-            return;
-        }
-    }
-    for x in seeds.all() {
-        if model.place(x).linear.pivot > PIVOTS.regular {
-            return;
-        }
+    let is_regular = |x: &Q| model.place(x).linear.pivot > PIVOTS.isolated;
+    let is_any_regular = ends.list[..ends.count].iter().any(|end| is_regular(&end.at.x))
+        || ends.touching[..ends.touches].iter().any(|(x, _)| is_regular(x))
+        || seeds.all().any(is_regular);
+    if is_any_regular {
+        return;
     }
     model.frozen = Some(joint);
+    // Of singular equations, no direction is known: an end point may have been taken for a solution that touches a limit.
+    let (touching, touches) = (ends.touching, ends.touches);
     ends.touches = 0;
+    for (x, _) in &touching[..touches] {
+        ends.add(model, x);
+    }
     ends.classify(model);
 }
 

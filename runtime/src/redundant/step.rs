@@ -1,7 +1,7 @@
 //! Steps along a curve of solutions: predictor, corrector and their acceptance ([`Walk`]).
 //!
-//! The predictor continues the polynomial of degree four through the last piece. The corrector is the simplified Newton method. A step is
-//! accepted by an affine-invariant estimate of the Newton-Kantorovich condition (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, sections 2.1 and
+//! The predictor continues the polynomial of degree four through the last piece. The corrector is the simplified Newton method. A step is accepted by an
+//! affine-invariant estimate of the Newton-Kantorovich condition (P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, sections 2.1 and
 //! 5.2): the second correction must be at most a quarter of the first one. The oriented direction must not turn back. Where it does, the step has left the curve
 //! for another one that nearly crosses it.
 
@@ -11,13 +11,13 @@ use crate::arithmetic::Arithmetic;
 use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS};
 
 /// The first and the longest step (rad, or relative to the characteristic length).
-pub(super) const PACE: [f64; 2] = [0.2, 0.7];
+pub(super) const PACE: [f64; 2] = [0.2, 0.5];
 /// The shortest step. Where a shorter one would be necessary, two curves cross.
 const SHORTEST: f64 = 0.1 * MERGING.apart;
 /// Lengths of the steps across such a crossing.
 const LEAPS: [f64; 4] = [MERGING.apart, 1e-3, 1e-2, 5e-2];
 /// Maximal length of the first correction.
-const CORRECTION: f64 = 4e-3;
+const CORRECTION: f64 = 2e-3;
 /// Maximal ratio of the second correction to the first one.
 const CONTRACTION: f64 = 0.25;
 /// A point is on a piece when it is within this distance, relative to the piece's length.

@@ -140,6 +140,8 @@ struct Counts {
     lost: usize,
     /// Those lost although the outcome is not unsure.
     silent: usize,
+    /// Those lost where the solutions are reported to be a surface.
+    surfaces: usize,
     ends: usize,
     arcs: usize,
 }
@@ -148,7 +150,8 @@ struct Counts {
 fn compare(vectors: &[Q]) -> Counts {
     let robot = Srs::iiwa();
     let limits = robot.arm().limits;
-    let mut counts = Counts { poses: 0, compared: 0, unsure: 0, wrong: 0, lost: 0, silent: 0, ends: 0, arcs: 0 };
+    let mut counts =
+        Counts { poses: 0, compared: 0, unsure: 0, wrong: 0, lost: 0, silent: 0, surfaces: 0, ends: 0, arcs: 0 };
     for q in vectors {
         let target = pose(q);
         let mut out = [Arc::NONE; 256];
@@ -167,17 +170,7 @@ fn compare(vectors: &[Q]) -> Counts {
         });
         counts.lost += usize::from(!is_held);
         counts.silent += usize::from(!is_held && !outcome.is_unsure);
-        if !is_held && std::env::var("GROEBOT_VECTORS").is_ok() {
-            println!(
-                "lost {:?} unsure {} surface {} arcs {} ends {} nearest {:?}",
-                q.map(|x| x.to_degrees().round()),
-                outcome.is_unsure,
-                outcome.is_surface,
-                outcome.count,
-                outcome.ends,
-                nearest.map(|best| best.value)
-            );
-        }
+        counts.surfaces += usize::from(!is_held && outcome.is_surface);
         match any_within(&robot, &target, &limits).unwrap() {
             Within::Solution(found) => {
                 let reached = pose(&found);
@@ -218,12 +211,13 @@ fn compare(vectors: &[Q]) -> Counts {
 
 fn report(name: &str, c: &Counts) {
     println!(
-        "{name}: {} poses, {} compared, {} wrong, {} lost, {} of them silent, {} unsure, {:.1} ends, {:.1} arcs",
+        "{name}: {} poses, {} compared, {} wrong, {} lost ({} silent, {} on surfaces), {} unsure, {:.1} ends, {:.1} arcs",
         c.poses,
         c.compared,
         c.wrong,
         c.lost,
         c.silent,
+        c.surfaces,
         c.unsure,
         c.ends as f64 / c.poses as f64,
         c.arcs as f64 / c.poses as f64
@@ -260,6 +254,7 @@ fn round_vectors() {
     let counts = compare(&vectors);
     report("round", &counts);
     assert_eq!(counts.wrong, 0, "arcs that differ from the scan");
+    assert_eq!(counts.silent, 0, "vectors on no arc although the outcome is not unsure");
     // Vectors with a straight elbow and another singular joint, where the solutions are not regular curves.
     assert!(50 * counts.lost <= counts.poses, "vectors on no arc");
 }

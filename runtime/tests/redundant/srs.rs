@@ -181,6 +181,12 @@ impl Redundant for Srs {
                 let mut q = [first[0], first[1], first[2], first[3], last[0], last[1], last[2]].map(wrapped);
                 q[given] = value;
                 let mut free = free;
+                // With a straight elbow, the axes of three joints may be one line.
+                for (first, middle) in [(0, 1), (2, 5)] {
+                    if q[middle].sin().abs() < 1e-7 && q[3].sin().abs() < 1e-7 {
+                        free |= (0b1_0101 << first) & !(1 << given);
+                    }
+                }
                 if is_wrist {
                     q.reverse();
                     q = q.map(|x| -x);

@@ -40,19 +40,19 @@ static int gb_arm_constant(const gb_arm *arm)
     return -1;
 }
 
-/* Whether the equations are regular at a point. */
+/* Whether the equations are regular at a point, so that its solutions are isolated. */
 static bool gb_arm_is_regular(const gb_arm_model *model, const gb_real *x)
 {
     gb_arm_place place;
     gb_arm_set_place(model, x, &place);
-    return place.linear.pivot > GB_PIVOTS_REGULAR;
+    return place.linear.pivot > GB_PIVOTS_ISOLATED;
 }
 
 /* Whether the equations are singular at all solutions, and there are any. */
 static bool gb_arm_is_singular(const gb_arm_model *model, const gb_arm_ends *ends, const gb_arm_seeds *seeds)
 {
     for (size_t k = 0; k < ends->count; k++) {
-        if (!ends->list[k].is_singular) {
+        if (gb_arm_is_regular(model, ends->list[k].at.x)) {
             return false;
         }
     }
@@ -72,13 +72,21 @@ static bool gb_arm_is_singular(const gb_arm_model *model, const gb_arm_ends *end
     return ends->count + ends->touches > 0 || gb_arm_first_seed(seeds);
 }
 
-/* Where the equations are singular at all solutions, the joint that is constant is left out, as with a straight elbow. */
+/* Where the equations are singular at all solutions, the joint that is constant is left out, as with a straight elbow. Rounding of the target bends a straight
+ * elbow, so that all equations whose solutions are not isolated count as singular. */
 static void gb_arm_freeze(gb_arm_model *model, gb_arm_ends *ends, const gb_arm_seeds *seeds)
 {
     const int joint = gb_arm_constant(model->arm);
     if (joint >= 0 && gb_arm_is_singular(model, ends, seeds)) {
+        gb_arm_touch touching[GB_ARM_TOUCHING];
+        const size_t touches = ends->touches;
+        memcpy(touching, ends->touching, touches * sizeof touching[0]);
         model->frozen = joint;
+        /* Of singular equations, no direction is known: an end point may have been taken for a solution that touches a limit. */
         ends->touches = 0;
+        for (size_t k = 0; k < touches; k++) {
+            (void)gb_arm_add_end(ends, model, touching[k].x);
+        }
         gb_arm_classify(ends, model);
     }
 }
