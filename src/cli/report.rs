@@ -319,7 +319,11 @@ fn written(page: &mut Page, content: &Report<'_>) {
         let _ = write!(times, "{}{stage} {}", if times.is_empty() { "" } else { ", " }, duration(*time));
     }
     page.line(&times);
-    let names: Vec<&str> = content.derivation.program().inputs.iter().map(|input| input.name.as_str()).collect();
+    let program = content.derivation.program();
+    let is_needed =
+        |place: &usize| program.redundancy.is_none() || program.given_joints.iter().all(|given| given.input != *place);
+    let inputs = (0..program.inputs.len()).filter(is_needed);
+    let names: Vec<&str> = inputs.map(|place| program.inputs[place].name.as_str()).collect();
     page.heading("Next");
     page.line(&format!("groebot solve {} --target {}", folder.display(), names.join(",")));
 }
