@@ -138,14 +138,14 @@ pub mod solver {
     pub use groebot_ik::solver::{
         About, Batch, Block, Case, Checks, Closest, ClosestOptions, Condition, Described, Following, Forward,
         GivenJoint, Guard, Input, Instruction, Joint, JointValue, MAX_JOINTS, Nearest, Operand, Operation, Pairs,
-        ParameterRule, Pivot, PlacedSolver, Placement, Preference, Program, Reached, Rule, Short, Solved, Solver, Step,
-        TaskPlacement, TipTask, Unit,
+        ParameterRule, Pivot, PlacedSolver, Placement, Preference, Program, Reached, Redundancy, RedundantPart, Rule,
+        Short, Solved, Solver, Step, TaskPlacement, TipTask, Unit,
     };
     /// All solutions within limits of a chain with one joint more than its task determines.
     pub mod redundant {
         pub use groebot_ik::solver::redundant::{
             Absence, Arc, ArcEnd, Arcs, ArmJump, ArmPath, ArmTarget, Best, Criterion, JointLimits, PathOptions,
-            Redundancy, RedundantPart, RedundantSolver, Within,
+            RedundantSolver, Within,
         };
     }
 }
@@ -163,7 +163,8 @@ pub mod derive {
     }
     /// The solvers of a chain with one joint more than its task determines, one for each joint as the given one.
     pub mod redundant {
-        pub use groebot_ik::derive::redundant::{Part, RedundantChain, is_redundant};
+        pub use groebot_ik::derive::planner::is_redundant;
+        pub use groebot_ik::derive::redundant::{Part, RedundantChain};
     }
     /// Reports of derivations.
     pub mod report {

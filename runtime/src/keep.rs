@@ -1,4 +1,4 @@
-//! The list of solutions: equal ones are merged as they are kept.
+//! The list of solutions: equal ones are merged when they are added.
 
 use crate::answers::Answers;
 use crate::counters::Phase;

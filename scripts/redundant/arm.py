@@ -98,7 +98,7 @@ class Arm:
         return turn[0], place[0]
 
     def residual(self, q: np.ndarray, turns: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """What is left to the targets (n, 6), lengths over `length`, and the Jacobian (n, 6, 7) in the same units."""
+        """The remaining motion to the targets (n, 6), lengths over `length`, and the Jacobian (n, 6, 7) in the same units."""
         turn, place, axes, points = self.frames(q)
         left, jacobian = np.empty((len(q), 6)), np.empty((len(q), 6, self.count))
         left[:, :3] = (places - place) / self.length

@@ -11,7 +11,7 @@ use super::targets::Reader;
 use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
-use groebot_ik::derive::redundant::is_redundant;
+use groebot_ik::derive::planner::is_redundant;
 use groebot_ik::derive::{ChainProblem, Derivation, Description, Ends, InputFile, Options};
 use groebot_ik::solver::redundant::{PathOptions, RedundantSolver};
 use groebot_robot::document::{is_stdin, open};

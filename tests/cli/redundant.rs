@@ -33,7 +33,7 @@ fn pose() -> (String, [f64; 7]) {
     let ran = super::run_on(&["fk", text(&root("derivations/iiwa14"))], table.as_bytes());
     let rows: Vec<Vec<&str>> = ran.out.lines().map(|line| line.split(',').collect()).collect();
     let cell = |name: &str| rows[1][rows[0].iter().position(|own| *own == name).unwrap()];
-    let names = ["px", "py", "pz", "r11", "r12", "r13", "r21", "r22", "r23", "r31", "r32", "r33"];
+    let names = ["x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"];
     (names.map(cell).join(","), q)
 }
 

@@ -131,7 +131,7 @@ fn the_planner_chooses_the_joint_that_is_given() {
     let (_kept, robot) = seven();
     let arm = Requested { robot: &robot, ends: &[] };
     let folder = arm.derive();
-    assert_eq!(task_file(&folder), "given = [\"A7\"]\n");
+    assert_eq!(task_file(&folder), "given = [\"A7\"]\nredundant = true\n");
     Requested { robot: &robot, ends: &["--free", "A7"] }.assert_solves(folder.path(), "0.4,0.1,0.6,0,0.6,0,0.8,0.3", 8);
     let out = tempdir().unwrap();
     let reported = succeed(&["derive", &robot, "--out", text(out.path())]);

@@ -4,7 +4,6 @@ use super::arm::{Arm, MOST_JOINTS, Q, Target, Task};
 use super::model::{Model, norm, plus};
 use crate::six_axes::vector::dot;
 use crate::six_axes::{Rigid, Vector};
-use crate::trigonometry::cosine_and_sine;
 
 /// Unit vectors in any directions.
 const DIRECTIONS: [Vector; MOST_JOINTS] = [
@@ -149,57 +148,4 @@ fn equations_of_planar_tasks() {
         arm.slides[2] = true;
         check(&arm, &[0.3, -0.7, 0.5, 1.1, -0.4, 0.0, 0.0]);
     }
-}
-
-#[test]
-#[ignore = "measures time"]
-fn times() {
-    let arm = arm(Task::Pose, MOST_JOINTS);
-    let q = [0.3, -0.7, 0.5, 1.1, -0.4, 0.8, -0.2];
-    let model = Model::new(&arm, &target(&arm, &q), &arm.limits).unwrap();
-    let mut least = [f64::INFINITY; 5];
-    let mut sum = 0.0;
-    for _ in 0..200 {
-        let mut x = q;
-        let start = std::time::Instant::now();
-        for _ in 0..1000 {
-            x[0] += 1e-9;
-            sum += model.values(&x)[0];
-        }
-        least[0] = least[0].min(start.elapsed().as_secs_f64() * 1e6);
-        let start = std::time::Instant::now();
-        for _ in 0..1000 {
-            x[0] += 1e-9;
-            sum += model.place(&x).linear.tangent[0];
-        }
-        least[1] = least[1].min(start.elapsed().as_secs_f64() * 1e6);
-        let start = std::time::Instant::now();
-        for _ in 0..1000 {
-            x[0] += 1e-9;
-            for value in &x {
-                sum += cosine_and_sine(*value)[0];
-            }
-        }
-        least[2] = least[2].min(start.elapsed().as_secs_f64() * 1e6);
-        let place = model.place(&x);
-        let start = std::time::Instant::now();
-        for _ in 0..1000 {
-            x[0] += 1e-9;
-            sum += place.linear.least(&[x[0], x[1], x[2], x[3], x[4], x[5]])[0];
-        }
-        least[3] = least[3].min(start.elapsed().as_secs_f64() * 1e6);
-        let mut columns = [[0.0; 6]; 7];
-        for (i, column) in columns.iter_mut().enumerate() {
-            for (k, value) in column.iter_mut().enumerate() {
-                *value = cosine_and_sine((7 * i + k * k) as f64)[0];
-            }
-        }
-        let start = std::time::Instant::now();
-        for _ in 0..1000 {
-            columns[0][0] += 1e-9;
-            sum += super::elimination::Elimination::of(std::hint::black_box(&columns), 6).tangent[0];
-        }
-        least[4] = least[4].min(start.elapsed().as_secs_f64() * 1e6);
-    }
-    std::println!("values, place, seven cosines and sines, least, elimination [ns]: {least:.0?} {sum}");
 }

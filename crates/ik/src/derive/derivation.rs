@@ -1,12 +1,14 @@
 //! The derivation of a solver: [`Derivation`].
 
+pub mod redundant;
+
+use self::redundant::RedundantChain;
 use crate::derive::Source;
 use crate::derive::coupled::{Coupled, CoupledView};
 use crate::derive::eigenvalue::{self, Eigenvalue, EigenvalueView, fits};
 use crate::derive::equations::certificate::{self, refused};
 use crate::derive::equations::{Equations, EquationsView};
 use crate::derive::problem::{ChainProblem, Problem};
-use crate::derive::redundant::{self, RedundantChain};
 use crate::derive::sequential::{self, Sequential, SequentialView};
 use crate::derive::view::View;
 use crate::solver::{About, Program, Solver};

@@ -9,13 +9,12 @@ mod options;
 pub mod planner;
 pub mod problem;
 mod recount;
-pub mod redundant;
 pub mod report;
 mod samples;
 pub mod sequential;
 mod view;
 
-pub use derivation::{AnyView, Derivation, Method};
+pub use derivation::{AnyView, Derivation, Method, redundant};
 pub use equations::grow::derive_tree;
 pub(crate) use equations::grow::describe;
 pub use equations::prover::Orders;

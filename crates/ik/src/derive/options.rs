@@ -1,7 +1,7 @@
 //! The derivation of a chain's solver in one call: [`derive`](fn@derive), with [`Options`].
 
+use crate::derive::planner::is_redundant;
 use crate::derive::planner::joints_to_give;
-use crate::derive::redundant::is_redundant;
 use crate::derive::{ChainProblem, Derivation};
 use crate::{Result, Watch};
 use groebot_robot::kinematics::Chain;

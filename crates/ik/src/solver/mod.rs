@@ -40,8 +40,10 @@ pub use pairs::Pairs;
 pub use placed::{PlacedSolver, Placement, TaskPlacement};
 pub use prepared::{Batch, Nearest, Solved, Solver};
 pub(crate) use program::square;
-pub use program::{Block, Case, Checks, Condition, Described, Guard, Input, Pivot, Preference, Program, Short, Step};
-pub use redundant::{Redundancy, RedundantPart};
+pub use program::{
+    Block, Case, Checks, Condition, Described, Guard, Input, Pivot, Preference, Program, Redundancy, RedundantPart,
+    Short, Step,
+};
 pub use rule::{Following, ParameterRule, Rule};
 pub use tips::{GivenJoint, TipTask};
 

@@ -4,11 +4,14 @@
 use groebot_runtime::six_axes::ROOM;
 use serde::{Deserialize, Serialize};
 
+mod redundancy;
+
+pub use redundancy::{Redundancy, RedundantPart};
+
 use super::about::About;
 use super::eigenvalue::SixAxes;
 use super::instruction::{Instruction, Operand};
 use super::joint::{Joint, JointValue, Unit};
-use super::redundant::Redundancy;
 use super::rule::ParameterRule;
 use super::tips::{GivenJoint, TipTask};
 use groebot_robot::kinematics::Mimic;

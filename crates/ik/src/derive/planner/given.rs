@@ -11,6 +11,7 @@ use crate::derive::closure::Mechanism;
 use crate::derive::eigenvalue::fits;
 use crate::{ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
+use groebot_runtime::redundant::MOST_JOINTS;
 
 /// The fraction of the best share from which a joint counts as equally good to give.
 const AS_GOOD: f64 = 0.8;
@@ -72,6 +73,16 @@ pub fn joints_to_give<'w>(chain: &Chain, watch: impl Into<Option<&'w Watch>>) ->
     given.push(joint);
     given.sort_unstable();
     Ok(Some(Choice { given: names(&given), candidates }))
+}
+
+/// Whether the solutions of a target of `chain` are curves that a redundant solver finds: one joint more than its task determines, and no mimic joint.
+pub fn is_redundant(chain: &Chain) -> bool {
+    let count = chain.joints().len();
+    let by_steps = chain.order().is_none() && chain.choice().is_none();
+    by_steps
+        && count <= MOST_JOINTS
+        && count == chain.task().freedoms() + 1
+        && chain.joints().iter().all(|joint| joint.mimic.is_none())
 }
 
 /// The leader of the joint at `place`, if that joint follows another one.

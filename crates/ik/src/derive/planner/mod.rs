@@ -18,7 +18,7 @@ mod types;
 
 pub use constant::{constant_relation, is_constant};
 pub use fitting::fitting_task;
-pub use given::{Candidate, Choice, joints_to_give};
+pub use given::{Candidate, Choice, is_redundant, joints_to_give};
 pub(super) use recount::{same_degrees, same_evidence};
 use refuse::Refusal;
 pub(super) use refuse::not_derived;

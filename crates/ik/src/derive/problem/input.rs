@@ -4,10 +4,9 @@ use std::path::{Path, PathBuf};
 
 use crate::derive::System;
 use crate::derive::coupled::CoupledChains;
-use crate::derive::planner::{Choice, joints_to_give};
+use crate::derive::planner::{Choice, is_redundant, joints_to_give};
 use crate::derive::problem::ends::{Ends, TASK_NAME};
 use crate::derive::problem::formulate::formulate;
-use crate::derive::redundant::is_redundant;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::document::{
     Document, TEXT_LIMIT, decode_xml, explained, is_stdin, is_xml, read_bytes, refuse_binary, text_of,

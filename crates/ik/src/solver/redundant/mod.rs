@@ -5,7 +5,6 @@
 
 mod arcs;
 mod best;
-mod data;
 mod limits;
 mod path;
 mod sampled;
@@ -15,7 +14,6 @@ mod within;
 
 pub use arcs::{Absence, Arc, ArcEnd, Arcs};
 pub use best::{Best, Criterion};
-pub use data::{Redundancy, RedundantPart};
 pub use limits::JointLimits;
 pub use path::{ArmJump, ArmPath, PathOptions};
 pub use solver::RedundantSolver;

@@ -5,8 +5,8 @@ use groebot_runtime::redundant::{Arm, Given, MOST_JOINTS, Members, Redundant, Ta
 use groebot_runtime::six_axes::Rigid;
 use num_traits::ToPrimitive;
 
-use super::data::{Redundancy, RedundantPart};
 use crate::solver::{Joint, Program, Solver, TipTask, Unit};
+use crate::solver::{Redundancy, RedundantPart};
 use groebot_robot::kinematics::BaseAxis;
 
 /// The solvers of an arm with one joint more than its task determines, prepared for evaluation. It is made once and solves any number of targets, also from

@@ -16,7 +16,7 @@ use groebot_runtime::redundant::MOST_JOINTS;
 use rayon::prelude::*;
 
 use crate::derive::closure::Mechanism;
-use crate::derive::planner::is_constant;
+use crate::derive::planner::{is_constant, is_redundant};
 use crate::derive::{ChainProblem, Derivation};
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
@@ -121,14 +121,4 @@ pub(in crate::derive) fn check(chain: &Chain) -> Result<usize> {
             Err(Error::new(ErrorKind::Unsupported, text))
         }
     }
-}
-
-/// Whether the solutions of a target of `chain` are curves that a redundant solver finds: one joint more than its task determines, and no mimic joint.
-pub fn is_redundant(chain: &Chain) -> bool {
-    let count = chain.joints().len();
-    let by_steps = chain.order().is_none() && chain.choice().is_none();
-    by_steps
-        && count <= MOST_JOINTS
-        && count == chain.task().freedoms() + 1
-        && chain.joints().iter().all(|joint| joint.mimic.is_none())
 }
