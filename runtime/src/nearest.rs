@@ -295,7 +295,7 @@ impl<M: Mechanism> Search<'_, '_, M> {
             self.consider(&end, member);
             let moved = facts.farthest(end.0.as_ref(), q.as_ref());
             q = end.0;
-            if !(moved > POLISHING.step) {
+            if moved <= POLISHING.step || moved.is_nan() {
                 return;
             }
         }

@@ -6,6 +6,9 @@
 //!
 //! No function allocates. Equal targets have bitwise equal results on every machine.
 
+#![allow(clippy::needless_range_loop, reason = "loops over whole columns, in the order of operations of the C version")]
+#![allow(clippy::manual_clamp, reason = "NaN is handled as in the C version")]
+
 mod along;
 mod arcs;
 mod arm;

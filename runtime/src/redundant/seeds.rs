@@ -114,7 +114,7 @@ impl Seeds {
                 return Ok(());
             }
             let differ = low.solutions != high.solutions;
-            if !differ && !(low.has_close && high.has_close) {
+            if !(differ || low.has_close && high.has_close) {
                 return Ok(());
             }
             let middle = self.solve(robot, model, target, 0.5 * (low.value + high.value), ends)?;

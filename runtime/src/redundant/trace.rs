@@ -51,13 +51,14 @@ pub(super) fn trace(model: &Model<'_>, start: &Start, ends: &mut Ends, seeds: &m
     let mut length = 0.0;
     for count in 0..MOST_PIECES {
         let Some(mut piece) = walk.piece(model) else { break };
-        if start.is_inside && count > 0 {
-            if let Some(last) = closing(model, &piece, &start.at) {
-                seeds.pass(model, &last);
-                ends.pass(model, &last);
-                let is_unsure = walk.is_unsure;
-                return Trace { stop: Stop::Closed, length: length + last.length, is_unsure };
-            }
+        if start.is_inside
+            && count > 0
+            && let Some(last) = closing(model, &piece, &start.at)
+        {
+            seeds.pass(model, &last);
+            ends.pass(model, &last);
+            let is_unsure = walk.is_unsure;
+            return Trace { stop: Stop::Closed, length: length + last.length, is_unsure };
         }
         if let Some(crossing) = Crossing::first(model, &piece, start.tied) {
             let is_last = piece.length <= SHORTEST;

@@ -29,7 +29,7 @@ pub(super) fn program(chain: &Chain, six: &Six, formulations: Vec<Formulation>, 
     let mut assembler = Assembler::default();
     let axis = |between: &Between| Ok(GivenAxis { axis: between.line, value: between.value(&value(between.place))? });
     let given = six.between.iter().map(axis).collect::<Result<_>>()?;
-    let target = six.target(chain, std::array::from_fn(Operand::Parameter), &value, &mut assembler)?;
+    let target = six.target(chain, std::array::from_fn(Operand::Parameter), value, &mut assembler)?;
     let step = SixAxes::new(SixAxesParts {
         length,
         lines,

@@ -275,7 +275,7 @@ fn check_reference(joints: usize, q0: &[f64], weights: Option<&[f64]>, limits: O
     if let Some(weight) = weights.unwrap_or(&[]).iter().find(|weight| !(weight.is_finite() && **weight >= 0.0)) {
         return bad(format!("a weight is {weight}; give finite numbers that are not negative"));
     }
-    match limits.unwrap_or(&[]).iter().find(|[low, high]| !(low <= high)) {
+    match limits.unwrap_or(&[]).iter().find(|[low, high]| low > high || low.is_nan() || high.is_nan()) {
         Some([low, high]) => bad(format!("limits are {low} and {high}; give the least value first")),
         None => Ok(()),
     }

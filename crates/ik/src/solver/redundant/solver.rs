@@ -95,6 +95,7 @@ fn arm(program: &Program, redundancy: &Redundancy) -> Arm {
         ..Arm::NONE
     };
     let limits = redundancy.limit_pairs();
+    #[allow(clippy::needless_range_loop, reason = "several rows have the same index")]
     for joint in 0..arm.count.min(MOST_JOINTS) {
         arm.directions[joint] = redundancy.lines[joint].direction;
         arm.points[joint] = redundancy.lines[joint].point;
