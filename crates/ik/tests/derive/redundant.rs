@@ -85,7 +85,7 @@ fn each_solver_finds_the_joint_values_that_made_the_pose() {
             RedundantPart::Program(program) => program,
             _ => continue,
         };
-        let answers = program.solver().solve_given(target.clone(), &[q[joint]]).unwrap();
+        let answers = program.solver().solve_given(target, &[q[joint]]).unwrap();
         let is_same = |own: &[f64]| own.iter().zip(&q).all(|(a, b)| (a - b).abs() < 1e-9);
         assert!(answers.iter().any(|answer| is_same(&answer.q)), "{joint}: {answers:?}");
     }

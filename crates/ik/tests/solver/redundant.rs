@@ -86,6 +86,7 @@ impl Arm {
 }
 
 /// The ready pose of a Panda.
+#[allow(clippy::approx_constant, reason = "as published, in six decimals")]
 const READY: [f64; 7] = [0.0, -0.785398, 0.0, -2.356194, 0.0, 1.570796, 0.785398];
 
 /// The lengths are those of a prototype in C++, which traces the arcs with another method.
