@@ -50,7 +50,8 @@ fn the_exact_chain_is_another_than_the_nearest_ideal_one() {
 fn given_joints_are_requested_with_each_target() {
     let arm = Chain::from_toml(include_str!("../../../../derivations/iiwa14/0_chain.toml")).unwrap();
     let arm = arm.with_task(arm.task(), along_z(), Vec::new()).unwrap();
-    assert_eq!(groebot_ik::derive(&arm).unwrap_err().kind(), ErrorKind::PositiveDimensional);
+    // Without a given joint, there is a solver for each joint as the given one.
+    assert!(groebot_ik::derive(&arm).unwrap().redundancy().is_some());
     let third = arm.joints()[2].name.clone();
     let derivation = Options::new().given([third.as_str()]).derive(&arm).unwrap();
     assert_eq!(derivation.program().inputs.last().unwrap().name, third);

@@ -85,6 +85,8 @@ fn tasks_are_as_promised() {
             "polar" | "rrp" | "rh0_arm" => (Task::Position, &[]),
             "iiwa14" => (Task::Pose, &[2]),
             "gen3_like" => (Task::Pose, &[6]),
+            // The joint whose solver is the main one of all arcs.
+            "panda" => (Task::Pose, &[4]),
             "planar_4r" => (chain.task(), &[0]),
             _ if chain.task().plane().is_some() => (chain.task(), &[]),
             _ => (Task::Pose, &[]),
