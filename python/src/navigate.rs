@@ -63,7 +63,8 @@ fn pilot(name: &str, watch: &groebot::Watch) -> Result<Pilot> {
     let robot = robots::robot(name).ok_or_else(unknown)?;
     let walker: Walker = robots::walker(name, Outline::Measured).ok_or_else(unknown)??;
     let body = Body::new(&robot, &walker.biped, &Meshes::default())?;
-    let one_step = |(_, defaults): &(&str, GaitDefaults)| Some(defaults.clone()).filter(|defaults| defaults.gait.is_one_step());
+    let one_step =
+        |(_, defaults): &(&str, GaitDefaults)| Some(defaults.clone()).filter(|defaults| defaults.gait.is_one_step());
     let none = || Error::new(ErrorKind::Unsupported, format!("`{name}` has no gait by one step goal"));
     let defaults = walker.gaits.iter().find_map(one_step).ok_or_else(none)?;
     Pilot::new(walker, defaults, body, true, watch)

@@ -137,7 +137,9 @@ impl Session {
     }
 
     fn running(&mut self) -> Result<&mut Run> {
-        self.run.as_mut().ok_or_else(|| Error::new(ErrorKind::MissingKey, "there is no run; send the request `run` first"))
+        self.run
+            .as_mut()
+            .ok_or_else(|| Error::new(ErrorKind::MissingKey, "there is no run; send the request `run` first"))
     }
 }
 
