@@ -79,7 +79,7 @@ impl<M: Mechanism> Candidates<f64, M> for Answers<'_, M> {
             let suffices = self.suffice_since(before);
             self.suffices &= suffices;
             // The error of a double root is the square root of the rounding error: the stratum may be nearer than that.
-            !suffices || self.doubted > before
+            guard.beside || !suffices || self.doubted > before
         }
     }
 

@@ -293,7 +293,7 @@ pub trait Candidates<N: Number, M: Mechanism> {
     fn is_usual(&mut self, guard: Guard<N>) -> bool;
     /// Whether a case runs that applies to singular targets.
     fn is_rare(&mut self, guard: Guard<N>) -> bool;
-    /// Whether the case of a stratum runs. It runs near the stratum, unless the candidates after the first `before` lost no solution.
+    /// Whether the case of a stratum runs. It runs near the stratum; if the candidates after the first `before` lost no solution, only within rounding of it.
     fn is_due(&mut self, before: usize, guard: Guard<N>) -> bool;
     /// Number of candidates so far.
     fn count(&self) -> usize;

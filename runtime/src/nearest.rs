@@ -1,4 +1,4 @@
-//! The solution nearest to reference joint values, on the self-motions of a singular target too. Main function: [`nearest_to`].
+//! The solution nearest to reference joint values, on the self-motions of a singular target too: [`Search`].
 //!
 //! Where a self-motion is a curve, it is followed from its listed member by tangents and Newton steps with one joint held (E. L. Allgower and K. Georg,
 //! Numerical Continuation Methods, 1990, chapter 3). Golden sections locate each local minimum of the distance (J. Kiefer, Proceedings of the American
@@ -6,17 +6,13 @@
 //! minimum is a local one.
 
 use crate::arithmetic::Arithmetic;
-use crate::conditions::conform;
 use crate::curve_steps::farthest;
-use crate::described::along_ideal;
-use crate::effort::{DESCENTS, LEAPS, MOST_STEPS, RETURNS};
+use crate::effort::{DESCENTS, LEAPS, RETURNS};
 use crate::joints::{beyond, differences, is_in, shifted, stepped};
-use crate::limits::{Aim, Turned, nearest};
-use crate::mechanism::{Inputs, Joints, Mechanism};
+use crate::limits::{Aim, Turned};
+use crate::mechanism::{Joints, Mechanism};
 use crate::problem::{End, Problem};
-use crate::solution::{Error, Solution};
-use crate::solve::Solve;
-use crate::steps::Steps;
+use crate::solution::Solution;
 use crate::storage::Array;
 use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS, POLISHING};
 
@@ -55,49 +51,23 @@ pub(crate) struct Search<'s, 'a, M: Mechanism> {
     pub best: Option<Best<M>>,
 }
 
-/// Same as [`Solve::nearest_to`].
-pub(crate) fn nearest_to<M: Mechanism>(
-    mechanism: &M,
-    target: &Inputs<M>,
-    aim: &Aim<'_, M>,
-    out: &mut [Solution<M>],
-) -> Result<Option<(Solution<M>, f64)>, Error> {
-    let count = mechanism.solve(target, out)?;
-    let (list, facts) = (&out[..count], mechanism.facts());
-    let listed = nearest(&facts, list, aim).map(|(k, turned)| Best {
-        turned,
-        residual: list[k].residual,
-        relative: list[k].relative,
-        member: Some(k),
-    });
-    let member = list.iter().position(|answer| answer.free != 0);
-    let known = member.or(listed.as_ref().and_then(|best| best.member)).unwrap_or(0);
-    let best = if facts.has_extras || count == 0 || !aim.is_finite() {
-        listed
-    } else {
-        let mut target = target.clone();
-        conform(facts.conditions, target.as_mut())?;
-        let (p, mut steps) = (mechanism.parameters(&target), Steps::at_most(MOST_STEPS));
-        if facts.within.is_some() {
-            along_ideal(mechanism, &p, list, (aim, listed), &mut steps)
-        } else {
-            let mut search = Search { problem: Problem::new(mechanism, &p, &mut steps), aim, best: listed };
-            if member.is_some() {
-                search.all(list)
-            } else {
-                search.beside()
-            }
-            search.best
-        }
-    };
-    Ok(best.map(|best| {
-        let member = best.member.unwrap_or(known);
-        let Best { turned, residual, relative, .. } = best;
-        (Solution { q: turned.q, residual, relative, ..list[member].clone() }, turned.distance)
-    }))
-}
-
 impl<M: Mechanism> Best<M> {
+    /// The listed solution with this index.
+    pub fn listed(turned: Turned<M>, list: &[Solution<M>], member: usize) -> Self {
+        Best { turned, residual: list[member].residual, relative: list[member].relative, member: Some(member) }
+    }
+
+    /// The index of the listed solution on the same self-motion, if it is known.
+    pub fn member(&self) -> Option<usize> {
+        self.member
+    }
+
+    /// The solution and its distance. What is not known of it is that of the listed solution `like`.
+    pub fn solution(self, like: &Solution<M>) -> (Solution<M>, f64) {
+        let Best { turned, residual, relative, .. } = self;
+        (Solution { q: turned.q, residual, relative, ..like.clone() }, turned.distance)
+    }
+
     /// The joint values, not wrapped.
     pub fn q(&self) -> &Joints<M> {
         &self.turned.q
@@ -127,7 +97,7 @@ impl<M: Mechanism> Search<'_, '_, M> {
     }
 
     /// Searches next to the reference if it is a solution itself. Next to a singular pose rounding moves the listed solution away from it.
-    fn beside(&mut self) {
+    pub fn beside(&mut self) {
         if !self.is_reached() {
             let fit = self.problem.measure(self.aim.reference);
             if fit.relative <= ACCEPTANCE.unsettled {

@@ -143,13 +143,14 @@ pub trait Number:
     /// Where a factor is so close to zero that the case of a stratum runs.
     #[inline(always)]
     fn near(self, scale: Self) -> Guard<Self> {
-        Guard { here: self.abs().at_most(scale * STRATA.near) }
+        Guard { here: self.abs().at_most(scale * STRATA.near), beside: self.abs().at_most(scale * STRATA.beside) }
     }
 
     /// Where a factor is not zero.
     #[inline(always)]
     fn away(self, scale: Self) -> Guard<Self> {
-        Guard { here: self.is_away(scale) }
+        let here = self.is_away(scale);
+        Guard { here, beside: here }
     }
 
     /// Whether a factor is not zero.
@@ -159,8 +160,10 @@ pub trait Number:
 /// The truth values of a case's guards.
 #[derive(Clone, Copy, Debug)]
 pub struct Guard<N: Number> {
-    /// Where the guards hold.
+    /// Near the stratum.
     pub here: N::Truth,
+    /// Within rounding of the stratum, which suffices where the cases before have lost nothing.
+    pub beside: N::Truth,
 }
 
 impl<N: Number> Guard<N> {
@@ -175,7 +178,7 @@ impl<N: Number> BitAnd for Guard<N> {
     type Output = Self;
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
-        Guard { here: self.here & other.here }
+        Guard { here: self.here & other.here, beside: self.beside & other.beside }
     }
 }
 

@@ -1,11 +1,13 @@
-//! One target: [`solve_one`], [`solve_one_by_pairs`].
+//! One target: [`solve_one`], [`solve_one_by_pairs`], [`nearest_to`].
 
 use crate::answers::Answers;
 use crate::conditions::conform;
-use crate::described::solve_described;
+use crate::described::{along_ideal, solve_described};
 use crate::effort::MOST_STEPS;
 use crate::exactly::solve_ideal;
+use crate::limits::{Aim, nearest};
 use crate::mechanism::{Answered, Inputs, Joint, Mechanism};
+use crate::nearest::{Best, Search};
 use crate::problem::Problem;
 use crate::solution::{Error, Pairs, Solution};
 use crate::steps::Steps;
@@ -71,4 +73,40 @@ pub(crate) fn pairs_of<M: Mechanism>(mechanism: &M, solution: &Solution<M>) -> P
         free: solution.free,
         settled: solution.settled,
     }
+}
+
+/// Same as [`crate::Solve::nearest_to`].
+pub(crate) fn nearest_to<M: Mechanism>(
+    mechanism: &M,
+    target: &Inputs<M>,
+    aim: &Aim<'_, M>,
+    out: &mut [Solution<M>],
+) -> Result<Option<(Solution<M>, f64)>, Error> {
+    let count = solve_one(mechanism, target, out, &mut Steps::at_most(MOST_STEPS))?;
+    let (list, facts) = (&out[..count], mechanism.facts());
+    let listed = nearest(&facts, list, aim).map(|(k, turned)| Best::listed(turned, list, k));
+    let member = list.iter().position(|answer| answer.free != 0);
+    let known = member.or(listed.as_ref().and_then(Best::member)).unwrap_or(0);
+    let best = if facts.has_extras || count == 0 || !aim.is_finite() {
+        listed
+    } else {
+        let mut target = target.clone();
+        conform(facts.conditions, target.as_mut())?;
+        let (p, mut steps) = (mechanism.parameters(&target), Steps::at_most(MOST_STEPS));
+        if facts.within.is_some() {
+            along_ideal(mechanism, &p, list, (aim, listed), &mut steps)
+        } else {
+            let mut search = Search { problem: Problem::new(mechanism, &p, &mut steps), aim, best: listed };
+            if member.is_some() {
+                search.all(list)
+            } else {
+                search.beside()
+            }
+            search.best
+        }
+    };
+    Ok(best.map(|best| {
+        let like = best.member().unwrap_or(known);
+        best.solution(&list[like])
+    }))
 }

@@ -8,10 +8,9 @@ use crate::effort::MOST_STEPS;
 use crate::joints::place;
 use crate::limits::{self, Aim, strides_within, turned_within};
 use crate::mechanism::{Condition, Inputs, Joints, Mechanism};
-use crate::nearest::nearest_to;
 use crate::placement::Placement;
 use crate::problem::Problem;
-use crate::singly::{pairs_of, solve_one, solve_one_by_pairs};
+use crate::singly::{nearest_to, pairs_of, solve_one, solve_one_by_pairs};
 use crate::solution::{Error, Pairs, Solution};
 use crate::steps::Steps;
 

@@ -33,6 +33,10 @@ pub struct Strata {
     /// a solution next to it.
     /// Test: `strata_near`.
     pub near: f64,
+    /// A case for a stratum runs only below this share when all candidates of the cases before were solutions without polishing. A stratum on which they would
+    /// have lost a solution is then within rounding.
+    /// Test: `strata_beside`.
+    pub beside: f64,
     /// A case does not run where a denominator is below this share of its scale. A factor of degree two in the distance from its stratum may be as small as
     /// the square of that distance's rounding error. Wrong candidates are measured and dropped.
     /// Test: `strata_denominator`.
@@ -163,7 +167,7 @@ pub struct Eigenvalues {
 /// Tolerances of real roots.
 pub const ROOTS: Roots = Roots { tangent: 1e-10, close: 1e-5, pivot: 1e-9, zero: 1e-290, distinct: 2e-3 };
 /// Tolerances of strata.
-pub const STRATA: Strata = Strata { near: 1e-3, denominator: 1e-30 };
+pub const STRATA: Strata = Strata { near: 1e-3, beside: 1e-7, denominator: 1e-30 };
 /// Tolerances of acceptance.
 pub const ACCEPTANCE: Acceptance = Acceptance { residual: 1e-12, rounding: 1e-14, unsettled: 1e-6, input: 1e-9 };
 /// Tolerances of polishing.

@@ -78,6 +78,7 @@ const OPEN: [(&str, &[&str]); 9] = [
             "solver::program::Preference",
             "solver::program::Program",
             "solver::program::Short",
+            "solver::program::redundancy::Redundancy",
             "solver::rule::Following",
             "solver::rule::ParameterRule",
             "solver::tips::GivenJoint",

@@ -135,6 +135,13 @@ fn the_planner_chooses_the_joint_that_is_given() {
     Requested { robot: &robot, ends: &["--free", "A7"] }.assert_solves(folder.path(), "0.4,0.1,0.6,0,0.6,0,0.8,0.3", 8);
     let out = tempdir().unwrap();
     let reported = succeed(&["derive", &robot, "--out", text(out.path())]);
+    assert!(reported.starts_with("The chain has one joint more than its task determines."), "{reported}");
+    assert!(
+        reported.lines().any(|line| line.starts_with("  A7: ") && line.ends_with("; the solver of this page")),
+        "{reported}"
+    );
+    let out = tempdir().unwrap();
+    let reported = succeed(&["derive", &robot, "--given", "auto", "--out", text(out.path())]);
     assert!(reported.starts_with("Given with each target: the value of `A7`. The planner chose"), "{reported}");
 }
 

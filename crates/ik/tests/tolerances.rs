@@ -9,9 +9,11 @@ use groebot_ik::Watch;
 use groebot_ik::codegen::ikfast::Options;
 use groebot_ik::derive::{Derivation, System};
 use groebot_ik::solver::{Checks, Described};
+use groebot_robot::kinematics::Target;
 
 use crate::codegen::ikfast::{compile, folder};
 use crate::codegen::stored::{named, reached};
+use crate::derive::described;
 
 /// The target of NAO's left arm, rounded to single precision, has the self-motion through these joint values, as the arm's solver with a tolerance of 1e-6.
 ///
@@ -61,6 +63,22 @@ fn ikfast_single() {
     let off = |a: f64, b: f64| (a - b - 2.0 * PI * ((a - b) / (2.0 * PI)).round()).abs();
     let q: Vec<f64> = text.split_whitespace().map(|word| word.parse().unwrap()).collect();
     assert!(q.len() == 4 && q.iter().zip(Q).all(|(&a, b)| off(a, b) < 1e-4), "{text}");
+}
+
+/// The forearm is parallel to the first axis, so that the position alone determines the first joint, with two solutions. The orientation then says nothing
+/// about it, but rounding errors of it happen to give one of the two, and without the tolerance the case of the stratum did not run: one solution.
+#[test]
+fn strata_beside() {
+    let degrees: [f64; 4] = [-150.0, 165.0, -15.0, 90.0];
+    let chain = described::robot(&described::MICO, described::EXACT);
+    let q = degrees.map(f64::to_radians);
+    let target = Target::reached(&chain, &q).unwrap();
+    let answers = groebot_ik::derive(&chain).unwrap().program().solve(target).unwrap();
+    assert_eq!(answers.len(), 2, "{answers:?}");
+    for answer in &answers {
+        let [position, rotation] = target.missed(&chain, &answer.q);
+        assert!(position < 1e-12 && rotation < 1e-12, "{answer:?}");
+    }
 }
 
 /// The line through the origin and (b, a) has two opposite directions. Its equation contains no constant, and a program with the scale zero is refused.

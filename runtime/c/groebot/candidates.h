@@ -157,8 +157,8 @@ GB_INLINE bool GB_(is_rare)(GB_(sink) *c, GB_(guard) guard)
 #endif
 }
 
-/* Whether the case of a stratum runs. It runs near the stratum, unless the candidates after the first `before` lost no solution and none has close roots. The
- * error of a double root is the square root of the rounding error: the stratum may be nearer than that. */
+/* Whether the case of a stratum runs. It runs near the stratum. If the candidates after the first `before` lost no solution and none has close roots, it
+ * runs only within rounding. The error of a double root is the square root of the rounding error, so that the stratum may be nearer than it appears. */
 GB_INLINE bool GB_(is_due)(GB_(sink) *c, size_t before, GB_(guard) guard)
 {
 #if GB_WIDTH == 1
@@ -167,7 +167,7 @@ GB_INLINE bool GB_(is_due)(GB_(sink) *c, size_t before, GB_(guard) guard)
     }
     const bool suffices = gb_suffice_since(c, before);
     c->all.suffices = c->all.suffices && suffices;
-    return !suffices || c->all.doubted > before;
+    return guard.beside || !suffices || c->all.doubted > before;
 #else
     (void)before;
     return GB_(is_rare)(c, guard);

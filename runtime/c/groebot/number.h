@@ -190,15 +190,16 @@ GB_INLINE T GB_(max)(T a, T b)
     return GB_(pick)(b, a, GB_(exceeds)(b, a) | GB_(inverted)(GB_(at_most)(a, a)));
 }
 
-/* The truth values of a case's guards. */
+/* The truth values of a case's guards: near the stratum, and within rounding of it, which suffices where the cases before have lost nothing. */
 typedef struct {
     GB_(truth) here;
+    GB_(truth) beside;
 } GB_(guard);
 
 /* Where a factor is so close to zero that the case of a stratum runs. */
 GB_INLINE GB_(guard) GB_(near)(T a, T scale)
 {
-    const GB_(guard) guard = {GB_(at_most)(GB_(abs)(a), scale * GB_STRATA_NEAR)};
+    const GB_(guard) guard = {GB_(at_most)(GB_(abs)(a), scale * GB_STRATA_NEAR), GB_(at_most)(GB_(abs)(a), scale * GB_STRATA_BESIDE)};
     return guard;
 }
 
@@ -210,21 +211,21 @@ GB_INLINE GB_(guard) GB_(away)(T a, T scale)
 #else
     const GB_(truth) here = GB_(inverted)(GB_(at_most)(GB_(abs)(a), GB_STRATA_DENOMINATOR * scale));
 #endif
-    const GB_(guard) guard = {here};
+    const GB_(guard) guard = {here, here};
     return guard;
 }
 
 /* Where two guards hold. */
 GB_INLINE GB_(guard) GB_(both)(GB_(guard) a, GB_(guard) b)
 {
-    const GB_(guard) guard = {a.here & b.here};
+    const GB_(guard) guard = {a.here & b.here, a.beside & b.beside};
     return guard;
 }
 
 /* Everywhere. */
 GB_INLINE GB_(guard) GB_(always)(void)
 {
-    const GB_(guard) guard = {GB_(inverted)(GB_(nowhere)())};
+    const GB_(guard) guard = {GB_(inverted)(GB_(nowhere)()), GB_(inverted)(GB_(nowhere)())};
     return guard;
 }
 

@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 use crate::codegen::random;
 
 /// A joint: its type, its origin's position and roll, pitch, yaw, its axis. `Q` is replaced by pi/2 and `H` by pi.
-pub(super) type Link = (&'static str, &'static str, &'static str, &'static str);
+pub(crate) type Link = (&'static str, &'static str, &'static str, &'static str);
 
 /// A SCARA whose prismatic joint points down.
 pub(super) const SCARA: [Link; 4] = [
@@ -52,7 +52,7 @@ pub(super) const PINCHER: [Link; 4] = [
     ("revolute", "0.107 0 0", "0 0 0", "0 0 1"),
 ];
 /// An arm of four joints, similar to a Mico 4: the last joint rotates the hand about the forearm.
-const MICO: [Link; 4] = [
+pub(crate) const MICO: [Link; 4] = [
     ("revolute", "0 0 0.2755", "H 0 0", "0 0 1"),
     ("revolute", "0 -0.007 0", "-Q 0 H", "0 0 1"),
     ("revolute", "0 0.29 0", "H 0 0", "0 0 1"),
@@ -87,10 +87,10 @@ pub(super) const ROUNDINGS: [[&str; 2]; 4] = [
     // Single precision.
     ["1.57079637050628662109375", "3.1415927410125732421875"],
 ];
-pub(super) const EXACT: [&str; 2] = ["1.5707963267948966", "3.141592653589793"];
+pub(crate) const EXACT: [&str; 2] = ["1.5707963267948966", "3.141592653589793"];
 
 /// The robot with these values of pi/2 and pi.
-pub(super) fn robot(links: &[Link], [quarter, half]: [&str; 2]) -> Chain {
+pub(crate) fn robot(links: &[Link], [quarter, half]: [&str; 2]) -> Chain {
     let mut text = String::from("<robot name=\"rounded\"><link name=\"l0\"/>");
     for (index, (kind, xyz, rpy, axis)) in links.iter().enumerate() {
         let (rpy, next) = (rpy.replace('Q', quarter).replace('H', half), index + 1);
