@@ -242,7 +242,7 @@ typedef struct {
  * Curves join them in pairs, numerically: where two curves lead to one end point, the arcs are unsure. Closed curves that reach no limit are found by a grid.
  * Returns 0.
  * gb_arc_at: writes the joint values at a length s from the start of an arc. s is limited to the arc. Returns 0.
- * gb_arc_sample: writes joint values at equal distances along an arc (within 1e-4 of them) to out, as many as count, from its start to its end. If count
+ * gb_arc_sample: writes joint values at equal distances along an arc (within 1e-3 of them) to out, as many as count, from its start to its end. If count
  * is 1, the start. Returns 0.
  * gb_best: writes the best solution by a criterion over arcs. Curves are sampled at six points for each step, and each sample that is better than its
  * neighbours is refined. Two optima between neighbouring samples are found as one. Returns 1, or 0 if there are no arcs.

@@ -9,7 +9,7 @@ use groebot_ik::Watch;
 use groebot_ik::codegen::ikfast::Options;
 use groebot_ik::derive::{Derivation, System};
 use groebot_ik::solver::{Checks, Described};
-use groebot_robot::kinematics::Target;
+use groebot_robot::kinematics::{InverseKinematics, Target};
 
 use crate::codegen::ikfast::{compile, folder};
 use crate::codegen::stored::{named, reached};
@@ -73,7 +73,7 @@ fn strata_beside() {
     let chain = described::robot(&described::MICO, described::EXACT);
     let q = degrees.map(f64::to_radians);
     let target = Target::reached(&chain, &q).unwrap();
-    let answers = groebot_ik::derive(&chain).unwrap().program().solve(target).unwrap();
+    let answers = groebot_ik::derive(&chain).unwrap().program().solver().solve(target).unwrap();
     assert_eq!(answers.len(), 2, "{answers:?}");
     for answer in &answers {
         let [position, rotation] = target.missed(&chain, &answer.q);

@@ -94,7 +94,7 @@ pub fn at(arm: &Arm, target: &Target, limits: &Limits, arc: &Arc, s: f64) -> Res
     Ok(arc.end.q)
 }
 
-/// Joint values at equal distances along an arc, from its start to its end, equal within 1e-4 of a distance. An output of one entry receives the start.
+/// Joint values at equal distances along an arc, from its start to its end, equal within 1e-3 of a distance. An output of one entry receives the start.
 ///
 /// # Errors
 ///

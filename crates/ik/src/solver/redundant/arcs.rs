@@ -126,7 +126,7 @@ impl RedundantSolver {
         Ok(self.values(&q.map_err(|error| self.refused(target, error))?))
     }
 
-    /// Joint values at equal distances along an arc of this target and these limits, the ends included: `count` rows. The distances are equal within 1e-4
+    /// Joint values at equal distances along an arc of this target and these limits, the ends included: `count` rows. The distances are equal within 1e-3
     /// of them. One row is the start of the arc.
     ///
     /// # Errors
