@@ -144,6 +144,9 @@ typedef double gb_real;
 #include "groebot/tolerances.h"
 #endif
 
+#if defined(GB_PART) && defined(GB_WIDTH) && GB_WIDTH == 0
+#include "groebot/part.h"
+#endif
 #if defined(GB_ROBOT) && !(defined(GB_WIDTH) && GB_WIDTH == 0)
 #include "groebot/width.h"
 #if GB_WIDTH > 0
@@ -159,7 +162,7 @@ typedef double gb_real;
 #include "groebot/approach.h"
 #endif
 #include "groebot/candidates.h"
-#if GB_WIDTH > 1 && GB_WIDTH == GB_LANES && defined(GB_RUNS)
+#if GB_WIDTH > 1 && GB_WIDTH == GB_LANES && defined(GB_RUNS) && !defined(GB_PART)
 #include "groebot/batch.h"
 #endif
 #else
@@ -170,6 +173,12 @@ typedef double gb_real;
 #include "groebot/answers.h"
 #include "groebot/described.h"
 #include "groebot/solve.h"
+#ifndef GB_PART
+#include "groebot/public.h"
+#endif
+#ifdef GB_GIVEN
+#include "groebot/given.h"
+#endif
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif

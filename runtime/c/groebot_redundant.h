@@ -220,6 +220,17 @@ typedef struct {
     gb_real value;
 } gb_criterion;
 
+/* The distance to joint values, all of which count alike, as a criterion. */
+static inline gb_criterion gb_nearest_to_joints(const gb_real *q0)
+{
+    gb_criterion criterion = {GB_CRITERION_NEAREST, false, {0}, {0}, 0, 0};
+    for (size_t i = 0; i < GB_MOST_ARM_JOINTS; i++) {
+        criterion.q0[i] = q0[i];
+        criterion.weights[i] = 1;
+    }
+    return criterion;
+}
+
 /* An optimum on an arc. */
 typedef struct {
     gb_real q[GB_MOST_ARM_JOINTS];
@@ -264,5 +275,75 @@ GB_REDUNDANT int gb_best(const gb_arm *arm, const gb_real *target, const gb_real
 GB_REDUNDANT int gb_optima(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arcs, size_t count,
                            const gb_criterion *criterion, gb_optimum *out, size_t room);
 #endif
+
+/* Declares the functions of a redundant arm's own file. A target has GB_ARM_TARGET entries: the numbers
+ * of NAME_solve without the value of the given joint, then zeros. Limits have the form of NAME_limits, which are the described ones.
+ *
+ * NAME_arm, NAME_redundant: the data of the arm, also with its solvers.
+ * NAME_solve_given: adds all solutions with a joint given to the list: see solve_given of gb_redundant.
+ * NAME_any_within, NAME_arcs, NAME_arc_at, NAME_arc_sample, NAME_best, NAME_optima: same as gb_any_within and so on, for this arm.
+ * NAME_nearest_on_arcs: same as NAME_best for the least distance to joint values q0. */
+#define GB_DECLARE_REDUNDANT(name)                                                                                                 \
+    GB_API const gb_arm name##_arm;                                                                                                \
+    GB_API const gb_redundant name##_redundant;                                                                                    \
+    GB_API int name##_solve_given(const gb_real *target, size_t joint, gb_real value, gb_arm_members *members);                    \
+    GB_API int name##_any_within(const gb_real *target, const gb_real *limits, gb_within *within);                                 \
+    GB_API int name##_arcs(const gb_real *target, const gb_real *limits, gb_arc *out, size_t room, gb_arcs_outcome *outcome);      \
+    GB_API int name##_arc_at(const gb_real *target, const gb_real *limits, const gb_arc *arc, gb_real s, gb_real *q);              \
+    GB_API int name##_arc_sample(const gb_real *target, const gb_real *limits, const gb_arc *arc,                                  \
+                                 gb_real (*out)[GB_MOST_ARM_JOINTS], size_t count);                                                \
+    GB_API int name##_best(const gb_real *target, const gb_real *limits, const gb_arc *arcs, size_t count,                         \
+                           const gb_criterion *criterion, gb_optimum *best);                                                       \
+    GB_API int name##_optima(const gb_real *target, const gb_real *limits, const gb_arc *arcs, size_t count,                       \
+                             const gb_criterion *criterion, gb_optimum *out, size_t room);                                         \
+    GB_API int name##_nearest_on_arcs(const gb_real *target, const gb_real *limits, const gb_arc *arcs, size_t count,              \
+                                      const gb_real *q0, gb_optimum *best)
+
+/* Defines these functions for the arm `name`_arm and its solvers by joint, GB_MOST_ARM_JOINTS functions or NULL, in `name`_given. */
+#define GB_DEFINE_REDUNDANT(name)                                                                                                  \
+    int name##_solve_given(const gb_real *target, size_t joint, gb_real value, gb_arm_members *members)                            \
+    {                                                                                                                              \
+        const bool is_solved = joint < GB_MOST_ARM_JOINTS && name##_given[joint];                                                  \
+        return is_solved ? name##_given[joint](target, value, members) : 0;                                                        \
+    }                                                                                                                              \
+    static int name##_solve_in(void *context, const gb_real *target, size_t joint, gb_real value, gb_arm_members *members)         \
+    {                                                                                                                              \
+        (void)context;                                                                                                             \
+        return name##_solve_given(target, joint, value, members);                                                                  \
+    }                                                                                                                              \
+    const gb_redundant name##_redundant = {&name##_arm, NULL, name##_solve_in};                                                    \
+    int name##_any_within(const gb_real *target, const gb_real *limits, gb_within *within)                                         \
+    {                                                                                                                              \
+        return gb_any_within(&name##_redundant, target, limits, within);                                                           \
+    }                                                                                                                              \
+    int name##_arcs(const gb_real *target, const gb_real *limits, gb_arc *out, size_t room, gb_arcs_outcome *outcome)              \
+    {                                                                                                                              \
+        return gb_arcs(&name##_redundant, target, limits, out, room, outcome);                                                     \
+    }                                                                                                                              \
+    int name##_arc_at(const gb_real *target, const gb_real *limits, const gb_arc *arc, gb_real s, gb_real *q)                      \
+    {                                                                                                                              \
+        return gb_arc_at(&name##_arm, target, limits, arc, s, q);                                                                  \
+    }                                                                                                                              \
+    int name##_arc_sample(const gb_real *target, const gb_real *limits, const gb_arc *arc,                                         \
+                          gb_real (*out)[GB_MOST_ARM_JOINTS], size_t count)                                                        \
+    {                                                                                                                              \
+        return gb_arc_sample(&name##_arm, target, limits, arc, out, count);                                                        \
+    }                                                                                                                              \
+    int name##_best(const gb_real *target, const gb_real *limits, const gb_arc *arcs, size_t count,                                \
+                    const gb_criterion *criterion, gb_optimum *best)                                                               \
+    {                                                                                                                              \
+        return gb_best(&name##_arm, target, limits, arcs, count, criterion, best);                                                 \
+    }                                                                                                                              \
+    int name##_optima(const gb_real *target, const gb_real *limits, const gb_arc *arcs, size_t count,                              \
+                      const gb_criterion *criterion, gb_optimum *out, size_t room)                                                 \
+    {                                                                                                                              \
+        return gb_optima(&name##_arm, target, limits, arcs, count, criterion, out, room);                                          \
+    }                                                                                                                              \
+    int name##_nearest_on_arcs(const gb_real *target, const gb_real *limits, const gb_arc *arcs, size_t count,                     \
+                               const gb_real *q0, gb_optimum *best)                                                                \
+    {                                                                                                                              \
+        const gb_criterion criterion = gb_nearest_to_joints(q0);                                                                   \
+        return gb_best(&name##_arm, target, limits, arcs, count, &criterion, best);                                                \
+    }
 
 #endif

@@ -76,6 +76,26 @@ pub const SIX_AXES: [(&str, &str); 21] = [
     ("vector", include_str!("six_axes/vector.rs")),
 ];
 
+/// The modules of [`crate::redundant`], each with its name, its root first.
+pub const REDUNDANT: [(&str, &str); 16] = [
+    ("mod", include_str!("redundant/mod.rs")),
+    ("along", include_str!("redundant/along.rs")),
+    ("arcs", include_str!("redundant/arcs.rs")),
+    ("arm", include_str!("redundant/arm.rs")),
+    ("best", include_str!("redundant/best.rs")),
+    ("crossing", include_str!("redundant/crossing.rs")),
+    ("elimination", include_str!("redundant/elimination.rs")),
+    ("ends", include_str!("redundant/ends.rs")),
+    ("given", include_str!("redundant/given.rs")),
+    ("goal", include_str!("redundant/goal.rs")),
+    ("links", include_str!("redundant/links.rs")),
+    ("model", include_str!("redundant/model.rs")),
+    ("seeds", include_str!("redundant/seeds.rs")),
+    ("step", include_str!("redundant/step.rs")),
+    ("trace", include_str!("redundant/trace.rs")),
+    ("within", include_str!("redundant/within.rs")),
+];
+
 /// The header of the run time in C.
 pub const C_HEADER: &str = include_str!("../c/groebot.h");
 /// The source that belongs to [`C_HEADER`].
@@ -90,7 +110,7 @@ pub const C_REDUNDANT_HEADER: &str = include_str!("../c/groebot_redundant.h");
 pub const C_REDUNDANT: &str = include_str!("../c/groebot_redundant.c");
 
 /// The files that the C sources include, each by its path.
-pub const C_PARTS: [(&str, &str); 71] = [
+pub const C_PARTS: [(&str, &str); 74] = [
     ("groebot/angles.h", include_str!("../c/groebot/angles.h")),
     ("groebot/answers.h", include_str!("../c/groebot/answers.h")),
     ("groebot/approach.h", include_str!("../c/groebot/approach.h")),
@@ -101,6 +121,9 @@ pub const C_PARTS: [(&str, &str); 71] = [
     ("groebot/curve.c", include_str!("../c/groebot/curve.c")),
     ("groebot/curve_steps.c", include_str!("../c/groebot/curve_steps.c")),
     ("groebot/described.h", include_str!("../c/groebot/described.h")),
+    ("groebot/given.h", include_str!("../c/groebot/given.h")),
+    ("groebot/part.h", include_str!("../c/groebot/part.h")),
+    ("groebot/public.h", include_str!("../c/groebot/public.h")),
     ("groebot/freedom.c", include_str!("../c/groebot/freedom.c")),
     ("groebot/joints.c", include_str!("../c/groebot/joints.c")),
     ("groebot/keep.c", include_str!("../c/groebot/keep.c")),

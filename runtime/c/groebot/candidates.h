@@ -3,7 +3,6 @@
 #if GB_WIDTH == 1
 
 /* The solutions of a target. By place: the numbers of the candidates that are waiting, and how each was found. */
-enum gb_sought { GB_ANSWERS, GB_CLOSEST, GB_MEMBER, GB_OTHERS };
 struct gb_sink_1 {
     gb_answers all;
     gb_solution *out;

@@ -1,9 +1,9 @@
 /* Arithmetic of the program */
 
 #if GB_WIDTH == 1
-typedef gb_real gb_number_1;
+typedef gb_real GB_(number);
 /* A truth value for each number. */
-typedef int gb_truth_1;
+typedef int GB_(truth);
 #else
 typedef double GB_(number) __attribute__((vector_size(8 * GB_WIDTH)));
 /* A truth value per lane: all bits set or none. */

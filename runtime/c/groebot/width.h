@@ -16,8 +16,14 @@
 #ifndef GB_DEFAULTS
 #define GB_DEFAULTS
 
+/* The end of the names of the current solver's functions. It is empty for the first solver of a file. */
+#ifdef GB_PART
+#define GB_OF_PART GB_JOIN(_, GB_PART, )
+#else
+#define GB_OF_PART
+#endif
 /* The name of a type or function for the current type of number, and that type. */
-#define GB_(name) GB_JOIN(gb_##name, _, GB_WIDTH)
+#define GB_(name) GB_JOIN(gb_##name##_, GB_WIDTH, GB_OF_PART)
 #define T GB_(number)
 /* A block that a rare case leads to; it is a function of its own. */
 #define GB_RARELY(block, parameters, ...) \
@@ -64,8 +70,14 @@ GB_UNUSED static const unsigned char gb_runs[GB_JOINTS] = {GB_RUNS};
 #endif
 
 #define GB_PUBLIC(name) GB_JOIN(GB_ROBOT, _, name)
+#ifndef GB_PART
 typedef GB_PUBLIC(solution) gb_solution;
 typedef GB_PUBLIC(pairs) gb_pairs;
+enum gb_sought { GB_ANSWERS, GB_CLOSEST, GB_MEMBER, GB_OTHERS };
+#else
+typedef gb_found_1 GB_(found);
+typedef gb_polynomial_1 GB_(polynomial);
+#endif
 
 /* Two angles differ by more than GB_MERGING_BLUR where the cosine of their difference is below this. */
 #define GB_FAR_APART (R(1.0) - R(0.52) * GB_MERGING_BLUR * GB_MERGING_BLUR)
@@ -74,5 +86,8 @@ typedef GB_PUBLIC(pairs) gb_pairs;
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-variable"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
+#ifdef GB_PART
+#pragma GCC diagnostic ignored "-Wunused-function"
+#endif
 #endif
 #endif

@@ -2,8 +2,8 @@
 
 use super::language::Expressions;
 use super::names::Names;
+use super::parts::Parts;
 use super::printer::Printer;
-use super::samples::Table;
 use crate::solver::{Demand, Following, Instruction, Layout, Operand, ParameterDemand, Program, Rule};
 
 /// The data that all bodies of one file share.
@@ -12,8 +12,8 @@ pub(super) struct Scene<'a> {
     pub layout: Layout<'a>,
     pub language: &'a dyn Expressions,
     pub names: Names,
-    /// Sample values of free joints.
-    pub tables: Vec<Table>,
+    /// All programs of the file.
+    pub parts: &'a Parts<'a>,
 }
 
 impl Scene<'_> {

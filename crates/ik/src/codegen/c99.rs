@@ -1,18 +1,29 @@
 //! C99: a header and a source file of a robot that need the run time `groebot.h` and `groebot.c`. Main type: [`Pair`].
 
+use groebot_runtime::redundant::{Arm, Given as RunTimeGiven, Task};
 use groebot_runtime::six_axes::{Chain, Given, Rigid};
 
 use super::dialect::{Applies, Dialect, GuardText, How};
 use super::joined::Declaration;
 use super::language::{Expressions, number};
 use super::outline::Outline;
+use super::parts::{PartText, Parts, RedundantText};
 use super::printer::{INDENT, spread};
 use super::reserved::is_reserved;
 use crate::solver::Program;
 use crate::solver::eigenvalue::SixAxes;
 
 const HEADER: &str = include_str!("skeleton/robot.h.txt");
-const SOURCE: &str = include_str!("skeleton/robot.c.txt");
+const SOURCE: &str = concat!(
+    include_str!("skeleton/macros.c.txt"),
+    include_str!("skeleton/begin.c.txt"),
+    include_str!("skeleton/facts.c.txt"),
+    include_str!("skeleton/middle.c.txt"),
+    include_str!("skeleton/program.c.txt"),
+    include_str!("skeleton/end.c.txt"),
+);
+const FACTS: &str = concat!(include_str!("skeleton/macros.c.txt"), include_str!("skeleton/facts.c.txt"));
+const PROGRAM: &str = concat!(include_str!("skeleton/macros.c.txt"), include_str!("skeleton/program.c.txt"));
 
 const NUMBERS: Declaration = Declaration { head: "const T ", glue: ", " };
 
@@ -39,7 +50,50 @@ impl Pair {
 
 /// The values of a program for the skeleton.
 pub(super) fn outline(program: &Program) -> Outline {
-    Outline::new(program, &WORDS, &C { kind: Kind::One })
+    let (parts, plain) = (Parts::new(program), C { kind: Kind::One });
+    let part = |number: usize, program: &Program| {
+        let outline = Outline::of_part(&parts, (number, program), &WORDS, &plain);
+        let text = |skeleton| super::fill(skeleton, &outline).trim().to_owned();
+        PartText { number, facts: text(FACTS), program: text(PROGRAM) }
+    };
+    let mut outline = Outline::new(&parts, &WORDS, &plain);
+    outline.redundant = RedundantText::new(&parts, arm, part);
+    outline
+}
+
+/// The data of a redundant arm as an initialiser.
+fn arm(arm: &Arm) -> String {
+    let Arm { count, directions, points, slides, tip, task, length, limits, given, scanned } = arm;
+    let (kind, direction, axis, coordinates) = match task {
+        Task::Pose => ("POSE", [0.0; 3], 0, [0; 2]),
+        Task::Position => ("POSITION", [0.0; 3], 0, [0; 2]),
+        Task::Rotation => ("ROTATION", [0.0; 3], 0, [0; 2]),
+        Task::Ray { direction } => ("RAY", *direction, 0, [0; 2]),
+        Task::Direction { direction } => ("DIRECTION", *direction, 0, [0; 2]),
+        Task::PositionPitchRoll => ("POSITION_PITCH_ROLL", [0.0; 3], 0, [0; 2]),
+        Task::PositionYaw { axis, direction } => ("POSITION_YAW", *direction, *axis, [0; 2]),
+        Task::PlanarPosition { coordinates } => ("PLANAR_POSITION", [0.0; 3], 0, *coordinates),
+        Task::PlanarPose { coordinates } => ("PLANAR_POSE", [0.0; 3], 0, *coordinates),
+        other => unreachable!("a redundant arm has a task of the run time, not {other:?}"),
+    };
+    let limits = braces(&limits.as_flattened()).replace("inf", "INFINITY");
+    let given = given.map(|given| match given {
+        RunTimeGiven::Solved => "GB_ARM_SOLVED",
+        RunTimeGiven::Constant => "GB_ARM_CONSTANT",
+        RunTimeGiven::Unsolved => "GB_ARM_UNSOLVED",
+    });
+    format!(
+        "{{\n    {count},\n    {},\n    {},\n    {slides},\n    {},\n    {{GB_TASK_{kind}, {}, {axis}, {{{}, {}}}}},\n    {length:?},\n    \
+         {limits},\n    {{{}}},\n    {scanned},\n}}",
+        braces(directions),
+        braces(points),
+        rigid(tip),
+        braces(&direction),
+        coordinates[0],
+        coordinates[1],
+        given.join(", "),
+        slides = braces(slides),
+    )
 }
 
 /// The number type of the code: the type of the run time, or a single number.
@@ -182,7 +236,6 @@ impl Dialect for C {
 
     fn chain(&self, six: &SixAxes) -> String {
         let Chain { directions, points, across, slides, steps, last, back, length, formulations, within } = six.chain();
-        let rigid = |motion: &Rigid| format!("{{{}, {}}}", braces(&motion.rotation), braces(&motion.translation));
         let steps: Vec<String> = steps.iter().map(rigid).collect();
         let list = formulations.as_slice();
         let formulation = |one: &groebot_runtime::six_axes::Formulation| format!("{{{}, {}}}", one.hidden, one.second);
@@ -309,6 +362,11 @@ impl Dialect for C {
         lines.push(format!("GB_(finish)(c, found{found}, at);"));
         lines
     }
+}
+
+/// A rigid motion as an initialiser.
+fn rigid(motion: &Rigid) -> String {
+    format!("{{{}, {}}}", braces(&motion.rotation), braces(&motion.translation))
 }
 
 /// Formats numbers as a C initialiser, from Rust's notation in brackets.

@@ -58,6 +58,7 @@ fn file(program: &Program, options: &Options, stem: Option<&str>) -> Result<Stri
         )
     })?;
     let kind = Kind::of(program, &forward).map_err(refuse)?;
+    let program = &*single_file::alone_of(program);
     let program = &if options.single { program.tolerant(IKFAST.single) } else { Some(program.clone()) }.ok_or_else(|| {
         let text = "the task has more numbers than the joints can reach, and no target that is rounded to single precision is consistent; omit --float, so that \
                     callers use double precision";

@@ -19,6 +19,7 @@ mod joined;
 mod language;
 mod names;
 mod outline;
+mod parts;
 mod printer;
 mod reserved;
 mod samples;
@@ -32,10 +33,10 @@ use serde::Serialize;
 
 use crate::solver::Program;
 
-/// Whether a step of `program` solves six joints together by an eigenvalue problem.
+/// Whether a step of `program`, or of a part of its redundancy, solves six joints together by an eigenvalue problem.
 #[doc(hidden)]
 pub fn has_six_axes(program: &Program) -> bool {
-    !six_axes::steps(program).is_empty()
+    !parts::Parts::new(program).six_axes.is_empty()
 }
 
 /// Fills the skeleton with the outline's values. Both are part of this crate, so that filling cannot fail.

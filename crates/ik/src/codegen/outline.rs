@@ -7,9 +7,9 @@ use super::body::Scene;
 use super::dialect::Dialect;
 use super::language::Expressions;
 use super::names::{Names, remark};
+use super::parts::{Parts, RedundantText};
 use super::reserved::prefix;
 use super::samples::Table;
-use super::six_axes;
 use super::walk::{self, Function, reads};
 use crate::solver::eigenvalue::SixAxes;
 use crate::solver::{
@@ -22,6 +22,8 @@ pub(super) struct Outline {
     pub name: String,
     /// The name of files without extension.
     pub stem: String,
+    /// The number of the program in its file: 0 for the main one.
+    part: usize,
     pub version: &'static str,
     pub about: AboutText,
     inputs: Vec<Quantity>,
@@ -40,6 +42,8 @@ pub(super) struct Outline {
     /// The names of the parameters.
     parameters: Vec<String>,
     target_lines: Vec<String>,
+    /// The arm and its other programs, if the program is the main one of a redundant arm.
+    pub redundant: Option<RedundantText>,
     functions: Vec<FunctionText>,
     tip: Option<Body>,
     /// The equations' values, unless all of them are comparisons with the tip.
@@ -104,10 +108,20 @@ struct Body {
 }
 
 impl Outline {
-    /// The outline of a valid program. The language `plain` is for code that computes with a single number.
-    pub fn new(program: &Program, dialect: &dyn Dialect, plain: &dyn Expressions) -> Self {
-        let (names, tables) = (Names::new(program, dialect), Table::all(program));
-        let scene = Scene { program, layout: Layout::new(program), language: dialect, names, tables };
+    /// The outline of the main program.
+    pub fn new(parts: &Parts<'_>, dialect: &dyn Dialect, plain: &dyn Expressions) -> Self {
+        Outline::of_part(parts, (0, parts.main), dialect, plain)
+    }
+
+    /// The outline of a valid program with its number: 0 for the main one. The language `plain` is for code that computes with a single number.
+    pub fn of_part(
+        parts: &Parts<'_>,
+        (part, program): (usize, &Program),
+        dialect: &dyn Dialect,
+        plain: &dyn Expressions,
+    ) -> Self {
+        let (names, layout) = (Names::new(program, dialect), Layout::new(program));
+        let scene = Scene { program, layout, language: dialect, names, parts };
         let demand = demanded(&scene, program.cases().any(|case| !case.open));
         let named = scene.names.parameters.iter().zip(&demand.fields);
         let mut parameters: Vec<String> = named.filter(|(_, read)| **read).map(|(name, _)| name.clone()).collect();
@@ -153,10 +167,11 @@ impl Outline {
             is_inlined: function.is_inlined,
             is_led_to_rarely: function.is_led_to_rarely,
         };
-        let sixes = six_axes::steps(program);
+        let sixes = &parts.six_axes;
         Outline {
-            name: prefix(&program.name),
-            stem: prefix(&program.name),
+            name: prefix(&parts.main.name),
+            stem: prefix(&parts.main.name),
+            part,
             degree: program.degree(),
             scale: dialect.literal(program.scale),
             version: env!("CARGO_PKG_VERSION"),
@@ -166,10 +181,11 @@ impl Outline {
             joints: joints(program, dialect),
             open: program.cases().filter(|case| case.open).map(|case: &Case| dialect.quote(&case.label)).collect(),
             values: facts.compared.is_empty().then(|| text(dialect, &[&checks.residuals])),
-            samples: scene.tables.iter().map(|table| TableText::new(dialect, table)).collect(),
+            samples: parts.tables.iter().map(|table| TableText::new(dialect, table)).collect(),
             chains: sixes.iter().map(|six| ChainText::new(dialect, six)).collect(),
             has_given: sixes.iter().any(|six| !six.parts().given.is_empty()),
             target_lines,
+            redundant: None,
             functions: walk::functions(&scene, dialect).into_iter().map(function).collect(),
             tip,
             described: program.described.as_ref().map(described),

@@ -1,11 +1,13 @@
 //! Rust: a file that needs the run time `groebot-runtime`, or includes it.
 
+use groebot_runtime::redundant::Arm;
 use groebot_runtime::six_axes::Chain;
 
 use super::dialect::{Applies, Dialect, GuardText, How};
 use super::joined::Declaration;
 use super::language::{Expressions, number};
 use super::outline::Outline;
+use super::parts::{PartText, Parts, RedundantText};
 use super::printer::{INDENT, spread};
 use crate::solver::Program;
 use crate::solver::eigenvalue::SixAxes;
@@ -22,7 +24,26 @@ const NUMBERS: Declaration = Declaration { head: "let ", glue: "; let " };
 /// Prints the solver of a valid program ([`Program::validate`]) as one Rust file that needs the crate `groebot-runtime`
 /// (edition 2024, Rust 1.89 or later).
 pub fn emit(program: &Program) -> String {
-    NUMBERS.joined(&super::fill(SKELETON, &Outline::new(program, &Rust { kind: "N" }, &Rust { kind: "f64" })))
+    let parts = Parts::new(program);
+    let (number, plain) = (Rust { kind: "N" }, Rust { kind: "f64" });
+    let part = |joint: usize, program: &Program| {
+        let text = super::fill(SKELETON, &Outline::of_part(&parts, (joint, program), &number, &plain));
+        PartText { number: joint, facts: String::new(), program: text.trim().to_owned() }
+    };
+    let mut outline = Outline::new(&parts, &number, &plain);
+    outline.redundant = RedundantText::new(&parts, arm, part);
+    NUMBERS.joined(&super::fill(SKELETON, &outline))
+}
+
+/// The data of a redundant arm as an expression.
+fn arm(arm: &Arm) -> String {
+    let Arm { count, directions, points, slides, tip, task, length, limits, given, scanned } = arm;
+    let limits = format!("{limits:?}").replace("inf", "f64::INFINITY");
+    let given = given.map(|given| format!("redundant::Given::{given:?}")).join(", ");
+    format!(
+        "Arm {{\n    count: {count},\n    directions: {directions:?},\n    points: {points:?},\n    slides: {slides:?},\n    tip: {tip:?},\n    \
+         task: Task::{task:?},\n    length: {length:?},\n    limits: {limits},\n    given: [{given}],\n    scanned: {scanned},\n}}"
+    )
 }
 
 /// The language, by the type of numbers in the code.

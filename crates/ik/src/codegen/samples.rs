@@ -18,10 +18,10 @@ impl Table {
         Table { rows: values.iter().map(row).collect() }
     }
 
-    /// The tables of a program without duplicates.
-    pub fn all(program: &Program) -> Vec<Self> {
+    /// The tables of programs without duplicates.
+    pub fn all<'a>(programs: impl Iterator<Item = &'a Program>) -> Vec<Self> {
         let mut tables = Vec::new();
-        for step in program.cases().flat_map(|case| &case.steps) {
+        for step in programs.flat_map(Program::cases).flat_map(|case| &case.steps) {
             if let Step::Sample { joint, values } = step {
                 let table = Table::new(*joint, values);
                 if !tables.contains(&table) {

@@ -1,6 +1,11 @@
 //! Run time and robot in one file. In Rust it has the modules of the crate `groebot-runtime` inside a module of that name, in C the text of its files.
 
-use groebot_runtime::sources::{C, C_HEADER, C_PARTS, C_SIX_AXES, C_SIX_AXES_HEADER, ROOT, RUST, SIX_AXES};
+use std::borrow::Cow;
+
+use groebot_runtime::sources::{
+    C, C_HEADER, C_PARTS, C_REDUNDANT, C_REDUNDANT_HEADER, C_SIX_AXES, C_SIX_AXES_HEADER, REDUNDANT, ROOT, RUST,
+    SIX_AXES,
+};
 
 use super::c99::Pair;
 use super::rust;
@@ -18,31 +23,45 @@ pub fn rust(program: &Program) -> String {
     for (name, module) in RUST {
         text += &format!("pub mod {name} {{\n{}}}\n", inner(module, "super"));
     }
-    if super::has_six_axes(program) {
-        let (_, root) = SIX_AXES[0];
-        text += &format!("pub mod six_axes {{\n{}", inner(root, "super"));
-        for (name, module) in &SIX_AXES[1..] {
-            text += &format!("mod {name} {{\n{}}}\n", inner(module, "super::super"));
-        }
-        text += "}\n";
+    if super::has_six_axes(program) || program.redundancy.is_some() {
+        text += &folder("six_axes", &SIX_AXES);
+    }
+    if program.redundancy.is_some() {
+        text += &folder("redundant", &REDUNDANT);
     }
     let body = body.replace("groebot_runtime::", "self::groebot_runtime::");
     text + "}\n\npub use self::groebot_runtime::{Placement, target_of};\nuse " + &body
 }
 
+/// A module with modules inside, its root first.
+fn folder(name: &str, modules: &[(&str, &str)]) -> String {
+    let (_, root) = modules[0];
+    let mut text = format!("pub mod {name} {{\n{}", inner(root, "super"));
+    for (name, module) in &modules[1..] {
+        let is_public = root.contains(&format!("pub(crate) mod {name};"));
+        let (visible, module) = (if is_public { "pub " } else { "" }, inner(module, "super::super"));
+        text += &format!("{visible}mod {name} {{\n{module}}}\n");
+    }
+    text + "}\n"
+}
+
 /// Prints the solver of a valid program ([`Program::validate`]) as one C99 file, a translation unit to be linked with `-lm`. With `single` all numbers are
-/// `float`. The text includes itself by the name `file`, or by the value of `GB_FILE`. With `NAME_DECLARATIONS_ONLY` defined it is its own header.
+/// `float`, and a redundant program has only the solver with its own joint given. The text includes itself by the name `file`, or by the value of `GB_FILE`. With `NAME_DECLARATIONS_ONLY` defined it is its own header.
 pub fn c(program: &Program, file: &str, single: bool) -> String {
-    let Pair { header, source } = Pair::new(program, "");
+    let program = if single { alone_of(program) } else { Cow::Borrowed(program) };
+    let Pair { header, source } = Pair::new(&program, "");
     let name = super::reserved::prefix(&program.name).to_ascii_uppercase();
-    let six_axes = super::has_six_axes(program);
+    let (six_axes, redundant) = (super::has_six_axes(&program), program.redundancy.is_some());
+    let part = |is_used: bool, text: &str| if is_used { without_comments(&whole(text)) } else { String::new() };
     let parts = [
-        without_comments(&whole(C_HEADER)),
-        if six_axes { without_comments(&whole(C_SIX_AXES_HEADER)) } else { String::new() },
+        part(true, C_HEADER),
+        part(six_axes || redundant, C_SIX_AXES_HEADER),
+        part(redundant, C_REDUNDANT_HEADER),
         header,
         format!("#ifndef {name}_DECLARATIONS_ONLY\n{source}"),
-        without_comments(&whole(C)),
-        if six_axes { without_comments(&whole(C_SIX_AXES)) } else { String::new() },
+        part(true, C),
+        part(six_axes, C_SIX_AXES),
+        part(redundant, C_REDUNDANT),
         "#endif\n".to_owned(),
     ];
     let head = if single { "#define GB_FLOAT\n" } else { "" };
@@ -54,6 +73,14 @@ pub fn c(program: &Program, file: &str, single: bool) -> String {
         env!("CARGO_PKG_VERSION"),
         program.name
     )
+}
+
+/// The program without its redundancy: only with its own joint given.
+pub(super) fn alone_of(program: &Program) -> Cow<'_, Program> {
+    match program.redundancy {
+        None => Cow::Borrowed(program),
+        Some(_) => Cow::Owned(Program { redundancy: None, ..program.clone() }),
+    }
 }
 
 /// A file of the run time in C with its parts inserted.
@@ -90,6 +117,7 @@ fn root() -> String {
 
 /// The text of a module without comments and module declarations, for a crate whose root has this name.
 fn inner(text: &str, root: &str) -> String {
+    let text = text.replace("#[cfg(test)]\nmod ", "mod ");
     let is_kept = |line: &&str| {
         let line = line.trim_start();
         let declares = ["mod ", "pub mod ", "pub(crate) mod "].iter().any(|head| line.starts_with(head));

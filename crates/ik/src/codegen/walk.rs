@@ -6,7 +6,6 @@ use super::dialect::{Applies, Dialect, GuardText, How};
 use super::names::remark;
 use super::printer::{INDENT, Printer};
 use super::samples::Table;
-use super::six_axes;
 use crate::solver::Demand;
 use crate::solver::eigenvalue::SixAxes;
 use crate::solver::{Block, Case, JointValue, Operand, Program, Step, square};
@@ -321,7 +320,7 @@ impl<'a> Walk<'a> {
             |unknown: usize| printer.demand().wants_unknown(unknown).then(|| printer.unknowns()[unknown].as_str());
         let names: Vec<Option<&str>> = joint.unknowns().into_iter().map(name).collect();
         let table = Table::new(joint, values);
-        let place = self.scene.tables.iter().position(|other| *other == table);
+        let place = self.scene.parts.tables.iter().position(|other| *other == table);
         let table_number = 1 + place.expect("the tables are those of all steps");
         self.open(self.dialect.open_samples(self.loops, &names, table_number, table.len()));
     }
@@ -335,8 +334,8 @@ impl<'a> Walk<'a> {
         let given = six.parts().given.len();
         let lines = printer.settle();
         self.push(lines);
-        let chain = six_axes::steps(scene.program).iter().position(|other| std::ptr::eq(*other, six));
-        let chain = 1 + chain.expect("the step is one of the program's");
+        let chain = scene.parts.six_axes.iter().position(|other| std::ptr::eq(*other, six));
+        let chain = 1 + chain.expect("the steps are those of all programs");
         self.open(dialect.open_six_axes(number, chain, &target, given));
         let mut joints = Vec::new();
         for (place, joint) in six.parts().joints.iter().enumerate() {

@@ -13,6 +13,7 @@ pub mod harness;
 pub mod ikfast;
 mod names;
 mod pairs;
+mod redundant;
 pub mod samples;
 mod single;
 mod six_axes;

@@ -17,5 +17,6 @@ pub use best::{Best, Criterion};
 pub use limits::JointLimits;
 pub use path::{ArmJump, ArmPath, PathOptions};
 pub use solver::RedundantSolver;
+pub(crate) use solver::arm;
 pub use target::ArmTarget;
 pub use within::Within;

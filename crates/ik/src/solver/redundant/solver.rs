@@ -85,7 +85,7 @@ impl Redundant for RedundantSolver {
 }
 
 /// The arm of a valid program in the run time's type.
-fn arm(program: &Program, redundancy: &Redundancy) -> Arm {
+pub(crate) fn arm(program: &Program, redundancy: &Redundancy) -> Arm {
     let mut arm = Arm {
         count: program.joints.len(),
         tip: Rigid { rotation: redundancy.rotation, translation: redundancy.position },
