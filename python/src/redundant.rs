@@ -3,6 +3,7 @@
 use std::sync::Arc as Shared;
 
 use groebot::solver::redundant::{Absence, ArmTarget, Best, Criterion, JointLimits, RedundantSolver};
+use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
