@@ -144,8 +144,8 @@ pub mod solver {
     /// All solutions within limits of a chain with one joint more than its task determines.
     pub mod redundant {
         pub use groebot_ik::solver::redundant::{
-            Absence, Arc, ArcEnd, Arcs, ArmJump, ArmPath, ArmTarget, Best, Criterion, JointLimits, PathOptions,
-            RedundantSolver, Within,
+            Absence, Arc, ArcEnd, Arcs, ArmJump, ArmPath, ArmTarget, Best, BestByArc, Criterion, JointLimits,
+            PathOptions, RedundantSolver, Within,
         };
     }
 }

@@ -5,16 +5,23 @@ A `Solver` computes all joint values that move the tip of a chain to a target. `
 pose of shape (4, 4) is that of the tip in the frame of the chain's base.
 """
 
+from . import _arms
+from ._arms import ArcEnd, Arcs, Best, BestBatch, Reason, Solutions, Within, WithinBatch
 from ._batch import Batch, PaddedBatch, Status
 from ._errors import BadValueError, GroebotError, NoPathError
-from ._groebot import PlacedSolver, Robot, Solution, Solver, __version__, derive, navigate
+from ._groebot import Arc, PlacedSolver, Robot, Solution, Solver, __version__, derive, navigate
 from ._reach import ReachMap, reach_map
 from ._records import Check, Closest, Explanation, Jump, Path, Walk
 from ._view import View, view
 
 __all__ = [
+    "Arc",
+    "ArcEnd",
+    "Arcs",
     "BadValueError",
     "Batch",
+    "Best",
+    "BestBatch",
     "Check",
     "Closest",
     "Explanation",
@@ -25,12 +32,16 @@ __all__ = [
     "Path",
     "PlacedSolver",
     "ReachMap",
+    "Reason",
     "Robot",
     "Solution",
+    "Solutions",
     "Solver",
     "Status",
     "View",
     "Walk",
+    "Within",
+    "WithinBatch",
     "__version__",
     "derive",
     "navigate",
@@ -39,4 +50,7 @@ __all__ = [
 
 # The other methods of `Solver` are compiled.
 setattr(Solver, "view", view)
-del view
+for _name in ("any_within", "any_within_batch", "arcs", "best", "best_batch", "optima"):
+    for _owner in (Solver, PlacedSolver):
+        setattr(_owner, _name, getattr(_arms, _name))
+del view, _name, _owner

@@ -1,15 +1,33 @@
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, Protocol, final, overload
 
 import numpy as np
 import numpy.typing as npt
 
+from ._arms import ArcEnd, Arcs, Best, BestBatch, Within, WithinBatch
 from ._batch import Batch, PaddedBatch
 from ._records import Check, Closest, Explanation, Path, Walk
 from ._view import View
 
-__all__ = ["PlacedSolver", "Robot", "Solution", "Solver", "__version__", "_reach", "_reach_as", "_run", "derive", "navigate"]
+__all__ = [
+    "Arc",
+    "PlacedSolver",
+    "Robot",
+    "Solution",
+    "Solver",
+    "__version__",
+    "_any_within",
+    "_any_within_batch",
+    "_arcs",
+    "_best_batch",
+    "_optima",
+    "_reach",
+    "_reach_as",
+    "_run",
+    "derive",
+    "navigate",
+]
 __version__: str
 
 class _Matrix(Protocol):
@@ -24,7 +42,9 @@ class _Se3(Protocol):
     def A(self) -> Any: ...
 
 _Target = npt.ArrayLike | _Matrix | _Se3 | tuple[npt.ArrayLike, _Matrix]
-_Limits = npt.ArrayLike | bool
+_Limits = npt.ArrayLike | bool | Mapping[str, npt.ArrayLike]
+_Criterion = Literal["margin", "relative_margin", "nearest", "manipulability", "change"]
+_PassedCriterion = tuple[str, list[float], list[float], int, float]
 _Progress = Callable[[str, int, int], object]
 _File = str | PathLike[str]
 _Floats = npt.NDArray[np.float64]
@@ -43,6 +63,21 @@ class Solution:
     def chosen(self) -> bool: ...
     @property
     def settled(self) -> bool: ...
+
+@final
+class Arc:
+    @property
+    def start(self) -> ArcEnd: ...
+    @property
+    def end(self) -> ArcEnd: ...
+    @property
+    def length(self) -> float: ...
+    @property
+    def is_closed(self) -> bool: ...
+    @property
+    def is_unsure(self) -> bool: ...
+    def at(self, s: npt.ArrayLike) -> _Floats: ...
+    def sample(self, n: int) -> _Floats: ...
 
 @final
 class Solver:
@@ -70,11 +105,18 @@ class Solver:
     @property
     def limits(self) -> _Floats: ...
     @property
+    def is_redundant(self) -> bool: ...
+    @property
     def solutions(self) -> int | None: ...
     @property
     def compiled(self) -> bool: ...
     def solve(
-        self, target: _Target, *, given: npt.ArrayLike | None = None, limits: _Limits | None = None
+        self,
+        target: _Target,
+        *,
+        q0: npt.ArrayLike | None = None,
+        given: npt.ArrayLike | None = None,
+        limits: _Limits | None = None,
     ) -> list[Solution]: ...
     def nearest(
         self,
@@ -128,8 +170,50 @@ class Solver:
         q0: npt.ArrayLike | None = None,
         *,
         dt: float | None = None,
+        times: npt.ArrayLike | None = None,
         speeds: npt.ArrayLike | None = None,
+        limits: _Limits | None = None,
     ) -> Path: ...
+    def any_within(self, target: _Target, *, limits: _Limits | None = None) -> Within: ...
+    def any_within_batch(
+        self, targets: _Target, *, limits: _Limits | None = None, threads: int | None = None, strict: bool = False
+    ) -> WithinBatch: ...
+    def arcs(self, target: _Target, *, limits: _Limits | None = None) -> Arcs: ...
+    def best(
+        self,
+        target: _Target,
+        criterion: _Criterion = "margin",
+        *,
+        q0: npt.ArrayLike | None = None,
+        weights: npt.ArrayLike | None = None,
+        joint: str | int | None = None,
+        value: float | None = None,
+        limits: _Limits | None = None,
+    ) -> Best | None: ...
+    def best_batch(
+        self,
+        targets: _Target,
+        criterion: _Criterion = "margin",
+        *,
+        q0: npt.ArrayLike | None = None,
+        weights: npt.ArrayLike | None = None,
+        joint: str | int | None = None,
+        value: float | None = None,
+        limits: _Limits | None = None,
+        threads: int | None = None,
+        strict: bool = False,
+    ) -> BestBatch: ...
+    def optima(
+        self,
+        target: _Target,
+        criterion: _Criterion = "margin",
+        *,
+        q0: npt.ArrayLike | None = None,
+        weights: npt.ArrayLike | None = None,
+        joint: str | int | None = None,
+        value: float | None = None,
+        limits: _Limits | None = None,
+    ) -> list[Best]: ...
     def placed(self, *, base: npt.ArrayLike | None = None, tool: npt.ArrayLike | None = None) -> PlacedSolver: ...
     def check(self, *, progress: _Progress | None = None, threads: int | None = None) -> Check: ...
     def explain(self, *, progress: _Progress | None = None, threads: int | None = None) -> Explanation: ...
@@ -143,8 +227,17 @@ class PlacedSolver:
     def base(self) -> _Floats: ...
     @property
     def tool(self) -> _Floats: ...
+    @property
+    def joints(self) -> list[str]: ...
+    @property
+    def is_redundant(self) -> bool: ...
     def solve(
-        self, target: _Target, *, given: npt.ArrayLike | None = None, limits: _Limits | None = None
+        self,
+        target: _Target,
+        *,
+        q0: npt.ArrayLike | None = None,
+        given: npt.ArrayLike | None = None,
+        limits: _Limits | None = None,
     ) -> list[Solution]: ...
     def nearest(
         self,
@@ -197,8 +290,50 @@ class PlacedSolver:
         q0: npt.ArrayLike | None = None,
         *,
         dt: float | None = None,
+        times: npt.ArrayLike | None = None,
         speeds: npt.ArrayLike | None = None,
+        limits: _Limits | None = None,
     ) -> Path: ...
+    def any_within(self, target: _Target, *, limits: _Limits | None = None) -> Within: ...
+    def any_within_batch(
+        self, targets: _Target, *, limits: _Limits | None = None, threads: int | None = None, strict: bool = False
+    ) -> WithinBatch: ...
+    def arcs(self, target: _Target, *, limits: _Limits | None = None) -> Arcs: ...
+    def best(
+        self,
+        target: _Target,
+        criterion: _Criterion = "margin",
+        *,
+        q0: npt.ArrayLike | None = None,
+        weights: npt.ArrayLike | None = None,
+        joint: str | int | None = None,
+        value: float | None = None,
+        limits: _Limits | None = None,
+    ) -> Best | None: ...
+    def best_batch(
+        self,
+        targets: _Target,
+        criterion: _Criterion = "margin",
+        *,
+        q0: npt.ArrayLike | None = None,
+        weights: npt.ArrayLike | None = None,
+        joint: str | int | None = None,
+        value: float | None = None,
+        limits: _Limits | None = None,
+        threads: int | None = None,
+        strict: bool = False,
+    ) -> BestBatch: ...
+    def optima(
+        self,
+        target: _Target,
+        criterion: _Criterion = "margin",
+        *,
+        q0: npt.ArrayLike | None = None,
+        weights: npt.ArrayLike | None = None,
+        joint: str | int | None = None,
+        value: float | None = None,
+        limits: _Limits | None = None,
+    ) -> list[Best]: ...
 
 @final
 class Robot:
@@ -269,6 +404,24 @@ def navigate(
     progress: _Progress | None = None,
 ) -> Walk: ...
 def _run(arguments: Sequence[str]) -> int: ...
+def _any_within(solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None) -> Within: ...
+def _any_within_batch(
+    solver: Solver | PlacedSolver, targets: _Target, limits: _Limits | None, threads: int | None, strict: bool
+) -> tuple[_Floats, npt.NDArray[np.uint8], npt.NDArray[np.uint32], npt.NDArray[np.bool_]]: ...
+def _arcs(solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None) -> Arcs: ...
+def _optima(
+    solver: Solver | PlacedSolver, target: _Target, limits: _Limits | None, criterion: _PassedCriterion
+) -> list[Best]: ...
+def _best_batch(
+    solver: Solver | PlacedSolver,
+    targets: _Target,
+    limits: _Limits | None,
+    criterion: _PassedCriterion,
+    threads: int | None,
+    strict: bool,
+) -> tuple[
+    _Floats, npt.NDArray[np.uint8], npt.NDArray[np.uint32], npt.NDArray[np.bool_], _Floats, npt.NDArray[np.int64], _Floats
+]: ...
 
 def _reach(
     solver: Solver,

@@ -86,6 +86,10 @@ class Path:
     """(N, joints). Joints without limits are continuous over whole turns."""
     jumps: list[Jump]
     """The jumps between branches, in order; empty if the path is continuous."""
+    is_unsure: bool = False
+    """Whether the arcs of some target of a redundant solver are unsure."""
+    arcs: npt.NDArray[np.int64] | None = None
+    """The index of each target's arc among those of `Solver.arcs`, (N,); None for a solver that is not redundant."""
 
 
 @dataclass(frozen=True, eq=False)

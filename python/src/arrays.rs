@@ -1,9 +1,11 @@
 //! Conversion of numpy arrays to targets, joint values and limits, and back.
 
+use groebot::{Error, ErrorKind};
 use numpy::{Element, PyArray1, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
-use crate::errors::bad_value;
+use crate::errors::{bad_value, raised};
 use crate::sink::Status;
 use crate::targets::{Form, Targets};
 
@@ -153,6 +155,32 @@ pub fn limits(numbers: &Numbers<'_>, joints: usize) -> PyResult<Vec<[f64; 2]>> {
             Err(bad_value(format!("`limits[{joint}]` is {:?}; give the least value, then the greatest", pairs[joint])))
         }
     }
+}
+
+/// The limits in a dict of joint names and pairs. Other joints keep those of `described`.
+///
+/// # Errors
+/// `BadValueError` for another value, NaN, and a lower limit above the upper one; of the kind `unknown_name` for another joint.
+pub fn named_limits(
+    pairs: &Bound<'_, PyDict>,
+    names: &[&str],
+    mut described: Vec<[f64; 2]>,
+) -> PyResult<Vec<[f64; 2]>> {
+    for (name, pair) in pairs {
+        let name: String = name.extract().map_err(|_| bad_value("the keys of `limits` must be names of joints"))?;
+        let Some(joint) = names.iter().position(|own| *own == name) else {
+            let text = format!("`limits`: there is no joint `{name}`; the joints are {}", names.join(", "));
+            return Err(raised(&Error::new(ErrorKind::UnknownName, text)));
+        };
+        described[joint] = match Numbers::of(&pair)?.to_vec()?[..] {
+            [low, high] if low <= high => [low, high],
+            ref other => {
+                let text = format!("`limits` of `{name}` are {other:?}; give the least value, then the greatest");
+                return Err(bad_value(text));
+            }
+        };
+    }
+    Ok(described)
 }
 
 /// Checks that all numbers are finite.

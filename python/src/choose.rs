@@ -7,6 +7,7 @@ use groebot::solver::MAX_JOINTS;
 
 use crate::kernel::{Answer, Kernel};
 use crate::sink::{Sink, Status};
+use crate::solution::Solution;
 use crate::targets::Targets;
 
 /// Tolerance of a limit for the rounding of a joint value.
@@ -137,6 +138,18 @@ fn keep_nearest(turns: &[bool], sink: &mut Sink<'_>, begun: usize, reference: &[
         sink.row_mut(begun).copy_from_slice(&best[..joints]);
     }
     sink.taken = begun + usize::from(nearest.is_some());
+}
+
+/// Moves each solution by whole turns to its nearest values to `q0` within limits, and sorts the solutions by their distance to `q0`.
+pub fn nearest_first(turns: &[bool], q0: &[f64], limits: Option<&[[f64; 2]]>, solutions: &mut [Solution]) {
+    let mut q = vec![0.0; turns.len()];
+    for solution in solutions.iter_mut() {
+        if moved(turns, &solution.q, q0, limits, &mut q) {
+            solution.q.copy_from_slice(&q);
+        }
+    }
+    let distance = |solution: &Solution| solution.q.iter().zip(q0).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+    solutions.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
 }
 
 /// Writes `q` with each angle moved by whole turns into its limits, as near to `reference` as possible. Returns false when a joint cannot be within its limits.

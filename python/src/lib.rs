@@ -1,5 +1,6 @@
 //! The Python module `groebot._groebot`, which the package `groebot` exports.
 
+mod arcs;
 mod arrays;
 mod batch;
 mod choose;
@@ -16,7 +17,9 @@ mod origin;
 mod path;
 mod placed;
 mod reach;
+mod redundant;
 mod robot;
+mod rows;
 mod sink;
 mod solution;
 mod solver;
@@ -33,10 +36,16 @@ fn _groebot(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<solver::Solver>()?;
     module.add_class::<placed::PlacedSolver>()?;
     module.add_class::<solution::Solution>()?;
+    module.add_class::<arcs::Arc>()?;
     module.add_function(wrap_pyfunction!(derive::derive, module)?)?;
     module.add_function(wrap_pyfunction!(navigate::navigate, module)?)?;
     module.add_function(wrap_pyfunction!(reach::reach, module)?)?;
     module.add_function(wrap_pyfunction!(reach::reach_as, module)?)?;
+    module.add_function(wrap_pyfunction!(redundant::any_within, module)?)?;
+    module.add_function(wrap_pyfunction!(redundant::arcs, module)?)?;
+    module.add_function(wrap_pyfunction!(redundant::optima, module)?)?;
+    module.add_function(wrap_pyfunction!(rows::any_within_batch, module)?)?;
+    module.add_function(wrap_pyfunction!(rows::best_batch, module)?)?;
     module.add_function(wrap_pyfunction!(command::run, module)?)?;
     Ok(())
 }

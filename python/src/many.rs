@@ -152,7 +152,7 @@ where
 }
 
 /// Fails if rows are invalid targets, with their indices.
-fn refuse(status: &[u8]) -> PyResult<()> {
+pub fn refuse(status: &[u8]) -> PyResult<()> {
     let (rows, count) = no_targets(status);
     let Some(first) = rows.first() else { return Ok(()) };
     let others = if count > 1 { format!("; {count} rows are not targets: {rows:?}") } else { String::new() };
@@ -161,7 +161,7 @@ fn refuse(status: &[u8]) -> PyResult<()> {
 }
 
 /// Reference joint values, one row for all targets or one for each.
-fn reference(near: &Bound<'_, PyAny>, joints: usize, targets: usize) -> PyResult<Vec<f64>> {
+pub fn reference(near: &Bound<'_, PyAny>, joints: usize, targets: usize) -> PyResult<Vec<f64>> {
     let numbers = Numbers::of(near)?;
     let one = joint_rows(&numbers, joints, "near")?;
     if !one && numbers.shape()[0] != targets {
@@ -176,7 +176,7 @@ fn reference(near: &Bound<'_, PyAny>, joints: usize, targets: usize) -> PyResult
 }
 
 /// The caller's array for joint values.
-fn room<'py>(out: &Bound<'py, PyAny>, joints: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+pub fn room<'py>(out: &Bound<'py, PyAny>, joints: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let array = out.cast::<PyArray2<f64>>().ok().filter(|array| array.is_c_contiguous());
     let array = array.filter(|array| array.shape()[1] == joints);
     array

@@ -2,17 +2,19 @@
 
 use groebot::kinematics::{InverseKinematics, Solution, Target};
 use groebot::motion::{Pace, PathRequest, follow};
+use groebot::solver::redundant::PathOptions;
 use groebot::spatial::Pose;
 use nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion};
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
-use crate::arrays::{Numbers, finite, joint_rows, shaped};
+use crate::arrays::{Numbers, finite, shaped};
 use crate::batch::reason;
-use crate::errors::bad_value;
+use crate::errors::{bad_value, raised, unsupported};
+use crate::redundant::{self, arm, joint_values, lacks_given};
 use crate::sink::Status;
-use crate::solver::chain;
+use crate::solver::{Solver, chain};
 use crate::stored::Stored;
 use crate::work::{threads, watched};
 
@@ -42,46 +44,135 @@ impl InverseKinematics for ByKernel<'_> {
     }
 }
 
+/// The options of a path, each optional.
+pub struct Wishes<'a, 'py> {
+    /// The joint values before the first target.
+    pub q0: Option<&'a Bound<'py, PyAny>>,
+    /// The time between two targets \[s\].
+    pub dt: Option<f64>,
+    /// The time of each target \[s\].
+    pub times: Option<&'a Bound<'py, PyAny>>,
+    /// The maximum velocity of each joint.
+    pub speeds: Option<&'a Bound<'py, PyAny>>,
+    pub limits: Option<&'a Bound<'py, PyAny>>,
+}
+
+/// The options, converted.
+struct Given {
+    start: Option<Vec<f64>>,
+    pace: Pace,
+    speeds: Vec<Option<f64>>,
+}
+
+impl Wishes<'_, '_> {
+    fn given(&self, joints: usize) -> PyResult<Given> {
+        let start = self.q0.map(|q0| joint_values(q0, joints, "q0")).transpose()?;
+        let speeds = self.speeds.map(|speeds| joint_values(speeds, joints, "speeds")).transpose()?.unwrap_or_default();
+        if speeds.iter().any(|speed| *speed <= 0.0) {
+            return Err(bad_value(format!("`speeds` are {speeds:?}; give positive numbers")));
+        }
+        let pace = match (self.times, self.dt) {
+            (Some(_), Some(_)) => return Err(bad_value("give `dt` or `times`, not both")),
+            (Some(times), None) => Pace::At(ascending(times)?),
+            (None, dt) => Pace::Every(dt.unwrap_or(1.0)),
+        };
+        // Without times, maximum speeds have no effect.
+        let has_times = self.times.is_some() || self.dt.is_some();
+        let speeds = speeds.into_iter().map(|speed| Some(speed).filter(|_| has_times)).collect();
+        Ok(Given { start, pace, speeds })
+    }
+}
+
+/// Times in ascending order.
+fn ascending(times: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let numbers = Numbers::of(times)?;
+    let times = numbers.to_vec()?;
+    let are_ascending = times.iter().all(|time| time.is_finite()) && times.windows(2).all(|pair| pair[0] < pair[1]);
+    if numbers.shape().len() != 1 || !are_ascending {
+        return Err(bad_value("`times` must be finite numbers that ascend, of the shape (N,)"));
+    }
+    Ok(times)
+}
+
 /// Computes the joint values along poses, and the jumps between branches, as `groebot.Path`.
 ///
 /// # Errors
 /// `BadValueError` for rows that are not poses, and for a pose out of reach or beyond limits, with its row.
 pub fn solve_path<'py>(
     py: Python<'py>,
-    stored: &Stored,
+    solver: &Solver,
     poses: &Bound<'py, PyAny>,
-    q0: Option<&Bound<'py, PyAny>>,
-    dt: Option<f64>,
-    speeds: Option<&Bound<'py, PyAny>>,
+    wishes: &Wishes<'_, 'py>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (chain, joints) = (chain(stored)?, stored.program.joints.len());
+    if lacks_given(&solver.0, poses, None)? {
+        return along_arcs(py, solver, poses, wishes);
+    }
+    if wishes.limits.is_some() {
+        return Err(unsupported(
+            "`limits` of a path are for a redundant solver; other paths have the described limits",
+        ));
+    }
+    let stored = &*solver.0;
+    let chain = chain(stored)?;
     let poses = self::poses(stored, poses)?;
-    let start = q0.map(|q0| row(q0, joints, "q0")).transpose()?;
-    let speeds = speeds.map(|speeds| row(speeds, joints, "speeds")).transpose()?.unwrap_or_default();
-    // Without times, maximum speeds have no effect.
-    let speeds: Vec<Option<f64>> = speeds.into_iter().map(|speed| Some(speed).filter(|_| dt.is_some())).collect();
-    let pace = Pace::Every(dt.unwrap_or(1.0));
+    let Given { start, pace, speeds } = wishes.given(stored.program.joints.len())?;
     let solver = ByKernel(stored);
     let followed = watched(py, None, threads(Some(1)), |watch| {
         let request = PathRequest::new(&poses, &pace).speeds(&speeds);
         let request = start.as_deref().map_or(request, |start| request.start(start));
         follow(chain, &solver, &request, watch)
     })?;
-    let q = followed.trajectory.q.concat();
-    let q = shaped(py, q, &[poses.len(), joints])?;
+    let jumps: Vec<_> =
+        followed.jumps.iter().map(|found| (found.sample, found.joint, found.step, found.why.as_str())).collect();
+    made(py, &followed.trajectory.q, &jumps, (false, None))
+}
+
+/// The path of a redundant solver along arcs, as `groebot.Path`.
+fn along_arcs<'py>(
+    py: Python<'py>,
+    solver: &Solver,
+    targets: &Bound<'py, PyAny>,
+    wishes: &Wishes<'_, 'py>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (arm, (rows, one)) = (arm(&solver.0)?, redundant::targets(&solver.0, targets)?);
+    if one {
+        return Err(bad_value("`poses` holds one pose; give it an axis more: poses[None]"));
+    }
+    let fault = |row: usize, status: Status| bad_value(format!("row {row} {}", reason(status as u8)));
+    let targets = rows.into_iter().enumerate().map(|(row, target)| target.map_err(|status| fault(row, status)));
+    let targets = targets.collect::<PyResult<Vec<_>>>()?;
+    let limits = redundant::limits(solver, wishes.limits)?;
+    let Given { start, pace, speeds } = wishes.given(arm.names().len())?;
+    let times = pace.times(targets.len()).map_err(|error| raised(&error))?;
+    let options = PathOptions::new().limits(limits).speeds(&times, &speeds);
+    let options = start.as_deref().map_or(options, |start| options.start(start));
+    let path = watched(py, None, threads(Some(1)), |watch| arm.path(&targets, &options, watch))?;
+    let jumps: Vec<_> =
+        path.jumps.iter().map(|found| (found.sample, found.joint, found.step, found.why.as_str())).collect();
+    let arcs = path.arcs.iter().map(|arc| *arc as i64).collect();
+    made(py, &path.q, &jumps, (path.is_unsure, Some(arcs)))
+}
+
+/// A `groebot.Path`. Jumps have the index of their pose, that of their joint, the step and the reason.
+fn made<'py>(
+    py: Python<'py>,
+    q: &[Vec<f64>],
+    jumps: &[(usize, usize, f64, &str)],
+    (is_unsure, arcs): (bool, Option<Vec<i64>>),
+) -> PyResult<Bound<'py, PyAny>> {
     let made = py.import("groebot._records")?;
     let jump = made.getattr("Jump")?;
-    let jumps =
-        followed.jumps.iter().map(|found| jump.call1((found.sample, found.joint, found.step, found.why.as_str())));
-    let jumps = PyList::new(py, jumps.collect::<PyResult<Vec<_>>>()?)?;
-    made.getattr("Path")?.call1((q, jumps))
+    let jumps = PyList::new(py, jumps.iter().map(|found| jump.call1(*found)).collect::<PyResult<Vec<_>>>()?)?;
+    let arcs = arcs.map(|arcs| shaped(py, arcs, &[q.len()])).transpose()?;
+    let q = shaped(py, q.concat(), &[q.len(), q.first().map_or(0, Vec::len)])?;
+    made.getattr("Path")?.call1((q, jumps, is_unsure, arcs))
 }
 
 /// Converts rows to poses.
 fn poses(stored: &Stored, poses: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
     let numbers = Numbers::of(poses)?;
     if !stored.target_shape.is_pose || stored.target_shape.given > 0 {
-        return Err(crate::errors::unsupported("a path is of poses, without given joints"));
+        return Err(unsupported("a path is of poses, without given joints"));
     }
     let borrowed = numbers.array.try_readonly()?;
     let (targets, one) = stored.target_shape.targets(numbers.shape(), borrowed.as_slice()?, None, numbers.single)?;
@@ -108,15 +199,4 @@ fn pose(numbers: &[f64], row: usize) -> PyResult<Pose> {
     }
     let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
     Ok(Pose::from_parts(Translation3::new(numbers[0], numbers[1], numbers[2]), rotation))
-}
-
-/// Checks that there is one finite number for each joint.
-fn row(list: &Bound<'_, PyAny>, joints: usize, name: &str) -> PyResult<Vec<f64>> {
-    let numbers = Numbers::of(list)?;
-    if !joint_rows(&numbers, joints, name)? {
-        return Err(bad_value(format!("`{name}` has many rows; give one")));
-    }
-    let list = numbers.to_vec()?;
-    finite(&list, joints, name)?;
-    Ok(list)
 }

@@ -20,7 +20,7 @@ const OFF: f64 = 1e-9;
 /// Its methods are those of `groebot.Solver`. It never changes, and any number of threads may use it.
 #[pyclass(frozen, module = "groebot", name = "PlacedSolver")]
 pub struct PlacedSolver {
-    inner: Solver,
+    pub inner: Solver,
     base: [f64; 16],
     tool: [f64; 16],
 }
@@ -57,28 +57,42 @@ impl PlacedSolver {
         arrays::shaped(py, self.tool.to_vec(), &[4, 4])
     }
 
+    /// Same as `Solver.joints`.
+    #[getter]
+    fn joints(&self) -> Vec<String> {
+        self.inner.joints()
+    }
+
+    /// Same as `Solver.is_redundant`.
+    #[getter]
+    fn is_redundant(&self) -> bool {
+        self.inner.is_redundant()
+    }
+
     /// Same as `Solver.solve`.
-    #[pyo3(signature = (target, *, given=None, limits=None))]
+    #[pyo3(signature = (target, *, q0=None, given=None, limits=None))]
     fn solve<'py>(
         &self,
         py: Python<'py>,
         target: &Bound<'py, PyAny>,
+        q0: Option<&Bound<'py, PyAny>>,
         given: Option<&Bound<'py, PyAny>>,
         limits: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyList>> {
-        self.inner.solve(py, target, given, limits)
+        self.inner.solve(py, target, q0, given, limits)
     }
 
     /// Same as `Solver.nearest`.
     #[pyo3(signature = (target, q0, *, given=None, limits=None))]
     fn nearest(
         &self,
+        py: Python<'_>,
         target: &Bound<'_, PyAny>,
         q0: &Bound<'_, PyAny>,
         given: Option<&Bound<'_, PyAny>>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Option<Solution>> {
-        self.inner.nearest(target, q0, given, limits)
+        self.inner.nearest(py, target, q0, given, limits)
     }
 
     /// Same as `Solver.solve_batch`.
@@ -119,16 +133,19 @@ impl PlacedSolver {
     }
 
     /// Same as `Solver.solve_path`.
-    #[pyo3(signature = (poses, q0=None, *, dt=None, speeds=None))]
+    #[pyo3(signature = (poses, q0=None, *, dt=None, times=None, speeds=None, limits=None))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     fn solve_path<'py>(
         &self,
         py: Python<'py>,
         poses: &Bound<'py, PyAny>,
         q0: Option<&Bound<'py, PyAny>>,
         dt: Option<f64>,
+        times: Option<&Bound<'py, PyAny>>,
         speeds: Option<&Bound<'py, PyAny>>,
+        limits: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        self.inner.solve_path(py, poses, q0, dt, speeds)
+        self.inner.solve_path(py, poses, q0, dt, times, speeds, limits)
     }
 }
 

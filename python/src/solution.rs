@@ -39,7 +39,8 @@ impl Solution {
         self.residual
     }
 
-    /// Branch number: which roots of which equations were used. A branch keeps its number from target to target.
+    /// Branch number: which roots of which equations were used. A branch keeps its number from target to target. Of a redundant solver it is the index of the
+    /// solution's arc among those of `arcs`.
     #[getter]
     fn branch(&self) -> usize {
         self.branch
@@ -58,7 +59,8 @@ impl Solution {
         self.chosen
     }
 
-    /// Whether all polishing steps were completed. If false, other solutions may be missing, and `residual` shows the accuracy of this one.
+    /// Whether all polishing steps were completed. If false, other solutions may be missing, and `residual` shows the accuracy of this one. Of a redundant
+    /// solver it is false if the arcs of the target are unsure.
     #[getter]
     fn settled(&self) -> bool {
         self.settled

@@ -8,17 +8,20 @@ use groebot::derive::report::explain::explain;
 use groebot::solver::TaskPlacement;
 use numpy::PyArrayMethods;
 use pyo3::prelude::*;
-use pyo3::types::{PyList, PyTuple};
+use pyo3::types::{PyDict, PyList, PyTuple};
 
-use crate::arrays::{self, Numbers, joint_rows};
+use crate::arrays::{self, Numbers};
+use crate::choose::nearest_first;
 use crate::closest;
 use crate::errors::{bad_value, raised, unsupported};
 use crate::kernel::Answer;
 use crate::many::{self, Wanted};
+use crate::path::Wishes;
 use crate::placed::PlacedSolver;
+use crate::redundant::joint_values;
 use crate::solution::Solution;
 use crate::stored::Stored;
-use crate::{known, origin, path, work};
+use crate::{known, origin, path, redundant, rows, work};
 
 /// A closed-form inverse-kinematics solver: it returns all joint values that move the tip of a chain to a target.
 ///
@@ -81,7 +84,7 @@ impl Solver {
 
     /// The names of the joints from base to tip: the order of joint values.
     #[getter]
-    fn joints(&self) -> Vec<String> {
+    pub fn joints(&self) -> Vec<String> {
         self.0.program.joints.iter().map(|joint| joint.name.clone()).collect()
     }
 
@@ -110,6 +113,13 @@ impl Solver {
         arrays::shaped(py, limits.concat(), &[limits.len(), 2])
     }
 
+    /// Whether it finds all solutions within limits of an arm with one joint more than its task determines. Targets are then without the values of `given`;
+    /// with them, it solves as other solvers.
+    #[getter]
+    pub fn is_redundant(&self) -> bool {
+        self.0.program.redundancy.is_some()
+    }
+
     /// The number of complex solutions of a generic target, if it was counted.
     #[getter]
     fn solutions(&self) -> Option<usize> {
@@ -126,36 +136,49 @@ impl Solver {
     ///
     /// `target` is a matrix (4, 4), 12 numbers (position, rotation by rows), 7 numbers (position, quaternion x, y, z, w), or a pose of scipy or spatialmath.
     /// For other tasks it is the numbers of `inputs`. `given` are the values of the given joints. With `limits`, only solutions are returned that are within
-    /// them after whole turns. `limits` has the shape (joints, 2), or is `True` for those of the description.
-    #[pyo3(signature = (target, *, given=None, limits=None))]
+    /// them after whole turns. `limits` has the shape (joints, 2), or is `True` for those of the description, or a dict of joint names and pairs, which replace
+    /// those of the description. With `q0` (joints,), each angle is moved by whole turns to the nearest value, and the nearest solution is the first one.
+    ///
+    /// A redundant solver returns the best solution of each arc within the described limits as `groebot.Solutions`: by the margin to the limits, with `q0` by
+    /// the distance to it. `limits` can only narrow the described ones. Without a solution, the list is empty and has a `reason`.
+    #[pyo3(signature = (target, *, q0=None, given=None, limits=None))]
     pub fn solve<'py>(
         &self,
         py: Python<'py>,
         target: &Bound<'py, PyAny>,
+        q0: Option<&Bound<'py, PyAny>>,
         given: Option<&Bound<'py, PyAny>>,
         limits: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyList>> {
-        let found = self.found(target, given, self.bounds(limits)?.as_deref())?;
+        if redundant::lacks_given(&self.0, target, given)? {
+            return redundant::solve(py, self, target, q0, limits);
+        }
+        let limits = self.bounds(limits)?;
+        let mut found = self.found(target, given, limits.as_deref())?;
+        if let Some(q0) = q0 {
+            let turns = &self.0.kernel.shape().turns;
+            nearest_first(turns, &joint_values(q0, turns.len(), "q0")?, limits.as_deref(), &mut found);
+        }
         PyList::new(py, found.into_iter().map(|answer| Bound::new(py, answer)).collect::<PyResult<Vec<_>>>()?)
     }
 
     /// Returns the solution of one target that is nearest to the joint values `q0` after whole turns, within `limits` if these are given. `None` if there is
-    /// none. Its angles are not wrapped. At a singular target the whole self-motion is searched, not only its listed member.
+    /// none. Its angles are not wrapped. At a singular target the whole self-motion is searched, not only its listed member. A redundant solver searches all arcs
+    /// within the described limits.
     #[pyo3(signature = (target, q0, *, given=None, limits=None))]
     pub fn nearest(
         &self,
+        py: Python<'_>,
         target: &Bound<'_, PyAny>,
         q0: &Bound<'_, PyAny>,
         given: Option<&Bound<'_, PyAny>>,
         limits: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Option<Solution>> {
         let turns = &self.0.kernel.shape().turns;
-        let q0 = Numbers::of(q0)?;
-        if !joint_rows(&q0, turns.len(), "q0")? {
-            return Err(bad_value("`q0` has many rows; give one, or use solve_batch with near="));
+        let q0 = joint_values(q0, turns.len(), "q0")?;
+        if redundant::lacks_given(&self.0, target, given)? {
+            return redundant::nearest(py, self, target, &q0, limits);
         }
-        let q0 = q0.to_vec()?;
-        arrays::finite(&q0, turns.len(), "q0")?;
         let bounds = self.bounds(limits)?.unwrap_or_else(|| vec![[f64::NEG_INFINITY, f64::INFINITY]; turns.len()]);
         let numbers = self.one_target(target, given, self.0.placement.as_ref())?;
         let nearest = self.0.kernel.nearest_to(&numbers, &q0, &bounds).map_err(|error| raised(&error))?;
@@ -167,7 +190,7 @@ impl Solver {
     /// `targets` has the shape (N, 4, 4), (N, 12), (N, 7), or (N, numbers of `inputs`). `given` has the shape (given joints,) or (N, given joints). With
     /// `limits`, only solutions are kept that are within them after whole turns. With `near`, of shape (joints,) or (N, joints), only the nearest solution of
     /// each target is kept. `out`, of shape (rows, joints), receives the joint values. Invalid targets are reported in `status`; with `strict` they raise an
-    /// exception. `threads` is by default the number of processors.
+    /// exception. `threads` is by default the number of processors. A redundant solver returns for each target what `solve` returns.
     #[pyo3(signature = (targets, *, given=None, layout="ragged", limits=None, near=None, out=None, dtype=None, threads=None, strict=false))]
     #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     pub fn solve_batch<'py>(
@@ -185,7 +208,11 @@ impl Solver {
     ) -> PyResult<Bound<'py, PyAny>> {
         let limits = self.bounds(limits)?;
         let wanted = Wanted { given, limits: limits.as_deref(), near, out, threads: work::threads(threads), strict };
-        let arrays = many::solve_batch(py, &self.0, targets, &wanted)?;
+        let arrays = if redundant::lacks_given(&self.0, targets, given)? {
+            rows::solve_batch(py, self, targets, &wanted)?
+        } else {
+            many::solve_batch(py, &self.0, targets, &wanted)?
+        };
         let make = py.import("groebot._batch")?.getattr("made")?;
         make.call1((arrays, self.joints(), layout, dtype))
     }
@@ -208,18 +235,22 @@ impl Solver {
 
     /// Returns the joint values along poses (N, 4, 4) with the fewest jumps between branches, and among these the shortest motion: see `groebot.Path`.
     ///
-    /// `q0` are the joint values before the first pose. A step is a jump if it exceeds `speeds` (joints,) \[rad/s, m/s\] times `dt` \[s\]. Without these, a
-    /// jump is a step above half a radian or a tenth of the reach. Limits are those of the description.
-    #[pyo3(signature = (poses, q0=None, *, dt=None, speeds=None))]
+    /// `q0` are the joint values before the first pose. A step is a jump if it exceeds `speeds` (joints,) \[rad/s, m/s\] times the time between two poses \[s\].
+    /// This is `dt`, or the difference of `times` (N,). Without these, a jump is a step above half a radian or a tenth of the reach. Limits are those of the
+    /// description. A redundant solver follows targets of any task along arcs, also within narrower `limits`.
+    #[pyo3(signature = (poses, q0=None, *, dt=None, times=None, speeds=None, limits=None))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
     pub fn solve_path<'py>(
         &self,
         py: Python<'py>,
         poses: &Bound<'py, PyAny>,
         q0: Option<&Bound<'py, PyAny>>,
         dt: Option<f64>,
+        times: Option<&Bound<'py, PyAny>>,
         speeds: Option<&Bound<'py, PyAny>>,
+        limits: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        path::solve_path(py, &self.0, poses, q0, dt, speeds)
+        path::solve_path(py, self, poses, &Wishes { q0, dt, times, speeds, limits })
     }
 
     /// Returns the joint values whose target has the least error: see `groebot.Closest`. They are a solution if the target is reachable.
@@ -341,9 +372,13 @@ impl Solver {
         }
     }
 
-    /// The requested limits: those of an array, or with `True` those of the description.
+    /// The requested limits: those of an array, with `True` those of the description, or these with the pairs of a dict.
     pub fn bounds(&self, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Option<Vec<[f64; 2]>>> {
         let Some(limits) = limits else { return Ok(None) };
+        if let Ok(pairs) = limits.cast::<PyDict>() {
+            let names: Vec<&str> = self.0.program.joints.iter().map(|joint| joint.name.as_str()).collect();
+            return arrays::named_limits(pairs, &names, self.0.program.limits()).map(Some);
+        }
         match limits.extract::<bool>() {
             Ok(true) => Ok(Some(self.0.program.limits())),
             Ok(false) => Ok(None),

@@ -7,6 +7,7 @@ use groebot::derive::{Derivation, Source};
 use groebot::document::read_text;
 use groebot::folder::{self, PROGRAM};
 use groebot::kinematics::Chain;
+use groebot::solver::redundant::RedundantSolver;
 use groebot::solver::{self, Condition, Placement, Program, TaskPlacement};
 use groebot::{Error, ErrorKind, Result, Watch};
 use serde_json::{Value, json};
@@ -38,6 +39,8 @@ pub struct Stored {
     pub placement: Option<TaskPlacement>,
     /// The solver of the library, prepared at its first use.
     library: OnceLock<solver::Solver>,
+    /// The redundant solver, prepared at its first use.
+    arm: OnceLock<Option<RedundantSolver>>,
 }
 
 impl Stored {
@@ -61,6 +64,7 @@ impl Stored {
             target_shape,
             placement: None,
             library: OnceLock::new(),
+            arm: OnceLock::new(),
         }
     }
 
@@ -84,12 +88,18 @@ impl Stored {
             target_shape,
             placement,
             library: OnceLock::new(),
+            arm: OnceLock::new(),
         })
     }
 
     /// The solver of the library for this program.
     pub fn library(&self) -> &solver::Solver {
         self.library.get_or_init(|| self.program.solver())
+    }
+
+    /// The redundant solver; `None` for a solver that is not redundant.
+    pub fn arm(&self) -> Option<&RedundantSolver> {
+        self.arm.get_or_init(|| self.program.redundant_solver()).as_ref()
     }
 
     /// Returns a solver of the wheel.

@@ -20,3 +20,11 @@ def derived():
     from witness import UR5_URDF
 
     return groebot.derive(groebot.Robot.from_urdf(UR5_URDF))
+
+
+@pytest.fixture(scope="session")
+def panda():
+    """The redundant solver of a Panda, derived once for all tests."""
+    from witness import PANDA_URDF
+
+    return groebot.derive(PANDA_URDF)

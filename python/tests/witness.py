@@ -11,6 +11,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 DERIVATIONS = REPOSITORY / "derivations"
 UR5_URDF = REPOSITORY / "tests/corpus/urdf/ur5.urdf"
 KUKA_URDF = REPOSITORY / "tests/corpus/urdf/kr6_r900.urdf"
+PANDA_URDF = REPOSITORY / "tests/corpus/redundant/arms/panda.urdf"
 
 # Universal Robots' DH table: a, alpha, d of each joint.
 UR5_DH = [

@@ -9,6 +9,7 @@ mod follow;
 mod formats;
 mod placed;
 mod redundant;
+mod redundant_batch;
 mod redundant_corpus;
 mod refused;
 mod task;

@@ -11,9 +11,9 @@ use groebot_robot::spatial::Pose;
 use crate::derive::redundant as derived;
 
 /// An arm with its solver.
-struct Arm {
-    chain: Chain,
-    solver: RedundantSolver,
+pub struct Arm {
+    pub chain: Chain,
+    pub solver: RedundantSolver,
 }
 
 fn iiwa() -> &'static Arm {
@@ -24,7 +24,7 @@ fn iiwa() -> &'static Arm {
     })
 }
 
-fn panda() -> &'static Arm {
+pub fn panda() -> &'static Arm {
     static ARM: OnceLock<Arm> = OnceLock::new();
     ARM.get_or_init(|| {
         let chain = Chain::from_toml(include_str!("../../../../derivations/panda/0_chain.toml")).unwrap();
@@ -34,14 +34,14 @@ fn panda() -> &'static Arm {
 }
 
 impl Arm {
-    fn target(&self, q: &[f64]) -> (Pose, ArmTarget) {
+    pub fn target(&self, q: &[f64]) -> (Pose, ArmTarget) {
         let pose = self.chain.forward(q).unwrap();
         (pose, self.solver.target(pose).unwrap())
     }
 
     /// Asserts that joint values reach a pose within limits.
     #[track_caller]
-    fn assert_solves(&self, pose: &Pose, q: &[f64]) {
+    pub fn assert_solves(&self, pose: &Pose, q: &[f64]) {
         let reached = self.chain.forward(q).unwrap();
         let off = (reached.translation.vector - pose.translation.vector).norm();
         assert!(off < 1e-9 && reached.rotation.angle_to(&pose.rotation) < 1e-7, "{q:?}: {off}");
@@ -87,7 +87,7 @@ impl Arm {
 
 /// The ready pose of a Panda.
 #[allow(clippy::approx_constant, reason = "as published, in six decimals")]
-const READY: [f64; 7] = [0.0, -0.785398, 0.0, -2.356194, 0.0, 1.570796, 0.785398];
+pub const READY: [f64; 7] = [0.0, -0.785398, 0.0, -2.356194, 0.0, 1.570796, 0.785398];
 
 /// The lengths are those of a prototype in C++, which traces the arcs with another method.
 #[test]

@@ -133,6 +133,11 @@ impl Solver {
         shaped!(self, shaped => shaped.add_members(target, out))
     }
 
+    /// The largest magnitude among the equations' values at joint values; NaN for a wrong number of values.
+    pub(super) fn residual(&self, target: &[f64], q: &[f64]) -> f64 {
+        shaped!(self, shaped => shaped.residual_at(target, q))
+    }
+
     /// The error for a target of the right length that the run time refuses.
     pub(super) fn refused(&self, target: &[f64], error: runtime::Error) -> Error {
         shaped!(self, shaped => shaped.refused(target, error))

@@ -197,6 +197,14 @@ impl<S: Storage + 'static> Shaped<S> {
         self.forward(&q).map(|target| target.as_ref().to_vec())
     }
 
+    /// Same as [`super::Solver::residual`].
+    pub fn residual_at(&self, target: &[f64], q: &[f64]) -> f64 {
+        match self.row(target) {
+            Ok(row) if q.len() == self.facts.joints.len() => Solve::residual(self, &row, &Array::by(q.len(), |i| q[i])),
+            _ => f64::NAN,
+        }
+    }
+
     /// Same as [`super::Solver::parameters`].
     pub fn parameters_of(&self, target: &[f64]) -> Result<Vec<f64>> {
         Ok(Mechanism::parameters(self, &self.row(target)?).as_ref().to_vec())

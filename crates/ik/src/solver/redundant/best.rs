@@ -168,7 +168,7 @@ impl RedundantSolver {
     }
 
     /// The criterion in the run time's type.
-    fn run_time_criterion(&self, criterion: &Criterion) -> Result<runtime::Criterion> {
+    pub(super) fn run_time_criterion(&self, criterion: &Criterion) -> Result<runtime::Criterion> {
         let bad = |text: String| Err(Error::new(ErrorKind::BadValue, text));
         let row = |values: &[f64]| {
             let mut row = [0.0; runtime::MOST_JOINTS];

@@ -4,6 +4,7 @@
 //! given; curves between them are followed numerically ([`groebot_runtime::redundant`]).
 
 mod arcs;
+mod batch;
 mod best;
 mod limits;
 mod path;
@@ -13,6 +14,7 @@ mod target;
 mod within;
 
 pub use arcs::{Absence, Arc, ArcEnd, Arcs};
+pub use batch::BestByArc;
 pub use best::{Best, Criterion};
 pub use limits::JointLimits;
 pub use path::{ArmJump, ArmPath, PathOptions};

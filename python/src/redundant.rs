@@ -1,0 +1,278 @@
+//! Redundant solvers: targets without the value of the given joint, and the functions of `groebot._arms` for one target. Main type: [`Question`].
+
+use std::sync::Arc as Shared;
+
+use groebot::solver::redundant::{Absence, ArmTarget, Best, Criterion, JointLimits, RedundantSolver};
+use numpy::PyArrayMethods;
+use pyo3::prelude::*;
+use pyo3::types::PyList;
+
+use crate::arcs::Arc;
+use crate::arrays::{Numbers, TargetShape, finite, joint_rows, shaped};
+use crate::batch::reason;
+use crate::errors::{bad_value, raised, unsupported};
+use crate::kernel::Answer;
+use crate::placed::PlacedSolver;
+use crate::sink::Status;
+use crate::solution::Solution;
+use crate::solver::Solver;
+use crate::stored::Stored;
+
+/// A criterion as `groebot._arms` passes it: its name, rows of joint values, weights, the index of a joint, and its value.
+pub type PassedCriterion = (String, Vec<f64>, Vec<f64>, usize, f64);
+
+/// A target of a redundant solver, and the limits of its solutions.
+pub struct Question {
+    pub stored: Shared<Stored>,
+    pub target: ArmTarget,
+    pub limits: JointLimits,
+}
+
+impl Question {
+    pub fn new(solver: &Solver, target: &Bound<'_, PyAny>, limits: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
+        let (rows, one) = targets(&solver.0, target)?;
+        if !one {
+            return Err(bad_value("`target` holds many targets; use the function for batches"));
+        }
+        let target = rows[0].map_err(|status| bad_value(format!("the target {}", reason(status as u8))))?;
+        let limits = self::limits(solver, limits)?;
+        Ok(Question { stored: Shared::clone(&solver.0), target, limits })
+    }
+
+    pub fn arm(&self) -> PyResult<&RedundantSolver> {
+        arm(&self.stored)
+    }
+
+    /// The solution of joint values on the arc with this number.
+    fn solution(&self, q: &[f64], arc: usize, is_unsure: bool) -> PyResult<Solution> {
+        let residual = self.arm()?.residual(&self.target, q);
+        Ok(Answer { q, residual, branch: arc, free: 0, chosen: true, settled: !is_unsure }.into())
+    }
+}
+
+/// The redundant solver.
+///
+/// # Errors
+/// An error of the kind `unsupported` for a solver that is not redundant.
+pub fn arm(stored: &Stored) -> PyResult<&RedundantSolver> {
+    let text = "this solver is not redundant: `solve` returns all its solutions. Derive a chain with one joint more than its task determines, without `given`";
+    stored.arm().ok_or_else(|| unsupported(text))
+}
+
+/// Whether `target` is one of a redundant solver, without the value of the given joint.
+pub fn lacks_given(stored: &Stored, target: &Bound<'_, PyAny>, given: Option<&Bound<'_, PyAny>>) -> PyResult<bool> {
+    if stored.program.redundancy.is_none() || given.is_some() {
+        return Ok(false);
+    }
+    let TargetShape { own, given, .. } = stored.target_shape;
+    Ok(Numbers::of(target)?.shape().last() != Some(&(own + given)))
+}
+
+/// The targets in an array without values of the given joint, each with the fault of its form if it has one, and whether it is a single target.
+///
+/// # Errors
+/// `BadValueError` with the allowed shapes; an error of the kind `unsupported` for a solver that is not redundant.
+pub fn targets(stored: &Stored, object: &Bound<'_, PyAny>) -> PyResult<(Vec<Result<ArmTarget, Status>>, bool)> {
+    let arm = arm(stored)?;
+    let numbers = Numbers::of(object)?;
+    let shape = TargetShape { given: 0, ..stored.target_shape };
+    let borrowed = numbers.array.try_readonly()?;
+    let (rows, one) = shape.targets(numbers.shape(), borrowed.as_slice()?, None, numbers.single)?;
+    let rows = rows.placed(stored.placement.as_ref());
+    let mut out = vec![0.0; shape.own];
+    let target = |row| match rows.row(row, &mut out) {
+        Status::Solved => arm.target_of_numbers(&out).map_err(|_| fault(&shape, &out)),
+        status => Err(status),
+    };
+    Ok(((0..rows.len()).map(target).collect(), one))
+}
+
+/// The fault of numbers that are no target.
+fn fault(shape: &TargetShape, numbers: &[f64]) -> Status {
+    if numbers.iter().any(|number| !number.is_finite()) {
+        Status::NotFinite
+    } else if shape.rotation.is_some() {
+        Status::NotRotation
+    } else {
+        Status::NotUnit
+    }
+}
+
+/// The described limits, narrowed to the requested ones.
+///
+/// # Errors
+/// As [`Solver::bounds`] and [`RedundantSolver::limits_within`].
+pub fn limits(solver: &Solver, limits: Option<&Bound<'_, PyAny>>) -> PyResult<JointLimits> {
+    narrowed(&solver.0, solver.bounds(limits)?.as_deref())
+}
+
+/// The described limits, narrowed to these.
+pub fn narrowed(stored: &Stored, limits: Option<&[[f64; 2]]>) -> PyResult<JointLimits> {
+    let arm = arm(stored)?;
+    limits.map_or(Ok(arm.limits()), |limits| arm.limits_within(limits)).map_err(|error| raised(&error))
+}
+
+/// One finite value for each joint.
+///
+/// # Errors
+/// `BadValueError` for another shape and for values that are not finite.
+pub fn joint_values(list: &Bound<'_, PyAny>, joints: usize, name: &str) -> PyResult<Vec<f64>> {
+    let numbers = Numbers::of(list)?;
+    if !joint_rows(&numbers, joints, name)? {
+        return Err(bad_value(format!("`{name}` has many rows; give one")));
+    }
+    let list = numbers.to_vec()?;
+    finite(&list, joints, name)?;
+    Ok(list)
+}
+
+/// The criteria, one for each row of joint values.
+pub fn criteria((name, q0, weights, joint, value): PassedCriterion, joints: usize) -> Vec<Criterion> {
+    match name.as_str() {
+        "relative_margin" => vec![Criterion::RelativeMargin],
+        "manipulability" => vec![Criterion::Manipulability],
+        "change" => vec![Criterion::Change { joint, value }],
+        "nearest" => {
+            let nearest = |q0: &[f64]| Criterion::Nearest { q0: q0.to_vec(), weights: weights.clone() };
+            q0.chunks(joints).map(nearest).collect()
+        }
+        _ => vec![Criterion::Margin],
+    }
+}
+
+/// The reason why there is no solution, as a `groebot.Reason`.
+pub fn reason_of<'py>(
+    py: Python<'py>,
+    stored: &Stored,
+    absence: Option<&Absence>,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let Some(absence) = absence else { return Ok(None) };
+    let names: Vec<&str> = stored.program.joints.iter().map(|joint| joint.name.as_str()).collect();
+    let beyond: Vec<&str> = match absence {
+        Absence::Beyond(joints) => joints.iter().map(|joint| names[*joint]).collect(),
+        _ => Vec::new(),
+    };
+    py.import("groebot._arms")?.getattr("reason_of")?.call1((status(Some(absence)) as u8, beyond)).map(Some)
+}
+
+/// The status of a target without solutions for this reason.
+pub fn status(absence: Option<&Absence>) -> Status {
+    match absence {
+        None => Status::Solved,
+        Some(Absence::Beyond(_)) => Status::BeyondLimits,
+        Some(_) => Status::Unreachable,
+    }
+}
+
+/// The best solution of each arc as `groebot.Solutions`: by the margin, or by the distance to `q0`.
+///
+/// # Errors
+/// As [`Question::new`] and [`joint_values`].
+pub fn solve<'py>(
+    py: Python<'py>,
+    solver: &Solver,
+    target: &Bound<'py, PyAny>,
+    q0: Option<&Bound<'py, PyAny>>,
+    limits: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyList>> {
+    let question = Question::new(solver, target, limits)?;
+    let arm = question.arm()?;
+    let q0 = q0.map(|q0| joint_values(q0, arm.names().len(), "q0")).transpose()?;
+    let criterion = q0.map_or(Criterion::Margin, Criterion::nearest);
+    let found = py.detach(|| arm.best_by_arc(&question.target, &question.limits, &criterion));
+    let found = found.map_err(|error| raised(&error))?;
+    let solutions = found.best.iter().map(|best| question.solution(&best.q, best.arc, found.is_unsure));
+    let solutions = PyList::new(py, solutions.collect::<PyResult<Vec<_>>>()?)?;
+    let reason = reason_of(py, &solver.0, found.absence.as_ref())?;
+    let made = py.import("groebot._arms")?.getattr("Solutions")?;
+    Ok(made.call1((solutions, reason, found.is_unsure))?.cast_into::<PyList>()?)
+}
+
+/// The solution nearest to `q0` on all arcs.
+///
+/// # Errors
+/// As [`solve`].
+pub fn nearest(
+    py: Python<'_>,
+    solver: &Solver,
+    target: &Bound<'_, PyAny>,
+    q0: &[f64],
+    limits: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Option<Solution>> {
+    let question = Question::new(solver, target, limits)?;
+    let (arm, criterion) = (question.arm()?, Criterion::nearest(q0.to_vec()));
+    let found = py.detach(|| arm.best_by_arc(&question.target, &question.limits, &criterion));
+    let found = found.map_err(|error| raised(&error))?;
+    found.best.first().map(|best| question.solution(&best.q, best.arc, found.is_unsure)).transpose()
+}
+
+/// The solver of a `Solver` or a `PlacedSolver`.
+pub fn solver_of(object: &Bound<'_, PyAny>) -> PyResult<Solver> {
+    let stored = match object.cast::<PlacedSolver>() {
+        Ok(placed) => &placed.get().inner.0,
+        Err(_) => &object.cast::<Solver>()?.get().0,
+    };
+    Ok(Solver(Shared::clone(stored)))
+}
+
+/// One solution within limits, as a `groebot.Within`.
+#[pyfunction]
+#[pyo3(name = "_any_within")]
+pub fn any_within<'py>(
+    py: Python<'py>,
+    solver: &Bound<'py, PyAny>,
+    target: &Bound<'py, PyAny>,
+    limits: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let question = Question::new(&solver_of(solver)?, target, limits)?;
+    let arm = question.arm()?;
+    let found = py.detach(|| arm.any_within(&question.target, &question.limits)).map_err(|error| raised(&error))?;
+    let q = found.q.map(|q| row(py, q)).transpose()?;
+    let reason = reason_of(py, &question.stored, found.absence.as_ref())?;
+    py.import("groebot._arms")?.getattr("Within")?.call1((q, reason, found.is_unsure))
+}
+
+/// All arcs of solutions within limits, as `groebot.Arcs`.
+#[pyfunction]
+#[pyo3(name = "_arcs")]
+pub fn arcs<'py>(
+    py: Python<'py>,
+    solver: &Bound<'py, PyAny>,
+    target: &Bound<'py, PyAny>,
+    limits: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let question = Shared::new(Question::new(&solver_of(solver)?, target, limits)?);
+    let arm = question.arm()?;
+    let found = py.detach(|| arm.arcs(&question.target, &question.limits)).map_err(|error| raised(&error))?;
+    let arcs = found.arcs.into_iter().map(|arc| Bound::new(py, Arc::new(&question, arc)));
+    let arcs = PyList::new(py, arcs.collect::<PyResult<Vec<_>>>()?)?;
+    let reason = reason_of(py, &question.stored, found.absence.as_ref())?;
+    let made = py.import("groebot._arms")?.getattr("Arcs")?;
+    made.call1((arcs.to_tuple(), reason, found.is_unsure, found.is_surface, found.closed))
+}
+
+/// The local optima on all arcs, each a `groebot.Best`, the best ones first.
+#[pyfunction]
+#[pyo3(name = "_optima")]
+pub fn optima<'py>(
+    py: Python<'py>,
+    solver: &Bound<'py, PyAny>,
+    target: &Bound<'py, PyAny>,
+    limits: Option<&Bound<'py, PyAny>>,
+    criterion: PassedCriterion,
+) -> PyResult<Bound<'py, PyList>> {
+    let question = Question::new(&solver_of(solver)?, target, limits)?;
+    let arm = question.arm()?;
+    let criterion = criteria(criterion, arm.names().len()).swap_remove(0);
+    let found = py.detach(|| arm.optima(&question.target, &question.limits, &criterion));
+    let made = py.import("groebot._arms")?.getattr("Best")?;
+    let best = |Best { q, value, arc, s, .. }: Best| made.call1((row(py, q)?, value, arc, s));
+    let found = found.map_err(|error| raised(&error))?.into_iter().map(best);
+    PyList::new(py, found.collect::<PyResult<Vec<_>>>()?)
+}
+
+/// Joint values as an array.
+pub fn row(py: Python<'_>, q: Vec<f64>) -> PyResult<Bound<'_, PyAny>> {
+    let count = q.len();
+    shaped(py, q, &[count])
+}
