@@ -6,7 +6,7 @@ use super::samples::Table;
 use super::six_axes;
 use crate::solver::eigenvalue::SixAxes;
 use crate::solver::redundant::arm;
-use crate::solver::{Program, Redundancy, RedundantPart};
+use crate::solver::{Program, RedundantPart};
 use groebot_runtime::redundant::{Arm, Given, MOST_JOINTS};
 
 /// The programs of one file, with the constants that they share.
@@ -23,10 +23,10 @@ pub(super) struct Parts<'a> {
 impl<'a> Parts<'a> {
     /// The programs of a redundancy's parts, and the program itself.
     pub fn new(main: &'a Program) -> Self {
-        let parts = main.redundancy.iter().flat_map(|redundancy| redundancy.parts.iter().enumerate());
+        let parts = main.curves().into_iter().flat_map(|redundancy| redundancy.parts.iter().enumerate());
         let other = |(joint, part): (usize, &'a RedundantPart)| match part {
             RedundantPart::Program(program) => Some((joint + 1, program.as_ref())),
-            RedundantPart::Main | RedundantPart::Constant | RedundantPart::Unsolved(_) => None,
+            _ => None,
         };
         let others: Vec<(usize, &Program)> = parts.filter_map(other).collect();
         let all = || std::iter::once(main).chain(others.iter().map(|(_, program)| *program));
@@ -65,7 +65,7 @@ impl RedundantText {
         data: fn(&Arm) -> String,
         part: impl Fn(usize, &Program) -> PartText,
     ) -> Option<Self> {
-        let redundancy: &Redundancy = parts.main.redundancy.as_ref()?;
+        let redundancy = parts.main.curves()?;
         let arm = arm(parts.main, redundancy);
         let solved = |joint: usize| if arm.given[joint] == Given::Solved { joint + 1 } else { 0 };
         Some(RedundantText {

@@ -23,10 +23,10 @@ pub fn rust(program: &Program) -> String {
     for (name, module) in RUST {
         text += &format!("pub mod {name} {{\n{}}}\n", inner(module, "super"));
     }
-    if super::has_six_axes(program) || program.redundancy.is_some() {
+    if super::has_six_axes(program) || program.curves().is_some() {
         text += &folder("six_axes", &SIX_AXES);
     }
-    if program.redundancy.is_some() {
+    if program.curves().is_some() {
         text += &folder("redundant", &REDUNDANT);
     }
     let body = body.replace("groebot_runtime::", "self::groebot_runtime::");
@@ -51,7 +51,7 @@ pub fn c(program: &Program, file: &str, single: bool) -> String {
     let program = if single { alone_of(program) } else { Cow::Borrowed(program) };
     let Pair { header, source } = Pair::new(&program, "");
     let name = super::reserved::prefix(&program.name).to_ascii_uppercase();
-    let (six_axes, redundant) = (super::has_six_axes(&program), program.redundancy.is_some());
+    let (six_axes, redundant) = (super::has_six_axes(&program), program.curves().is_some());
     let part = |is_used: bool, text: &str| if is_used { without_comments(&whole(text)) } else { String::new() };
     let parts = [
         part(true, C_HEADER),

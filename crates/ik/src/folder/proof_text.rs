@@ -16,6 +16,7 @@ pub fn proof_text(derivation: &Derivation) -> String {
         let text = match part {
             Part::Main => return String::new(),
             Part::Derived(other) => method_text(other),
+            Part::Scanned => "scanned".to_owned(),
             Part::Constant => "proved constant on every self-motion".to_owned(),
             Part::Unsolved(reason) => format!("no solver (a claim that is not proved: {})", shown(reason)),
         };

@@ -11,6 +11,7 @@ mod placed;
 mod redundant;
 mod redundant_batch;
 mod redundant_corpus;
+mod redundant_scanned;
 mod refused;
 mod task;
 

@@ -9,9 +9,9 @@ use super::refuse::{self, driven};
 use super::types::Plan;
 use crate::derive::closure::Mechanism;
 use crate::derive::eigenvalue::fits;
+use crate::solver::redundant::MOST_SCANNED;
 use crate::{ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
-use groebot_runtime::redundant::MOST_JOINTS;
 
 /// The fraction of the best share from which a joint counts as equally good to give.
 const AS_GOOD: f64 = 0.8;
@@ -75,13 +75,13 @@ pub fn joints_to_give<'w>(chain: &Chain, watch: impl Into<Option<&'w Watch>>) ->
     Ok(Some(Choice { given: names(&given), candidates }))
 }
 
-/// Whether the solutions of a target of `chain` are curves that a redundant solver finds: one joint more than its task determines, and no mimic joint.
+/// Whether a redundant solver finds the solutions of a target of `chain` within limits: one joint more than its task determines, or up to [`MOST_SCANNED`]
+/// others whose ranges are scanned, and no mimic joint.
 pub fn is_redundant(chain: &Chain) -> bool {
-    let count = chain.joints().len();
+    let (count, most) = (chain.joints().len(), chain.task().freedoms() + 1);
     let by_steps = chain.order().is_none() && chain.choice().is_none();
     by_steps
-        && count <= MOST_JOINTS
-        && count == chain.task().freedoms() + 1
+        && (most..=most + MOST_SCANNED).contains(&count)
         && chain.joints().iter().all(|joint| joint.mimic.is_none())
 }
 

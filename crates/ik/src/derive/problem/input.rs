@@ -299,7 +299,7 @@ impl Source {
         let (Some(chain), Some((ideal, _))) = (self.chain_by_steps(), &self.ideal) else { return Ok(None) };
         let is_redundant = !self.ends.chooses && chain.given().is_empty() && is_redundant(chain);
         let Some(choice) = joints_to_give(ideal, watch)? else { return Ok(led) };
-        if choice.given.len() > chain.given_inputs().len() + 1 && !self.ends.chooses {
+        if choice.given.len() > chain.given_inputs().len() + 1 && !self.ends.chooses && !is_redundant {
             return Err(proposed(chain, &choice));
         }
         let chain = chain.with_task(chain.task(), chain.direction().clone(), choice.given.clone())?;

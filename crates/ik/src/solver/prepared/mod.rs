@@ -128,9 +128,14 @@ impl Solver {
         shaped!(self, shaped => shaped.solve_pairs(target))
     }
 
-    /// Same as [`Solver::solve_numbers`], but with the solutions of a redundant arm added to `out`, without memory of its own.
-    pub(super) fn add_members(&self, target: &[f64], out: &mut Members) -> std::result::Result<(), runtime::Error> {
-        shaped!(self, shaped => shaped.add_members(target, out))
+    /// Same as [`Solver::solve_numbers`], but with the values of some joints added to `out`, for a redundant arm, without memory of its own.
+    pub(super) fn add_members(
+        &self,
+        target: &[f64],
+        joints: &[usize],
+        out: &mut Members,
+    ) -> std::result::Result<(), runtime::Error> {
+        shaped!(self, shaped => shaped.add_members(target, joints, out))
     }
 
     /// The largest magnitude among the equations' values at joint values; NaN for a wrong number of values.

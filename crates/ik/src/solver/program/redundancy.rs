@@ -3,12 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use crate::solver::eigenvalue::Line;
+use crate::solver::redundant::MOST_SCANNED;
 use crate::solver::{Program, Unit};
 use crate::{Error, ErrorKind, Result};
-use groebot_runtime::redundant::MOST_JOINTS;
 use groebot_runtime::tolerances::ACCEPTANCE;
 
-/// The programs of a chain with one joint more than its task determines, one for each joint as the given one, and its axes as described.
+/// The programs of a redundant chain, one for each joint as the given one, and its axes as described. Each part has the values of scanned joints as inputs, too.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Redundancy {
@@ -34,6 +34,8 @@ pub enum RedundantPart {
     Program(Box<Program>),
     /// The target determines the joint: it is constant on every self-motion and is only compared with its limits.
     Constant,
+    /// The range of the joint is scanned: its value is given to all programs.
+    Scanned,
     /// There is no program, for this reason.
     Unsolved(String),
 }
@@ -50,9 +52,10 @@ impl Redundancy {
     /// [`ErrorKind::BadValue`] with the wrong part.
     pub(in crate::solver) fn validate(&self, main: &Program) -> Result<()> {
         let count = main.joints.len();
-        let determines = main.tip().is_some_and(|tip| count == tip.task.freedoms() + 1);
-        ensure(determines, "one tip is allowed, whose task determines all joints but one")?;
-        ensure(count <= MOST_JOINTS, "at most 7 joints are allowed")?;
+        let scanned = self.scanned();
+        let determines = main.tip().is_some_and(|tip| count == tip.task.freedoms() + 1 + scanned.len());
+        ensure(determines, "one tip is allowed, whose task determines all joints but one that are not scanned")?;
+        ensure(scanned.len() <= MOST_SCANNED, "at most three joints are scanned")?;
         let sizes = [self.lines.len(), self.limits.len(), self.parts.len()];
         ensure(sizes == [count; 3], "one line, one pair of limits and one part per joint")?;
         let numbers = self.lines.iter().flat_map(|line| line.direction.iter().chain(&line.point));
@@ -67,16 +70,33 @@ impl Redundancy {
         let are_ordered = self.limits.iter().flatten().all(|[low, high]| low <= high);
         ensure(are_ordered, "limits: the least, then the greatest value")?;
         self.parts.iter().enumerate().try_for_each(|(joint, part)| match part {
-            RedundantPart::Main => ensure(gives(main, joint), "the main part is not that of the given joint"),
+            RedundantPart::Main => ensure(self.gives(main, joint), "the main part is not that of the given joint"),
             RedundantPart::Program(other) => {
-                ensure(!gives(main, joint) && gives(other, joint), "a part is not that of its joint")?;
+                ensure(!self.gives(main, joint) && self.gives(other, joint), "a part is not that of its joint")?;
                 ensure(is_alike(main, other), "a part has another task, other joints or its own redundancy")?;
                 other.validate().map_err(|error| error.with_context(format!("{} given", main.joints[joint].name)))
             }
             RedundantPart::Constant | RedundantPart::Unsolved(_) => {
-                ensure(!gives(main, joint), "the given joint has no program")
+                ensure(!self.gives(main, joint), "the given joint has no program")
             }
+            RedundantPart::Scanned => Ok(()),
         })
+    }
+
+    /// The indices of the joints that are scanned.
+    pub fn scanned(&self) -> Vec<usize> {
+        (0..self.parts.len()).filter(|&joint| self.parts[joint] == RedundantPart::Scanned).collect()
+    }
+
+    /// Whether `joint` is the only given joint of `program` apart from the scanned ones, and their values are the last inputs, from base to tip.
+    fn gives(&self, program: &Program, joint: usize) -> bool {
+        let mut wanted = self.scanned();
+        wanted.push(joint);
+        wanted.sort_unstable();
+        wanted.dedup();
+        let first = program.inputs.len().checked_sub(wanted.len());
+        let given = program.given_joints.iter().map(|given| (given.joint, Some(given.input)));
+        given.eq(wanted.iter().enumerate().map(|(k, joint)| (*joint, first.map(|first| first + k))))
     }
 }
 
@@ -84,15 +104,15 @@ fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Whether `joint` is the only given joint, its value the last input.
-fn gives(program: &Program, joint: usize) -> bool {
-    matches!(program.given_joints[..], [given] if given.joint == joint && given.input + 1 == program.inputs.len())
-}
-
 /// Whether two programs have the same joints, the same numbers of the target and the same length unit.
 fn is_alike(main: &Program, other: &Program) -> bool {
     let target = |program: &Program| -> Vec<Unit> {
-        program.inputs.iter().take(program.inputs.len().saturating_sub(1)).map(|input| input.unit).collect()
+        program
+            .inputs
+            .iter()
+            .take(program.inputs.len().saturating_sub(program.given_joints.len()))
+            .map(|input| input.unit)
+            .collect()
     };
     let joints = |program: &Program| -> Vec<(String, Unit)> {
         program.joints.iter().map(|joint| (joint.name.clone(), joint.unit)).collect()

@@ -80,7 +80,7 @@ impl RedundantSolver {
     pub fn residual(&self, target: &ArmTarget, q: &[f64]) -> f64 {
         let Some(given) = q.get(self.arm.scanned) else { return f64::NAN };
         let (inputs, count) = self.inputs(&target.row, *given);
-        self.main().residual(&inputs[..count], q)
+        self.main().residual(&inputs[..count], &self.all_joints(q))
     }
 }
 

@@ -1,7 +1,8 @@
 //! All solutions within limits of a chain with one joint more than its task determines. Main types: [`RedundantSolver`], [`Arcs`].
 //!
 //! The solutions of a target are curves. [`RedundantSolver::arcs`] returns their parts within limits. The end points are computed by solvers with one joint
-//! given; curves between them are followed numerically ([`groebot_runtime::redundant`]).
+//! given; curves between them are followed numerically ([`groebot_runtime::redundant`]). Of a chain with more redundant joints, the ranges of some are scanned
+//! ([`ScanningSolver`]).
 
 mod arcs;
 mod batch;
@@ -9,6 +10,8 @@ mod best;
 mod limits;
 mod path;
 mod sampled;
+mod scanned;
+mod scanned_path;
 mod solver;
 mod target;
 mod within;
@@ -18,6 +21,7 @@ pub use batch::BestByArc;
 pub use best::{Best, Criterion};
 pub use limits::JointLimits;
 pub use path::{ArmJump, ArmPath, PathOptions};
+pub use scanned::{MOST_SCANNED, Scanned, ScanningSolver};
 pub use solver::RedundantSolver;
 pub(crate) use solver::arm;
 pub use target::ArmTarget;

@@ -100,11 +100,15 @@ struct State {
 }
 
 /// Data common to all steps.
+#[derive(Clone, Copy)]
 struct Steps<'a> {
     solver: &'a RedundantSolver,
     limits: JointLimits,
     options: &'a PathOptions<'a>,
 }
+
+/// The solver for each target.
+pub(super) type SolverAt<'a> = &'a dyn Fn(usize) -> RedundantSolver;
 
 impl RedundantSolver {
     /// Joint values along `targets` within limits. A step is a jump if a joint moves further than its maximum velocity permits in the time. The path has the
@@ -120,13 +124,33 @@ impl RedundantSolver {
         options: &PathOptions<'_>,
         watch: impl Into<Option<&'w Watch>>,
     ) -> Result<ArmPath> {
-        let watch = Watch::or_none(watch);
+        self.path_by(targets, options, None, Watch::or_none(watch))
+    }
+
+    /// Checks the options of a path along so many targets.
+    ///
+    /// # Errors
+    /// [`ErrorKind::BadValue`] as [`RedundantSolver::path`].
+    pub(super) fn check_path(&self, count: usize, options: &PathOptions<'_>) -> Result<()> {
+        Steps { solver: self, limits: self.limits(), options }.check(count)
+    }
+
+    /// Same as [`RedundantSolver::path`], with another solver of the same joints for each target.
+    pub(super) fn path_by(
+        &self,
+        targets: &[ArmTarget],
+        options: &PathOptions<'_>,
+        solver_at: Option<SolverAt<'_>>,
+        watch: &Watch,
+    ) -> Result<ArmPath> {
         let steps = Steps { solver: self, limits: options.limits.unwrap_or(self.limits()), options };
         steps.check(targets.len())?;
         let (mut layers, mut is_unsure): (Vec<Vec<State>>, bool) = (Vec::new(), false);
         for (sample, target) in targets.iter().enumerate() {
             watch.check()?;
             watch.report("targets of the path", sample, targets.len() - sample);
+            let own = solver_at.map(|solver_at| solver_at(sample));
+            let steps = Steps { solver: own.as_ref().unwrap_or(self), ..steps };
             let (arcs, doubt) =
                 steps.arcs(target).map_err(|error| error.with_context(format!("target {}", sample + 1)))?;
             is_unsure |= doubt;

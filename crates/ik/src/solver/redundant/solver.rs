@@ -1,22 +1,31 @@
 //! A prepared redundant solver: [`RedundantSolver`].
 
+use std::sync;
+
 use groebot_runtime as runtime;
-use groebot_runtime::redundant::{Arm, Given, MOST_JOINTS, Members, Redundant, Target, Task};
+use groebot_runtime::redundant::{Arm, Given, Members, Redundant, Target, Task};
 use groebot_runtime::six_axes::Rigid;
+use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 use num_traits::ToPrimitive;
 
+use super::MOST_SCANNED;
 use crate::solver::{Joint, Program, Solver, TipTask, Unit};
 use crate::solver::{Redundancy, RedundantPart};
 use groebot_robot::kinematics::BaseAxis;
+use groebot_robot::spatial::Pose;
 
 /// The solvers of an arm with one joint more than its task determines, prepared for evaluation. It is made once and solves any number of targets, also from
 /// several threads at once.
 #[derive(Clone, Debug)]
 pub struct RedundantSolver {
     pub(super) arm: Arm,
-    /// By joint, the solver with this joint given.
-    solvers: Vec<Option<Solver>>,
+    /// By joint of the arm, the solver with this joint given.
+    solvers: sync::Arc<[Option<Solver>]>,
     pub(super) joints: Vec<Joint>,
+    /// The indices of the arm's joints in the chain.
+    pub(super) own: Vec<usize>,
+    /// The joints of the chain that are held, with their values.
+    pub(super) held: Vec<(usize, f64)>,
     /// The index of the given joint of the main solver.
     main: usize,
     /// The number of numbers of a target.
@@ -24,26 +33,43 @@ pub struct RedundantSolver {
 }
 
 impl Program {
-    /// The prepared solvers of a valid program ([`Program::validate`]) with a redundancy; `None` without one.
+    /// The prepared solvers of a valid program ([`Program::validate`]) with a redundancy; `None` without one, and for an arm with scanned joints
+    /// ([`Program::scanning_solver`]).
     pub fn redundant_solver(&self) -> Option<RedundantSolver> {
-        self.redundancy.as_ref().map(|redundancy| RedundantSolver::new(self, redundancy))
+        self.curves().map(|redundancy| RedundantSolver::new(self, redundancy, &[]))
+    }
+
+    /// The redundancy of an arm without scanned joints: the solutions of a target are curves.
+    pub(crate) fn curves(&self) -> Option<&Redundancy> {
+        self.redundancy.as_deref().filter(|redundancy| redundancy.scanned().is_empty())
     }
 }
 
 impl RedundantSolver {
-    fn new(program: &Program, redundancy: &Redundancy) -> Self {
-        let solver = |part: &RedundantPart| match part {
+    /// The solvers with the scanned joints held at `values`.
+    pub(super) fn new(program: &Program, redundancy: &Redundancy, values: &[f64]) -> Self {
+        let (own, held) = own_and_held(redundancy, values);
+        let solver = |joint: &usize| match &redundancy.parts[*joint] {
             RedundantPart::Main => Some(program.solver()),
             RedundantPart::Program(other) => Some(other.solver()),
-            RedundantPart::Constant | RedundantPart::Unsolved(_) => None,
+            RedundantPart::Constant | RedundantPart::Scanned | RedundantPart::Unsolved(_) => None,
         };
+        let arm = arm_at(program, redundancy, values);
         RedundantSolver {
-            arm: arm(program, redundancy),
-            solvers: redundancy.parts.iter().map(solver).collect(),
-            joints: program.joints.clone(),
-            main: program.given_joints.first().map_or(0, |given| given.joint),
+            solvers: own.iter().map(solver).collect(),
+            joints: own.iter().map(|&joint| program.joints[joint].clone()).collect(),
+            main: arm.scanned,
             numbers: program.inputs.len().saturating_sub(program.given_joints.len()),
+            arm,
+            own,
+            held,
         }
+    }
+
+    /// The same solvers with the held joints at other values.
+    pub(super) fn held_at(&self, program: &Program, redundancy: &Redundancy, values: &[f64]) -> Self {
+        let (_, held) = own_and_held(redundancy, values);
+        RedundantSolver { arm: arm_at(program, redundancy, values), held, ..self.clone() }
     }
 
     /// The data of the arm: axes and limits as described, and which joints have a solver. Lengths are in the unit of the program. The scanned joint is the given
@@ -57,16 +83,34 @@ impl RedundantSolver {
         self.solvers[self.main].as_ref().expect("a valid program has its main part")
     }
 
-    /// The numbers for the solver of `joint`: those of the target, and the value of the joint.
+    /// The numbers for the main solver: those of the target, and the given values.
     pub(super) fn inputs(&self, target: &Target, value: f64) -> ([f64; Self::MOST_INPUTS], usize) {
-        let mut inputs = [0.0; Self::MOST_INPUTS];
-        inputs[..self.numbers].copy_from_slice(&target[..self.numbers]);
-        inputs[self.numbers] = value;
-        (inputs, self.numbers + 1)
+        self.inputs_of(target, self.main, value)
     }
 
-    /// The numbers of a target and one value.
-    const MOST_INPUTS: usize = 13;
+    /// The numbers for the solver of `joint`: those of the target, and the given values from base to tip.
+    fn inputs_of(&self, target: &Target, joint: usize, value: f64) -> ([f64; Self::MOST_INPUTS], usize) {
+        let mut inputs = [0.0; Self::MOST_INPUTS];
+        inputs[..self.numbers].copy_from_slice(&target[..self.numbers]);
+        let place = self.own[joint];
+        let before = self.held.iter().filter(|(held, _)| *held < place).count();
+        for (k, (_, held)) in self.held.iter().enumerate() {
+            inputs[self.numbers + k + usize::from(k >= before)] = *held;
+        }
+        inputs[self.numbers + before] = value;
+        (inputs, self.numbers + 1 + self.held.len())
+    }
+
+    /// The numbers of a target and the given values.
+    const MOST_INPUTS: usize = 13 + MOST_SCANNED;
+
+    /// The values of all joints of the chain.
+    pub(super) fn all_joints(&self, q: &[f64]) -> Vec<f64> {
+        let mut all = vec![0.0; q.len() + self.held.len()];
+        self.held.iter().for_each(|(place, value)| all[*place] = *value);
+        self.own.iter().zip(q).for_each(|(place, value)| all[*place] = *value);
+        all
+    }
 }
 
 impl Redundant for RedundantSolver {
@@ -76,38 +120,72 @@ impl Redundant for RedundantSolver {
 
     fn solve_given(&self, target: &Target, joint: usize, value: f64, out: &mut Members) -> Result<(), runtime::Error> {
         out.clear();
-        let (inputs, count) = self.inputs(target, value);
+        let (inputs, count) = self.inputs_of(target, joint, value);
         match &self.solvers[joint] {
-            Some(solver) => solver.add_members(&inputs[..count], out),
+            Some(solver) => solver.add_members(&inputs[..count], &self.own, out),
             None => Ok(()),
         }
     }
 }
 
-/// The arm of a valid program in the run time's type.
+/// The indices of the joints that are not scanned, and the scanned ones with their values.
+fn own_and_held(redundancy: &Redundancy, values: &[f64]) -> (Vec<usize>, Vec<(usize, f64)>) {
+    let scanned = redundancy.scanned();
+    let own = (0..redundancy.parts.len()).filter(|joint| !scanned.contains(joint)).collect();
+    (own, scanned.into_iter().zip(values.iter().copied()).collect())
+}
+
+/// The arm of a valid program without scanned joints in the run time's type.
 pub(crate) fn arm(program: &Program, redundancy: &Redundancy) -> Arm {
+    arm_at(program, redundancy, &[])
+}
+
+/// The arm of a valid program in the run time's type, with the scanned joints held at `values`: they move the axes after them.
+fn arm_at(program: &Program, redundancy: &Redundancy, values: &[f64]) -> Arm {
+    let (own, held) = own_and_held(redundancy, values);
+    let value = |joint: usize| held.iter().find(|(place, _)| *place == joint).map(|(_, value)| *value);
+    let is_main = |place: &usize| redundancy.parts[*place] == RedundantPart::Main;
     let mut arm = Arm {
-        count: program.joints.len(),
-        tip: Rigid { rotation: redundancy.rotation, translation: redundancy.position },
+        count: own.len(),
         task: program.tip().map_or(Task::Pose, task),
         length: program.scale,
-        scanned: program.given_joints.first().map_or(0, |given| given.joint),
+        scanned: own.iter().position(is_main).unwrap_or(0),
         ..Arm::NONE
     };
-    let limits = redundancy.limit_pairs();
-    #[allow(clippy::needless_range_loop, reason = "several rows have the same index")]
-    for joint in 0..arm.count.min(MOST_JOINTS) {
-        arm.directions[joint] = redundancy.lines[joint].direction;
-        arm.points[joint] = redundancy.lines[joint].point;
-        arm.slides[joint] = program.joints[joint].unit != Unit::Radian;
-        arm.limits[joint] = limits[joint];
-        arm.given[joint] = match redundancy.parts[joint] {
+    let (limits, mut moved, mut k) = (redundancy.limit_pairs(), Pose::identity(), 0);
+    for (place, line) in redundancy.lines.iter().enumerate() {
+        let (direction, point) = (Vector3::from(line.direction), Point3::from(line.point));
+        let slides = program.joints[place].unit != Unit::Radian;
+        if let Some(value) = value(place) {
+            moved *= motion(direction, point, slides, value);
+            continue;
+        }
+        arm.directions[k] = (moved.rotation * direction).into();
+        arm.points[k] = (moved * point).into();
+        arm.slides[k] = slides;
+        arm.limits[k] = limits[place];
+        arm.given[k] = match redundancy.parts[place] {
             RedundantPart::Main | RedundantPart::Program(_) => Given::Solved,
             RedundantPart::Constant => Given::Constant,
-            RedundantPart::Unsolved(_) => Given::Unsolved,
+            RedundantPart::Scanned | RedundantPart::Unsolved(_) => Given::Unsolved,
         };
+        k += 1;
     }
+    let rotation = moved.rotation.to_rotation_matrix() * Matrix3::from_fn(|i, j| redundancy.rotation[i][j]);
+    arm.tip = Rigid {
+        rotation: std::array::from_fn(|i| std::array::from_fn(|j| rotation[(i, j)])),
+        translation: (moved * Point3::from(redundancy.position)).into(),
+    };
     arm
+}
+
+/// The motion of a joint.
+fn motion(direction: Vector3<f64>, point: Point3<f64>, slides: bool, value: f64) -> Pose {
+    if slides {
+        return Pose::from_parts((value * direction).into(), UnitQuaternion::identity());
+    }
+    let rotation = UnitQuaternion::from_scaled_axis(value * direction);
+    Pose::from_parts((point - rotation * point).into(), rotation)
 }
 
 /// The task in the run time's type.

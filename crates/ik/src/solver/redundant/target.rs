@@ -3,7 +3,7 @@
 use groebot_runtime::Error as Refusal;
 use groebot_runtime::redundant::{Members, Redundant, Target as Row};
 
-use super::RedundantSolver;
+use super::{MOST_SCANNED, RedundantSolver};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Target;
 
@@ -28,9 +28,9 @@ impl RedundantSolver {
     /// # Errors
     /// [`ErrorKind::BadValue`] for a target of another task, for NaN and infinity, and for a rotation or a direction that is not one.
     pub fn target(&self, target: impl Into<Target>) -> Result<ArmTarget> {
-        let mut numbers = self.main().numbers_of(&target.into(), &[0.0])?;
-        numbers.pop();
-        self.target_of_numbers(&numbers)
+        let given = [0.0; 1 + MOST_SCANNED];
+        let numbers = self.main().numbers_of(&target.into(), &given[..=self.held.len()])?;
+        self.target_of_numbers(&numbers[..self.numbers])
     }
 
     /// Checks a target with these numbers, in the order and the units of the inputs of the program. The value of the given joint is omitted, so that

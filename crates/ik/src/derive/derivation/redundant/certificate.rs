@@ -33,6 +33,8 @@ enum Claim {
     EigenvalueProblem(eigenvalue::Claims),
     /// The target determines the joint.
     Constant {},
+    /// Its range is scanned.
+    Scanned {},
     /// There is no solver, for this reason.
     Unsolved(String),
 }
@@ -48,6 +50,7 @@ pub(in crate::derive) fn certificate(derivation: &Derivation, redundancy: &Redun
             Part::Main => claim(derivation)?,
             Part::Derived(other) => claim(other)?,
             Part::Constant => Claim::Constant {},
+            Part::Scanned => Claim::Scanned {},
             Part::Unsolved(reason) => Claim::Unsolved(reason.clone()),
         };
         Ok(Proof { joint: problem.chain.joints()[joint].name.clone(), claims })
@@ -83,16 +86,19 @@ pub(in crate::derive) fn is_certificate(text: &str) -> bool {
 /// [`crate::ErrorKind::Syntax`] with the line for text that is not a certificate; [`crate::ErrorKind::Certificate`] with the given joint for a false claim.
 pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(Derivation, RedundantChain)> {
     let claims: Claims = Certificate::read(text, Proves::RedundantChain, problem.chain.name())?;
-    let joint = check(&problem.chain)?;
+    let (scanned, joint) = check(&problem.chain)?;
     let names: Vec<&str> = problem.chain.joints().iter().map(|joint| joint.name.as_str()).collect();
     if !claims.given.iter().map(|proof| proof.joint.as_str()).eq(names.iter().copied()) {
         return Err(refused(format!("the parts are not those of the joints {}", names.join(", "))));
     }
     let (mut main, mut parts) = (None, Vec::with_capacity(names.len()));
     for (place, proof) in claims.given.into_iter().enumerate() {
-        let part = again(&given(problem, place)?, proof.claims)
-            .map_err(|error| error.with_context(format!("{} given", names[place])))?;
-        parts.push(match part {
+        let part = if scanned.contains(&place) {
+            scanned_part(&proof.claims)
+        } else {
+            given(problem, place).and_then(|problem| again(&problem, place, proof.claims))
+        };
+        parts.push(match part.map_err(|error| error.with_context(format!("{} given", names[place])))? {
             Part::Derived(derivation) if place == joint => {
                 main = Some(*derivation);
                 Part::Main
@@ -104,8 +110,16 @@ pub(in crate::derive) fn prove(problem: &ChainProblem, text: &str) -> Result<(De
     Ok((main, RedundantChain { parts }))
 }
 
-/// The part that the claims about `problem` prove.
-fn again(problem: &ChainProblem, claim: Claim) -> Result<Part> {
+/// The part of a scanned joint.
+fn scanned_part(claim: &Claim) -> Result<Part> {
+    match claim {
+        Claim::Scanned {} => Ok(Part::Scanned),
+        _ => Err(refused("the joint is scanned: there is nothing to prove".to_owned())),
+    }
+}
+
+/// The part that the claims about `problem`, which gives `joint`, prove.
+fn again(problem: &ChainProblem, joint: usize, claim: Claim) -> Result<Part> {
     Ok(match claim {
         Claim::Chain(claims) => {
             let solved = sequential::certificate::prove_claims(problem, claims)?;
@@ -115,7 +129,8 @@ fn again(problem: &ChainProblem, claim: Claim) -> Result<Part> {
             let solved = eigenvalue::Eigenvalue::prove_claims(problem, claims)?;
             Part::Derived(Box::new(Derivation::eigenvalue_of(problem.clone(), solved)))
         }
-        Claim::Constant {} if is_determined(problem)? => Part::Constant,
+        Claim::Constant {} if is_determined(problem, joint)? => Part::Constant,
+        Claim::Scanned {} => return Err(refused("the joint is not scanned".to_owned())),
         Claim::Constant {} => {
             return Err(refused("no relation proves that the target determines the joint".to_owned()));
         }

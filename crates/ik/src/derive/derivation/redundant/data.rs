@@ -18,6 +18,7 @@ pub(in crate::derive) fn data(problem: &ChainProblem, redundancy: &RedundantChai
         Part::Main => RedundantPart::Main,
         Part::Derived(derivation) => RedundantPart::Program(Box::new(derivation.program().clone())),
         Part::Constant => RedundantPart::Constant,
+        Part::Scanned => RedundantPart::Scanned,
         Part::Unsolved(reason) => RedundantPart::Unsolved(reason.clone()),
     };
     Redundancy {

@@ -7,11 +7,17 @@ use crate::derive::{AnyView, Derivation};
 /// Adds the section about the given joints to `page`.
 pub(in crate::derive) fn section(page: &mut Document, derivation: &Derivation, redundancy: &RedundantChain) {
     page.section(Line::of("All solutions within limits"));
+    if redundancy.parts.contains(&Part::Scanned) {
+        page.text(
+            "The chain has several joints more than its task determines. The ranges of some are scanned: samples of their values are given. Completeness is \
+             that of these samples.",
+        );
+    }
     page.text(
-        "The chain has one joint more than its task determines, so the solutions of a target are curves. A curve enters or leaves the joint \
-         limits only where a joint is at a limit. These end points are the solutions with that joint given at that limit. The curves are \
-         followed from end point to end point: the result is all arcs of solutions within limits. Curves that touch no limit are searched \
-         for separately. With each joint given:",
+        "With one joint more than the task determines, the solutions of a target are curves. A curve enters or leaves the joint limits only \
+         where a joint is at a limit. These end points are the solutions with that joint given at that limit. The curves are followed from \
+         end point to end point: the result is all arcs of solutions within limits. Curves that touch no limit are searched for separately. \
+         With each joint given:",
     );
     page.items(items(derivation, redundancy));
 }
@@ -27,6 +33,7 @@ fn items(derivation: &Derivation, redundancy: &RedundantChain) -> Vec<Line> {
             Part::Constant => line.words(
                 "the target determines it. It is constant on every self-motion, so it is only compared with its limits",
             ),
+            Part::Scanned => line.words("scanned"),
             Part::Unsolved(reason) => line.words("no solver: ").words(reason),
         }
     };

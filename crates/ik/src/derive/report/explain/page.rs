@@ -32,7 +32,8 @@ pub fn page(derivation: &Derivation) -> Result<Document> {
     }
     let checked = Line::of("Written by ").name("groebot derive").and("; ").name("groebot check");
     page.paragraph(checked.and(" proves it again from ").name("certificate.json").and(". Solve with"));
-    let numbers = derivation.program().inputs.len() - usize::from(redundancy.is_some());
+    let program = derivation.program();
+    let numbers = program.inputs.len() - redundancy.map_or(0, |_| program.given_joints.len());
     let target = vec!["..."; numbers].join(",");
     page.display(format!("groebot solve derivations/{} --target {target}", word(&page.title)));
     Ok(page)
