@@ -93,7 +93,7 @@ fn value(program: &Program, joint: usize, text: &str, angles: Angles) -> Result<
 }
 
 /// The values of all joints in a text.
-fn joint_values(program: &Program, text: &str, angles: Angles) -> Result<Vec<f64>> {
+pub(super) fn joint_values(program: &Program, text: &str, angles: Angles) -> Result<Vec<f64>> {
     let cells: Vec<&str> = text.split(',').collect();
     if cells.len() != program.joints.len() {
         let names: Vec<&str> = program.joints.iter().map(|joint| joint.name.as_str()).collect();
@@ -111,6 +111,12 @@ fn narrowed(
     text: &str,
     angles: Angles,
 ) -> Result<JointLimits> {
+    let (joint, pair) = limits_of(program, text, angles)?;
+    solver.narrowed(limits, joint, pair).map_err(|error| error.with_context("--limits"))
+}
+
+/// The joint and its limits in the text `JOINT=LOW,HIGH`.
+pub(super) fn limits_of(program: &Program, text: &str, angles: Angles) -> Result<(usize, [f64; 2])> {
     let bad = |text: String| Error::new(ErrorKind::BadValue, text);
     let form = || bad(format!("--limits `{}`: give JOINT=LOW,HIGH", targets::shown(text)));
     let (name, pair) = text.rsplit_once('=').ok_or_else(form)?;
@@ -122,8 +128,27 @@ fn narrowed(
             format!("--limits: there is no joint `{}`; the joints are {}", targets::shown(name), names.join(", "));
         Error::new(ErrorKind::UnknownName, text)
     })?;
-    let pair = [value(program, joint, low, angles)?, value(program, joint, high, angles)?];
-    solver.narrowed(limits, joint, pair).map_err(|error| error.with_context("--limits"))
+    Ok((joint, [value(program, joint, low, angles)?, value(program, joint, high, angles)?]))
+}
+
+/// The name of the solver and the target, as text.
+pub(super) fn title(program: &Program, target: &[f64], angles: Angles) -> String {
+    let target = program.inputs.iter().zip(target).map(|(input, value)| {
+        let unit = angles.symbol(input.unit);
+        format!("{} = {}{}{unit}", input.name, exact(*value), if unit.is_empty() { "" } else { " " })
+    });
+    format!("{} at {}", program.name, target.collect::<Vec<_>>().join(", "))
+}
+
+/// A table of joint values.
+pub(super) fn joints_table(program: &Program, q: &[f64]) -> String {
+    let header = program.joints.iter().map(|joint| joint.name.clone()).chain([String::new()]).collect();
+    let cell = |(joint, value): (&groebot_ik::solver::Joint, &f64)| match joint.unit {
+        Unit::Radian => format!("{:.6} deg ({value:.9} rad)", value.to_degrees()),
+        unit => format!("{value:.9} {}", unit.symbol()).trim_end().to_owned(),
+    };
+    let row: Vec<String> = program.joints.iter().zip(q).map(cell).chain([String::new()]).collect();
+    table(&[header, row])
 }
 
 /// The arcs of a target.
@@ -153,11 +178,7 @@ impl ArcAnswer<'_> {
     /// One line for each arc, and a table of the best solution.
     pub fn text(&self) -> String {
         let (program, angles) = (&self.question.bare, self.question.angles);
-        let target = program.inputs.iter().zip(&self.target).map(|(input, value)| {
-            let unit = angles.symbol(input.unit);
-            format!("{} = {}{}{unit}", input.name, exact(*value), if unit.is_empty() { "" } else { " " })
-        });
-        let title = format!("{} at {}", program.name, target.collect::<Vec<_>>().join(", "));
+        let title = title(program, &self.target, angles);
         let unsure = "  Unsure: other solutions within limits may exist.\n";
         if let Some(reason) = self.reason() {
             let doubt = if self.arcs.is_unsure { unsure } else { "" };
@@ -204,14 +225,7 @@ impl ArcAnswer<'_> {
             Criterion::Margin => format!("largest margin to the limits{arc}: {:.6}", best.value),
             _ => format!("nearest solution{arc}: distance {:.6}", best.value),
         };
-        let header: Vec<String> = self.names().iter().map(|name| (*name).to_owned()).chain([String::new()]).collect();
-        let joints = self.question.bare.joints.iter().zip(&best.q);
-        let cell = |(joint, value): (&groebot_ik::solver::Joint, &f64)| match joint.unit {
-            Unit::Radian => format!("{:.6} deg ({value:.9} rad)", value.to_degrees()),
-            unit => format!("{value:.9} {}", unit.symbol()).trim_end().to_owned(),
-        };
-        let row: Vec<String> = joints.map(cell).chain([String::new()]).collect();
-        format!("{title}\n{}", table(&[header, row]))
+        format!("{title}\n{}", joints_table(&self.question.bare, &best.q))
     }
 
     /// One JSON object: on several lines when `pretty`, else on one.
@@ -227,10 +241,7 @@ impl ArcAnswer<'_> {
             format: FORMAT,
             name: &program.name,
             target: &self.target,
-            unit: Units {
-                target: program.inputs.iter().map(|input| angles.symbol(input.unit)).collect(),
-                joints: program.joints.iter().map(|joint| angles.symbol(joint.unit)).collect(),
-            },
+            unit: Units::of(program, angles),
             joints: names.clone(),
             arcs: self
                 .arcs
@@ -281,9 +292,18 @@ struct Page<'a> {
 
 /// The unit of each number of the target and of each joint.
 #[derive(Serialize)]
-struct Units<'a> {
+pub(super) struct Units<'a> {
     target: Vec<&'a str>,
     joints: Vec<&'a str>,
+}
+
+impl<'a> Units<'a> {
+    pub fn of(program: &'a Program, angles: Angles) -> Self {
+        Units {
+            target: program.inputs.iter().map(|input| angles.symbol(input.unit)).collect(),
+            joints: program.joints.iter().map(|joint| angles.symbol(joint.unit)).collect(),
+        }
+    }
 }
 
 #[derive(Serialize)]

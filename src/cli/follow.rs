@@ -13,7 +13,7 @@ use crate::{Error, ErrorKind, Result};
 use groebot_algebra::limits;
 use groebot_ik::derive::planner::is_redundant;
 use groebot_ik::derive::{ChainProblem, Derivation, Description, Ends, InputFile, Options};
-use groebot_ik::solver::redundant::{PathOptions, RedundantSolver};
+use groebot_ik::solver::redundant::{ArmPath, ArmTarget, PathOptions};
 use groebot_robot::document::{is_stdin, open};
 use groebot_robot::dynamics::{Clearance, Model};
 use groebot_robot::kinematics::{Chain, Joint, JointKind, LengthUnit, Quantity};
@@ -97,9 +97,21 @@ pub fn run(arguments: &Arguments) -> Outcome {
         (None, every) => Pace::Every(every.unwrap_or(1.0)),
     };
     let request = PathRequest::new(&poses, &pace).speeds(&description);
-    let found = match solver.program().redundant_solver() {
-        Some(arm) => along_arcs(&chain, &arm, &request, &session.watch),
-        None => follow(&chain, &solver.program().solver(), &request, &session.watch).map(|followed| (followed, false)),
+    let program = solver.program();
+    let found = match (program.redundant_solver(), program.scanning_solver()) {
+        (Some(arm), _) => along(
+            &chain,
+            &request,
+            |pose| arm.target(pose),
+            |targets, options| arm.path(targets, options, &session.watch),
+        ),
+        (None, Some(arm)) => {
+            let path = |targets: &[_], options: &PathOptions<'_>| arm.path(targets, None, options, &session.watch);
+            along(&chain, &request, |pose| arm.target(pose), path)
+        }
+        (None, None) => {
+            follow(&chain, &solver.program().solver(), &request, &session.watch).map(|followed| (followed, false))
+        }
     };
     let (followed, is_unsure) = found.map_err(|error| error.in_file(&arguments.poses))?;
     drop(session);
@@ -134,16 +146,16 @@ fn derived(ends: &Ends, chain: &Chain, watch: &crate::Watch) -> Result<Derivatio
     Options::new().watch(watch.clone()).tolerance(ends.tolerance()).derive(chain)
 }
 
-/// The path of a chain with one joint more than its task determines, along arcs of solutions within limits, and whether it is unsure.
-fn along_arcs(
+/// The path of a redundant chain along arcs of solutions within limits, and whether it is unsure.
+fn along(
     chain: &Chain,
-    arm: &RedundantSolver,
     request: &PathRequest<'_>,
-    watch: &crate::Watch,
+    target: impl Fn(Pose) -> Result<ArmTarget>,
+    path: impl FnOnce(&[ArmTarget], &PathOptions<'_>) -> Result<ArmPath>,
 ) -> Result<(Followed, bool)> {
     let times = request.pace.times(request.poses.len())?;
-    let targets: Vec<_> = request.poses.iter().map(|pose| arm.target(*pose)).collect::<Result<_>>()?;
-    let path = arm.path(&targets, &PathOptions::new().speeds(&times, request.speeds), watch)?;
+    let targets: Vec<ArmTarget> = request.poses.iter().map(|pose| target(*pose)).collect::<Result<_>>()?;
+    let path = path(&targets, &PathOptions::new().speeds(&times, request.speeds))?;
     let track = |(place, joint): (usize, &Joint)| JointTrack {
         name: joint.name.clone(),
         slides: joint.kind == JointKind::Prismatic,

@@ -47,6 +47,7 @@ mod progress;
 mod reach;
 pub mod readers;
 mod report;
+mod scanned;
 mod simulate;
 mod solve;
 mod strata;

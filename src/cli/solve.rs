@@ -8,6 +8,7 @@ use super::arcs::{ArcOptions, ArcQuestion};
 use super::closest::Search;
 use super::files::is_derived;
 use super::forms::Forms;
+use super::scanned::ScanQuestion;
 use super::targets::{self, Row};
 use super::{Outcome, console};
 use crate::{Error, ErrorKind, Result, Watch};
@@ -206,9 +207,19 @@ fn reason(folder: &Path, target: &[f64]) -> Result<Option<String>> {
 fn listed(program: &Program, given: &[String], angles: Angles, arguments: &Arguments) -> Outcome {
     let mut page = String::new();
     let question = Question::new(program, angles, arguments);
-    let redundant = ArcQuestion::new(program, angles, &arguments.arc_options())?;
+    let scanned = ScanQuestion::new(program, angles, &arguments.arc_options())?;
+    let redundant = if scanned.is_some() { None } else { ArcQuestion::new(program, angles, &arguments.arc_options())? };
     for (index, target) in given.iter().enumerate() {
         let count = target.split(',').count();
+        if let Some((scanned, names)) = scanned.as_ref().and_then(|scanned| Some((scanned, scanned.names(count)?))) {
+            arguments.refuse_closest()?;
+            let answer = targets::parse(&names, target)
+                .and_then(|numbers| scanned.answer(numbers))
+                .map_err(|error| error.with_context(format!("target `{}`", targets::shown(target))))?;
+            page += if index > 0 && !arguments.json { "\n" } else { "" };
+            page += &if arguments.json { answer.json(given.len() == 1) } else { answer.text() };
+            continue;
+        }
         if let Some((arcs, names)) = redundant.as_ref().and_then(|arcs| Some((arcs, arcs.names(count)?))) {
             arguments.refuse_closest()?;
             let answer = targets::parse(&names, target)

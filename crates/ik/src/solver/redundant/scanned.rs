@@ -113,6 +113,14 @@ impl ScanningSolver {
         self.zero.target(target)
     }
 
+    /// Checks a target with these numbers, without the values of given joints.
+    ///
+    /// # Errors
+    /// As [`RedundantSolver::target_of_numbers`].
+    pub fn target_of_numbers(&self, numbers: &[f64]) -> Result<ArmTarget> {
+        self.zero.target_of_numbers(numbers)
+    }
+
     /// One solution of `target` within limits, by no criterion. `limits` has one pair per joint of the chain and narrows the described ones.
     ///
     /// # Errors
