@@ -145,7 +145,7 @@ pub mod solver {
     pub mod redundant {
         pub use groebot_ik::solver::redundant::{
             Absence, Arc, ArcEnd, Arcs, ArmJump, ArmPath, ArmTarget, Best, Criterion, JointLimits, PathOptions,
-            RedundantSolver, Within,
+            RedundantSolver, Turns, Within,
         };
     }
 }

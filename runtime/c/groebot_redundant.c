@@ -73,9 +73,15 @@ static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(
 static const gb_real gb_arm_tried[GB_ARM_TRIED] = {R(0.5), R(0.375), R(0.625), R(0.25), R(0.75), R(0.125), R(0.875)};
 #define GB_ARM_AROUND 32
 
-/* The number of samples on each piece of a curve. Iterations of golden section search, and the golden ratio's inverse. */
+/* The number of samples on each piece of a curve. Iterations of golden section search on the cubics of pieces, and on a cubic close to an optimum. Half of the
+ * length of that cubic, relative to the distance of the samples beside the optimum; it is moved at most so many times. Samples differ from the curve by at most
+ * GB_ARM_SAMPLED. The golden ratio's inverse. */
 #define GB_ARM_SAMPLES 6
-#define GB_ARM_SECTIONS 44
+#define GB_ARM_COARSE 12
+#define GB_ARM_FINE 40
+#define GB_ARM_CLOSE_OPTIMUM R(0.06)
+#define GB_ARM_MOVES 8
+#define GB_ARM_SAMPLED R(2e-3)
 #define GB_ARM_GOLDEN R(0.6180339887498949)
 
 #include "groebot/six_axes/lanes.c"
@@ -94,6 +100,7 @@ static const gb_real gb_arm_tried[GB_ARM_TRIED] = {R(0.5), R(0.375), R(0.625), R
 #include "groebot/redundant/arcs.c"
 #include "groebot/redundant/closed.c"
 #include "groebot/redundant/along.c"
+#include "groebot/redundant/turns.c"
 #include "groebot/redundant/within.c"
 #include "groebot/redundant/best.c"
 

@@ -196,6 +196,20 @@ impl<'a> Model<'a> {
         beyond
     }
 
+    /// Whether no joint differs by more than `most`; angles whose range is at least one turn are compared up to whole turns.
+    pub fn are_close(&self, a: &Q, b: &Q, most: f64) -> bool {
+        for i in 0..self.count {
+            let mut d = a[i] - b[i];
+            if self.turns[i] && d.abs() > most {
+                d -= TAU * Arithmetic::round(d / TAU);
+            }
+            if d.abs() > most {
+                return false;
+            }
+        }
+        true
+    }
+
     /// The difference `a - b`; angles whose range is at least one turn are compared up to whole turns.
     pub fn difference(&self, a: &Q, b: &Q) -> Q {
         let mut d = [0.0; MOST_JOINTS];

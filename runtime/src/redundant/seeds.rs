@@ -4,7 +4,7 @@ use core::f64::consts::{PI, TAU};
 
 use super::arm::{MOST_JOINTS, Members, Q, Redundant, Target};
 use super::ends::Ends;
-use super::model::{Model, farthest};
+use super::model::Model;
 use super::step::{ON, Piece};
 use crate::arithmetic::Arithmetic;
 use crate::solution::Error;
@@ -172,7 +172,7 @@ impl Seeds {
     fn has_close(&self, model: &Model<'_>, first: usize) -> bool {
         for i in first..self.added {
             for j in first..i {
-                if farthest(&model.difference(&self.list[i], &self.list[j])) <= CLOSE {
+                if model.are_close(&self.list[i], &self.list[j], CLOSE) {
                     return true;
                 }
             }
@@ -185,6 +185,9 @@ impl Seeds {
         let (from, to) = (piece.from.x[self.joint], piece.to.x[self.joint]);
         let (least, greatest) = (f64::min(from, to) - ACCEPTANCE.input, f64::max(from, to) + ACCEPTANCE.input);
         for number in 0..self.values {
+            if self.groups[number].count == 0 {
+                continue;
+            }
             let mut value = self.groups[number].value;
             if model.turns[self.joint] {
                 value += TAU * Arithmetic::ceil((least - value) / TAU);
@@ -198,13 +201,10 @@ impl Seeds {
     /// Removes the solutions of a group on a piece of a curve.
     fn pass_group(&mut self, model: &Model<'_>, piece: &Piece, value: f64, number: usize) {
         let Group { first, mut count, .. } = self.groups[number];
-        if count == 0 {
-            return;
-        }
         let x = self.on(piece, value);
         let mut k = first;
         while k < first + count {
-            if farthest(&model.difference(&x, &self.list[k])) <= ON * piece.length + MERGING.joints {
+            if model.are_close(&x, &self.list[k], ON * piece.length + MERGING.joints) {
                 count -= 1;
                 self.list[k] = self.list[first + count];
             } else {

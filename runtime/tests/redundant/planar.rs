@@ -12,10 +12,10 @@ use crate::random;
 
 const LINKS: [f64; 3] = [1.0, 0.8, 0.5];
 
-struct Planar(Arm);
+pub struct Planar(pub Arm);
 
 impl Planar {
-    fn new(limits: Limits) -> Planar {
+    pub fn new(limits: Limits) -> Planar {
         let mut arm = Arm {
             count: 3,
             task: Task::PlanarPosition { coordinates: [0, 1] },
@@ -31,7 +31,7 @@ impl Planar {
     }
 }
 
-fn tip(q: &Q) -> [f64; 2] {
+pub fn tip(q: &Q) -> [f64; 2] {
     let sums = [q[0], q[0] + q[1], q[0] + q[1] + q[2]];
     let along = |f: fn(f64) -> f64| (0..3).map(|i| LINKS[i] * f(sums[i])).sum();
     [along(f64::cos), along(f64::sin)]
@@ -203,7 +203,7 @@ fn arcs_at(x: f64, first: [f64; 2], second: [f64; 2]) -> (Vec<Arc>, bool) {
     (out[..outcome.count].to_vec(), outcome.is_unsure)
 }
 
-const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+pub const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// The greatest angle of the second joint with the tip at a distance: the third link points outwards, so that the wrist is nearest.
 fn greatest(distance: f64) -> f64 {

@@ -207,6 +207,21 @@ static void gb_arm_difference(const gb_arm_model *model, const gb_real *a, const
     }
 }
 
+/* Whether no joint differs by more than `most`; angles whose range is at least one turn are compared up to whole turns. */
+static bool gb_arm_are_close(const gb_arm_model *model, const gb_real *a, const gb_real *b, gb_real most)
+{
+    for (size_t i = 0; i < model->count; i++) {
+        gb_real d = a[i] - b[i];
+        if (model->turns[i] && gb_magnitude(d) > most) {
+            d -= GB_TAU * gb_round(d / GB_TAU);
+        }
+        if (gb_magnitude(d) > most) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /* The largest difference of a joint. */
 static gb_real gb_arm_distance(const gb_arm_model *model, const gb_real *a, const gb_real *b)
 {

@@ -10,6 +10,7 @@ mod path;
 mod sampled;
 mod solver;
 mod target;
+mod turns;
 mod within;
 
 pub use arcs::{Absence, Arc, ArcEnd, Arcs};
@@ -18,4 +19,5 @@ pub use limits::JointLimits;
 pub use path::{ArmJump, ArmPath, PathOptions};
 pub use solver::RedundantSolver;
 pub use target::ArmTarget;
+pub use turns::Turns;
 pub use within::Within;
