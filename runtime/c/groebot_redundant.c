@@ -53,8 +53,16 @@ static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(
 #define GB_ARM_SEEDS 256
 #define GB_ARM_SCANNED 16
 #define GB_ARM_HALVINGS 2
-/* Maximal number of values of the scanned joint. */
-#define GB_ARM_GROUPS (GB_ARM_SCANNED + (GB_ARM_SCANNED - 1) * GB_ARM_HALVINGS)
+/* Starts of Newton's method where there is no solution for any value; maximal numbers of steps and of halvings of a step; maximal length of a step, and of one
+ * that is not shortened to it because the equations are singular. What is added to the golden ratio for each further joint. */
+#define GB_ARM_STARTS 8
+#define GB_ARM_APPROACH_STEPS 60
+#define GB_ARM_APPROACH_HALVINGS 6
+#define GB_ARM_APPROACH R(0.7)
+#define GB_ARM_SINGULAR R(1e6)
+#define GB_ARM_STRIDE R(0.13)
+/* Maximal number of values of the scanned joint, with those of solutions by Newton's method. */
+#define GB_ARM_GROUPS (GB_ARM_SCANNED + (GB_ARM_SCANNED - 1) * GB_ARM_HALVINGS + GB_ARM_STARTS)
 /* Solutions for one value are close when no joint differs by more than this. Steps of Newton's method for a root of a cubic. Values of a prismatic joint
  * without limits, relative to the characteristic length. */
 #define GB_ARM_CLOSE R(0.1)
@@ -96,6 +104,7 @@ static const gb_real gb_arm_tried[GB_ARM_TRIED] = {R(0.5), R(0.375), R(0.625), R
 #include "groebot/redundant/crossing.c"
 #include "groebot/redundant/ends.c"
 #include "groebot/redundant/seeds.c"
+#include "groebot/redundant/approach.c"
 #include "groebot/redundant/trace.c"
 #include "groebot/redundant/arcs.c"
 #include "groebot/redundant/closed.c"

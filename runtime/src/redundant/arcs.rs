@@ -116,6 +116,9 @@ pub fn arcs(robot: &dyn Redundant, target: &Target, limits: &Limits, out: &mut [
     let mut output = Output { out, count: 0, is_unsure: false };
     ends.find(robot, &model, target)?;
     seeds.find(robot, &model, target, &mut ends)?;
+    if !ends.beyond.is_reachable {
+        seeds.approach(&model, &mut ends);
+    }
     if seeds.surfaces > 1 {
         return Ok(surface(&model, &seeds, &ends, &mut output));
     }

@@ -10,6 +10,7 @@
 #![allow(clippy::manual_clamp, reason = "NaN is handled as in the C version")]
 
 mod along;
+mod approach;
 mod arcs;
 mod arm;
 mod best;

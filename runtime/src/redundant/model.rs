@@ -78,6 +78,16 @@ impl<'a> Model<'a> {
         self.links.axes(self.arm, x).tip
     }
 
+    /// The number of equations.
+    pub fn rows(&self) -> usize {
+        self.goal.rows()
+    }
+
+    /// Whether joint values that fulfil the equations reach the target, and not an orientation that is turned by half a turn.
+    pub fn is_toward(&self, x: &Q) -> bool {
+        self.goal.is_toward(&self.links.axes(self.arm, x).tip)
+    }
+
     /// The equations, their derivatives, and the curve's direction.
     pub fn place(&self, x: &Q) -> Place {
         let axes = self.links.axes(self.arm, x);

@@ -2,6 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
+use super::approach::{STARTS, approach};
 use super::arm::{MOST_JOINTS, Members, Q, Redundant, Target};
 use super::ends::Ends;
 use super::model::Model;
@@ -16,8 +17,8 @@ pub(super) const MOST_SEEDS: usize = 256;
 const LEVELS: usize = 16;
 /// Between two values, so many times the middle is added where the number of solutions changes, or where solutions are close to each other.
 const HALVINGS: usize = 2;
-/// Maximal number of values of the scanned joint.
-const MOST_GROUPS: usize = LEVELS + (LEVELS - 1) * HALVINGS;
+/// Maximal number of values of the scanned joint, with those of solutions by Newton's method.
+const MOST_GROUPS: usize = LEVELS + (LEVELS - 1) * HALVINGS + STARTS;
 /// Solutions for one value are close when no joint differs by more than this (rad, or relative to the characteristic length).
 const CLOSE: f64 = 0.1;
 /// Steps of Newton's method for a root of a cubic.
@@ -98,6 +99,22 @@ impl Seeds {
             before = Some(level);
         }
         Ok(())
+    }
+
+    /// Searches solutions by Newton's method, where there is none for any value of the scanned joint.
+    #[cold]
+    pub fn approach(&mut self, model: &Model<'_>, ends: &mut Ends) {
+        for number in 0..STARTS {
+            let Some(mut x) = approach(model, number) else { continue };
+            let beyond = model.lift(&mut x);
+            ends.beyond.pass(model, &x, beyond);
+            if beyond == 0 {
+                self.list[self.added] = x;
+                self.groups[self.values] = Group { value: x[self.joint], first: self.added, count: 1 };
+                self.added += 1;
+                self.values += 1;
+            }
+        }
     }
 
     /// Adds values between two neighbouring ones, where solutions appear or vanish.

@@ -191,6 +191,34 @@ fn beyond_limits_and_reach() {
     assert_eq!(any_within(&robot, &target, &limits), Err(Error::Limits(2)));
 }
 
+/// Next to the greatest distance, the curve is narrower than the grid of values.
+#[test]
+fn curves_next_to_the_reach() {
+    for excess in [1e-2, 1e-4, 1e-6, 1e-8] {
+        for angle in [0.3_f64, 1.234, -2.0] {
+            let robot = Planar::new([ANY; 7]);
+            let mut target = [0.0; 12];
+            let distance = LINKS.iter().sum::<f64>() - excess;
+            (target[0], target[1]) = (distance * angle.cos(), distance * angle.sin());
+            let mut out = [Arc::NONE; 4];
+            let outcome = arcs(&robot, &target, &robot.0.limits, &mut out).unwrap();
+            assert_eq!((outcome.count, outcome.closed, outcome.is_unsure), (1, 1, false), "{excess} {angle}");
+            let mut list = [[0.0; 7]; 40];
+            sample(&robot.0, &target, &robot.0.limits, &out[0], &mut list).unwrap();
+            let Ok(Within::Solution(q)) = any_within(&robot, &target, &robot.0.limits) else { panic!("{excess} {angle}") };
+            for q in list.iter().chain([&q]) {
+                let [x, y] = tip(q);
+                assert!((x - target[0]).hypot(y - target[1]) < 1e-9, "{q:?}");
+            }
+            // With the first joint beyond its limit, the target is reachable, but not within limits.
+            let mut limits = [ANY; 7];
+            limits[0] = [angle + 1.0, angle + 1.5];
+            let beyond = any_within(&robot, &target, &limits).unwrap();
+            assert!(matches!(beyond, Within::Beyond { joints: 1, .. }), "{beyond:?}");
+        }
+    }
+}
+
 /// The arcs at a position, with limits of the first two joints.
 fn arcs_at(x: f64, first: [f64; 2], second: [f64; 2]) -> (Vec<Arc>, bool) {
     let mut limits = [[f64::NEG_INFINITY, f64::INFINITY]; 7];

@@ -95,6 +95,9 @@ static int gb_arm_find_arcs(const gb_redundant *robot, const gb_real *target, gb
     if (code == 0) {
         code = gb_arm_find_seeds(&seeds, &scan);
     }
+    if (code == 0 && !ends.beyond.is_reachable) {
+        gb_arm_approach_all(&seeds, model, &ends.beyond);
+    }
     if (code < 0) {
         return code;
     }

@@ -91,6 +91,14 @@ GB_INLINE void gb_arm_set_factors(const gb_arm_model *model, const gb_arm_axes *
     }
 }
 
+/* Whether joint values that fulfil the equations reach the target, and not an orientation that is turned by half a turn. */
+static bool gb_arm_reaches(const gb_arm_model *model, const gb_real *x)
+{
+    gb_arm_axes axes;
+    gb_arm_set_axes(&model->links, model->arm, x, &axes);
+    return gb_arm_is_toward(&model->goal, &axes.tip);
+}
+
 /* The equations, their derivatives, and the curve's direction. */
 static void gb_arm_set_place(const gb_arm_model *model, const gb_real *x, gb_arm_place *place)
 {
