@@ -205,7 +205,9 @@ fn curves_next_to_the_reach() {
             assert_eq!((outcome.count, outcome.closed, outcome.is_unsure), (1, 1, false), "{excess} {angle}");
             let mut list = [[0.0; 7]; 40];
             sample(&robot.0, &target, &robot.0.limits, &out[0], &mut list).unwrap();
-            let Ok(Within::Solution(q)) = any_within(&robot, &target, &robot.0.limits) else { panic!("{excess} {angle}") };
+            let Ok(Within::Solution(q)) = any_within(&robot, &target, &robot.0.limits) else {
+                panic!("{excess} {angle}")
+            };
             for q in list.iter().chain([&q]) {
                 let [x, y] = tip(q);
                 assert!((x - target[0]).hypot(y - target[1]) < 1e-9, "{q:?}");
