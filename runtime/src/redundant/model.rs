@@ -235,6 +235,10 @@ impl<'a> Model<'a> {
 
 /// The angle moved by as few turns as possible within limits. Where that is impossible, it is moved to where it exceeds them least.
 fn shifted(angle: f64, [low, high]: [f64; 2]) -> f64 {
+    if angle >= low && angle <= high {
+        // Without the sign of a zero.
+        return angle + 0.0;
+    }
     let up = Arithmetic::ceil((low - ACCEPTANCE.input - angle) / TAU);
     let down = Arithmetic::floor((high + ACCEPTANCE.input - angle) / TAU);
     if up <= down {

@@ -13,6 +13,7 @@ use crate::solution::Error;
 /// The least and the greatest value of each joint along an arc (rad, or the unit of lengths). Values are continuous from the start of the arc, so that angles
 /// may be beyond limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Span {
     /// The start of the arc.
     pub start: Q,

@@ -151,6 +151,10 @@ static void gb_arm_moving(const gb_arm_model *model, const gb_real *x, const gb_
 static gb_real gb_arm_shifted(gb_real angle, const gb_real *limits)
 {
     const gb_real low = limits[0], high = limits[1];
+    if (angle >= low && angle <= high) {
+        /* Without the sign of a zero. */
+        return angle + R(0.0);
+    }
     const gb_real up = gb_ceiling((low - GB_ACCEPTANCE_INPUT - angle) / GB_TAU);
     const gb_real down = gb_floor((high + GB_ACCEPTANCE_INPUT - angle) / GB_TAU);
     if (up <= down) {

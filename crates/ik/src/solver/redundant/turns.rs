@@ -7,6 +7,7 @@ use crate::{Error, ErrorKind, Result};
 
 /// The arcs, or the solutions, within limits that differ by whole turns of angles. Only a joint with a range of more than one turn has several turns.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Turns {
     /// The starts of the arcs: joint values, in rad or the length unit of the program.
     pub starts: Vec<Vec<f64>>,
