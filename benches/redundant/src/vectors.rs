@@ -43,7 +43,7 @@ pub fn round(limits: &Limits, count: usize, random: &mut Random) -> Q {
     let mut q = [0.0; MOST_JOINTS];
     for i in 0..count {
         let [low, high] = range(limits[i]).map(|limit| limit / step);
-        let (low, high) = ((low - 1e-9).ceil(), (high + 1e-9).floor());
+        let (low, high) = ((low - 1e-12).ceil(), (high + 1e-12).floor());
         q[i] = step * (low + (random.unit() * (high - low + 1.0)).floor());
     }
     q
