@@ -53,8 +53,16 @@ static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(
 #define GB_ARM_SEEDS 256
 #define GB_ARM_SCANNED 16
 #define GB_ARM_HALVINGS 2
-/* Maximal number of values of the scanned joint. */
-#define GB_ARM_GROUPS (GB_ARM_SCANNED + (GB_ARM_SCANNED - 1) * GB_ARM_HALVINGS)
+/* Starts of Newton's method where there is no solution for any value; maximal numbers of steps and of halvings of a step; maximal length of a step, and of one
+ * that is not shortened to it because the equations are singular. What is added to the golden ratio for each further joint. */
+#define GB_ARM_STARTS 8
+#define GB_ARM_APPROACH_STEPS 60
+#define GB_ARM_APPROACH_HALVINGS 6
+#define GB_ARM_APPROACH R(0.7)
+#define GB_ARM_SINGULAR R(1e6)
+#define GB_ARM_STRIDE R(0.13)
+/* Maximal number of values of the scanned joint, with those of solutions by Newton's method. */
+#define GB_ARM_GROUPS (GB_ARM_SCANNED + (GB_ARM_SCANNED - 1) * GB_ARM_HALVINGS + GB_ARM_STARTS)
 /* Solutions for one value are close when no joint differs by more than this. Steps of Newton's method for a root of a cubic. Values of a prismatic joint
  * without limits, relative to the characteristic length. */
 #define GB_ARM_CLOSE R(0.1)
@@ -73,9 +81,15 @@ static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(
 static const gb_real gb_arm_tried[GB_ARM_TRIED] = {R(0.5), R(0.375), R(0.625), R(0.25), R(0.75), R(0.125), R(0.875)};
 #define GB_ARM_AROUND 32
 
-/* The number of samples on each piece of a curve. Iterations of golden section search, and the golden ratio's inverse. */
+/* The number of samples on each piece of a curve. Iterations of golden section search on the cubics of pieces, and on a cubic close to an optimum. Half of the
+ * length of that cubic, relative to the distance of the samples beside the optimum; it is moved at most so many times. Samples differ from the curve by at most
+ * GB_ARM_SAMPLED. The golden ratio's inverse. */
 #define GB_ARM_SAMPLES 6
-#define GB_ARM_SECTIONS 44
+#define GB_ARM_COARSE 12
+#define GB_ARM_FINE 40
+#define GB_ARM_CLOSE_OPTIMUM R(0.06)
+#define GB_ARM_MOVES 8
+#define GB_ARM_SAMPLED R(2e-3)
 #define GB_ARM_GOLDEN R(0.6180339887498949)
 
 #include "groebot/six_axes/lanes.c"
@@ -90,10 +104,12 @@ static const gb_real gb_arm_tried[GB_ARM_TRIED] = {R(0.5), R(0.375), R(0.625), R
 #include "groebot/redundant/crossing.c"
 #include "groebot/redundant/ends.c"
 #include "groebot/redundant/seeds.c"
+#include "groebot/redundant/approach.c"
 #include "groebot/redundant/trace.c"
 #include "groebot/redundant/arcs.c"
 #include "groebot/redundant/closed.c"
 #include "groebot/redundant/along.c"
+#include "groebot/redundant/turns.c"
 #include "groebot/redundant/within.c"
 #include "groebot/redundant/best.c"
 

@@ -171,8 +171,11 @@ typedef struct {
     size_t ends;
     /* Whether arcs may be missing, or some arc is unsure. */
     bool is_unsure;
-    /* The number of closed curves. They were found by a grid of values of the scanned joint. A closed curve that is narrower than the grid may be missing. */
+    /* The number of closed curves. */
     size_t closed;
+    /* Whether closed curves that reach no limit were searched by a grid of values of the scanned joint only. A closed curve that is narrower than the grid may
+     * then be missing. This holds for all targets at present, except where solutions are a surface. */
+    bool is_grid_only;
     /* Whether the solutions are a surface. The only arc is then one solution within limits, if one was found. */
     bool is_surface;
     /* Whether there are solutions, within limits or not. */
@@ -180,6 +183,14 @@ typedef struct {
     /* The joints that are beyond their limits in the solution that exceeds limits least, as bits. 0 where there are arcs. */
     uint32_t beyond;
 } gb_arcs_outcome;
+
+/* The least and the greatest value of each joint along an arc, continuous from its start, so that angles may be beyond limits. For one solution, all three are
+ * its joint values. */
+typedef struct {
+    gb_real start[GB_MOST_ARM_JOINTS];
+    gb_real low[GB_MOST_ARM_JOINTS];
+    gb_real high[GB_MOST_ARM_JOINTS];
+} gb_arm_span;
 
 /* The result of gb_any_within. */
 typedef struct {
@@ -255,6 +266,12 @@ typedef struct {
  * gb_arc_at: writes the joint values at a length s from the start of an arc. s is limited to the arc. Returns 0.
  * gb_arc_sample: writes joint values at equal distances along an arc (within 1e-3 of them) to out, as many as count, from its start to its end. If count
  * is 1, the start. Returns 0.
+ * gb_arc_sample_from: same, but joint values are continuous along the arc from `start`, which differs from the arc's start by whole turns.
+ * gb_arc_span: writes the span of an arc, within 1e-6. Returns 0.
+ * gb_span_turns: the number of arcs within limits that differ from the arc of a span by whole turns of its angles, itself included; for the span of one
+ * solution, that of solutions. 0 if the arc passes the limits of a joint whose range is at least one turn. An angle that lacks a limit counts once; at most
+ * 1,000,000.
+ * gb_span_turn: writes the start of the arc with this index, which must be below their number. The last joint changes fastest.
  * gb_best: writes the best solution by a criterion over arcs. Curves are sampled at six points for each step, and each sample that is better than its
  * neighbours is refined. Two optima between neighbouring samples are found as one. Returns 1, or 0 if there are no arcs.
  * gb_optima: writes all local optima of a criterion over arcs to out, which has this room, the best ones first. If there are more, the worst ones are dropped.
@@ -270,6 +287,11 @@ GB_REDUNDANT int gb_arcs(const gb_redundant *robot, const gb_real *target, const
 GB_REDUNDANT int gb_arc_at(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arc, gb_real s, gb_real *q);
 GB_REDUNDANT int gb_arc_sample(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arc, gb_real (*out)[GB_MOST_ARM_JOINTS],
                                size_t count);
+GB_REDUNDANT int gb_arc_sample_from(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arc, const gb_real *start,
+                                    gb_real (*out)[GB_MOST_ARM_JOINTS], size_t count);
+GB_REDUNDANT int gb_arc_span(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arc, gb_arm_span *span);
+GB_REDUNDANT size_t gb_span_turns(const gb_arm *arm, const gb_real *limits, const gb_arm_span *span);
+GB_REDUNDANT void gb_span_turn(const gb_arm *arm, const gb_real *limits, const gb_arm_span *span, size_t index, gb_real *start);
 GB_REDUNDANT int gb_best(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arcs, size_t count, const gb_criterion *criterion,
                          gb_optimum *best);
 GB_REDUNDANT int gb_optima(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arcs, size_t count,

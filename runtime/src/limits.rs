@@ -23,10 +23,10 @@ impl Joint {
 
     /// The least and the greatest number of turns that bring the joint within its limits. The first is greater when none does.
     fn turns_within(self, value: f64, limit: [f64; 2]) -> (f64, f64) {
-        let (low, high) = (limit[0] - ACCEPTANCE.input - value, limit[1] + ACCEPTANCE.input - value);
         if self.is_angle() {
-            return (Arithmetic::ceil(low / TAU), Arithmetic::floor(high / TAU));
+            return turns_between([value; 2], limit);
         }
+        let (low, high) = (limit[0] - ACCEPTANCE.input - value, limit[1] + ACCEPTANCE.input - value);
         (0.0, if low <= 0.0 && 0.0 <= high { 0.0 } else { -1.0 })
     }
 
@@ -36,13 +36,19 @@ impl Joint {
     }
 }
 
+/// The least and the greatest number of turns that bring angles between two values within limits. The first is greater when none does.
+pub(crate) fn turns_between([least, greatest]: [f64; 2], [low, high]: [f64; 2]) -> (f64, f64) {
+    let (low, high) = (low - ACCEPTANCE.input - least, high + ACCEPTANCE.input - greatest);
+    (Arithmetic::ceil(low / TAU), Arithmetic::floor(high / TAU))
+}
+
 /// The number of turns between bounds that is nearest to a given one.
 fn nearest_turn(turn: f64, first: f64, last: f64) -> f64 {
     f64::min(f64::max(turn, first), last) + 0.0
 }
 
 /// The bounds made finite and limited to a maximal distance.
-fn finite_turns(mut first: f64, mut last: f64) -> (f64, f64) {
+pub(crate) fn finite_turns(mut first: f64, mut last: f64) -> (f64, f64) {
     if !first.is_finite() || !last.is_finite() {
         first = nearest_turn(0.0, first, last);
         last = first;

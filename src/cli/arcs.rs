@@ -262,6 +262,7 @@ impl ArcAnswer<'_> {
                 arc: best.arc + 1,
             }),
             surface: self.arcs.is_surface,
+            grid_only: self.arcs.is_grid_only,
             unsure: self.arcs.is_unsure,
             reason: self.reason(),
         };
@@ -283,6 +284,8 @@ struct Page<'a> {
     best: Option<BestEntry>,
     /// Whether the solutions are a surface: the arc is then one solution.
     surface: bool,
+    /// Whether closed curves that reach no limit were searched by a grid only.
+    grid_only: bool,
     /// Whether other solutions within limits may exist.
     unsure: bool,
     /// The reason why there is no solution within limits.

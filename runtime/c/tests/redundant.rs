@@ -9,7 +9,8 @@ use std::io::{BufWriter, Write};
 use arms::{Kind, Random, Robot, about, image, product};
 use groebot_runtime::Error;
 use groebot_runtime::redundant::{
-    Arc, Arm, Best, Criterion, End, Limits, Q, Target, Task, Within, any_within, arcs, at, optima, sample,
+    Arc, Arm, Best, Criterion, End, Limits, Q, Span, Target, Task, Within, any_within, arcs, at, optima, sample,
+    sample_from,
 };
 
 /// Maximal numbers of arcs, samples and optima.
@@ -79,6 +80,23 @@ impl Output {
         }
         let q = at(arm, target, limits, arc, 0.3 * arc.length).expect("the limits are in order");
         self.numbers("at", &q);
+        self.turned(arm, target, limits, arc);
+    }
+
+    /// Writes one of the arcs that differ by whole turns, within limits that are wider by more than one turn.
+    fn turned(&mut self, arm: &Arm, target: &Target, limits: &Limits, arc: &Arc) {
+        let wide = limits.map(|[low, high]| [low - 7.0, high + 8.0]);
+        let span = Span::along(arm, target, limits, arc).expect("the limits are in order");
+        let count = span.count_turns(arm, &wide);
+        let start = span.turn(arm, &wide, count / 2);
+        let mut list = [[0.0; 7]; 3];
+        sample_from(arm, target, limits, (arc, &start), &mut list).expect("the limits are in order");
+        self.numbers("low", &span.low);
+        self.numbers("high", &span.high);
+        self.line(&format!("turns {count}"));
+        for q in &list {
+            self.numbers("turned", q);
+        }
     }
 
     fn within(&mut self, robot: &Robot, target: &Target) {
@@ -107,11 +125,11 @@ impl Output {
             Ok(outcome) => outcome,
             Err(error) => return self.line(&format!("arcs {}", code(error))),
         };
-        let flags = [outcome.is_unsure, outcome.is_surface, outcome.is_reachable].map(u8::from);
+        let flags = [outcome.is_unsure, outcome.is_surface, outcome.is_reachable, outcome.is_grid_only].map(u8::from);
         self.line("arcs 0");
         self.line(&format!(
-            "outcome {} {} {} {} {} {} {}",
-            outcome.count, outcome.ends, flags[0], outcome.closed, flags[1], flags[2], outcome.beyond
+            "outcome {} {} {} {} {} {} {} {}",
+            outcome.count, outcome.ends, flags[0], outcome.closed, flags[1], flags[2], flags[3], outcome.beyond
         ));
         for arc in &list[..outcome.count] {
             self.line(&format!("arc {} {}", u8::from(arc.is_closed), u8::from(arc.is_unsure)));

@@ -1,9 +1,12 @@
-//! Joint values along an arc ([`at`], [`sample`]).
+//! Joint values along an arc ([`at`], [`sample`], [`sample_from`]).
+
+use core::f64::consts::TAU;
 
 use super::arcs::{Arc, constant};
-use super::arm::{Arm, Limits, Q, Target};
+use super::arm::{Arm, Limits, MOST_JOINTS, Q, Target};
 use super::model::{Model, dot, norm, plus};
 use super::step::{Piece, Point, Walk};
+use crate::arithmetic::Arithmetic;
 use crate::solution::Error;
 use crate::tolerances::ACCEPTANCE;
 
@@ -52,16 +55,51 @@ impl Journey {
 
     /// The scaled joint values of the curve at a share of a piece.
     pub fn on(model: &Model<'_>, piece: &Piece, share: f64) -> Q {
-        let mut x = piece.at(share);
+        Journey::point_on(model, piece, share).x
+    }
+
+    /// The point of the curve at a share of a piece, with the direction of travel.
+    pub fn point_on(model: &Model<'_>, piece: &Piece, share: f64) -> Point {
+        let mut point = Point { x: piece.at(share), ..piece.from };
         for _ in 0..CORRECTIONS {
-            let place = model.place(&x);
+            let place = model.place(&point.x);
             let step = place.linear.least(&place.values);
-            x = plus(&x, -1.0, &step);
+            point.x = plus(&point.x, -1.0, &step);
+            point.t = place.linear.tangent;
             if norm(&step) <= ACCEPTANCE.residual || dot(&step, &step) > 1.0 {
                 break;
             }
         }
-        x
+        if dot(&point.t, &piece.from.t) < 0.0 {
+            for value in &mut point.t {
+                *value = -*value;
+            }
+        }
+        point
+    }
+
+    /// Writes samples at equal distances. The first one is given, the last one is left to the caller. Returns the number of samples so far.
+    fn sample(
+        &mut self,
+        model: &Model<'_>,
+        (arc, start): (&Arc, &Q),
+        out: &mut [Q],
+        values: impl Fn(&Q) -> Q,
+    ) -> usize {
+        let count = out.len();
+        let mut k = usize::min(count, 1);
+        out[..k].fill(*start);
+        while k + 1 < count && self.next(model, arc) {
+            while k + 1 < count {
+                let s = arc.length * k as f64 / (count - 1) as f64;
+                if s > self.before + self.piece.length {
+                    break;
+                }
+                out[k] = values(&self.at(model, self.share(s)));
+                k += 1;
+            }
+        }
+        k
     }
 
     /// The share of the present piece at a length of the arc.
@@ -101,22 +139,48 @@ pub fn at(arm: &Arm, target: &Target, limits: &Limits, arc: &Arc, s: f64) -> Res
 /// [`Error::Limits`].
 pub fn sample(arm: &Arm, target: &Target, limits: &Limits, arc: &Arc, out: &mut [Q]) -> Result<(), Error> {
     let mut model = Model::new(arm, target, limits)?;
-    let count = out.len();
     let mut journey = Journey::new(&mut model, arc);
-    let mut k = 0;
-    while k + 1 < count && journey.next(&model, arc) {
-        while k + 1 < count {
-            let s = arc.length * k as f64 / (count - 1) as f64;
-            if s > journey.before + journey.piece.length {
-                break;
-            }
-            out[k] = if k == 0 { arc.start.q } else { model.unscaled(&journey.at(&model, journey.share(s))) };
-            k += 1;
+    let count = journey.sample(&model, (arc, &arc.start.q), out, |x| model.unscaled(x));
+    out[count..].fill(arc.end.q);
+    Ok(())
+}
+
+/// Same as [`sample`], but joint values are continuous along the arc from `start`, which differs from the arc's start by whole turns ([`super::Span::turn`]).
+///
+/// # Errors
+///
+/// [`Error::Limits`].
+pub fn sample_from(
+    arm: &Arm,
+    target: &Target,
+    limits: &Limits,
+    (arc, start): (&Arc, &Q),
+    out: &mut [Q],
+) -> Result<(), Error> {
+    let mut model = Model::new(arm, target, limits)?;
+    let mut journey = Journey::new(&mut model, arc);
+    let shift = turns_to(arm, start, &arc.start.q);
+    let values = |x: &Q| {
+        let mut q = shift;
+        for i in 0..model.count {
+            q[i] += x[i] * model.units[i];
+        }
+        q
+    };
+    let count = journey.sample(&model, (arc, start), out, values);
+    while journey.next(&model, arc) {}
+    let end = plus(&arc.end.q, 1.0, &turns_to(arm, &values(&journey.piece.to.x), &arc.end.q));
+    out[count..].fill(end);
+    Ok(())
+}
+
+/// The whole turns that bring angles next to others.
+pub(super) fn turns_to(arm: &Arm, to: &Q, from: &Q) -> Q {
+    let mut shift = [0.0; MOST_JOINTS];
+    for i in 0..arm.count {
+        if !arm.slides[i] {
+            shift[i] = TAU * Arithmetic::round((to[i] - from[i]) / TAU);
         }
     }
-    while k < count {
-        out[k] = if k == 0 { arc.start.q } else { arc.end.q };
-        k += 1;
-    }
-    Ok(())
+    shift
 }

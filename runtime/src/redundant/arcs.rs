@@ -68,8 +68,11 @@ pub struct Outcome {
     pub ends: usize,
     /// Whether arcs may be missing, or some arc is unsure.
     pub is_unsure: bool,
-    /// The number of closed curves. They were found by a grid of values of the scanned joint. A closed curve that is narrower than the grid may be missing.
+    /// The number of closed curves.
     pub closed: usize,
+    /// Whether closed curves that reach no limit were searched by a grid of values of the scanned joint only. A closed curve that is narrower than the grid
+    /// may then be missing. This holds for all targets at present, except where solutions are a surface.
+    pub is_grid_only: bool,
     /// Whether the solutions are a surface. The only arc is then one solution within limits, if one was found.
     pub is_surface: bool,
     /// Whether there are solutions, within limits or not.
@@ -113,6 +116,9 @@ pub fn arcs(robot: &dyn Redundant, target: &Target, limits: &Limits, out: &mut [
     let mut output = Output { out, count: 0, is_unsure: false };
     ends.find(robot, &model, target)?;
     seeds.find(robot, &model, target, &mut ends)?;
+    if !ends.beyond.is_reachable {
+        seeds.approach(&model, &mut ends);
+    }
     if seeds.surfaces > 1 {
         return Ok(surface(&model, &seeds, &ends, &mut output));
     }
@@ -128,6 +134,7 @@ pub fn arcs(robot: &dyn Redundant, target: &Target, limits: &Limits, out: &mut [
         ends: ends.count,
         is_unsure: output.is_unsure || ends.is_unsure || seeds.is_unsure,
         closed,
+        is_grid_only: true,
         is_surface: false,
         is_reachable: ends.beyond.is_reachable,
         beyond: if output.count == 0 { ends.beyond.joints } else { 0 },
@@ -153,6 +160,7 @@ fn surface(model: &Model<'_>, seeds: &Seeds, ends: &Ends, output: &mut Output<'_
         ends: 0,
         is_unsure: true,
         closed: 0,
+        is_grid_only: false,
         is_surface: true,
         is_reachable: true,
         beyond: if output.count == 0 { ends.beyond.joints } else { 0 },

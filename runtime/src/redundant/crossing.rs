@@ -103,7 +103,7 @@ fn crossed(piece: &Piece, joint: usize, side: usize, limit: f64) -> Option<f64> 
 }
 
 /// The shares between 0 and 1 where the cubic has an extremum, in increasing order, then 1. Where there are less than two, 0 comes first.
-fn extrema(a: f64, b: f64, c: f64) -> [f64; 3] {
+pub(super) fn extrema(a: f64, b: f64, c: f64) -> [f64; 3] {
     // 3 a u^2 + 2 b u + c = 0.
     let square = b * b - 3.0 * a * c;
     if square <= 0.0 {

@@ -2,7 +2,7 @@
 
 use super::arm::{Given, MOST_JOINTS, Members, Q, Redundant, Target};
 use super::elimination::Rows;
-use super::model::{Model, farthest};
+use super::model::Model;
 use super::step::{Piece, Point, is_on};
 use crate::solution::Error;
 use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS};
@@ -154,7 +154,7 @@ impl Ends {
         }
         for k in 0..self.count {
             let end = &mut self.list[k];
-            if farthest(&model.difference(&end.at.x, x)) <= MERGING.joints {
+            if model.are_close(&end.at.x, x, MERGING.joints) {
                 end.sides[0] |= sides[0];
                 end.sides[1] |= sides[1];
                 return Some(k);
@@ -172,7 +172,7 @@ impl Ends {
     /// Stores a solution with joints at limits from which the curve leads within limits in both directions.
     fn touch(&mut self, model: &Model<'_>, x: &Q, tied: u32) {
         for k in 0..self.touches {
-            if farthest(&model.difference(&self.touching[k].0, x)) <= MERGING.joints {
+            if model.are_close(&self.touching[k].0, x, MERGING.joints) {
                 return;
             }
         }

@@ -23,6 +23,8 @@ pub(super) struct Goal {
     fixed: [Vector; 2],
     moving: [Vector; 2],
     products: usize,
+    /// A vector that is fixed in the base, and the one that is fixed on the tip and has this image at solutions. The equations also hold for the opposite image.
+    toward: Option<[Vector; 2]>,
 }
 
 const NONE: Goal = Goal {
@@ -35,6 +37,7 @@ const NONE: Goal = Goal {
     fixed: [[0.0; 3]; 2],
     moving: [[0.0; 3]; 2],
     products: 0,
+    toward: None,
 };
 
 const AXES: [Vector; 3] = Rigid::NONE.rotation;
@@ -69,15 +72,19 @@ impl Goal {
             Task::Ray { direction } => {
                 goal.place(point, 3);
                 goal.aim(across(&after), [direction; 2], 2);
+                goal.toward = Some([after, direction]);
             }
             Task::Direction { direction } => {
-                goal.aim(across(&[target[0], target[1], target[2]]), [direction; 2], 2);
+                let image = [target[0], target[1], target[2]];
+                goal.aim(across(&image), [direction; 2], 2);
+                goal.toward = Some([image, direction]);
             }
             Task::PositionPitchRoll => {
                 goal.place(point, 3);
                 let [pitch, roll] = [after[0], after[1]];
                 let up = [-sine(pitch), cosine(pitch) * sine(roll), cosine(pitch) * cosine(roll)];
                 goal.aim([AXES[2]; 2], across(&up), 2);
+                goal.toward = Some([AXES[2], up]);
             }
             Task::PositionYaw { axis, direction } => {
                 goal.place(point, 3);
@@ -122,6 +129,10 @@ impl Goal {
         normal[(axis + 1) % 3] = -sine(angle);
         normal[(axis + 2) % 3] = cosine(angle);
         self.aim([normal; 2], [direction; 2], 1);
+        let mut image = [0.0; 3];
+        image[(axis + 1) % 3] = cosine(angle);
+        image[(axis + 2) % 3] = sine(angle);
+        self.toward = Some([image, direction]);
     }
 
     /// The number of equations.
@@ -149,6 +160,23 @@ impl Goal {
             values[self.positions + k] = dot(&self.fixed[k], &tip.turned(&self.moving[k]));
         }
         values
+    }
+
+    /// Whether a tip where the equations hold has the target's orientation, and not one that is turned by half a turn.
+    pub fn is_toward(&self, tip: &Rigid) -> bool {
+        let mut along = 1.0;
+        if self.has_rotation {
+            along = 0.0;
+            for k in 0..3 {
+                for c in 0..3 {
+                    along += self.columns[k][c] * tip.rotation[c][k];
+                }
+            }
+        }
+        if let Some([image, direction]) = &self.toward {
+            along = dot(image, &tip.turned(direction));
+        }
+        along > 0.0
     }
 
     /// The images of the vectors that are fixed on the tip.

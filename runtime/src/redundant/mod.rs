@@ -10,6 +10,7 @@
 #![allow(clippy::manual_clamp, reason = "NaN is handled as in the C version")]
 
 mod along;
+mod approach;
 mod arcs;
 mod arm;
 mod best;
@@ -25,11 +26,13 @@ mod model;
 mod seeds;
 mod step;
 mod trace;
+mod turns;
 mod within;
 
-pub use along::{at, sample};
+pub use along::{at, sample, sample_from};
 pub use arcs::{Arc, End, Outcome, arcs};
 pub use arm::{Arm, Given, Limits, MOST_JOINTS, Member, Members, Q, Redundant, Target, Task};
 pub use best::{Best, Criterion, best, optima};
 pub use given::solve_part;
+pub use turns::Span;
 pub use within::{Within, any_within};

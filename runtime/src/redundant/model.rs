@@ -78,6 +78,16 @@ impl<'a> Model<'a> {
         self.links.axes(self.arm, x).tip
     }
 
+    /// The number of equations.
+    pub fn rows(&self) -> usize {
+        self.goal.rows()
+    }
+
+    /// Whether joint values that fulfil the equations reach the target, and not an orientation that is turned by half a turn.
+    pub fn is_toward(&self, x: &Q) -> bool {
+        self.goal.is_toward(&self.links.axes(self.arm, x).tip)
+    }
+
     /// The equations, their derivatives, and the curve's direction.
     pub fn place(&self, x: &Q) -> Place {
         let axes = self.links.axes(self.arm, x);
@@ -196,6 +206,20 @@ impl<'a> Model<'a> {
         beyond
     }
 
+    /// Whether no joint differs by more than `most`; angles whose range is at least one turn are compared up to whole turns.
+    pub fn are_close(&self, a: &Q, b: &Q, most: f64) -> bool {
+        for i in 0..self.count {
+            let mut d = a[i] - b[i];
+            if self.turns[i] && d.abs() > most {
+                d -= TAU * Arithmetic::round(d / TAU);
+            }
+            if d.abs() > most {
+                return false;
+            }
+        }
+        true
+    }
+
     /// The difference `a - b`; angles whose range is at least one turn are compared up to whole turns.
     pub fn difference(&self, a: &Q, b: &Q) -> Q {
         let mut d = [0.0; MOST_JOINTS];
@@ -211,6 +235,10 @@ impl<'a> Model<'a> {
 
 /// The angle moved by as few turns as possible within limits. Where that is impossible, it is moved to where it exceeds them least.
 fn shifted(angle: f64, [low, high]: [f64; 2]) -> f64 {
+    if angle >= low && angle <= high {
+        // Without the sign of a zero.
+        return angle + 0.0;
+    }
     let up = Arithmetic::ceil((low - ACCEPTANCE.input - angle) / TAU);
     let down = Arithmetic::floor((high + ACCEPTANCE.input - angle) / TAU);
     if up <= down {

@@ -2,9 +2,10 @@
 
 use core::f64::consts::{PI, TAU};
 
+use super::approach::{STARTS, approach};
 use super::arm::{MOST_JOINTS, Members, Q, Redundant, Target};
 use super::ends::Ends;
-use super::model::{Model, farthest};
+use super::model::Model;
 use super::step::{ON, Piece};
 use crate::arithmetic::Arithmetic;
 use crate::solution::Error;
@@ -16,8 +17,8 @@ pub(super) const MOST_SEEDS: usize = 256;
 const LEVELS: usize = 16;
 /// Between two values, so many times the middle is added where the number of solutions changes, or where solutions are close to each other.
 const HALVINGS: usize = 2;
-/// Maximal number of values of the scanned joint.
-const MOST_GROUPS: usize = LEVELS + (LEVELS - 1) * HALVINGS;
+/// Maximal number of values of the scanned joint, with those of solutions by Newton's method.
+const MOST_GROUPS: usize = LEVELS + (LEVELS - 1) * HALVINGS + STARTS;
 /// Solutions for one value are close when no joint differs by more than this (rad, or relative to the characteristic length).
 const CLOSE: f64 = 0.1;
 /// Steps of Newton's method for a root of a cubic.
@@ -100,6 +101,22 @@ impl Seeds {
         Ok(())
     }
 
+    /// Searches solutions by Newton's method, where there is none for any value of the scanned joint.
+    #[cold]
+    pub fn approach(&mut self, model: &Model<'_>, ends: &mut Ends) {
+        for number in 0..STARTS {
+            let Some(mut x) = approach(model, number) else { continue };
+            let beyond = model.lift(&mut x);
+            ends.beyond.pass(model, &x, beyond);
+            if beyond == 0 {
+                self.list[self.added] = x;
+                self.groups[self.values] = Group { value: x[self.joint], first: self.added, count: 1 };
+                self.added += 1;
+                self.values += 1;
+            }
+        }
+    }
+
     /// Adds values between two neighbouring ones, where solutions appear or vanish.
     fn between(
         &mut self,
@@ -172,7 +189,7 @@ impl Seeds {
     fn has_close(&self, model: &Model<'_>, first: usize) -> bool {
         for i in first..self.added {
             for j in first..i {
-                if farthest(&model.difference(&self.list[i], &self.list[j])) <= CLOSE {
+                if model.are_close(&self.list[i], &self.list[j], CLOSE) {
                     return true;
                 }
             }
@@ -185,6 +202,9 @@ impl Seeds {
         let (from, to) = (piece.from.x[self.joint], piece.to.x[self.joint]);
         let (least, greatest) = (f64::min(from, to) - ACCEPTANCE.input, f64::max(from, to) + ACCEPTANCE.input);
         for number in 0..self.values {
+            if self.groups[number].count == 0 {
+                continue;
+            }
             let mut value = self.groups[number].value;
             if model.turns[self.joint] {
                 value += TAU * Arithmetic::ceil((least - value) / TAU);
@@ -198,13 +218,10 @@ impl Seeds {
     /// Removes the solutions of a group on a piece of a curve.
     fn pass_group(&mut self, model: &Model<'_>, piece: &Piece, value: f64, number: usize) {
         let Group { first, mut count, .. } = self.groups[number];
-        if count == 0 {
-            return;
-        }
         let x = self.on(piece, value);
         let mut k = first;
         while k < first + count {
-            if farthest(&model.difference(&x, &self.list[k])) <= ON * piece.length + MERGING.joints {
+            if model.are_close(&x, &self.list[k], ON * piece.length + MERGING.joints) {
                 count -= 1;
                 self.list[k] = self.list[first + count];
             } else {

@@ -6,7 +6,7 @@
 //! for another one that nearly crosses it.
 
 use super::arm::{MOST_JOINTS, Q};
-use super::model::{Model, Place, dot, farthest, norm, plus};
+use super::model::{Model, Place, dot, norm, plus};
 use crate::arithmetic::Arithmetic;
 use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS};
 
@@ -245,5 +245,5 @@ pub(super) fn is_on(model: &Model<'_>, piece: &Piece, x: &Q) -> bool {
     if !(0.0..=1.0).contains(&share) {
         return false;
     }
-    farthest(&model.difference(&piece.at(share), x)) <= ON * piece.length + MERGING.joints
+    model.are_close(&piece.at(share), x, ON * piece.length + MERGING.joints)
 }

@@ -1,8 +1,10 @@
 //! Arcs of solutions of redundant arms.
 
 mod iiwa;
+mod limits;
 mod planar;
 mod srs;
+mod turns;
 
 /// Random numbers in `[0, 1)`, equal in every run (xorshift, G. Marsaglia 2003).
 fn random() -> impl FnMut() -> f64 {

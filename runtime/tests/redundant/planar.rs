@@ -12,10 +12,10 @@ use crate::random;
 
 const LINKS: [f64; 3] = [1.0, 0.8, 0.5];
 
-struct Planar(Arm);
+pub struct Planar(pub Arm);
 
 impl Planar {
-    fn new(limits: Limits) -> Planar {
+    pub fn new(limits: Limits) -> Planar {
         let mut arm = Arm {
             count: 3,
             task: Task::PlanarPosition { coordinates: [0, 1] },
@@ -31,7 +31,7 @@ impl Planar {
     }
 }
 
-fn tip(q: &Q) -> [f64; 2] {
+pub fn tip(q: &Q) -> [f64; 2] {
     let sums = [q[0], q[0] + q[1], q[0] + q[1] + q[2]];
     let along = |f: fn(f64) -> f64| (0..3).map(|i| LINKS[i] * f(sums[i])).sum();
     [along(f64::cos), along(f64::sin)]
@@ -191,6 +191,36 @@ fn beyond_limits_and_reach() {
     assert_eq!(any_within(&robot, &target, &limits), Err(Error::Limits(2)));
 }
 
+/// Next to the greatest distance, the curve is narrower than the grid of values.
+#[test]
+fn curves_next_to_the_reach() {
+    for excess in [1e-2, 1e-4, 1e-6, 1e-8] {
+        for angle in [0.3_f64, 1.234, -2.0] {
+            let robot = Planar::new([ANY; 7]);
+            let mut target = [0.0; 12];
+            let distance = LINKS.iter().sum::<f64>() - excess;
+            (target[0], target[1]) = (distance * angle.cos(), distance * angle.sin());
+            let mut out = [Arc::NONE; 4];
+            let outcome = arcs(&robot, &target, &robot.0.limits, &mut out).unwrap();
+            assert_eq!((outcome.count, outcome.closed, outcome.is_unsure), (1, 1, false), "{excess} {angle}");
+            let mut list = [[0.0; 7]; 40];
+            sample(&robot.0, &target, &robot.0.limits, &out[0], &mut list).unwrap();
+            let Ok(Within::Solution(q)) = any_within(&robot, &target, &robot.0.limits) else {
+                panic!("{excess} {angle}")
+            };
+            for q in list.iter().chain([&q]) {
+                let [x, y] = tip(q);
+                assert!((x - target[0]).hypot(y - target[1]) < 1e-9, "{q:?}");
+            }
+            // With the first joint beyond its limit, the target is reachable, but not within limits.
+            let mut limits = [ANY; 7];
+            limits[0] = [angle + 1.0, angle + 1.5];
+            let beyond = any_within(&robot, &target, &limits).unwrap();
+            assert!(matches!(beyond, Within::Beyond { joints: 1, .. }), "{beyond:?}");
+        }
+    }
+}
+
 /// The arcs at a position, with limits of the first two joints.
 fn arcs_at(x: f64, first: [f64; 2], second: [f64; 2]) -> (Vec<Arc>, bool) {
     let mut limits = [[f64::NEG_INFINITY, f64::INFINITY]; 7];
@@ -203,7 +233,7 @@ fn arcs_at(x: f64, first: [f64; 2], second: [f64; 2]) -> (Vec<Arc>, bool) {
     (out[..outcome.count].to_vec(), outcome.is_unsure)
 }
 
-const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+pub const ANY: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// The greatest angle of the second joint with the tip at a distance: the third link points outwards, so that the wrist is nearest.
 fn greatest(distance: f64) -> f64 {

@@ -200,6 +200,45 @@ fn the_nearest_solution_has_the_nearest_turn() {
     }
 }
 
+/// The last joint has a range of more than one turn: one or two turns of it are within limits.
+#[test]
+fn turns_of_solutions_and_arcs_are_listed() {
+    let q = [0.3, -0.6, 0.4, 1.1, -0.2, 0.7, 0.5];
+    let mut program = derived::derived().1.program().clone();
+    let [low, high] = [-7.0, 3.0];
+    program.redundancy.as_mut().unwrap().limits[6] = Some([low, high]);
+    let solver = program.redundant_solver().unwrap();
+    let pose = iiwa().chain.forward(&q).unwrap();
+    let (target, limits) = (solver.target(pose).unwrap(), solver.limits());
+    let last: Vec<f64> = solver.turns(&limits, &q).unwrap().starts.iter().map(|start| start[6]).collect();
+    assert_eq!(last, [0.5 - TAU, 0.5]);
+    let all = solver.arcs(&target, &limits).unwrap();
+    let mut listed = 0;
+    for arc in &all.arcs {
+        let turns = solver.arc_turns(&target, &limits, arc).unwrap();
+        listed += turns.starts.len();
+        for start in &turns.starts {
+            let samples = solver.samples_from(&target, &limits, (arc, start), 60).unwrap();
+            assert_eq!(&samples[0], start);
+            let most = arc.length / 59.0 * (1.0 + 1e-3);
+            let is_near = |pair: &[Vec<f64>]| pair[0].iter().zip(&pair[1]).all(|(a, b)| (a - b).abs() <= most);
+            assert!(samples.windows(2).all(is_near), "{arc:?}");
+            for own in &samples {
+                assert!((low - 1e-9..=high + 1e-9).contains(&own[6]), "{own:?}");
+                let reached = iiwa().chain.forward(own).unwrap();
+                assert!((reached.translation.vector - pose.translation.vector).norm() < 1e-9, "{own:?}");
+            }
+        }
+        // Another whole turn of the first arc is beyond a limit.
+        if let Some(first) = turns.starts.first() {
+            let (low_after, high_after) = (turns.low[6] - first[6], turns.high[6] - first[6]);
+            let fits = |start: f64| start + low_after >= low && start + high_after <= high;
+            assert_eq!(turns.starts.len(), (-3..=3).filter(|k| fits(first[6] + TAU * f64::from(*k))).count());
+        }
+    }
+    assert!(listed > all.arcs.len() / 2, "{listed} of {}", all.arcs.len());
+}
+
 #[test]
 fn limits_and_targets_have_their_numbers() {
     let arm = iiwa();

@@ -42,20 +42,33 @@ static bool gb_arm_travel(gb_arm_journey *journey, const gb_arm_model *model, co
     return true;
 }
 
-/* The scaled joint values of the curve at a share of a piece. */
-static void gb_arm_curve_at(const gb_arm_model *model, const gb_arm_piece *piece, gb_real share, gb_real *x)
+/* The point of the curve at a share of a piece, with the direction of travel. */
+static gb_arm_point gb_arm_curve_point(const gb_arm_model *model, const gb_arm_piece *piece, gb_real share)
 {
-    gb_arm_piece_at(piece, share, x);
+    gb_arm_point point = piece->from;
+    gb_arm_piece_at(piece, share, point.x);
     for (int k = 0; k < GB_ARM_CORRECTIONS; k++) {
         gb_arm_place place;
         gb_real step[GB_MOST_ARM_JOINTS];
-        gb_arm_set_place(model, x, &place);
+        gb_arm_set_place(model, point.x, &place);
         gb_arm_least(&place.linear, place.values, step);
-        gb_arm_plus(x, R(-1.0), step, x);
+        gb_arm_plus(point.x, R(-1.0), step, point.x);
+        gb_arm_copy(place.linear.tangent, point.t);
         if (gb_arm_norm(step) <= GB_ACCEPTANCE_RESIDUAL || gb_arm_dot(step, step) > R(1.0)) {
             break;
         }
     }
+    if (gb_arm_dot(point.t, piece->from.t) < R(0.0)) {
+        gb_arm_reverse(point.t);
+    }
+    return point;
+}
+
+/* The scaled joint values of the curve at a share of a piece. */
+static void gb_arm_curve_at(const gb_arm_model *model, const gb_arm_piece *piece, gb_real share, gb_real *x)
+{
+    const gb_arm_point point = gb_arm_curve_point(model, piece, share);
+    gb_arm_copy(point.x, x);
 }
 
 /* The share of the present piece at a length of the arc. */
@@ -64,18 +77,11 @@ static gb_real gb_arm_share_at(const gb_arm_journey *journey, gb_real s)
     return gb_arm_share((s - journey->before) / journey->piece.length);
 }
 
-/* Joint values at a length of the arc on the present piece. */
-static void gb_arm_journey_at(const gb_arm_journey *journey, const gb_arm_model *model, gb_real s, gb_real *q)
-{
-    gb_real x[GB_MOST_ARM_JOINTS];
-    gb_arm_curve_at(model, &journey->piece, gb_arm_share_at(journey, s), x);
-    gb_arm_unscaled(model, x, q);
-}
-
 GB_LINKAGE int gb_arc_at(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arc, gb_real s, gb_real *q)
 {
     gb_arm_model model;
     gb_arm_journey journey;
+    gb_real x[GB_MOST_ARM_JOINTS];
     const int code = gb_arm_set_model(&model, arm, target, limits);
     if (code < 0) {
         return code;
@@ -87,7 +93,8 @@ GB_LINKAGE int gb_arc_at(const gb_arm *arm, const gb_real *target, const gb_real
     gb_arm_set_out(&journey, &model, arc);
     while (gb_arm_travel(&journey, &model, arc)) {
         if (s <= journey.before + journey.piece.length) {
-            gb_arm_journey_at(&journey, &model, s, q);
+            gb_arm_curve_at(&model, &journey.piece, gb_arm_share_at(&journey, s), x);
+            gb_arm_unscaled(&model, x, q);
             return 0;
         }
     }
@@ -95,32 +102,77 @@ GB_LINKAGE int gb_arc_at(const gb_arm *arm, const gb_real *target, const gb_real
     return 0;
 }
 
-GB_LINKAGE int gb_arc_sample(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arc, gb_real (*out)[GB_MOST_ARM_JOINTS],
-                             size_t count)
+/* The whole turns that bring angles next to others. */
+static void gb_arm_turns_to(const gb_arm *arm, const gb_real *to, const gb_real *from, gb_real *shift)
+{
+    for (size_t i = 0; i < GB_MOST_ARM_JOINTS; i++) {
+        shift[i] = i >= arm->count || arm->slides[i] ? R(0.0) : GB_TAU * gb_round((to[i] - from[i]) / GB_TAU);
+    }
+}
+
+/* Joint values of scaled ones: within limits, or moved by whole turns. */
+static void gb_arm_values(const gb_arm_model *model, const gb_real *x, const gb_real *shift, gb_real *q)
+{
+    if (!shift) {
+        gb_arm_unscaled(model, x, q);
+        return;
+    }
+    gb_arm_copy(shift, q);
+    for (size_t i = 0; i < model->count; i++) {
+        q[i] += x[i] * model->units[i];
+    }
+}
+
+/* Samples at equal distances, each moved by whole turns. Without them, angles are moved within limits. */
+static void gb_arm_sample_equally(gb_arm_journey *journey, const gb_arm_model *model, const gb_arc *arc, const gb_real *shift, gb_real (*out)[GB_MOST_ARM_JOINTS],
+                          size_t count)
+{
+    gb_real x[GB_MOST_ARM_JOINTS], end[GB_MOST_ARM_JOINTS], last[GB_MOST_ARM_JOINTS];
+    size_t k = 1;
+    while (k + 1 < count && gb_arm_travel(journey, model, arc)) {
+        for (; k + 1 < count; k++) {
+            const gb_real s = arc->length * (gb_real)k / (gb_real)(count - 1);
+            if (s > journey->before + journey->piece.length) {
+                break;
+            }
+            gb_arm_curve_at(model, &journey->piece, gb_arm_share_at(journey, s), x);
+            gb_arm_values(model, x, shift, out[k]);
+        }
+    }
+    gb_arm_copy(arc->end.q, end);
+    if (shift) {
+        while (gb_arm_travel(journey, model, arc)) {
+        }
+        gb_arm_values(model, journey->piece.to.x, shift, x);
+        gb_arm_turns_to(model->arm, x, end, last);
+        gb_arm_plus(end, R(1.0), last, end);
+    }
+    for (; k < count; k++) {
+        gb_arm_copy(end, out[k]);
+    }
+}
+
+GB_LINKAGE int gb_arc_sample_from(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arc, const gb_real *start,
+                                  gb_real (*out)[GB_MOST_ARM_JOINTS], size_t count)
 {
     gb_arm_model model;
     gb_arm_journey journey;
+    gb_real shift[GB_MOST_ARM_JOINTS];
     const int code = gb_arm_set_model(&model, arm, target, limits);
-    size_t k = 0;
-    if (code < 0) {
+    if (code < 0 || count == 0) {
         return code;
     }
+    gb_arm_copy(start ? start : arc->start.q, out[0]);
     gb_arm_set_out(&journey, &model, arc);
-    while (k + 1 < count && gb_arm_travel(&journey, &model, arc)) {
-        for (; k + 1 < count; k++) {
-            const gb_real s = arc->length * (gb_real)k / (gb_real)(count - 1);
-            if (s > journey.before + journey.piece.length) {
-                break;
-            }
-            if (k == 0) {
-                gb_arm_copy(arc->start.q, out[k]);
-            } else {
-                gb_arm_journey_at(&journey, &model, s, out[k]);
-            }
-        }
+    if (start) {
+        gb_arm_turns_to(arm, start, arc->start.q, shift);
     }
-    for (; k < count; k++) {
-        gb_arm_copy(k == 0 ? arc->start.q : arc->end.q, out[k]);
-    }
+    gb_arm_sample_equally(&journey, &model, arc, start ? shift : NULL, out, count);
     return 0;
+}
+
+GB_LINKAGE int gb_arc_sample(const gb_arm *arm, const gb_real *target, const gb_real *limits, const gb_arc *arc, gb_real (*out)[GB_MOST_ARM_JOINTS],
+                             size_t count)
+{
+    return gb_arc_sample_from(arm, target, limits, arc, NULL, out, count);
 }

@@ -18,6 +18,7 @@ GB_COLD static void gb_arm_surface(const gb_arm_search *search, gb_arm_output *o
     outcome->ends = 0;
     outcome->is_unsure = true;
     outcome->closed = 0;
+    outcome->is_grid_only = false;
     outcome->is_surface = true;
     outcome->is_reachable = true;
     outcome->beyond = output->count == 0 ? ends->beyond.joints : 0;
@@ -94,6 +95,9 @@ static int gb_arm_find_arcs(const gb_redundant *robot, const gb_real *target, gb
     if (code == 0) {
         code = gb_arm_find_seeds(&seeds, &scan);
     }
+    if (code == 0 && !ends.beyond.is_reachable) {
+        gb_arm_approach_all(&seeds, model, &ends.beyond);
+    }
     if (code < 0) {
         return code;
     }
@@ -108,6 +112,7 @@ static int gb_arm_find_arcs(const gb_redundant *robot, const gb_real *target, gb
         gb_arm_push_end(model, &ends, k, output);
     }
     outcome->closed = gb_arm_search_closed(&search, output);
+    outcome->is_grid_only = true;
     outcome->count = output->count;
     outcome->ends = ends.count;
     outcome->is_unsure = output->is_unsure || ends.is_unsure || seeds.is_unsure;

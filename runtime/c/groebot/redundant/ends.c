@@ -83,7 +83,7 @@ static size_t gb_arm_add_end(gb_arm_ends *ends, const gb_arm_model *model, const
     }
     for (size_t k = 0; k < ends->count; k++) {
         gb_arm_end *end = &ends->list[k];
-        if (gb_arm_distance(model, end->at.x, x) <= GB_MERGING_JOINTS) {
+        if (gb_arm_are_close(model, end->at.x, x, GB_MERGING_JOINTS)) {
             end->sides[0] |= sides[0];
             end->sides[1] |= sides[1];
             return k;
@@ -106,7 +106,7 @@ static size_t gb_arm_add_end(gb_arm_ends *ends, const gb_arm_model *model, const
 static void gb_arm_add_touch(gb_arm_ends *ends, const gb_arm_model *model, const gb_real *x, uint32_t tied)
 {
     for (size_t k = 0; k < ends->touches; k++) {
-        if (gb_arm_distance(model, ends->touching[k].x, x) <= GB_MERGING_JOINTS) {
+        if (gb_arm_are_close(model, ends->touching[k].x, x, GB_MERGING_JOINTS)) {
             return;
         }
     }

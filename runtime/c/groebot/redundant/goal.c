@@ -15,6 +15,9 @@ typedef struct {
     gb_real fixed[2][3];
     gb_real moving[2][3];
     size_t products;
+    /* A vector that is fixed in the base, and the one that is fixed on the tip and has this image at solutions. The equations also hold for the opposite image. */
+    bool has_toward;
+    gb_real toward[2][3];
 } gb_arm_goal;
 
 /* Two unit vectors that are orthogonal to a unit vector and to each other. */
@@ -29,6 +32,13 @@ static void gb_arm_across(const gb_real *v, gb_real (*out)[3])
     gb_six_cross(v, gb_six_none.rotation[least], out[0]);
     gb_arm_scale(out[0], R(1.0) / gb_square_root(gb_six_dot(out[0], out[0])), out[0]);
     gb_six_cross(v, out[0], out[1]);
+}
+
+static void gb_arm_set_toward(gb_arm_goal *goal, const gb_real *image, const gb_real *direction)
+{
+    memcpy(goal->toward[0], image, sizeof goal->toward[0]);
+    memcpy(goal->toward[1], direction, sizeof goal->toward[1]);
+    goal->has_toward = true;
 }
 
 /* Compares the rotation, given by rows. */
@@ -49,6 +59,7 @@ static void gb_arm_aim(gb_arm_goal *goal, const gb_real *at, const gb_real *dire
     memcpy(goal->moving[0], direction, sizeof goal->moving[0]);
     memcpy(goal->moving[1], direction, sizeof goal->moving[1]);
     goal->products = 2;
+    gb_arm_set_toward(goal, at, direction);
 }
 
 /* Compares pitch and roll. */
@@ -59,6 +70,7 @@ static void gb_arm_tilt(gb_arm_goal *goal, gb_real pitch, gb_real roll)
     memcpy(goal->fixed[1], gb_six_none.rotation[2], sizeof goal->fixed[1]);
     gb_arm_across(up, goal->moving);
     goal->products = 2;
+    gb_arm_set_toward(goal, gb_six_none.rotation[2], up);
 }
 
 /* Compares the angle of a direction about a coordinate axis. */
@@ -69,6 +81,11 @@ static void gb_arm_yaw(gb_arm_goal *goal, size_t axis, gb_real angle, const gb_r
     goal->fixed[0][(axis + 2) % 3] = gb_cosine(angle);
     memcpy(goal->moving[0], direction, sizeof goal->moving[0]);
     goal->products = 1;
+    gb_real image[3];
+    image[axis] = R(0.0);
+    image[(axis + 1) % 3] = gb_cosine(angle);
+    image[(axis + 2) % 3] = gb_sine(angle);
+    gb_arm_set_toward(goal, image, direction);
 }
 
 /* Compares two coordinates of the position, and with an angle also the rotation about the third one's axis. */
@@ -132,6 +149,25 @@ static void gb_arm_set_goal(gb_arm_goal *goal, const gb_arm *arm, const gb_real 
         gb_arm_plane(goal, arm, target + 2);
         break;
     }
+}
+
+/* Whether a tip where the equations hold has the target's orientation, and not one that is turned by half a turn. */
+static bool gb_arm_is_toward(const gb_arm_goal *goal, const gb_rigid *tip)
+{
+    gb_real along = R(1.0), image[3];
+    if (goal->has_rotation) {
+        along = R(0.0);
+        for (int k = 0; k < 3; k++) {
+            for (int c = 0; c < 3; c++) {
+                along += goal->columns[k][c] * tip->rotation[c][k];
+            }
+        }
+    }
+    if (goal->has_toward) {
+        gb_six_turned(tip, goal->toward[1], image);
+        along = gb_six_dot(goal->toward[0], image);
+    }
+    return along > R(0.0);
 }
 
 /* The number of equations. */

@@ -91,6 +91,14 @@ GB_INLINE void gb_arm_set_factors(const gb_arm_model *model, const gb_arm_axes *
     }
 }
 
+/* Whether joint values that fulfil the equations reach the target, and not an orientation that is turned by half a turn. */
+static bool gb_arm_reaches(const gb_arm_model *model, const gb_real *x)
+{
+    gb_arm_axes axes;
+    gb_arm_set_axes(&model->links, model->arm, x, &axes);
+    return gb_arm_is_toward(&model->goal, &axes.tip);
+}
+
 /* The equations, their derivatives, and the curve's direction. */
 static void gb_arm_set_place(const gb_arm_model *model, const gb_real *x, gb_arm_place *place)
 {
@@ -143,6 +151,10 @@ static void gb_arm_moving(const gb_arm_model *model, const gb_real *x, const gb_
 static gb_real gb_arm_shifted(gb_real angle, const gb_real *limits)
 {
     const gb_real low = limits[0], high = limits[1];
+    if (angle >= low && angle <= high) {
+        /* Without the sign of a zero. */
+        return angle + R(0.0);
+    }
     const gb_real up = gb_ceiling((low - GB_ACCEPTANCE_INPUT - angle) / GB_TAU);
     const gb_real down = gb_floor((high + GB_ACCEPTANCE_INPUT - angle) / GB_TAU);
     if (up <= down) {
@@ -205,6 +217,21 @@ static void gb_arm_difference(const gb_arm_model *model, const gb_real *a, const
             d[i] -= GB_TAU * gb_round(d[i] / GB_TAU);
         }
     }
+}
+
+/* Whether no joint differs by more than `most`; angles whose range is at least one turn are compared up to whole turns. */
+static bool gb_arm_are_close(const gb_arm_model *model, const gb_real *a, const gb_real *b, gb_real most)
+{
+    for (size_t i = 0; i < model->count; i++) {
+        gb_real d = a[i] - b[i];
+        if (model->turns[i] && gb_magnitude(d) > most) {
+            d -= GB_TAU * gb_round(d / GB_TAU);
+        }
+        if (gb_magnitude(d) > most) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /* The largest difference of a joint. */

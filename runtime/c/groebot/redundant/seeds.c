@@ -57,7 +57,7 @@ static bool gb_arm_has_close(const gb_arm_seeds *seeds, const gb_arm_model *mode
 {
     for (size_t i = first; i < seeds->added; i++) {
         for (size_t j = first; j < i; j++) {
-            if (gb_arm_distance(model, seeds->list[i], seeds->list[j]) <= GB_ARM_CLOSE) {
+            if (gb_arm_are_close(model, seeds->list[i], seeds->list[j], GB_ARM_CLOSE)) {
                 return true;
             }
         }
@@ -178,12 +178,9 @@ static void gb_arm_pass_group(gb_arm_seeds *seeds, const gb_arm_model *model, co
 {
     gb_real x[GB_MOST_ARM_JOINTS];
     size_t k = group->first;
-    if (group->count == 0) {
-        return;
-    }
     gb_arm_seed_on(seeds, piece, value, x);
     while (k < group->first + group->count) {
-        if (gb_arm_distance(model, x, seeds->list[k]) <= GB_ARM_ON * piece->length + GB_MERGING_JOINTS) {
+        if (gb_arm_are_close(model, x, seeds->list[k], GB_ARM_ON * piece->length + GB_MERGING_JOINTS)) {
             group->count--;
             memmove(seeds->list[k], seeds->list[group->first + group->count], sizeof seeds->list[k]);
         } else {
@@ -199,6 +196,9 @@ static void gb_arm_pass_seeds(gb_arm_seeds *seeds, const gb_arm_model *model, co
     const gb_real least = gb_arm_min(from, to) - GB_ACCEPTANCE_INPUT, greatest = gb_arm_max(from, to) + GB_ACCEPTANCE_INPUT;
     for (size_t number = 0; number < seeds->values; number++) {
         gb_real value = seeds->groups[number].value;
+        if (seeds->groups[number].count == 0) {
+            continue;
+        }
         if (model->turns[seeds->joint]) {
             value += GB_TAU * gb_ceiling((least - value) / GB_TAU);
         }

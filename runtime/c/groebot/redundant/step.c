@@ -247,5 +247,5 @@ static bool gb_arm_is_on(const gb_arm_model *model, const gb_arm_piece *piece, c
         return false;
     }
     gb_arm_piece_at(piece, share, near);
-    return gb_arm_distance(model, near, x) <= GB_ARM_ON * piece->length + GB_MERGING_JOINTS;
+    return gb_arm_are_close(model, near, x, GB_ARM_ON * piece->length + GB_MERGING_JOINTS);
 }

@@ -64,8 +64,11 @@ pub struct Arcs {
     pub is_unsure: bool,
     /// Whether the solutions are a surface. The only arc is then one solution within limits, if one was found.
     pub is_surface: bool,
-    /// The number of closed curves. They are found by a grid of values of the given joint of the program: a narrower curve may be missing.
+    /// The number of closed curves.
     pub closed: usize,
+    /// Whether closed curves that reach no limit were searched by a grid of values of the given joint of the program only. A closed curve that is narrower than
+    /// the grid may then be missing. This holds for all targets at present, except where solutions are a surface.
+    pub is_grid_only: bool,
 }
 
 impl RedundantSolver {
@@ -91,6 +94,7 @@ impl RedundantSolver {
                     is_unsure: outcome.is_unsure,
                     is_surface: outcome.is_surface,
                     closed: outcome.closed,
+                    is_grid_only: outcome.is_grid_only,
                 });
             }
             room.resize(outcome.count, runtime::Arc::NONE);
@@ -113,6 +117,7 @@ impl RedundantSolver {
             absence: within.absence,
             is_surface: outcome.is_surface,
             closed: outcome.closed,
+            is_grid_only: outcome.is_grid_only,
         })
     }
 

@@ -14,6 +14,7 @@ mod scanned;
 mod scanned_path;
 mod solver;
 mod target;
+mod turns;
 mod within;
 
 pub use arcs::{Absence, Arc, ArcEnd, Arcs};
@@ -25,4 +26,5 @@ pub use scanned::{MOST_SCANNED, Scanned, ScanningSolver};
 pub use solver::RedundantSolver;
 pub(crate) use solver::arm;
 pub use target::ArmTarget;
+pub use turns::Turns;
 pub use within::Within;
