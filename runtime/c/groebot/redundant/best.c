@@ -49,7 +49,7 @@ GB_INLINE gb_real gb_arm_distance_to_limits(const gb_arm_model *model, const gb_
 /* The least distance to limits. */
 static gb_real gb_arm_margin(const gb_arm_model *model, const gb_real *x, bool is_relative)
 {
-    gb_real least = (gb_real)HUGE_VAL;
+    gb_real least = (gb_real)INFINITY;
     for (size_t i = 0; i < model->count; i++) {
         if (!model->turns[i]) {
             least = gb_arm_min(least, gb_arm_distance_to_limits(model, x, i, is_relative));
@@ -294,7 +294,7 @@ static void gb_arm_optima_along(gb_arm_sorted *list, gb_arm_model *model)
     gb_arm_point home;
     gb_arm_journey journey;
     gb_arm_stretch stretch;
-    gb_arm_sample before = {R(0.0), -(gb_real)HUGE_VAL}, middle = {R(0.0), R(0.0)};
+    gb_arm_sample before = {R(0.0), -(gb_real)INFINITY}, middle = {R(0.0), R(0.0)};
     memset(&home, 0, sizeof home);
     gb_arm_scaled(model, list->arc->start.q, home.x);
     middle.value = gb_arm_value(list->criterion, model, home.x);
