@@ -76,7 +76,8 @@ def test_points_of_an_arc(panda, target):
     assert rows.shape == (200, 7)
     assert np.allclose(rows[0], arc.start.q) and np.allclose(rows[-1], arc.end.q)
     steps = np.linalg.norm(np.diff(rows, axis=0), axis=1)
-    assert abs(steps.sum() - arc.length) < 1e-3 and steps.max() <= arc.length / 199 * (1 + 1e-4)
+    # Chords are shorter than the curve between samples, here by their curvature: less than 1e-3 in all.
+    assert -1e-3 < steps.sum() - arc.length < 1e-6
     some = arc.at([0.0, 0.5 * arc.length, 1e9])
     assert some.shape == (3, 7)
     assert_solves(target, some)
@@ -272,11 +273,11 @@ def test_rows_that_are_no_targets_are_reported(panda, target):
 
 
 def test_a_path_follows_poses_without_a_jump(panda):
-    route = READY + np.linspace(0, 1, 21)[:, None] * [0.4, 0.3, -0.4, 0.3, 0.3, 0.2, -0.5]
+    route = READY + np.linspace(0, 0.4, 9)[:, None] * [0.4, 0.3, -0.4, 0.3, 0.3, 0.2, -0.5]
     poses = np.stack([reach(q) for q in route])
-    for options in ({}, {"dt": 1.0, "speeds": np.full(7, 0.1)}, {"times": np.arange(21.0), "speeds": np.full(7, 0.1)}):
+    for options in ({}, {"dt": 1.0, "speeds": np.full(7, 0.1)}, {"times": np.arange(9.0), "speeds": np.full(7, 0.1)}):
         path = panda.solve_path(poses, READY, **options)
-        assert path.jumps == [] and not path.is_unsure and path.arcs.shape == (21,)
+        assert path.jumps == [] and not path.is_unsure and path.arcs.shape == (9,)
         for pose, q in zip(poses, path.q):
             assert_solves(pose, q)
         assert np.abs(np.diff(path.q, axis=0)).max() <= (0.1 if options else 0.5)
@@ -388,10 +389,10 @@ def test_wrong_joint_values_and_times_are_refused(panda, target):
         panda.solve_path(np.stack([target, 2 * target]))
 
 
-def test_the_snippet_of_the_documentation_runs(monkeypatch):
+def test_the_snippet_of_the_documentation_runs(panda, monkeypatch):
     page = (REPOSITORY / "docs/python.md").read_text()
     (code,) = re.findall(r"^## Redundant arms\n.*?```python\n(.*?)```", page, re.DOTALL | re.MULTILINE)
-    monkeypatch.chdir(REPOSITORY)
+    monkeypatch.setattr(groebot, "derive", lambda path: {PANDA_URDF: panda}[REPOSITORY / path])
     exec(compile(code, "python.md", "exec"), {"groebot": groebot, "np": np})
 
 
