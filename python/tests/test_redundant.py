@@ -86,12 +86,9 @@ def test_points_of_an_arc(panda, target):
     joint = NAMES.index(arc.start.joint)
     assert abs(arc.start.q[joint] - LIMITS[joint][["lower", "upper"].index(arc.start.limit)]) < 1e-9
     assert arc.start.joint in repr(arc) and "at its" in repr(arc)
-    for wrong in (0, 2_000_000, -1, "three"):
+    for call, wrong in [(arc.sample, wrong) for wrong in (0, 2_000_000, -1, "three")] + [(arc.at, wrong) for wrong in (np.nan, [[0.0]], "s")]:
         with pytest.raises((BadValueError, OverflowError, TypeError)):
-            arc.sample(wrong)
-    for wrong in (np.nan, [[0.0]], "s"):
-        with pytest.raises(BadValueError):
-            arc.at(wrong)
+            call(wrong)
 
 
 def test_solve_returns_the_best_of_each_arc(panda, target):
@@ -188,8 +185,7 @@ def test_the_reason_for_no_solution_is_named(planar):
 def test_the_best_solution_is_at_least_as_good_as_samples(panda, target):
     rows = np.concatenate([arc.sample(300) for arc in panda.arcs(target)])
     half = (LIMITS[:, 1] - LIMITS[:, 0]) / 2
-    weights = np.array([1.0, 2.0, 0.5, 1.0, 0.0, 3.0, 1.0])
-    q0 = np.array([0.4, 0.2, -0.3, -1.9, 0.2, 1.8, 0.3])
+    weights, q0 = np.array([1.0, 2.0, 0.5, 1.0, 0.0, 3.0, 1.0]), np.array([0.4, 0.2, -0.3, -1.9, 0.2, 1.8, 0.3])
 
     def manipulability(q):
         jacobian = panda.jacobian(q)
@@ -321,10 +317,7 @@ def test_a_redundant_solver_is_pickled(panda, target):
 @pytest.mark.parametrize(
     ("limits", "kind"),
     [
-        ({"panda_joint1": (0.5, -0.5)}, "bad_value"),
-        ({"panda_joint1": (np.nan, 1.0)}, "bad_value"),
-        ({"panda_joint1": (5.0, 6.0)}, "bad_value"),
-        ({"panda_joint1": (0.0, 1.0, 2.0)}, "bad_value"),
+        *[({"panda_joint1": pair}, "bad_value") for pair in ((0.5, -0.5), (np.nan, 1.0), (5.0, 6.0), (0.0, 1.0, 2.0))],
         ({"elbow": (0.0, 1.0)}, "unknown_name"),
         ({3: (0.0, 1.0)}, "bad_value"),
         (LIMITS[:6], "bad_value"),
