@@ -32,21 +32,23 @@ class Status(IntEnum):
     BEYOND_LIMITS = 6
     """All solutions are beyond the limits."""
     UNSETTLED = 7
-    """The maximum number of polishing steps of a target was reached: other solutions may be missing."""
+    """Other solutions may be missing: the maximum number of polishing steps was reached, or arcs of a redundant solver are unsure."""
 
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """The solutions of N targets, M in total. Those of row i are the rows `starts[i]` to `starts[i + 1]` of the other arrays, sorted by branch."""
+    """The solutions of N targets, M in total. Those of row i are the rows `starts[i]` to `starts[i + 1]` of the other arrays, sorted by branch. For a redundant
+    solver they are the best ones of each arc, the largest margin first."""
 
     q: Floats
-    """Joint values, (M, joints): radians in (-pi, pi], lengths in the solver's unit."""
+    """Joint values, (M, joints): radians in (-pi, pi], of a redundant solver within limits; lengths in the solver's unit."""
     starts: npt.NDArray[np.int64]
     """Index of the first solution of each row, (N + 1,)."""
     residual: Floats
     """The largest residual of the equations, (M,)."""
     branch: npt.NDArray[np.int32]
-    """Branch number, (M,): which roots of which equations were used. A branch keeps its number from target to target."""
+    """Branch number, (M,): which roots of which equations were used. A branch keeps its number from target to target. For a redundant solver it is the index of
+    the arc."""
     free: npt.NDArray[np.uint32]
     """Bit j is set if joint j is free at a singular target, (M,)."""
     status: npt.NDArray[np.uint8]

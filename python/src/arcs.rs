@@ -88,8 +88,8 @@ impl Arc {
         if numbers.shape().is_empty() { row(py, q) } else { shaped(py, q, &[distances.len(), joints]) }
     }
 
-    /// Returns the joint values at `n` equal distances along the arc, the ends included: shape (n, joints). The distances are equal within 1e-4 of them. An angle
-    /// whose range is at least one turn may differ by whole turns between neighbours. `n` is from 1 to 1,000,000.
+    /// Returns the joint values at `n` nearly equal distances along the arc, the ends included: shape (n, joints). An angle whose range is at least one turn may
+    /// differ by whole turns between neighbours. `n` is from 1 to 1,000,000.
     fn sample<'py>(&self, py: Python<'py>, n: usize) -> PyResult<Bound<'py, PyAny>> {
         if !(1..=MOST_SAMPLES).contains(&n) {
             return Err(bad_value(format!("`n` is {n}; give 1 to {MOST_SAMPLES}")));

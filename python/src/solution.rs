@@ -27,7 +27,8 @@ impl From<Answer<'_>> for Solution {
 
 #[pymethods]
 impl Solution {
-    /// The joint values, base to tip, in radians in (-pi, pi] or the solver's unit of length; shape (joints,). Each call returns a new array.
+    /// The joint values, base to tip, in radians or the solver's unit of length; shape (joints,). Angles are in (-pi, pi], unless limits, `q0` or a redundant
+    /// solver determine their turns. Each call returns a new array.
     #[getter]
     fn q<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.q)
