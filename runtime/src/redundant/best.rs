@@ -257,9 +257,9 @@ fn refine(
         }
     }
     if let Some(arc) = ending {
-        // Rounding of the length may keep the search from the very end.
+        // Lengths are not exact: the search may not reach the very end, or pass it by up to 1e-7, beyond a limit.
         let at_end = criterion.value(model, &model.scaled(&arc.end.q));
-        if at_end >= top.value {
+        if at_end >= top.value || top.s >= arc.length {
             list.insert(Best { q: arc.end.q, value: at_end, arc: number, s: arc.length });
             return;
         }
