@@ -170,6 +170,10 @@ bool Kinematics::search(const Request &request, std::vector<double> &solution, E
             break;
         }
         for (const Values &candidate : is_sampled ? samples(query, step_) : nearest) {
+            const auto is_tried = [&candidate](const Values &other) { return is_same(candidate, other); };
+            if (is_sampled && std::any_of(nearest.begin(), nearest.end(), is_tried)) {
+                continue;
+            }
             error_code.val = ErrorCodes::SUCCESS;
             if (request.callback) {
                 request.callback(request.pose, candidate, error_code);

@@ -18,9 +18,6 @@ namespace groebot_arm
 namespace
 {
 
-// Two solutions whose joint values differ less are one.
-constexpr double EQUAL = 1e-9;
-
 // Solutions by distance to the seed.
 class Candidates
 {
@@ -54,7 +51,7 @@ public:
         std::sort(list_.begin(), list_.end());
         std::vector<Values> result;
         for (Candidate &candidate : list_) {
-            if (result.empty() || !equal(result.back(), candidate.second)) {
+            if (result.empty() || !is_same(result.back(), candidate.second)) {
                 result.push_back(std::move(candidate.second));
             }
         }
@@ -68,11 +65,6 @@ public:
 
 private:
     using Candidate = std::pair<double, Values>;
-
-    static bool equal(const Values &a, const Values &b)
-    {
-        return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::abs(x - y) < EQUAL; });
-    }
 
     const Query &query_;
     Values weights_;
@@ -116,6 +108,11 @@ Target forward(const Values &q)
     Target target;
     std::copy_n(numbers, target.size(), target.begin());
     return target;
+}
+
+bool is_same(const Values &a, const Values &b)
+{
+    return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return std::abs(x - y) < 1e-6; });
 }
 
 #ifdef GROEBOT_REDUNDANT_H

@@ -31,6 +31,9 @@ Values described_limits();
 // The pose of the tip at joint values.
 Target forward(const Values &q);
 
+// Whether two solutions are one: their joint values differ by less than 1e-6.
+bool is_same(const Values &a, const Values &b);
+
 // Whether the solutions of a pose are curves.
 bool is_redundant();
 
