@@ -111,7 +111,7 @@ fn a_page_has_no_html_no_link_and_no_command() {
 fn no_solver_has_the_name_of_the_run_time() {
     let folder = tempdir().unwrap();
     let leg = root("derivations/nao_leg_sagittal");
-    for name in ["groebot", "groebot_six_axes", "groebot_dynamics", "Groebot"] {
+    for name in ["groebot", "groebot_six_axes", "groebot_redundant", "groebot_dynamics", "Groebot"] {
         let out = folder.path().join("out");
         assert_eq!(run(&["derive", text(&leg), "--name", name, "--out", text(&out)]).code, 2, "{name}");
         let source = folder.path().join(format!("{name}.c"));

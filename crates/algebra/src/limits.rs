@@ -175,7 +175,7 @@ pub const SYMBOLIC_JOINTS: usize = 7;
 pub const SYMBOLIC_TERMS: usize = 100_000;
 
 /// File stems of the C run time. No generated solver may have one of these names.
-pub const RUN_TIME_FILES: [&str; 3] = ["groebot", "groebot_six_axes", "groebot_dynamics"];
+pub const RUN_TIME_FILES: [&str; 4] = ["groebot", "groebot_six_axes", "groebot_redundant", "groebot_dynamics"];
 
 /// Whether `name` can be a name in any input: 1 to [`NAME_CHARACTERS`] characters, not all of them blanks, none of them
 /// hidden ([`crate::escape::is_hidden`]).

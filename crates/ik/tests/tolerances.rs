@@ -73,7 +73,7 @@ fn strata_beside() {
     let chain = described::robot(&described::MICO, described::EXACT);
     let q = degrees.map(f64::to_radians);
     let target = Target::reached(&chain, &q).unwrap();
-    let answers = groebot_ik::derive(&chain).unwrap().program().solve(target).unwrap();
+    let answers = groebot_ik::derive(&chain).unwrap().program().solver().solve(target).unwrap();
     assert_eq!(answers.len(), 2, "{answers:?}");
     for answer in &answers {
         let [position, rotation] = target.missed(&chain, &answer.q);

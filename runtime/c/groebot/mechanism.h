@@ -2,10 +2,10 @@
 
 #if GB_LANES > 1
 #define GB_STEP 2
-#define GB_PAIR(name) GB_JOIN(gb_##name, _2, GB_OF_PART)
+#define GB_PAIR(name) GB_JOIN(gb_##name##_, 2, GB_OF_PART)
 #else
 #define GB_STEP 1
-#define GB_PAIR(name) GB_JOIN(gb_##name, _1, GB_OF_PART)
+#define GB_PAIR(name) GB_JOIN(gb_##name##_, 1, GB_OF_PART)
 #endif
 
 #ifdef GB_FREED

@@ -1,5 +1,6 @@
 /* Begins the next solver of a file that has several, one for each given joint. GB_PART is the number of that joint, from 1. The facts of the solver before are
- * removed. Names of its functions, types and tables are used again: those of the next solvers end with GB_PART. */
+ * removed. Names of its functions, types and tables are used again: those of the next solvers end with `_given_` and
+ * GB_PART. */
 
 #undef GB_ROBOT
 #undef GB_INPUTS

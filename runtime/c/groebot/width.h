@@ -18,7 +18,7 @@
 
 /* The end of the names of the current solver's functions. It is empty for the first solver of a file. */
 #ifdef GB_PART
-#define GB_OF_PART GB_JOIN(_, GB_PART, )
+#define GB_OF_PART GB_JOIN(_given_, GB_PART, )
 #else
 #define GB_OF_PART
 #endif

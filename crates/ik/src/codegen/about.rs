@@ -18,7 +18,8 @@ pub(super) struct AboutText {
 impl AboutText {
     pub fn new(program: &Program, language: &dyn Expressions) -> Self {
         let about = program.about.clone().unwrap_or_default();
-        let limits = |joint: usize| match about.limits.get(joint).copied().flatten() {
+        let of_arm = |joint: usize| program.redundancy.as_ref()?.limits[joint].map(|[low, high]| (low, high));
+        let limits = |joint: usize| match about.limits.get(joint).copied().flatten().or_else(|| of_arm(joint)) {
             Some((low, high)) => [language.given(low), language.given(high)],
             None => [false, true].map(|positive| language.infinity(positive)),
         };

@@ -9,7 +9,7 @@ use groebot_robot::document::word;
 /// Names that the printed functions use themselves, in addition to `r0`, `i0`, `roots0` and similar ones.
 const TAKEN: &str = "p c at all rows tip values value sizes size columns target magnitude memcpy rarely jacobian short parameters walk FACTS Solver \
     INPUTS JOINTS CAPACITY EMPTY INPUT_NAMES JOINT_NAMES LIMITS OPEN_STRATA Solution Pairs Error Solve Candidates Condition Facts Fixed Found Joint \
-    Mechanism Number Preference Reached Short With Chain Formulation Formulations Rigid groebot_runtime";
+    Mechanism Number Preference Reached Short With Chain Formulation Formulations Rigid ARM RedundantSolver groebot_runtime";
 
 /// Prefixes of numbered names in the printed functions.
 const NUMBERED: [&str; 14] = [

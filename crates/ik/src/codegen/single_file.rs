@@ -52,7 +52,9 @@ pub fn c(program: &Program, file: &str, single: bool) -> String {
     let Pair { header, source } = Pair::new(&program, "");
     let name = super::reserved::prefix(&program.name).to_ascii_uppercase();
     let (six_axes, redundant) = (super::has_six_axes(&program), program.redundancy.is_some());
-    let part = |is_used: bool, text: &str| if is_used { without_comments(&whole(text)) } else { String::new() };
+    let part = |is_used: bool, text: &str| {
+        if is_used { without_comments(&whole(text, redundant)) } else { String::new() }
+    };
     let parts = [
         part(true, C_HEADER),
         part(six_axes || redundant, C_SIX_AXES_HEADER),
@@ -83,11 +85,15 @@ pub(super) fn alone_of(program: &Program) -> Cow<'_, Program> {
     }
 }
 
-/// A file of the run time in C with its parts inserted.
-fn whole(text: &str) -> String {
+/// The parts of the run time in C that only the file of a redundant arm needs.
+const OF_REDUNDANT: [&str; 2] = ["groebot/given.h", "groebot/part.h"];
+
+/// A file of the run time in C with its parts inserted, those of redundant arms only if they are needed.
+fn whole(text: &str, redundant: bool) -> String {
     let part = |line: &str| {
         let path = line.strip_prefix("#include \"")?.strip_suffix('"')?;
-        C_PARTS.iter().find(|(name, _)| *name == path).map(|(_, text)| *text)
+        let (name, text) = C_PARTS.iter().find(|(name, _)| *name == path)?;
+        Some(if redundant || !OF_REDUNDANT.contains(name) { *text } else { "" })
     };
     text.lines().map(|line| format!("{}\n", part(line).unwrap_or(line))).collect()
 }

@@ -2,17 +2,26 @@
 
 use crate::derive::coupled::ChainStage;
 use crate::derive::equations::Equations;
+use crate::derive::redundant::Part;
 use crate::derive::sequential::Sequential;
 use crate::derive::{AnyView, Derivation};
+use groebot_robot::document::shown;
 
 /// The number of steps, bases or eigenvalue problems that were proved again, as text.
 pub fn proof_text(derivation: &Derivation) -> String {
     let own = method_text(derivation);
     let Some(redundancy) = derivation.redundancy() else { return own };
     let joints = &derivation.program().joints;
-    let other =
-        |(joint, other): (usize, &Derivation)| format!("; {} given: {}", joints[joint].name, method_text(other));
-    own + &redundancy.derivations().map(other).collect::<String>()
+    let text = |(joint, part): (usize, &Part)| {
+        let text = match part {
+            Part::Main => return String::new(),
+            Part::Derived(other) => method_text(other),
+            Part::Constant => "proved constant on every self-motion".to_owned(),
+            Part::Unsolved(reason) => format!("no solver (a claim that is not proved: {})", shown(reason)),
+        };
+        format!("; {} given: {text}", joints[joint].name)
+    };
+    own + &redundancy.parts().iter().enumerate().map(text).collect::<String>()
 }
 
 fn method_text(derivation: &Derivation) -> String {

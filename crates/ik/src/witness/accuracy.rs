@@ -33,7 +33,8 @@ pub struct Accuracy {
 impl Report {
     /// Residuals and distances by class of target.
     pub fn accuracy(&self) -> Accuracy {
-        let names = ["ordinary", "1e-3 of singular", "1e-6 of singular", "1e-9 of singular", "singular", "other"];
+        let names =
+            ["ordinary", "1e-3 of singular", "1e-6 of singular", "1e-9 of singular", "singular", "arcs", "other"];
         let class = |name: &&str| Class::of(name, self.rows.iter().filter(|row| class_of(&row.kind) == *name));
         Accuracy { classes: names.iter().map(class).filter(|class| class.rows > 0).collect() }
     }
@@ -46,6 +47,7 @@ fn class_of(kind: &Kind) -> &'static str {
         Kind::Near(6) => "1e-6 of singular",
         Kind::Near(9) => "1e-9 of singular",
         Kind::Singular => "singular",
+        Kind::Arcs => "arcs",
         _ => "other",
     }
 }

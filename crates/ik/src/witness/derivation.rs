@@ -1,7 +1,7 @@
 //! The numeric checks of any derivation: [`check`], and only at round targets: [`check_round`].
 
-use super::chain::{check_chain, check_within, coupled};
-use super::{Draws, Options, Report, check_equations};
+use super::chain::{check_arcs, check_chain, check_within, coupled};
+use super::{Draws, Options, Report, Row, check_equations};
 use crate::derive::{AnyView, ChainProblem, Derivation, Source};
 use crate::solver::Program;
 use crate::{Result, Watch};
@@ -37,10 +37,19 @@ pub fn check<'w>(source: &Source, derivation: &Derivation, watch: impl Into<Opti
         ideal: of(40, 0, 20, 2),
         coupled: of(60, 1, 6, 1),
     };
-    let report = checked(source, derivation, &amounts, watch)?;
+    let report = checked(source, derivation, &amounts, watch)?.with_rows(arcs(derivation, watch)?);
     match &source.chain {
         Some(chain) => Ok(report.turned(chain)),
         None => Ok(report),
+    }
+}
+
+/// The checks of the arcs of a redundant chain as described.
+fn arcs(derivation: &Derivation, watch: &Watch) -> Result<Vec<Row>> {
+    match derivation.view() {
+        AnyView::Sequential(view) => check_arcs(view.problem.measured(), view.program, watch),
+        AnyView::Eigenvalue(view) => check_arcs(view.problem.measured(), view.program, watch),
+        AnyView::Equations(_) | AnyView::Coupled(_) => Ok(Vec::new()),
     }
 }
 

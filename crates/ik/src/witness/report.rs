@@ -30,6 +30,8 @@ pub enum Kind {
     Edge(u32),
     /// An arbitrary target, reachable or not.
     Anywhere,
+    /// From joint values within limits: the arcs of a redundant arm.
+    Arcs,
     /// A target of the ideal robot, if solutions are polished on the described one.
     OfIdeal(Box<Kind>),
 }
@@ -66,6 +68,8 @@ pub enum Fault {
     Oracle,
     /// The slightly moved target has an ordinary solution that is next to none of them.
     Moved,
+    /// An end of an arc is beyond limits.
+    Limits,
 }
 
 /// The result of the checks at a target.
@@ -196,6 +200,15 @@ impl Report {
         self
     }
 
+    /// These rows, then others.
+    #[must_use]
+    pub(super) fn with_rows(mut self, rows: Vec<Row>) -> Report {
+        for row in rows {
+            self.rows.push(Row { number: self.rows.len() + 1, ..row });
+        }
+        self
+    }
+
     /// The failed rows at or next to singular targets.
     pub fn weak_spots(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| row.is_weak_spot())
@@ -287,6 +300,7 @@ impl fmt::Display for Kind {
             Kind::Near(k) => write!(f, "1e-{k} of singular"),
             Kind::Edge(k) => write!(f, "1e-{k} of the edge"),
             Kind::Anywhere => f.write_str("anywhere"),
+            Kind::Arcs => f.write_str("arcs"),
             Kind::OfIdeal(kind) => write!(f, "ideal robot: {kind}"),
         }
     }
@@ -306,6 +320,7 @@ impl fmt::Display for Fault {
             Fault::Screw => "screw",
             Fault::Oracle => "oracle",
             Fault::Moved => "moved",
+            Fault::Limits => "limits",
         })
     }
 }
@@ -325,6 +340,7 @@ impl Fault {
             Fault::Screw => "the screw solver (Paden-Kahan) has other solutions",
             Fault::Oracle => "damped least squares from many seeds has other solutions",
             Fault::Moved => "the target moved by 1e-7 has other solutions",
+            Fault::Limits => "an end of an arc is beyond limits",
         }
     }
 }

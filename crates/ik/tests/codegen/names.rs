@@ -94,8 +94,7 @@ fn names_that_are_words_stay() {
 }
 
 /// Names of robots that C, C++, Rust, their libraries or the run time reserve, or whose prefix is reserved, and some that are not words.
-const ROBOTS: &str =
-    "class new int _x std main fn Self NULL M errno gb Gb groebot Groebot groebot_six_axes groebot_dynamics 9 r\u{f6}b";
+const ROBOTS: &str = "class new int _x std main fn Self NULL M errno gb Gb groebot Groebot groebot_six_axes groebot_redundant groebot_dynamics 9 r\u{f6}b";
 
 /// C of two files and of one, C++ that includes the header, C++ for IKFast's callers, and Rust.
 #[test]

@@ -28,7 +28,6 @@ const RUN_TIME: [&str; 3] = ["groebot.c", "groebot_six_axes.c", "groebot_redunda
 
 /// An arm of `tests/corpus/redundant`.
 pub(super) struct Arm {
-    name: &'static str,
     pub(super) chain: Chain,
     pub(super) program: Program,
 }
@@ -37,12 +36,12 @@ fn corpus() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/corpus/redundant")
 }
 
-fn derived(name: &'static str) -> Arm {
+fn derived(name: &str) -> Arm {
     let mut source = Source::read(&corpus().join(format!("arms/{name}.urdf"))).unwrap();
     let chain = source.chain.clone().unwrap();
     source.choose_given(&Watch::none()).unwrap();
     let derivation = Derivation::of(&source, &Watch::none()).unwrap();
-    Arm { name, chain, program: derivation.program().clone() }
+    Arm { chain, program: derivation.program().clone() }
 }
 
 /// A Panda: with joints 1 to 3 given, six joints are solved together, and joints 2 and 3 are between them.
@@ -102,7 +101,8 @@ fn input(rows: &[[f64; 19]]) -> String {
 
 fn write_c(arm: &Arm, folder: &Path) {
     write_pair(folder, &Pair::new(&arm.program, "5_solver"));
-    fs::write(folder.join("main.c"), C_DRIVER.replace("HEADER", "5_solver.h").replace("NAME", arm.name)).unwrap();
+    fs::write(folder.join("main.c"), C_DRIVER.replace("HEADER", "5_solver.h").replace("NAME", &arm.program.name))
+        .unwrap();
 }
 
 /// The two C files with the run time, by one compiler. `None` if it is not installed.
@@ -152,7 +152,7 @@ fn prints_equal_arcs(arm: &Arm, count: usize) {
     if rustc(path, &["-Copt-level=1", "module.rs"]).is_some() {
         assert_equal(&feed(&path.join("module"), input), &expected, "Rust");
     }
-    assert!(expected.lines().filter(|line| line.starts_with("arc ")).count() > count, "{}", arm.name);
+    assert!(expected.lines().filter(|line| line.starts_with("arc ")).count() > count, "{}", arm.program.name);
 }
 
 #[test]
@@ -215,10 +215,10 @@ fn a_printed_redundant_arm_compiles_in_every_form() {
         let path = folder.path();
         write_c(arm, path);
         let write = |file: &str, text: &str| fs::write(path.join(file), text).unwrap();
-        let own = arm.name.to_ascii_uppercase();
+        let own = arm.program.name.to_ascii_uppercase();
         write("single.c", &single_file::c(&arm.program, "single.c", false));
         write("float.c", &single_file::c(&arm.program, "float.c", true));
-        let driver = C_DRIVER.replace("HEADER", "single.c").replace("NAME", arm.name);
+        let driver = C_DRIVER.replace("HEADER", "single.c").replace("NAME", &arm.program.name);
         write("one.c", &format!("#define {own}_DECLARATIONS_ONLY\n{driver}"));
         let runtime = format!("-I{}", c_runtime().display());
         let plus = "-x c++ -std=c++11 -Wall -Wextra -Werror -pedantic -O1 -c 5_solver.c";

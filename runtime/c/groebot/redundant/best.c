@@ -34,7 +34,7 @@ static gb_real gb_arm_change(const gb_arm_model *model, const gb_real *x, size_t
 /* The least distance to limits, relative to half the range if requested. */
 static gb_real gb_arm_margin(const gb_arm_model *model, const gb_real *x, bool is_relative)
 {
-    gb_real least = (gb_real)HUGE_VAL;
+    gb_real least = (gb_real)INFINITY;
     for (size_t i = 0; i < model->count; i++) {
         const gb_real low = model->limits[i][0], high = model->limits[i][1];
         if (!model->turns[i]) {
@@ -192,7 +192,7 @@ static void gb_arm_optima_along(gb_arm_sorted *list, gb_arm_model *model)
     gb_arm_point home;
     gb_arm_journey journey;
     gb_arm_stretch stretch;
-    gb_arm_sample before = {R(0.0), -(gb_real)HUGE_VAL}, middle = {R(0.0), R(0.0)};
+    gb_arm_sample before = {R(0.0), -(gb_real)INFINITY}, middle = {R(0.0), R(0.0)};
     memset(&home, 0, sizeof home);
     gb_arm_scaled(model, list->arc->start.q, home.x);
     middle.value = gb_arm_value(list->criterion, model, home.x);

@@ -106,7 +106,7 @@ GB_INLINE void gb_arm_back(const gb_arm_elimination *done, gb_real *z, gb_real *
 /* Computes the null vector. */
 GB_INLINE void gb_arm_orient(gb_arm_elimination *done, gb_real sign, size_t rank)
 {
-    gb_real determinant = sign, least = (gb_real)HUGE_VAL, largest = R(0.0), z[GB_ARM_ROWS], y[GB_ARM_ROWS], square = R(1.0);
+    gb_real determinant = sign, least = (gb_real)INFINITY, largest = R(0.0), z[GB_ARM_ROWS], y[GB_ARM_ROWS], square = R(1.0);
     for (size_t k = 0; k < rank; k++) {
         const gb_real pivot = done->columns[k][k];
         determinant *= pivot;

@@ -48,7 +48,7 @@ typedef struct {
     gb_arm_beyond beyond;
 } gb_arm_ends;
 
-static const gb_arm_beyond gb_arm_no_beyond = {0, (gb_real)HUGE_VAL, false};
+static const gb_arm_beyond gb_arm_no_beyond = {0, (gb_real)INFINITY, false};
 
 /* Compares with another solution, whose angles are lifted. */
 static void gb_arm_pass_beyond(gb_arm_beyond *beyond, const gb_arm_model *model, const gb_real *x, uint32_t joints)

@@ -154,7 +154,7 @@ static void gb_arm_goal_values(const gb_arm_goal *goal, const gb_rigid *tip, gb_
     for (size_t k = 0; goal->has_rotation && k < 3; k++) {
         const gb_real column[3] = {tip->rotation[0][k], tip->rotation[1][k], tip->rotation[2][k]};
         gb_six_cross(goal->columns[k], column, turned);
-        for (int c = 0; c < 3; c++) {
+        for (size_t c = 0; c < 3; c++) {
             values[goal->positions + c] += R(0.5) * turned[c];
         }
     }

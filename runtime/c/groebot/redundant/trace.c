@@ -61,7 +61,7 @@ static bool gb_arm_closing(const gb_arm_model *model, const gb_arm_piece *piece,
 GB_COLD static size_t gb_arm_locate(const gb_arm_model *model, const gb_arm_crossing *crossing, const gb_arm_point *near, gb_real side, gb_arm_ends *ends)
 {
     gb_arm_point point = *near;
-    gb_real size = (gb_real)HUGE_VAL;
+    gb_real size = (gb_real)INFINITY;
     for (int k = 0; k < GB_ARM_LOCATING && !(size <= GB_ACCEPTANCE_RESIDUAL); k++) {
         gb_real x[GB_MOST_ARM_JOINTS];
         gb_arm_copy(point.x, x);
@@ -92,7 +92,7 @@ GB_COLD static size_t gb_arm_locate(const gb_arm_model *model, const gb_arm_cros
 static size_t gb_arm_nearest_end(const gb_arm_model *model, const gb_arm_crossing *crossing, const gb_real *x, const gb_arm_ends *ends, gb_real most)
 {
     size_t nearest = GB_ARM_FREE;
-    gb_real least = (gb_real)HUGE_VAL;
+    gb_real least = (gb_real)INFINITY;
     for (size_t k = 0; k < ends->count; k++) {
         const gb_arm_end *end = &ends->list[k];
         if ((end->sides[crossing->side] & gb_arm_bit(crossing->joint)) != 0) {

@@ -3,6 +3,7 @@
 //!
 //! Differences of solutions use lengths as fractions of the reach and angles in radians. See [`Fault`] for the possible faults.
 
+mod arcs;
 mod count;
 pub mod coupled;
 mod exact;
@@ -18,6 +19,7 @@ use super::check::{ByScrews, Check, Solver, Subject};
 use super::{Fault, Kind, Options, Report};
 use crate::tolerances::WITNESS;
 use crate::{Result, Watch};
+pub use arcs::check_arcs;
 use count::Counter;
 use groebot_robot::kinematics::{Chain, Solution, Task};
 use model::{Configuration, Model};
