@@ -173,7 +173,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Pairs of joint values within limits: random ones, and others at most 0.02 from them, or anywhere.
-fn pairs(limits: &Limits, count: usize) -> Vec<[Vec<f64>; 3]> {
+fn pairs(limits: &[[f64; 2]], count: usize) -> Vec<[Vec<f64>; 3]> {
     let mut between = random();
     let mut pair = || {
         let q: Vec<f64> = limits.iter().map(|[low, high]| between(*low, *high)).collect();
