@@ -371,9 +371,9 @@ fn refine(
         }
     }
     let value = criterion.value(model, &x);
-    // Rounding of the length may keep the search from the very end.
+    // Lengths are not exact: the search may not reach the very end, or pass it, beyond a limit.
     if let Some((end, q)) = ending
-        && end.value >= value
+        && (end.value >= value || end.s - s <= MERGING.joints)
     {
         list.insert(Best { q: *q, value: end.value, arc: number, s: end.s });
         return;

@@ -11,6 +11,7 @@ mod frames;
 mod freestanding;
 pub mod harness;
 pub mod ikfast;
+mod moveit;
 mod names;
 mod pairs;
 mod redundant;

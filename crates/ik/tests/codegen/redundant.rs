@@ -27,9 +27,9 @@ const C_DRIVER: &str = include_str!("drivers/arcs.c.txt");
 const RUN_TIME: [&str; 3] = ["groebot.c", "groebot_six_axes.c", "groebot_redundant.c"];
 
 /// An arm of `tests/corpus/redundant`.
-struct Arm {
-    chain: Chain,
-    program: Program,
+pub(super) struct Arm {
+    pub(super) chain: Chain,
+    pub(super) program: Program,
 }
 
 fn corpus() -> PathBuf {
@@ -45,7 +45,7 @@ fn derived(name: &str) -> Arm {
 }
 
 /// A Panda: with joints 1 to 3 given, six joints are solved together, and joints 2 and 3 are between them.
-fn panda() -> &'static Arm {
+pub(super) fn panda() -> &'static Arm {
     static ARM: OnceLock<Arm> = OnceLock::new();
     ARM.get_or_init(|| derived("panda"))
 }
