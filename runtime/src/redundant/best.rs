@@ -257,9 +257,10 @@ fn refine(
         }
     }
     if let Some(arc) = ending {
-        // Lengths are not exact: the search may not reach the very end, or pass it by up to 1e-7, beyond a limit.
+        // Lengths are not exact: the search may not reach the very end, or pass it, beyond a limit.
+        let is_beyond = model.lift(&mut stretch.at(model, top.s)) != 0;
         let at_end = criterion.value(model, &model.scaled(&arc.end.q));
-        if at_end >= top.value || top.s >= arc.length {
+        if at_end >= top.value || is_beyond {
             list.insert(Best { q: arc.end.q, value: at_end, arc: number, s: arc.length });
             return;
         }

@@ -144,10 +144,12 @@ static void gb_arm_refine(gb_arm_sorted *list, const gb_arm_stretch *stretch, gb
     gb_real x[GB_MOST_ARM_JOINTS];
     best.arc = list->number;
     if (is_last) {
-        /* Lengths are not exact: the search may not reach the very end, or pass it by up to 1e-7, beyond a limit. */
+        /* Lengths are not exact: the search may not reach the very end, or pass it, beyond a limit. */
+        gb_arm_stretch_at(stretch, list->model, top.s, x);
+        const bool is_beyond = gb_arm_lift(list->model, x) != 0;
         gb_arm_scaled(list->model, list->arc->end.q, x);
         best.value = gb_arm_value(list->criterion, list->model, x);
-        if (best.value >= top.value || top.s >= list->arc->length) {
+        if (best.value >= top.value || is_beyond) {
             gb_arm_copy(list->arc->end.q, best.q);
             best.s = list->arc->length;
             gb_arm_insert(list, &best);
