@@ -145,7 +145,7 @@ pub mod solver {
     pub mod redundant {
         pub use groebot_ik::solver::redundant::{
             Absence, Arc, ArcEnd, Arcs, ArmJump, ArmPath, ArmTarget, Best, BestByArc, Criterion, JointLimits,
-            MOST_SCANNED, PathOptions, RedundantSolver, Scanned, ScanningSolver, Turns, Within,
+            PathOptions, RedundantSolver, Scanned, ScanningSolver, Turns, Within,
         };
     }
 }

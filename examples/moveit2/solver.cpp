@@ -18,12 +18,19 @@ namespace groebot_arm
 namespace
 {
 
+// Limits of MoveIt hold exactly. Those of the solver hold within 1e-9, and within 1e-7 where a curve only touches a limit: such values are moved to the limit.
+constexpr double TOUCHING = 1e-7;
+
 // Solutions by distance to the seed.
 class Candidates
 {
 public:
-    explicit Candidates(const Query &query) : query_(query), weights_(ARM_JOINTS, 1.0)
+    explicit Candidates(const Query &query) : query_(query), weights_(ARM_JOINTS, 1.0), wider_(query.limits)
     {
+        for (std::size_t i = 0; i < ARM_JOINTS; i++) {
+            wider_[2 * i] -= TOUCHING;
+            wider_[2 * i + 1] += TOUCHING;
+        }
     }
 
     // Adds a solution, with its angles turned to the values within limits that are nearest to the seed. Without such values it is omitted.
@@ -33,12 +40,11 @@ public:
         std::copy_n(q, ARM_JOINTS, solution.q);
         Values turned(ARM_JOINTS);
         const double *limits = query_.limits.data();
-        if (arm_nearest(&solution, 1, query_.seed.data(), weights_.data(), limits, turned.data()) < 0) {
+        if (arm_nearest(&solution, 1, query_.seed.data(), weights_.data(), wider_.data(), turned.data()) < 0) {
             return;
         }
         double distance = 0.0;
         for (std::size_t i = 0; i < ARM_JOINTS; i++) {
-            // The solver's limits hold within 1e-9, those of MoveIt exactly.
             turned[i] = std::clamp(turned[i], limits[2 * i], limits[2 * i + 1]);
             distance += (turned[i] - query_.seed[i]) * (turned[i] - query_.seed[i]);
         }
@@ -68,6 +74,7 @@ private:
 
     const Query &query_;
     Values weights_;
+    Values wider_;
     std::vector<Candidate> list_;
 };
 

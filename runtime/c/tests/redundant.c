@@ -87,6 +87,10 @@ static void print_optima(const gb_arm *arm, const double *target, const double *
         const int number = gb_optima(arm, target, limits, arcs, count, &criterion, list, OPTIMA);
         printf("optima %d\n", number);
         for (int k = 0; k < number; k++) {
+            for (size_t i = 0; i < arm->count; i++) {
+                /* Curves that only touch a limit, within 1e-7, do not end there. */
+                CHECK(list[k].q[i] >= limits[2 * i] - 1e-7 && list[k].q[i] <= limits[2 * i + 1] + 1e-7);
+            }
             printf("arc %zu\n", list[k].arc);
             print("optimum", list[k].q, GB_MOST_ARM_JOINTS);
             print("value", &list[k].value, 1);

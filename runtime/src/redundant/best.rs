@@ -373,7 +373,7 @@ fn refine(
     let value = criterion.value(model, &x);
     // Lengths are not exact: the search may not reach the very end, or pass it, beyond a limit.
     if let Some((end, q)) = ending
-        && (end.value >= value || end.s - s <= MERGING.joints)
+        && (end.value >= value || model.lift(&mut x.clone()) != 0)
     {
         list.insert(Best { q: *q, value: end.value, arc: number, s: end.s });
         return;

@@ -158,15 +158,7 @@ impl Outline {
             rows.extend((0..program.joints.len()).map(columns));
             text(dialect, &rows.iter().map(Vec::as_slice).collect::<Vec<_>>())
         };
-        let function = |function: Function| FunctionText {
-            parameters: read_of(&parameters, &function.lines),
-            number: function.number,
-            label: function.label,
-            known: function.known,
-            lines: function.lines,
-            is_inlined: function.is_inlined,
-            is_led_to_rarely: function.is_led_to_rarely,
-        };
+        let function = |function: Function| FunctionText::new(&parameters, function);
         let sixes = &parts.six_axes;
         Outline {
             name: prefix(&parts.main.name),
@@ -195,6 +187,20 @@ impl Outline {
             short: program.nearby.then(short),
             parameters,
             facts,
+        }
+    }
+}
+
+impl FunctionText {
+    fn new(parameters: &[String], function: Function) -> Self {
+        FunctionText {
+            parameters: read_of(parameters, &function.lines),
+            number: function.number,
+            label: function.label,
+            known: function.known,
+            lines: function.lines,
+            is_inlined: function.is_inlined,
+            is_led_to_rarely: function.is_led_to_rarely,
         }
     }
 }

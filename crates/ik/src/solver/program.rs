@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 mod redundancy;
 
-pub use redundancy::{Redundancy, RedundantPart};
+pub use redundancy::{MOST_SCANNED, Redundancy, RedundantPart};
 
 use super::about::About;
 use super::eigenvalue::SixAxes;

@@ -129,7 +129,7 @@ fn rust_driver(import: &str) -> String {
     let types = "Arc, Best, Criterion, Error, Limits, Members, Q, Redundant, Target, Within, RedundantSolver, ARM";
     format!(
         "{import}\nuse solver::{{{types}}};\n{}\nfn main() {{\n    let text = std::io::read_to_string(std::io::stdin()).unwrap();\n    \
-         let numbers: Vec<f64> = text.split_whitespace().map(|word| word.parse().unwrap()).collect();\n    for row in numbers.chunks(19) {{\n        \
+         let values: Vec<f64> = text.split_whitespace().map(|word| word.parse().unwrap()).collect();\n    for row in values.chunks(19) {{\n        \
          let target = std::array::from_fn(|i| row[i]);\n        let q0 = std::array::from_fn(|i| row[12 + i]);\n        \
          print!(\"{{}}\", report(&RedundantSolver, &target, &ARM.limits, &q0));\n    }}\n}}\n",
         include_str!("drivers/arcs.rs.txt")

@@ -245,7 +245,8 @@ static void gb_arm_refine(gb_arm_sorted *list, const gb_arm_stretch *stretch, gb
     const gb_real s = gb_arm_optimum(list, stretch, low, high, x), value = gb_arm_value(list->criterion, list->model, x);
     gb_optimum best;
     best.arc = list->number;
-    if (end && (end->value >= value || end->s - s <= GB_MERGING_JOINTS)) {
+    gb_arm_copy(x, away);
+    if (end && (end->value >= value || gb_arm_lift(list->model, away) != 0)) {
         /* Lengths are not exact: the search may not reach the very end, or pass it, beyond a limit. */
         gb_arm_copy(list->arc->end.q, best.q);
         best.value = end->value;

@@ -9,7 +9,7 @@ use super::refuse::{self, driven};
 use super::types::Plan;
 use crate::derive::closure::Mechanism;
 use crate::derive::eigenvalue::fits;
-use crate::solver::redundant::MOST_SCANNED;
+use crate::solver::MOST_SCANNED;
 use crate::{ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
 

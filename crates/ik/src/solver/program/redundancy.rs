@@ -3,10 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use crate::solver::eigenvalue::Line;
-use crate::solver::redundant::MOST_SCANNED;
 use crate::solver::{Program, Unit};
 use crate::{Error, ErrorKind, Result};
 use groebot_runtime::tolerances::ACCEPTANCE;
+
+/// The maximum number of scanned joints.
+pub const MOST_SCANNED: usize = 3;
 
 /// The programs of a redundant chain, one for each joint as the given one, and its axes as described. Each part has the values of scanned joints as inputs, too.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

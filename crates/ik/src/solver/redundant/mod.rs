@@ -22,7 +22,7 @@ pub use batch::BestByArc;
 pub use best::{Best, Criterion};
 pub use limits::JointLimits;
 pub use path::{ArmJump, ArmPath, PathOptions};
-pub use scanned::{MOST_SCANNED, Scanned, ScanningSolver};
+pub use scanned::{Scanned, ScanningSolver};
 pub use solver::RedundantSolver;
 pub(crate) use solver::arm;
 pub use target::ArmTarget;

@@ -5,12 +5,10 @@
 use serde::Serialize;
 
 use super::{Absence, ArmTarget, Criterion, JointLimits, RedundantSolver, Within};
-use crate::solver::{Joint, Program, Redundancy, Unit};
+use crate::solver::{Joint, MOST_SCANNED, Program, Redundancy, Unit};
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Target;
 
-/// The maximum number of scanned joints.
-pub const MOST_SCANNED: usize = 3;
 /// The number of samples of one scanned joint, the ends of its range included. Each further joint multiplies it by [`FACTOR`].
 const SAMPLES: usize = 33;
 /// The factor of the number of samples for each further scanned joint.

@@ -8,7 +8,7 @@ use groebot_runtime::six_axes::Rigid;
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 use num_traits::ToPrimitive;
 
-use super::MOST_SCANNED;
+use crate::solver::MOST_SCANNED;
 use crate::solver::{Joint, Program, Solver, TipTask, Unit};
 use crate::solver::{Redundancy, RedundantPart};
 use groebot_robot::kinematics::BaseAxis;

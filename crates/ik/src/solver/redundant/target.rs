@@ -3,7 +3,8 @@
 use groebot_runtime::Error as Refusal;
 use groebot_runtime::redundant::{Members, Redundant, Target as Row};
 
-use super::{MOST_SCANNED, RedundantSolver};
+use super::RedundantSolver;
+use crate::solver::MOST_SCANNED;
 use crate::{Error, ErrorKind, Result};
 use groebot_robot::kinematics::Target;
 

@@ -23,7 +23,8 @@ const SEED: u64 = 3;
 ///
 /// # Errors
 /// Those of the solver, except for gaps and bounded work. The error of `watch` if it stops the check. Failed checks are in the rows.
-pub fn check_arcs(chain: &Chain, program: &Program, watch: &Watch) -> Result<Vec<Row>> {
+pub fn check_arcs<'w>(chain: &Chain, program: &Program, watch: impl Into<Option<&'w Watch>>) -> Result<Vec<Row>> {
+    let watch = Watch::or_none(watch);
     let Some(solver) = program.redundant_solver() else { return Ok(Vec::new()) };
     let model = Model::new(chain);
     let mut targets = Targets::new(&model, Draws::All, SEED);

@@ -20,7 +20,7 @@ use rayon::prelude::*;
 use crate::derive::closure::Mechanism;
 use crate::derive::planner::{is_constant, is_redundant};
 use crate::derive::{ChainProblem, Derivation};
-use crate::solver::redundant::MOST_SCANNED;
+use crate::solver::MOST_SCANNED;
 use crate::{Error, ErrorKind, Result, Watch};
 use groebot_robot::kinematics::Chain;
 
