@@ -26,6 +26,9 @@ static const gb_real gb_arm_leaps[GB_ARM_LEAPS] = {GB_MERGING_APART, R(1e-3), R(
 #define GB_ARM_CORRECTION R(2e-3)
 #define GB_ARM_CONTRACTION R(0.25)
 #define GB_ARM_STRAIGHT R(0.8)
+/* With steps shorter than this share of the longest one, the curvature is checked. It is wrong if its relative error is more than the second number. */
+#define GB_ARM_SMALL R(0.2)
+#define GB_ARM_WRONG R(0.5)
 /* Maximal change of a piece's length, relative to it, by the term of degree four. */
 #define GB_ARM_FOURTH R(1e-3)
 

@@ -14,6 +14,9 @@ use crate::tolerances::{ACCEPTANCE, MERGING, PIVOTS};
 pub(super) const PACE: [f64; 2] = [0.2, 0.5];
 /// The shortest step. Where a shorter one would be necessary, two curves cross.
 const SHORTEST: f64 = 0.1 * MERGING.apart;
+/// With steps shorter than this share of the longest one, the curvature is checked. It is wrong if its relative error is more than the second number.
+const SMALL: f64 = 0.2;
+const WRONG: f64 = 0.5;
 /// Lengths of the steps across such a crossing.
 const LEAPS: [f64; 4] = [MERGING.apart, 1e-3, 1e-2, 5e-2];
 /// Maximal length of the first correction.
@@ -149,6 +152,9 @@ impl Walk {
 
     /// The next piece of the curve. The walk remains where it is until [`Walk::go`]. `None` where the curve cannot be followed.
     pub fn piece(&mut self, model: &Model<'_>) -> Option<Piece> {
+        if self.pace < SMALL * self.longest {
+            self.renew(model);
+        }
         while self.pace >= SHORTEST {
             if let Some((piece, size)) = self.attempt(model, self.pace, self.side) {
                 let grown = Arithmetic::sqrt(Arithmetic::sqrt(0.5 * CORRECTION / f64::max(size, ACCEPTANCE.residual)));
@@ -158,6 +164,15 @@ impl Walk {
             self.pace *= 0.4;
         }
         self.leap(model)
+    }
+
+    /// Replaces the curvature if it is wrong. Its error remains from piece to piece: after a sharp turn, steps would remain short.
+    fn renew(&mut self, model: &Model<'_>) {
+        let (_, bend) = model.bent(&self.at.x);
+        if norm(&plus(&bend, -1.0, &self.at.bend)) > WRONG * norm(&bend) {
+            self.at.bend = bend;
+            (self.third, self.fourth) = ([0.0; MOST_JOINTS], [0.0; MOST_JOINTS]);
+        }
     }
 
     /// A step across a singular point. Beyond it the oriented direction is opposite to the direction of travel.

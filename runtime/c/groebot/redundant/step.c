@@ -196,9 +196,26 @@ GB_COLD static bool gb_arm_leap(gb_arm_walk *walk, const gb_arm_model *model, gb
     return false;
 }
 
+/* Replaces the curvature if it is wrong. Its error remains from piece to piece: after a sharp turn, steps would remain short. */
+static void gb_arm_renew(gb_arm_walk *walk, const gb_arm_model *model)
+{
+    gb_real bend[GB_MOST_ARM_JOINTS], error[GB_MOST_ARM_JOINTS];
+    gb_arm_place place;
+    gb_arm_set_bent(model, walk->at.x, &place, bend);
+    gb_arm_plus(bend, R(-1.0), walk->at.bend, error);
+    if (gb_arm_norm(error) > GB_ARM_WRONG * gb_arm_norm(bend)) {
+        gb_arm_copy(bend, walk->at.bend);
+        gb_arm_copy(gb_arm_still, walk->third);
+        gb_arm_copy(gb_arm_still, walk->fourth);
+    }
+}
+
 /* Writes the next piece of the curve. The walk remains where it is until gb_arm_go. False where the curve cannot be followed. */
 static bool gb_arm_next_piece(gb_arm_walk *walk, const gb_arm_model *model, gb_arm_piece *piece)
 {
+    if (walk->pace < GB_ARM_SMALL * walk->longest) {
+        gb_arm_renew(walk, model);
+    }
     while (walk->pace >= GB_ARM_SHORTEST_PACE) {
         const gb_real size = gb_arm_attempt(walk, model, walk->pace, walk->side, piece);
         if (size >= R(0.0)) {
