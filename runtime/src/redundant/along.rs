@@ -5,7 +5,8 @@ use core::f64::consts::TAU;
 use super::arcs::{Arc, constant};
 use super::arm::{Arm, Limits, MOST_JOINTS, Q, Target};
 use super::model::{Model, dot, norm, plus};
-use super::step::{Piece, Point, Walk};
+use super::step::{FOURTH, Piece, Point, Walk};
+use super::trace::last_piece;
 use crate::arithmetic::Arithmetic;
 use crate::solution::Error;
 use crate::tolerances::ACCEPTANCE;
@@ -45,7 +46,19 @@ impl Journey {
         self.walk.go(&piece);
         self.piece = piece;
         self.is_over = self.before + piece.length >= arc.length;
+        if self.is_over {
+            self.shorten(model, arc);
+        }
         true
+    }
+
+    /// Ends the present piece at the end of the arc, as the trace did, if they have the same length.
+    fn shorten(&mut self, model: &Model<'_>, arc: &Arc) {
+        let (place, bend) = model.bent(&model.scaled(&arc.end.q));
+        let last = last_piece(model, &self.piece.from, &Point::of(&place, arc.side, &bend), &self.piece.to);
+        if (self.before + last.length - arc.length).abs() <= FOURTH * self.piece.length {
+            self.piece = last;
+        }
     }
 
     /// The scaled joint values of the curve at a share of the present piece.

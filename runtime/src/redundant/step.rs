@@ -29,7 +29,7 @@ pub(super) const ON: f64 = 0.02;
 const STRAIGHT: f64 = 0.8;
 
 /// Maximal change of a piece's length, relative to it, by the term of degree four.
-const FOURTH: f64 = 1e-3;
+pub(super) const FOURTH: f64 = 1e-3;
 
 /// A point on a curve.
 #[derive(Clone, Copy)]

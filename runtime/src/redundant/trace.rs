@@ -84,7 +84,7 @@ pub(super) fn trace(model: &Model<'_>, start: &Start, ends: &mut Ends, seeds: &m
 }
 
 /// The piece from a point to a known one near `to`, in the direction of travel.
-fn last_piece(model: &Model<'_>, from: &Point, end: &Point, to: &Point) -> Piece {
+pub(super) fn last_piece(model: &Model<'_>, from: &Point, end: &Point, to: &Point) -> Piece {
     let mut last = *end;
     if dot(&end.t, &to.t) < 0.0 {
         for value in &mut last.t {

@@ -24,6 +24,20 @@ static void gb_arm_set_out(gb_arm_journey *journey, gb_arm_model *model, const g
     journey->is_over = arc->length == R(0.0);
 }
 
+/* Ends the present piece at the end of the arc, as the trace did, if they have the same length. */
+static void gb_arm_shorten(gb_arm_journey *journey, const gb_arm_model *model, const gb_arc *arc)
+{
+    gb_real x[GB_MOST_ARM_JOINTS], bend[GB_MOST_ARM_JOINTS];
+    gb_arm_place place;
+    gb_arm_scaled(model, arc->end.q, x);
+    gb_arm_set_bent(model, x, &place, bend);
+    const gb_arm_point end = gb_arm_point_of(&place, arc->side, bend);
+    const gb_arm_piece last = gb_arm_last_piece(model, &journey->piece.from, &end, &journey->piece.to);
+    if (gb_magnitude(journey->before + last.length - arc->length) <= GB_ARM_FOURTH * journey->piece.length) {
+        journey->piece = last;
+    }
+}
+
 /* Goes on to the next piece. Returns whether there is one. */
 static bool gb_arm_travel(gb_arm_journey *journey, const gb_arm_model *model, const gb_arc *arc)
 {
@@ -39,6 +53,9 @@ static bool gb_arm_travel(gb_arm_journey *journey, const gb_arm_model *model, co
     gb_arm_go(&journey->walk, &piece);
     journey->piece = piece;
     journey->is_over = journey->before + piece.length >= arc->length;
+    if (journey->is_over) {
+        gb_arm_shorten(journey, model, arc);
+    }
     return true;
 }
 
