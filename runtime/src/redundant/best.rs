@@ -282,8 +282,7 @@ fn along(model: &mut Model<'_>, arc: &Arc, number: usize, criterion: &Criterion,
     let x = model.scaled(&arc.start.q);
     let first = Sample { s: 0.0, value: criterion.value(model, &x) };
     let mut journey = Journey::new(model, arc);
-    let home = Piece::new(&Point { x, ..Point::NONE }, &Point { x, ..Point::NONE });
-    let mut stretch = Stretch { pieces: [home; 2], before: [0.0; 2], is_exact: false };
+    let mut stretch = Stretch { pieces: [journey.piece; 2], before: [0.0; 2], is_exact: false };
     let rate = criterion.rate(model);
     let (mut before, mut middle) = (Sample { s: 0.0, value: f64::NEG_INFINITY }, first);
     while journey.next(model, arc) {

@@ -292,15 +292,14 @@ static void gb_arm_sample_piece(gb_arm_sorted *list, const gb_arm_journey *journ
 /* The optima on one arc. */
 static void gb_arm_optima_along(gb_arm_sorted *list, gb_arm_model *model)
 {
-    gb_arm_point home;
+    gb_real x[GB_MOST_ARM_JOINTS];
     gb_arm_journey journey;
     gb_arm_stretch stretch;
     gb_arm_sample before = {R(0.0), -(gb_real)INFINITY}, middle = {R(0.0), R(0.0)};
-    memset(&home, 0, sizeof home);
-    gb_arm_scaled(model, list->arc->start.q, home.x);
-    middle.value = gb_arm_value(list->criterion, model, home.x);
+    gb_arm_scaled(model, list->arc->start.q, x);
+    middle.value = gb_arm_value(list->criterion, model, x);
     gb_arm_set_out(&journey, model, list->arc);
-    stretch.pieces[0] = stretch.pieces[1] = gb_arm_piece_of(&home, &home);
+    stretch.pieces[0] = stretch.pieces[1] = journey.piece;
     stretch.before[0] = stretch.before[1] = R(0.0);
     stretch.is_exact = false;
     while (gb_arm_travel(&journey, model, list->arc)) {
@@ -310,8 +309,8 @@ static void gb_arm_optima_along(gb_arm_sorted *list, gb_arm_model *model)
         stretch.before[1] = journey.before;
         gb_arm_sample_piece(list, &journey, &stretch, &before, &middle);
     }
-    gb_arm_scaled(model, list->arc->end.q, home.x);
-    const gb_arm_sample end = {list->arc->length, gb_arm_value(list->criterion, model, home.x)};
+    gb_arm_scaled(model, list->arc->end.q, x);
+    const gb_arm_sample end = {list->arc->length, gb_arm_value(list->criterion, model, x)};
     const gb_real most = gb_arm_max(end.value, middle.value + list->rate * (middle.s - before.s + GB_ARM_SAMPLED));
     if (middle.value >= before.value && gb_arm_may_have_room(list, most)) {
         gb_arm_refine(list, &stretch, before.s, middle.s, &end);
