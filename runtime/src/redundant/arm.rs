@@ -1,8 +1,5 @@
 //! A redundant arm: its data ([`Arm`]) and its solvers with one joint given ([`Redundant`]).
 
-use super::arcs::{Arc, Outcome};
-use super::best::{Best, Criterion};
-use super::within::Within;
 use crate::six_axes::{Rigid, Vector};
 use crate::solution::Error;
 
@@ -199,86 +196,4 @@ pub trait Redundant {
     /// Those of a target that is not valid: [`Error::NotFinite`], [`Error::NotRotation`], [`Error::NotUnit`]. [`Error::OpenStratum`] and [`Error::Unsettled`]
     /// for a target that the solver could not decide.
     fn solve_given(&self, target: &Target, joint: usize, value: f64, out: &mut Members) -> Result<(), Error>;
-
-    /// Same as [`any_within`](fn@super::any_within), for this arm.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`any_within`](fn@super::any_within).
-    fn any_within(&self, target: &Target, limits: &Limits) -> Result<Within, Error>
-    where
-        Self: Sized,
-    {
-        super::any_within(self, target, limits)
-    }
-
-    /// Same as [`arcs`](fn@super::arcs), for this arm.
-    ///
-    /// # Errors
-    ///
-    /// Those of [`arcs`](fn@super::arcs).
-    fn arcs(&self, target: &Target, limits: &Limits, out: &mut [Arc]) -> Result<Outcome, Error>
-    where
-        Self: Sized,
-    {
-        super::arcs(self, target, limits, out)
-    }
-
-    /// Same as [`at`](fn@super::at), for this arm.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Limits`].
-    fn arc_at(&self, target: &Target, limits: &Limits, arc: &Arc, s: f64) -> Result<Q, Error> {
-        super::at(self.arm(), target, limits, arc, s)
-    }
-
-    /// Same as [`sample`](fn@super::sample), for this arm.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Limits`].
-    fn arc_sample(&self, target: &Target, limits: &Limits, arc: &Arc, out: &mut [Q]) -> Result<(), Error> {
-        super::sample(self.arm(), target, limits, arc, out)
-    }
-
-    /// Same as [`best`](fn@super::best), for this arm.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Limits`].
-    fn best(
-        &self,
-        target: &Target,
-        limits: &Limits,
-        arcs: &[Arc],
-        criterion: &Criterion,
-    ) -> Result<Option<Best>, Error> {
-        super::best(self.arm(), target, limits, arcs, criterion)
-    }
-
-    /// Same as [`optima`](fn@super::optima), for this arm.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Limits`].
-    fn optima(
-        &self,
-        target: &Target,
-        limits: &Limits,
-        on: (&[Arc], &Criterion),
-        out: &mut [Best],
-    ) -> Result<usize, Error> {
-        super::optima(self.arm(), target, limits, on, out)
-    }
-
-    /// Same as [`Redundant::best`], for the least distance to joint values `q0`, all of which count alike.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Limits`].
-    fn nearest_on_arcs(&self, target: &Target, limits: &Limits, arcs: &[Arc], q0: &Q) -> Result<Option<Best>, Error> {
-        let criterion = Criterion::Nearest { q0: *q0, weights: [1.0; MOST_JOINTS] };
-        super::best(self.arm(), target, limits, arcs, &criterion)
-    }
 }

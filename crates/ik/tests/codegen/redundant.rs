@@ -13,7 +13,7 @@ use groebot_ik::derive::{Derivation, Source};
 use groebot_ik::solver::Program;
 use groebot_robot::kinematics::Chain;
 use groebot_runtime::Error;
-use groebot_runtime::redundant::{Arc, Best, Criterion, Limits, Members, Q, Redundant, Target, Within};
+use groebot_runtime::redundant::{Arc, Best, Criterion, Limits, Members, Q, Redundant, SolveRedundant, Target, Within};
 use serde_json::Value;
 
 use super::harness::{build, c_runtime, compile_c, feed, rustc, write_pair};
@@ -126,7 +126,7 @@ fn assert_equal(found: &str, expected: &str, place: &str) {
 
 /// The Rust file in a program that reads rows.
 fn rust_driver(import: &str) -> String {
-    let types = "Arc, Best, Criterion, Error, Limits, Members, Q, Redundant, Target, Within, RedundantSolver, ARM";
+    let types = "Arc, Best, Criterion, Error, Limits, Members, Q, SolveRedundant, Target, Within, RedundantSolver, ARM";
     format!(
         "{import}\nuse solver::{{{types}}};\n{}\nfn main() {{\n    let text = std::io::read_to_string(std::io::stdin()).unwrap();\n    \
          let values: Vec<f64> = text.split_whitespace().map(|word| word.parse().unwrap()).collect();\n    for row in values.chunks(19) {{\n        \
