@@ -9,7 +9,7 @@ use groebot_ik::Watch;
 use groebot_ik::codegen::ikfast::Options;
 use groebot_ik::derive::{Derivation, System};
 use groebot_ik::solver::{Checks, Described};
-use groebot_robot::kinematics::{InverseKinematics, Target};
+use groebot_robot::kinematics::Target;
 
 use crate::codegen::ikfast::{compile, folder};
 use crate::codegen::stored::{named, reached};

@@ -261,7 +261,7 @@ fn a_moveit_plugin_of_a_panda_locks_a_joint_and_samples_arcs() {
 #[test]
 fn a_moveit_plugin_of_a_ur5_finds_the_nearest_solution() {
     let stored = stored::named(&["ur5"]).remove(0);
-    let limits = vec![[-6.2832, 6.2832]; 6];
+    let limits = vec![[-6.3, 6.3]; 6];
     let Some(plugin) = plugin(&stored.program, &stored.chain.unwrap(), limits) else { return };
     finds_the_nearest(&plugin);
     respects_the_callback(&plugin, 1);

@@ -13,7 +13,7 @@ use groebot_ik::derive::{Derivation, Source};
 use groebot_ik::solver::Program;
 use groebot_robot::kinematics::Chain;
 use groebot_runtime::Error;
-use groebot_runtime::redundant::{Arc, Best, Criterion, Limits, Members, Q, Redundant, SolveRedundant, Target, Within};
+use groebot_runtime::redundant::{Arc, Best, Criterion, Limits, Members, Q, SolveRedundant, Target, Within};
 use serde_json::Value;
 
 use super::harness::{build, c_runtime, compile_c, feed, rustc, write_pair};
@@ -203,7 +203,7 @@ fn a_printed_panda_has_the_witnessed_arcs_of_its_ready_pose() {
             let near = |found: &[f64]| found.iter().zip(list(q)).all(|(a, b)| (a - b).abs() < 1e-5);
             end.starts_with(&head) && near(&numbers(end, "q")[0])
         };
-        assert!(ends.iter().any(|end| is_same(&end)), "{at} {q}\n{output}");
+        assert!(ends.iter().any(is_same), "{at} {q}\n{output}");
     }
 }
 

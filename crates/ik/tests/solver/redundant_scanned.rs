@@ -30,7 +30,7 @@ fn arm() -> &'static Arm {
     })
 }
 
-const READY: [f64; 8] = [0.4, 0.0, -0.785398, 0.0, -2.356194, 0.0, 1.570796, 0.785398];
+const READY: [f64; 8] = [0.4, 0.0, -0.8, 0.0, -2.3, 0.0, 1.55, 0.8];
 
 impl Arm {
     fn pose(&self, q: &[f64]) -> Pose {
@@ -124,9 +124,9 @@ fn a_path_moves_the_scanned_joint_where_it_must() {
     let count = 41;
     let poses: Vec<Pose> = (0..count)
         .map(|k| {
-            let mut pose = arm.pose(&[0.0, 0.0, -0.785398, 0.0, -2.356194, 0.0, 1.570796, 0.785398]);
-            let along = arm.pose(&[1.0, 0.0, -0.785398, 0.0, -2.356194, 0.0, 1.570796, 0.785398]).translation.vector
-                - pose.translation.vector;
+            let mut pose = arm.pose(&[0.0, 0.0, -0.8, 0.0, -2.3, 0.0, 1.55, 0.8]);
+            let along =
+                arm.pose(&[1.0, 0.0, -0.8, 0.0, -2.3, 0.0, 1.55, 0.8]).translation.vector - pose.translation.vector;
             pose.translation.vector += along * (-1.2 + 2.4 * f64::from(k) / f64::from(count - 1));
             pose
         })

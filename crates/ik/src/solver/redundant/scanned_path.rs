@@ -184,11 +184,7 @@ impl Grid {
         let (targets, nodes) = (self.steps.len(), self.nodes());
         let never = Way { cost: usize::MAX, from: (0, 0) };
         let mut ways = vec![vec![never; nodes]; targets];
-        for node in 0..nodes {
-            let is_start = from.is_none_or(|from| self.values(node).iter().zip(from).all(|(a, b)| a == b));
-            let start = if is_start { 0 } else { ELSEWHERE };
-            ways[0][node] = Way { cost: start + self.cost(0, node), from: (0, node) };
-        }
+        ways[0] = (0..nodes).map(|node| self.start(from, node)).collect();
         for sample in 0..targets - 1 {
             for node in 0..nodes {
                 let Way { cost, .. } = ways[sample][node];
@@ -212,6 +208,13 @@ impl Grid {
             }
         }
         self.traced(&ways)
+    }
+
+    /// The way to a node at the first target.
+    fn start(&self, from: Option<&[f64]>, node: usize) -> Way {
+        let is_start = from.is_none_or(|from| self.values(node).iter().zip(from).all(|(a, b)| a == b));
+        let start = if is_start { 0 } else { ELSEWHERE };
+        Way { cost: start + self.cost(0, node), from: (0, node) }
     }
 
     /// The values along the cheapest way, from its end.
