@@ -62,7 +62,7 @@ pub fn c(program: &Program, file: &str, single: bool) -> String {
         header,
         format!("#ifndef {name}_DECLARATIONS_ONLY\n{source}"),
         part(true, C),
-        part(six_axes, C_SIX_AXES),
+        part(six_axes || redundant, C_SIX_AXES),
         part(redundant, C_REDUNDANT),
         "#endif\n".to_owned(),
     ];

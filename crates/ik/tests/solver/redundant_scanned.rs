@@ -93,7 +93,8 @@ fn some_solution_is_found_and_the_best_ones_are_better() {
             .map(|(q, joint)| joint.limits.map_or(f64::MAX, |(low, high)| (q - low).min(high - q)))
             .fold(f64::MAX, f64::min)
     };
-    assert!(margin(&q) > margin(&READY) && margin(&q) > margin(&found.q.unwrap()), "{q:?}");
+    // The rail is in the middle of its range in both.
+    assert!(margin(&q) > margin(&READY) && margin(&q) >= margin(&found.q.unwrap()) - 1e-9, "{q:?}");
     let near = arm.solver.nearest(&target, None, &READY).unwrap();
     arm.assert_solves(&pose, near.q.as_ref().unwrap());
     assert!(near.value.unwrap() < 1e-5, "{near:?}");

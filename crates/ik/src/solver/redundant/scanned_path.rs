@@ -1,14 +1,14 @@
 //! A path of an arm with scanned joints: [`ScanningSolver::path`].
 //!
-//! The scanned joints come first. They move through a grid of their values, one step of one joint at a time, as fast as their maximum velocities permit. The grid path
-//! has the fewest targets without a solution and, of those, the fewest steps (dynamic programming). With the scanned joints held at the values of this path, the
-//! others move along arcs.
+//! The scanned joints come first. They move through a grid of their values, one step of one joint at a time, as fast as their maximum velocities permit. The path
+//! through the grid has the fewest targets without a solution and, of those, the least sum of costs: a node costs more the less manipulable the other joints are
+//! (dynamic programming). With the scanned joints held at the values of this path, the others move along arcs.
 
 use rayon::prelude::*;
 
-use super::ArmTarget;
 use super::path::{ArmJump, ArmPath, PathOptions};
 use super::scanned::{ScanLimits, ScanningSolver};
+use super::{ArmTarget, Criterion};
 use crate::solver::Unit;
 use crate::{Error, ErrorKind, Result, Watch};
 
@@ -16,19 +16,20 @@ use crate::{Error, ErrorKind, Result, Watch};
 const VALUES: [usize; 3] = [17, 7, 5];
 /// The maximum step of a scanned joint without a maximum velocity: an angle in rad, a length relative to the scale of the program.
 const STEP: f64 = 0.1;
-/// The costs of a target without a solution, of a start elsewhere, and of a step.
+/// The costs of a target without a solution, of a start elsewhere, of a step, and at most of a solution.
 const MISS: usize = 1_000_000;
-const ELSEWHERE: usize = 1_000;
-const MOVE: usize = 1;
+const ELSEWHERE: usize = 10_000;
+const MOVE: usize = 50;
+const MOST: f64 = 100.0;
 
-/// A grid of values of the scanned joints, and which of its nodes have solutions.
+/// A grid of values of the scanned joints, and the costs of its nodes.
 struct Grid {
     /// By scanned joint, its values in ascending order.
     axes: Vec<Vec<f64>>,
     /// By target and scanned joint, the maximum step from the target before.
     steps: Vec<Vec<f64>>,
-    /// By target and node, whether there is a solution.
-    has_solution: Vec<Vec<bool>>,
+    /// By target and node, the cost.
+    costs: Vec<Vec<usize>>,
 }
 
 /// The best way to a node at a target: its cost, and the target and the node before.
@@ -115,14 +116,15 @@ impl Grid {
         };
         let axes: Vec<Vec<f64>> = solver.scanned.iter().zip(&limits.ranges).map(axis).collect();
         let step = |sample: usize| solver.scanned.iter().map(|&joint| solver.most(options, sample, joint)).collect();
-        let mut grid = Grid { axes, steps: (0..targets.len()).map(step).collect(), has_solution: Vec::new() };
+        let mut grid = Grid { axes, steps: (0..targets.len()).map(step).collect(), costs: Vec::new() };
         let at_target = |(sample, target): (usize, &ArmTarget)| {
             watch.check()?;
             watch.report("values of the scanned joints along the path", sample, targets.len() - sample);
-            let has_solution = |node| Ok(solver.within(target, limits, &grid.values(node))?.q.is_some());
-            (0..grid.nodes()).map(has_solution).collect::<Result<Vec<bool>>>()
+            let best = |node| solver.at(&grid.values(node)).best(target, &limits.own, &Criterion::Manipulability);
+            let best = (0..grid.nodes()).map(best).collect::<Result<Vec<_>>>()?;
+            Ok(costs(&best.into_iter().map(|best| best.map(|best| best.value)).collect::<Vec<_>>()))
         };
-        grid.has_solution = targets.par_iter().enumerate().map(at_target).collect::<Result<_>>()?;
+        grid.costs = targets.par_iter().enumerate().map(at_target).collect::<Result<_>>()?;
         Ok(grid)
     }
 
@@ -175,10 +177,6 @@ impl Grid {
         self.shares(sample, axis, distance)
     }
 
-    fn cost(&self, sample: usize, node: usize) -> usize {
-        if self.has_solution[sample][node] { 0 } else { MISS }
-    }
-
     /// By target, the values of the scanned joints. `from` are those before the first target.
     fn path(&self, from: Option<&[f64]>) -> Vec<Vec<f64>> {
         let (targets, nodes) = (self.steps.len(), self.nodes());
@@ -196,12 +194,12 @@ impl Grid {
                         ways[to_sample][to] = Way { cost, from: (sample, node) };
                     }
                 };
-                relax((sample + 1, node), cost + self.cost(sample + 1, node));
+                relax((sample + 1, node), cost + self.costs[sample + 1][node]);
                 for (axis, to) in self.neighbours(node) {
                     let Some(shares) = self.step(sample, axis, [node, to]) else { continue };
                     let passed = shares.iter().enumerate().map(|(k, share)| {
                         let nearer = if *share < 0.5 { node } else { to };
-                        self.cost(sample + 1 + k, nearer)
+                        self.costs[sample + 1 + k][nearer]
                     });
                     relax((sample + shares.len(), to), cost + MOVE + passed.sum::<usize>());
                 }
@@ -214,7 +212,7 @@ impl Grid {
     fn start(&self, from: Option<&[f64]>, node: usize) -> Way {
         let is_start = from.is_none_or(|from| self.values(node).iter().zip(from).all(|(a, b)| a == b));
         let start = if is_start { 0 } else { ELSEWHERE };
-        Way { cost: start + self.cost(0, node), from: (0, node) }
+        Way { cost: start + self.costs[0][node], from: (0, node) }
     }
 
     /// The values along the cheapest way, from its end.
@@ -239,4 +237,11 @@ impl Grid {
         }
         path
     }
+}
+
+/// The costs of nodes by the greatest manipulability of their solutions, which is `None` without one.
+fn costs(manipulability: &[Option<f64>]) -> Vec<usize> {
+    let most = manipulability.iter().flatten().copied().fold(0.0, f64::max);
+    let cost = |value: &Option<f64>| value.map_or(MISS, |value| (MOST * (1.0 - value / most.max(value))) as usize);
+    manipulability.iter().map(cost).collect()
 }
