@@ -19,7 +19,8 @@ const ROUND: f64 = PI / 12.0;
 const SEED: u64 = 3;
 
 /// Checks the arcs of a redundant program at targets of joint values within limits: the joint values are on an arc, and the ends of arcs reach the target and
-/// are within limits. A row has the number of arcs instead of that of solutions. Rows with unsure arcs count as singular. No rows without redundancy.
+/// are within limits. Unsure arcs may lack the joint values. A row has the number of arcs instead of that of solutions. Rows with unsure arcs count as singular.
+/// No rows without redundancy.
 ///
 /// # Errors
 /// Those of the solver, except for gaps and bounded work. The error of `watch` if it stops the check. Failed checks are in the rows.
@@ -84,7 +85,7 @@ fn faults(
         pairs.any(|(value, [low, high])| !(low - WITNESS.duplicate..=high + WITNESS.duplicate).contains(value))
     };
     let found = [
-        (distance > WITNESS.near && !arcs.is_surface, Fault::Missing),
+        (distance > WITNESS.near && !arcs.is_surface && !arcs.is_unsure, Fault::Missing),
         (worst > WITNESS.equal, Fault::Residual),
         (ends().any(is_beyond), Fault::Limits),
     ];
