@@ -43,8 +43,6 @@ interface RunState extends Walked {
   figures: Figure[];
   presets: Preset[];
   path: [number, number][] | null;
-  /** The path, from a WebAssembly module of an earlier version. */
-  way?: [number, number][] | null;
   blocked?: string;
   enclosure?: [number, number][];
   furniture: { name: string; at: Spot }[];
@@ -166,7 +164,7 @@ export class Run implements Furnished {
   }
 
   private take(state: RunState): void {
-    this.state = { ...state, path: state.path ?? state.way ?? null };
+    this.state = { ...state, path: state.path ?? null };
     this.hasArrived = false;
     this.grow(state);
   }

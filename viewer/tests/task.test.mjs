@@ -25,7 +25,7 @@ before(async () => {
 });
 after(() => browser?.close());
 
-test("furniture, goal and way are those of each time", async () => {
+test("furniture, goal and path are those of each time", async () => {
   const opened = await open(browser, file);
   const at = (time) => opened.evaluate((time) => (groebot.seek(time), { ...groebot.room(), path: groebot.path(), time: groebot.time }), time);
   const first = await at(0);
