@@ -329,7 +329,9 @@ fn search_from(
         Arc { start: point, end: point, length: traced.length, tied, is_frozen: model.frozen.is_some(), ..Arc::NONE };
     match traced.stop {
         Stop::Closed => {
-            output.push(Arc { is_closed: true, is_unsure: traced.is_unsure, ..arc });
+            // Of singular equations, no direction is known: the solutions may be a surface.
+            let is_unsure = traced.is_unsure || place.linear.pivot <= PIVOTS.regular;
+            output.push(Arc { is_closed: true, is_unsure, ..arc });
             true
         }
         Stop::End(end) if end >= count => {

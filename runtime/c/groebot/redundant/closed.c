@@ -41,7 +41,8 @@ static bool gb_arm_search_from(const gb_arm_search *search, const gb_real *x, ui
     if (traced.stop == GB_ARM_AT_START) {
         arc.length = traced.length;
         arc.is_closed = true;
-        arc.is_unsure = traced.is_unsure;
+        /* Of singular equations, no direction is known: the solutions may be a surface. */
+        arc.is_unsure = traced.is_unsure || place.linear.pivot <= GB_PIVOTS_REGULAR;
         gb_arm_push(output, &arc);
         return true;
     }
