@@ -87,14 +87,14 @@ static gb_real gb_arm_rate(const gb_criterion *criterion, const gb_arm_model *mo
     gb_real greatest = R(0.0);
     switch (criterion->kind) {
     case GB_CRITERION_MARGIN:
-        return criterion->is_relative ? (gb_real)HUGE_VAL : R(1.0);
+        return criterion->is_relative ? (gb_real)INFINITY : R(1.0);
     case GB_CRITERION_NEAREST:
         for (size_t i = 0; i < model->count; i++) {
             greatest = gb_arm_max(greatest, gb_square_root(criterion->weights[i]) * model->units[i]);
         }
         return greatest;
     case GB_CRITERION_MANIPULABILITY:
-        return (gb_real)HUGE_VAL;
+        return (gb_real)INFINITY;
     case GB_CRITERION_CHANGE:
         break;
     }
@@ -322,7 +322,7 @@ GB_LINKAGE int gb_optima(const gb_arm *arm, const gb_real *target, const gb_real
 {
     gb_arm_model model;
     gb_arm_sorted list = {&model, criterion, R(0.0), R(0.0), arcs, 0, out, room, 0};
-    gb_real highest = -(gb_real)HUGE_VAL;
+    gb_real highest = -(gb_real)INFINITY;
     size_t first = 0;
     const int code = gb_arm_set_model(&model, arm, target, limits);
     if (code < 0) {
