@@ -210,39 +210,38 @@ fn a_printed_panda_has_the_witnessed_arcs_of_its_ready_pose() {
 /// In C++, in single precision, where only the main solver is left, and in one file. Constants may be too small for single precision.
 #[test]
 fn a_printed_redundant_arm_compiles_in_every_form() {
-    for arm in [panda(), iiwa()] {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path();
-        write_c(arm, path);
-        let write = |file: &str, text: &str| fs::write(path.join(file), text).unwrap();
-        let own = arm.program.name.to_ascii_uppercase();
-        write("single.c", &single_file::c(&arm.program, "single.c", false));
-        write("float.c", &single_file::c(&arm.program, "float.c", true));
-        let driver = C_DRIVER.replace("HEADER", "single.c").replace("NAME", &arm.program.name);
-        write("one.c", &format!("#define {own}_DECLARATIONS_ONLY\n{driver}"));
-        let runtime = format!("-I{}", c_runtime().display());
-        let plus = "-x c++ -std=c++11 -Wall -Wextra -Werror -pedantic -O1 -c 5_solver.c";
-        let compiled = build(Command::new("g++").arg(runtime).args(plus.split(' ')).current_dir(path))
-            .and_then(|()| compile_c(path, &["-DGB_FLOAT", "-Wno-overflow", "-c", "5_solver.c"]))
-            .and_then(|()| compile_c(path, &["-DGB_LANES=1", "-O0", "-c", "5_solver.c"]))
-            .and_then(|()| compile_c(path, &["-Wno-overflow", "-c", "float.c"]))
-            .and_then(|()| compile_c(path, &["one.c", "single.c", "-lm", "-o", "one"]));
-        if compiled.is_none() {
-            return;
-        }
-        let rows = rows(arm, 6);
-        assert_equal(&feed(&path.join("one"), input(&rows)), &expected(arm, &rows), "one file");
-        write("single.rs", &single_file::rust(&arm.program));
-        write("root.rs", "#![no_std]\n#[path = \"single.rs\"]\npub mod solver;\n");
-        write("crate.rs", &rust_driver("use no_std_root::solver;"));
-        let library = ["--crate-type=lib", "--crate-name=no_std_root", "--cfg=feature=\"libm\"", "root.rs"];
-        if rustc(path, &library).is_none()
-            || rustc(path, &["--extern=no_std_root=libno_std_root.rlib", "crate.rs"]).is_none()
-        {
-            return;
-        }
-        assert_equal(&feed(&path.join("crate"), input(&rows)), &expected(arm, &rows), "one Rust file");
+    let arm = panda();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    write_c(arm, path);
+    let write = |file: &str, text: &str| fs::write(path.join(file), text).unwrap();
+    let own = arm.program.name.to_ascii_uppercase();
+    write("single.c", &single_file::c(&arm.program, "single.c", false));
+    write("float.c", &single_file::c(&arm.program, "float.c", true));
+    let driver = C_DRIVER.replace("HEADER", "single.c").replace("NAME", &arm.program.name);
+    write("one.c", &format!("#define {own}_DECLARATIONS_ONLY\n{driver}"));
+    let runtime = format!("-I{}", c_runtime().display());
+    let plus = "-x c++ -std=c++11 -Wall -Wextra -Werror -pedantic -O1 -c 5_solver.c";
+    let compiled = build(Command::new("g++").arg(runtime).args(plus.split(' ')).current_dir(path))
+        .and_then(|()| compile_c(path, &["-DGB_FLOAT", "-Wno-overflow", "-c", "5_solver.c"]))
+        .and_then(|()| compile_c(path, &["-DGB_LANES=1", "-O0", "-c", "5_solver.c"]))
+        .and_then(|()| compile_c(path, &["-Wno-overflow", "-c", "float.c"]))
+        .and_then(|()| compile_c(path, &["one.c", "single.c", "-lm", "-o", "one"]));
+    if compiled.is_none() {
+        return;
     }
+    let rows = rows(arm, 6);
+    assert_equal(&feed(&path.join("one"), input(&rows)), &expected(arm, &rows), "one file");
+    write("single.rs", &single_file::rust(&arm.program));
+    write("root.rs", "#![no_std]\n#[path = \"single.rs\"]\npub mod solver;\n");
+    write("crate.rs", &rust_driver("use no_std_root::solver;"));
+    let library = ["--crate-type=lib", "--crate-name=no_std_root", "--cfg=feature=\"libm\"", "root.rs"];
+    if rustc(path, &library).is_none()
+        || rustc(path, &["--extern=no_std_root=libno_std_root.rlib", "crate.rs"]).is_none()
+    {
+        return;
+    }
+    assert_equal(&feed(&path.join("crate"), input(&rows)), &expected(arm, &rows), "one Rust file");
 }
 
 /// The file for IKFast's callers has one free joint, and no arcs.
