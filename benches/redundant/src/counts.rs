@@ -1,4 +1,4 @@
-//! Counts of what is lost, unsure and wrong at poses of joint vectors within limits.
+//! Counts of lost, unsure and wrong results at poses of joint vectors within limits.
 
 use groebot_runtime::redundant::{
     Arc, Criterion, MOST_JOINTS, Outcome, Q, Redundant, Within, any_within, arcs, best, sample,

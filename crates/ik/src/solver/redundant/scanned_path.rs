@@ -1,8 +1,8 @@
 //! A path of an arm with scanned joints: [`ScanningSolver::path`].
 //!
-//! The scanned joints come first. They move through a grid of their values, one step of one joint at a time, as fast as their maximum velocities permit. The path
-//! through the grid has the fewest targets without a solution and, of those, the least sum of costs: a node costs more the less manipulable the other joints are
-//! (dynamic programming). With the scanned joints held at the values of this path, the others move along arcs.
+//! The scanned joints come first. They move through a grid of their values, one step of one joint at a time, as fast as their maximum velocities permit. The
+//! path through the grid has the fewest targets without a solution and, of those, the least sum of costs (dynamic programming). A node costs more the less
+//! manipulable the other joints are. With the scanned joints held at the values of this path, the others move along arcs.
 
 use rayon::prelude::*;
 
@@ -32,16 +32,16 @@ struct Grid {
     costs: Vec<Vec<usize>>,
 }
 
-/// The best way to a node at a target: its cost, and the target and the node before.
+/// The cheapest path to a node at a target: its cost, and the target and the node before.
 #[derive(Clone, Copy)]
-struct Way {
+struct CheapestPath {
     cost: usize,
     from: (usize, usize),
 }
 
 impl ScanningSolver {
-    /// Joint values of the chain along `targets` within limits. As [`super::RedundantSolver::path`], with the scanned joints at rest or in motion between two values of
-    /// a grid. `limits` is that of [`ScanningSolver::any_within`]; those of `options` are not used. Other values of `options` have one entry for each joint of
+    /// Joint values of the chain along `targets` within limits. As [`super::RedundantSolver::path`], with the scanned joints at rest or in motion between two
+    /// values of a grid. `limits` is that of [`ScanningSolver::any_within`]; those of `options` are not used. Other values of `options` have one entry for each joint of
     /// the chain.
     ///
     /// # Errors
@@ -180,18 +180,18 @@ impl Grid {
     /// By target, the values of the scanned joints. `from` are those before the first target.
     fn path(&self, from: Option<&[f64]>) -> Vec<Vec<f64>> {
         let (targets, nodes) = (self.steps.len(), self.nodes());
-        let never = Way { cost: usize::MAX, from: (0, 0) };
-        let mut ways = vec![vec![never; nodes]; targets];
-        ways[0] = (0..nodes).map(|node| self.start(from, node)).collect();
+        let never = CheapestPath { cost: usize::MAX, from: (0, 0) };
+        let mut paths = vec![vec![never; nodes]; targets];
+        paths[0] = (0..nodes).map(|node| self.start(from, node)).collect();
         for sample in 0..targets - 1 {
             for node in 0..nodes {
-                let Way { cost, .. } = ways[sample][node];
+                let CheapestPath { cost, .. } = paths[sample][node];
                 if cost == usize::MAX {
                     continue;
                 }
                 let mut relax = |(to_sample, to): (usize, usize), cost: usize| {
-                    if cost < ways[to_sample][to].cost {
-                        ways[to_sample][to] = Way { cost, from: (sample, node) };
+                    if cost < paths[to_sample][to].cost {
+                        paths[to_sample][to] = CheapestPath { cost, from: (sample, node) };
                     }
                 };
                 relax((sample + 1, node), cost + self.costs[sample + 1][node]);
@@ -205,23 +205,23 @@ impl Grid {
                 }
             }
         }
-        self.traced(&ways)
+        self.traced(&paths)
     }
 
-    /// The way to a node at the first target.
-    fn start(&self, from: Option<&[f64]>, node: usize) -> Way {
+    /// The path to a node at the first target.
+    fn start(&self, from: Option<&[f64]>, node: usize) -> CheapestPath {
         let is_start = from.is_none_or(|from| self.values(node).iter().zip(from).all(|(a, b)| a == b));
         let start = if is_start { 0 } else { ELSEWHERE };
-        Way { cost: start + self.costs[0][node], from: (0, node) }
+        CheapestPath { cost: start + self.costs[0][node], from: (0, node) }
     }
 
-    /// The values along the cheapest way, from its end.
-    fn traced(&self, ways: &[Vec<Way>]) -> Vec<Vec<f64>> {
-        let mut sample = ways.len() - 1;
-        let mut node = (0..self.nodes()).min_by_key(|&node| ways[sample][node].cost).unwrap_or(0);
-        let mut path = vec![self.values(node); ways.len()];
+    /// The values along the cheapest path, from its end.
+    fn traced(&self, paths: &[Vec<CheapestPath>]) -> Vec<Vec<f64>> {
+        let mut sample = paths.len() - 1;
+        let mut node = (0..self.nodes()).min_by_key(|&node| paths[sample][node].cost).unwrap_or(0);
+        let mut path = vec![self.values(node); paths.len()];
         while sample > 0 {
-            let (before, origin) = ways[sample][node].from;
+            let (before, origin) = paths[sample][node].from;
             let [first, last] = [origin, node].map(|node| self.values(node));
             path[before].clone_from(&first);
             for (axis, (a, b)) in first.iter().zip(&last).enumerate().filter(|(_, (a, b))| a != b) {
