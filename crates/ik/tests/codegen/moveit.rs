@@ -79,7 +79,7 @@ fn repository() -> PathBuf {
 fn compile(folder: &Path, headers: &[PathBuf], arguments: &[&str]) -> Option<()> {
     let example = repository().join("examples/moveit2");
     let mut command = Command::new("g++");
-    command.args("-std=c++17 -Wall -Wextra -Werror -O1 -I.".split(' '));
+    command.args("-std=c++17 -Wall -Wextra -Werror -O0 -I.".split(' '));
     command.args(["-DGROEBOT_BASE=\"base\"", "-DGROEBOT_TIP=\"tip\""]);
     command
         .arg(format!("-I{}", example.display()))

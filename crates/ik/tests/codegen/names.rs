@@ -111,8 +111,8 @@ fn a_robot_may_have_any_name() {
         write("single.c", &codegen::single_file::c(&program, "single.c", false));
         write("5_solver.rs", &codegen::rust::emit(&program));
         let runtime = format!("-I{}", super::harness::c_runtime().display());
-        let compiled = compile_solver(&program, folder.path(), &["-O0"], "c99")
-            .and_then(|()| compile_c(folder.path(), &["-O0", "-c", "single.c"]))
+        let compiled = compile_solver(&program, folder.path(), &[], "c99")
+            .and_then(|()| compile_c(folder.path(), &["-fsyntax-only", "single.c"]))
             .and_then(|()| ikfast::compile(folder.path(), &["-std=c++11", "-fsyntax-only", &runtime, "header.cpp"]))
             .and_then(|()| ikfast::compile(folder.path(), &["-std=c++17", "-fsyntax-only", "5_ikfast.cpp"]))
             .and_then(|()| rustc(folder.path(), &["--crate-type=lib", "--emit=metadata", "5_solver.rs"]));

@@ -142,14 +142,14 @@ fn prints_equal_arcs(arm: &Arm, count: usize) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
     write_c(arm, path);
-    for compiler in ["gcc", "clang"] {
-        if compile(compiler, path, &["-O1"], &["main.c", "5_solver.c"]).is_some() {
+    for (compiler, optimised) in [("gcc", "-O1"), ("clang", "-O0")] {
+        if compile(compiler, path, &[optimised], &["main.c", "5_solver.c"]).is_some() {
             assert_equal(&feed(&path.join("c99"), input.clone()), &expected, compiler);
         }
     }
     fs::write(path.join("5_solver.rs"), rust::emit(&arm.program)).unwrap();
     fs::write(path.join("module.rs"), rust_driver("#[path = \"5_solver.rs\"]\nmod solver;")).unwrap();
-    if rustc(path, &["-Copt-level=1", "module.rs"]).is_some() {
+    if rustc(path, &["module.rs"]).is_some() {
         assert_equal(&feed(&path.join("module"), input), &expected, "Rust");
     }
     assert!(expected.lines().filter(|line| line.starts_with("arc ")).count() > count, "{}", arm.program.name);
@@ -184,7 +184,7 @@ fn a_printed_panda_has_the_witnessed_arcs_of_its_ready_pose() {
     let row = std::array::from_fn(|i| if i < 12 { target[i] } else { q[i - 12] });
     let folder = tempfile::tempdir().unwrap();
     write_c(arm, folder.path());
-    if compile("gcc", folder.path(), &["-O1"], &["main.c", "5_solver.c"]).is_none() {
+    if compile("gcc", folder.path(), &["-O0"], &["main.c", "5_solver.c"]).is_none() {
         return;
     }
     let output = feed(&folder.path().join("c99"), input(&[row]));
@@ -222,11 +222,11 @@ fn a_printed_redundant_arm_compiles_in_every_form() {
     let driver = C_DRIVER.replace("HEADER", "single.c").replace("NAME", &arm.program.name);
     write("one.c", &format!("#define {own}_DECLARATIONS_ONLY\n{driver}"));
     let runtime = format!("-I{}", c_runtime().display());
-    let plus = "-x c++ -std=c++11 -Wall -Wextra -Werror -pedantic -O1 -c 5_solver.c";
+    let plus = "-x c++ -std=c++11 -Wall -Wextra -Werror -pedantic -fsyntax-only 5_solver.c";
     let compiled = build(Command::new("g++").arg(runtime).args(plus.split(' ')).current_dir(path))
-        .and_then(|()| compile_c(path, &["-DGB_FLOAT", "-Wno-overflow", "-c", "5_solver.c"]))
-        .and_then(|()| compile_c(path, &["-DGB_LANES=1", "-O0", "-c", "5_solver.c"]))
-        .and_then(|()| compile_c(path, &["-Wno-overflow", "-c", "float.c"]))
+        .and_then(|()| compile_c(path, &["-DGB_FLOAT", "-Wno-overflow", "-fsyntax-only", "5_solver.c"]))
+        .and_then(|()| compile_c(path, &["-DGB_LANES=1", "-fsyntax-only", "5_solver.c"]))
+        .and_then(|()| compile_c(path, &["-Wno-overflow", "-fsyntax-only", "float.c"]))
         .and_then(|()| compile_c(path, &["one.c", "single.c", "-lm", "-o", "one"]));
     if compiled.is_none() {
         return;
